@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What the README says was measured: processor time of residuals and fits against the engine's
 # scan, the memory that many states take, and two executors against one. Writes the logs into a
-# folder that it removes: 200 bytes a state, 20 GB of 100 million.
+# folder that it removes: 200 bytes a state where they are timed, less where they are many.
 #
 #     fleet/measure.sh [MILLIONS OF STATES] [FLAGS OF CARGO]
 set -eu
@@ -22,7 +22,7 @@ robot=../generated/robots/ur10.toml
 
 # Runs a command and says how long it took and how much memory at its peak.
 measured() {
-    local start=$SECONDS peak=0 process
+    local start=$SECONDS peak last=0 process
     "$@" >"$work/said" 2>"$work/notes" &
     process=$!
     while kill -0 "$process" 2>/dev/null; do
@@ -42,7 +42,8 @@ seconds=$((millions < 2 ? millions * 1000 : 2000))
 
 echo "== $millions M states of six joints, --memory 256M"
 printf 'simulate: '
-measured "$fleet" simulate --robot $robot --exact --files "$millions" --seconds 1000 -o "$work/many"
+measured "$fleet" simulate --robot $robot --exact --zstd --files "$millions" --seconds 1000 -o "$work/many"
+du -sh "$work/many"
 for command in residual identify; do
     printf '%s: ' $command
     measured "$fleet" $command "$work/many/*.parquet" --robot $robot --memory 256M

@@ -8,6 +8,8 @@
 //! R is unique up to the signs of its rows. So the same rows in another order, in other
 //! batches or merged from parts give the same R up to rounding.
 
+use pulp::{Arch, Simd, WithSimd};
+
 /// Rows that are reduced at once: with 40 columns they stay in the first cache.
 const ROWS: usize = 64;
 /// Sums are taken in as many parts, whatever vectors a processor has: the bits are the same.
@@ -106,10 +108,31 @@ impl Triangle {
 
     fn absorb(&mut self) {
         if self.filled > 0 {
-            pulp::Arch::new().dispatch(|| reflect(self.columns, &mut self.r, &mut self.block));
+            Arch::new().dispatch(Reflection {
+                columns: self.columns,
+                r: &mut self.r,
+                block: &mut self.block,
+            });
             self.block.fill(Rows([0.0; ROWS]));
             self.filled = 0;
         }
+    }
+}
+
+/// A call of [`reflect`] that is inlined into code for the vectors of the processor: a closure
+/// is too large for it, and stays as narrow as all processors have it.
+struct Reflection<'a> {
+    columns: usize,
+    r: &'a mut [f64],
+    block: &'a mut [Rows],
+}
+
+impl WithSimd for Reflection<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        reflect(self.columns, self.r, self.block);
     }
 }
 

@@ -36,6 +36,24 @@ pub trait Dynamics: fmt::Debug + Send + Sync + 'static {
     /// What went wrong; arrays have the lengths that `count` asks for.
     fn inverse_dynamics(&self, states: States<'_>, tau: &mut [f64]) -> Result<(), Error>;
 
+    /// Computes residuals of states in columns: measured torques less the robot's.
+    ///
+    /// # Errors
+    /// As [`Dynamics::inverse_dynamics`].
+    fn residuals(
+        &self,
+        states: States<'_>,
+        measured: &[f64],
+        into: &mut Vec<f64>,
+    ) -> Result<(), Error> {
+        into.resize(measured.len(), 0.0);
+        self.inverse_dynamics(states, into)?;
+        for (own, measured) in into.iter_mut().zip(measured) {
+            *own = measured - *own;
+        }
+        Ok(())
+    }
+
     /// Returns the columns of the regressor, if parameters can be identified.
     fn model(&self) -> Option<&Model> {
         None

@@ -16,6 +16,7 @@ use url::Url;
 use crate::dynamics::Dynamics;
 use crate::error::Error;
 use crate::functions::{Functions, evaluate_once, register};
+use crate::logs::block::per;
 use crate::logs::{Bad, Log, Source, states};
 use crate::progress::Going;
 
@@ -239,17 +240,8 @@ fn location(path: &Path) -> Result<String, Error> {
 }
 
 fn time(name: &str, kind: &DataType, factor: f64) -> Expr {
-    use datafusion::arrow::datatypes::TimeUnit;
     let (whole, factor) = match kind {
-        DataType::Timestamp(unit, _) => {
-            let per = match unit {
-                TimeUnit::Second => 1.0,
-                TimeUnit::Millisecond => 1e-3,
-                TimeUnit::Microsecond => 1e-6,
-                TimeUnit::Nanosecond => 1e-9,
-            };
-            (cast(ident(name), DataType::Int64), per)
-        }
+        DataType::Timestamp(unit, _) => (cast(ident(name), DataType::Int64), per(*unit)),
         _ => (ident(name), factor),
     };
     match factor {

@@ -3,18 +3,37 @@
 //! Each state is evaluated once, however many of its results a query reads: the engine's
 //! pushdown of leaf expressions, which would copy the call into each of them, is switched off.
 
+/// Implements what both of the engine's traits ask of a `function`.
+macro_rules! described {
+    () => {
+        fn name(&self) -> &str {
+            &self.function.name
+        }
+
+        fn signature(&self) -> &Signature {
+            &self.function.signature
+        }
+
+        fn coerce_types(&self, types: &[DataType]) -> Result<Vec<DataType>> {
+            self.function.shape.coerce(&self.function.name, types)
+        }
+    };
+}
+
 mod aggregate;
 mod fit;
 mod residuals;
 mod rms;
 mod scalar;
 
+use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 use datafusion::execution::context::SessionContext;
-use datafusion::logical_expr::{AggregateUDF, ScalarUDF};
+use datafusion::logical_expr::{AggregateUDF, ScalarUDF, Signature, Volatility};
 use datafusion::prelude::SessionConfig;
 
+use crate::arguments::Shape;
 use crate::dynamics::Dynamics;
 use aggregate::Aggregate;
 pub use residuals::{Joint, Residuals};
@@ -28,6 +47,46 @@ pub struct Functions {
     /// `NAME_rms(q, qd, qdd, tau)`, `NAME_residuals(time, q, qd, qdd, tau)` and, where the
     /// robot has a model, `NAME_fit(q, qd, qdd, tau)`.
     pub aggregates: Vec<Arc<AggregateUDF>>,
+}
+
+/// A function of a robot, as the engine knows it: two of one name are the same if they are of
+/// the same robot.
+#[derive(Debug)]
+struct Function {
+    name: String,
+    robot: Arc<dyn Dynamics>,
+    shape: Shape,
+    signature: Signature,
+}
+
+impl Function {
+    /// Returns a function of the first so many of q, q̇, q̈ and τ, without a time.
+    fn new(name: String, robot: &Arc<dyn Dynamics>, quantities: usize) -> Function {
+        Function {
+            name,
+            robot: robot.clone(),
+            shape: Shape {
+                joints: robot.joints(),
+                time: false,
+                quantities,
+            },
+            signature: Signature::user_defined(Volatility::Immutable),
+        }
+    }
+}
+
+impl PartialEq for Function {
+    fn eq(&self, other: &Function) -> bool {
+        self.name == other.name && Arc::ptr_eq(&self.robot, &other.robot)
+    }
+}
+
+impl Eq for Function {}
+
+impl Hash for Function {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.name.hash(state);
+    }
 }
 
 impl Functions {

@@ -20,12 +20,8 @@ pub fn walk(
         let block = block?;
         going.check()?;
         let [q, qd, qdd, measured] = &block.quantities;
-        residuals.resize(measured.len(), 0.0);
         let count = block.len();
-        robot.inverse_dynamics(States { count, q, qd, qdd }, &mut residuals)?;
-        for (own, measured) in residuals.iter_mut().zip(measured) {
-            *own = measured - *own;
-        }
+        robot.residuals(States { count, q, qd, qdd }, measured, &mut residuals)?;
         call(&block, &residuals)?;
     }
     Ok(())

@@ -10,6 +10,7 @@ use dalembert_fit::{Effort, Model, Options, Trajectory, excite};
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::robot::{Robot, write};
+use parquet::basic::{Compression, ZstdLevel};
 
 use super::table::number;
 use crate::dynamics::{Dynamics, Loaded, States};
@@ -56,6 +57,9 @@ pub(super) struct SimulateArgs {
     /// Leave velocities and accelerations away: they are differentiated when the log is read
     #[arg(long)]
     encoders_only: bool,
+    /// Compress logs by Zstandard instead of Snappy: smaller, and slower to read
+    #[arg(long)]
+    zstd: bool,
     /// The arm follows its trajectory exactly instead of under computed torque: fast
     #[arg(long, conflicts_with = "payload")]
     exact: bool,
@@ -245,7 +249,11 @@ impl Scene {
         if self.args.encoders_only {
             names.retain(|name| !name.starts_with("qd"));
         }
-        let mut table = Table::create(&path, &names, false)?;
+        let compression = match self.args.zstd {
+            true => Compression::ZSTD(ZstdLevel::default()),
+            false => Compression::SNAPPY,
+        };
+        let mut table = Table::compressed(&path, &names, false, compression)?;
         match self.args.exact {
             true => self.follow(&mut table, &recording, &collisions, progress, going)?,
             false => {

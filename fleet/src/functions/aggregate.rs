@@ -1,7 +1,6 @@
 //! What the aggregates share: names, arguments, and states as bytes.
 
 use std::fmt;
-use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 use datafusion::arrow::array::{ArrayRef, AsArray};
@@ -9,9 +8,10 @@ use datafusion::arrow::datatypes::{DataType, Field, FieldRef};
 use datafusion::error::Result;
 use datafusion::logical_expr::function::{AccumulatorArgs, StateFieldsArgs};
 use datafusion::logical_expr::utils::format_state_name;
-use datafusion::logical_expr::{Accumulator, AggregateUDFImpl, Signature, Volatility};
+use datafusion::logical_expr::{Accumulator, AggregateUDFImpl, Signature};
 use datafusion::scalar::ScalarValue;
 
+use super::Function;
 use super::fit::Parameters;
 use super::residuals::Residuals;
 use super::rms::Rms;
@@ -42,13 +42,10 @@ pub(super) trait Kept: fmt::Debug + Send + Sync {
 }
 
 /// `NAME_rms`, `NAME_residuals` or `NAME_fit`.
-#[derive(Debug)]
+#[derive(Debug, PartialEq, Eq, Hash)]
 pub(super) struct Aggregate {
-    name: String,
-    robot: Arc<dyn Dynamics>,
+    function: Function,
     kind: Kind,
-    shape: Shape,
-    signature: Signature,
 }
 
 impl Aggregate {
@@ -58,50 +55,18 @@ impl Aggregate {
             Kind::Residuals => "residuals",
             Kind::Fit => "fit",
         };
-        Aggregate {
-            name: format!("{name}_{suffix}"),
-            robot: robot.clone(),
-            kind,
-            shape: Shape {
-                joints: robot.joints(),
-                time: kind == Kind::Residuals,
-                quantities: 4,
-            },
-            signature: Signature::user_defined(Volatility::Immutable),
-        }
-    }
-}
-
-impl PartialEq for Aggregate {
-    fn eq(&self, other: &Aggregate) -> bool {
-        self.name == other.name && Arc::ptr_eq(&self.robot, &other.robot)
-    }
-}
-
-impl Eq for Aggregate {}
-
-impl Hash for Aggregate {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.name.hash(state);
+        let mut function = Function::new(format!("{name}_{suffix}"), robot, 4);
+        function.shape.time = kind == Kind::Residuals;
+        Aggregate { function, kind }
     }
 }
 
 impl AggregateUDFImpl for Aggregate {
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn signature(&self) -> &Signature {
-        &self.signature
-    }
-
-    fn coerce_types(&self, types: &[DataType]) -> Result<Vec<DataType>> {
-        self.shape.coerce(&self.name, types)
-    }
+    described!();
 
     fn return_type(&self, _: &[DataType]) -> Result<DataType> {
         Ok(match self.kind {
-            Kind::Rms => list(self.shape.joints),
+            Kind::Rms => list(self.function.shape.joints),
             Kind::Residuals | Kind::Fit => DataType::Binary,
         })
     }
@@ -112,15 +77,15 @@ impl AggregateUDFImpl for Aggregate {
     }
 
     fn accumulator(&self, _: AccumulatorArgs) -> Result<Box<dyn Accumulator>> {
-        let joints = self.shape.joints;
+        let Function { robot, shape, .. } = &self.function;
         let kept: Box<dyn Kept> = match self.kind {
-            Kind::Rms => Box::new(Rms::new(joints)),
-            Kind::Residuals => Box::new(Residuals::new(joints)),
-            Kind::Fit => Box::new(Parameters::new(self.robot.as_ref())?),
+            Kind::Rms => Box::new(Rms::new(shape.joints)),
+            Kind::Residuals => Box::new(Residuals::new(shape.joints)),
+            Kind::Fit => Box::new(Parameters::new(robot.as_ref())?),
         };
         Ok(Box::new(Keeping {
-            robot: self.robot.clone(),
-            shape: self.shape,
+            robot: robot.clone(),
+            shape: *shape,
             kept,
         }))
     }
@@ -164,20 +129,15 @@ impl Accumulator for Keeping {
     }
 }
 
-/// Computes residuals of a piece in columns: measured torques less the robot's.
+/// Computes residuals of a piece in columns.
 pub(super) fn residuals(
     robot: &dyn Dynamics,
     piece: &Piece,
     into: &mut Vec<f64>,
 ) -> Result<(), Error> {
     let [q, qd, qdd, measured] = &piece.quantities;
-    into.resize(measured.len(), 0.0);
     let count = piece.count;
-    robot.inverse_dynamics(States { count, q, qd, qdd }, into)?;
-    for (own, measured) in into.iter_mut().zip(measured) {
-        *own = measured - *own;
-    }
-    Ok(())
+    robot.residuals(States { count, q, qd, qdd }, measured, into)
 }
 
 /// Reads numbers that were written one after the other.

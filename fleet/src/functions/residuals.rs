@@ -4,7 +4,7 @@ use datafusion::error::Result;
 use datafusion::scalar::ScalarValue;
 
 use super::aggregate::{Kept, Reader, residuals};
-use super::rms::{Sum, squares};
+use super::rms::{Sum, largest, squares};
 use crate::arguments::Piece;
 use crate::dynamics::Dynamics;
 use crate::error::Error;
@@ -71,7 +71,7 @@ impl Joint {
 
     fn add(&mut self, residuals: &[f64], time: &[f64]) {
         self.squares.add(squares(residuals));
-        let largest = residuals.iter().fold(0.0f64, |max, r| max.max(r.abs()));
+        let largest = largest(residuals);
         if largest >= self.worst
             && let Some(place) = residuals.iter().position(|r| r.abs() == largest)
         {

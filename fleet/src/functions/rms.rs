@@ -40,6 +40,20 @@ impl Sum {
     }
 }
 
+/// Returns the largest size, in eight parts that take vectors; numbers that are none count as
+/// zero.
+pub(super) fn largest(values: &[f64]) -> f64 {
+    let mut parts = [0.0f64; 8];
+    let larger = |part: f64, x: f64| if x.abs() > part { x.abs() } else { part };
+    let (eights, rest) = values.as_chunks::<8>();
+    for eight in eights {
+        for (part, x) in parts.iter_mut().zip(eight) {
+            *part = larger(*part, *x);
+        }
+    }
+    parts.iter().chain(rest).copied().fold(0.0, larger)
+}
+
 /// Returns a sum of squares, in eight parts that take vectors.
 pub(super) fn squares(values: &[f64]) -> f64 {
     let mut parts = [0.0; 8];

@@ -1,16 +1,14 @@
 //! Torques, and measured torques less these.
 
-use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 use datafusion::arrow::array::{Array, ArrayRef, FixedSizeListArray, Float64Array};
 use datafusion::arrow::datatypes::{DataType, Field};
 use datafusion::error::Result;
-use datafusion::logical_expr::{
-    ColumnarValue, ScalarFunctionArgs, ScalarUDFImpl, Signature, Volatility,
-};
+use datafusion::logical_expr::{ColumnarValue, ScalarFunctionArgs, ScalarUDFImpl, Signature};
 
-use crate::arguments::{Shape, list};
+use super::Function;
+use crate::arguments::list;
 use crate::dynamics::{Dynamics, States};
 
 /// What is computed.
@@ -21,13 +19,10 @@ pub(super) enum What {
 }
 
 /// `NAME_inverse_dynamics` or `NAME_residual`.
-#[derive(Debug)]
+#[derive(Debug, PartialEq, Eq, Hash)]
 pub(super) struct Scalar {
-    name: String,
-    robot: Arc<dyn Dynamics>,
+    function: Function,
     what: What,
-    shape: Shape,
-    signature: Signature,
 }
 
 impl Scalar {
@@ -36,49 +31,16 @@ impl Scalar {
             What::Torques => ("inverse_dynamics", 3),
             What::Residual => ("residual", 4),
         };
-        Scalar {
-            name: format!("{name}_{suffix}"),
-            robot: robot.clone(),
-            what,
-            shape: Shape {
-                joints: robot.joints(),
-                time: false,
-                quantities,
-            },
-            signature: Signature::user_defined(Volatility::Immutable),
-        }
-    }
-}
-
-impl PartialEq for Scalar {
-    fn eq(&self, other: &Scalar) -> bool {
-        self.name == other.name && Arc::ptr_eq(&self.robot, &other.robot)
-    }
-}
-
-impl Eq for Scalar {}
-
-impl Hash for Scalar {
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.name.hash(state);
+        let function = Function::new(format!("{name}_{suffix}"), robot, quantities);
+        Scalar { function, what }
     }
 }
 
 impl ScalarUDFImpl for Scalar {
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn signature(&self) -> &Signature {
-        &self.signature
-    }
-
-    fn coerce_types(&self, types: &[DataType]) -> Result<Vec<DataType>> {
-        self.shape.coerce(&self.name, types)
-    }
+    described!();
 
     fn return_type(&self, _: &[DataType]) -> Result<DataType> {
-        Ok(list(self.shape.joints))
+        Ok(list(self.function.shape.joints))
     }
 
     fn invoke_with_args(&self, given: ScalarFunctionArgs) -> Result<ColumnarValue> {
@@ -94,8 +56,9 @@ impl ScalarUDFImpl for Scalar {
                 each.collect::<Result<Vec<ArrayRef>>>()?
             }
         };
-        let arguments = self.shape.read(&arrays);
-        let n = self.shape.joints;
+        let Function { robot, shape, .. } = &self.function;
+        let arguments = shape.read(&arrays);
+        let n = shape.joints;
         let mut values = vec![0.0; n * arguments.rows];
         let mut tau = Vec::new();
         arguments.each(|first, piece| {
@@ -103,7 +66,7 @@ impl ScalarUDFImpl for Scalar {
             let count = piece.count;
             tau.resize(n * count, 0.0);
             let states = States { count, q, qd, qdd };
-            self.robot.inverse_dynamics(states, &mut tau)?;
+            robot.inverse_dynamics(states, &mut tau)?;
             let rows = values[first * n..].chunks_exact_mut(n).take(count);
             for (s, row) in rows.enumerate() {
                 for (i, value) in row.iter_mut().enumerate() {

@@ -190,18 +190,20 @@ impl Iterator for Blocks<'_> {
     }
 }
 
+/// Returns how many seconds a unit has.
+pub(crate) fn per(unit: TimeUnit) -> f64 {
+    match unit {
+        TimeUnit::Second => 1.0,
+        TimeUnit::Millisecond => 1e-3,
+        TimeUnit::Microsecond => 1e-6,
+        TimeUnit::Nanosecond => 1e-9,
+    }
+}
+
 /// Returns times in seconds.
 pub(crate) fn seconds(array: &ArrayRef, factor: f64) -> Result<ArrayRef, Error> {
     let (array, factor) = match array.data_type() {
-        DataType::Timestamp(unit, _) => {
-            let per = match unit {
-                TimeUnit::Second => 1.0,
-                TimeUnit::Millisecond => 1e-3,
-                TimeUnit::Microsecond => 1e-6,
-                TimeUnit::Nanosecond => 1e-9,
-            };
-            (cast(array, &DataType::Int64)?, per)
-        }
+        DataType::Timestamp(unit, _) => (cast(array, &DataType::Int64)?, per(*unit)),
         _ => (array.clone(), factor),
     };
     let array = match array.as_primitive_opt::<Int64Type>() {

@@ -35,6 +35,19 @@ impl Table {
     /// # Errors
     /// A file that cannot be written.
     pub fn create(path: &Path, names: &[String], file: bool) -> Result<Table, Error> {
+        Table::compressed(path, names, file, Compression::SNAPPY)
+    }
+
+    /// Creates a table as [`Table::create`] does, compressed in this way.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn compressed(
+        path: &Path,
+        names: &[String],
+        file: bool,
+        compression: Compression,
+    ) -> Result<Table, Error> {
         let mut fields = Vec::new();
         if file {
             fields.push(Field::new("file", DataType::Utf8, false));
@@ -50,7 +63,7 @@ impl Table {
             .set_dictionary_enabled(false)
             .set_column_dictionary_enabled("file".into(), true)
             .set_max_row_group_row_count(Some(GROUP))
-            .set_compression(Compression::SNAPPY)
+            .set_compression(compression)
             .build();
         let out = File::create(path)?;
         let writer = ArrowWriter::try_new(out, schema.clone(), Some(properties))?;

@@ -1,17 +1,17 @@
 //! The commands, from simulated logs to residuals, contacts and a new robot file.
 
-use dalembert_fleet::logs::{Blocks, Columns, Table};
-use dalembert_fleet::{Dynamics, Residuals};
+use std::sync::Arc;
 
-use crate::support::{Folder, Sample, fails, robot, robot_file, rows, succeeds, text};
+use dalembert_fit::{Accumulator, Model, Prior, fit};
+use dalembert_fleet::logs::{Blocks, Mapping};
+use dalembert_fleet::{Dynamics, Residuals, register};
+use dalembert_model::number::parse::parse_decimal;
+use datafusion::arrow::array::AsArray;
+use datafusion::arrow::compute::concat_batches;
+use datafusion::arrow::datatypes::Float64Type;
+use datafusion::prelude::{ParquetReadOptions, SessionContext};
 
-/// Simulates logs of the planar arm with two joints into a folder `logs`.
-fn simulated(folder: &Folder, more: &[&str]) -> String {
-    let (robot, logs) = (robot_file("planar2r"), folder.file("logs"));
-    let mut arguments = vec!["simulate", "--robot", text(&robot), "-o", text(&logs)];
-    arguments.extend(more);
-    succeeds(&arguments)
-}
+use crate::support::{Folder, Sample, fails, robot, robot_file, rows, simulated, succeeds, text};
 
 /// What README and issue promise: logs of an arm that is not its file's; its residuals; its
 /// parameters; and residuals of logs that the fit has not seen, with the new file.
@@ -116,7 +116,7 @@ fn tables_and_rows_are_those_of_the_states() {
     );
     // Rows are in order, with all that they are of.
     let names = ["q", "qd", "qdd", "residual"].map(|name| format!("{name}{{}}"));
-    let mapping = dalembert_fleet::logs::Mapping {
+    let mapping = Mapping {
         effort: Some(names[3].clone()),
         ..Default::default()
     };
@@ -141,114 +141,6 @@ fn tables_and_rows_are_those_of_the_states() {
         folder.names(),
         ["a.parquet", "b.parquet", "out.parquet", "out.svg"]
     );
-}
-
-/// Logs in degrees, of other names, as lists, with currents, in milliseconds.
-#[test]
-fn columns_and_units_are_the_logs() {
-    let folder = Folder::new();
-    let robot = robot("planar2r", false);
-    let sample = Sample::new(robot.as_ref(), 3000, 10);
-    sample.write(&folder.file("plain.parquet"));
-    let degrees = 180.0 / core::f64::consts::PI;
-    let names: Vec<String> = ["stamp", "pa", "pb", "va", "vb", "aa", "ab", "ia", "ib"]
-        .map(str::to_owned)
-        .to_vec();
-    let path = folder.file("other.parquet");
-    let mut table = Table::create(&path, &names, false).unwrap();
-    let stamps: Vec<f64> = sample.time.iter().map(|time| 1e3 * time).collect();
-    let mut columns = vec![stamps];
-    for quantity in 0..4 {
-        for (i, constant) in [0.5, -2.0].iter().enumerate() {
-            let factor = if quantity == 3 {
-                1.0 / constant
-            } else {
-                degrees
-            };
-            columns.push(
-                sample
-                    .column(quantity, i)
-                    .iter()
-                    .map(|x| x * factor)
-                    .collect(),
-            );
-        }
-    }
-    let slices: Vec<&[f64]> = columns.iter().map(|column| &column[..]).collect();
-    table.write("", &slices).unwrap();
-    table.close().unwrap();
-    let mapping = folder.file("mapping.toml");
-    let flags = "time = 'stamp'\ntime-unit = 'ms'\nposition = 'pa, pb'\nvelocity = 'va,vb'\n\
-                 acceleration = 'aa,ab'\neffort = 'ia,ib'\nunits = 'rad'\n\
-                 torque-constants = [0.5, -2.0]\n";
-    std::fs::write(&mapping, flags).unwrap();
-    let arm = robot_file("planar2r");
-    let plain = succeeds(&[
-        "residual",
-        text(&folder.file("plain.parquet")),
-        "--robot",
-        text(&arm),
-    ]);
-    let other = succeeds(&[
-        "residual",
-        text(&path),
-        "--robot",
-        text(&arm),
-        "--mapping",
-        text(&mapping),
-        "--units",
-        "deg",
-    ]);
-    assert_eq!(rows(&plain, "plain.parquet"), rows(&other, "other.parquet"));
-    std::fs::write(&mapping, "positon = 'q{}'\n").unwrap();
-    let why = fails(&[
-        "residual",
-        text(&path),
-        "--robot",
-        text(&arm),
-        "--mapping",
-        text(&mapping),
-    ]);
-    assert!(why.contains("positon") && why.contains("position"), "{why}");
-    let why = fails(&["residual", text(&path), "--robot", text(&arm)]);
-    assert!(
-        why.contains("no column `time`") && why.contains("stamp, pa"),
-        "{why}"
-    );
-}
-
-/// Encoders alone: rates are differentiated, and residuals stay near the torques' noise.
-#[test]
-fn rates_that_are_missing_are_differentiated() {
-    let [with, without] = [&[][..], &["--encoders-only"][..]].map(|more| {
-        let folder = Folder::new();
-        let mut arguments = vec!["--files", "1", "--seconds", "20", "--noise", "0.02"];
-        arguments.extend(more);
-        simulated(&folder, &arguments);
-        let logs = folder.file("logs/*.parquet");
-        let arm = robot_file("planar2r");
-        let work = folder.file("");
-        // The motion has 0.6 Hz: a filter for 5 Hz lets more of the encoder's steps through.
-        let table = succeeds(&[
-            "residual",
-            text(&logs),
-            "--robot",
-            text(&arm),
-            "--work",
-            text(&work),
-            "--motion-frequency",
-            "2",
-        ]);
-        assert_eq!(folder.names(), ["logs"], "what was converted is gone");
-        rows(&table, "log0000.parquet")
-    });
-    for (with, without) in with.iter().zip(&without) {
-        println!("{} {}", with[1], without[1]);
-        assert!(
-            (without[1] / with[1] - 1.0).abs() < 0.05,
-            "{with:?} {without:?}"
-        );
-    }
 }
 
 /// Every contact is listed once, with its joint, and nothing else is.
@@ -293,44 +185,61 @@ fn collisions_are_found_and_nothing_else() {
     }
 }
 
-/// A payload that is taken up in the middle shows in the second half, and a fit of it says so.
+/// A payload that is taken up in the middle shows in the residuals of the second half. What a
+/// query fits to each half are the parameters of the arm in it, within a few standard errors, and
+/// far from those of the other.
 #[test]
 fn a_payload_is_found() {
     let folder = Folder::new();
-    simulated(
-        &folder,
-        &["--files", "1", "--seconds", "20", "--payload", "0.5"],
+    let more = ["--files", "1", "--seconds", "20", "--payload", "0.5"];
+    simulated(&folder, &more);
+    let robot = robot("planar2r", true);
+    let model = robot.model().unwrap();
+    let mut loaded = robot.robot().clone();
+    let hand = loaded.joints.last_mut().unwrap();
+    hand.mass = &hand.mass + &parse_decimal("0.5").unwrap();
+    let loaded = Model::new(&loaded, &Default::default()).unwrap();
+    let right = [model.parameters(), loaded.parameters()];
+
+    let context = SessionContext::new();
+    let dynamics: Arc<dyn Dynamics> = robot.clone();
+    register(&context, "arm", &dynamics);
+    let columns = "q1, q2, qd1, qd2, qdd1, qdd2, tau1, tau2";
+    let sql = format!(
+        "SELECT arm_rms({columns}), arm_fit({columns}) FROM log GROUP BY time >= 10 \
+         ORDER BY time >= 10"
     );
-    let robot = robot("planar2r", false);
-    let columns = Columns::canonical(2);
-    let mut halves = [vec![0.0; 2], vec![0.0; 2]];
-    for block in Blocks::open(&folder.file("logs/log0000.parquet"), &columns).unwrap() {
-        let block = block.unwrap();
-        let [q, qd, qdd, measured] = &block.quantities;
-        let mut tau = vec![0.0; measured.len()];
-        let states = dalembert_fleet::States {
-            count: block.len(),
-            q,
-            qd,
-            qdd,
+    let found = tokio::runtime::Runtime::new().unwrap().block_on(async {
+        let log = folder.file("logs/log0000.parquet");
+        let read = ParquetReadOptions::default();
+        let registered = context.register_parquet("log", text(&log), read);
+        registered.await.unwrap();
+        let batches = context.sql(&sql).await.unwrap().collect().await.unwrap();
+        concat_batches(&batches[0].schema(), &batches).unwrap()
+    });
+    let rms = found.column(0).as_fixed_size_list().values().clone();
+    let rms = rms.as_primitive::<Float64Type>().values();
+    let fits = found.column(1).as_binary::<i32>();
+    for half in 0..2 {
+        assert!(rms[2 + half] > 10.0 * rms[half], "{rms:?}");
+        let kept = Accumulator::from_bytes(model, fits.value(half)).unwrap();
+        let found = fit(model, &kept, &Prior::None).unwrap();
+        let away = |right: &[f64]| -> f64 {
+            let parts = found.parameters.iter().zip(right);
+            let parts = parts.zip(&found.standard_errors);
+            let squares = parts.map(|((x, right), error)| ((x - right) / error).powi(2));
+            (squares.sum::<f64>() / right.len() as f64).sqrt()
         };
-        robot.inverse_dynamics(states, &mut tau).unwrap();
-        for (s, time) in block.time.iter().enumerate() {
-            for (i, sum) in halves[usize::from(*time >= 10.0)].iter_mut().enumerate() {
-                let place = i * block.len() + s;
-                *sum += (measured[place] - tau[place]).powi(2);
-            }
-        }
-    }
-    for (loaded, free) in halves[1].iter().zip(&halves[0]) {
-        assert!(*loaded > 100.0 * free, "{halves:?}");
+        let [own, other] = [away(right[half]), away(right[1 - half])];
+        println!("half {half}: {own:.2} standard errors from its own, {other:.1} from the other");
+        assert!(own < 3.0 && other > 10.0 * own, "{own} {other}");
     }
 }
 
 /// The same seed, the same bytes.
 #[test]
 fn simulated_logs_are_the_same_every_time() {
-    for more in [&["--exact"][..], &[][..]] {
+    for more in [&["--exact", "--zstd"][..], &[][..]] {
         let bytes = [1, 2].map(|_| {
             let folder = Folder::new();
             let mut arguments = vec!["--files", "1", "--seconds", "2", "--collisions", "1"];

@@ -5,6 +5,8 @@ mod bad;
 mod cluster;
 
 mod commands;
+mod formats;
 mod functions;
+mod resources;
 mod ros;
 mod support;

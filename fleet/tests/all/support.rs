@@ -141,6 +141,14 @@ pub fn succeeds(arguments: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
+/// Simulates logs of the planar arm with two joints into a folder `logs`.
+pub fn simulated(folder: &Folder, more: &[&str]) -> String {
+    let (robot, logs) = (robot_file("planar2r"), folder.file("logs"));
+    let mut arguments = vec!["simulate", "--robot", text(&robot), "-o", text(&logs)];
+    arguments.extend(more);
+    succeeds(&arguments)
+}
+
 /// Runs the command, which is to fail; returns its standard error.
 pub fn fails(arguments: &[&str]) -> String {
     let output = fleet(arguments);

@@ -1,0 +1,189 @@
+//! Logs in other columns, units and shapes, and logs that lack rates.
+
+use std::sync::Arc;
+
+use dalembert_fleet::Dynamics;
+use dalembert_fleet::logs::{Blocks, Columns, Table};
+use datafusion::arrow::array::{
+    ArrayRef, FixedSizeListArray, Float32Array, Float64Array, RecordBatch,
+};
+use datafusion::arrow::datatypes::{DataType, Field};
+use parquet::arrow::ArrowWriter;
+
+use crate::support::{Folder, Sample, fails, robot, robot_file, rows, simulated, succeeds, text};
+
+/// Logs in degrees, of other names, as lists, with currents, in milliseconds.
+#[test]
+fn columns_and_units_are_the_logs() {
+    let folder = Folder::new();
+    let robot = robot("planar2r", false);
+    let sample = Sample::new(robot.as_ref(), 3000, 10);
+    sample.write(&folder.file("plain.parquet"));
+    let degrees = 180.0 / core::f64::consts::PI;
+    let names: Vec<String> = ["stamp", "pa", "pb", "va", "vb", "aa", "ab", "ia", "ib"]
+        .map(str::to_owned)
+        .to_vec();
+    let path = folder.file("other.parquet");
+    let mut table = Table::create(&path, &names, false).unwrap();
+    let stamps: Vec<f64> = sample.time.iter().map(|time| 1e3 * time).collect();
+    let mut columns = vec![stamps];
+    for quantity in 0..4 {
+        for (i, constant) in [0.5, -2.0].iter().enumerate() {
+            let factor = if quantity == 3 {
+                1.0 / constant
+            } else {
+                degrees
+            };
+            columns.push(
+                sample
+                    .column(quantity, i)
+                    .iter()
+                    .map(|x| x * factor)
+                    .collect(),
+            );
+        }
+    }
+    let slices: Vec<&[f64]> = columns.iter().map(|column| &column[..]).collect();
+    table.write("", &slices).unwrap();
+    table.close().unwrap();
+    let mapping = folder.file("mapping.toml");
+    let flags = "time = 'stamp'\ntime-unit = 'ms'\nposition = 'pa, pb'\nvelocity = 'va,vb'\n\
+                 acceleration = 'aa,ab'\neffort = 'ia,ib'\nunits = 'rad'\n\
+                 torque-constants = [0.5, -2.0]\n";
+    std::fs::write(&mapping, flags).unwrap();
+    let arm = robot_file("planar2r");
+    let plain = succeeds(&[
+        "residual",
+        text(&folder.file("plain.parquet")),
+        "--robot",
+        text(&arm),
+    ]);
+    let other = succeeds(&[
+        "residual",
+        text(&path),
+        "--robot",
+        text(&arm),
+        "--mapping",
+        text(&mapping),
+        "--units",
+        "deg",
+    ]);
+    assert_eq!(rows(&plain, "plain.parquet"), rows(&other, "other.parquet"));
+    std::fs::write(&mapping, "positon = 'q{}'\n").unwrap();
+    let why = fails(&[
+        "residual",
+        text(&path),
+        "--robot",
+        text(&arm),
+        "--mapping",
+        text(&mapping),
+    ]);
+    assert!(why.contains("positon") && why.contains("position"), "{why}");
+    let why = fails(&["residual", text(&path), "--robot", text(&arm)]);
+    assert!(
+        why.contains("no column `time`") && why.contains("stamp, pa"),
+        "{why}"
+    );
+}
+
+/// Episodes as LeRobot has them: a list of floats in degrees, without rates; with currents.
+#[test]
+fn lists_of_floats_in_degrees_are_read() {
+    let folder = Folder::new();
+    let more = ["--files", "1", "--seconds", "20", "--noise", "0.02"];
+    simulated(&folder, &more);
+    let log = folder.file("logs/log0000.parquet");
+    let robot = robot("planar2r", false);
+    let (mut time, mut state, mut current) = (Vec::new(), Vec::new(), Vec::new());
+    for block in Blocks::open(&log, &Columns::canonical(2)).unwrap() {
+        let block = block.unwrap();
+        for (s, at) in block.time.iter().enumerate() {
+            time.push(*at);
+            for (i, constant) in [0.5, -2.0].iter().enumerate() {
+                state.push(block.column(0, i)[s].to_degrees() as f32);
+                current.push((block.column(3, i)[s] / constant) as f32);
+            }
+        }
+    }
+    let list = |values: Vec<f32>| -> ArrayRef {
+        let item = Arc::new(Field::new_list_field(DataType::Float32, true));
+        let values = Arc::new(Float32Array::from(values));
+        Arc::new(FixedSizeListArray::try_new(item, 2, values, None).unwrap())
+    };
+    let columns: [(&str, ArrayRef); 3] = [
+        ("timestamp", Arc::new(Float64Array::from(time))),
+        ("observation.state", list(state)),
+        ("observation.current", list(current)),
+    ];
+    let batch = RecordBatch::try_from_iter(columns).unwrap();
+    let path = folder.file("episode.parquet");
+    let file = std::fs::File::create(&path).unwrap();
+    let mut writer = ArrowWriter::try_new(file, batch.schema(), None).unwrap();
+    writer.write(&batch).unwrap();
+    writer.close().unwrap();
+
+    let arm = robot_file("planar2r");
+    let plain = succeeds(&["residual", text(&log), "--robot", text(&arm)]);
+    let base = ["residual", text(&path), "--robot", text(&arm)];
+    let named = [
+        &base[..],
+        &["--time", "timestamp", "--position", "observation.state"],
+        &["--effort", "observation.current", "--units", "deg"],
+        &["--motion-frequency", "2", "--torque-constants"],
+    ]
+    .concat();
+    let listed = succeeds(&[&named[..], &["0.5,-2"]].concat());
+    let [plain, listed] = [
+        rows(&plain, "log0000.parquet"),
+        rows(&listed, "episode.parquet"),
+    ];
+    assert_eq!(listed.len(), robot.joints());
+    for (plain, listed) in plain.iter().zip(&listed) {
+        assert!((listed[1] / plain[1] - 1.0).abs() < 0.05, "{listed:?}");
+    }
+    let three = robot_file("planar3r");
+    let wide = [
+        &["residual", text(&path), "--robot", text(&three)],
+        &named[4..],
+    ]
+    .concat();
+    let why = fails(&[&wide[..], &["1,1,1"]].concat());
+    assert!(
+        why.contains("a list of 2 Float32: one of 3 numbers"),
+        "{why}"
+    );
+}
+
+/// Encoders alone: rates are differentiated, and residuals stay near the torques' noise.
+#[test]
+fn rates_that_are_missing_are_differentiated() {
+    let [with, without] = [&[][..], &["--encoders-only"][..]].map(|more| {
+        let folder = Folder::new();
+        let mut arguments = vec!["--files", "1", "--seconds", "20", "--noise", "0.02"];
+        arguments.extend(more);
+        simulated(&folder, &arguments);
+        let logs = folder.file("logs/*.parquet");
+        let arm = robot_file("planar2r");
+        let work = folder.file("");
+        // The motion has 0.6 Hz: a filter for 5 Hz lets more of the encoder's steps through.
+        let table = succeeds(&[
+            "residual",
+            text(&logs),
+            "--robot",
+            text(&arm),
+            "--work",
+            text(&work),
+            "--motion-frequency",
+            "2",
+        ]);
+        assert_eq!(folder.names(), ["logs"], "what was converted is gone");
+        rows(&table, "log0000.parquet")
+    });
+    for (with, without) in with.iter().zip(&without) {
+        println!("{} {}", with[1], without[1]);
+        assert!(
+            (without[1] / with[1] - 1.0).abs() < 0.05,
+            "{with:?} {without:?}"
+        );
+    }
+}
