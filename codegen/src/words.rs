@@ -88,7 +88,7 @@ impl Word for bool {
 /// The value of a word.
 ///
 /// # Errors
-/// [`UnknownWord`], with the word that was probably meant.
+/// `UnknownWord`, with the word that was probably meant.
 pub fn parse<W: Word>(text: &str) -> Result<W, UnknownWord> {
     W::from_name(text).ok_or_else(|| {
         let known = W::known();

@@ -5,7 +5,7 @@
 //! - `view`: a projection onto the paper
 //! - `labels`: the numbers of joints at their axes
 //! - `outline`: the ellipse that a link's inertia is seen as
-//! - [`svg`]: an SVG file as it grows; `page`: lines, texts and shapes in it
+//! - [`mod@svg`]: an SVG file as it grows; `page`: lines, texts and shapes in it
 //! - `table`: the DH rows, masses and centres as text
 //!
 //! A link's inertia is drawn as the solid ellipsoid of uniform density that has it.
