@@ -61,6 +61,8 @@ pub struct Motion<S> {
     pub wrench: Vec<S>,
     /// λ², one number.
     pub damping: Vec<S>,
+    /// λ, by which torques or accelerations are multiplied before they are differentiated.
+    pub multiplier: Vec<S>,
     /// r_i = 1/√(q̇_i² + w_i²) of each joint with Coulomb friction, where it is not
     /// that of a joint at rest ([`friction`](crate::equations::friction)).
     pub per_speed: Vec<Option<S>>,
@@ -84,6 +86,7 @@ impl<S> Motion<S> {
             a: entries(Argument::ReferenceAcceleration),
             wrench: entries(Argument::Wrench),
             damping: entries(Argument::Damping),
+            multiplier: entries(Argument::Multiplier),
             loading: None,
         }
     }
@@ -103,6 +106,7 @@ impl<S> Motion<S> {
             Argument::Torque => Some(&mut self.tau),
             Argument::ReferenceVelocity => Some(&mut self.v),
             Argument::ReferenceAcceleration => Some(&mut self.a),
+            Argument::Multiplier => Some(&mut self.multiplier),
         }
     }
 }
@@ -121,6 +125,7 @@ impl<S: Clone> Motion<S> {
             a: pick(&self.a),
             wrench: self.wrench.clone(),
             damping: self.damping.clone(),
+            multiplier: pick(&self.multiplier),
             per_speed: joints
                 .iter()
                 .map(|&joint| self.per_speed[joint].clone())
@@ -138,7 +143,7 @@ impl<S: Scalar> Motion<S> {
         self.q.push(JointPosition::Prismatic(S::zero()));
         self.moves.push(false);
         self.per_speed.push(None);
-        for argument in Argument::JOINTS {
+        for argument in Argument::ALL {
             if let Some(entries) = self.of_mut(argument) {
                 entries.push(S::zero());
             }

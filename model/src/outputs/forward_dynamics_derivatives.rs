@@ -67,7 +67,7 @@ fn written<S: Divide>(at: &Written<'_, S>) -> [Vec<S>; 2] {
 }
 
 /// D X + S over the joints that move, for the slopes X of q̈ and S of τ.
-fn defect<S: Divide>(at: &Written<'_, S>, x: &[S], slopes: &[Vec<S>]) -> Vec<S> {
+pub(super) fn defect<S: Divide>(at: &Written<'_, S>, x: &[S], slopes: &[Vec<S>]) -> Vec<S> {
     let d = at.formulation.inertia(at.arm, at.at);
     let (free, n) = (free(&at.motion.moves), d.len());
     let entry = |i: usize, k: usize| {
