@@ -126,11 +126,7 @@ pub fn seeded(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
             }
         }
     }
-    for argument in [
-        Argument::Wrench,
-        Argument::Damping,
-        Argument::Multiplier,
-    ] {
+    for argument in [Argument::Wrench, Argument::Damping, Argument::Multiplier] {
         let mut random = Random::new(seed ^ OTHERS ^ argument.index() as u64);
         let (low, high) = (argument.least(), argument.reach());
         for state in &mut states {

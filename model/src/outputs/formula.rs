@@ -1,6 +1,7 @@
 //! What a quantity's file says, and what its formulas are given.
 
 use alloc::vec::Vec;
+use core::cell::OnceCell;
 
 use super::Argument;
 use super::quantity::Facts;
@@ -8,6 +9,7 @@ use crate::equations::chain::composite::Composite;
 use crate::equations::chain::{Chain, Displacement, Form};
 use crate::equations::load::Loading;
 use crate::equations::regressor::Column;
+use crate::equations::second_derivatives::SecondDerivatives;
 use crate::equations::{Arm, DhVariables, Formulation, JointPosition};
 use crate::scalar::{Divide, Scalar};
 
@@ -184,6 +186,26 @@ pub struct Regrouped<'a, S> {
     pub textbook: Option<Written<'a, S>>,
     /// The joints of the chain among those of the arm.
     pub joints: &'a [usize],
+    /// What several quantities are read off.
+    pub shared: Shared<S>,
+}
+
+/// What several quantities of one function are read off, computed where it is first asked for.
+#[derive(Clone, Debug)]
+pub struct Shared<S> {
+    /// The second derivatives of λᵀτ.
+    pub(super) of_torques: OnceCell<SecondDerivatives<S>>,
+    /// The second derivatives of λᵀq̈.
+    pub(super) of_accelerations: OnceCell<SecondDerivatives<S>>,
+}
+
+impl<S> Default for Shared<S> {
+    fn default() -> Self {
+        Shared {
+            of_torques: OnceCell::new(),
+            of_accelerations: OnceCell::new(),
+        }
+    }
 }
 
 impl<S: Scalar> Regrouped<'_, S> {

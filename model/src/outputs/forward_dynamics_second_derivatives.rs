@@ -15,7 +15,7 @@ use crate::equations::chain::Unknowns;
 use crate::equations::factor::scatter;
 use crate::equations::forward::free;
 use crate::equations::matrix::{times, total};
-use crate::equations::second_derivatives::OfAccelerations;
+use crate::equations::second_derivatives::{OfAccelerations, SecondDerivatives};
 use crate::scalar::{Divide, Scalar};
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -75,27 +75,29 @@ fn product<S: Scalar>(matrix: &[Vec<S>], values: &[S]) -> Vec<S> {
     matrix.iter().map(row).collect()
 }
 
-/// All four of the chain: by q and q, by q and q̇, by q̇ and q̇, by τ and q.
-fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> [Vec<S>; 4] {
+/// All four of the chain.
+fn regrouped<'a, S: Divide>(at: &'a Regrouped<'_, S>) -> &'a SecondDerivatives<S> {
     let (motion, travel) = (at.motion, at.form.travel);
-    let (factor, free) = (factor(at), free(&motion.moves));
-    let by_inverse = |values: &[S]| {
-        let load: Vec<S> = free.iter().map(|&i| values[i].clone()).collect();
-        scatter(&factor.solve(&load), &free, values.len())
+    let all = || {
+        let (factor, free) = (factor(at), free(&motion.moves));
+        let by_inverse = |values: &[S]| {
+            let load: Vec<S> = free.iter().map(|&i| values[i].clone()).collect();
+            scatter(&factor.solve(&load), &free, values.len())
+        };
+        let qdd = accelerations(at, Unknowns::Joints);
+        let raised = by_inverse(&motion.multiplier);
+        let given = [&motion.qd[..], &qdd, &raised];
+        let own = at.composite.second_derivatives(given, travel);
+        let slopes = at.composite.slopes(&motion.qd, &qdd, travel);
+        let all = OfAccelerations::new(&own.driven, by_inverse, &motion.moves);
+        SecondDerivatives {
+            position: all.by_positions(&own.position, &slopes.position),
+            mixed: all.by_position_and_velocity(&own.mixed, &slopes.velocity),
+            velocity: all.by_velocities(&own.velocity),
+            driven: all.by_torque_and_position(),
+        }
     };
-    let qdd = accelerations(at, Unknowns::Joints);
-    let raised = by_inverse(&motion.multiplier);
-    let given = [&motion.qd[..], &qdd, &raised];
-    let own = at.composite.second_derivatives(given, travel);
-    let slopes = at.composite.slopes(&motion.qd, &qdd, travel);
-    let all = OfAccelerations::new(&own.driven, by_inverse, &motion.moves);
-    [
-        all.by_positions(&own.position, &slopes.position),
-        all.by_position_and_velocity(&own.mixed, &slopes.velocity),
-        all.by_velocities(&own.velocity),
-        all.by_torque_and_position(),
-    ]
-    .map(|matrix| matrix.concat())
+    at.shared.of_accelerations.get_or_init(all)
 }
 
 /// The facts of all four, as far as they are the same.
@@ -145,8 +147,7 @@ impl Formula for AccelerationByPositions {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        let [entries, _, _, _] = regrouped(at);
-        Some(entries)
+        Some(regrouped(at).position.concat())
     }
 }
 
@@ -178,8 +179,7 @@ impl Formula for AccelerationByPositionAndVelocity {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        let [_, entries, _, _] = regrouped(at);
-        Some(entries)
+        Some(regrouped(at).mixed.concat())
     }
 }
 
@@ -209,8 +209,7 @@ impl Formula for AccelerationByVelocities {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        let [_, _, entries, _] = regrouped(at);
-        Some(entries)
+        Some(regrouped(at).velocity.concat())
     }
 }
 
@@ -250,7 +249,6 @@ impl Formula for AccelerationByTorqueAndPosition {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        let [_, _, _, entries] = regrouped(at);
-        Some(entries)
+        Some(regrouped(at).driven.concat())
     }
 }

@@ -36,10 +36,12 @@ pub(super) struct TorqueByVelocities;
 /// ∂(D λ)_i/∂q_k
 pub(super) struct TorqueByAccelerationAndPosition;
 
-fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> SecondDerivatives<S> {
+/// All four of the chain.
+fn regrouped<'a, S: Divide>(at: &'a Regrouped<'_, S>) -> &'a SecondDerivatives<S> {
     let motion = at.motion;
     let given = [&motion.qd[..], &motion.qdd, &motion.multiplier];
-    at.composite.second_derivatives(given, at.form.travel)
+    let all = || at.composite.second_derivatives(given, at.form.travel);
+    at.shared.of_torques.get_or_init(all)
 }
 
 /// The facts of all four, as far as they are the same.

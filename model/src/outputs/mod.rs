@@ -67,7 +67,7 @@ mod regressor;
 pub use argument::Argument;
 pub use at::{FunctionAt, QuantityAt};
 pub use bundle::{Bundle, BundleError};
-pub use formula::{Motion, Regrouped, Written};
+pub use formula::{Motion, Regrouped, Shared, Written};
 pub use function::Columns;
 pub use quantity::{ErrorScale, Index};
 pub use runtime::{PayloadDependence, RuntimeParameter};
