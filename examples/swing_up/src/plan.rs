@@ -8,7 +8,7 @@
 //! Nothing is drawn at random: the same plan on every machine.
 
 use crate::limited;
-use crate::model::{HANGING, Square, State, UPRIGHT, slopes, step};
+use crate::model::{Bend, HANGING, Square, State, UPRIGHT, bends, slopes, step};
 
 /// The period of the plan, s.
 pub const PERIOD: f64 = 0.02;
@@ -38,17 +38,26 @@ pub struct Plan {
     pub costs: Vec<f64>,
 }
 
+/// Which derivatives of the dynamics a plan is made with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Derivatives {
+    /// The first alone (iLQR).
+    First,
+    /// The second as well.
+    Second,
+}
+
 /// Changes of the torques and gains on the states.
 type Changes = (Vec<f64>, Vec<State>);
 
 /// A plan from hanging at rest to upright at rest.
-pub fn plan() -> Plan {
+pub fn plan(derivatives: Derivatives) -> Plan {
     let mut plan = Plan::of(vec![0.0; STEPS]);
     // What a change of the next state costs besides: where parabolas mislead, little is
     // changed.
     let mut caution = 1e-6;
     for _ in 0..ROUNDS {
-        let Some((changes, gains)) = plan.backward(caution) else {
+        let Some((changes, gains)) = plan.backward(caution, derivatives) else {
             caution *= 10.0;
             continue;
         };
@@ -110,7 +119,7 @@ impl Plan {
     }
 
     /// The changes that parabolas advise; `None` where one has no lowest point.
-    fn backward(&self, caution: f64) -> Option<Changes> {
+    fn backward(&self, caution: f64, derivatives: Derivatives) -> Option<Changes> {
         let mut slope = self.off().component_mul(&END);
         let mut bend = Square::from_diagonal(&END);
         let mut changes = vec![0.0; self.torques.len()];
@@ -120,8 +129,12 @@ impl Plan {
             let (by_state, by_torque) = slopes(&self.states[k], torque, PERIOD);
             let carried = bend * by_torque;
             let of_torque = EFFORT * PERIOD * torque + by_torque.dot(&slope);
-            let of_torques = EFFORT * PERIOD + by_torque.dot(&carried);
-            let mixed = by_state.transpose() * carried;
+            let bent = match derivatives {
+                Derivatives::First => Bend::zeros(),
+                Derivatives::Second => bends(&self.states[k], torque, PERIOD, &slope),
+            };
+            let of_torques = EFFORT * PERIOD + by_torque.dot(&carried) + bent[(4, 4)];
+            let mixed = by_state.transpose() * carried + bent.fixed_view::<4, 1>(0, 4);
             let wary = by_state.transpose() * by_torque * caution + mixed;
             let lowest = of_torques + caution * by_torque.dot(&by_torque);
             if lowest <= 0.0 {
@@ -141,6 +154,7 @@ impl Plan {
                 + mixed * change;
             bend = Square::from_diagonal(&each)
                 + by_state.transpose() * bend * by_state
+                + bent.fixed_view::<4, 4>(0, 0)
                 + gain * gain.transpose() * of_torques
                 + gain * mixed.transpose()
                 + mixed * gain.transpose();
