@@ -1,4 +1,4 @@
-//! Second derivatives of λᵀτ and λᵀq̈: against Pinocchio, in both scalars, in a scene and under
+//! Second derivatives of λᵀτ and λᵀq̈: against Pinocchio and CasADi, in both scalars, in a scene and under
 //! a payload, and what they cost.
 
 use std::path::Path;
@@ -56,7 +56,7 @@ fn double(robot: &Robot, functions: &[Function]) -> Generated {
 /// The code and the formulas that it is compared with elsewhere, at every value of the files;
 /// those of the accelerations may err by the condition of D.
 #[test]
-fn they_are_what_pinocchio_gives() {
+fn they_are_what_others_give() {
     let small = ["planar2r", "planar3r", "stanford"];
     let large = ["puma560", "ur10", "panda"];
     // The large ones by their formulas where tests are not optimised.

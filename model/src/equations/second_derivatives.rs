@@ -53,6 +53,15 @@ fn constants<S: Scalar>(values: &[S]) -> Vec<Dual<S>> {
 }
 
 impl Formulation {
+    /// Of recursions the one in base axes: in link axes the accelerations turn with a
+    /// joint and forces turn back, and the second derivatives of both cancel in large part.
+    fn without_turns(self) -> Formulation {
+        match self.has_closed_form() {
+            true => self,
+            false => Self::NewtonEulerBase,
+        }
+    }
+
     /// λᵀτ without friction. Lagrange–Euler takes the sums over joints before those over
     /// links: Σ_j Tr(A J_j Vᵀ), where A and V are the sums of U_jk q̈_k + U_jkm q̇_k q̇_m, and of
     /// U_ji λ_i, with what weight gives.
@@ -77,12 +86,12 @@ impl Formulation {
         at: &[DhVariables<S>],
         [qd, qdd, multiplier]: [&[S]; 3],
     ) -> Vec<Vec<S>> {
-        let n = at.len();
+        let (form, n) = (self.without_turns(), at.len());
         symmetric(n, |i, k| {
             let (arm, at) = moving(arm, at, &unit(n, i));
             let (arm, at) = moving(&arm, &at, &unit(n, k));
             let [qd, qdd, l] = [qd, qdd, multiplier].map(|x| constants(&constants(x)));
-            self.virtual_power(&arm, &at, [&qd, &qdd, &l]).rate.rate
+            form.virtual_power(&arm, &at, [&qd, &qdd, &l]).rate.rate
         })
     }
 
@@ -93,10 +102,10 @@ impl Formulation {
         at: &[DhVariables<S>],
         [qd, multiplier]: [&[S]; 2],
     ) -> Vec<Vec<S>> {
-        let n = at.len();
+        let (form, n) = (self.without_turns(), at.len());
         let row = |k: usize| {
             let (arm, at) = moving(arm, at, &unit(n, k));
-            let slopes = self.torque_by_velocity(&arm, &at, &constants(qd));
+            let slopes = form.torque_by_velocity(&arm, &at, &constants(qd));
             rates_of(multiplier, &slopes)
         };
         (0..n).map(row).collect()
@@ -140,10 +149,10 @@ impl Formulation {
         at: &[DhVariables<S>],
         multiplier: &[S],
     ) -> Vec<Vec<S>> {
-        let n = at.len();
+        let (form, n) = (self.without_turns(), at.len());
         columns(n, |k| {
             let (arm, at) = moving(arm, at, &unit(n, k));
-            self.momentum(&arm, &at, &constants(multiplier))
+            form.momentum(&arm, &at, &constants(multiplier))
         })
     }
 }

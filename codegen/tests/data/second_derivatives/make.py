@@ -1,15 +1,16 @@
-"""Writes second derivatives of the torques and accelerations of robots, by Pinocchio, into a
-file a robot beside this one. `pinocchio.cpp` has what Pinocchio's Python lacks:
+"""Writes second derivatives of the torques and accelerations of robots into a file a robot
+beside this one. `pinocchio.cpp` has what Pinocchio's Python lacks:
 
-    pip install pin==4.1.0 numpy
+    pip install pin==4.1.0 casadi==3.8.2 mpmath numpy
     P=$(python -c "import cmeel, pathlib; print(pathlib.Path(cmeel.__path__[0]).parent / 'cmeel.prefix')")
     g++ -O1 -w -std=c++17 -DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS -DBOOST_MPL_LIMIT_LIST_SIZE=30 \\
         -DBOOST_FUSION_INVOKE_MAX_ARITY=10 -I$P/include -I/usr/include/eigen3 pinocchio.cpp \\
         -o second -L$P/lib -lpinocchio_default -Wl,-rpath,$P/lib
     python make.py ./second
 
-Those of the torques are Pinocchio's tensors times λ. Those of the accelerations follow, by
-numpy: f(q, q̇, τ) solves τ(q, q̇, f) = τ, which is differentiated twice, all n³ numbers of it.
+Those of the torques are Pinocchio's tensors times λ. Those of the accelerations that follow from
+these have lost three or four digits where a wrist is lighter than its arm by orders, so they
+are CasADi's, which differentiates articulated bodies, in forty digits.
 """
 
 import json
@@ -17,6 +18,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import casadi as ca
+import mpmath as mp
 import numpy as np
 import pinocchio as pin
 
@@ -24,6 +27,9 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[3]
 sys.path.insert(0, str(ROOT / "benches/peers"))
 from model import Arm  # noqa: E402
+from symbolic import Chain, made  # noqa: E402
+
+mp.mp.dps = 40
 
 NAMES = ["planar2r", "planar3r", "puma560", "stanford", "ur10", "panda"]
 STATES = 5
@@ -44,55 +50,73 @@ def tensors(program, arm, states):
         yield np.array([float(x) for x in line.split()]).reshape(4, n, n, n)
 
 
-def of_accelerations(second, slopes, inverse):
-    """∂²f by q and q, q and q̇, q̇ and q̇, τ and q from those of τ at q̈ = f."""
-    qq, vv, qv, aq = second
-    by_q, by_v = (-inverse @ slope for slope in slopes)
-    # Of τ_i by q_j along f: ∂D_ia/∂q_j ∂f_a/∂x_k.
-    along = lambda other: np.einsum("iaj,ak->ijk", aq, other)
-    both = along(by_q) + along(by_q).transpose(0, 2, 1)
-    lead = lambda tensor: -np.einsum("mi,ijk->mjk", inverse, tensor)
-    # By τ_j and q_k, from that by q_k and τ_j.
-    driven = lead(along(inverse)).transpose(0, 2, 1)
-    return lead(qq + both), lead(qv + along(by_v)), lead(vv), driven
+def of_accelerations(chain):
+    """∂²(λᵀf) by q and q, q and q̇, q̇ and q̇, τ and q, as CasADi differentiates articulated bodies."""
+    multiplier = ca.SX.sym("multiplier", chain.n)
+    q, qd, tau = chain.q, chain.qd, chain.tau
+    value = ca.dot(multiplier, chain.articulated())
+    by_q = ca.gradient(value, q)
+    parts = [
+        ca.hessian(value, q)[0],
+        ca.jacobian(by_q, qd),
+        ca.hessian(value, qd)[0],
+        ca.jacobian(ca.gradient(value, tau), q),
+    ]
+    return made("second", [q, qd, tau, multiplier], *parts)
+
+
+def exact(function, arguments):
+    """A function's values in forty digits, rounded once."""
+    at, results = {}, {}
+    two = {ca.OP_ADD: mp.fadd, ca.OP_SUB: mp.fsub, ca.OP_MUL: mp.fmul, ca.OP_DIV: mp.fdiv}
+    one = {
+        ca.OP_NEG: mp.fneg,
+        ca.OP_SQ: lambda x: x * x,
+        ca.OP_TWICE: lambda x: x + x,
+        ca.OP_INV: lambda x: 1 / x,
+        ca.OP_SIN: mp.sin,
+        ca.OP_COS: mp.cos,
+        ca.OP_ASSIGN: mp.mpf,
+    }
+    for k in range(function.n_instructions()):
+        op = function.instruction_id(k)
+        to, of = function.instruction_output(k), function.instruction_input(k)
+        if op == ca.OP_CONST:
+            at[to[0]] = mp.mpf(function.instruction_constant(k))
+        elif op == ca.OP_INPUT:
+            at[to[0]] = mp.mpf(arguments[of[0]][of[1]])
+        elif op == ca.OP_OUTPUT:
+            results[to[1]] = float(at[of[0]])
+        else:
+            call = (two if op in two else one)[op]
+            at[to[0]] = call(*(at[x] for x in of))
+    # What is zero by structure is not said.
+    return [results.get(k, 0.0) for k in range(function.nnz_out())]
 
 
 def main():
     for seed, name in enumerate(NAMES):
         arm = Arm(ROOT / "generated/robots" / f"{name}.toml")
-        model, n = arm.pinocchio(), arm.n
+        n = arm.n
         draw = np.random.default_rng(0x3264 + seed)
         drawn = [
             [draw.uniform(-x, x, n) for x in (3, 2, 5, 50, 1)] for _ in range(STATES)
         ]
-        damping = np.array(arm.viscous)
-        given, moving = [], []
-        for q, qd, qdd, tau, _ in drawn:
-            m = pin.crba(model, model.createData(), q)
-            m = np.triu(m) + np.triu(m, 1).T + np.diag(arm.armature)
-            load = tau - damping * qd - pin.rnea(model, model.createData(), q, qd, np.zeros(n))
-            f = np.linalg.solve(m, load)
-            data = model.createData()
-            by_q, by_v, _ = pin.computeRNEADerivatives(model, data, q, qd, f)
-            given += [(q, qd, qdd), (q, qd, f)]
-            moving.append((by_q.copy(), by_v + np.diag(damping), np.linalg.inv(m)))
-        known = list(tensors(sys.argv[1], arm, given))
+        known = tensors(sys.argv[1], arm, [state[:3] for state in drawn])
+        other = of_accelerations(Chain(arm))
         states = []
-        for k, (q, qd, qdd, tau, multiplier) in enumerate(drawn):
+        for (q, qd, qdd, tau, multiplier), (qq, vv, qv, aq) in zip(drawn, known):
             of = lambda tensor: np.einsum("i,ijk->jk", multiplier, tensor).flatten().tolist()
-            qq, vv, qv, aq = known[2 * k]
-            by_q, by_v, inverse = moving[k]
-            other = of_accelerations(known[2 * k + 1], (by_q, by_v), inverse)
-            keys = ("dq_dq", "dq_dqd", "dqd_dqd")
             state = dict(q=q, qd=qd, qdd=qdd, torque=tau, multiplier=multiplier)
             state = {key: values.tolist() for key, values in state.items()}
-            state |= {f"d2tau_{key}": of(x) for key, x in zip(keys, (qq, qv, vv))}
-            state |= {f"d2qdd_{key}": of(x) for key, x in zip(keys, other)}
-            state["d2tau_dqdd_dq"] = of(aq)
-            state["d2qdd_dtau_dq"] = of(other[3])
+            keys = ("dq_dq", "dq_dqd", "dqd_dqd")
+            state |= {f"d2tau_{key}": of(x) for key, x in zip((*keys, "dqdd_dq"), (qq, qv, vv, aq))}
+            values = exact(other, (q, qd, tau, multiplier))
+            for place, key in enumerate((*keys, "dtau_dq")):
+                state[f"d2qdd_{key}"] = values[place * n * n : (place + 1) * n * n]
             states.append(state)
-        made = {"by": f"Pinocchio {pin.__version__}", "states": states}
-        (HERE / f"{name}.json").write_text(json.dumps(made) + "\n")
+        file = {"by": f"Pinocchio {pin.__version__}, CasADi {ca.__version__}", "states": states}
+        (HERE / f"{name}.json").write_text(json.dumps(file) + "\n")
 
 
 main()
