@@ -8,7 +8,7 @@
 //! | [`dalembert`] | generalized D'Alembert, D^rot, D^tran, h^rot, h^tran, eqs. 4.1–4.5 |
 //! | [`energy`] | T, U, D q̇, ∂T/∂q and C of every formulation |
 //! | [`derivatives`] | ∂τ/∂q and ∂τ/∂q̇ of every formulation, by duals |
-//! | [`second_derivatives`] | those of λᵀτ and λᵀq̈ of every formulation, by duals of duals |
+//! | [`second_derivatives`] | those of λᵀτ and λᵀq̈ of every formulation |
 //! | [`forward`] | q̈, D⁻¹ and slopes of q̈ of every formulation |
 //! | [`friction`] | what joints take of torque while they move |
 //! | [`factor`] | D = U diag(d) Uᵀ, solved and inverted |

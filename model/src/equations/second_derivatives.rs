@@ -1,34 +1,28 @@
 //! Second derivatives of λᵀτ and λᵀq̈ for a given λ, of every formulation: n² numbers
 //! each where those of all torques are n³.
 //!
-//! Those of the torques come by duals of duals: the formula's own text over values and
-//! rates of values and rates. Those of the accelerations follow, since D q̈ + h + c + b∘q̇ = τ
-//! holds for all q and q̇: with D μ = λ, L the second derivatives of μᵀτ at that q̈, and
-//! X = ∂(μᵀD)/∂q D⁻¹, those of λᵀq̈ are −L and what X makes of the slopes of τ.
+//! Closed forms have those of the torques by duals of duals: the formula's own text over
+//! values and rates of values and rates. Of a recursion hardly a digit would be left of that for a
+//! light wrist on a heavy arm, since forces turn out and back in: recursions have them from
+//! [composite bodies](super::chain), which tests hold against the closed forms. Those of the
+//! accelerations follow, since D q̈ + h + c + b∘q̇ = τ holds for all q and q̇: with D μ = λ, L the
+//! second derivatives of μᵀτ at that q̈, and X = ∂(μᵀD)/∂q D⁻¹, those of λᵀq̈ are −L and what
+//! X makes of the slopes of τ.
 
 use alloc::vec::Vec;
 
+use super::chain::composite::{Composite, CompositeOrder};
+use super::chain::second_derivatives::SecondDerivatives;
+use super::chain::{Chain, Regrouping, Skeleton};
 use super::derivatives::columns;
 use super::energy::moving;
 use super::forward::free;
 use super::lagrange_euler::LagrangeEuler;
 use super::matrix::{minus, negative, plus, symmetric, times, total, twice, zeros};
-use super::{Arm, DhVariables, Formulation};
+use super::{Arm, DhVariables, Formulation, JointPosition, SinCosPair};
+use crate::robot::JointKind;
 use crate::scalar::Scalar;
 use crate::scalar::dual::Dual;
-
-/// Second derivatives of a number, n×n each.
-#[derive(Clone, Debug)]
-pub struct SecondDerivatives<S> {
-    /// By q and q, symmetric.
-    pub position: Vec<Vec<S>>,
-    /// By q, a row each, and q̇.
-    pub mixed: Vec<Vec<S>>,
-    /// By q̇ and q̇, symmetric.
-    pub velocity: Vec<Vec<S>>,
-    /// By q̈, or τ, a row each, and q.
-    pub driven: Vec<Vec<S>>,
-}
 
 /// λᵀx
 fn weighed<'a, S: Scalar + 'a>(multiplier: &[S], values: impl Iterator<Item = &'a S>) -> S {
@@ -52,16 +46,35 @@ fn constants<S: Scalar>(values: &[S]) -> Vec<Dual<S>> {
     values.iter().cloned().map(Dual::constant).collect()
 }
 
-impl Formulation {
-    /// Of recursions the one in base axes: in link axes the accelerations turn with a
-    /// joint and forces turn back, and the second derivatives of both cancel in large part.
-    fn without_turns(self) -> Formulation {
-        match self.has_closed_form() {
-            true => self,
-            false => Self::NewtonEulerBase,
+/// All four by the composite bodies of the arm's chain, in base parameters.
+fn by_composites<S: Scalar>(
+    arm: &Arm<S>,
+    at: &[DhVariables<S>],
+    given: [&[S]; 3],
+) -> SecondDerivatives<S> {
+    // With what is constant about a joint in its position, which `at` has whole.
+    let mut arm = arm.clone();
+    let links = arm.links.iter_mut().zip(at);
+    let position = links.map(|(link, at)| match link.kind {
+        JointKind::Revolute => {
+            link.theta = SinCosPair {
+                sin: S::zero(),
+                cos: S::one(),
+            };
+            JointPosition::Revolute(at.theta.clone())
         }
-    }
+        JointKind::Prismatic => {
+            link.d = S::zero();
+            JointPosition::Prismatic(at.d.clone())
+        }
+    });
+    let position: Vec<JointPosition<S>> = position.collect();
+    let skeleton = Skeleton::new(&arm, &[]);
+    let (chain, at) = Chain::new(&skeleton, &Regrouping::base(&skeleton)).posed(&position);
+    Composite::new(&chain, &at).second_derivatives(given, CompositeOrder::Inward)
+}
 
+impl Formulation {
     /// λᵀτ without friction. Lagrange–Euler takes the sums over joints before those over
     /// links: Σ_j Tr(A J_j Vᵀ), where A and V are the sums of U_jk q̈_k + U_jkm q̇_k q̇_m, and of
     /// U_ji λ_i, with what weight gives.
@@ -86,12 +99,15 @@ impl Formulation {
         at: &[DhVariables<S>],
         [qd, qdd, multiplier]: [&[S]; 3],
     ) -> Vec<Vec<S>> {
-        let (form, n) = (self.without_turns(), at.len());
+        if !self.has_closed_form() {
+            return by_composites(arm, at, [qd, qdd, multiplier]).position;
+        }
+        let n = at.len();
         symmetric(n, |i, k| {
             let (arm, at) = moving(arm, at, &unit(n, i));
             let (arm, at) = moving(&arm, &at, &unit(n, k));
             let [qd, qdd, l] = [qd, qdd, multiplier].map(|x| constants(&constants(x)));
-            form.virtual_power(&arm, &at, [&qd, &qdd, &l]).rate.rate
+            self.virtual_power(&arm, &at, [&qd, &qdd, &l]).rate.rate
         })
     }
 
@@ -102,10 +118,13 @@ impl Formulation {
         at: &[DhVariables<S>],
         [qd, multiplier]: [&[S]; 2],
     ) -> Vec<Vec<S>> {
-        let (form, n) = (self.without_turns(), at.len());
+        if !self.has_closed_form() {
+            return by_composites(arm, at, [qd, &zeros(qd.len()), multiplier]).mixed;
+        }
+        let n = at.len();
         let row = |k: usize| {
             let (arm, at) = moving(arm, at, &unit(n, k));
-            let slopes = form.torque_by_velocity(&arm, &at, &constants(qd));
+            let slopes = self.torque_by_velocity(&arm, &at, &constants(qd));
             rates_of(multiplier, &slopes)
         };
         (0..n).map(row).collect()
@@ -119,6 +138,9 @@ impl Formulation {
         at: &[DhVariables<S>],
         [qd, multiplier]: [&[S]; 2],
     ) -> Vec<Vec<S>> {
+        if !self.has_closed_form() {
+            return by_composites(arm, at, [qd, &zeros(qd.len()), multiplier]).velocity;
+        }
         let n = at.len();
         let mut all = if self == Self::LagrangeEuler {
             let h = self.christoffel(arm, at);
@@ -149,10 +171,13 @@ impl Formulation {
         at: &[DhVariables<S>],
         multiplier: &[S],
     ) -> Vec<Vec<S>> {
-        let (form, n) = (self.without_turns(), at.len());
+        let n = at.len();
+        if !self.has_closed_form() {
+            return by_composites(arm, at, [&zeros(n), &zeros(n), multiplier]).driven;
+        }
         columns(n, |k| {
             let (arm, at) = moving(arm, at, &unit(n, k));
-            form.momentum(&arm, &at, &constants(multiplier))
+            self.momentum(&arm, &at, &constants(multiplier))
         })
     }
 }

@@ -6,10 +6,10 @@ use core::cell::OnceCell;
 use super::Argument;
 use super::quantity::Facts;
 use crate::equations::chain::composite::Composite;
+use crate::equations::chain::second_derivatives::SecondDerivatives;
 use crate::equations::chain::{Chain, Displacement, Form};
 use crate::equations::load::Loading;
 use crate::equations::regressor::Column;
-use crate::equations::second_derivatives::SecondDerivatives;
 use crate::equations::{Arm, DhVariables, Formulation, JointPosition};
 use crate::scalar::{Divide, Scalar};
 

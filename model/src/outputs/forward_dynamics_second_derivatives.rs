@@ -12,10 +12,11 @@ use super::operational_inertia_inverse::factor;
 use super::quantity::{Choices, Facts, Index, turns};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::Unknowns;
+use crate::equations::chain::second_derivatives::SecondDerivatives;
 use crate::equations::factor::scatter;
 use crate::equations::forward::free;
 use crate::equations::matrix::{times, total};
-use crate::equations::second_derivatives::{OfAccelerations, SecondDerivatives};
+use crate::equations::second_derivatives::OfAccelerations;
 use crate::scalar::{Divide, Scalar};
 
 pub(super) const FUNCTION: Definition = Definition {

@@ -7,7 +7,7 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::quantity::{Choices, Facts, kilograms, turns};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
-use crate::equations::second_derivatives::SecondDerivatives;
+use crate::equations::chain::second_derivatives::SecondDerivatives;
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {

@@ -16,8 +16,20 @@ use super::twist::Twist;
 use crate::equations::matrix::{Vector, cross, difference, dot, plus, sum, times, twice};
 use crate::equations::matrix::{opposite, zero_vector};
 use crate::equations::newton_euler::Wrench;
-use crate::equations::second_derivatives::SecondDerivatives;
 use crate::scalar::Scalar;
+
+/// Second derivatives of a number, n×n each.
+#[derive(Clone, Debug)]
+pub struct SecondDerivatives<S> {
+    /// By q and q, symmetric.
+    pub position: Vec<Vec<S>>,
+    /// By q, a row each, and q̇.
+    pub mixed: Vec<Vec<S>>,
+    /// By q̇ and q̇, symmetric.
+    pub velocity: Vec<Vec<S>>,
+    /// By q̈, or τ, a row each, and q.
+    pub driven: Vec<Vec<S>>,
+}
 
 /// The twists of a joint that wrenches of later joints have power on.
 struct Earlier<S> {
