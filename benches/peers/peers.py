@@ -204,7 +204,8 @@ def main():
     if what == "counts":
         for path in rest:
             arm = Arm(path)
-            functions = Chain(arm).functions()
+            chain = Chain(arm)
+            functions = chain.functions() | chain.operational() | chain.second_derivatives()
             print(json.dumps({"robot": arm.name, **{k: counts(f) for k, f in functions.items()}}))
     else:
         run(*rest)

@@ -346,3 +346,40 @@ class Chain:
                 )
             ),
         }
+
+    def second_derivatives(self):
+        """name → function of the second derivatives of λᵀτ and λᵀq̈ for a given λ: by
+        differentiation of the whole, and those of q̈ from those of τ at the solution."""
+        q, qd, qdd, tau = self.q, self.qd, self.qdd, self.tau
+        multiplier, raised = (ca.SX.sym(name, self.n) for name in ("multiplier", "raised"))
+        zero, g = ca.SX(self.n, 1), self.arm.gravity
+        ways = (None, self.arm.about_origins(), self.arm.regrouped())
+        torques = [self.damped(self.newton_euler(qd, qdd, g, way)) for way in ways]
+
+        def parts(value, driven):
+            by_q = ca.gradient(value, q)
+            by_driven = ca.jacobian(ca.gradient(value, driven), q)
+            return ca.hessian(value, q)[0], ca.jacobian(by_q, qd), ca.hessian(value, qd)[0], by_driven
+
+        def at_once(value):
+            n, all_of = self.n, ca.hessian(value, ca.vertcat(q, qd, qdd))[0]
+            return all_of[:n, :n], all_of[:n, n : 2 * n], all_of[n : 2 * n, n : 2 * n], all_of[2 * n :, :n]
+
+        name, given = "inverse_dynamics_second_derivatives", [q, qd, qdd, multiplier]
+        weighed = [ca.dot(multiplier, torque) for torque in torques]
+        tries = [made(name, given, *parts(value, qdd)) for value in weighed]
+        result = {name: best(*tries, *(made(name, given, *at_once(value)) for value in weighed))}
+        name, given = "forward_dynamics_second_derivatives", [q, qd, tau, multiplier]
+        d = self.composite(ways[2])
+        solved = self.factored(d, tau - self.damped(self.newton_euler(qd, zero, g, ways[2])))
+        accelerations = [ca.dot(multiplier, x) for x in (solved, self.articulated())]
+        tries = [made(name, given, *parts(value, tau)) for value in accelerations]
+        for torque in torques:
+            matrices = [*parts(ca.dot(raised, torque), qdd), ca.jacobian(torque, q), ca.jacobian(torque, qd)]
+            own = [ca.substitute(x, raised, self.factored(d, multiplier)) for x in matrices]
+            by_qq, by_qv, by_vv, driven, *slopes = (ca.substitute(x, qdd, solved) for x in own)
+            x = ca.horzcat(*(self.factored(d, driven[:, k]) for k in range(self.n))).T
+            bent = x @ slopes[0]
+            all_of = bent + bent.T - by_qq, x @ slopes[1] - by_qv, -by_vv, -x.T
+            tries.append(made(name, given, *all_of))
+        return result | {name: best(*tries)}

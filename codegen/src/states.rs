@@ -6,7 +6,7 @@ use dalembert_model::robot::{Field, Joint, JointKind, Position, Robot};
 
 use crate::random::Random;
 
-/// One value a joint, but for the last five.
+/// One value a joint, but for wrench, damping, gravity, load and payload.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct JointState {
     /// Positions, rad or m.
@@ -25,6 +25,8 @@ pub struct JointState {
     pub wrench: Vec<f64>,
     /// λ², one number.
     pub damping: Vec<f64>,
+    /// λ, which torques or accelerations are multiplied by.
+    pub multiplier: Vec<f64>,
     /// The acceleration of gravity in base axes, where it is an argument.
     pub g: Vec<f64>,
     /// The load that the payload is, where it is an argument.
@@ -54,6 +56,7 @@ impl JointState {
             Argument::ReferenceAcceleration => &self.a,
             Argument::Wrench => &self.wrench,
             Argument::Damping => &self.damping,
+            Argument::Multiplier => &self.multiplier,
             Argument::Gravity => &self.g,
             Argument::Load => &self.load,
             Argument::Payload => &self.payload,
@@ -84,6 +87,7 @@ impl JointState {
             Argument::ReferenceAcceleration => &mut self.a,
             Argument::Wrench => &mut self.wrench,
             Argument::Damping => &mut self.damping,
+            Argument::Multiplier => &mut self.multiplier,
             Argument::Gravity => &mut self.g,
             Argument::Load => &mut self.load,
             Argument::Payload => &mut self.payload,
@@ -122,7 +126,7 @@ pub fn seeded(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
             }
         }
     }
-    for argument in [Argument::Wrench, Argument::Damping] {
+    for argument in [Argument::Wrench, Argument::Damping, Argument::Multiplier] {
         let mut random = Random::new(seed ^ OTHERS ^ argument.index() as u64);
         let (low, high) = (argument.least(), argument.reach());
         for state in &mut states {

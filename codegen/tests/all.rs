@@ -36,6 +36,7 @@ mod regressor;
 mod scene_counts;
 mod scene_exact;
 mod scene_ways_in;
+mod second_derivatives;
 mod shallow;
 mod shown;
 mod sincos;

@@ -29,12 +29,14 @@ const FORCES: [f64; 3] = [2.5, 14.0, 0.0];
 const WIDTHS: [f64; 3] = [0.01, 1.0 / 300.0, 1.0];
 
 /// Whatever friction is in, and what it is not in.
-const RUBBED: [Function; 5] = [
+const RUBBED: [Function; 7] = [
     Function::InverseDynamics,
     Function::Passivity,
     Function::ForwardDynamics,
     Function::InverseDynamicsDerivatives,
     Function::ForwardDynamicsDerivatives,
+    Function::InverseDynamicsSecondDerivatives,
+    Function::ForwardDynamicsSecondDerivatives,
 ];
 const PLAIN: [Function; 6] = [
     Function::Coriolis,

@@ -63,8 +63,8 @@ fn numbers(value: &Value) -> Vec<f64> {
 
 fn state(json: &Value) -> JointState {
     JointState::new(|argument| match argument.given() {
-        Some(key) => numbers(&json[key]),
-        None => Vec::new(),
+        Some(key) if json.get(key).is_some() => numbers(&json[key]),
+        _ => Vec::new(),
     })
 }
 

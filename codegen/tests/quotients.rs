@@ -15,10 +15,11 @@ use dalembert_model::scene::{Scale, Scene, Tolerance};
 
 use crate::support;
 
-const INVERTING: [Function; 3] = [
+const INVERTING: [Function; 4] = [
     Function::ForwardDynamics,
     Function::InertiaInverse,
     Function::ForwardDynamicsDerivatives,
+    Function::ForwardDynamicsSecondDerivatives,
 ];
 
 fn program(robot: &Robot, function: Function) -> Program {

@@ -99,6 +99,8 @@ pub struct JointVectors<T> {
     pub wrench: DVector<T>,
     /// λ², one number; none where nothing reads it.
     pub damping: DVector<T>,
+    /// λ, which torques or accelerations are multiplied by; none where nothing reads it.
+    pub multiplier: DVector<T>,
     /// The columns of a regressor; none where it is not asked for.
     pub columns: Vec<Column<T>>,
     /// The payload at the hand, where a load is asked for.
@@ -118,6 +120,7 @@ impl<T: Float> JointVectors<T> {
             a,
             wrench: none(),
             damping: none(),
+            multiplier: none(),
             columns: Vec::new(),
             loading: None,
         }
@@ -134,6 +137,7 @@ impl<T: Float> JointVectors<T> {
             Argument::ReferenceAcceleration => &self.a,
             Argument::Wrench => &self.wrench,
             Argument::Damping => &self.damping,
+            Argument::Multiplier => &self.multiplier,
             Argument::Gravity | Argument::Load | Argument::Payload => return None,
         })
     }

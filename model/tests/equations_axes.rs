@@ -102,6 +102,13 @@ fn compare(arm: &Arm<Known>, points: &mut Points) -> usize {
     let (v, a) = (draw(), draw());
     let passivity = textbook.passivity(arm, &at, &qd, [&v, &a]);
     let by_velocity = textbook.torque_by_velocity(arm, &at, &qd);
+    let (state, rest) = ([&qd[..], &qdd, &v], [&qd[..], &v]);
+    let second = [
+        textbook.torque_by_positions(arm, &at, state),
+        textbook.torque_by_position_and_velocity(arm, &at, rest),
+        textbook.torque_by_velocities(arm, &at, rest),
+        textbook.torque_by_acceleration_and_position(arm, &at, &v),
+    ];
 
     let skeleton = Skeleton::new(arm, &[]);
     let mut chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
@@ -126,6 +133,9 @@ fn compare(arm: &Arm<Known>, points: &mut Points) -> usize {
             let slopes = composite.slopes(&qd, &qdd, travel);
             assert_eq!(slopes.position, by_position, "{choice:?}");
             assert_eq!(slopes.velocity, by_velocity, "{choice:?}");
+            let own = composite.second_derivatives(state, travel);
+            let own = [own.position, own.mixed, own.velocity, own.driven];
+            assert_eq!(own, second, "{choice:?}");
         }
         assert_eq!(composite.christoffel(), christoffel, "{choice:?}");
     }

@@ -14,7 +14,7 @@ use dalembert_model::scalar::{Divide, Scalar};
 
 /// Every function with its arguments, and its results' axes for six joints and
 /// 36 base parameters.
-const GOLDEN: [&str; 33] = [
+const GOLDEN: [&str; 35] = [
     "inverse_dynamics(q, qd, qdd) -> tau[6]",
     "gravity(q) -> c[6]",
     "inertia(q) -> d[6][6]",
@@ -48,6 +48,10 @@ const GOLDEN: [&str; 33] = [
     "consistent_inverse(q, damping) -> consistent_inverse[6][6]",
     "operational_bias(q, qd, damping) -> operational_bias[6]",
     "null_space_projector(q, damping) -> null_space[6][6]",
+    "inverse_dynamics_second_derivatives(q, qd, qdd, multiplier) -> \
+     d2tau_dq_dq[6][6] d2tau_dq_dqd[6][6] d2tau_dqd_dqd[6][6] d2tau_dqdd_dq[6][6]",
+    "forward_dynamics_second_derivatives(q, qd, tau, multiplier) -> \
+     d2qdd_dq_dq[6][6] d2qdd_dq_dqd[6][6] d2qdd_dqd_dqd[6][6] d2qdd_dtau_dq[6][6]",
 ];
 
 #[test]
@@ -389,9 +393,32 @@ fn at_true_speeds(case: &mut Case, points: &mut Points) {
     }
 }
 
+/// The arm, its position and its velocities as they change at the case's velocities and
+/// accelerations.
+type Accelerating = (
+    Arm<Dual<Field>>,
+    Vec<DhVariables<Dual<Field>>>,
+    Vec<Dual<Field>>,
+);
+
+/// The r of Coulomb friction changes by −q̇ r³ q̈, as 1/√(q̇² + w²) does.
+fn accelerating(case: &Case) -> Accelerating {
+    let (mut arm, at) = moving(case);
+    for (link, (qd, qdd)) in arm.links.iter_mut().zip(case.qd.iter().zip(&case.qdd)) {
+        let r = &mut link.friction.coulomb.as_mut().unwrap().per_speed;
+        let cube = r.value.mul(&r.value).mul(&r.value);
+        r.rate = qd.mul(&cube).mul(qdd).neg();
+    }
+    let rates = case.qd.iter().zip(&case.qdd);
+    let qd = rates.map(|(value, rate)| Dual {
+        value: *value,
+        rate: *rate,
+    });
+    (arm, at, qd.collect())
+}
+
 /// ∂q̈/∂q and ∂q̈/∂q̇ are the slopes of q̈ itself: its rate along the motion, with
-/// q̇ for the rate of q and q̈ for that of q̇. The r of Coulomb friction changes by
-/// −q̇ r³ q̈, as 1/√(q̇² + w²) does.
+/// q̇ for the rate of q and q̈ for that of q̇.
 #[test]
 fn acceleration_slopes_are_its_rates() {
     let mut points = Points::new(0x736c);
@@ -401,22 +428,7 @@ fn acceleration_slopes_are_its_rates() {
         let moves = vec![true; n];
         let motion = driven(&case, &moves, &mut points);
         let form = Formulation::LagrangeEuler;
-        let (mut arm_moving, at_moving) = moving(&case);
-        let joints = arm_moving
-            .links
-            .iter_mut()
-            .zip(case.qd.iter().zip(&case.qdd));
-        for (link, (qd, qdd)) in joints {
-            let r = &mut link.friction.coulomb.as_mut().unwrap().per_speed;
-            let cube = r.value.mul(&r.value).mul(&r.value);
-            r.rate = qd.mul(&cube).mul(qdd).neg();
-        }
-        let qd: Vec<Dual<Field>> = (case.qd.iter().zip(&case.qdd))
-            .map(|(value, rate)| Dual {
-                value: *value,
-                rate: *rate,
-            })
-            .collect();
+        let (arm_moving, at_moving, qd) = accelerating(&case);
         let tau: Vec<_> = motion.tau.iter().copied().map(Dual::constant).collect();
         let whole = form.forward_dynamics(&arm_moving, &at_moving, &qd, &tau, &moves);
         let [by_position, by_velocity] =
@@ -427,6 +439,90 @@ fn acceleration_slopes_are_its_rates() {
                 rate.add(&position.add(&by_velocity[i][k].mul(&case.qdd[k])))
             });
             assert_eq!(rate, whole[i].rate);
+        }
+    }
+}
+
+/// The second derivatives of λᵀτ and of λᵀq̈ are the rates of λᵀ times the first along the
+/// motion, which differentiates other formulas than their own.
+#[test]
+fn second_derivatives_are_rates_of_slopes() {
+    let mut points = Points::new(0x3264);
+    for mut case in cases() {
+        at_true_speeds(&mut case, &mut points);
+        let n = case.arm.links.len();
+        let moves = vec![true; n];
+        let motion = driven(&case, &moves, &mut points);
+        let second = |quantity: Quantity| {
+            quantity.written(&Written {
+                formulation: Formulation::NewtonEulerLink,
+                arm: &case.arm,
+                at: &case.at,
+                motion: &motion,
+                columns: &[],
+            })
+        };
+        let (arm, at, qd) = accelerating(&case);
+        let constants = |x: &[Field]| x.iter().copied().map(Dual::constant).collect::<Vec<_>>();
+        let [qdd, tau] = [&motion.qdd, &motion.tau].map(|x| constants(x));
+        let form = Formulation::Dalembert;
+        let [q_slopes, v_slopes] = form.acceleration_slopes(&arm, &at, &qd, &tau, &moves);
+        for (first, by_position, by_velocity) in [
+            (
+                form.torque_by_position(&arm, &at, &qd, &qdd),
+                (Quantity::TorqueByPositions, false),
+                Some((Quantity::TorqueByPositionAndVelocity, false)),
+            ),
+            (
+                form.torque_by_velocity(&arm, &at, &qd),
+                (Quantity::TorqueByPositionAndVelocity, true),
+                Some((Quantity::TorqueByVelocities, false)),
+            ),
+            (
+                form.inertia(&arm, &at),
+                (Quantity::TorqueByAccelerationAndPosition, false),
+                None,
+            ),
+            (
+                q_slopes,
+                (Quantity::AccelerationByPositions, false),
+                Some((Quantity::AccelerationByPositionAndVelocity, false)),
+            ),
+            (
+                v_slopes,
+                (Quantity::AccelerationByPositionAndVelocity, true),
+                Some((Quantity::AccelerationByVelocities, false)),
+            ),
+            (
+                form.inertia_inverse(&arm, &at, &moves),
+                (Quantity::AccelerationByTorqueAndPosition, false),
+                None,
+            ),
+        ] {
+            // Row k of a matrix, or of its transpose, times what changes.
+            let along = |(quantity, transposed): (Quantity, bool), rates: &[Field]| {
+                let entries = second(quantity);
+                let entry = |k: usize, m: usize| match transposed {
+                    false => entries[k * n + m],
+                    true => entries[m * n + k],
+                };
+                let row = |k| {
+                    let products = rates
+                        .iter()
+                        .enumerate()
+                        .map(move |(m, x)| entry(k, m).mul(x));
+                    products.fold(Field::ZERO, |sum, x| sum.add(&x))
+                };
+                (0..n).map(row).collect::<Vec<Field>>()
+            };
+            let position = along(by_position, &case.qd);
+            let velocity = by_velocity.map(|of| along(of, &case.qdd));
+            for k in 0..n {
+                let rows = first.iter().zip(&motion.multiplier);
+                let rate = rows.fold(Field::ZERO, |sum, (row, l)| sum.add(&row[k].rate.mul(l)));
+                let other = velocity.as_ref().map_or(Field::ZERO, |all| all[k]);
+                assert_eq!(position[k].add(&other), rate, "{by_position:?} {k}");
+            }
         }
     }
 }

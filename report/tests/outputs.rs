@@ -193,6 +193,7 @@ fn runtime_gives_what_is_known() {
             let at = JointVectors {
                 wrench: vector(state.of(Argument::Wrench)),
                 damping: vector(state.of(Argument::Damping)),
+                multiplier: vector(state.of(Argument::Multiplier)),
                 ..JointVectors::new(Argument::JOINTS.map(|argument| vector(state.of(argument))))
             };
             assert_eq!(known.len(), 13);

@@ -76,4 +76,26 @@ answers! {
         /// ∂q̈/∂τ = D⁻¹.
         dqdd_dtau: [[T; N]; N],
     }
+    /// The second derivatives of λᵀτ.
+    InverseDynamicsSecondDerivatives {
+        /// ∂²(λᵀτ)/∂q∂q, symmetric.
+        d2tau_dq_dq: [[T; N]; N],
+        /// ∂²(λᵀτ)/∂q∂q̇: row i has the slopes by q̇ of ∂(λᵀτ)/∂q_i.
+        d2tau_dq_dqd: [[T; N]; N],
+        /// ∂²(λᵀτ)/∂q̇∂q̇, symmetric.
+        d2tau_dqd_dqd: [[T; N]; N],
+        /// ∂²(λᵀτ)/∂q̈∂q = ∂(D λ)/∂q: row i has the slopes of (D λ)_i.
+        d2tau_dqdd_dq: [[T; N]; N],
+    }
+    /// The second derivatives of λᵀq̈.
+    ForwardDynamicsSecondDerivatives {
+        /// ∂²(λᵀq̈)/∂q∂q, symmetric.
+        d2qdd_dq_dq: [[T; N]; N],
+        /// ∂²(λᵀq̈)/∂q∂q̇: row i has the slopes by q̇ of ∂(λᵀq̈)/∂q_i.
+        d2qdd_dq_dqd: [[T; N]; N],
+        /// ∂²(λᵀq̈)/∂q̇∂q̇, symmetric.
+        d2qdd_dqd_dqd: [[T; N]; N],
+        /// ∂²(λᵀq̈)/∂τ∂q = ∂(D⁻¹λ)/∂q: row i has the slopes of (D⁻¹λ)_i.
+        d2qdd_dtau_dq: [[T; N]; N],
+    }
 }

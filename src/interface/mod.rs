@@ -107,4 +107,8 @@ questions! {
     OperationalBias::operational_bias(q, qd, damping: 1) -> [T; 6];
     /// N = 1 − J̄ J.
     NullSpaceProjector::null_space_projector(q, damping: 1) -> [[T; N]; N];
+    /// Second derivatives of λᵀτ, λ the multiplier.
+    InverseDynamicsSecondDerivatives::inverse_dynamics_second_derivatives(q, qd, qdd, multiplier) -> answers::InverseDynamicsSecondDerivatives<T, N>;
+    /// Second derivatives of λᵀq̈, λ the multiplier.
+    ForwardDynamicsSecondDerivatives::forward_dynamics_second_derivatives(q, qd, tau, multiplier) -> answers::ForwardDynamicsSecondDerivatives<T, N>;
 }

@@ -174,7 +174,8 @@ fn leaf(input: Input, limits: &InputBox) -> Option<Polynomial> {
             | Argument::Load
             | Argument::Payload
             | Argument::Wrench
-            | Argument::Damping,
+            | Argument::Damping
+            | Argument::Multiplier,
             _,
         ) => return None,
         Input::Entry(Argument::Position, joint) => {

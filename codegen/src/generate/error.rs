@@ -6,7 +6,7 @@ use super::parameters::ParameterError;
 use super::reason::NoSines;
 use crate::approximate::error::ToleranceError;
 use crate::certificate::Refuted;
-use crate::function::Function;
+use crate::function::{Argument, Function};
 use crate::generate::language::Lacks;
 use crate::language::Language;
 use crate::program::ScalarType;
@@ -147,6 +147,15 @@ impl fmt::Display for GenerateError {
                 "`{}`: the robot has no frame `{frame}`: {fix}",
                 function.text()
             ),
+            GenerateError::Follows(function)
+                if function.arguments().contains(&Argument::Multiplier) =>
+            {
+                write!(
+                    f,
+                    "`{function}` is not there where joints follow others (`mimic`): first \
+                     derivatives are"
+                )
+            }
             GenerateError::Follows(function) => write!(
                 f,
                 "`{function}` has entries of each link, and where joints follow others (`mimic`) \

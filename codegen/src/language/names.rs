@@ -8,11 +8,12 @@ use crate::program::ScalarType;
 pub(crate) const LONGEST: usize = 31;
 
 /// Words that are shortened in names that would be too long.
-const SHORT: [(&str, &str); 18] = [
+const SHORT: [(&str, &str); 19] = [
     ("inverse", "inv"),
     ("forward", "fwd"),
     ("dynamics", "dyn"),
     ("derivatives", "deriv"),
+    ("second", "sec"),
     ("kinematics", "kin"),
     ("coefficients", "coef"),
     ("manipulator", "manip"),

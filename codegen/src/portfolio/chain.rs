@@ -9,7 +9,7 @@ use dalembert_model::equations::matrix::{Vector, scaled};
 use dalembert_model::equations::regressor::{Column, LinkParameter};
 use dalembert_model::equations::{Arm, DhVariables, Formulation};
 use dalembert_model::number::Exact;
-use dalembert_model::outputs::{Motion, Regrouped, RuntimeParameter, Written};
+use dalembert_model::outputs::{Motion, Regrouped, RuntimeParameter, Shared, Written};
 
 use super::numbers::Numbers;
 use super::tune::{self, Tuned};
@@ -63,6 +63,7 @@ pub fn trace_chain(
             .iter()
             .filter_map(|own| own.among(rows))
             .collect::<Vec<_>>(),
+        shared: Shared::default(),
     };
     let mut outputs = Vec::new();
     for &quantity in function.quantities() {

@@ -53,6 +53,7 @@ fn short(name: &str) -> String {
         ("forward", "fwd"),
         ("dynamics", "dyn"),
         ("derivatives", "deriv"),
+        ("second", "sec"),
         ("kinematics", "kin"),
         ("coefficients", "coef"),
         ("manipulator", "manip"),

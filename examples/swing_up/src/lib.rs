@@ -19,7 +19,7 @@ pub use follow::{Run, follow};
 dalembert::dynamics! {
     /// Two equal links in a vertical plane.
     pub mod planar2r = "../../generated/robots/planar2r.toml";
-    outputs: forward_dynamics, forward_dynamics_derivatives;
+    outputs: forward_dynamics, forward_dynamics_derivatives, forward_dynamics_second_derivatives;
     scalar: f64;
 }
 

@@ -8,6 +8,8 @@ use crate::planar2r;
 pub type State = SVector<f64, 4>;
 /// Slopes by the state.
 pub type Square = SMatrix<f64, 4, 4>;
+/// Second derivatives by the state and, last, the torque.
+pub type Bend = SMatrix<f64, 5, 5>;
 
 /// Hanging at rest; q₁ is counted from the horizontal.
 pub const HANGING: State = State::new(-core::f64::consts::FRAC_PI_2, 0.0, 0.0, 0.0);
@@ -44,6 +46,62 @@ pub fn slopes(state: &State, torque: f64, period: f64) -> (Square, State) {
     }
     let sixth = period / 6.0;
     (Square::identity() + sum_state * sixth, sum_torque * sixth)
+}
+
+/// The second derivatives of λᵀ[`step`] by state and torque. Backward through the four
+/// stages: of the rate of each the step counts λᵀ times its weight, and what the stage after
+/// makes of it.
+pub fn bends(state: &State, torque: f64, period: f64, multiplier: &State) -> Bend {
+    let mut at = *state;
+    let mut by_both = Bend::identity();
+    let stages = [0.5, 0.5, 1.0, 0.0].map(|next| {
+        let (own_state, own_torque) = rate_slopes(&at, torque);
+        let stage = (at, by_both, own_state);
+        let ahead = next * period;
+        let moved = own_state * by_both.fixed_rows::<4>(0) + own_torque * by_both.row(4);
+        at = state + rate(&at, torque) * ahead;
+        by_both = Bend::identity();
+        let mut rows = by_both.fixed_rows_mut::<4>(0);
+        rows += moved * ahead;
+        stage
+    });
+    let mut bends = Bend::zeros();
+    // What the stage after makes of this one's rate.
+    let mut onward = State::zeros();
+    for (weight, next, (at, by_both, own_state)) in [
+        (1.0, 0.0, stages[3]),
+        (2.0, 1.0, stages[2]),
+        (2.0, 0.5, stages[1]),
+        (1.0, 0.5, stages[0]),
+    ] {
+        let counted = multiplier * (weight * period / 6.0) + onward * (next * period);
+        bends += by_both.transpose() * rate_bends(&at, torque, &counted) * by_both;
+        onward = own_state.transpose() * counted;
+    }
+    bends
+}
+
+/// The second derivatives of λᵀ(q̇, q̈), of which q̇ has none.
+fn rate_bends(state: &State, torque: f64, multiplier: &State) -> Bend {
+    let [q1, q2, qd1, qd2] = (*state).into();
+    let own = planar2r::forward_dynamics_second_derivatives(
+        &[q1, q2],
+        &[qd1, qd2],
+        &[0.0, torque],
+        &[multiplier[2], multiplier[3]],
+    );
+    let mut bends = Bend::zeros();
+    for i in 0..planar2r::N {
+        for k in 0..planar2r::N {
+            bends[(i, k)] = own.d2qdd_dq_dq[i][k];
+            bends[(i, 2 + k)] = own.d2qdd_dq_dqd[i][k];
+            bends[(2 + k, i)] = own.d2qdd_dq_dqd[i][k];
+            bends[(2 + i, 2 + k)] = own.d2qdd_dqd_dqd[i][k];
+        }
+        bends[(4, i)] = own.d2qdd_dtau_dq[1][i];
+        bends[(i, 4)] = own.d2qdd_dtau_dq[1][i];
+    }
+    bends
 }
 
 /// (q̇, q̈) under a torque at the elbow.

@@ -1,6 +1,6 @@
-//! Torques that swing the arm up: differential dynamic programming (iLQR, the second
-//! derivatives of the dynamics left out), with the motor's limit as Tassa, Mansard and
-//! Todorov (2014) have it.
+//! Torques that swing the arm up: differential dynamic programming, with the second
+//! derivatives of the dynamics or without (iLQR), and with the motor's limit as Tassa,
+//! Mansard and Todorov (2014) have it.
 //!
 //! Backward from the end, the cost to go is approximated by a parabola of the state, and
 //! the best change of each torque follows with a gain on the state. Forward, the changed
@@ -8,7 +8,7 @@
 //! Nothing is drawn at random: the same plan on every machine.
 
 use crate::limited;
-use crate::model::{HANGING, Square, State, UPRIGHT, slopes, step};
+use crate::model::{Bend, HANGING, Square, State, UPRIGHT, bends, slopes, step};
 
 /// The period of the plan, s.
 pub const PERIOD: f64 = 0.02;
@@ -22,6 +22,8 @@ const ELSEWHERE: State = State::new(0.5, 0.5, 0.05, 0.05);
 const END: State = State::new(1000.0, 1000.0, 100.0, 100.0);
 /// A plan that gets no better than by this is done.
 const ENOUGH: f64 = 1e-4;
+/// The least that a change of the next state is taken to cost besides.
+const LEAST_CAUTION: f64 = 1e-6;
 /// The most rounds there may be.
 const ROUNDS: usize = 400;
 
@@ -38,42 +40,65 @@ pub struct Plan {
     pub costs: Vec<f64>,
 }
 
+/// Which derivatives of the dynamics a plan is made with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Derivatives {
+    /// The first alone (iLQR).
+    First,
+    /// The second as well.
+    Second,
+}
+
 /// Changes of the torques and gains on the states.
 type Changes = (Vec<f64>, Vec<State>);
 
 /// A plan from hanging at rest to upright at rest.
-pub fn plan() -> Plan {
+pub fn plan(derivatives: Derivatives) -> Plan {
     let mut plan = Plan::of(vec![0.0; STEPS]);
     // What a change of the next state costs besides: where parabolas mislead, little is
     // changed.
-    let mut caution = 1e-6;
+    let mut caution = LEAST_CAUTION;
     for _ in 0..ROUNDS {
-        let Some((changes, gains)) = plan.backward(caution) else {
+        let bent = plan.bent(derivatives);
+        let Some((better, part)) = bent.or_else(|| plan.better(caution, Derivatives::First)) else {
+            if caution > 1e6 {
+                break;
+            }
             caution *= 10.0;
             continue;
         };
-        plan.gains = gains;
-        let cost = plan.cost();
-        match plan.forward(&changes) {
-            Some((better, part)) => {
-                let gained = cost - better.cost();
-                plan = better;
-                caution = match part {
-                    1.0 => (caution / 3.0).max(1e-6),
-                    _ => caution,
-                };
-                if gained < ENOUGH {
-                    break;
-                }
-            }
-            None if caution > 1e6 => break,
-            None => caution *= 10.0,
+        let gained = plan.cost() - better.cost();
+        plan = better;
+        if part == 1.0 {
+            caution = (caution / 3.0).max(LEAST_CAUTION);
         }
+        if gained < ENOUGH {
+            break;
+        }
+    }
+    // Of parabolas that have a lowest point everywhere.
+    if let Some((_, gains)) = plan.backward(LEAST_CAUTION, Derivatives::First) {
+        plan.gains = gains;
     }
     plan
 }
 
 impl Plan {
+    /// The plan that second derivatives make better, where they are asked for. Far from the
+    /// best plan they may have no lowest point, or one that is of no use: then the first are
+    /// the better guide.
+    fn bent(&self, derivatives: Derivatives) -> Option<(Plan, f64)> {
+        let wanted = (derivatives == Derivatives::Second).then_some(derivatives)?;
+        let found = self.better(LEAST_CAUTION, wanted);
+        found.filter(|(_, part)| *part > 0.1)
+    }
+
+    /// A better plan, and which part of the changes that parabolas advise it has.
+    fn better(&self, caution: f64, derivatives: Derivatives) -> Option<(Plan, f64)> {
+        let (changes, gains) = self.backward(caution, derivatives)?;
+        self.forward(&changes, &gains)
+    }
+
     /// Simulates these torques without gains.
     fn of(torques: Vec<f64>) -> Plan {
         let mut states = vec![HANGING];
@@ -110,7 +135,7 @@ impl Plan {
     }
 
     /// The changes that parabolas advise; `None` where one has no lowest point.
-    fn backward(&self, caution: f64) -> Option<Changes> {
+    fn backward(&self, caution: f64, derivatives: Derivatives) -> Option<Changes> {
         let mut slope = self.off().component_mul(&END);
         let mut bend = Square::from_diagonal(&END);
         let mut changes = vec![0.0; self.torques.len()];
@@ -120,8 +145,12 @@ impl Plan {
             let (by_state, by_torque) = slopes(&self.states[k], torque, PERIOD);
             let carried = bend * by_torque;
             let of_torque = EFFORT * PERIOD * torque + by_torque.dot(&slope);
-            let of_torques = EFFORT * PERIOD + by_torque.dot(&carried);
-            let mixed = by_state.transpose() * carried;
+            let bent = match derivatives {
+                Derivatives::First => Bend::zeros(),
+                Derivatives::Second => bends(&self.states[k], torque, PERIOD, &slope),
+            };
+            let of_torques = EFFORT * PERIOD + by_torque.dot(&carried) + bent[(4, 4)];
+            let mixed = by_state.transpose() * carried + bent.fixed_view::<4, 1>(0, 4);
             let wary = by_state.transpose() * by_torque * caution + mixed;
             let lowest = of_torques + caution * by_torque.dot(&by_torque);
             if lowest <= 0.0 {
@@ -141,6 +170,7 @@ impl Plan {
                 + mixed * change;
             bend = Square::from_diagonal(&each)
                 + by_state.transpose() * bend * by_state
+                + bent.fixed_view::<4, 4>(0, 0)
                 + gain * gain.transpose() * of_torques
                 + gain * mixed.transpose()
                 + mixed * gain.transpose();
@@ -152,19 +182,19 @@ impl Plan {
     }
 
     /// The plan with as much of the changes as makes it better, and how much that is.
-    fn forward(&self, changes: &[f64]) -> Option<(Plan, f64)> {
+    fn forward(&self, changes: &[f64], gains: &[State]) -> Option<(Plan, f64)> {
         let cost = self.cost();
         let mut part = 1.0;
         while part > 1e-4 {
             let mut tried = Plan {
                 torques: Vec::with_capacity(self.torques.len()),
                 states: vec![HANGING],
-                gains: self.gains.clone(),
+                gains: gains.to_vec(),
                 costs: self.costs.clone(),
             };
             for (k, change) in changes.iter().enumerate() {
                 let off = tried.states[k] - self.states[k];
-                let torque = limited(self.torques[k] + part * change + self.gains[k].dot(&off));
+                let torque = limited(self.torques[k] + part * change + gains[k].dot(&off));
                 tried.states.push(step(&tried.states[k], torque, PERIOD));
                 tried.torques.push(torque);
             }

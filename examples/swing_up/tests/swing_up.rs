@@ -3,13 +3,13 @@
 use std::process::Command;
 
 use example_shared::checked_in;
-use swing_up::model::{HANGING, State, slopes, step};
-use swing_up::plan::plan;
+use swing_up::model::{HANGING, State, bends, slopes, step};
+use swing_up::plan::{Derivatives, Plan, plan};
 use swing_up::{LIMIT, chart, follow};
 
 #[test]
 fn the_arm_swings_up_and_stays() {
-    let plan = plan();
+    let plan = plan(Derivatives::Second);
     let falls = plan.costs.windows(2).all(|pair| pair[1] < pair[0]);
     assert!(falls, "{:?}", plan.costs);
     assert!(plan.off().abs().max() < 1e-2, "{}", plan.off());
@@ -24,6 +24,19 @@ fn the_arm_swings_up_and_stays() {
     let path = checked_in::guide("swing_up.svg");
     let same = checked_in::is(&path, &chart::svg(&run)).unwrap();
     assert!(same, "written anew, look at it: {path:?}");
+}
+
+/// In fewer rounds, to a plan that is as good.
+#[test]
+fn second_derivatives_save_rounds() {
+    let [first, second] = [Derivatives::First, Derivatives::Second].map(plan);
+    let rounds = |plan: &Plan| plan.costs.len() - 1;
+    assert!(
+        3 * rounds(&second) < 2 * rounds(&first),
+        "{}",
+        rounds(&second)
+    );
+    assert!(second.cost() <= first.cost());
 }
 
 #[test]
@@ -42,6 +55,30 @@ fn slopes_are_those_of_the_step() {
     let there = step(&state, torque + tiny, period);
     let slope = (there - step(&state, torque - tiny, period)) / (2.0 * tiny);
     assert!((slope - by_torque).abs().max() < 1e-8);
+}
+
+#[test]
+fn bends_are_those_of_the_step() {
+    let state = HANGING + State::new(0.7, -1.1, 2.0, -3.0);
+    let (torque, period) = (1.5, 0.02);
+    let multiplier = State::new(0.3, -0.8, 1.2, 0.5);
+    let found = bends(&state, torque, period, &multiplier);
+    let slope = |state: &State, torque: f64| {
+        let (by_state, by_torque) = slopes(state, torque, period);
+        let of_state = by_state.transpose() * multiplier;
+        of_state.push(by_torque.dot(&multiplier))
+    };
+    let tiny = 1e-6;
+    for k in 0..5 {
+        let mut off = State::zeros();
+        if k < 4 {
+            off[k] = tiny;
+        }
+        let pull = if k == 4 { tiny } else { 0.0 };
+        let there = slope(&(state + off), torque + pull);
+        let bend = (there - slope(&(state - off), torque - pull)) / (2.0 * tiny);
+        assert!((bend - found.column(k)).abs().max() < 1e-8);
+    }
 }
 
 #[test]

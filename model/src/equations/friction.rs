@@ -16,7 +16,7 @@
 //! written so everywhere: F_i (r_i − q̇_i² r_i³) is the same number, but another
 //! polynomial, and loses its digits to a difference at high speed.
 
-use super::matrix::{plus, times};
+use super::matrix::{negative, plus, times, twice};
 use crate::scalar::{Divide, Scalar};
 
 /// Friction of a joint, at the velocity that it has.
@@ -73,6 +73,17 @@ impl<S: Scalar> Friction<S> {
             None => self.viscous.clone(),
             Some(coulomb) => plus(&self.viscous, &coulomb.slope()),
         }
+    }
+
+    /// Returns what the slope grows by with the velocity: −3 q̇ r² times that of Coulomb
+    /// friction, as r grows by −q̇ r³.
+    pub fn curvature(&self, qd: &S) -> S {
+        let Some(coulomb) = &self.coulomb else {
+            return S::zero();
+        };
+        let square = times(&coulomb.per_speed, &coulomb.per_speed);
+        let triple = plus(&twice(qd), qd);
+        negative(&times(&times(&triple, &square), &coulomb.slope()))
     }
 }
 

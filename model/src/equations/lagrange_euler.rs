@@ -102,6 +102,29 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
             .collect()
     }
 
+    /// λᵀ(D q̈ + h + c), with the sums over joints taken before those over links: of link j
+    /// Tr(A J_j Vᵀ) − m_j g V s̃_j, A = Σ U_jk q̈_k + Σ U_jkm q̇_k q̇_m and V = Σ U_ji λ_i.
+    pub fn virtual_power(&self, qd: &[S], qdd: &[S], multiplier: &[S]) -> S {
+        let second = self.second_derivatives();
+        let of_link = |(j, link): (usize, &Link<S>)| {
+            let own = &second[j];
+            let pairs = (0..=j).flat_map(|k| (0..=k).map(move |m| (k, m)));
+            let centripetal = pairs.map(|(k, m)| {
+                let rates = times(&qd[k], &qd[m]);
+                let rates = if k == m { rates } else { twice(&rates) };
+                (rates, &own[k][m])
+            });
+            let direct = qdd.iter().cloned().zip(&self.u[j]);
+            let acceleration = Columns::combination(direct.chain(centripetal));
+            let weights = multiplier.iter().cloned().zip(&self.uj[j]);
+            let moved = Columns::combination(weights);
+            let rotor = times(&link.armature, &times(&multiplier[j], &qdd[j]));
+            let weight = dot(&self.arm.gravity, &moved.origin);
+            plus(&minus(&acceleration.trace_with(&moved), &weight), &rotor)
+        };
+        total(self.arm.links.iter().enumerate().map(of_link))
+    }
+
     /// `[i][k][j]` = U_ijk = U_ikj for j ≤ k ≤ i.
     fn second_derivatives(&self) -> Vec<Vec<Vec<Columns<S>>>> {
         let mut all: Vec<Vec<Vec<Columns<S>>>> = Vec::with_capacity(self.u.len());

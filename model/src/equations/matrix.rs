@@ -253,6 +253,21 @@ impl<S: Scalar> Columns<S> {
         Inertia::symmetric(|i, k| turned[i][k].clone())
     }
 
+    /// Returns the sum of matrices, each times a number.
+    pub fn combination<'a>(terms: impl Iterator<Item = (S, &'a Self)>) -> Self
+    where
+        S: 'a,
+    {
+        let nothing = Columns {
+            axes: [zero_vector(), zero_vector(), zero_vector()],
+            origin: zero_vector(),
+        };
+        terms.fold(nothing, |all, (s, own)| Columns {
+            axes: core::array::from_fn(|i| sum(&all.axes[i], &scaled(&s, &own.axes[i]))),
+            origin: sum(&all.origin, &scaled(&s, &own.origin)),
+        })
+    }
+
     /// Tr(M Nᵀ), the sum of the products of equal entries.
     pub fn trace_with(&self, other: &Self) -> S {
         let axes = self.axes.iter().zip(&other.axes);

@@ -8,6 +8,7 @@
 //! | [`dalembert`] | generalized D'Alembert, D^rot, D^tran, h^rot, h^tran, eqs. 4.1–4.5 |
 //! | [`energy`] | T, U, D q̇, ∂T/∂q and C of every formulation |
 //! | [`derivatives`] | ∂τ/∂q and ∂τ/∂q̇ of every formulation, by duals |
+//! | [`second_derivatives`] | those of λᵀτ and λᵀq̈ of every formulation |
 //! | [`forward`] | q̈, D⁻¹ and slopes of q̈ of every formulation |
 //! | [`following`] | joints that follow others, by the chain rule |
 //! | [`friction`] | what joints take of torque while they move |
@@ -56,6 +57,7 @@ pub mod matrix;
 pub mod newton_euler;
 pub mod operational;
 pub mod regressor;
+pub mod second_derivatives;
 
 pub use crate::scalar::SinCosPair;
 pub use arm::{Arm, DhVariables, JointPosition, Link};

@@ -30,6 +30,8 @@ pub enum Argument {
     Wrench,
     /// λ², which keeps an inverse finite where the arm is singular.
     Damping,
+    /// λ: by how much each torque, or acceleration, counts in what is differentiated twice.
+    Multiplier,
 }
 
 /// The number of entries of an argument.
@@ -167,11 +169,21 @@ const TABLE: [Facts; Argument::COUNT] = [
         limit: None,
         reach: 1.0,
     },
+    Facts {
+        name: "multiplier",
+        symbol: "λ",
+        noun: "multiplier",
+        given: Some("multiplier"),
+        meaning: "λ, by how much each joint counts: Lagrange multipliers, or the slope of a cost to go.",
+        length: Length::Joints,
+        limit: None,
+        reach: 1.0,
+    },
 ];
 
 impl Argument {
     /// The number of arguments.
-    pub const COUNT: usize = 11;
+    pub const COUNT: usize = 12;
 
     /// Every argument, in the order of signatures.
     pub const ALL: [Argument; Argument::COUNT] = [
@@ -186,6 +198,7 @@ impl Argument {
         Argument::Payload,
         Argument::Wrench,
         Argument::Damping,
+        Argument::Multiplier,
     ];
 
     /// Those with an entry a joint, which a motion is made of.
@@ -290,7 +303,8 @@ mod tests {
             assert_eq!(Argument::from_name(argument.name()), Some(argument));
         }
         let of_joints = Argument::ALL.into_iter().filter(|a| a.is_of_joints());
-        assert!(of_joints.eq(Argument::JOINTS));
+        let motion = Argument::JOINTS.into_iter();
+        assert!(of_joints.eq(motion.chain([Argument::Multiplier])));
         assert_eq!(Argument::from_name("t"), None);
     }
 }

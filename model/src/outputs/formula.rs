@@ -1,10 +1,12 @@
 //! What a quantity's file says, and what its formulas are given.
 
 use alloc::vec::Vec;
+use core::cell::OnceCell;
 
 use super::Argument;
 use super::quantity::Facts;
 use crate::equations::chain::composite::Composite;
+use crate::equations::chain::second_derivatives::SecondDerivatives;
 use crate::equations::chain::{Chain, Displacement, Form};
 use crate::equations::following::{Following, gathered_square};
 use crate::equations::load::Loading;
@@ -62,6 +64,8 @@ pub struct Motion<S> {
     pub wrench: Vec<S>,
     /// λ², one number.
     pub damping: Vec<S>,
+    /// λ, by which torques or accelerations are multiplied before they are differentiated.
+    pub multiplier: Vec<S>,
     /// r_i = 1/√(q̇_i² + w_i²) of each joint with Coulomb friction, where it is not
     /// that of a joint at rest ([`friction`](crate::equations::friction)).
     pub per_speed: Vec<Option<S>>,
@@ -86,6 +90,7 @@ impl<S> Motion<S> {
             a: entries(Argument::ReferenceAcceleration),
             wrench: entries(Argument::Wrench),
             damping: entries(Argument::Damping),
+            multiplier: entries(Argument::Multiplier),
             loading: None,
         }
     }
@@ -105,6 +110,7 @@ impl<S> Motion<S> {
             Argument::Torque => Some(&mut self.tau),
             Argument::ReferenceVelocity => Some(&mut self.v),
             Argument::ReferenceAcceleration => Some(&mut self.a),
+            Argument::Multiplier => Some(&mut self.multiplier),
         }
     }
 }
@@ -123,6 +129,7 @@ impl<S: Clone> Motion<S> {
             a: pick(&self.a),
             wrench: self.wrench.clone(),
             damping: self.damping.clone(),
+            multiplier: pick(&self.multiplier),
             per_speed: joints
                 .iter()
                 .map(|&joint| self.per_speed[joint].clone())
@@ -175,7 +182,7 @@ impl<S: Scalar> Motion<S> {
         self.q.push(JointPosition::Prismatic(S::zero()));
         self.moves.push(false);
         self.per_speed.push(None);
-        for argument in Argument::JOINTS {
+        for argument in Argument::ALL {
             if let Some(entries) = self.of_mut(argument) {
                 entries.push(S::zero());
             }
@@ -218,6 +225,26 @@ pub struct Regrouped<'a, S> {
     pub joints: &'a [usize],
     /// Those of the chain that follow others, by their places in it.
     pub following: &'a [Following<S>],
+    /// What several quantities are read off.
+    pub shared: Shared<S>,
+}
+
+/// What several quantities of one function are read off, computed where it is first asked for.
+#[derive(Clone, Debug)]
+pub struct Shared<S> {
+    /// The second derivatives of λᵀτ.
+    pub(super) of_torques: OnceCell<SecondDerivatives<S>>,
+    /// The second derivatives of λᵀq̈.
+    pub(super) of_accelerations: OnceCell<SecondDerivatives<S>>,
+}
+
+impl<S> Default for Shared<S> {
+    fn default() -> Self {
+        Shared {
+            of_torques: OnceCell::new(),
+            of_accelerations: OnceCell::new(),
+        }
+    }
 }
 
 impl<S: Scalar> Regrouped<'_, S> {

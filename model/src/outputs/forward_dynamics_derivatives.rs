@@ -69,7 +69,7 @@ fn written<S: Divide>(at: &Written<'_, S>) -> [Vec<S>; 2] {
 }
 
 /// D X + S over the joints that move, for the slopes X of q̈ and S of τ.
-fn defect<S: Divide>(at: &Written<'_, S>, x: &[S], slopes: &[Vec<S>]) -> Vec<S> {
+pub(super) fn defect<S: Divide>(at: &Written<'_, S>, x: &[S], slopes: &[Vec<S>]) -> Vec<S> {
     let d = at.formulation.gathered_inertia(at.arm, at.at);
     let slopes = gathered_columns(&at.arm.following, slopes.to_vec());
     let (free, n) = (free(&at.motion.moves), d.len());

@@ -37,6 +37,7 @@ mod dalembert_terms;
 mod dynamic_coefficients;
 mod forward_dynamics;
 mod forward_dynamics_derivatives;
+mod forward_dynamics_second_derivatives;
 mod forward_dynamics_with_wrench;
 mod forward_kinematics;
 mod full_regressor;
@@ -45,6 +46,7 @@ mod inertia;
 mod inertia_inverse;
 mod inverse_dynamics;
 mod inverse_dynamics_derivatives;
+mod inverse_dynamics_second_derivatives;
 mod inverse_dynamics_with_wrench;
 mod jacobian;
 mod jacobian_rate;
@@ -67,7 +69,7 @@ mod regressor;
 pub use argument::Argument;
 pub use at::{FunctionAt, QuantityAt};
 pub use bundle::{Bundle, BundleError};
-pub use formula::{Motion, Regrouped, Written};
+pub use formula::{Motion, Regrouped, Shared, Written};
 pub use function::Columns;
 pub use quantity::{ErrorScale, Index};
 pub use runtime::{PayloadDependence, RuntimeParameter};
@@ -146,6 +148,16 @@ registry! {
     operational_bias: OperationalBias { OperationalBias }
     /// N = 1 − J̄ J.
     null_space_projector: NullSpaceProjector { NullSpace }
+    /// Second derivatives of λᵀτ.
+    inverse_dynamics_second_derivatives: InverseDynamicsSecondDerivatives {
+        TorqueByPositions, TorqueByPositionAndVelocity, TorqueByVelocities,
+        TorqueByAccelerationAndPosition
+    }
+    /// Second derivatives of λᵀq̈.
+    forward_dynamics_second_derivatives: ForwardDynamicsSecondDerivatives {
+        AccelerationByPositions, AccelerationByPositionAndVelocity, AccelerationByVelocities,
+        AccelerationByTorqueAndPosition
+    }
 
     ; beside them:
 

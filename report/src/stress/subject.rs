@@ -101,6 +101,7 @@ fn run<T: Float>(
     let at = JointVectors {
         wrench: vector(state.of(Argument::Wrench)),
         damping: vector(state.of(Argument::Damping)),
+        multiplier: vector(state.of(Argument::Multiplier)),
         ..JointVectors::new(Argument::JOINTS.map(|argument| vector(state.of(argument))))
     };
     let mut results = Vec::new();

@@ -194,7 +194,7 @@ fn sample(input: Input) -> Rational {
         Input::PerSpeed(joint) => ratio(joint as i64 + 2, 41),
         Input::Entry(argument, joint) => {
             const DENOMINATORS: [i64; Argument::COUNT] =
-                [7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43];
+                [7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47];
             let place = argument.index();
             ratio((joint + place) as i64 + 2, DENOMINATORS[place])
         }

@@ -38,18 +38,20 @@ pub(super) struct Flow<S> {
 }
 
 /// The contribution of one joint and its composite body.
-struct Joint<S> {
+pub(super) struct Joint<S> {
     /// The first and second rate of the joint's twist.
-    drift: [Twist<S>; 2],
+    pub(super) drift: [Twist<S>; 2],
     /// The wrench of a unit acceleration.
-    push: Wrench<S>,
+    pub(super) push: Wrench<S>,
     /// The part of the composite's rate along the joint for each turn of
     /// all that it is part of.
     swing: Vector<S>,
     /// ∂τ_i/∂q_i, and the wrench that the joints before feel.
-    position: (S, Wrench<S>),
+    pub(super) position: (S, Wrench<S>),
     /// ∂τ_i/∂q̇_i, and the wrench that the joints before feel.
-    velocity: (S, Wrench<S>),
+    pub(super) velocity: (S, Wrench<S>),
+    /// ∫ V dm and ∫ V rᵀ dm of the composite body.
+    pub(super) flow: Flow<S>,
 }
 
 impl<S: Scalar> Composite<'_, S> {
@@ -115,7 +117,7 @@ impl<S: Scalar> Composite<'_, S> {
     }
 
     /// Returns what each joint contributes by itself, from the hand inward.
-    fn own_slopes(&self, qd: &[S], qdd: &[S]) -> Vec<Joint<S>> {
+    pub(super) fn own_slopes(&self, qd: &[S], qdd: &[S]) -> Vec<Joint<S>> {
         let chain = self.chain;
         let velocities = chain.velocities(self.at, qd);
         let motions = chain.motions(self.at, qd, qdd, AccelerationForm::Column);
@@ -152,13 +154,7 @@ impl<S: Scalar> Composite<'_, S> {
         let (force, moment) = self.momentum(i);
         let [first, second] = &drift;
         let changing = flow.of_turn(&first.turn).with(&inertial(body, second));
-        let turned = Wrench {
-            force: cross(&twist.turn, &load.force),
-            moment: sum(
-                &cross(&twist.turn, &load.moment),
-                &cross(&twist.shift, &load.force),
-            ),
-        };
+        let turned = load.turned(&twist);
         let velocity = flow
             .of_turn(&twist.turn)
             .with(&inertial(body, &first.doubled()));
@@ -167,6 +163,7 @@ impl<S: Scalar> Composite<'_, S> {
             swing: flow.swing(link),
             position: (changing.along(&twist), changing.with(&turned)),
             velocity: (velocity.along(&twist), velocity),
+            flow: flow.clone(),
             drift,
         }
     }
@@ -303,9 +300,33 @@ impl<S: Scalar> Flow<S> {
         }
     }
 
+    /// ∫ V dm, and its moment ∫ r × V dm.
+    pub(super) fn wrench(&self) -> Wrench<S> {
+        let m = &self.moment;
+        Wrench {
+            force: self.momentum.clone(),
+            moment: [(2, 1), (0, 2), (1, 0)].map(|(v, r)| minus(&m[v][r], &m[r][v])),
+        }
+    }
+
+    /// ∫ V × (t + α × r) dm = ∫ V dm × t + tr(M) α − Mᵀ α.
+    pub(super) fn across(&self, twist: &Twist<S>) -> Vector<S> {
+        let (m, turn) = (&self.moment, &twist.turn);
+        let component = |i: usize| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let main = times(&plus(&m[j][j], &m[k][k]), &turn[i]);
+            let other = plus(&times(&m[j][i], &turn[j]), &times(&m[k][i], &turn[k]));
+            minus(&main, &other)
+        };
+        sum(
+            &cross(&self.momentum, &twist.shift),
+            &core::array::from_fn(component),
+        )
+    }
+
     /// Returns what [`Flow::of_turn`] gives along the joint, as a form in the
     /// turn.
-    fn swing(&self, link: &ChainLink<S>) -> Vector<S> {
+    pub(super) fn swing(&self, link: &ChainLink<S>) -> Vector<S> {
         self.half_swing(link).each_ref().map(twice)
     }
 

@@ -11,6 +11,7 @@
 //! - [`composite`]: D, h, h_ikm and c from composite bodies
 //! - `coriolis`: C from composite momenta
 //! - [`derivatives`]: ∂τ/∂q and ∂τ/∂q̇ from composite bodies
+//! - [`second_derivatives`]: those of λᵀτ from composite bodies
 //! - [`probe`]: what is fixed to links beside their bodies; `regressor`: what
 //!   of torque it takes
 //! - `parallel`: D q̈ = τ − h − c in rates against the base, where axes are parallel
@@ -35,6 +36,7 @@ pub mod probe;
 pub mod recursion;
 mod regressor;
 pub mod regrouping;
+pub mod second_derivatives;
 pub mod skeleton;
 mod spin;
 mod twist;

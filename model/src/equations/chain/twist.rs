@@ -44,6 +44,17 @@ impl<S: Scalar> Wrench<S> {
         twist.power(&self.force, &self.moment)
     }
 
+    /// Its rate as it moves along with a twist about the same point.
+    pub(super) fn turned(&self, twist: &Twist<S>) -> Self {
+        Wrench {
+            force: cross(&twist.turn, &self.force),
+            moment: sum(
+                &cross(&twist.turn, &self.moment),
+                &cross(&twist.shift, &self.force),
+            ),
+        }
+    }
+
     /// Both together.
     pub(super) fn with(&self, other: &Self) -> Self {
         Wrench {

@@ -77,6 +77,7 @@ fn state(value: &Value, n: usize) -> Result<GivenState, StateFault> {
             tau: vector(keys, TORQUE, n)?.unwrap_or_default(),
             wrench: other(Argument::Wrench)?,
             damping: other(Argument::Damping)?,
+            multiplier: other(Argument::Multiplier)?,
             ..JointState::default()
         },
         known: Default::default(),

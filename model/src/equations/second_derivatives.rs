@@ -1,0 +1,246 @@
+//! Second derivatives of λᵀτ and λᵀq̈ for a given λ, of every formulation: n² numbers
+//! each where those of all torques are n³.
+//!
+//! Closed forms have those of the torques by duals of duals: the formula's own text over
+//! values and rates of values and rates. Of a recursion hardly a digit would be left of that for a
+//! light wrist on a heavy arm, since forces turn out and back in: recursions have them from
+//! [composite bodies](super::chain), which tests hold against the closed forms. Those of the
+//! accelerations follow, since D q̈ + h + c + b∘q̇ = τ holds for all q and q̇: with D μ = λ, L the
+//! second derivatives of μᵀτ at that q̈, and X = ∂(μᵀD)/∂q D⁻¹, those of λᵀq̈ are −L and what
+//! X makes of the slopes of τ.
+
+use alloc::vec::Vec;
+
+use super::chain::composite::{Composite, CompositeOrder};
+use super::chain::second_derivatives::SecondDerivatives;
+use super::chain::{Chain, Regrouping, Skeleton};
+use super::derivatives::columns;
+use super::energy::moving;
+use super::forward::free;
+use super::lagrange_euler::LagrangeEuler;
+use super::matrix::{minus, negative, plus, symmetric, times, total, twice, zeros};
+use super::{Arm, DhVariables, Formulation, JointPosition, SinCosPair};
+use crate::robot::JointKind;
+use crate::scalar::Scalar;
+use crate::scalar::dual::Dual;
+
+/// λᵀx
+fn weighed<'a, S: Scalar + 'a>(multiplier: &[S], values: impl Iterator<Item = &'a S>) -> S {
+    total(multiplier.iter().zip(values).map(|(l, x)| times(l, x)))
+}
+
+/// The rates of λᵀM, column by column.
+fn rates_of<S: Scalar>(multiplier: &[S], matrix: &[Vec<Dual<S>>]) -> Vec<S> {
+    let column = |j: usize| weighed(multiplier, matrix.iter().map(|row| &row[j].rate));
+    (0..matrix.len()).map(column).collect()
+}
+
+/// Rates of q at which one joint moves.
+fn unit<S: Scalar>(n: usize, joint: usize) -> Vec<S> {
+    let mut rates = zeros(n);
+    rates[joint] = S::one();
+    rates
+}
+
+fn constants<S: Scalar>(values: &[S]) -> Vec<Dual<S>> {
+    values.iter().cloned().map(Dual::constant).collect()
+}
+
+/// All four by the composite bodies of the arm's chain, in base parameters.
+fn by_composites<S: Scalar>(
+    arm: &Arm<S>,
+    at: &[DhVariables<S>],
+    given: [&[S]; 3],
+) -> SecondDerivatives<S> {
+    // With what is constant about a joint in its position, which `at` has whole.
+    let mut arm = arm.clone();
+    let links = arm.links.iter_mut().zip(at);
+    let position = links.map(|(link, at)| match link.kind {
+        JointKind::Revolute => {
+            link.theta = SinCosPair {
+                sin: S::zero(),
+                cos: S::one(),
+            };
+            JointPosition::Revolute(at.theta.clone())
+        }
+        JointKind::Prismatic => {
+            link.d = S::zero();
+            JointPosition::Prismatic(at.d.clone())
+        }
+    });
+    let position: Vec<JointPosition<S>> = position.collect();
+    let skeleton = Skeleton::new(&arm, &[]);
+    let (chain, at) = Chain::new(&skeleton, &Regrouping::base(&skeleton)).posed(&position);
+    Composite::new(&chain, &at).second_derivatives(given, CompositeOrder::Inward)
+}
+
+impl Formulation {
+    /// λᵀτ without friction. Lagrange–Euler takes the sums over joints before those over
+    /// links: Σ_j Tr(A J_j Vᵀ), where A and V are the sums of U_jk q̈_k + U_jkm q̇_k q̇_m, and of
+    /// U_ji λ_i, with what weight gives.
+    fn virtual_power<S: Scalar>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        [qd, qdd, multiplier]: [&[S]; 3],
+    ) -> S {
+        if self == Self::LagrangeEuler {
+            return LagrangeEuler::new(arm, at).virtual_power(qd, qdd, multiplier);
+        }
+        let arm = arm.clone().without_friction();
+        let torques = self.inverse_dynamics(&arm, at, qd, qdd);
+        weighed(multiplier, torques.iter())
+    }
+
+    /// ∂²(λᵀτ)/∂q∂q, symmetric.
+    pub fn torque_by_positions<S: Scalar>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        [qd, qdd, multiplier]: [&[S]; 3],
+    ) -> Vec<Vec<S>> {
+        if !self.has_closed_form() {
+            return by_composites(arm, at, [qd, qdd, multiplier]).position;
+        }
+        let n = at.len();
+        symmetric(n, |i, k| {
+            let (arm, at) = moving(arm, at, &unit(n, i));
+            let (arm, at) = moving(&arm, &at, &unit(n, k));
+            let [qd, qdd, l] = [qd, qdd, multiplier].map(|x| constants(&constants(x)));
+            self.virtual_power(&arm, &at, [&qd, &qdd, &l]).rate.rate
+        })
+    }
+
+    /// ∂²(λᵀτ)/∂q∂q̇: the slopes by velocity as one joint moves.
+    pub fn torque_by_position_and_velocity<S: Scalar>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        [qd, multiplier]: [&[S]; 2],
+    ) -> Vec<Vec<S>> {
+        if !self.has_closed_form() {
+            return by_composites(arm, at, [qd, &zeros(qd.len()), multiplier]).mixed;
+        }
+        let n = at.len();
+        let row = |k: usize| {
+            let (arm, at) = moving(arm, at, &unit(n, k));
+            let slopes = self.torque_by_velocity(&arm, &at, &constants(qd));
+            rates_of(multiplier, &slopes)
+        };
+        (0..n).map(row).collect()
+    }
+
+    /// ∂²(λᵀτ)/∂q̇∂q̇, symmetric: Lagrange–Euler from the symbols, 2 Σ_i λ_i h_ikm; elsewhere
+    /// from the slopes as one velocity grows. Coulomb friction bends by itself.
+    pub fn torque_by_velocities<S: Scalar>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        [qd, multiplier]: [&[S]; 2],
+    ) -> Vec<Vec<S>> {
+        if !self.has_closed_form() {
+            return by_composites(arm, at, [qd, &zeros(qd.len()), multiplier]).velocity;
+        }
+        let n = at.len();
+        let mut all = if self == Self::LagrangeEuler {
+            let h = self.christoffel(arm, at);
+            symmetric(n, |k, m| {
+                twice(&weighed(multiplier, h.iter().map(|h| &h[k][m])))
+            })
+        } else {
+            let (arm, at) = moving(arm, at, &zeros(n));
+            let row = |k: usize| {
+                let mut qd = constants(qd);
+                qd[k].rate = S::one();
+                let slopes = self.torque_by_velocity(&arm, &at, &qd);
+                rates_of(multiplier, &slopes)
+            };
+            (0..n).map(row).collect()
+        };
+        for (i, link) in arm.links.iter().enumerate() {
+            let bent = times(&multiplier[i], &link.friction.curvature(&qd[i]));
+            all[i][i] = plus(&all[i][i], &bent);
+        }
+        all
+    }
+
+    /// ∂²(λᵀτ)/∂q̈∂q = ∂(D λ)/∂q: row i has the slopes of (D λ)_i.
+    pub fn torque_by_acceleration_and_position<S: Scalar>(
+        self,
+        arm: &Arm<S>,
+        at: &[DhVariables<S>],
+        multiplier: &[S],
+    ) -> Vec<Vec<S>> {
+        let n = at.len();
+        if !self.has_closed_form() {
+            return by_composites(arm, at, [&zeros(n), &zeros(n), multiplier]).driven;
+        }
+        columns(n, |k| {
+            let (arm, at) = moving(arm, at, &unit(n, k));
+            self.momentum(&arm, &at, &constants(multiplier))
+        })
+    }
+}
+
+/// What the second derivatives of λᵀq̈ are made of besides those of μᵀτ, D μ = λ: X, and which
+/// joints move. What is held does not: its rows and columns are zero.
+#[derive(Clone, Debug)]
+pub struct OfAccelerations<'a, S> {
+    /// X_ki, zero unless joints k and i move.
+    x: Vec<Vec<S>>,
+    moves: &'a [bool],
+}
+
+impl<'a, S: Scalar> OfAccelerations<'a, S> {
+    /// From ∂(D μ)/∂q and what multiplies by D⁻¹ over the joints that move.
+    pub fn new(driven: &[Vec<S>], by_inverse: impl Fn(&[S]) -> Vec<S>, moves: &'a [bool]) -> Self {
+        let column = |k: usize| driven.iter().map(|row| row[k].clone()).collect::<Vec<S>>();
+        let x = |k: usize| match moves[k] {
+            true => by_inverse(&column(k)),
+            false => zeros(moves.len()),
+        };
+        OfAccelerations {
+            x: (0..moves.len()).map(x).collect(),
+            moves,
+        }
+    }
+
+    /// ∂²(λᵀq̈)/∂q∂q, from ∂²(μᵀτ)/∂q∂q and ∂τ/∂q.
+    pub fn by_positions(&self, own: &[Vec<S>], slopes: &[Vec<S>]) -> Vec<Vec<S>> {
+        self.entries(|k, m| {
+            let both = plus(&self.along(k, slopes, m), &self.along(m, slopes, k));
+            minus(&both, &own[k][m])
+        })
+    }
+
+    /// ∂²(λᵀq̈)/∂q∂q̇, from ∂²(μᵀτ)/∂q∂q̇ and ∂τ/∂q̇.
+    pub fn by_position_and_velocity(&self, own: &[Vec<S>], slopes: &[Vec<S>]) -> Vec<Vec<S>> {
+        self.entries(|k, m| minus(&self.along(k, slopes, m), &own[k][m]))
+    }
+
+    /// ∂²(λᵀq̈)/∂q̇∂q̇, from ∂²(μᵀτ)/∂q̇∂q̇.
+    pub fn by_velocities(&self, own: &[Vec<S>]) -> Vec<Vec<S>> {
+        self.entries(|k, m| negative(&own[k][m]))
+    }
+
+    /// ∂²(λᵀq̈)/∂τ∂q: row i has the slopes of (D⁻¹λ)_i.
+    pub fn by_torque_and_position(&self) -> Vec<Vec<S>> {
+        self.entries(|i, k| negative(&self.x[k][i]))
+    }
+
+    /// Σ_i X_ki times the slope of τ_i by joint m.
+    fn along(&self, k: usize, slopes: &[Vec<S>], m: usize) -> S {
+        let moving = free(self.moves).into_iter();
+        total(moving.map(|i| times(&self.x[k][i], &slopes[i][m])))
+    }
+
+    fn entries(&self, entry: impl Fn(usize, usize) -> S) -> Vec<Vec<S>> {
+        let n = self.moves.len();
+        let entry = |k: usize, m: usize| match self.moves[k] && self.moves[m] {
+            true => entry(k, m),
+            false => S::zero(),
+        };
+        let row = |k: usize| (0..n).map(|m| entry(k, m)).collect();
+        (0..n).map(row).collect()
+    }
+}
