@@ -22,11 +22,14 @@ dalembert::dynamics! {
     scalar: f64;
 }
 
+/// q̈ of q, q̇ and τ.
+type Acceleration<const N: usize> = fn(&[f64; N], &[f64; N], &[f64; N]) -> [f64; N];
+
 /// An arm with its servos, as they are and as the controller takes them for.
 struct Bench<const N: usize> {
     servos: [Servo; N],
     cycle: Cycle<N>,
-    acceleration: fn(&[f64; N], &[f64; N], &[f64; N]) -> [f64; N],
+    acceleration: Acceleration<N>,
     state: State<N>,
 }
 
