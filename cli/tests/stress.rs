@@ -46,11 +46,7 @@ fn json_says_the_same() {
     let near = &json["near_singular"];
     assert!(near["condition_scaled"].as_f64().unwrap() > 16.0);
     let functions = near["functions"].as_array().unwrap();
-    assert_eq!(
-        functions.len(),
-        20,
-        "five functions, two scalars, two codes"
-    );
+    assert_eq!(functions.len(), 24, "six functions, two scalars, two codes");
     for row in functions {
         let [error, normwise, condition] =
             ["error_in_u_condition", "normwise_in_u", "condition_scaled"]

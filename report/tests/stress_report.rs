@@ -67,7 +67,7 @@ fn the_search_finds_where_two_rods_are_nearest_to_singular() {
     );
     assert!(nearest.q[1].abs() < 1e-4, "{nearest:?}");
     // Five functions, in two scalars, by two codes.
-    assert_eq!(divided.rows.len(), 20);
+    assert_eq!(divided.rows.len(), 24);
     for row in &divided.rows {
         assert_eq!(row.verdict, Verdict::Pass, "{row:?}");
         assert!(row.error > 0.0 && row.error <= row.normwise, "{row:?}");
