@@ -29,6 +29,7 @@ fn the_code_of_the_guide_is_this_crate() {
     for example in [
         "adaptive_control",
         "bare_metal",
+        "gravity_compensation",
         "swing_up",
         "with_build_script",
     ] {

@@ -39,6 +39,7 @@ use crate::number::{Angle, Rational};
 pub use body::Defect;
 pub use findings::{Finding, Severity};
 pub use follower::Follower;
+pub(crate) use frame::ENDINGS;
 pub use frame::{HAND, is_frame_name};
 pub use place::{Field, Place};
 pub use placement::Placement;

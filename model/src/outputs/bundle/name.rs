@@ -5,6 +5,7 @@ use alloc::string::{String, ToString};
 
 use super::BundleError;
 use crate::outputs::Function;
+use crate::robot::ENDINGS;
 
 /// The longest name.
 const MAX_BYTES: usize = 64;
@@ -19,9 +20,6 @@ const OWN: [&str; 7] = [
     "robot",
     "state_box",
 ];
-
-/// The endings of the other ways to call a function.
-const ENDINGS: [&str; 4] = ["_with_sincos", "_lanes", "_batch", "_columns"];
 
 /// No function can have these names.
 const WORDS: [&str; 51] = [
