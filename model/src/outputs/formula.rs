@@ -156,7 +156,7 @@ impl<S: Scalar> Motion<S> {
                 .insert(own.row, JointPosition::Prismatic(S::zero()));
             motion.moves.insert(own.row, false);
             motion.per_speed.insert(own.row, None);
-            for argument in Argument::JOINTS {
+            for argument in Argument::ALL {
                 if let Some(entries) = motion.of_mut(argument) {
                     entries.insert(own.row, S::zero());
                 }
@@ -164,7 +164,7 @@ impl<S: Scalar> Motion<S> {
         }
         for own in following {
             motion.q[own.row] = motion.q[own.leader].followed_by(own);
-            for argument in Argument::JOINTS {
+            for argument in Argument::ALL {
                 let Some(entries) = motion.of_mut(argument) else {
                     continue;
                 };
