@@ -103,9 +103,9 @@ fn the_code_gives_what_pinocchio_gives() {
         }
         let emitted = &generated.emitted[0];
         for known in json["states"].as_array().unwrap() {
-            let state = JointState::new(|argument| match argument.given() {
-                Some(key) => numbers(&known[key]),
-                None => Vec::new(),
+            let state = JointState::new(|argument| {
+                let given = argument.given().and_then(|key| known.get(key));
+                given.map_or_else(Vec::new, numbers)
             });
             let found = emitted.run(&state);
             let mut rest = found.as_slice();
