@@ -1,7 +1,7 @@
 //! An arm of which three joints follow others: one coordinate each with their leaders, in
 //! code, proofs, scenes and languages, against Pinocchio.
 
-use dalembert_codegen::workspace::function::{Argument, Columns, Function, Quantity};
+use dalembert_codegen::workspace::function::{Columns, Function, Quantity};
 use dalembert_codegen::workspace::generate::{GenerateError, Generated, generate};
 use dalembert_codegen::workspace::language::Language;
 use dalembert_codegen::workspace::program::ScalarType;
@@ -34,14 +34,9 @@ fn robot() -> Robot {
 /// What can be had of an arm whose joints follow others.
 fn functions() -> Vec<Function> {
     let all = Function::ALL.into_iter();
-    let is_of_links = |function: &Function| {
-        let mut quantities = function.quantities().iter();
-        let is_twice = function.arguments().contains(&Argument::Multiplier);
-        is_twice || quantities.any(|quantity| quantity.is_of_links())
-    };
     // Of base parameters there are none: its axes are turned against each other anyhow.
     let is_linear = |function: &Function| function.columns() != Columns::None;
-    all.filter(|function| !is_of_links(function) && !is_linear(function))
+    all.filter(|function| function.takes_followers() && !is_linear(function))
         .collect()
 }
 

@@ -60,11 +60,7 @@ pub use request::{Cache, Load};
 pub use rows::{Place, Rows, RowsMut};
 
 #[doc(inline)]
-pub use dalembert_codegen::workspace::words;
-#[doc(inline)]
 pub use dalembert_codegen::workspace::function::{Function as Output, Quantity, RuntimeParameter};
-#[doc(inline)]
-pub use dalembert_codegen::workspace::task::{Fma, Prefer, Request, WordOption};
 #[doc(inline)]
 pub use dalembert_codegen::workspace::program::ScalarType as Scalar;
 #[doc(inline)]
@@ -72,4 +68,8 @@ pub use dalembert_codegen::workspace::simplify::Effort;
 #[doc(inline)]
 pub use dalembert_codegen::workspace::sincos::SinCos;
 #[doc(inline)]
+pub use dalembert_codegen::workspace::task::{Fma, Prefer, Request, WordOption};
+#[doc(inline)]
 pub use dalembert_codegen::workspace::watch;
+#[doc(inline)]
+pub use dalembert_codegen::workspace::words;

@@ -24,7 +24,7 @@ pub enum Cache {
 }
 
 /// What to make of a robot: the chain of a URDF, the functions, and how to search for them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Load {
     /// The chain to take of a URDF, and what of it stays where it is.
     pub urdf: dalembert_import::Options,
@@ -44,21 +44,6 @@ pub struct Load {
     pub cache: Cache,
     /// Who waits for a long search.
     pub watch: Watch,
-}
-
-impl Default for Load {
-    fn default() -> Load {
-        Load {
-            urdf: dalembert_import::Options::default(),
-            outputs: None,
-            scalars: None,
-            parameters: Vec::new(),
-            scene: None,
-            options: Request::default(),
-            cache: Cache::default(),
-            watch: Watch::default(),
-        }
-    }
 }
 
 impl Load {

@@ -35,7 +35,7 @@ use crate::bound::input_box::InputBox;
 pub use crate::emit::GeneratedFunction;
 use crate::emit::header;
 use crate::emit::module;
-use crate::function::{Argument, Columns, Function};
+use crate::function::{Columns, Function};
 use crate::language::c99::Names;
 use crate::language::entries::Around;
 use crate::language::entries::angles::Angles;
@@ -165,10 +165,7 @@ fn check(robot: &Robot, request: &Request) -> Result<(), GenerateError> {
     }
     for &function in &functions {
         frames::check(robot, function)?;
-        let mut quantities = function.quantities().iter();
-        let is_twice = function.arguments().contains(&Argument::Multiplier);
-        let is_free = is_twice || quantities.any(|quantity| quantity.is_of_links());
-        if !robot.followers.is_empty() && is_free {
+        if !robot.followers.is_empty() && !function.takes_followers() {
             return Err(GenerateError::Follows(function));
         }
     }

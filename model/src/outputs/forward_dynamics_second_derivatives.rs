@@ -8,16 +8,17 @@ use super::formula::Formula;
 use super::forward_dynamics::accelerations;
 use super::forward_dynamics_derivatives::defect;
 use super::function::Definition;
+use super::inverse_dynamics_second_derivatives::SHARED;
 use super::operational_inertia_inverse::factor;
-use super::quantity::{Choices, Facts, Index, turns};
-use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
+use super::quantity::{Facts, Index, turns};
+use super::{Argument, Quantity, Regrouped, Written};
 use crate::equations::chain::Unknowns;
 use crate::equations::chain::second_derivatives::SecondDerivatives;
 use crate::equations::factor::scatter;
 use crate::equations::forward::free;
-use crate::equations::matrix::{times, total};
+use crate::equations::operational::products;
 use crate::equations::second_derivatives::OfAccelerations;
-use crate::scalar::{Divide, Scalar};
+use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "forward_dynamics_second_derivatives",
@@ -56,7 +57,7 @@ impl<S: Divide> Inverted<S> {
         let inverse = at
             .formulation
             .inertia_inverse(at.arm, at.at, &at.motion.moves);
-        let raised = product(&inverse, &at.motion.multiplier);
+        let raised = products(&inverse, &at.motion.multiplier);
         Inverted { inverse, raised }
     }
 
@@ -66,14 +67,9 @@ impl<S: Divide> Inverted<S> {
     }
 
     fn of_accelerations<'a>(&self, at: &Written<'a, S>) -> OfAccelerations<'a, S> {
-        let by_inverse = |values: &[S]| product(&self.inverse, values);
+        let by_inverse = |values: &[S]| products(&self.inverse, values);
         OfAccelerations::new(&self.driven(at), by_inverse, &at.motion.moves)
     }
-}
-
-fn product<S: Scalar>(matrix: &[Vec<S>], values: &[S]) -> Vec<S> {
-    let row = |row: &Vec<S>| total(row.iter().zip(values).map(|(x, y)| times(x, y)));
-    matrix.iter().map(row).collect()
 }
 
 /// All four of the chain.
@@ -100,18 +96,6 @@ fn regrouped<'a, S: Divide>(at: &'a Regrouped<'_, S>) -> &'a SecondDerivatives<S
     };
     at.shared.of_accelerations.get_or_init(all)
 }
-
-/// The facts of all four, as far as they are the same.
-const SHARED: Facts = Facts {
-    shape: Shape::MATRIX,
-    choices: Some(Choices {
-        recursion: false,
-        travel: true,
-        flows: false,
-    }),
-    payload_dependence: PayloadDependence::Torque,
-    ..Facts::PLAIN
-};
 
 impl Formula for AccelerationByPositions {
     const FACTS: Facts = Facts {

@@ -70,6 +70,14 @@ impl Function {
         Argument::ALL.into_iter().filter(read).collect()
     }
 
+    /// Returns whether it is there for arms whose joints follow others: what has something of
+    /// each link is not, nor are second derivatives.
+    pub fn takes_followers(self) -> bool {
+        let mut quantities = self.quantities().iter();
+        let is_second = self.arguments().contains(&Argument::Multiplier);
+        !is_second && !quantities.any(|quantity| quantity.is_of_links())
+    }
+
     /// Returns what it has to do with a payload: as much as any of its results.
     pub fn payload_dependence(self) -> PayloadDependence {
         let has = |payload_dependence| {

@@ -44,8 +44,8 @@ fn regrouped<'a, S: Divide>(at: &'a Regrouped<'_, S>) -> &'a SecondDerivatives<S
     at.shared.of_torques.get_or_init(all)
 }
 
-/// The facts of all four, as far as they are the same.
-const SHARED: Facts = Facts {
+/// The facts of all second derivatives, as far as they are the same.
+pub(super) const SHARED: Facts = Facts {
     shape: Shape::MATRIX,
     choices: Some(Choices {
         recursion: false,

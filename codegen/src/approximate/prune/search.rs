@@ -275,12 +275,7 @@ impl Search<'_> {
         let budget = self.settings.budget;
         pruned.errors = magnitude::judged(&error, self.limits, self.allowances, budget);
         let pairs = pruned.errors.iter().zip(self.allowances);
-        // What is shown to be at most its allowance is within, however the ratio is rounded.
-        let ratio = |(&e, &a): (&f64, &f64)| match e <= a {
-            true => magnitude::relative(e, a).min(1.0),
-            false => magnitude::relative(e, a),
-        };
-        let mut ratios: Vec<f64> = pairs.map(ratio).collect();
+        let mut ratios: Vec<f64> = pairs.map(|(&e, &a)| magnitude::relative(e, a)).collect();
         // Too much went as well if D may become singular: the next guess
         // leaves out less.
         if within(&ratios) && !self.is_definite(&pruned.program) {

@@ -6,7 +6,7 @@
 //! until an edit puts it in the value's place.
 
 use super::columns::{Nodes, short};
-use super::fit::dot;
+use super::fit::{dot, sized};
 use crate::approximate::motions::Motions;
 use crate::program::{Operand, Operation, Output, Program, Step};
 use crate::states::JointState;
@@ -22,15 +22,8 @@ pub(super) const MOST: usize = 2;
 pub(super) fn spared(program: &Program, motions: &Motions, states: &[JointState]) -> Program {
     let nodes = Nodes::new(program, states);
     let columns = nodes.run(&vec![None; nodes.len()]);
-    let directions: Vec<(Vec<f64>, f64)> = columns
-        .chunks_exact(nodes.samples)
-        .map(|column| {
-            let mut column = column.to_vec();
-            motions.monomials(&mut column);
-            let size = dot(&column, &column).sqrt();
-            (column, size)
-        })
-        .collect();
+    let columns = columns.chunks_exact(nodes.samples);
+    let directions: Vec<_> = columns.map(|column| sized(column, motions)).collect();
     let inputs = nodes.inputs.len();
     let mut places: Vec<usize> = Vec::with_capacity(program.steps.len());
     let mut steps: Vec<Step> = Vec::new();

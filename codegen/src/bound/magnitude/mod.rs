@@ -122,12 +122,14 @@ fn written_out(
     Some(most)
 }
 
-/// x/scale, rounded up; 0/0 is no error.
+/// Returns x/scale, rounded up, but to no more than 1 where x is at most its scale; 0/0 is no
+/// error.
 pub(crate) fn relative(x: f64, scale: f64) -> f64 {
     if x == 0.0 {
         0.0
     } else if scale > 0.0 {
-        (x / scale).next_up()
+        let ratio = (x / scale).next_up();
+        if x <= scale { ratio.min(1.0) } else { ratio }
     } else {
         f64::INFINITY
     }
@@ -165,6 +167,16 @@ mod tests {
         // Nor is there a step from one subnormal to the next.
         limits.velocity = vec![Interval::symmetric(5e-324)];
         assert!(bound(&limits) < 1e-150);
+    }
+
+    /// A bound that is the limit itself is within it.
+    #[test]
+    fn what_is_just_within_is_within() {
+        for limit in [0.3, 7.0, 1e-12, 97.6] {
+            assert_eq!(relative(limit, limit), 1.0);
+            assert!(relative(limit.next_up(), limit) > 1.0);
+            assert!(relative(limit.next_down(), limit) <= 1.0);
+        }
     }
 
     /// What is left out may be a rate alone, with no angle to cut: 4e-5·q̈₁.

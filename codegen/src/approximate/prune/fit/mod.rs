@@ -20,6 +20,14 @@ use adjoints::adjoints;
 use products::{Columns, gram};
 pub(super) use products::{LANES, dot};
 
+/// Returns the monomials of a value at the samples, and the length of them all.
+pub(super) fn sized(column: &[f64], motions: &Motions) -> (Vec<f64>, f64) {
+    let mut column = column.to_vec();
+    motions.monomials(&mut column);
+    let size = dot(&column, &column).sqrt();
+    (column, size)
+}
+
 /// What a change of a constant by itself weighs, against errors in units of
 /// their allowance: changes that are large and undo each other go wrong
 /// where J changes with them. It also keeps JᵀJ far from singular.

@@ -2,7 +2,7 @@
 
 use crate::approximate::motions::Motions;
 use crate::approximate::prune::columns::{Nodes, Value};
-use crate::approximate::prune::fit::dot;
+use crate::approximate::prune::fit::{dot, sized};
 use crate::program::Operation;
 
 /// Zero, the middle of its values, and for a sum one of its operands.
@@ -52,9 +52,7 @@ impl Alike {
     ) -> Alike {
         let m = nodes.samples;
         let direction = |node: usize| {
-            let mut column = columns[node * m..][..m].to_vec();
-            motions.monomials(&mut column);
-            let size = dot(&column, &column).sqrt();
+            let (mut column, size) = sized(&columns[node * m..][..m], motions);
             column.iter_mut().for_each(|x| *x /= size);
             (size > 0.0).then_some(column)
         };

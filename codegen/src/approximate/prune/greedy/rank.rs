@@ -44,8 +44,9 @@ impl Greedy<'_> {
                     values.push(value);
                 }
             }
-            let before = (inputs..node).rev().take_while(|&before| !live[before]);
-            values.extend(before.take(MOST).map(|n| Value::Node(n as u32, false)));
+            // Right before a value stand its spares, which nothing reads yet.
+            let spares = (inputs..node).rev().take_while(|&spare| !live[spare]);
+            values.extend(spares.take(MOST).map(|n| Value::Node(n as u32, false)));
             let hopeless = &self.hopeless[node];
             values.retain(|value| !hopeless.iter().any(|other| value.is_like(other)));
             all.extend(values.into_iter().map(|value| (node, value)));
