@@ -1,0 +1,186 @@
+//! Quantities at named frames, and the operational space there.
+
+use super::*;
+use dalembert_model::equations::frames::NamedFrame;
+
+/// An arm with frames on its links: `inner` on the first, `outer` on the last, and each
+/// link's own.
+fn with_frames(case: &Case, points: &mut Points) -> Arm<Field> {
+    let last = case.arm.links.len() - 1;
+    let mut arm = case.arm.clone();
+    arm.frames.named = [("inner", 0), ("outer", last)]
+        .map(|(name, joint)| NamedFrame {
+            name: name.to_string(),
+            joint,
+            pose: pose(points),
+        })
+        .to_vec();
+    arm.frames.links = arm.links.iter().map(|_| Some(pose(points))).collect();
+    arm
+}
+
+/// Values of a text's only quantity.
+fn at_frame(text: &str, arm: &Arm<Field>, case: &Case, motion: &Motion<Field>) -> Vec<Field> {
+    let written = Written {
+        formulation: Formulation::LagrangeEuler,
+        arm,
+        at: &case.at,
+        motion,
+        columns: &[],
+    };
+    let function = Function::parse(text).unwrap();
+    let expected = function.quantities()[0].written(&written);
+    assert_eq!(
+        expected.len(),
+        function.outputs(Sizes::whole(arm.links.len())),
+        "{text}"
+    );
+    for formulation in Formulation::ALL {
+        let by = Written {
+            formulation,
+            ..written
+        };
+        assert_eq!(
+            function.quantities()[0].written(&by),
+            expected,
+            "{text} {formulation:?}"
+        );
+    }
+    expected
+}
+
+fn matrix_product(a: &[Field], b: &[Field], inner: usize) -> Vec<Field> {
+    let columns = b.len() / inner;
+    let entry = |row: &[Field], k: usize| {
+        (0..inner).fold(Field::ZERO, |sum, j| {
+            sum.add(&row[j].mul(&b[j * columns + k]))
+        })
+    };
+    let rows = a.chunks(inner);
+    rows.flat_map(|row| (0..columns).map(move |k| entry(row, k)))
+        .collect()
+}
+
+/// Every formulation agrees at every frame, in all axes and of chosen components; a frame
+/// on the last link is a tool, joints behind a frame do not move it, the rate of J q̇ is
+/// J̇ q̇, and velocities and wrenches do the same work in all axes.
+#[test]
+fn frames_are_hands_in_other_places() {
+    let mut points = Points::new(0x6672);
+    for case in cases() {
+        let n = case.arm.links.len();
+        let arm = with_frames(&case, &mut points);
+        let motion = driven(&case, &vec![true; n], &mut points);
+        let of = |text: &str, arm: &Arm<Field>| at_frame(text, arm, &case, &motion);
+        let mut tooled = arm.clone();
+        tooled.tool = Some(arm.frames.named[1].pose.clone());
+        for name in ["forward_kinematics", "jacobian", "jacobian_rate"] {
+            assert_eq!(of(&format!("{name}@outer"), &arm), of(name, &tooled));
+            assert_eq!(of(&format!("{name}@hand"), &arm), of(name, &arm));
+        }
+        let inner = of("jacobian@inner", &arm);
+        assert!(
+            inner
+                .chunks(n)
+                .all(|row| row[1..].iter().all(|x| *x == Field::ZERO))
+        );
+        let moving_arm = arm.map(|x| Dual::constant(*x));
+        let (_, moving_at) = moving(&case);
+        for axes in ["mixed", "local", "world"] {
+            for frame in ["inner", "outer"] {
+                let view = format!("@{frame}:{axes}");
+                let j = of(&format!("jacobian{view}"), &arm);
+                let some = of(&format!("jacobian{view}:x_rz"), &arm);
+                assert_eq!(some, [&j[..n], &j[5 * n..]].concat());
+                // J̇ q̇ is what J q̇ changes by.
+                let seen = Function::parse(&format!("jacobian{view}")).unwrap();
+                let Quantity::At(seen) = seen.quantities()[0] else {
+                    panic!("a frame");
+                };
+                let seen = moving_arm.seen(&seen.view()).unwrap();
+                let rates = Formulation::LagrangeEuler.jacobian(&seen, &moving_at);
+                let rates = rates.iter().map(|row| {
+                    let products = row.iter().zip(&case.qd).map(|(j, qd)| j.rate.mul(qd));
+                    products.fold(Field::ZERO, |sum, x| sum.add(&x))
+                });
+                let rates: Vec<Field> = rates.collect();
+                assert_eq!(of(&format!("jacobian_rate{view}"), &arm), rates, "{view}");
+                let torques = matrix_product(&motion.wrench, &j, 6);
+                let with = of(&format!("inverse_dynamics_with_wrench{view}"), &arm);
+                let without = of("inverse_dynamics", &arm);
+                for ((with, without), torque) in with.iter().zip(&without).zip(&torques) {
+                    assert_eq!(with.add(torque), *without);
+                }
+            }
+        }
+    }
+}
+
+/// Λ⁻¹, Λ, J̄, N, μ and the wrench of torques are made of J, D⁻¹ and each other as their
+/// names say, at frames and of chosen components.
+#[test]
+fn operational_space_fits_together() {
+    let mut points = Points::new(0x6f70);
+    for case in cases() {
+        let n = case.arm.links.len();
+        let arm = with_frames(&case, &mut points);
+        let motion = driven(&case, &vec![true; n], &mut points);
+        let damping = motion.damping[0];
+        for (view, m) in [
+            ("@outer", 6),
+            ("@outer:local:x_y_rz", 3),
+            ("@inner:world:angular", 3),
+        ] {
+            let of = |name: &str| at_frame(&format!("{name}{view}"), &arm, &case, &motion);
+            let (j, rate) = (of("jacobian"), of("jacobian_rate"));
+            let mobility = of("operational_inertia_inverse");
+            let inertia = of("operational_inertia");
+            let inverse = of("consistent_inverse");
+            let d_inv = at_frame("inertia_inverse", &arm, &case, &motion);
+            let transposed: Vec<Field> = (0..n * m).map(|at| j[at % m * n + at / m]).collect();
+            let reached = matrix_product(&d_inv, &transposed, n);
+            assert_eq!(matrix_product(&j, &reached, n), mobility);
+            assert_eq!(matrix_product(&reached, &inertia, m), inverse);
+            let mut damped = mobility;
+            (0..m).for_each(|i| damped[i * m + i] = damped[i * m + i].add(&damping));
+            let one = |n: usize| -> Vec<Field> {
+                let entry = |at: usize| {
+                    if at.is_multiple_of(n + 1) {
+                        Field::ONE
+                    } else {
+                        Field::ZERO
+                    }
+                };
+                (0..n * n).map(entry).collect()
+            };
+            assert_eq!(matrix_product(&inertia, &damped, m), one(m));
+            let mut projector = matrix_product(&inverse, &j, m);
+            for (entry, one) in projector.iter_mut().zip(one(n)) {
+                *entry = one.sub(entry);
+            }
+            assert_eq!(of("null_space_projector"), projector);
+            // μ, with what the joints are loaded with at this velocity.
+            let mut still = arm.clone().without_friction();
+            still.frames = arm.frames.clone();
+            let rest = vec![Field::ZERO; n];
+            let exact = Formulation::LagrangeEuler;
+            let loads = exact.inverse_dynamics(&still, &case.at, &motion.qd, &rest);
+            let driven = matrix_product(&j, &matrix_product(&d_inv, &loads, n), n);
+            let rest: Vec<Field> = driven.iter().zip(&rate).map(|(a, b)| a.sub(b)).collect();
+            assert_eq!(of("operational_bias"), matrix_product(&inertia, &rest, m));
+            // The wrench of its own torques, but for the damping.
+            let torques = matrix_product(&transposed, &motion.wrench[..m], m);
+            let pushed = Motion {
+                tau: torques,
+                ..motion.clone()
+            };
+            let found = at_frame(&format!("contact_wrench{view}"), &arm, &case, &pushed);
+            let squared = matrix_product(&j, &transposed, n);
+            let left: Vec<Field> = matrix_product(&squared, &found, m);
+            let right = matrix_product(&squared, &motion.wrench[..m], m);
+            for ((left, found), right) in left.iter().zip(&found).zip(&right) {
+                assert_eq!(left.add(&damping.mul(found)), *right);
+            }
+        }
+    }
+}
