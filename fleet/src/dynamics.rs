@@ -186,7 +186,7 @@ fn place(arm: &Arm) -> Result<usize, Error> {
         .position(|f| f.scalar() == Scalar::F64);
     let place = found.ok_or_else(|| Error::new("the generator returned no function"))?;
     let native = arm.functions()[place].native();
-    native.prepare_rows().map_err(Error::new)?;
+    native.prepare_columns().map_err(Error::new)?;
     Ok(place)
 }
 

@@ -100,26 +100,32 @@ pub(crate) fn check<T: Machine + Default>(
     Ok(())
 }
 
-/// Compares the code for many states, which `call` runs at [`STATES`] rows, with the program.
+/// Compares the code for many states, which `call` runs at [`STATES`] of them, with the program;
+/// `place` says where the entries of an argument or a result lie.
 pub(crate) fn check_many<T: Machine + Default>(
     program: &Lowered,
     signature: &Signature,
+    place: impl Fn(usize) -> Place,
     call: impl Fn(&[Rows<'_, T>], &mut [RowsMut<'_, T>]) -> Result<(), CallError>,
 ) -> Result<(), CallError> {
     let states = drawn::<T>(signature);
-    let flat = |place: usize| -> Vec<T> {
-        states
-            .iter()
-            .flat_map(|state| state[place].iter().copied())
-            .collect()
-    };
-    let data: Vec<Vec<T>> = (0..signature.arguments.len()).map(flat).collect();
+    let data = signature.arguments.iter().enumerate();
+    let data = data.map(|(argument, &(_, len))| {
+        let (mut data, place) = (vec![T::default(); len * STATES], place(len));
+        for (number, state) in states.iter().enumerate() {
+            for (at, &value) in place.entries(number).zip(&state[argument]) {
+                data[at] = value;
+            }
+        }
+        data
+    });
+    let data: Vec<Vec<T>> = data.collect();
     let rows = data
         .iter()
         .zip(&signature.arguments)
         .map(|(data, &(_, len))| Rows {
             data,
-            place: Place::rows(len),
+            place: place(len),
         });
     let rows: Vec<Rows<'_, T>> = rows.collect();
     let mut found: Vec<Vec<T>> = signature
@@ -132,13 +138,18 @@ pub(crate) fn check_many<T: Machine + Default>(
         .zip(&signature.results)
         .map(|(data, &len)| RowsMut {
             data,
-            place: Place::rows(len),
+            place: place(len),
         });
     call(&rows, &mut results.collect::<Vec<_>>())?;
     for (state, arguments) in states.iter().enumerate() {
         let own = found.iter().zip(&signature.results);
         let own: Vec<T> = own
-            .flat_map(|(found, &len)| found[state * len..][..len].iter().copied())
+            .flat_map(|(found, &len)| {
+                place(len)
+                    .entries(state)
+                    .map(|at| found[at])
+                    .collect::<Vec<_>>()
+            })
             .collect();
         if let Some(result) = differing(&expected(program, signature, arguments), &own) {
             let error = CompileError::Differs { state, result };

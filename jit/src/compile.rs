@@ -45,12 +45,31 @@ pub(crate) struct Linked {
     pub(crate) entry: *const u8,
 }
 
-/// Compiles a program: for one state, with arrays of arguments and one of results; or for
-/// states in vectors, with an address an entry and strides.
+/// How the states lie that a function is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum States {
+    /// One state: arrays of arguments and one of results.
+    One,
+    /// Many: an address an entry, and the states of each argument and result so far apart.
+    Apart,
+    /// Many, the numbers of an entry one after the other: no stride is read.
+    Adjacent,
+}
+
+impl States {
+    fn lanes(self) -> Lanes {
+        match self {
+            States::One => Lanes::One,
+            States::Apart | States::Adjacent => Lanes::Vector,
+        }
+    }
+}
+
+/// Compiles a program.
 pub(crate) fn compile(
     code: &Lowered,
     signature: &Signature,
-    lanes: Lanes,
+    states: States,
     library: *const u8,
 ) -> Result<Linked, CompileError> {
     let mut flags = settings::builder();
@@ -78,7 +97,7 @@ pub(crate) fn compile(
     let mut builder = JITBuilder::with_isa(isa, default_libcall_names());
     builder.symbol(LIBRARY, library);
     let mut module = JITModule::new(builder);
-    let function = define(&mut module, code, signature, lanes)?;
+    let function = define(&mut module, code, signature, states)?;
     module
         .finalize_definitions()
         .map_err(CompileError::cranelift)?;
@@ -90,8 +109,9 @@ fn define(
     module: &mut JITModule,
     code: &Lowered,
     signature: &Signature,
-    lanes: Lanes,
+    states: States,
 ) -> Result<FuncId, CompileError> {
+    let lanes = states.lanes();
     let mut library = module.make_signature();
     library.params = vec![AbiParam::new(types::I64); 3];
     let library = module.declare_function(LIBRARY, Linkage::Import, &library);
@@ -110,9 +130,9 @@ fn define(
     builder.switch_to_block(block);
     let parameters = builder.block_params(block).to_vec();
     let emitter = Emitter::new(builder, code.scalar, lanes, library);
-    match lanes {
-        Lanes::One => one(&emitter, code, signature, &parameters)?,
-        Lanes::Vector => many(&emitter, code, signature, &parameters)?,
+    match states {
+        States::One => one(&emitter, code, signature, &parameters)?,
+        _ => many(&emitter, code, signature, &parameters, states)?,
     }
     let mut builder = emitter.into_builder();
     builder.ins().return_(&[]);
@@ -177,6 +197,7 @@ fn many(
     code: &Lowered,
     signature: &Signature,
     parameters: &[Value],
+    layout: States,
 ) -> Result<(), CompileError> {
     let &[entries, strides, results, result_strides, states] = parameters else {
         return Err(CompileError::PARAMETERS);
@@ -198,8 +219,13 @@ fn many(
         b.switch_to_block(body);
         (first, next)
     });
-    // The offset of each lane's state from the first, of everything with this stride.
+    // The offset of each lane's state from the first, of everything with this stride; of
+    // adjacent states, that of the vector.
     let offsets = |strides: Value, place: usize| -> Vec<Value> {
+        if layout == States::Adjacent {
+            let width = bytes(code.scalar) as i64;
+            return vec![emitter.with(|b| b.ins().imul_imm_s(first, width))];
+        }
         let stride = address(emitter, strides, place);
         emitter.with(|b| {
             let mut offset = b.ins().imul(first, stride);
@@ -217,7 +243,7 @@ fn many(
         let at = (index < len).then(|| signature.first_entry(place) + index)?;
         let offsets = of_arguments[place].get_or_insert_with(|| offsets(strides, place));
         let base = address(emitter, entries, at);
-        Some(emitter.gather(base, offsets, 0))
+        Some(emitter.gather(base, offsets))
     };
     let values = program::emit(emitter, code, read)?;
     let mut values = values.into_iter().enumerate();

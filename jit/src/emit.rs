@@ -151,25 +151,24 @@ impl<'f> Emitter<'f> {
         })
     }
 
-    /// Reads a number of each lane, at a base and each lane's offset of bytes.
-    pub(crate) fn gather(&self, base: Value, offsets: &[Value], at: i32) -> Value {
+    /// Reads a number of each lane, at a base and each lane's offset of bytes, or from one offset on.
+    pub(crate) fn gather(&self, base: Value, offsets: &[Value]) -> Value {
         let (number, floats) = (self.number(), self.floats());
         self.with(|b| {
-            let mut load = |offset: &Value| {
-                let address = b.ins().iadd(base, *offset);
-                b.ins().load(number, unaligned(), address, at)
+            let mut load = |ty: Type, offset: Value| {
+                let address = b.ins().iadd(base, offset);
+                b.ins().load(ty, unaligned(), address, 0)
             };
-            let loaded: Vec<Value> = offsets.iter().map(&mut load).collect();
-            match self.lanes {
-                Lanes::One => loaded[0],
-                Lanes::Vector => {
-                    let mut all = b.ins().scalar_to_vector(floats, loaded[0]);
-                    for (lane, value) in loaded.iter().enumerate().skip(1) {
-                        all = b.ins().insertlane(all, *value, lane as u8);
-                    }
-                    all
-                }
+            if let [first] = offsets {
+                return load(floats, *first);
             }
+            let loaded = offsets.iter().map(|offset| load(number, *offset));
+            let loaded: Vec<Value> = loaded.collect();
+            let mut all = b.ins().scalar_to_vector(floats, loaded[0]);
+            for (lane, value) in loaded.iter().enumerate().skip(1) {
+                all = b.ins().insertlane(all, *value, lane as u8);
+            }
+            all
         })
     }
 
@@ -179,13 +178,13 @@ impl<'f> Emitter<'f> {
         self.with(|b| b.ins().load(number, unaligned(), address, at))
     }
 
-    /// Writes each lane's number at a base and that lane's offset of bytes.
+    /// Writes each lane's number at a base and that lane's offset of bytes, or from one offset on.
     pub(crate) fn scatter(&self, value: Value, base: Value, offsets: &[Value]) {
         self.with(|b| {
             for (lane, offset) in offsets.iter().enumerate() {
-                let number = match self.lanes {
-                    Lanes::One => value,
-                    Lanes::Vector => b.ins().extractlane(value, lane as u8),
+                let number = match offsets.len() {
+                    1 => value,
+                    _ => b.ins().extractlane(value, lane as u8),
                 };
                 let address = b.ins().iadd(base, *offset);
                 b.ins().store(unaligned(), number, address, 0);

@@ -18,7 +18,7 @@ use dalembert_codegen::workspace::program::machine::Machine;
 use dalembert_codegen::workspace::program::{Lowered, ScalarType};
 
 use crate::check::{STATES, check, check_many};
-use crate::compile::{Linked, Signature, compile};
+use crate::compile::{Linked, Signature, States, compile};
 use crate::emit::{Call, Lanes};
 use crate::error::{CallError, CompileError};
 use crate::rows::{Place, Rows, RowsMut};
@@ -56,7 +56,7 @@ impl Drop for Code {
 }
 
 type One<T> = unsafe extern "C" fn(arguments: *const *const T, results: *mut T);
-type Many<T> = unsafe extern "C" fn(
+type Vectors<T> = unsafe extern "C" fn(
     entries: *const *const T,
     strides: *const isize,
     results: *const *mut T,
@@ -135,9 +135,16 @@ pub struct Native {
     program: Lowered,
     signature: Signature,
     one: Code,
-    /// Compiled when many states are asked for.
-    many: OnceLock<Result<Code, CompileError>>,
-    /// Whether that computes what the program does.
+    apart: Many,
+    adjacent: Many,
+}
+
+/// The code for many states.
+#[derive(Default)]
+struct Many {
+    /// Compiled when it is asked for.
+    code: OnceLock<Result<Code, CompileError>>,
+    /// Whether it computes what the program does.
     checked: OnceLock<Result<(), CallError>>,
 }
 
@@ -152,13 +159,13 @@ impl Native {
             return Err(CompileError::Results { expected, found });
         }
         let library = library_address(program.scalar);
-        let one = compile(&program, &signature, Lanes::One, library)?;
+        let one = compile(&program, &signature, States::One, library)?;
         let native = Native {
             program,
             signature,
             one: Code::new(one),
-            many: OnceLock::new(),
-            checked: OnceLock::new(),
+            apart: Many::default(),
+            adjacent: Many::default(),
         };
         match native.program.scalar {
             ScalarType::F64 => native.check_one::<f64>()?,
@@ -173,10 +180,17 @@ impl Native {
         })
     }
 
-    pub(crate) fn check_rows<T: Real>(&self) -> Result<(), CallError> {
-        check_many(&self.program, &self.signature, |arguments, results| {
-            self.rows::<T>(arguments, results, STATES, 1)
-        })
+    fn check_many<T: Real>(&self, states: States) -> Result<(), CallError> {
+        let place = |entries| match states {
+            States::Adjacent => Place::columns(entries, STATES),
+            _ => Place::rows(entries),
+        };
+        check_many(
+            &self.program,
+            &self.signature,
+            place,
+            |arguments, results| self.rows::<T>(arguments, results, STATES, 1, states),
+        )
     }
 
     /// Returns the program.
@@ -238,8 +252,14 @@ impl Native {
         states: usize,
         threads: usize,
     ) -> Result<(), CallError> {
-        self.prepare_rows()?;
-        self.rows(arguments, results, states, threads)
+        let read = arguments.iter().map(|rows| &rows.place);
+        let mut places = read.chain(results.iter().map(|rows| &rows.place));
+        let layout = match places.all(|place| place.state == 1) {
+            true => States::Adjacent,
+            false => States::Apart,
+        };
+        self.prepare(layout)?;
+        self.rows(arguments, results, states, threads, layout)
     }
 
     fn rows<T: Real>(
@@ -248,6 +268,7 @@ impl Native {
         results: &mut [RowsMut<'_, T>],
         states: usize,
         threads: usize,
+        layout: States,
     ) -> Result<(), CallError> {
         self.check_scalar::<T>()?;
         let signature = &self.signature;
@@ -271,7 +292,7 @@ impl Native {
             .map(|rows| (rows.data.as_mut_ptr(), &rows.place))
             .collect();
         let (read, written) = (Shared(read), Shared(written));
-        let many = self.many()?;
+        let many = self.many(layout)?;
         let lanes = Lanes::Vector.count(self.program.scalar);
         let threads = threads.clamp(1, (states / LEAST_STATES).max(1));
         // Whole vectors to all but the last.
@@ -314,7 +335,7 @@ impl Native {
         let results: Vec<*mut T> = results.collect();
         // SAFETY: the address is of a function of this type: compiled for vectors, its
         // parameters are four addresses and a count, and `T` is its scalar.
-        let function = unsafe { std::mem::transmute::<*const u8, Many<T>>(many.entry) };
+        let function = unsafe { std::mem::transmute::<*const u8, Vectors<T>>(many.entry) };
         // SAFETY: the tables have an address an entry and a stride an argument or result.
         // All that the code reads and writes for these states was found to be inside of the
         // slices. The slices of results are borrowed for this alone, no two numbers have one
@@ -353,26 +374,40 @@ impl Native {
         }
     }
 
-    fn many(&self) -> Result<&Code, CallError> {
-        let many = self.many.get_or_init(|| {
+    fn many(&self, states: States) -> Result<&Code, CallError> {
+        let many = self.of(states).code.get_or_init(|| {
             let library = library_address(self.program.scalar);
-            let linked = compile(&self.program, &self.signature, Lanes::Vector, library)?;
+            let linked = compile(&self.program, &self.signature, states, library)?;
             Ok(Code::new(linked))
         });
         many.as_ref()
             .map_err(|error| CallError::Compile(error.clone()))
     }
 
-    /// Compiles the code for many states, which the first call of it does otherwise, and
-    /// compares it with the program.
+    fn of(&self, states: States) -> &Many {
+        match states {
+            States::Adjacent => &self.adjacent,
+            _ => &self.apart,
+        }
+    }
+
+    /// Compiles the code for many states in columns, which the first call of it does otherwise,
+    /// and compares it with the program.
     ///
     /// # Errors
     /// [`CallError::Compile`].
-    pub fn prepare_rows(&self) -> Result<(), CallError> {
-        let checked = self.checked.get_or_init(|| match self.program.scalar {
-            ScalarType::F64 => self.check_rows::<f64>(),
-            ScalarType::F32 => self.check_rows::<f32>(),
-        });
+    pub fn prepare_columns(&self) -> Result<(), CallError> {
+        self.prepare(States::Adjacent)
+    }
+
+    fn prepare(&self, states: States) -> Result<(), CallError> {
+        let checked = self
+            .of(states)
+            .checked
+            .get_or_init(|| match self.program.scalar {
+                ScalarType::F64 => self.check_many::<f64>(states),
+                ScalarType::F32 => self.check_many::<f32>(states),
+            });
         checked.clone()
     }
 }

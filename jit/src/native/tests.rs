@@ -5,18 +5,22 @@ use dalembert_codegen::workspace::program::{Literal, Operand, Operation};
 use super::*;
 use crate::{Arm, Cache, Load};
 
+const LAYOUTS: [States; 2] = [States::Apart, States::Adjacent];
+
 /// Compares code with a program that differs from what it was made of.
 fn refused<T: Real>(native: &mut Native, fault: &str, plant: impl FnOnce(&mut Lowered)) {
     let program = native.program.clone();
     plant(&mut native.program);
     let one = native.check_one::<T>();
-    let many = native.check_rows::<T>();
+    let many = LAYOUTS.map(|states| native.check_many::<T>(states));
     native.program = program;
     let differs = |error: &CompileError| matches!(error, CompileError::Differs { .. });
     assert!(one.as_ref().is_err_and(differs), "{fault}: {one:?}");
-    match many {
-        Err(CallError::Compile(error)) if differs(&error) => {}
-        other => panic!("{fault}: {other:?}"),
+    for many in many {
+        match many {
+            Err(CallError::Compile(error)) if differs(&error) => {}
+            other => panic!("{fault}: {other:?}"),
+        }
     }
 }
 
@@ -38,10 +42,12 @@ fn torques(scalar: ScalarType) -> Native {
     native.unwrap()
 }
 
-/// Every instruction that is another one is found by the check, in either code.
+/// Every instruction that is another one is found by the check, in each code.
 fn every_fault_is_found<T: Real>() {
     let mut native = torques(T::SCALAR);
-    native.prepare_rows().unwrap();
+    for states in LAYOUTS {
+        native.prepare(states).unwrap();
+    }
     for index in 0..native.program.steps.len() {
         let own = native.program.steps[index].operation;
         for other in [Operation::Add, Operation::Sub, Operation::Mul] {
@@ -92,17 +98,26 @@ fn code_is_never_writable_and_is_unmapped_when_dropped() {
     let compiled = (0..50).map(|_| {
         let other = Native::compile(native.program.clone(), native.signature.clone());
         let other = other.unwrap();
-        other.prepare_rows().unwrap();
+        for states in LAYOUTS {
+            other.prepare(states).unwrap();
+        }
         other
     });
     let compiled: Vec<Native> = compiled.collect();
-    let entries = |own: &Native| [own.one.entry as usize, own.many().unwrap().entry as usize];
+    let entries = |own: &Native| {
+        let many = |states| own.many(states).unwrap().entry as usize;
+        [
+            own.one.entry as usize,
+            many(States::Apart),
+            many(States::Adjacent),
+        ]
+    };
     let addresses: Vec<usize> = compiled.iter().flat_map(entries).collect();
     let executable = Some("r-xp".to_owned());
-    assert_eq!(permissions(&addresses), vec![executable.clone(); 100]);
+    assert_eq!(permissions(&addresses), vec![executable.clone(); 150]);
     drop(compiled);
     // Another test may have been given the place of some.
     let left = permissions(&addresses);
     let left = left.iter().filter(|own| **own == executable).count();
-    assert!(left < 50, "{left} of 100 are left");
+    assert!(left < 50, "{left} of 150 are left");
 }
