@@ -8,7 +8,7 @@ use datafusion::error::Result;
 use std::sync::Arc;
 
 /// States are worked on in pieces of so many: what is computed of them stays in the caches.
-pub(crate) const PIECE: usize = 512;
+pub(crate) const PIECE: usize = 256;
 
 /// What a function takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

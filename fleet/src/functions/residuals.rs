@@ -69,8 +69,9 @@ impl Joint {
         self.time
     }
 
-    fn add(&mut self, residuals: &[f64], time: &[f64]) {
-        self.squares.add(squares(residuals));
+    /// Adds residuals whose sum of squares is known.
+    fn add(&mut self, residuals: &[f64], squares: f64, time: &[f64]) {
+        self.squares.add(squares);
         let largest = largest(residuals);
         if largest >= self.worst
             && let Some(place) = residuals.iter().position(|r| r.abs() == largest)
@@ -188,12 +189,12 @@ impl Kept for Residuals {
         residuals(robot, piece, &mut residuals_of)?;
         let count = piece.count;
         // One that is not finite makes its sum so.
-        let is_finite = |column: &[f64]| squares(column).is_finite();
-        let is_fine = residuals_of.chunks_exact(count).all(is_finite) && is_finite(&piece.time);
-        if is_fine {
-            let columns = residuals_of.chunks_exact(count);
-            for (joint, column) in self.joints.iter_mut().zip(columns) {
-                joint.add(column, &piece.time);
+        let sums: Vec<f64> = residuals_of.chunks_exact(count).map(squares).collect();
+        let mut all = sums.iter().copied().chain([squares(&piece.time)]);
+        if all.all(f64::is_finite) {
+            let columns = residuals_of.chunks_exact(count).zip(sums);
+            for (joint, (column, squares)) in self.joints.iter_mut().zip(columns) {
+                joint.add(column, squares, &piece.time);
             }
             self.states += count as u64;
         } else {
@@ -205,7 +206,7 @@ impl Kept for Residuals {
             let time: Vec<f64> = kept.iter().map(|s| piece.time[*s]).collect();
             for (joint, column) in self.joints.iter_mut().zip(residuals_of.chunks_exact(count)) {
                 let own: Vec<f64> = kept.iter().map(|s| column[*s]).collect();
-                joint.add(&own, &time);
+                joint.add(&own, squares(&own), &time);
             }
             self.states += kept.len() as u64;
             self.not_finite += (count - kept.len()) as u64;
