@@ -44,7 +44,7 @@ mod twist;
 use alloc::vec::Vec;
 
 pub use body::Body;
-pub use form::Form;
+pub use form::{Form, HandChoice, HandForm};
 pub use parallel::Unknowns;
 pub use pose::Displacement;
 pub use probe::{Column, Probe, Probed};
