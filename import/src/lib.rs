@@ -57,6 +57,7 @@
 //!   digit, at most 1e-5 rad: `1.5708` is π/2, `1.57` stays;
 //! - the same of multiples of π/4 and π/6, within 1e-12 rad, or one unit of the last
 //!   of at least five digits;
+//! - an angle that is less than another of its `rpy` is off from what that was taken for: 0;
 //! - a length, or a coordinate of a centre of mass, below 1e-9 m: 0;
 //! - a component of an axis within 1e-9 of 0, 1 or −1;
 //! - a product of inertia below 1e-9 of the largest moment: 0;

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::Range;
 
-use dalembert_model::number::Rational;
+use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::Position;
 use num_traits::{One, Signed, Zero};
 
@@ -114,10 +114,19 @@ impl Snaps {
             }
             return;
         }
+        let mut off = Rational::zero();
         for angle in &mut origin.rpy {
             if let Some(meant) = meant(&angle.value, &angle.text) {
+                off = off.max((angle.value.radians() - meant.radians()).abs());
                 let to = meant.to_string();
                 self.take(angle, meant, to, rpy);
+            }
+        }
+        // The axes are known no better than that.
+        for angle in &mut origin.rpy {
+            let radians = angle.value.radians().abs();
+            if !radians.is_zero() && radians <= off {
+                self.take(angle, Angle::default(), "0".to_owned(), rpy);
             }
         }
     }
@@ -146,5 +155,43 @@ impl Snaps {
             let to = meant.to_string();
             self.take(limit, Position::Angle(meant), to, of);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use dalembert_model::number::parse::parse_decimal;
+
+    use super::*;
+
+    /// What `rpy` is taken for, an angle each.
+    fn taken(rpy: [&str; 3]) -> [String; 3] {
+        let angle = |text: &str| Value {
+            value: Angle::Radians(parse_decimal(text).expect("a number")),
+            text: text.to_owned(),
+            span: 0..0,
+        };
+        let length = || Value {
+            value: Rational::zero(),
+            text: "0".to_owned(),
+            span: 0..0,
+        };
+        let mut origin = Origin {
+            xyz: [(); 3].map(|()| length()),
+            rpy: rpy.map(angle),
+            meant: None,
+        };
+        Snaps(Vec::new()).origin(&mut origin, "xyz", "rpy");
+        origin.rpy.map(|angle| angle.value.to_string())
+    }
+
+    #[test]
+    fn an_angle_is_nothing_beside_one_that_is_rounded_by_more() {
+        let first = |rpy| taken(rpy)[1].clone();
+        assert_eq!(first(["1.5708", "-5.24284e-08", "0"]), "0");
+        // 3.7e-6 is what 1.5708 is off by.
+        assert_eq!(first(["1.5708", "3.7e-06", "0"]), "3.7e-6");
+        assert_eq!(first(["1.5707963", "-5.24284e-08", "0"]), "-5.24284e-8");
+        assert_eq!(first(["0.3", "-5.24284e-08", "0"]), "-5.24284e-8");
     }
 }

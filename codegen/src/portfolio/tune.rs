@@ -124,15 +124,28 @@ impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
         }
     }
 
+    /// The forms that see the hand as the best does, then those that differ from the best
+    /// in that alone.
     fn forms(&mut self, forms: &[Form]) {
         let chain = Chain::new(self.arm, &self.best.regrouping);
-        for &form in forms {
-            let price = (self.price)(&chain, form, self.best.price);
-            if price < self.best.price {
-                self.best.price = price;
-                self.best.form = form;
+        let mut among = |is_tried: &dyn Fn(Form, Form) -> bool| {
+            let best = self.best.form;
+            for &form in forms.iter().filter(|form| is_tried(**form, best)) {
+                let price = (self.price)(&chain, form, self.best.price);
+                if price < self.best.price {
+                    self.best.price = price;
+                    self.best.form = form;
+                }
             }
-        }
+        };
+        among(&|form, best| form.hand == best.hand);
+        among(&|form, best| {
+            let seen = Form {
+                hand: form.hand,
+                ..best
+            };
+            form != best && form == seen
+        });
     }
 
     /// Metres, and every length of the chain.

@@ -13,7 +13,7 @@ use super::matrix::{
     Columns, Vector, cross, difference, minus, negative, plus, scaled, sum, times, total,
     zero_vector, zeros,
 };
-use super::newton_euler::{Wrench, table1};
+use super::newton_euler::{Motion, Wrench, table1};
 use super::{Arm, DhVariables, Formulation, Link, from_torques};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
@@ -160,7 +160,8 @@ impl Formulation {
     ) -> [Vector<S>; 2] {
         if self != Self::LagrangeEuler {
             let arm = from_torques::weightless(arm);
-            let rate = table1::tip_acceleration(&arm, at, qd, &zeros(qd.len()));
+            let base = Motion::of_base(&arm.gravity);
+            let rate = table1::tip_acceleration(&arm, at, qd, &zeros(qd.len()), &base);
             return rate.map(|part| in_base_axes(&arm, part));
         }
         let rest: Vec<S> = zeros(qd.len());
@@ -267,7 +268,11 @@ fn by_rates<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], j: usize) -> [Vector
 }
 
 /// Returns the same by the joint's axis and the lever from there to the hand.
-fn geometric<S: Scalar>(arm: &Arm<S>, levers: &[Columns<S>], j: usize) -> [Vector<S>; 2] {
+pub(super) fn geometric<S: Scalar>(
+    arm: &Arm<S>,
+    levers: &[Columns<S>],
+    j: usize,
+) -> [Vector<S>; 2] {
     let frame = match arm.convention {
         Convention::Standard => &levers[j],
         Convention::Modified => &levers[j + 1],
@@ -337,7 +342,7 @@ fn inward<S: Scalar>(
 
 /// The axes of frames 0 … n and, in the place of the origin, the lever from there to
 /// the hand, in base axes. Added up from the hand on, no lever is a difference.
-fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
+pub(super) fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
     let unmoved = |frame: &Columns<S>| Columns {
         axes: frame.axes.clone(),
         origin: zero_vector(),

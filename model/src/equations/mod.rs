@@ -16,6 +16,7 @@
 //! | [`articulated`] | q̈ by articulated bodies |
 //! | [`frames`] | frames that are fixed to links, in which axes they are asked for |
 //! | [`kinematics`] | poses, Jacobians and their rates, wrenches at the joints |
+//! | [`link_axes`] | the hand's velocity in the axes of links |
 //! | [`operational`] | Λ, J̄, bias force and null space at the hand |
 //! | [`contact`] | Jᵀw of a wrench at the hand, and the wrench of torques |
 //! | [`from_torques`] | D, h, c, h_ikm of a recursion, from the torques of chosen motions |
@@ -52,6 +53,7 @@ mod from_robot;
 pub mod from_torques;
 pub mod kinematics;
 pub mod lagrange_euler;
+pub mod link_axes;
 pub mod load;
 pub mod matrix;
 pub mod newton_euler;

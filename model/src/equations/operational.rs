@@ -8,16 +8,23 @@
 //! μ = Λ (J D⁻¹ (h + c) − J̇ q̇)        N = 1 − J̄ J
 //! ```
 //!
+//! Of no more joints than components, J̄ and N need no D⁻¹ (`NormalEquations`):
+//!
+//! ```text
+//! J̄ = (Jᵀ J + λ² D)⁻¹ Jᵀ        N = (Jᵀ J + λ² D)⁻¹ λ² D
+//! ```
+//!
 //! Λ⁻¹ is positive semidefinite: singular where J loses rank, and always where m > n.
 //! With λ² > 0 the pivots of Λ⁻¹ + λ² 1 are λ² at least, and nothing divides by zero;
-//! with λ² = 0 they vanish where J loses rank, and there is no Λ.
+//! with λ² = 0 they vanish where J loses rank, and there is no Λ. Jᵀ J + λ² D is positive
+//! definite where Λ exists, and with λ² = 0 also of less joints than components.
 
 use alloc::vec::Vec;
 
-use super::factor::{Factor, scatter};
+use super::factor::{Factor, scatter, submatrix};
 use super::following::gathered_rows;
 use super::forward::free;
-use super::matrix::{minus, negative, plus, symmetric, times, total};
+use super::matrix::{minus, negative, plus, symmetric, times, total, zeros};
 use super::{Arm, DhVariables, Formulation};
 use crate::scalar::{Divide, Scalar};
 
@@ -33,7 +40,7 @@ pub struct TaskSpace<S> {
 }
 
 /// Σ a_k b_k
-fn product<S: Scalar>(a: &[S], b: &[S]) -> S {
+pub(super) fn product<S: Scalar>(a: &[S], b: &[S]) -> S {
     total(a.iter().zip(b).map(|(a, b)| times(a, b)))
 }
 
@@ -122,6 +129,73 @@ impl<S: Divide> TaskSpace<S> {
         let rest = driven.iter().zip(rate);
         let rest: Vec<S> = rest.map(|(driven, rate)| minus(driven, rate)).collect();
         Factor::new(&self.damped(damping)).solve(&rest)
+    }
+}
+
+/// Jᵀ J + λ² D over the joints that move, factored: from J̄ᵀ (Λ⁻¹ + λ² 1) = (D⁻¹ Jᵀ)ᵀ follows
+/// (Jᵀ J + λ² D) J̄ = Jᵀ by D from the left.
+#[derive(Clone, Debug)]
+pub struct NormalEquations<S> {
+    /// J over these joints.
+    jacobian: Vec<Vec<S>>,
+    /// λ² D over these joints.
+    damping: Vec<Vec<S>>,
+    factor: Factor<S>,
+    /// These joints, and how many there are in all.
+    joints: Vec<usize>,
+    n: usize,
+}
+
+impl<S: Divide> NormalEquations<S> {
+    /// `None` where more joints move than J has components: with λ² = 0 there are none.
+    pub fn new(
+        jacobian: &[Vec<S>],
+        inertia: &[Vec<S>],
+        damping: &S,
+        moves: &[bool],
+    ) -> Option<NormalEquations<S>> {
+        let joints = free(moves);
+        if jacobian.len() < joints.len() {
+            return None;
+        }
+        let row = |row: &Vec<S>| joints.iter().map(|&joint| row[joint].clone()).collect();
+        let jacobian: Vec<Vec<S>> = jacobian.iter().map(row).collect();
+        let inertia = submatrix(inertia, &joints);
+        let damping = symmetric(joints.len(), |i, k| times(damping, &inertia[i][k]));
+        let square = |i: usize, k: usize| {
+            let rows = jacobian.iter().map(|row| times(&row[i], &row[k]));
+            plus(&total(rows), &damping[i][k])
+        };
+        Some(NormalEquations {
+            factor: Factor::new(&symmetric(joints.len(), square)),
+            jacobian,
+            damping,
+            joints,
+            n: moves.len(),
+        })
+    }
+
+    /// J̄, n×m.
+    pub fn consistent_inverse(&self) -> Vec<Vec<S>> {
+        self.solved(&self.jacobian)
+    }
+
+    /// N, n×n, over the joints that move.
+    pub fn null_space(&self) -> Vec<Vec<S>> {
+        let rows = self.solved(&self.damping).into_iter();
+        rows.map(|row| scatter(&row, &self.joints, self.n))
+            .collect()
+    }
+
+    /// (Jᵀ J + λ² D)⁻¹ x for each x, a column each.
+    fn solved(&self, right: &[Vec<S>]) -> Vec<Vec<S>> {
+        let columns: Vec<Vec<S>> = right.iter().map(|x| self.factor.solve(x)).collect();
+        let row = |joint: usize| columns.iter().map(|column| column[joint].clone()).collect();
+        let mut rows: Vec<Vec<S>> = alloc::vec![zeros(right.len()); self.n];
+        for (index, &joint) in self.joints.iter().enumerate() {
+            rows[joint] = row(index);
+        }
+        rows
     }
 }
 

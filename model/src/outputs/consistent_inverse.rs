@@ -5,9 +5,10 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::operational_inertia::damped_mobility;
-use super::operational_inertia_inverse::{OF_HAND, space, written_space};
+use super::operational_inertia_inverse::{OF_HAND, hand, normal, space, written_space};
 use super::quantity::Facts;
 use super::{Argument, Axis, Index, Quantity, Regrouped, Shape, Written};
+use crate::equations::chain::HandChoice;
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -36,6 +37,7 @@ impl Formula for ConsistentInverse {
             _ => "1",
         },
         given: Some("consistent_inverse"),
+        hand: HandChoice::Normal,
         ..OF_HAND
     };
 
@@ -75,7 +77,11 @@ impl Formula for ConsistentInverse {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        let inverse = space(at)?.consistent_inverse(&at.motion.damping[0]);
-        Some(inverse.concat())
+        let hand = hand(at)?;
+        let inverse = match normal(at, &hand) {
+            Some(normal) => normal.consistent_inverse(),
+            None => space(at, &hand).consistent_inverse(&at.motion.damping[0]),
+        };
+        Some(hand.turned(&inverse).concat())
     }
 }

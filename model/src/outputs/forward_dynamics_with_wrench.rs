@@ -10,6 +10,7 @@ use super::operational_inertia_inverse::OF_HAND;
 use super::quantity::FrameChoice;
 use super::quantity::{Choices, Facts, turns};
 use super::{Argument, Motion, Quantity, Regrouped, Shape, Written};
+use crate::equations::chain::HandChoice;
 use crate::equations::chain::Unknowns;
 use crate::equations::matrix::plus;
 use crate::scalar::{Divide, Scalar};
@@ -56,6 +57,7 @@ impl Formula for ContactAcceleration {
         }),
         gravity: true,
         frame: FrameChoice::Axes,
+        hand: HandChoice::None,
         ..OF_HAND
     };
 

@@ -7,6 +7,7 @@ use super::{
     Argument, Axis, Function, Motion, PayloadDependence, Quantity, RuntimeParameter, Sizes, Written,
 };
 use crate::equations::chain::Form;
+use crate::equations::chain::HandChoice;
 use crate::equations::regressor::Column;
 use crate::equations::{Arm, Formulation};
 use crate::scalar::Divide;
@@ -187,10 +188,12 @@ impl Function {
     pub fn forms(self) -> Vec<Form> {
         let quantities = || self.quantities().iter();
         let choices = || quantities().filter_map(|q| q.facts().choices);
+        let hand = quantities().map(|q| q.facts().hand).max();
         Form::all(
             choices().any(|c| c.recursion),
             choices().any(|c| c.travel),
             choices().any(|c| c.flows),
+            hand.unwrap_or(HandChoice::None),
         )
     }
 }

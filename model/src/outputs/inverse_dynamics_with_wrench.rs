@@ -9,6 +9,7 @@ use super::operational_inertia_inverse::OF_HAND;
 use super::quantity::FrameChoice;
 use super::quantity::{Choices, Facts, load};
 use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
+use crate::equations::chain::HandChoice;
 use crate::equations::matrix::minus;
 use crate::scalar::{Divide, Scalar};
 
@@ -58,6 +59,7 @@ impl Formula for ContactTorque {
         }),
         gravity: true,
         frame: FrameChoice::Axes,
+        hand: HandChoice::None,
         ..OF_HAND
     };
 

@@ -6,9 +6,10 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::operational_inertia::damped_mobility;
-use super::operational_inertia_inverse::{OF_HAND, space, written_space};
+use super::operational_inertia_inverse::{OF_HAND, hand, normal, space, written_space};
 use super::quantity::Facts;
 use super::{Argument, Index, Quantity, Regrouped, Shape, Written};
+use crate::equations::chain::HandChoice;
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -37,6 +38,7 @@ impl Formula for NullSpace {
             _ => "1",
         },
         given: Some("null_space_projector"),
+        hand: HandChoice::Normal,
         ..OF_HAND
     };
 
@@ -54,7 +56,11 @@ impl Formula for NullSpace {
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let motion = at.motion;
-        let projector = space(at)?.null_space(&motion.damping[0], &motion.moves);
+        let hand = hand(at)?;
+        let projector = match normal(at, &hand) {
+            Some(normal) => normal.null_space(),
+            None => space(at, &hand).null_space(&motion.damping[0], &motion.moves),
+        };
         Some(projector.concat())
     }
 }

@@ -7,7 +7,7 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::inverse_dynamics::torques;
 use super::operational_inertia::damped_mobility;
-use super::operational_inertia_inverse::{OF_HAND, chain_jacobian, factor};
+use super::operational_inertia_inverse::{OF_HAND, chain_jacobian, factor, hand};
 use super::quantity::{Choices, Facts};
 use super::{Argument, Axis, Index, Quantity, Regrouped, Shape, Written};
 use crate::equations::following::gathered;
@@ -64,19 +64,17 @@ impl Formula for OperationalBias {
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let motion = at.motion;
-        let textbook = at.textbook.as_ref()?;
+        let (hand, qd) = (hand(at)?, &at.textbook.as_ref()?.motion.qd);
         let chain = at.chain.clone().without_friction();
         let free = Regrouped {
             chain: &chain,
             ..at.clone()
         };
         let loads = gathered(at.following, torques(&free, &zeros(motion.qd.len())));
-        let (jacobian, factor) = (chain_jacobian(at)?, factor(at));
+        let (jacobian, factor) = (chain_jacobian(at, &hand), factor(at));
         let driven = driven_by(&jacobian, &factor, &loads, &motion.moves);
-        let (arm, qd) = (textbook.arm, &textbook.motion.qd);
-        let rate = textbook.formulation.jacobian_rate(arm, textbook.at, qd);
-        let rate = arm.frames.rows.pick(&rate.concat());
         let space = TaskSpace::by_factor(jacobian, &factor, &motion.moves);
-        Some(space.bias(&driven, &rate, &motion.damping[0]))
+        let bias = space.bias(&driven, &hand.rate(qd), &motion.damping[0]);
+        Some(hand.turned(&[bias]).concat())
     }
 }

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::operational_inertia_inverse::{OF_HAND, angular, space, written_space};
+use super::operational_inertia_inverse::{OF_HAND, angular, hand, space, written_space};
 use super::quantity::Facts;
 use super::{Argument, Axis, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
@@ -67,6 +67,8 @@ impl Formula for OperationalInertia {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        Some(space(at)?.inertia(&at.motion.damping[0]).concat())
+        let hand = hand(at)?;
+        let inertia = space(at, &hand).inertia(&at.motion.damping[0]);
+        Some(hand.turned_matrix(&inertia).concat())
     }
 }

@@ -7,10 +7,12 @@ use super::function::Definition;
 use super::quantity::FrameChoice;
 use super::quantity::{Choices, Facts};
 use super::{Argument, Axis, Index, PayloadDependence, Quantity, Regrouped, Shape, Written};
+use crate::equations::chain::HandChoice;
 use crate::equations::factor::{Factor, submatrix};
 use crate::equations::following::gathered_rows;
 use crate::equations::forward::free;
-use crate::equations::operational::TaskSpace;
+use crate::equations::link_axes::SeenHand;
+use crate::equations::operational::{NormalEquations, TaskSpace};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -32,6 +34,7 @@ pub(super) const OF_HAND: Facts = Facts {
         travel: true,
         flows: false,
     }),
+    hand: HandChoice::Axes,
     depends_on_base: true,
     payload_dependence: PayloadDependence::Torque,
     frame: FrameChoice::Rows,
@@ -43,14 +46,21 @@ pub(super) fn written_space<S: Divide>(at: &Written<'_, S>) -> TaskSpace<S> {
     at.formulation.task_space(at.arm, at.at, &at.motion.moves)
 }
 
-/// J of the arm over the joints of the chain, gathered at the leaders of those that follow.
-pub(super) fn chain_jacobian<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<Vec<S>>> {
-    let textbook = at.textbook.as_ref()?;
-    let jacobian = textbook
-        .formulation
-        .task_jacobian(textbook.arm, textbook.at);
-    let rows = jacobian.iter().map(|row| at.pick(row));
-    Some(gathered_rows(at.following, rows.collect()))
+/// The hand of the arm, seen as the form says.
+pub(super) fn hand<'a, S: Divide>(at: &Regrouped<'a, S>) -> Option<SeenHand<'a, S>> {
+    let whole = at.textbook.as_ref()?;
+    let arm = (whole.arm, whole.at);
+    Some(SeenHand::new(whole.formulation, arm, at.form.hand.axes))
+}
+
+/// J′ over the joints of the chain, gathered at the leaders of those that follow.
+pub(super) fn chain_jacobian<S: Divide>(
+    at: &Regrouped<'_, S>,
+    hand: &SeenHand<'_, S>,
+) -> Vec<Vec<S>> {
+    let rows = hand.jacobian();
+    let rows = rows.iter().map(|row| at.pick(row));
+    gathered_rows(at.following, rows.collect())
 }
 
 /// The factors of D over the joints of the chain that move.
@@ -59,14 +69,19 @@ pub(super) fn factor<S: Divide>(at: &Regrouped<'_, S>) -> Factor<S> {
     Factor::new(&submatrix(&d, &free(&at.motion.moves)))
 }
 
-/// What follows from J and D's factors.
-pub(super) fn space<S: Divide>(at: &Regrouped<'_, S>) -> Option<TaskSpace<S>> {
-    let jacobian = chain_jacobian(at)?;
-    Some(TaskSpace::by_factor(
-        jacobian,
-        &factor(at),
-        &at.motion.moves,
-    ))
+/// What follows from J′ and D's factors.
+pub(super) fn space<S: Divide>(at: &Regrouped<'_, S>, hand: &SeenHand<'_, S>) -> TaskSpace<S> {
+    TaskSpace::by_factor(chain_jacobian(at, hand), &factor(at), &at.motion.moves)
+}
+
+/// J̄ and N by normal equations, if the form says so and there are such.
+pub(super) fn normal<S: Divide>(
+    at: &Regrouped<'_, S>,
+    hand: &SeenHand<'_, S>,
+) -> Option<NormalEquations<S>> {
+    let jacobian = at.form.hand.normal.then(|| chain_jacobian(at, hand))?;
+    let (inertia, motion) = (at.gathered_inertia(), at.motion);
+    NormalEquations::new(&jacobian, &inertia, &motion.damping[0], &motion.moves)
 }
 
 /// Of how many of two components are turns: of a unit in two powers of metres.
@@ -99,6 +114,7 @@ impl Formula for OperationalInertiaInverse {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        Some(space(at)?.mobility().concat())
+        let hand = hand(at)?;
+        Some(hand.turned_matrix(space(at, &hand).mobility()).concat())
     }
 }

@@ -5,6 +5,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::{Argument, Axis, PayloadDependence, Quantity, Shape, Sizes};
+use crate::equations::chain::HandChoice;
 use crate::equations::regressor::LinkParameter;
 use crate::robot::{JointKind, Robot};
 
@@ -58,6 +59,8 @@ pub(super) struct Facts {
     /// True if recursions give it only by differences of torques, which costs
     /// digits and n² recursions.
     pub by_differences: bool,
+    /// What of the hand's forms it reads.
+    pub hand: HandChoice,
     /// True if it is a matrix that is positive definite.
     pub definite: bool,
     /// True if it depends on lengths that no torque depends on: where the
@@ -91,6 +94,7 @@ impl Facts {
         choices: None,
         starts_from_recursion: false,
         by_differences: false,
+        hand: HandChoice::None,
         definite: false,
         depends_on_base: false,
         payload_dependence: PayloadDependence::None,

@@ -108,7 +108,10 @@ fn by_chain(problem: &Problem<'_>) -> Vec<Approach> {
         .map(|forms| tuned(scene_robot, function, forms, effort, limit, from, watch));
     let near = near(tuned.collect(), |tuned: &Tuned| tuned.price);
     let approach = |(index, tuned): (usize, Tuned)| {
-        let mut variants = regrouped(scene_robot, function, &families[index], &tuned.regrouping);
+        // Seen in other axes the hand has hardly a value in common.
+        let forms = families[index].iter().copied();
+        let forms: Vec<Form> = forms.filter(|form| form.hand == tuned.form.hand).collect();
+        let mut variants = regrouped(scene_robot, function, &forms, &tuned.regrouping);
         // The textbook recursion gives D column by column and h_ikm by polarisation, with
         // n² of work a link or more: no match.
         let mut quantities = function.quantities().iter();

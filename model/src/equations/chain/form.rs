@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 
 use super::composite::CompositeOrder;
 use super::recursion::{AccelerationForm, MomentForm};
+use crate::equations::link_axes::HandAxes;
 
 /// One association of the chain formulas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,12 +19,55 @@ pub struct Form {
     pub composite_h: bool,
     /// True if C comes from composite momenta, or from the h_ikm.
     pub flows: bool,
+    /// How the hand is seen.
+    pub hand: HandForm,
+}
+
+/// How dynamics in the space of the hand are associated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct HandForm {
+    /// The axes in which its velocity is.
+    pub axes: HandAxes,
+    /// True if J̄ and N come from normal equations, or from Λ.
+    pub normal: bool,
+}
+
+/// What of the hand's forms a quantity reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum HandChoice {
+    /// Nothing.
+    None,
+    /// The axes.
+    Axes,
+    /// The axes, and where J̄ and N come from.
+    Normal,
+}
+
+impl HandForm {
+    /// The forms that differ.
+    fn all(choice: HandChoice) -> Vec<HandForm> {
+        let axes = [HandAxes::Asked, HandAxes::FirstAndLast, HandAxes::Last];
+        let axes = &axes[..if choice == HandChoice::None { 1 } else { 3 }];
+        let normals = &[false, true][..if choice == HandChoice::Normal { 2 } else { 1 }];
+        let of = |&normal: &bool| axes.iter().map(move |&axes| HandForm { axes, normal });
+        normals.iter().flat_map(of).collect()
+    }
 }
 
 impl Form {
     /// The forms that differ where the recursion over velocities is read, or not, where
-    /// something travels, or not, and where C is wanted, or not; the usually cheapest first.
-    pub fn all(recursion: bool, travels: bool, flows: bool) -> Vec<Form> {
+    /// something travels, or not, where C is wanted, or not, and by what is read of the hand;
+    /// the usually cheapest first.
+    pub fn all(recursion: bool, travels: bool, flows: bool, hand: HandChoice) -> Vec<Form> {
+        let hands = HandForm::all(hand).into_iter();
+        let of = |hand| {
+            let forms = Form::of_joints(recursion, travels, flows).into_iter();
+            forms.map(move |form| Form { hand, ..form })
+        };
+        hands.flat_map(of).collect()
+    }
+
+    fn of_joints(recursion: bool, travels: bool, flows: bool) -> Vec<Form> {
         let mut forms = Vec::new();
         for flows in [false, true].into_iter().take(1 + usize::from(flows)) {
             for travel in [CompositeOrder::Outward, CompositeOrder::Inward] {
@@ -36,6 +80,7 @@ impl Form {
                                 travel,
                                 composite_h,
                                 flows,
+                                hand: HandForm::default(),
                             });
                         }
                     }

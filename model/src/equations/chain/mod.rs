@@ -8,6 +8,7 @@
 //! - [`pose`]: the chain at a position; the axes in which each link is seen
 //! - `momentum`: energies and momenta; `twist`: twists and wrenches
 //! - [`recursion`]: the customised Newton–Euler recursion
+//! - `reference`: torques at accelerations by which the recursion becomes short
 //! - [`composite`]: D, h, h_ikm and c from composite bodies
 //! - `coriolis`: C from composite momenta
 //! - [`derivatives`]: ∂τ/∂q and ∂τ/∂q̇ from composite bodies
@@ -34,6 +35,7 @@ mod passivity;
 pub mod pose;
 pub mod probe;
 pub mod recursion;
+mod reference;
 mod regressor;
 pub mod regrouping;
 pub mod second_derivatives;
@@ -44,7 +46,7 @@ mod twist;
 use alloc::vec::Vec;
 
 pub use body::Body;
-pub use form::Form;
+pub use form::{Form, HandChoice, HandForm};
 pub use parallel::Unknowns;
 pub use pose::Displacement;
 pub use probe::{Column, Probe, Probed};

@@ -14,9 +14,9 @@
 
 use alloc::vec::Vec;
 
-use super::Chain;
+use super::{Chain, Displacement, Form};
 use crate::equations::forward::solved;
-use crate::equations::matrix::{minus, plus};
+use crate::equations::matrix::{minus, plus, zero_vector};
 use crate::scalar::{Divide, Scalar};
 
 /// A joint and the next one that moves about a parallel axis.
@@ -89,6 +89,28 @@ impl<S: Divide> Chain<S> {
             Unknowns::AgainstBase => self.pairs(moves),
         };
         solved_in_pairs(&pairs, d, [bias, tau], moves)
+    }
+}
+
+impl<S: Divide> Chain<S> {
+    /// q̈ under τ, zero of joints that do not move, from the torques of the recursion at
+    /// accelerations that shorten it.
+    pub fn forward_dynamics(
+        &self,
+        (at, d): (&[Displacement<S>], &[Vec<S>]),
+        [qd, tau]: [&[S]; 2],
+        moves: &[bool],
+        form: Form,
+        unknowns: Unknowns,
+    ) -> Vec<S> {
+        let motion = self.reference_motion(at, qd, moves, form.spin);
+        let reference = &motion.accelerations;
+        let drive = |i: usize| self.drive(i, qd, reference);
+        let taken = self.torques(at, &motion.links, form.couple, &zero_vector(), drive);
+        let rest = self.accelerations(d, [&taken, tau], moves, unknowns);
+        let sums = rest.iter().zip(reference);
+        sums.map(|(rest, reference)| plus(rest, reference))
+            .collect()
     }
 }
 

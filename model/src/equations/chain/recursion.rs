@@ -69,9 +69,9 @@ impl<S: Scalar> Motion<S> {
         acceleration: &S,
         spin: AccelerationForm,
     ) -> Self {
-        let carried = sum(&self.acceleration, &self.u_times(&link.lever(at)));
         match link.kind {
             JointKind::Prismatic => {
+                let carried = sum(&self.acceleration, &self.u_times(&link.lever(at)));
                 let axis = &link.axis;
                 let coriolis = cross(&scaled(&twice(rate), &self.omega), axis);
                 Motion {
@@ -80,33 +80,45 @@ impl<S: Scalar> Motion<S> {
                 }
             }
             JointKind::Revolute => {
-                let turned = link.inward(at, &self.omega);
-                let omega = [turned[0].clone(), turned[1].clone(), plus(&turned[2], rate)];
-                let axis = link.axis_before();
-                let along = plus(&dot(&axis, &self.omega_dot), acceleration);
-                let (omega_dot, u) = match spin {
-                    AccelerationForm::Column => {
-                        let column = link.inward(at, &self.u_times(&axis));
-                        from_column(|i, j| times(&omega[i], &omega[j]), &along, column)
-                    }
-                    AccelerationForm::Rates => {
-                        let turned_dot = link.inward(at, &self.omega_dot);
-                        let omega_dot = [
-                            plus(&turned_dot[0], &times(&omega[1], rate)),
-                            minus(&turned_dot[1], &times(&omega[0], rate)),
-                            along,
-                        ];
-                        let u = from_rates(&omega, &omega_dot);
-                        (omega_dot, u)
-                    }
-                };
-                Motion {
-                    omega,
-                    omega_dot,
-                    u,
-                    acceleration: link.inward(at, &carried),
-                }
+                let carried = dot(&link.axis_before(), &self.omega_dot);
+                self.next_along(link, at, rate, &plus(&carried, acceleration), spin)
             }
+        }
+    }
+
+    /// The motion of the next link, which turns, where ω̇ is this along its axis.
+    pub(super) fn next_along(
+        &self,
+        link: &ChainLink<S>,
+        at: &Displacement<S>,
+        rate: &S,
+        along: &S,
+        spin: AccelerationForm,
+    ) -> Self {
+        let carried = sum(&self.acceleration, &self.u_times(&link.lever(at)));
+        let turned = link.inward(at, &self.omega);
+        let omega = [turned[0].clone(), turned[1].clone(), plus(&turned[2], rate)];
+        let (omega_dot, u) = match spin {
+            AccelerationForm::Column => {
+                let column = link.inward(at, &self.u_times(&link.axis_before()));
+                from_column(|i, j| times(&omega[i], &omega[j]), along, column)
+            }
+            AccelerationForm::Rates => {
+                let turned_dot = link.inward(at, &self.omega_dot);
+                let omega_dot = [
+                    plus(&turned_dot[0], &times(&omega[1], rate)),
+                    minus(&turned_dot[1], &times(&omega[0], rate)),
+                    along.clone(),
+                ];
+                let u = from_rates(&omega, &omega_dot);
+                (omega_dot, u)
+            }
+        };
+        Motion {
+            omega,
+            omega_dot,
+            u,
+            acceleration: link.inward(at, &carried),
         }
     }
 

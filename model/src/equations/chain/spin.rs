@@ -25,6 +25,7 @@
 use alloc::vec::Vec;
 
 use super::composite::{Composite, CompositeOrder};
+use super::reference::ReferenceMotion;
 use super::{Body, Chain, ChainLink, Displacement, Form, Unknowns};
 use crate::equations::SinCosPair;
 use crate::equations::forward::inverted;
@@ -147,7 +148,14 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         let (chain, at, last) = (&self.chain, self.at(), self.chain.links.len());
         let link = &self.whole.chain.links[last];
         let before = &qd[..last];
-        let motions = chain.motions(at, before, &zeros(last), form.spin);
+        let motion = match form.composite_h {
+            false => chain.reference_motion(at, before, &moves[..last], form.spin),
+            true => ReferenceMotion {
+                accelerations: zeros(last),
+                links: chain.motions(at, before, &zeros(last), form.spin),
+            },
+        };
+        let (motions, reference) = (motion.links, motion.accelerations);
         let motion = &motions[last - 1];
         let unturned = Displacement::Turn(SinCosPair {
             sin: S::zero(),
@@ -159,7 +167,7 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         let couple = link.outward(&unturned, &couple);
         let left = minus(&left, &own);
         let composite = Composite::new(chain, at);
-        let drive = |i: usize| chain.links[i].friction.torque(&qd[i]);
+        let drive = |i: usize| chain.drive(i, qd, &reference);
         let bias = match form.composite_h {
             false => chain.torques(at, &motions, form.couple, &couple, drive),
             true => {
@@ -170,11 +178,14 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
             }
         };
         let d = composite.inertia(form.travel);
-        let mut qdd = chain.accelerations(&d, [&bias, &tau[..last]], &moves[..last], unknowns);
+        // What is beyond the reference.
+        let rest = chain.accelerations(&d, [&bias, &tau[..last]], &moves[..last], unknowns);
         let products = self.brought();
-        let products = products.iter().zip(&qdd).map(|(x, qdd)| times(x, qdd));
+        let products = products.iter().zip(&rest).map(|(x, rest)| times(x, rest));
         let still = dot(&link.axis_before(), &motion.omega_dot);
         let brought = plus(&still, &total(products));
+        let sums = rest.iter().zip(&reference);
+        let mut qdd: Vec<S> = sums.map(|(rest, own)| plus(rest, own)).collect();
         qdd.push(minus(
             &times(&left, &self.inverse),
             &times(&self.share, &brought),

@@ -10,7 +10,7 @@ pub mod table1;
 pub mod table2;
 
 use super::Link;
-use super::matrix::{Vector, plus, scaled, times};
+use super::matrix::{Vector, opposite, plus, scaled, times, zero_vector};
 use crate::scalar::Scalar;
 
 /// The force and the moment that the hand exerts on its environment, about the origin of frame n:
@@ -21,6 +21,26 @@ pub struct Wrench<S> {
     pub force: Vector<S>,
     /// n_{n+1}, N·m
     pub moment: Vector<S>,
+}
+
+/// The motion of one link.
+#[derive(Clone, Debug)]
+pub(super) struct Motion<S> {
+    omega: Vector<S>,
+    omega_dot: Vector<S>,
+    /// v̇ of the origin of frame i.
+    acceleration: Vector<S>,
+}
+
+impl<S: Scalar> Motion<S> {
+    /// The base, accelerated upwards instead of being pulled down.
+    pub(super) fn of_base(gravity: &Vector<S>) -> Self {
+        Motion {
+            omega: zero_vector(),
+            omega_dot: zero_vector(),
+            acceleration: opposite(gravity),
+        }
+    }
 }
 
 /// F_i = m_i a_i, in any axes.

@@ -2,10 +2,9 @@
 
 use alloc::vec::Vec;
 
-use super::{Wrench, newton, with_drive};
+use super::{Motion, Wrench, newton, with_drive};
 use crate::equations::matrix::{
-    Columns, Vector, centripetal, cross, dot, opposite, scaled, sum, tensor_times, twice,
-    zero_vector,
+    Columns, Vector, centripetal, cross, dot, scaled, sum, tensor_times, twice, zero_vector,
 };
 use crate::equations::{Arm, DhVariables, Link};
 use crate::robot::{Convention, JointKind};
@@ -37,7 +36,7 @@ pub fn inverse_dynamics<S: Scalar>(
     qdd: &[S],
     tip: Option<&Wrench<S>>,
 ) -> Vec<S> {
-    let bodies = bodies(arm, at, qd, qdd);
+    let bodies = bodies(arm, at, qd, qdd, &Motion::of_base(&arm.gravity));
     let wrenches = wrenches_on(arm, &bodies, tip);
     let joints = arm.links.iter().zip(&bodies).zip(&wrenches).enumerate();
     joints
@@ -59,19 +58,21 @@ pub fn wrenches<S: Scalar>(
     qd: &[S],
     qdd: &[S],
 ) -> Vec<Wrench<S>> {
-    wrenches_on(arm, &bodies(arm, at, qd, qdd), None)
+    let bodies = bodies(arm, at, qd, qdd, &Motion::of_base(&arm.gravity));
+    wrenches_on(arm, &bodies, None)
 }
 
-/// v̇ and ω̇ of the hand, in the axes of frame 0.
-pub fn tip_acceleration<S: Scalar>(
+/// v̇ and ω̇ of the hand, in the axes of frame 0, of which this is the motion.
+pub(in crate::equations) fn tip_acceleration<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
     qd: &[S],
     qdd: &[S],
+    base: &Motion<S>,
 ) -> [Vector<S>; 2] {
-    match bodies(arm, at, qd, qdd).pop() {
+    match bodies(arm, at, qd, qdd, base).pop() {
         Some(last) => [last.acceleration_of(arm.tool.as_ref()), last.omega_dot],
-        None => [opposite(&arm.gravity), zero_vector()],
+        None => [base.acceleration.clone(), base.omega_dot.clone()],
     }
 }
 
@@ -118,16 +119,22 @@ fn wrenches_on<S: Scalar>(
 }
 
 /// Every link in base axes, from the base to the hand.
-fn bodies<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S], qdd: &[S]) -> Vec<Body<S>> {
+fn bodies<S: Scalar>(
+    arm: &Arm<S>,
+    at: &[DhVariables<S>],
+    qd: &[S],
+    qdd: &[S],
+    base: &Motion<S>,
+) -> Vec<Body<S>> {
     let mut bodies: Vec<Body<S>> = Vec::with_capacity(arm.links.len());
     let base = Body {
         rotation: Columns::identity().axes,
         axis: zero_vector(),
         lever: zero_vector(),
         com: zero_vector(),
-        omega: zero_vector(),
-        omega_dot: zero_vector(),
-        acceleration: opposite(&arm.gravity),
+        omega: base.omega.clone(),
+        omega_dot: base.omega_dot.clone(),
+        acceleration: base.acceleration.clone(),
     };
     for (i, link) in arm.links.iter().enumerate() {
         let before = bodies.last().unwrap_or(&base);

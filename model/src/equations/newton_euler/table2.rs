@@ -3,10 +3,10 @@
 
 use alloc::vec::Vec;
 
-use super::{Wrench, newton, with_drive};
+use super::{Motion, Wrench, newton, with_drive};
 use crate::equations::matrix::{
-    Vector, centripetal, cross, cross_z, dot, minus, negative, opposite, plus, scaled, sum,
-    tensor_times, times, twice, zero_vector,
+    Vector, centripetal, cross, cross_z, dot, minus, negative, plus, scaled, sum, tensor_times,
+    times, twice, zero_vector,
 };
 use crate::equations::{Arm, DhVariables, Link};
 use crate::robot::{Convention, Inertia, JointKind};
@@ -26,14 +26,6 @@ pub enum Moment {
     /// moments of inertia: about the axis of a round link it is nothing, where
     /// the products as printed leave I_xx/I_zz times their rounding.
     Differences,
-}
-
-/// Motion of one link.
-struct Motion<S> {
-    omega: Vector<S>,
-    omega_dot: Vector<S>,
-    /// v̇ of the origin of frame i.
-    acceleration: Vector<S>,
 }
 
 impl<S: Scalar> Motion<S> {
@@ -144,14 +136,21 @@ pub fn inverse_dynamics<S: Scalar>(
     torques
 }
 
+/// ω_n, ω̇_n, v̇_n in the axes of frame n.
+pub(in crate::equations) fn last_motion<S: Scalar>(
+    arm: &Arm<S>,
+    at: &[DhVariables<S>],
+    qd: &[S],
+    qdd: &[S],
+) -> Motion<S> {
+    let last = motions(arm, at, qd, qdd).pop();
+    last.unwrap_or_else(|| Motion::of_base(&arm.gravity))
+}
+
 /// ω_i, ω̇_i, v̇_i from the base to the hand.
 fn motions<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S], qdd: &[S]) -> Vec<Motion<S>> {
     let mut motions: Vec<Motion<S>> = Vec::with_capacity(arm.links.len());
-    let base = Motion {
-        omega: zero_vector(),
-        omega_dot: zero_vector(),
-        acceleration: opposite(&arm.gravity),
-    };
+    let base = Motion::of_base(&arm.gravity);
     for i in 0..arm.links.len() {
         let before = if i == 0 { &base } else { &motions[i - 1] };
         let step = LinkStep::new(arm, at, i);

@@ -1,0 +1,72 @@
+//! Torques at accelerations by which the recursion becomes short.
+//!
+//! D q̈ = τ − h − c is D (q̈ − a) = τ − τ(a) for any a, τ(a) being the torques at these
+//! accelerations. Joint i adds to ω̇ of its link along its own axis alone, so a_i may be what
+//! makes ω̇_z = ω_x ω_y there. Then
+//!
+//! ```text
+//! U_12 = ω_x ω_y − ω̇_z = 0        U_21 = ω_x ω_y + ω̇_z = 2 ω_x ω_y
+//! ```
+//!
+//! and no product with U_12 is left, of the step to the next link, of the force and of the
+//! couple; a is a difference a joint.
+
+use alloc::vec::Vec;
+
+use super::recursion::{AccelerationForm, Motion};
+use super::{Chain, Displacement};
+use crate::equations::matrix::{dot, minus, plus, times};
+use crate::robot::JointKind;
+use crate::scalar::Scalar;
+
+/// a, and the motion of every link at these accelerations.
+pub(super) struct ReferenceMotion<S> {
+    pub(super) accelerations: Vec<S>,
+    pub(super) links: Vec<Motion<S>>,
+}
+
+impl<S: Scalar> Chain<S> {
+    /// a is zero of joints that slide, and of those that do not move.
+    pub(super) fn reference_motion(
+        &self,
+        at: &[Displacement<S>],
+        qd: &[S],
+        moves: &[bool],
+        spin: AccelerationForm,
+    ) -> ReferenceMotion<S> {
+        let rates = self.rates(qd);
+        let n = self.links.len();
+        let mut motion = ReferenceMotion {
+            accelerations: Vec::with_capacity(n),
+            links: Vec::with_capacity(n),
+        };
+        let base = Motion::base(&self.gravity);
+        for (i, link) in self.links.iter().enumerate() {
+            let before = motion.links.last().unwrap_or(&base);
+            let (next, acceleration) = match link.kind {
+                JointKind::Revolute if moves[i] => {
+                    let [x, y, _] = link.inward(&at[i], &before.omega);
+                    let along = times(&x, &y);
+                    let carried = dot(&link.axis_before(), &before.omega_dot);
+                    let acceleration = minus(&along, &carried);
+                    let next = before.next_along(link, &at[i], &rates[i], &along, spin);
+                    (next, acceleration)
+                }
+                _ => {
+                    let rest = S::zero();
+                    (before.next(link, &at[i], &rates[i], &rest, spin), rest)
+                }
+            };
+            motion.links.push(next);
+            motion.accelerations.push(acceleration);
+        }
+        motion
+    }
+
+    /// What the drive of a joint takes at its velocity and at this acceleration.
+    pub(super) fn drive(&self, joint: usize, qd: &[S], accelerations: &[S]) -> S {
+        let link = &self.links[joint];
+        let inertial = times(&link.armature, &accelerations[joint]);
+        plus(&inertial, &link.friction.torque(&qd[joint]))
+    }
+}

@@ -1,0 +1,198 @@
+//! The hand's velocity in the axes of links.
+//!
+//! λ² 1 is the same in all axes, for three linear or three angular components by themselves.
+//! So what is asked in base axes may be computed in those of a link, and turned at the end:
+//!
+//! ```text
+//! J = G J′        Λ = G Λ′ Gᵀ        J̄ = J̄′ Gᵀ        μ = G μ′
+//! ```
+//!
+//! In the axes of the link before the hand's the columns of the last joints are mostly zeros
+//! and ones, and of a hand that is round about the last joint's axis, Λ⁻¹ has no entries
+//! beside that of the axis. Linear components are short in the axes of the first link, in
+//! which no lever depends on q_1.
+
+use alloc::vec::Vec;
+
+use super::frames::Axes;
+use super::from_torques::weightless;
+use super::kinematics::{geometric, levers, poses};
+use super::matrix::{Columns, Vector, negative, sum, symmetric, zero_vector, zeros};
+use super::newton_euler::{table1, table2};
+use super::operational::{product, products};
+use super::{Arm, DhVariables, Formulation};
+use crate::robot::{Convention, JointKind};
+use crate::scalar::Scalar;
+
+/// The axes in which the hand's velocity is while something of it is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum HandAxes {
+    /// Those that are asked for.
+    #[default]
+    Asked,
+    /// Linear components in the axes of the first link, angular ones in those of the link
+    /// before the hand's.
+    FirstAndLast,
+    /// All in the axes of the link before the hand's.
+    Last,
+}
+
+/// An arm whose hand is seen from links.
+#[derive(Clone, Debug)]
+pub struct SeenHand<'a, S> {
+    formulation: Formulation,
+    arm: &'a Arm<S>,
+    at: &'a [DhVariables<S>],
+    /// The links of linear and of angular components; `None` for the axes asked for.
+    links: [Option<usize>; 2],
+}
+
+impl<'a, S: Scalar> SeenHand<'a, S> {
+    /// Of components that are not three the axes are those asked for, and of all where
+    /// these are not the base's at the hand.
+    pub fn new(
+        formulation: Formulation,
+        (arm, at): (&'a Arm<S>, &'a [DhVariables<S>]),
+        axes: HandAxes,
+    ) -> Self {
+        let last = arm.to_hand(at).1.len().saturating_sub(1);
+        let links = match axes {
+            HandAxes::Asked => [0, 0],
+            HandAxes::FirstAndLast => [last.min(1), last],
+            HandAxes::Last => [last, last],
+        };
+        let whole = |part: usize| {
+            let rows = arm.frames.rows.indices();
+            arm.frames.axes == Axes::Mixed && rows.filter(|row| row / 3 == part).count() == 3
+        };
+        SeenHand {
+            formulation,
+            arm,
+            at,
+            links: [0, 1].map(|part| (links[part] > 0 && whole(part)).then_some(links[part])),
+        }
+    }
+
+    /// J′, m×n.
+    pub fn jacobian(&self) -> Vec<Vec<S>> {
+        let asked = |part: usize| {
+            let six = self.formulation.jacobian(self.arm, self.at);
+            six[3 * part..3 * part + 3].to_vec()
+        };
+        let of_link = |part: usize, link: usize| {
+            let columns = columns(self.arm, self.at, link);
+            let row = |r: usize| columns.iter().map(move |column| column[part][r].clone());
+            (0..3).map(|r| row(r).collect()).collect()
+        };
+        self.picked(asked, of_link)
+    }
+
+    /// J̇ q̇ in the axes of J′.
+    pub fn rate(&self, qd: &[S]) -> Vec<S> {
+        let asked = |part: usize| {
+            let rate = self.formulation.jacobian_rate(self.arm, self.at, qd);
+            rate[part].to_vec()
+        };
+        let of_link =
+            |part: usize, link: usize| acceleration(self.arm, self.at, qd, link)[part].to_vec();
+        self.picked(asked, of_link)
+    }
+
+    /// The components that are asked for, of three linear and three angular ones.
+    fn picked<T: Clone>(
+        &self,
+        asked: impl Fn(usize) -> Vec<T>,
+        of_link: impl Fn(usize, usize) -> Vec<T>,
+    ) -> Vec<T> {
+        let part = |part: usize| match self.links[part] {
+            None => asked(part),
+            Some(link) => of_link(part, link),
+        };
+        self.arm.frames.rows.pick(&[part(0), part(1)].concat())
+    }
+
+    /// G, m×m.
+    fn turn(&self) -> Vec<Vec<S>> {
+        let poses = poses(self.arm, self.at);
+        let rows: Vec<usize> = self.arm.frames.rows.indices().collect();
+        let entry = |r: usize, c: usize| match self.links[r / 3] {
+            Some(link) if r / 3 == c / 3 => poses[link - 1].axes[c % 3][r % 3].clone(),
+            _ if r == c => S::one(),
+            _ => S::zero(),
+        };
+        let row = |&r: &usize| rows.iter().map(|&c| entry(r, c)).collect();
+        rows.iter().map(row).collect()
+    }
+
+    /// G x of each x, a row each.
+    pub fn turned(&self, rows: &[Vec<S>]) -> Vec<Vec<S>> {
+        let turn = self.turn();
+        rows.iter().map(|row| products(&turn, row)).collect()
+    }
+
+    /// G M Gᵀ of a symmetric M.
+    pub fn turned_matrix(&self, matrix: &[Vec<S>]) -> Vec<Vec<S>> {
+        // M Gᵀ, row by row: its columns are those of G M.
+        let half = self.turned(matrix);
+        let turn = self.turn();
+        let column = |k: usize| half.iter().map(|row| row[k].clone()).collect();
+        let columns: Vec<Vec<S>> = (0..half.len()).map(column).collect();
+        symmetric(half.len(), |i, k| product(&turn[i], &columns[k]))
+    }
+}
+
+/// The columns of J, linear and angular, in the axes of the frame of a link, which is before the hand's.
+fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], link: usize) -> Vec<[Vector<S>; 2]> {
+    let n = at.len();
+    let (arm, at) = arm.to_hand(at);
+    let mut outer = arm.clone().into_owned();
+    outer.base = None;
+    outer.links.drain(..link);
+    let levers = levers(&outer, &at[link..]);
+    // Where the hand is, from the link inward.
+    let mut hands = alloc::vec![levers[0].origin.clone()];
+    for (link, at) in arm.links[..link].iter().zip(&at[..link]).rev() {
+        let step = link.append(arm.convention, at, &Columns::identity());
+        let turned = link.to_previous(arm.convention, at, &hands[hands.len() - 1]);
+        hands.push(sum(&step.origin, &turned));
+    }
+    hands.reverse();
+    let unit = || [S::zero(), S::zero(), S::one()];
+    let mut columns: Vec<[Vector<S>; 2]> = Vec::with_capacity(n);
+    for (i, (link, at)) in arm.links[..link].iter().zip(at).enumerate() {
+        let own = |hand: &Vector<S>| match link.kind {
+            // z × p
+            JointKind::Revolute => [[negative(&hand[1]), hand[0].clone(), S::zero()], unit()],
+            JointKind::Prismatic => [unit(), zero_vector()],
+        };
+        if arm.convention == Convention::Standard {
+            columns.push(own(&hands[i]));
+        }
+        for part in columns.iter_mut().flatten() {
+            *part = link.to_link(arm.convention, at, part);
+        }
+        if arm.convention == Convention::Modified {
+            columns.push(own(&hands[i + 1]));
+        }
+    }
+    columns.extend((0..outer.links.len()).map(|joint| geometric(&outer, &levers, joint)));
+    columns.resize(n, [zero_vector(), zero_vector()]);
+    columns
+}
+
+/// J̇ q̇, linear and angular, in the axes of the frame of a link, which is before the hand's.
+fn acceleration<S: Scalar>(
+    arm: &Arm<S>,
+    at: &[DhVariables<S>],
+    qd: &[S],
+    link: usize,
+) -> [Vector<S>; 2] {
+    let (arm, at) = arm.to_hand(at);
+    let mut inner = weightless(&arm);
+    let mut outer = inner.clone();
+    inner.links.truncate(link);
+    outer.links.drain(..link);
+    let rest = zeros(at.len());
+    let base = table2::last_motion(&inner, at, qd, &rest);
+    table1::tip_acceleration(&outer, &at[link..], &qd[link..], &rest[link..], &base)
+}
