@@ -12,9 +12,12 @@ use crate::program::{Library, Lowered, ScalarType};
 use crate::task::Task;
 
 /// Where gcc fuses products and sums by itself.
-const CONTRACTS: &str = "defined(__GNUC__) && !defined(__clang__) && \
+const FUSES: &str = "defined(__GNUC__) && !defined(__clang__) && \
      (defined(__FP_FAST_FMA) || defined(__FP_FAST_FMAF)) && \
      (defined(__cplusplus) || !defined(__STRICT_ANSI__))";
+/// gcc. It inlines only functions that have the options of those that call them, and makes no
+/// vectors without masks where it first computes (`tree-pre`) what follows of an angle that is far.
+const GCC: &str = "defined(__GNUC__) && !defined(__clang__)";
 
 /// Returns the first name that some C compiler does not take: too long, or of other letters.
 pub(crate) fn misnamed(
@@ -87,6 +90,11 @@ pub(crate) fn write(
     let includes: String = includes
         .map(|(name, _)| format!("#include <{name}.h>\n"))
         .collect();
+    let has_loops = request.entries == Entries::Batch && request.language == Language::C;
+    let (when, options) = match has_loops {
+        true => (GCC, "\"fp-contract=off\", \"no-tree-pre\""),
+        false => (FUSES, "\"fp-contract=off\""),
+    };
     // Writing to a string cannot fail.
     let _ = write!(
         text,
@@ -97,14 +105,14 @@ pub(crate) fn write(
          #if defined(__clang__)\n\
          #define {unfused} _Pragma(\"STDC FP_CONTRACT OFF\")\n\
          #else\n#define {unfused}\n#endif\n\
-         #if {CONTRACTS}\n\
+         #if {when}\n\
          #pragma GCC push_options\n\
-         #pragma GCC optimize (\"fp-contract=off\")\n\
+         #pragma GCC optimize ({options})\n\
          #endif\n"
     );
     if request.language == Language::Cuda {
         text.push_str(cuda::PRODUCTS);
-    } else if request.entries == Entries::Batch {
+    } else if has_loops {
         let simd = names.constant("SIMD");
         // It warns where it cannot, of loops that call the C library.
         let calls_libm = codes_of().any(|code| calls(&code) && code.library == Library::Libm);
@@ -118,7 +126,7 @@ pub(crate) fn write(
         let _ = write!(
             text,
             "\n/* States of a batch are independent of one another. */\n\
-             #if defined(__GNUC__) && !defined(__clang__)\n\
+             #if {GCC}\n\
              #define {simd} _Pragma(\"GCC ivdep\")\n\
              {clang}#elif defined(_OPENMP)\n\
              #define {simd} _Pragma(\"omp simd\")\n\
@@ -206,7 +214,7 @@ pub(crate) fn write(
     }
     let _ = write!(
         text,
-        "\n#if {CONTRACTS}\n#pragma GCC pop_options\n#endif\n\n#endif\n"
+        "\n#if {when}\n#pragma GCC pop_options\n#endif\n\n#endif\n"
     );
     text
 }
