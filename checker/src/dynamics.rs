@@ -262,10 +262,8 @@ pub fn torques<N: Number>(
         let mut torque =
             torque.plus(&N::constant(joint.armature).times(&state.acceleration, products.0)?);
         if friction {
-            if joint.rubs {
-                let why = "no bound is known of torques with Coulomb friction";
-                return Err(Fault::robot("coulomb", why));
-            }
+            let why = "no bound is known of torques with Coulomb friction";
+            Fault::require(!joint.rubs, "coulomb", why)?;
             torque = torque.plus(&N::constant(joint.viscous).times(&state.velocity, products.0)?);
         }
         torques.push(torque);

@@ -85,11 +85,18 @@ pub struct Polynomial {
 impl Polynomial {
     /// A variable times a power of two, or any double.
     pub fn variable(variable: Variable, joint: usize, factor: f64) -> Polynomial {
-        let terms = match factor == 0.0 {
-            true => vec![],
-            false => vec![(key(variable, joint), factor)],
-        };
-        Polynomial { terms, rest: 0.0 }
+        Polynomial::term(key(variable, joint), factor, 0.0)
+    }
+
+    fn term(key: Key, factor: f64, rest: f64) -> Polynomial {
+        let terms = Some((key, factor)).filter(|_| factor != 0.0);
+        let terms = terms.into_iter().collect();
+        Polynomial { terms, rest }
+    }
+
+    /// Its first coefficient: all of a number's.
+    pub(crate) fn value(&self) -> f64 {
+        self.terms.first().map_or(0.0, |term| term.1)
     }
 
     /// More than its magnitude anywhere in the box.
@@ -101,12 +108,7 @@ impl Polynomial {
 
 impl Number for Polynomial {
     fn constant(real: Real) -> Polynomial {
-        let terms = match real.value == 0.0 {
-            true => vec![],
-            false => vec![(0, real.value)],
-        };
-        let rest = real.radius;
-        Polynomial { terms, rest }
+        Polynomial::term(0, real.value, real.radius)
     }
 
     fn negated(&self) -> Polynomial {

@@ -186,9 +186,8 @@ impl Row {
                 let [x, y, z] = [x.double("axis")?, y.double("axis")?, z.double("axis")?];
                 let across = (x * x + y * y).sqrt();
                 let length = (across * across + z * z).sqrt();
-                if !(length > 1e-100 && length < 1e100) {
-                    return Err(Fault::robot("axis", "it has no direction"));
-                }
+                let has_direction = length > 1e-100 && length < 1e100;
+                Fault::require(has_direction, "axis", "it has no direction")?;
                 // Exact along the axes; else both are rounded a few times.
                 let turn = |axis, sin: f64, cos: f64, is_exact: bool| {
                     let radius = if is_exact { 0.0 } else { 1e-15 };
@@ -221,18 +220,13 @@ impl Row {
             true => (&self.offset, &self.d),
             false => (&self.theta, &self.offset),
         };
-        if !(if turns { &self.theta } else { &self.d }).is_zero() {
-            return Err(Fault::robot(
-                "theta or d",
-                "is the joint's variable, so it must be 0",
-            ));
-        }
-        let missing =
-            |key| Fault::robot(key, "only `com` and `inertia` of mass = 0 may be missing");
-        let mass = self.mass.as_ref().ok_or(missing("mass"))?;
-        if !mass.is_zero() && (self.com.is_none() || self.inertia.is_none()) {
-            return Err(missing("com or inertia"));
-        }
+        let variable = if turns { &self.theta } else { &self.d };
+        let why = "is the joint's variable, so it must be 0";
+        Fault::require(variable.is_zero(), "theta or d", why)?;
+        let why = "only `com` and `inertia` of mass = 0 may be missing";
+        let mass = self.mass.as_ref().ok_or(Fault::robot("mass", why))?;
+        let has_both = self.com.is_some() && self.inertia.is_some();
+        Fault::require(mass.is_zero() || has_both, "com or inertia", why)?;
         let (com, inertia) = (self.com.clone(), self.inertia.clone());
         Ok(Joint {
             turns,
@@ -258,7 +252,7 @@ impl Row {
         }
         let known = |key, literal: &Option<Literal>| {
             let size = literal.as_ref().map_or(Ok(0.0), |size| size.double(key))?;
-            not_negative(key, size, format!("{key} is negative"))
+            Fault::require(size >= 0.0, key, &format!("{key} is negative"))
         };
         known("velocity", &self.limits.velocity)?;
         known("acceleration", &self.limits.acceleration)?;
@@ -268,9 +262,7 @@ impl Row {
     /// The ends of a range of positions, if they are in order.
     pub(crate) fn range(&self, [low, high]: &[Literal; 2], why: &str) -> Result<[f64; 2], Fault> {
         let range = [self.position(low)?, self.position(high)?];
-        let is_range = range[0] < range[1];
-        let range = is_range.then_some(range);
-        range.ok_or_else(|| Fault::robot("position", why))
+        Fault::require(range[0] < range[1], "position", why).map(|()| range)
     }
 
     /// Whether the joint turns; else it slides.
@@ -286,9 +278,4 @@ impl Row {
             false => at.double("position"),
         }
     }
-}
-
-pub(crate) fn not_negative(key: &str, value: f64, why: String) -> Result<(), Fault> {
-    let holds = (value >= 0.0).then_some(());
-    holds.ok_or_else(|| Fault::robot(key, why))
 }

@@ -44,9 +44,10 @@ pub(crate) struct Parser<'t> {
     /// What is around the block that is read, and what it results in: names and values.
     outside: (HashMap<&'t str, usize>, Vec<Node>),
     pub(crate) results: Vec<(&'t str, usize)>,
-    /// Of what a call in a header gives the sines: values, or joints.
-    pub(crate) angles: Vec<Result<usize, usize>>,
-    pub(crate) is_called: bool,
+    /// In a header, the list of angles; and what stands for the sine, or else the cosine, of a value
+    /// or a joint.
+    pub(crate) angles: Vec<usize>,
+    pub(crate) sines: HashMap<String, (Result<usize, usize>, bool)>,
     /// The angle in the names of a block of a header.
     pub(crate) block: Option<&'t str>,
     /// What literals end with.
@@ -70,7 +71,7 @@ pub fn read(claim: &Claim, joints: usize) -> Result<Program, Fault> {
     };
     let of_c = ["static inline ", "typedef struct "];
     let read = match of_c.iter().any(|start| text.starts_with(start)) {
-        true => parser.c_function(),
+        true => parser.c_function(text),
         false => parser.rust_function(),
     };
     if read.is_some() {
@@ -126,6 +127,12 @@ impl<'t> Parser<'t> {
             }
         }
         (self.next()? == "}" && self.is_done()).then_some(())
+    }
+
+    /// Reads lines that have to be these.
+    pub(crate) fn expect(&mut self, lines: &str) -> Option<()> {
+        let mut lines = lines.lines();
+        lines.all(|line| self.next() == Some(line)).then_some(())
     }
 
     /// Whether no text is left.

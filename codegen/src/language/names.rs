@@ -8,7 +8,7 @@ use crate::program::ScalarType;
 pub(crate) const LONGEST: usize = 31;
 
 /// Words that are shortened in names that would be too long.
-const SHORT: [(&str, &str); 19] = [
+const SHORT: [(&str, &str); 20] = [
     ("inverse", "inv"),
     ("forward", "fwd"),
     ("dynamics", "dyn"),
@@ -17,6 +17,7 @@ const SHORT: [(&str, &str); 19] = [
     ("kinematics", "kin"),
     ("coefficients", "coef"),
     ("manipulator", "manip"),
+    ("coriolis", "cor"),
     ("equation", "eq"),
     ("passivity", "pass"),
     ("regressor", "regr"),
