@@ -78,9 +78,6 @@ pub(crate) fn item<'t>(
 /// # Errors
 /// The first line that the generator would not print.
 pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
-    let fault = |(number, line): (usize, &str)| {
-        Fault::Text(number, format!("nothing that is generated: `{line}`"))
-    };
     let numbered = source.split('\n').enumerate();
     let numbered = numbered.map(|(index, line)| (index + 1, line));
     let lines: Vec<(usize, &str)> = numbered.filter(|line| !is_plain(*line)).collect();
@@ -113,6 +110,11 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
         None => Ok(all),
         Some(_) => Err(Fault::Text(end, "a brace is not closed".into())),
     }
+}
+
+/// A line that the generator would not print.
+pub(crate) fn fault((number, line): (usize, &str)) -> Fault {
+    Fault::Text(number, format!("nothing that is generated: `{line}`"))
 }
 
 /// Whether a character is one of names.
@@ -155,9 +157,8 @@ pub(crate) fn results<'t>(name: &str, text: &'t str, rows: usize) -> Vec<(&'t st
 /// The name of the struct that a function returns.
 pub(crate) fn structure(name: &str) -> String {
     let words = name.split('_').filter_map(|word| word.split_at_checked(1));
-    words
-        .map(|(first, rest)| first.to_ascii_uppercase() + rest)
-        .collect()
+    let words = words.map(|(first, rest)| first.to_ascii_uppercase() + rest);
+    words.collect()
 }
 
 /// Whether a line is empty, an attribute or a comment: documentation, or the first line of a file.

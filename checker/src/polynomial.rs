@@ -118,19 +118,8 @@ impl Number for Polynomial {
     }
 
     fn plus(&self, other: &Polynomial) -> Polynomial {
-        let (mut a, mut b) = (self.terms.as_slice(), other.terms.as_slice());
-        let mut terms = Vec::with_capacity(a.len() + b.len());
-        while let (Some(x), Some(y)) = (a.first(), b.first()) {
-            if x.0 <= y.0 {
-                terms.push(*x);
-                a = &a[1..];
-            } else {
-                terms.push(*y);
-                b = &b[1..];
-            }
-        }
-        terms.extend_from_slice(a);
-        terms.extend_from_slice(b);
+        let mut terms = [self.terms.as_slice(), &other.terms].concat();
+        sort(&mut terms);
         merged(terms, self.rest + other.rest)
     }
 

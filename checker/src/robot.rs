@@ -13,7 +13,7 @@ use crate::number::Real;
 #[serde(deny_unknown_fields, bound = "S: Deserialize<'de>")]
 #[allow(dead_code, reason = "what is `IgnoredAny` may be there")]
 pub(crate) struct File<S> {
-    pub(crate) convention: Option<Convention>,
+    pub(crate) convention: Option<String>,
     pub(crate) gravity: [Literal; 3],
     pub(crate) joint: Vec<Row>,
     /// Frame 0 in the axes that gravity is in, and the frame of payloads in the last link's.
@@ -27,20 +27,6 @@ pub(crate) struct File<S> {
     outputs: Option<IgnoredAny>,
     tool: Option<IgnoredAny>,
     frame: Option<IgnoredAny>,
-}
-
-#[derive(Clone, Copy, PartialEq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum Convention {
-    Standard,
-    Modified,
-}
-
-#[derive(Clone, Copy, PartialEq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum Kind {
-    Revolute,
-    Prismatic,
 }
 
 /// A frame in another one.
@@ -87,7 +73,7 @@ impl Step {
 #[allow(dead_code, reason = "what is `IgnoredAny` may be there")]
 pub(crate) struct Row {
     pub(crate) name: Option<String>,
-    pub(crate) kind: Option<Kind>,
+    kind: Option<String>,
     placement: Option<Placement>,
     axis: Option<[Literal; 3]>,
     beta: Literal,
@@ -169,14 +155,14 @@ pub struct Joint {
 
 impl Row {
     /// The ways before and behind the joint.
-    fn ways(&self, convention: Option<Convention>) -> Result<[Vec<Step>; 2], Fault> {
+    fn ways(&self, convention: Option<&str>) -> Result<[Vec<Step>; 2], Fault> {
         let mut row = vec![
             Step::Shift([self.a.real("a")?, Real::default(), Real::default()]),
             Step::about(X, self.alpha.angle("alpha")?),
         ];
         match (convention, &self.placement, &self.axis) {
-            (Some(Convention::Modified), None, None) if self.beta.is_zero() => Ok([row, vec![]]),
-            (Some(Convention::Standard), None, None) => {
+            (Some("modified"), None, None) if self.beta.is_zero() => Ok([row, vec![]]),
+            (Some("standard"), None, None) => {
                 if !self.beta.is_zero() {
                     row.push(Step::about(Y, self.beta.angle("beta")?));
                 }
@@ -201,10 +187,8 @@ impl Row {
                 let (tilt, up) = (across / length, z / length);
                 let mut before = placement.steps()?;
                 before.extend([turn(Z, sin, cos, is_flat), turn(Y, tilt, up, is_along)]);
-                Ok([
-                    before,
-                    vec![turn(Y, -tilt, up, is_along), turn(Z, -sin, cos, is_flat)],
-                ])
+                let behind = vec![turn(Y, -tilt, up, is_along), turn(Z, -sin, cos, is_flat)];
+                Ok([before, behind])
             }
             _ => Err(Fault::robot(
                 "placement",
@@ -213,7 +197,7 @@ impl Row {
         }
     }
 
-    pub(crate) fn joint(&self, convention: Option<Convention>) -> Result<Joint, Fault> {
+    pub(crate) fn joint(&self, convention: Option<&str>) -> Result<Joint, Fault> {
         let [before, behind] = self.ways(convention)?;
         let turns = self.turns()?;
         let (theta, d) = match turns {
@@ -227,18 +211,15 @@ impl Row {
         let mass = self.mass.as_ref().ok_or(Fault::robot("mass", why))?;
         let has_both = self.com.is_some() && self.inertia.is_some();
         Fault::require(mass.is_zero() || has_both, "com or inertia", why)?;
-        let (com, inertia) = (self.com.clone(), self.inertia.clone());
+        let com = self.com.clone().unwrap_or_default();
+        let inertia = self.inertia.clone().unwrap_or_default();
         Ok(Joint {
             turns,
             before,
             behind,
             d: d.real("d")?,
             theta: theta.angle("theta")?,
-            bodies: vec![Body::read(
-                mass,
-                &com.unwrap_or_default(),
-                &inertia.unwrap_or_default(),
-            )?],
+            bodies: vec![Body::read(mass, &com, &inertia)?],
             viscous: self.viscous.real("viscous")?,
             rubs: !self.coulomb.is_zero(),
             armature: self.armature.real("armature")?,
@@ -267,8 +248,11 @@ impl Row {
 
     /// Whether the joint turns; else it slides.
     pub(crate) fn turns(&self) -> Result<bool, Fault> {
-        let missing = || Fault::robot("kind", "expected revolute or prismatic");
-        Ok(self.kind.ok_or_else(missing)? == Kind::Revolute)
+        match self.kind.as_deref() {
+            Some("revolute") => Ok(true),
+            Some("prismatic") => Ok(false),
+            _ => Err(Fault::robot("kind", "expected revolute or prismatic")),
+        }
     }
 
     /// An angle or a length, as the joint has it.

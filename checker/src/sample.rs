@@ -5,8 +5,7 @@ use crate::certificate::Claim;
 use crate::dynamics::State;
 use crate::fault::Fault;
 use crate::interval::{SINE_ERROR, sin_cos};
-use crate::number::Work;
-use crate::number::{Number, Real};
+use crate::number::{Number, Real, Work};
 use crate::polynomial::Polynomial;
 use crate::program::{Node, Program, Source};
 use crate::scene::Setting;
@@ -66,7 +65,8 @@ pub fn worst(
     let mut random = Random(1);
     let mut worst = vec![Seen::default(); program.outputs.len()];
     for index in 0..count {
-        let state = random.state(setting, index % 2 == 1);
+        let is_odd = index % 2 == 1;
+        let state = random.state(setting, [false, is_odd, is_odd]);
         for (worst, own) in worst
             .iter_mut()
             .zip(seen(claim, setting, program, state)?.0)
@@ -95,8 +95,7 @@ pub(crate) fn seen(
     let values = at.iter_mut().flatten();
     for (value, range) in values.zip(setting.ranges.iter().flatten()) {
         let [low, high] = ends(*range);
-        let held = f64::from(*value as f32);
-        *value = if is_single { held } else { *value }.clamp(low, high);
+        *value = rounded(*value, is_single).clamp(low, high);
     }
     let formula: Vec<Polynomial> = outputs(claim, setting, &at)?;
     let computed = run(program, &at, is_single);
@@ -128,14 +127,19 @@ impl Random {
         low + (high - low) * if is_end { share.round() } else { share }
     }
 
-    /// A state of the box, or one whose rates are ends of their ranges.
-    pub(crate) fn state(&mut self, setting: &Setting, is_end: bool) -> At {
+    /// A state of the box; positions, velocities or accelerations may be ends of their ranges.
+    pub(crate) fn state(&mut self, setting: &Setting, are_ends: [bool; 3]) -> At {
         [0, 1, 2].map(|which: usize| {
             let ranges = setting.ranges[which].iter();
-            let drawn = ranges.map(|range| self.within(*range, is_end && which > 0));
+            let drawn = ranges.map(|range| self.within(*range, are_ends[which]));
             drawn.collect()
         })
     }
+}
+
+fn rounded(value: f64, is_single: bool) -> f64 {
+    let single = f64::from(value as f32);
+    if is_single { single } else { value }
 }
 
 /// A range, of what has none a point.
@@ -147,10 +151,7 @@ pub(crate) fn ends([low, high]: [f64; 2]) -> [f64; 2] {
 pub(crate) fn run(program: &Program, state: &At, is_single: bool) -> Vec<f64> {
     // A sum or product of two f32 in f64, rounded to f32, is rounded as in f32: f64 has
     // more than twice as many bits.
-    let round = |value: f64| match is_single {
-        true => f64::from(value as f32),
-        false => value,
-    };
+    let round = |value: f64| rounded(value, is_single);
     let mut values: Vec<f64> = Vec::with_capacity(program.nodes.len());
     for &node in &program.nodes {
         let value = match node {
@@ -173,11 +174,8 @@ pub(crate) fn run(program: &Program, state: &At, is_single: bool) -> Vec<f64> {
         };
         values.push(round(value));
     }
-    program
-        .outputs
-        .iter()
-        .map(|&output| values[output])
-        .collect()
+    let outputs = program.outputs.iter();
+    outputs.map(|&output| values[output]).collect()
 }
 
 fn step(node: Node, values: &[f64], state: &At) -> f64 {

@@ -115,10 +115,8 @@ fn setting(file: &File<Scene>, scene: &Scene) -> Result<Setting, Fault> {
     rows.iter().try_for_each(Row::in_order)?;
     let mut scenes = file.scene.values();
     scenes.try_for_each(|scene| in_order(rows, &scene.r#box))?;
-    let mut joints = rows
-        .iter()
-        .map(|row| row.joint(file.convention))
-        .collect::<Result<Vec<Joint>, Fault>>()?;
+    let joints = rows.iter().map(|row| row.joint(file.convention.as_deref()));
+    let mut joints: Vec<Joint> = joints.collect::<Result<_, Fault>>()?;
     if let (Some(Payload { mass, com, inertia }), Some(last)) = (&scene.payload, joints.last_mut())
     {
         last.bodies.push(Body {
@@ -200,10 +198,8 @@ fn in_order(rows: &[Row], given: &Bounds) -> Result<(), Fault> {
             row.range(range, why)?;
         }
     }
-    for (key, sizes) in [
-        ("velocity", &given.velocity),
-        ("acceleration", &given.acceleration),
-    ] {
+    let (velocity, acceleration) = (&given.velocity, &given.acceleration);
+    for (key, sizes) in [("velocity", velocity), ("acceleration", acceleration)] {
         let Some(sizes) = sizes else { continue };
         entries(key, sizes.len())?;
         for size in sizes {

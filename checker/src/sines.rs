@@ -24,18 +24,11 @@ pub struct Scalar {
 impl Scalar {
     /// f32 or f64.
     pub fn of(name: &str) -> Scalar {
-        match name {
-            "f32" => Scalar {
-                unit: SINGLE_UNIT,
-                least: 1e-45,
-                most: f64::from(f32::MAX),
-            },
-            _ => Scalar {
-                unit: UNIT,
-                least: f64::from_bits(1),
-                most: f64::MAX,
-            },
-        }
+        let (unit, least, most) = match name {
+            "f32" => (SINGLE_UNIT, 1e-45, f64::from(f32::MAX)),
+            _ => (UNIT, f64::from_bits(1), f64::MAX),
+        };
+        Scalar { unit, least, most }
     }
 
     /// How far the result of an operation is off: its operands' share, and rounding.

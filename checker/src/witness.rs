@@ -69,10 +69,10 @@ fn search(
     sure: &dyn Fn(At) -> Result<(f64, At), Fault>,
 ) -> Result<f64, Fault> {
     let mut random = Random(2);
-    let (mut most, mut best) = (0.0f64, random.state(setting, false));
+    let (mut most, mut best) = (0.0f64, random.state(setting, [false; 3]));
     for attempt in 0..CLIMBS + hops {
         let mut at = match attempt < CLIMBS {
-            true => random.state(setting, attempt % 2 == 0),
+            true => random.state(setting, [attempt % 2 == 0; 3]),
             false => hopped(&best, setting, &mut random),
         };
         climb(setting, &mut at, value)?;
