@@ -1,5 +1,6 @@
 //! The header of a robot in C or CUDA: guard, macros, sines, structs and functions of each scalar.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use super::module::{function_doc, header};
@@ -19,7 +20,7 @@ const FUSES: &str = "defined(__GNUC__) && !defined(__clang__) && \
 /// vectors without masks where it first computes (`tree-pre`) what follows of an angle that is far.
 const GCC: &str = "defined(__GNUC__) && !defined(__clang__)";
 
-/// Returns the first name that some C compiler does not take: too long, or of other letters.
+/// Returns the first name that some C compiler does not take: too long, of other letters, or of two.
 pub(crate) fn misnamed(
     base: &str,
     functions: &[Function],
@@ -39,18 +40,18 @@ pub(crate) fn misnamed(
         if c99::is_bundle(*function) {
             words.push(format!("{}_t", function.name()));
         }
-        words.extend(parameters::name(*function).map(str::to_lowercase));
+        let constant = parameters::name(*function).map(str::to_lowercase);
+        words.extend(constant.filter(|constant| !words.contains(constant)));
     }
     let names = scalars
         .iter()
         .map(|&scalar| Names::new(base, Language::C, scalar));
-    let names = names.flat_map(|names| {
-        let macros = ["RESTRICT", "UNFUSED", "SIMD"].map(|word| names.constant(word));
-        let words: Vec<String> = words.iter().map(|word| names.of(word)).collect();
-        words.into_iter().chain(macros)
-    });
-    let names: Vec<String> = names.collect();
-    names.into_iter().find(|name| name.len() > LONGEST)
+    let names = names.flat_map(|names| words.iter().map(move |word| names.of(word)));
+    let macros = ["RESTRICT", "UNFUSED", "SIMD"];
+    let macros = macros.map(|word| Names::new(base, Language::C, ScalarType::F64).constant(word));
+    let mut seen = BTreeSet::new();
+    let mut names = names.chain(macros);
+    names.find(|name| name.len() > LONGEST || !seen.insert(name.clone()))
 }
 
 /// Prints the whole file: in each scalar, the functions' programs.
