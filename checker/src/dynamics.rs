@@ -54,15 +54,10 @@ impl Products<'_> {
             .plus(&a[2].times(&b[2], self.0)?))
     }
 
-    /// ẇ × v + w × (w × v)
-    fn carried<N: Number>(
-        &mut self,
-        v: &Vector<N>,
-        w: &Vector<N>,
-        wd: &Vector<N>,
-    ) -> Result<Vector<N>, Fault> {
-        let swing = self.cross(w, v)?;
-        Ok(sum(&self.cross(wd, v)?, &self.cross(w, &swing)?))
+    /// ẇ × v + w × (w × v), of w and ẇ.
+    fn swing<N: Number>(&mut self, v: &Vector<N>, w: [&Vector<N>; 2]) -> Result<Vector<N>, Fault> {
+        let swing = self.cross(w[0], v)?;
+        Ok(sum(&self.cross(w[1], v)?, &self.cross(w[0], &swing)?))
     }
 
     fn scaled<N: Number>(&mut self, a: &N, b: &Vector<N>) -> Result<Vector<N>, Fault> {
@@ -223,7 +218,7 @@ pub fn torques<N: Number>(
             Step::Shift([N::default(), N::default(), d]),
         ]);
         let shift = products.outward(&Vector::default(), &way, true)?;
-        let carried = products.carried(&shift, &w, &wd)?;
+        let carried = products.swing(&shift, [&w, &wd])?;
         let mut inward = |v: &Vector<N>| products.inward(v, &way);
         (vd, w, wd) = (inward(&sum(&vd, &carried))?, inward(&w)?, inward(&wd)?);
         // w × z q̇
@@ -241,7 +236,7 @@ pub fn torques<N: Number>(
         for own in &joint.bodies {
             body.add(own, behind, products)?;
         }
-        let force = products.carried(&body.first, &w, &wd)?;
+        let force = products.swing(&body.first, [&w, &wd])?;
         let force = sum(&force, &products.scaled(&body.mass, &vd)?);
         let spin = products.apply(&body.second, &w)?;
         let spin = products.cross(&w, &spin)?;

@@ -114,8 +114,10 @@ fn distance(found: &Found, setting: &Setting) -> Result<Distance, Fault> {
         Fault::Text(line, why) => Fault::Text(found.line + line - 1, why),
         other => other,
     })?;
-    let mut distance = Distance::default();
-    distance.unit = Scalar::of(&claim.scalar).unit;
+    let mut distance = Distance {
+        unit: Scalar::of(&claim.scalar).unit,
+        ..Distance::default()
+    };
     let pairs = || places.iter().map(|(quantity, _)| quantity).zip(&all);
     for (own, found) in pairs() {
         let same = pairs().filter(|(other, _)| *other == own);

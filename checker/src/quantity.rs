@@ -202,7 +202,8 @@ impl<N: Number> At<'_, N> {
         let (both, alone) = (self.coriolis(&sum)?, self.coriolis(&unit)?);
         let half = N::constant(0.5.into());
         let each = both.iter().zip(own).zip(&alone);
-        let rests = each.map(|((both, own), alone)| both.plus(&own.plus(alone).negated()));
+        let rests =
+            each.map(|((both, own), alone)| both.plus(&own.negated()).plus(&alone.negated()));
         rests.map(|rest| rest.times(&half, self.work)).collect()
     }
 
@@ -268,7 +269,10 @@ impl<N: Number> At<'_, N> {
             let unit = self.unit(rows[k]);
             let own = self.coriolis(&unit)?;
             for m in 0..=k {
-                let loads = self.together(&unit, &own, rows[m])?;
+                let loads = match k == m {
+                    true => own.clone(),
+                    false => self.together(&unit, &own, rows[m])?,
+                };
                 for (i, &row) in rows.iter().enumerate() {
                     symbols[(i * count + k) * count + m] = loads[row].clone();
                     symbols[(i * count + m) * count + k] = loads[row].clone();
