@@ -73,10 +73,9 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
     let lines = code(source).map_err(fault)?;
     let mut lines = lines.as_slice();
     let guard = lines.first().map_or("", |(_, line)| line);
-    if guard.ends_with("_CUH") {
-        let why = "CUDA is not checked: `--language c` prints the same functions";
-        return Err(Fault::Text(1, why.into()));
-    }
+    let why = "CUDA is not checked: `--language c` prints the same functions";
+    let is_c = (!guard.ends_with("_CUH")).then_some(());
+    is_c.ok_or_else(|| Fault::Text(1, why.into()))?;
     let name = between(guard, "#ifndef ", "_H").unwrap_or("");
     let has_loops = lines.iter().any(|(_, line)| *line == "#include <stddef.h>");
     let (when, options, loops) = match has_loops {
@@ -202,7 +201,7 @@ impl<'t> Parser<'t> {
         };
         let mut columns = "const size_t n".to_owned();
         let (mut state, mut stored) = (String::new(), String::new());
-        let (mut list, mut passed, mut targets) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut parameters, mut targets) = (Vec::new(), Vec::new());
         for name in ["q", "qd", "qdd"] {
             let parameter = array(&format!("const {float}"), name, joints);
             if text.contains(&parameter) {
@@ -211,7 +210,7 @@ impl<'t> Parser<'t> {
                 let entries = entries.collect::<Vec<String>>().join(", ");
                 state += &format!("const {float} {name}_s[{joints}] = {{{entries}}};\n");
                 columns += &format!(", const {float} *{header}_RESTRICT {name}");
-                (list.push(parameter), passed.push(name));
+                parameters.push((parameter, name));
             }
         }
         self.expect(if is_struct { "typedef struct {" } else { "" })?;
@@ -224,7 +223,7 @@ impl<'t> Parser<'t> {
                 self.expect(&format!("{float} {field}[{length}];"))?;
             } else if !is_number {
                 state += &format!("{float} {field}_s[{length}];\n");
-                (list.push(array(float, field, length)), passed.push(field));
+                parameters.push((array(float, field, length), field));
             }
             let [to, from] = ["", "_s"].map(|end| match is_struct {
                 true => format!("result{end}->{field}"),
@@ -238,13 +237,14 @@ impl<'t> Parser<'t> {
         if is_struct {
             let kind = between(self.next()?, "} ", ";")?;
             state += &format!("{kind} result_s[1];\n");
-            (list.push(array(kind, "result", 1)), passed.push("result"));
+            parameters.push((array(kind, "result", 1), "result"));
         }
         let mut to = String::new();
         if is_number {
             (to, stored) = (format!("{}[s] = ", fields.first()?.0), String::new());
             targets = vec![back.to_owned()];
         }
+        let (list, passed): (Vec<String>, Vec<&str>) = parameters.into_iter().unzip();
         let list = list.join(", ");
         let far = if is_told { "const int far, " } else { "" };
         let own = self.named(kind, &format!("{far}{list}"))?;

@@ -370,11 +370,7 @@ fn batches_that_are_something_else() {
         for index in first.unwrap()..lines.len() {
             let line = lines[index];
             let is_other = |start: &&str| line.trim_start().starts_with(*start);
-            if line.is_empty()
-                || ["const double t", "/*", "*"]
-                    .iter()
-                    .any(|start| is_other(start))
-            {
+            if line.is_empty() || ["const double t", "/*", "*"].iter().any(is_other) {
                 continue;
             }
             let mut others = vec![String::new(), line.replace(';', " + 0.0;")];
