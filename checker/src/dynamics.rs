@@ -5,8 +5,7 @@
 //! are brought into its joint's frame. Vectors have three entries in the axes of one of these.
 
 use crate::fault::Fault;
-use crate::number::Number;
-use crate::number::Work;
+use crate::number::{Number, Work};
 use crate::robot::{Body, Step, Z};
 use crate::scene::Setting;
 
@@ -35,10 +34,6 @@ fn each<N>(mut entry: impl FnMut(usize) -> Result<N, Fault>) -> Result<Vector<N>
     Ok([entry(0)?, entry(1)?, entry(2)?])
 }
 
-fn zeros<N: Number>() -> Vector<N> {
-    Default::default()
-}
-
 /// Products, which are counted.
 struct Products<'w>(&'w mut Work);
 
@@ -57,6 +52,12 @@ impl Products<'_> {
         Ok(self
             .two(&a[0], &b[0], &a[1], &b[1])?
             .plus(&a[2].times(&b[2], self.0)?))
+    }
+
+    /// ẇ × v + w × (w × v), of w and ẇ.
+    fn swing<N: Number>(&mut self, v: &Vector<N>, w: [&Vector<N>; 2]) -> Result<Vector<N>, Fault> {
+        let swing = self.cross(w[0], v)?;
+        Ok(sum(&self.cross(w[1], v)?, &self.cross(w[0], &swing)?))
     }
 
     fn scaled<N: Number>(&mut self, a: &N, b: &Vector<N>) -> Result<Vector<N>, Fault> {
@@ -193,7 +194,7 @@ pub fn torques<N: Number>(
     work: &mut Work,
 ) -> Result<Vec<N>, Fault> {
     let products = &mut Products(work);
-    let (mut w, mut wd, mut vd) = (zeros(), zeros(), zeros());
+    let [mut w, mut wd, mut vd]: [Vector<N>; 3] = Default::default();
     if gravity {
         // A base that is accelerated upward feels what one in gravity does.
         let up = setting.gravity.map(|g| N::constant(g).negated());
@@ -216,9 +217,8 @@ pub fn torques<N: Number>(
             Step::Turn(Z, turn),
             Step::Shift([N::default(), N::default(), d]),
         ]);
-        let shift = products.outward(&zeros(), &way, true)?;
-        let swing = products.cross(&w, &shift)?;
-        let carried = sum(&products.cross(&wd, &shift)?, &products.cross(&w, &swing)?);
+        let shift = products.outward(&Vector::default(), &way, true)?;
+        let carried = products.swing(&shift, [&w, &wd])?;
         let mut inward = |v: &Vector<N>| products.inward(v, &way);
         (vd, w, wd) = (inward(&sum(&vd, &carried))?, inward(&w)?, inward(&wd)?);
         // w × z q̇
@@ -236,17 +236,11 @@ pub fn torques<N: Number>(
         for own in &joint.bodies {
             body.add(own, behind, products)?;
         }
-        let swing = products.cross(&w, &body.first)?;
-        let force = sum(
-            &products.cross(&wd, &body.first)?,
-            &products.cross(&w, &swing)?,
-        );
+        let force = products.swing(&body.first, [&w, &wd])?;
         let force = sum(&force, &products.scaled(&body.mass, &vd)?);
         let spin = products.apply(&body.second, &w)?;
-        let moment = sum(
-            &products.apply(&body.second, &wd)?,
-            &products.cross(&w, &spin)?,
-        );
+        let spin = products.cross(&w, &spin)?;
+        let moment = sum(&products.apply(&body.second, &wd)?, &spin);
         let moment = sum(&moment, &products.cross(&body.first, &vd)?);
         links.push(Link {
             way,
@@ -255,17 +249,15 @@ pub fn torques<N: Number>(
             moment,
         });
     }
-    let (mut f, mut n, mut torques) = (zeros(), zeros(), Vec::new());
+    let ([mut f, mut n], mut torques): ([Vector<N>; 2], _) = (Default::default(), Vec::new());
     for ((link, joint), state) in links.iter().zip(&setting.joints).zip(states).rev() {
         (f, n) = (sum(&f, &link.force), sum(&n, &link.moment));
         let torque = if joint.turns { &n[2] } else { &f[2] };
         let mut torque =
             torque.plus(&N::constant(joint.armature).times(&state.acceleration, products.0)?);
         if friction {
-            if joint.rubs {
-                let why = "no bound is known of torques with Coulomb friction";
-                return Err(Fault::robot("coulomb", why));
-            }
+            let why = "no bound is known of torques with Coulomb friction";
+            Fault::require(!joint.rubs, "coulomb", why)?;
             torque = torque.plus(&N::constant(joint.viscous).times(&state.velocity, products.0)?);
         }
         torques.push(torque);

@@ -30,6 +30,11 @@ impl Fault {
         Fault::Certificate(why.into())
     }
 
+    /// Refuses a robot file unless something holds of a key.
+    pub(crate) fn require(holds: bool, key: &str, why: &str) -> Result<(), Fault> {
+        holds.then_some(()).ok_or_else(|| Fault::robot(key, why))
+    }
+
     /// Refuses a certificate unless something holds.
     pub(crate) fn unless(holds: bool, why: &str) -> Result<(), Fault> {
         holds.then_some(()).ok_or_else(|| Fault::certificate(why))

@@ -44,9 +44,14 @@ const FORBIDDEN: [&str; 12] = [
 /// Lines of code that are still to be read, with their numbers.
 pub(crate) type Lines<'l, 't> = &'l [(usize, &'t str)];
 
-/// Reads an item up to where all that it opens is closed, without a name so far.
-pub(crate) fn item<'t>(lines: &mut Lines<'_, 't>) -> Option<Found<'t>> {
+/// Reads items up to where all is closed that the last one opens, without a name so far; which
+/// the last one is, its first line says.
+pub(crate) fn item<'t>(
+    lines: &mut Lines<'_, 't>,
+    mut is_last: impl FnMut(&'t str) -> bool,
+) -> Option<Found<'t>> {
     let (mut found, mut depth) = (Found::default(), 0usize);
+    let mut head = lines.first()?.1;
     found.line = lines.first()?.0;
     loop {
         let (&(number, line), behind) = lines.split_first()?;
@@ -57,7 +62,13 @@ pub(crate) fn item<'t>(lines: &mut Lines<'_, 't>) -> Option<Found<'t>> {
         *lines = behind;
         depth = (depth + count(['{', '[', '('])).checked_sub(count(['}', ']', ')']))?;
         if depth == 0 && line.ends_with(['}', ';']) {
-            return Some(found);
+            if is_last(head) {
+                return Some(found);
+            }
+            head = lines
+                .iter()
+                .find(|(_, line)| !line.starts_with(['#', '_']))?
+                .1;
         }
     }
 }
@@ -67,9 +78,6 @@ pub(crate) fn item<'t>(lines: &mut Lines<'_, 't>) -> Option<Found<'t>> {
 /// # Errors
 /// The first line that the generator would not print.
 pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
-    let fault = |(number, line): (usize, &str)| {
-        Fault::Text(number, format!("nothing that is generated: `{line}`"))
-    };
     let numbered = source.split('\n').enumerate();
     let numbered = numbered.map(|(index, line)| (index + 1, line));
     let lines: Vec<(usize, &str)> = numbered.filter(|line| !is_plain(*line)).collect();
@@ -88,7 +96,7 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
             (module, lines) = (head, &lines[1..]);
             continue;
         }
-        let found = item(&mut lines).filter(|_| is_item(words));
+        let found = item(&mut lines, |_| true).filter(|_| is_item(words));
         let mut found = found.ok_or_else(|| fault(first))?;
         has_items |= module.is_none();
         if let Some(name) = words.strip_prefix("pub fn ") {
@@ -102,6 +110,11 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
         None => Ok(all),
         Some(_) => Err(Fault::Text(end, "a brace is not closed".into())),
     }
+}
+
+/// A line that the generator would not print.
+pub(crate) fn fault((number, line): (usize, &str)) -> Fault {
+    Fault::Text(number, format!("nothing that is generated: `{line}`"))
 }
 
 /// Whether a character is one of names.
@@ -144,9 +157,8 @@ pub(crate) fn results<'t>(name: &str, text: &'t str, rows: usize) -> Vec<(&'t st
 /// The name of the struct that a function returns.
 pub(crate) fn structure(name: &str) -> String {
     let words = name.split('_').filter_map(|word| word.split_at_checked(1));
-    words
-        .map(|(first, rest)| first.to_ascii_uppercase() + rest)
-        .collect()
+    let words = words.map(|(first, rest)| first.to_ascii_uppercase() + rest);
+    words.collect()
 }
 
 /// Whether a line is empty, an attribute or a comment: documentation, or the first line of a file.

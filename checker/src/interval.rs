@@ -18,13 +18,9 @@ pub struct Interval {
 impl Interval {
     /// The numbers between two ends; everything if these are no numbers in order.
     pub fn new(low: f64, high: f64) -> Interval {
-        match low <= high {
-            true => Interval { low, high },
-            false => Interval {
-                low: f64::NEG_INFINITY,
-                high: f64::INFINITY,
-            },
-        }
+        let known = Some((low, high)).filter(|_| low <= high);
+        let (low, high) = known.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+        Interval { low, high }
     }
 
     /// One number.

@@ -12,7 +12,7 @@ pub(crate) struct Level {
     pub(crate) degree: f64,
     pub(crate) range: Option<[f64; 2]>,
     /// Powers of sin and cos that occur.
-    powers: Vec<(u32, u32)>,
+    powers: Vec<[u32; 2]>,
     /// Of each coefficient its power and its place among those of the next level.
     moves: Vec<(u32, u32)>,
 }
@@ -51,21 +51,16 @@ impl Search {
         let mut keys: Vec<(Key, Key)> = groups.keys().copied().collect();
         let mut search = Search {
             levels: Vec::new(),
-            values: Vec::new(),
+            values: vec![groups.into_values().collect()],
             factors: Vec::new(),
             mass,
             steps,
         };
-        search.values.push(groups.into_values().collect());
-        let power = |key: Key, joint: usize| {
-            (
-                exponent(key, Variable::Sin, joint),
-                exponent(key, Variable::Cos, joint),
-            )
-        };
+        let both = [Variable::Sin, Variable::Cos];
+        let power = |key: Key, joint: usize| both.map(|own| exponent(key, own, joint));
         let degree = |joint: usize, keys: &[(Key, Key)]| {
             let powers = keys.iter().map(|key| power(key.1, joint));
-            powers.map(|(sin, cos)| sin + cos).max().unwrap_or(0)
+            powers.map(|[sin, cos]| sin + cos).max().unwrap_or(0)
         };
         let mut left: Vec<usize> = (0..ring.angles.len()).collect();
         left.retain(|&joint| degree(joint, &keys) > 0);
@@ -78,8 +73,7 @@ impl Search {
         });
         while let Some(joint) = left.pop() {
             let without = |&(group, angles): &(Key, Key)| {
-                let (sin, cos) = power(angles, joint);
-                let (sin, cos) = (Key::from(sin), Key::from(cos));
+                let [sin, cos] = power(angles, joint).map(Key::from);
                 let taken = key(Variable::Sin, joint) * sin + key(Variable::Cos, joint) * cos;
                 (group, angles - taken)
             };
@@ -87,17 +81,15 @@ impl Search {
             let targets = next.clone();
             next.sort_unstable();
             next.dedup();
-            let mut powers: Vec<(u32, u32)> = keys.iter().map(|key| power(key.1, joint)).collect();
+            let mut powers: Vec<[u32; 2]> = keys.iter().map(|key| power(key.1, joint)).collect();
             let each = powers.clone();
             powers.sort_unstable();
             powers.dedup();
             let place = |found: Result<usize, usize>| found.unwrap_or_default() as u32;
             let moves = each.iter().zip(&targets);
             let moves = moves.map(|(own, target)| {
-                (
-                    place(powers.binary_search(own)),
-                    place(next.binary_search(target)),
-                )
+                let (power, target) = (powers.binary_search(own), next.binary_search(target));
+                (place(power), place(target))
             });
             search.levels.push(Level {
                 degree: f64::from(degree(joint, &keys)),
@@ -123,10 +115,8 @@ impl Search {
     pub(crate) fn fix(&mut self, level: usize, angle: f64) {
         let (sin, cos) = sin_cos(angle);
         let Level { powers, moves, .. } = &self.levels[level];
-        let table: Vec<f64> = powers
-            .iter()
-            .map(|&(s, c)| sin.powi(s as i32) * cos.powi(c as i32))
-            .collect();
+        let power = |&[s, c]: &[u32; 2]| sin.powi(s as i32) * cos.powi(c as i32);
+        let table: Vec<f64> = powers.iter().map(power).collect();
         let (before, behind) = self.values.split_at_mut(level + 1);
         let (from, to) = (&before[level], &mut behind[0]);
         to.fill(0.0);

@@ -70,11 +70,8 @@ impl Literal {
                 over.trim().parse::<i32>().ok()? as f64 / under.trim().parse::<u32>().ok()? as f64
             }
         };
-        let radius = if value == 0.0 {
-            0.0
-        } else {
-            (2.0 * UNIT * value.abs()).next_up()
-        };
+        let ulp = (2.0 * UNIT * value.abs()).next_up();
+        let radius = if value == 0.0 { 0.0 } else { ulp };
         (value.abs() < 1e100).then_some((value, radius))
     }
 

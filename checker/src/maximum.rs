@@ -92,11 +92,11 @@ impl Search {
             return Err(Unshown::Larger(norm));
         };
         let (degree, range) = (*degree, *range);
-        let mut cells: Vec<(f64, f64)> = Vec::new();
         let [low, high] = range.unwrap_or([-PI, PI]);
         let count = (degree * 0.5 * (high - low) / FIRST_TURN).ceil().max(1.0);
         let half = (0.5 * (high - low) / count).next_up();
-        cells.extend((0..count as usize).map(|k| (low + half * (2.0 * k as f64 + 1.0), half)));
+        let cell = |k: usize| (low + half * (2.0 * k as f64 + 1.0), half);
+        let mut cells: Vec<(f64, f64)> = (0..count as usize).map(cell).collect();
         if range.is_some() {
             cells.extend([(low, 0.0), (high, 0.0)]);
         }

@@ -85,11 +85,18 @@ pub struct Polynomial {
 impl Polynomial {
     /// A variable times a power of two, or any double.
     pub fn variable(variable: Variable, joint: usize, factor: f64) -> Polynomial {
-        let terms = match factor == 0.0 {
-            true => vec![],
-            false => vec![(key(variable, joint), factor)],
-        };
-        Polynomial { terms, rest: 0.0 }
+        Polynomial::term(key(variable, joint), factor, 0.0)
+    }
+
+    fn term(key: Key, factor: f64, rest: f64) -> Polynomial {
+        let terms = Some((key, factor)).filter(|_| factor != 0.0);
+        let terms = terms.into_iter().collect();
+        Polynomial { terms, rest }
+    }
+
+    /// Its first coefficient: all of a number's.
+    pub(crate) fn value(&self) -> f64 {
+        self.terms.first().map_or(0.0, |term| term.1)
     }
 
     /// More than its magnitude anywhere in the box.
@@ -101,12 +108,7 @@ impl Polynomial {
 
 impl Number for Polynomial {
     fn constant(real: Real) -> Polynomial {
-        let terms = match real.value == 0.0 {
-            true => vec![],
-            false => vec![(0, real.value)],
-        };
-        let rest = real.radius;
-        Polynomial { terms, rest }
+        Polynomial::term(0, real.value, real.radius)
     }
 
     fn negated(&self) -> Polynomial {
@@ -116,19 +118,8 @@ impl Number for Polynomial {
     }
 
     fn plus(&self, other: &Polynomial) -> Polynomial {
-        let (mut a, mut b) = (self.terms.as_slice(), other.terms.as_slice());
-        let mut terms = Vec::with_capacity(a.len() + b.len());
-        while let (Some(x), Some(y)) = (a.first(), b.first()) {
-            if x.0 <= y.0 {
-                terms.push(*x);
-                a = &a[1..];
-            } else {
-                terms.push(*y);
-                b = &b[1..];
-            }
-        }
-        terms.extend_from_slice(a);
-        terms.extend_from_slice(b);
+        let mut terms = [self.terms.as_slice(), &other.terms].concat();
+        sort(&mut terms);
         merged(terms, self.rest + other.rest)
     }
 

@@ -8,8 +8,7 @@ use Quantity::*;
 
 use crate::dynamics::{State, torques};
 use crate::fault::Fault;
-use crate::number::Number;
-use crate::number::Work;
+use crate::number::{Number, Work};
 use crate::scene::Setting;
 
 /// A part of what a function returns.
@@ -150,11 +149,8 @@ impl Function {
             rows,
             work,
         };
-        let mut outputs = Vec::new();
-        for &(_, quantity) in &self.fields {
-            outputs.extend(at.quantity(quantity)?);
-        }
-        Ok(outputs)
+        let each = self.fields.iter().map(|field| at.quantity(field.1));
+        Ok(each.collect::<Result<Vec<Vec<N>>, Fault>>()?.concat())
     }
 }
 
@@ -206,11 +202,15 @@ impl<N: Number> At<'_, N> {
         let (both, alone) = (self.coriolis(&sum)?, self.coriolis(&unit)?);
         let half = N::constant(0.5.into());
         let each = both.iter().zip(own).zip(&alone);
-        each.map(|((both, own), alone)| {
-            let rest = both.plus(&own.negated()).plus(&alone.negated());
-            rest.times(&half, self.work)
-        })
-        .collect()
+        let rests =
+            each.map(|((both, own), alone)| both.plus(&own.negated()).plus(&alone.negated()));
+        rests.map(|rest| rest.times(&half, self.work)).collect()
+    }
+
+    /// C(v), by columns over the rows.
+    fn columns(&mut self, v: &[N]) -> Result<Vec<Vec<N>>, Fault> {
+        let (rows, own) = (self.rows, self.coriolis(v)?);
+        rows.iter().map(|&k| self.together(v, &own, k)).collect()
     }
 
     fn dot(&mut self, a: &[N], b: &[N]) -> Result<N, Fault> {
@@ -239,29 +239,20 @@ impl<N: Number> At<'_, N> {
             Quantity::Gravity => select(self.loads(&zeros, &zeros, (true, false))?),
             Quantity::Coriolis => select(self.coriolis(&v)?),
             Quantity::Inertia => {
-                let mut columns = Vec::new();
-                for &row in rows {
-                    let unit = self.unit(row);
-                    columns.push(self.loads(&zeros, &unit, (false, false))?);
-                }
-                self.matrix(&columns)
+                let column = |&row| self.loads(&zeros, &self.unit(row), (false, false));
+                let columns: Result<Vec<Vec<N>>, Fault> = rows.iter().map(column).collect();
+                self.matrix(&columns?)
             }
             Quantity::Christoffel => self.christoffel()?,
             Quantity::CoriolisMatrix => {
-                let own = self.coriolis(&v)?;
-                let columns = rows.iter().map(|&k| self.together(&v, &own, k));
-                let columns: Vec<Vec<N>> = columns.collect::<Result<_, Fault>>()?;
+                let columns = self.columns(&v)?;
                 self.matrix(&columns)
             }
             Quantity::Momentum => select(self.loads(&zeros, &v, (false, false))?),
             Quantity::MomentumSlope => {
-                let own = self.coriolis(&v)?;
-                let mut slopes = Vec::new();
-                for &k in rows {
-                    let column = self.together(&v, &own, k)?;
-                    slopes.push(self.dot(&v, &column)?);
-                }
-                slopes
+                let columns = self.columns(&v)?;
+                let slopes = columns.iter().map(|column| self.dot(&v, column));
+                slopes.collect::<Result<_, Fault>>()?
             }
             Quantity::KineticEnergy => {
                 let p = self.loads(&zeros, &v, (false, false))?;
@@ -273,18 +264,14 @@ impl<N: Number> At<'_, N> {
 
     fn christoffel(&mut self) -> Result<Vec<N>, Fault> {
         let (rows, count) = (self.rows, self.rows.len());
-        let mut own = Vec::new();
-        for &k in rows {
-            let unit = self.unit(k);
-            own.push(self.coriolis(&unit)?);
-        }
         let mut symbols = vec![N::default(); count.pow(3)];
         for k in 0..count {
+            let unit = self.unit(rows[k]);
+            let own = self.coriolis(&unit)?;
             for m in 0..=k {
-                let unit = self.unit(rows[k]);
                 let loads = match k == m {
-                    true => own[k].clone(),
-                    false => self.together(&unit, &own[k], rows[m])?,
+                    true => own.clone(),
+                    false => self.together(&unit, &own, rows[m])?,
                 };
                 for (i, &row) in rows.iter().enumerate() {
                     symbols[(i * count + k) * count + m] = loads[row].clone();

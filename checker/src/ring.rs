@@ -57,11 +57,8 @@ impl Ring {
                 let size = low.abs().max(high.abs());
                 let moves = size > 0.0 && setting.locks[joint].is_none() && !setting.still[which];
                 let unit = if moves { unit(size) } else { 0.0 };
-                ring.rates[which].push(if moves {
-                    [low / unit, high / unit]
-                } else {
-                    [0.0; 2]
-                });
+                let range = [low / unit, high / unit];
+                ring.rates[which].push(if moves { range } else { [0.0; 2] });
                 let variable = [Variable::Velocity, Variable::Acceleration][which];
                 Polynomial::variable(variable, joint, unit)
             };

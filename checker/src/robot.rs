@@ -13,7 +13,7 @@ use crate::number::Real;
 #[serde(deny_unknown_fields, bound = "S: Deserialize<'de>")]
 #[allow(dead_code, reason = "what is `IgnoredAny` may be there")]
 pub(crate) struct File<S> {
-    pub(crate) convention: Option<Convention>,
+    pub(crate) convention: Option<String>,
     pub(crate) gravity: [Literal; 3],
     pub(crate) joint: Vec<Row>,
     /// Frame 0 in the axes that gravity is in, and the frame of payloads in the last link's.
@@ -27,20 +27,6 @@ pub(crate) struct File<S> {
     outputs: Option<IgnoredAny>,
     tool: Option<IgnoredAny>,
     frame: Option<IgnoredAny>,
-}
-
-#[derive(Clone, Copy, PartialEq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum Convention {
-    Standard,
-    Modified,
-}
-
-#[derive(Clone, Copy, PartialEq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum Kind {
-    Revolute,
-    Prismatic,
 }
 
 /// A frame in another one.
@@ -87,7 +73,7 @@ impl Step {
 #[allow(dead_code, reason = "what is `IgnoredAny` may be there")]
 pub(crate) struct Row {
     pub(crate) name: Option<String>,
-    pub(crate) kind: Option<Kind>,
+    kind: Option<String>,
     placement: Option<Placement>,
     axis: Option<[Literal; 3]>,
     beta: Literal,
@@ -169,14 +155,14 @@ pub struct Joint {
 
 impl Row {
     /// The ways before and behind the joint.
-    fn ways(&self, convention: Option<Convention>) -> Result<[Vec<Step>; 2], Fault> {
+    fn ways(&self, convention: Option<&str>) -> Result<[Vec<Step>; 2], Fault> {
         let mut row = vec![
             Step::Shift([self.a.real("a")?, Real::default(), Real::default()]),
             Step::about(X, self.alpha.angle("alpha")?),
         ];
         match (convention, &self.placement, &self.axis) {
-            (Some(Convention::Modified), None, None) if self.beta.is_zero() => Ok([row, vec![]]),
-            (Some(Convention::Standard), None, None) => {
+            (Some("modified"), None, None) if self.beta.is_zero() => Ok([row, vec![]]),
+            (Some("standard"), None, None) => {
                 if !self.beta.is_zero() {
                     row.push(Step::about(Y, self.beta.angle("beta")?));
                 }
@@ -186,9 +172,8 @@ impl Row {
                 let [x, y, z] = [x.double("axis")?, y.double("axis")?, z.double("axis")?];
                 let across = (x * x + y * y).sqrt();
                 let length = (across * across + z * z).sqrt();
-                if !(length > 1e-100 && length < 1e100) {
-                    return Err(Fault::robot("axis", "it has no direction"));
-                }
+                let has_direction = length > 1e-100 && length < 1e100;
+                Fault::require(has_direction, "axis", "it has no direction")?;
                 // Exact along the axes; else both are rounded a few times.
                 let turn = |axis, sin: f64, cos: f64, is_exact: bool| {
                     let radius = if is_exact { 0.0 } else { 1e-15 };
@@ -202,10 +187,8 @@ impl Row {
                 let (tilt, up) = (across / length, z / length);
                 let mut before = placement.steps()?;
                 before.extend([turn(Z, sin, cos, is_flat), turn(Y, tilt, up, is_along)]);
-                Ok([
-                    before,
-                    vec![turn(Y, -tilt, up, is_along), turn(Z, -sin, cos, is_flat)],
-                ])
+                let behind = vec![turn(Y, -tilt, up, is_along), turn(Z, -sin, cos, is_flat)];
+                Ok([before, behind])
             }
             _ => Err(Fault::robot(
                 "placement",
@@ -214,37 +197,29 @@ impl Row {
         }
     }
 
-    pub(crate) fn joint(&self, convention: Option<Convention>) -> Result<Joint, Fault> {
+    pub(crate) fn joint(&self, convention: Option<&str>) -> Result<Joint, Fault> {
         let [before, behind] = self.ways(convention)?;
         let turns = self.turns()?;
         let (theta, d) = match turns {
             true => (&self.offset, &self.d),
             false => (&self.theta, &self.offset),
         };
-        if !(if turns { &self.theta } else { &self.d }).is_zero() {
-            return Err(Fault::robot(
-                "theta or d",
-                "is the joint's variable, so it must be 0",
-            ));
-        }
-        let missing =
-            |key| Fault::robot(key, "only `com` and `inertia` of mass = 0 may be missing");
-        let mass = self.mass.as_ref().ok_or(missing("mass"))?;
-        if !mass.is_zero() && (self.com.is_none() || self.inertia.is_none()) {
-            return Err(missing("com or inertia"));
-        }
-        let (com, inertia) = (self.com.clone(), self.inertia.clone());
+        let variable = if turns { &self.theta } else { &self.d };
+        let why = "is the joint's variable, so it must be 0";
+        Fault::require(variable.is_zero(), "theta or d", why)?;
+        let why = "only `com` and `inertia` of mass = 0 may be missing";
+        let mass = self.mass.as_ref().ok_or(Fault::robot("mass", why))?;
+        let has_both = self.com.is_some() && self.inertia.is_some();
+        Fault::require(mass.is_zero() || has_both, "com or inertia", why)?;
+        let com = self.com.clone().unwrap_or_default();
+        let inertia = self.inertia.clone().unwrap_or_default();
         Ok(Joint {
             turns,
             before,
             behind,
             d: d.real("d")?,
             theta: theta.angle("theta")?,
-            bodies: vec![Body::read(
-                mass,
-                &com.unwrap_or_default(),
-                &inertia.unwrap_or_default(),
-            )?],
+            bodies: vec![Body::read(mass, &com, &inertia)?],
             viscous: self.viscous.real("viscous")?,
             rubs: !self.coulomb.is_zero(),
             armature: self.armature.real("armature")?,
@@ -258,7 +233,7 @@ impl Row {
         }
         let known = |key, literal: &Option<Literal>| {
             let size = literal.as_ref().map_or(Ok(0.0), |size| size.double(key))?;
-            not_negative(key, size, format!("{key} is negative"))
+            Fault::require(size >= 0.0, key, &format!("{key} is negative"))
         };
         known("velocity", &self.limits.velocity)?;
         known("acceleration", &self.limits.acceleration)?;
@@ -268,15 +243,16 @@ impl Row {
     /// The ends of a range of positions, if they are in order.
     pub(crate) fn range(&self, [low, high]: &[Literal; 2], why: &str) -> Result<[f64; 2], Fault> {
         let range = [self.position(low)?, self.position(high)?];
-        let is_range = range[0] < range[1];
-        let range = is_range.then_some(range);
-        range.ok_or_else(|| Fault::robot("position", why))
+        Fault::require(range[0] < range[1], "position", why).map(|()| range)
     }
 
     /// Whether the joint turns; else it slides.
     pub(crate) fn turns(&self) -> Result<bool, Fault> {
-        let missing = || Fault::robot("kind", "expected revolute or prismatic");
-        Ok(self.kind.ok_or_else(missing)? == Kind::Revolute)
+        match self.kind.as_deref() {
+            Some("revolute") => Ok(true),
+            Some("prismatic") => Ok(false),
+            _ => Err(Fault::robot("kind", "expected revolute or prismatic")),
+        }
     }
 
     /// An angle or a length, as the joint has it.
@@ -286,9 +262,4 @@ impl Row {
             false => at.double("position"),
         }
     }
-}
-
-pub(crate) fn not_negative(key: &str, value: f64, why: String) -> Result<(), Fault> {
-    let holds = (value >= 0.0).then_some(());
-    holds.ok_or_else(|| Fault::robot(key, why))
 }

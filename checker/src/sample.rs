@@ -5,14 +5,23 @@ use crate::certificate::Claim;
 use crate::dynamics::State;
 use crate::fault::Fault;
 use crate::interval::{SINE_ERROR, sin_cos};
-use crate::number::Work;
-use crate::number::{Number, Real};
+use crate::number::{Number, Real, Work};
 use crate::polynomial::Polynomial;
 use crate::program::{Node, Program, Source};
 use crate::scene::Setting;
 
-/// The states of all joints at numbers for q, q̇ and q̈.
-pub fn states<N: Number>(setting: &Setting, at: &[Vec<f64>; 3]) -> Vec<State<N>> {
+/// A state: positions, velocities and accelerations.
+pub(crate) type At = [Vec<f64>; 3];
+
+/// The outputs of a claim's function at a state.
+///
+/// # Errors
+/// As of [`crate::dynamics::torques`]; in practice none, numbers being short polynomials.
+pub(crate) fn outputs<N: Number>(
+    claim: &Claim,
+    setting: &Setting,
+    at: &At,
+) -> Result<Vec<N>, Fault> {
     let number = |value: f64, radius: f64| N::constant(Real { value, radius });
     let state = |joint: usize| {
         let [q, velocity, acceleration] = [0, 1, 2].map(|which: usize| at[which][joint]);
@@ -29,7 +38,9 @@ pub fn states<N: Number>(setting: &Setting, at: &[Vec<f64>; 3]) -> Vec<State<N>>
             acceleration: number(if moves(1) { acceleration } else { 0.0 }, 0.0),
         }
     };
-    (0..setting.joints.len()).map(state).collect()
+    let states: Vec<State<N>> = (0..setting.joints.len()).map(state).collect();
+    let (rows, work) = (claim.rows(), &mut Work::default());
+    claim.function()?.outputs(setting, &states, &rows, work)
 }
 
 /// The errors seen of an output.
@@ -44,28 +55,22 @@ pub struct Seen {
 /// What is seen of each output at `count` states, of every second one all rates at ends of their ranges.
 ///
 /// # Errors
-/// As of [`crate::dynamics::torques`]; in practice none, numbers being short polynomials.
+/// As of [`outputs`].
 pub fn worst(
     claim: &Claim,
     setting: &Setting,
     program: &Program,
     count: usize,
 ) -> Result<Vec<Seen>, Fault> {
-    let (mut random, work) = (Random(1), &mut Work::default());
-    let lists = [&claim.position, &claim.velocity, &claim.acceleration];
+    let mut random = Random(1);
     let mut worst = vec![Seen::default(); program.outputs.len()];
     for index in 0..count {
-        let mut draw = |which: usize, &[low, high]: &[f64; 2]| {
-            let (share, is_end) = (random.next(), which > 0 && index % 2 == 1);
-            let value = low + (high - low) * if is_end { share.round() } else { share };
-            held(value, [low, high], claim.scalar == "f32")
-        };
-        let state = [0, 1, 2].map(|which| {
-            let drawn = lists[which].iter().map(|range| draw(which, range));
-            drawn.collect::<Vec<f64>>()
-        });
-        let seen = at(claim, setting, program, &state, work)?;
-        for (worst, own) in worst.iter_mut().zip(seen) {
+        let is_odd = index % 2 == 1;
+        let state = random.state(setting, [false, is_odd, is_odd]);
+        for (worst, own) in worst
+            .iter_mut()
+            .zip(seen(claim, setting, program, state)?.0)
+        {
             // So that a result that is no number counts.
             if own.off > worst.off || own.off.is_nan() {
                 worst.off = own.off;
@@ -76,36 +81,32 @@ pub fn worst(
     Ok(worst)
 }
 
-/// What is seen of each output at a state of the scalar's numbers.
+/// What is seen of each output at a state, once that is of the scalar's numbers.
 ///
 /// # Errors
-/// As of [`worst`].
-pub(crate) fn at(
+/// As of [`outputs`].
+pub(crate) fn seen(
     claim: &Claim,
     setting: &Setting,
     program: &Program,
-    state: &[Vec<f64>; 3],
-    work: &mut Work,
-) -> Result<Vec<Seen>, Fault> {
-    let states: Vec<State<Polynomial>> = states(setting, state);
-    let function = claim.function()?;
-    let formula = function.outputs(setting, &states, &claim.rows(), work)?;
-    let computed = run(program, state, claim.scalar == "f32");
-    let pairs = formula.iter().zip(computed);
-    let seen = pairs.map(|(formula, computed)| {
-        let value = formula.terms.first().map_or(0.0, |term| term.1);
+    mut at: At,
+) -> Result<(Vec<Seen>, At), Fault> {
+    let is_single = claim.scalar == "f32";
+    let values = at.iter_mut().flatten();
+    for (value, range) in values.zip(setting.ranges.iter().flatten()) {
+        let [low, high] = ends(*range);
+        *value = rounded(*value, is_single).clamp(low, high);
+    }
+    let formula: Vec<Polynomial> = outputs(claim, setting, &at)?;
+    let computed = run(program, &at, is_single);
+    let seen = formula.iter().zip(computed).map(|(formula, computed)| {
+        let (value, size) = (formula.value(), formula.value().abs());
         Seen {
             off: (computed - value).abs() - formula.rest,
-            size: value.abs() - formula.rest,
+            size: size - formula.rest,
         }
     });
-    Ok(seen.collect())
-}
-
-/// A number of the scalar within a range.
-pub(crate) fn held(value: f64, [low, high]: [f64; 2], is_single: bool) -> f64 {
-    let held = f64::from(value as f32);
-    if is_single { held } else { value }.clamp(low, high)
+    Ok((seen.collect(), at))
 }
 
 /// Numbers that are the same on every machine.
@@ -119,16 +120,38 @@ impl Random {
         self.0 = next.wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
+
+    /// A number of a range, or one of its ends.
+    pub(crate) fn within(&mut self, range: [f64; 2], is_end: bool) -> f64 {
+        let ([low, high], share) = (ends(range), self.next());
+        low + (high - low) * if is_end { share.round() } else { share }
+    }
+
+    /// A state of the box; positions, velocities or accelerations may be ends of their ranges.
+    pub(crate) fn state(&mut self, setting: &Setting, are_ends: [bool; 3]) -> At {
+        [0, 1, 2].map(|which: usize| {
+            let ranges = setting.ranges[which].iter();
+            let drawn = ranges.map(|range| self.within(*range, are_ends[which]));
+            drawn.collect()
+        })
+    }
+}
+
+fn rounded(value: f64, is_single: bool) -> f64 {
+    let single = f64::from(value as f32);
+    if is_single { single } else { value }
+}
+
+/// A range, of what has none a point.
+pub(crate) fn ends([low, high]: [f64; 2]) -> [f64; 2] {
+    if low <= high { [low, high] } else { [0.0; 2] }
 }
 
 /// Runs the text in its scalar and returns its results.
-pub(crate) fn run(program: &Program, state: &[Vec<f64>; 3], is_single: bool) -> Vec<f64> {
+pub(crate) fn run(program: &Program, state: &At, is_single: bool) -> Vec<f64> {
     // A sum or product of two f32 in f64, rounded to f32, is rounded as in f32: f64 has
     // more than twice as many bits.
-    let round = |value: f64| match is_single {
-        true => f64::from(value as f32),
-        false => value,
-    };
+    let round = |value: f64| rounded(value, is_single);
     let mut values: Vec<f64> = Vec::with_capacity(program.nodes.len());
     for &node in &program.nodes {
         let value = match node {
@@ -151,14 +174,11 @@ pub(crate) fn run(program: &Program, state: &[Vec<f64>; 3], is_single: bool) -> 
         };
         values.push(round(value));
     }
-    program
-        .outputs
-        .iter()
-        .map(|&output| values[output])
-        .collect()
+    let outputs = program.outputs.iter();
+    outputs.map(|&output| values[output]).collect()
 }
 
-fn step(node: Node, values: &[f64], state: &[Vec<f64>; 3]) -> f64 {
+fn step(node: Node, values: &[f64], state: &At) -> f64 {
     match node {
         Node::Constant(value) => value,
         Node::Input(argument, joint) => state[argument][joint],

@@ -11,7 +11,7 @@ use crate::fault::Fault;
 use crate::literal::Literal;
 use crate::number::Real;
 use crate::polynomial::MAX_JOINTS;
-use crate::robot::{Body, File, Joint, Placement, Row, Step, not_negative};
+use crate::robot::{Body, File, Joint, Placement, Row, Step};
 
 /// The longest robot file.
 const MOST_BYTES: usize = 1 << 18;
@@ -98,12 +98,8 @@ pub struct Setting {
 /// # Errors
 /// What is no TOML, or what this checker does not know, by its key.
 pub fn read(source: &str, name: Option<&str>) -> Result<Setting, Fault> {
-    if source.len() > MOST_BYTES {
-        return Err(Fault::robot(
-            "file",
-            format!("more than {MOST_BYTES} bytes"),
-        ));
-    }
+    let why = format!("more than {MOST_BYTES} bytes");
+    Fault::require(source.len() <= MOST_BYTES, "file", &why)?;
     let file: File<Scene> =
         toml::from_str(source).map_err(|e| Fault::robot("file", e.to_string()))?;
     let none = Scene::default();
@@ -114,17 +110,13 @@ pub fn read(source: &str, name: Option<&str>) -> Result<Setting, Fault> {
 
 fn setting(file: &File<Scene>, scene: &Scene) -> Result<Setting, Fault> {
     let (rows, count) = (&file.joint, file.joint.len());
-    if !(1..=MAX_JOINTS).contains(&count) {
-        let why = format!("1 to {MAX_JOINTS} joints are audited, not {count}");
-        return Err(Fault::robot("joint", why));
-    }
+    let why = format!("1 to {MAX_JOINTS} joints are audited, not {count}");
+    Fault::require((1..=MAX_JOINTS).contains(&count), "joint", &why)?;
     rows.iter().try_for_each(Row::in_order)?;
     let mut scenes = file.scene.values();
     scenes.try_for_each(|scene| in_order(rows, &scene.r#box))?;
-    let mut joints = rows
-        .iter()
-        .map(|row| row.joint(file.convention))
-        .collect::<Result<Vec<Joint>, Fault>>()?;
+    let joints = rows.iter().map(|row| row.joint(file.convention.as_deref()));
+    let mut joints: Vec<Joint> = joints.collect::<Result<_, Fault>>()?;
     if let (Some(Payload { mass, com, inertia }), Some(last)) = (&scene.payload, joints.last_mut())
     {
         last.bodies.push(Body {
@@ -164,9 +156,7 @@ fn setting(file: &File<Scene>, scene: &Scene) -> Result<Setting, Fault> {
         let down = |x: &&Literal| x.double("tolerance").map(f64::next_down);
         let read: Vec<f64> = each.iter().map(down).collect::<Result<_, Fault>>()?;
         let why = "expected a value, or one a joint";
-        (read.len() == count)
-            .then_some(read)
-            .ok_or_else(|| Fault::robot("tolerance", why))
+        Fault::require(read.len() == count, "tolerance", why).map(|()| read)
     });
     Ok(Setting {
         base: steps(&file.base)?,
@@ -200,10 +190,7 @@ fn joint(rows: &[Row], word: &str) -> Result<usize, Fault> {
 /// Refuses a box between whose ends nothing is, or that is not of this robot.
 fn in_order(rows: &[Row], given: &Bounds) -> Result<(), Fault> {
     let why = |count| format!("{count} entries, but the robot has {} joints", rows.len());
-    let entries = |key: &str, count: usize| {
-        let is_each = (count == rows.len()).then_some(());
-        is_each.ok_or_else(|| Fault::robot(key, why(count)))
-    };
+    let entries = |key: &str, count: usize| Fault::require(count == rows.len(), key, &why(count));
     if let Some(ranges) = &given.position {
         entries("position", ranges.len())?;
         let why = "the range is empty: its lowest position is not below its highest";
@@ -211,15 +198,13 @@ fn in_order(rows: &[Row], given: &Bounds) -> Result<(), Fault> {
             row.range(range, why)?;
         }
     }
-    for (key, sizes) in [
-        ("velocity", &given.velocity),
-        ("acceleration", &given.acceleration),
-    ] {
+    let (velocity, acceleration) = (&given.velocity, &given.acceleration);
+    for (key, sizes) in [("velocity", velocity), ("acceleration", acceleration)] {
         let Some(sizes) = sizes else { continue };
         entries(key, sizes.len())?;
         for size in sizes {
             let why = format!("the range is empty: the {key} is negative");
-            not_negative(key, size.double(key)?, why)?;
+            Fault::require(size.double(key)? >= 0.0, key, &why)?;
         }
     }
     Ok(())

@@ -24,18 +24,11 @@ pub struct Scalar {
 impl Scalar {
     /// f32 or f64.
     pub fn of(name: &str) -> Scalar {
-        match name {
-            "f32" => Scalar {
-                unit: SINGLE_UNIT,
-                least: 1e-45,
-                most: f64::from(f32::MAX),
-            },
-            _ => Scalar {
-                unit: UNIT,
-                least: f64::from_bits(1),
-                most: f64::MAX,
-            },
-        }
+        let (unit, least, most) = match name {
+            "f32" => (SINGLE_UNIT, 1e-45, f64::from(f32::MAX)),
+            _ => (UNIT, f64::from_bits(1), f64::MAX),
+        };
+        Scalar { unit, least, most }
     }
 
     /// How far the result of an operation is off: its operands' share, and rounding.
@@ -93,57 +86,51 @@ struct Enclosed {
     error: f64,
 }
 
+impl Enclosed {
+    fn new(value: Interval, slope: Interval, error: f64) -> Enclosed {
+        Enclosed {
+            value,
+            slope,
+            error,
+        }
+    }
+}
+
 fn last(values: &[Enclosed], result: usize) -> Enclosed {
-    let nothing = Interval::new(f64::NAN, f64::NAN);
-    values.get(result).copied().unwrap_or(Enclosed {
-        value: nothing,
-        slope: nothing,
-        error: f64::INFINITY,
-    })
+    let unknown = Interval::new(f64::NAN, f64::NAN);
+    let nothing = Enclosed::new(unknown, unknown, f64::INFINITY);
+    values.get(result).copied().unwrap_or(nothing)
 }
 
 fn evaluate(block: &[Node], angle: Interval, scalar: Scalar) -> Vec<Enclosed> {
-    let mut values = vec![Enclosed {
-        value: angle,
-        slope: Interval::point(1.0),
-        error: 0.0,
-    }];
+    let mut values = vec![Enclosed::new(angle, Interval::point(1.0), 0.0)];
     for &node in block.iter().skip(1) {
         let get = |node: usize| last(&values, node);
         // What is neither a literal nor an opposite is rounded.
-        let (value, slope, inherited) = match node {
-            Node::Constant(value) => (Interval::point(value), Interval::point(0.0), 0.0),
-            Node::Neg(a) => (-get(a).value, -get(a).slope, get(a).error),
+        let rounded = |value: Interval, slope, inherited| {
+            Enclosed::new(value, slope, scalar.rounded(value.magnitude(), inherited))
+        };
+        let value = match node {
+            Node::Constant(value) => {
+                Enclosed::new(Interval::point(value), Interval::point(0.0), 0.0)
+            }
+            Node::Neg(a) => Enclosed::new(-get(a).value, -get(a).slope, get(a).error),
             Node::Add(a, b) | Node::Sub(a, b) => {
                 let (a, b, sum) = (get(a), get(b), matches!(node, Node::Add(..)));
                 let signed = |x: Interval| if sum { x } else { -x };
                 let (value, slope) = (a.value + signed(b.value), a.slope + signed(b.slope));
-                (value, slope, a.error + b.error)
+                rounded(value, slope, a.error + b.error)
             }
             Node::Mul(a, b) => {
                 let (a, b) = (get(a), get(b));
                 let slope = a.slope * b.value + a.value * b.slope;
                 let own = a.error * (b.value.magnitude() + b.error);
-                (
-                    a.value * b.value,
-                    slope,
-                    own + b.error * a.value.magnitude(),
-                )
+                let inherited = own + b.error * a.value.magnitude();
+                rounded(a.value * b.value, slope, inherited)
             }
-            Node::Input(..) | Node::Sine(..) | Node::Fused(..) => {
-                let nothing = last(&[], 0);
-                (nothing.value, nothing.slope, nothing.error)
-            }
+            Node::Input(..) | Node::Sine(..) | Node::Fused(..) => last(&[], 0),
         };
-        let error = match node {
-            Node::Constant(_) | Node::Neg(_) => inherited,
-            _ => scalar.rounded(value.magnitude(), inherited),
-        };
-        values.push(Enclosed {
-            value,
-            slope,
-            error,
-        });
+        values.push(value);
     }
     values
 }

@@ -10,7 +10,9 @@
 //! }
 //! ```
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
+use std::fmt::Debug;
+use std::str::FromStr;
 
 use crate::certificate::Claim;
 use crate::fault::Fault;
@@ -44,9 +46,10 @@ pub(crate) struct Parser<'t> {
     /// What is around the block that is read, and what it results in: names and values.
     outside: (HashMap<&'t str, usize>, Vec<Node>),
     pub(crate) results: Vec<(&'t str, usize)>,
-    /// Of what a call in a header gives the sines: values, or joints.
-    pub(crate) angles: Vec<Result<usize, usize>>,
-    pub(crate) is_called: bool,
+    /// In a header, the list of angles; and what stands for the sine, or else the cosine, of a value
+    /// or a joint.
+    pub(crate) angles: Vec<usize>,
+    pub(crate) sines: HashMap<String, (Result<usize, usize>, bool)>,
     /// The angle in the names of a block of a header.
     pub(crate) block: Option<&'t str>,
     /// What literals end with.
@@ -68,9 +71,8 @@ pub fn read(claim: &Claim, joints: usize) -> Result<Program, Fault> {
         lines: text.split('\n').collect(),
         ..Parser::default()
     };
-    let of_c = ["static inline ", "typedef struct "];
-    let read = match of_c.iter().any(|start| text.starts_with(start)) {
-        true => parser.c_function(),
+    let read = match text.contains("static inline ") {
+        true => parser.c_function(text),
         false => parser.rust_function(),
     };
     if read.is_some() {
@@ -78,10 +80,8 @@ pub fn read(claim: &Claim, joints: usize) -> Result<Program, Fault> {
     }
     let line = parser.lines.get(parser.line.saturating_sub(1));
     let line = line.unwrap_or(&"").trim();
-    Err(Fault::Text(
-        parser.line.max(1),
-        format!("not of the grammar or the claim: `{line}`"),
-    ))
+    let why = format!("not of the grammar or the claim: `{line}`");
+    Err(Fault::Text(parser.line.max(1), why))
 }
 
 impl<'t> Parser<'t> {
@@ -128,6 +128,12 @@ impl<'t> Parser<'t> {
         (self.next()? == "}" && self.is_done()).then_some(())
     }
 
+    /// Reads lines that have to be these.
+    pub(crate) fn expect(&mut self, lines: &str) -> Option<()> {
+        let mut lines = lines.lines();
+        lines.all(|line| self.next() == Some(line)).then_some(())
+    }
+
     /// Whether no text is left.
     pub(crate) fn is_done(&self) -> bool {
         self.lines[self.line..].iter().all(|line| line.is_empty())
@@ -142,22 +148,21 @@ impl<'t> Parser<'t> {
         is_next.then_some(())
     }
 
+    /// Adds a result.
+    pub(crate) fn output(&mut self, word: &'t str) -> Option<()> {
+        let value = self.operand(word)?;
+        self.program.outputs.push(value);
+        Some(())
+    }
+
     /// Adds the entries of an array that begins in a line and ends before some text.
     fn array(&mut self, line: &'t str, axes: usize, end: &str) -> Option<()> {
         match axes {
-            0 => {
-                let value = self.operand(line.strip_suffix(end)?)?;
-                self.program.outputs.push(value);
-            }
+            0 => self.output(line.strip_suffix(end)?)?,
             1 => {
                 let list = between(line.strip_suffix(end)?, "[", "]")?;
-                let mut count = 0;
-                for word in list.split(", ") {
-                    let value = self.operand(word)?;
-                    self.program.outputs.push(value);
-                    count += 1;
-                }
-                (count == self.rows).then_some(())?;
+                list.split(", ").try_for_each(|word| self.output(word))?;
+                (list.split(", ").count() == self.rows).then_some(())?;
             }
             _ => {
                 (line == "[").then_some(())?;
@@ -272,17 +277,10 @@ impl<'t> Parser<'t> {
         }
         if word.starts_with(|c: char| c.is_ascii_digit()) {
             let word = word.strip_suffix(self.suffix)?;
-            let (value, printed) = match self.scalar {
-                "f32" => {
-                    let value = word.parse::<f32>().ok()?;
-                    (f64::from(value), format!("{value:?}"))
-                }
-                _ => {
-                    let value = word.parse::<f64>().ok()?;
-                    (value, format!("{value:?}"))
-                }
+            let value = match self.scalar {
+                "f32" => literal::<f32>(word)?,
+                _ => literal::<f64>(word)?,
             };
-            (value.is_finite() && printed == word).then_some(())?;
             return self.push(Node::Constant(value));
         }
         if self.is_inside {
@@ -300,13 +298,13 @@ impl<'t> Parser<'t> {
         if self.is_inside || std::mem::replace(&mut self.is_part, true) {
             return None;
         }
-        let before: HashSet<&str> = self.names.keys().copied().collect();
+        let before = self.names.clone();
         (self.statements()? == names && self.next()? == "};").then_some(())?;
-        let handed: HashSet<&str> = between(names, "(", ",)")?.split(", ").collect();
-        let is_new = |name: &&str| self.names.contains_key(name) && !before.contains(name);
-        handed.iter().all(is_new).then_some(())?;
-        self.names
-            .retain(|name, _| before.contains(name) || handed.contains(name));
+        let inside = std::mem::replace(&mut self.names, before);
+        for name in between(names, "(", ",)")?.split(", ") {
+            let is_old = self.names.insert(name, *inside.get(name)?).is_some();
+            (!is_old).then_some(())?;
+        }
         self.is_part = false;
         Some(())
     }
@@ -349,6 +347,13 @@ impl<'t> Parser<'t> {
         }
         Some(())
     }
+}
+
+/// A number as it is printed.
+fn literal<T: FromStr + Debug + Into<f64>>(word: &str) -> Option<f64> {
+    let value: T = word.parse().ok()?;
+    let is_printed = format!("{value:?}") == word;
+    Some(value.into()).filter(|value| is_printed && value.is_finite())
 }
 
 /// Both parts of `(one, other)`.

@@ -1,15 +1,16 @@
-//! The function of a header that gives the sines of several angles, which must be this one. Its
-//! operations are those of the crate `dalembert-sines`, where each result is proved to be within
-//! an ulp; what is further away than `MOST` is the C library's.
+//! The functions of a header that give sines, which must be these: of several angles, or of one
+//! where they are called at many states. Their operations are those of the crate
+//! `dalembert-sines`, where each result is proved to be within an ulp; what is further away than
+//! `MOST` is the C library's.
 
-use crate::file::whole;
+use crate::file::{between, whole};
 
-/// Its lines. Literals of f32 end with F for `~`, and
-/// functions of the library with f for `^`.
-const LINES: &str = "#if defined(__clang__)
+/// The function of several; `@` is what their names begin with. Literals of f32 end with F for
+/// `~`, and functions of the library with f for `^`.
+const SEVERAL: &str = "#if defined(__clang__)
 __attribute__((noinline))
 #endif
-HEAD(const REAL angle[ARM_RESTRICT COUNT], REAL sine[ARM_RESTRICT COUNT], REAL cosine[ARM_RESTRICT COUNT])
+static inline void @_sines_COUNT(const REAL angle[ARM_RESTRICT COUNT], REAL sine[ARM_RESTRICT COUNT], REAL cosine[ARM_RESTRICT COUNT])
 {
 ARM_UNFUSED
 int i;
@@ -48,13 +49,37 @@ const SINGLE: &str = "x0*0.63661975 x1+12582912.0 x2-12582912.0 x3*1.5707855 x0-
     x18+-0.0013887301 x19*x12 x20+0.041666646 x12*0.5 1.0-x22 x11*x23 x7*x12 x25*x17
     x24+x26 x7-x27 1.0-x23 x29-x22 x13*x21 x7*x11 x31+x32 x30+x33 x23+x34";
 
-/// The lines of the function that has this head; the header's name is in capitals.
-pub(crate) fn lines(header: &str, head: &str) -> Option<String> {
-    let (before, list) = head.split_once("_sines_")?;
-    let count = list.split_once('(')?.0;
-    let module = before
-        .strip_prefix("static inline void ")?
-        .to_ascii_uppercase();
+/// The function of one angle, which is told whether that may be far, with its struct.
+const ONE: &str = "typedef struct {
+REAL sin;
+REAL cos;
+} @_sincos_t;
+static inline @_sincos_t @_sincos(const int far, const REAL angle)
+{
+ARM_UNFUSED
+const REAL x0 = (fabs^(angle) <= MOST~) ? angle : 0.0~;
+STEPS
+const unsigned int turns = (unsigned int)(int)x3;
+const REAL one = ((turns & 1U) == 0U) ? SINE : COSINE;
+const REAL other = ((turns & 1U) == 0U) ? COSINE : SINE;
+@_sincos_t pair;
+pair.sin = ((turns & 2U) == 0U) ? one : -one;
+pair.cos = (((turns + 1U) & 2U) == 0U) ? other : -other;
+if ((far != 0) && !(fabs^(angle) <= MOST~)) {
+pair.sin = sin^(angle);
+pair.cos = cos^(angle);
+}
+return pair;
+}";
+
+/// The lines of the functions that give sines, if this is the fourth of them: the head of what is
+/// called once, or the name of a struct.
+pub(crate) fn lines(header: &str, fourth: &str) -> Option<String> {
+    let several = fourth.strip_prefix("static inline void ");
+    let several = several.and_then(|head| head.split_once('(')?.0.split_once("_sines_"));
+    let one = || Some((between(fourth, "} ", "_sincos_t;")?, "1"));
+    let (base, count) = several.or_else(one)?;
+    let module = base.to_ascii_uppercase();
     let is_single = module == format!("{header}_F32");
     (whole(count).is_some() && (is_single || module == header)).then_some(())?;
     let (real, operations, [sine, cosine], most, ends) = match is_single {
@@ -72,7 +97,8 @@ pub(crate) fn lines(header: &str, head: &str) -> Option<String> {
     };
     let steps = operations.split_whitespace().enumerate().map(step);
     let shift = operations.split(['+', ' ']).nth(2)?;
-    let mut text = LINES.replace("STEPS", &steps.collect::<Vec<String>>().join("\n"));
+    let steps = steps.collect::<Vec<String>>().join("\n");
+    let mut text = several.map_or(ONE, |_| SEVERAL).replace("STEPS", &steps);
     for (word, meant) in [
         ("SHIFT", shift),
         ("COSINE", cosine),
@@ -83,8 +109,9 @@ pub(crate) fn lines(header: &str, head: &str) -> Option<String> {
         ("~", ends[0]),
         ("^", ends[1]),
         ("ARM", header),
+        ("@", base),
     ] {
         text = text.replace(word, meant);
     }
-    Some(text.replacen("HEAD", head.split_once('(')?.0, 1))
+    Some(text)
 }

@@ -72,6 +72,12 @@ pub fn outputs(
     program.outputs.iter().map(output).collect()
 }
 
+/// The joints of an angle, or of its opposite.
+fn signed(joints: &[(usize, bool)], minus: bool) -> impl Iterator<Item = (usize, bool)> {
+    let joints = joints.iter();
+    joints.map(move |&(joint, negative)| (joint, negative != minus))
+}
+
 fn number(all: &[Meaning], node: usize) -> Result<&Value, Fault> {
     match all.get(node) {
         Some(Meaning::Number(value)) => Ok(value),
@@ -95,9 +101,7 @@ impl Values<'_> {
             },
             Node::Neg(a) => {
                 if let Some(joints) = angle(a) {
-                    return Ok(Meaning::Angle(
-                        joints.iter().map(|&(j, n)| (j, !n)).collect(),
-                    ));
+                    return Ok(Meaning::Angle(signed(joints, true).collect()));
                 }
                 let a = number(all, a)?;
                 Value {
@@ -108,10 +112,8 @@ impl Values<'_> {
             Node::Add(a, b) | Node::Sub(a, b) => {
                 let minus = matches!(node, Node::Sub(..));
                 if let (Some(a), Some(b)) = (angle(a), angle(b)) {
-                    let behind = b
-                        .iter()
-                        .map(|&(joint, negative)| (joint, negative != minus));
-                    let sum: Vec<(usize, bool)> = a.iter().copied().chain(behind).collect();
+                    let sum = signed(a, false).chain(signed(b, minus));
+                    let sum: Vec<(usize, bool)> = sum.collect();
                     let is_short = sum.len() <= MAX_JOINTS;
                     Fault::unless(is_short, "an angle is the sum of too many")?;
                     return Ok(Meaning::Angle(sum));
@@ -155,10 +157,7 @@ impl Values<'_> {
             _ if argument >= self.arguments || is_still => {
                 "the text reads rates that the function, or the scene, has not".to_owned()
             }
-            Some(_) => format!(
-                "the text reads the state of joint {}, which is locked",
-                joint + 1
-            ),
+            Some(_) => format!("the text reads joint {}, which is locked", joint + 1),
             None => {
                 let is_angle = argument == 0 && self.setting.joints[joint].turns;
                 let all = [&state.position, &state.velocity, &state.acceleration];
@@ -186,10 +185,8 @@ impl Values<'_> {
             range = range + if negative { -own_range } else { own_range };
             let own = if negative { own.negated() } else { own.clone() };
             let turned = sin.times(own_cos, work)?.plus(&cos.times(&own, work)?);
-            cos = cos
-                .times(own_cos, work)?
-                .plus(&sin.times(&own, work)?.negated());
-            sin = turned;
+            let across = sin.times(&own, work)?.negated();
+            (cos, sin) = (cos.times(own_cos, work)?.plus(&across), turned);
         }
         // Each sum of angles is rounded, and a sine changes by no more than its angle.
         let sums = (joints.len() - 1) as f64;

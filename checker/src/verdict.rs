@@ -3,8 +3,7 @@
 use crate::certificate::Claim;
 use crate::fault::Fault;
 use crate::maximum;
-use crate::number::Number;
-use crate::number::Work;
+use crate::number::{Number, Work};
 use crate::quantity::Quantity;
 use crate::ring::Ring;
 use crate::sample::{self, Seen};
@@ -49,11 +48,9 @@ impl Output {
     /// errs more than E at a state is not.
     pub fn is_shown(&self) -> bool {
         let is_none = self.claimed == 0.0 && !self.holds();
-        !is_none
-            && self.found.seen.off <= self.claimed
-            && self
-                .tolerated
-                .map_or(self.holds(), |tolerated| self.found.bound() <= tolerated)
+        let is_within = |tolerated| self.found.bound() <= tolerated;
+        let is_bounded = self.tolerated.map_or(self.holds(), is_within);
+        !is_none && is_bounded && self.found.seen.off <= self.claimed
     }
 }
 
@@ -96,7 +93,7 @@ pub fn audit(claim: &Claim, robot: &str, tolerance: Option<f64>) -> Result<Verdi
     let places = claim.function()?.places(claim.rows.len());
     let most = attainable(claim, &setting, &places)?;
     let largest = claim.scale.iter().copied().fold(0.0, f64::max);
-    let rows: Vec<usize> = claim.rows.iter().map(|row| row - 1).collect();
+    let rows = claim.rows();
     let mut outputs = Vec::new();
     for (index, (found, (_, place))) in found.into_iter().zip(&places).enumerate() {
         let joints: Vec<usize> = place.iter().map(|&place| rows[place]).collect();
@@ -108,15 +105,13 @@ pub fn audit(claim: &Claim, robot: &str, tolerance: Option<f64>) -> Result<Verdi
             let each = held.iter().map(|&joint| all[joint]);
             below(each.fold(f64::INFINITY, f64::min) * scale.min(most[index]))
         });
+        let own = below(claimed(index));
+        let own = if is_zero { ZERO * largest } else { own };
         outputs.push(Output {
             joints,
             scale,
             found,
-            claimed: if is_zero {
-                ZERO * largest
-            } else {
-                below(claimed(index))
-            },
+            claimed: own,
             tolerated,
         });
     }
@@ -160,10 +155,8 @@ pub fn measure(
     let work = &mut Work::default();
     let ring = Ring::new(setting, claim, work)?;
     let texts = values::outputs(&program, setting, claim, &ring, work)?;
-    let rows = claim.rows();
-    let formulas = claim
-        .function()?
-        .outputs(setting, &ring.states, &rows, work)?;
+    let (function, rows) = (claim.function()?, claim.rows());
+    let formulas = function.outputs(setting, &ring.states, &rows, work)?;
     let seen = sample::worst(claim, setting, &program, STATES)?;
     let mut all = Vec::new();
     for (index, (value, formula)) in texts.iter().zip(&formulas).enumerate() {
@@ -244,8 +237,9 @@ fn attainable(
         Some("actuator") => places.iter().map(actuator).collect::<Result<_, Fault>>()?,
         Some("range") => witness::reached(claim, setting)?,
         _ => {
-            let why = "`relative_to` is neither actuator nor range";
-            return Err(Fault::certificate(why));
+            return Err(Fault::certificate(
+                "`relative_to` is neither actuator nor range",
+            ));
         }
     };
     for (scale, most) in claim.scale.iter().zip(&most) {

@@ -4,12 +4,10 @@
 //! state, with a bound of what rounding costs, is relied on.
 
 use crate::certificate::Claim;
-use crate::dynamics::State;
 use crate::fault::Fault;
-use crate::number::Work;
 use crate::polynomial::Polynomial;
 use crate::program::Program;
-use crate::sample::{self, Random, held, run, states};
+use crate::sample::{At, Random, ends, outputs, run, seen};
 use crate::scene::Setting;
 
 /// How many climbs start anywhere, and how many more near the best state.
@@ -22,9 +20,6 @@ const GAIN: f64 = 1e-9;
 const PLACES: usize = 12;
 const NEAR: f64 = 1e-3;
 
-/// A state: positions, velocities and accelerations.
-type At = [Vec<f64>; 3];
-
 /// Numbers at most the largest magnitude of each output over the setting's own box,
 /// looked for until the scale of each is reached.
 ///
@@ -32,8 +27,11 @@ type At = [Vec<f64>; 3];
 /// As of [`crate::dynamics::torques`].
 pub fn reached(claim: &Claim, setting: &Setting) -> Result<Vec<f64>, Fault> {
     let one = |(output, scale): (usize, &f64)| {
-        let value = |at: &At| Ok(values(claim, setting, at)?[output]);
-        let sure = |at: At| Ok((least(claim, setting, output, &at)?, at));
+        let value = |at: &At| Ok(outputs::<f64>(claim, setting, at)?[output]);
+        let sure = |at: At| {
+            let found = &outputs::<Polynomial>(claim, setting, &at)?[output];
+            Ok(((found.value().abs() - found.rest).next_down(), at))
+        };
         search(setting, HOPS, scale * (1.0 - 1e-6), &value, &sure)
     };
     claim.scale.iter().enumerate().map(one).collect()
@@ -52,16 +50,11 @@ pub fn error(
 ) -> Result<f64, Fault> {
     let is_single = claim.scalar == "f32";
     let value = |at: &At| {
-        let off = run(program, at, is_single)[output] - values(claim, setting, at)?[output];
+        let off = run(program, at, is_single)[output] - outputs::<f64>(claim, setting, at)?[output];
         Ok(if off.is_finite() { off } else { f64::MAX })
     };
-    let sure = |mut at: At| {
-        for (list, ranges) in at.iter_mut().zip(&setting.ranges) {
-            for (value, range) in list.iter_mut().zip(ranges) {
-                *value = held(*value, ends(*range), is_single);
-            }
-        }
-        let seen = sample::at(claim, setting, program, &at, &mut Work::default())?;
+    let sure = |at: At| {
+        let (seen, at) = seen(claim, setting, program, at)?;
         Ok((seen[output].off, at))
     };
     search(setting, 0, claimed, &value, &sure)
@@ -76,10 +69,10 @@ fn search(
     sure: &dyn Fn(At) -> Result<(f64, At), Fault>,
 ) -> Result<f64, Fault> {
     let mut random = Random(2);
-    let (mut most, mut best) = (0.0f64, drawn(setting, &mut random, false));
+    let (mut most, mut best) = (0.0f64, random.state(setting, [false; 3]));
     for attempt in 0..CLIMBS + hops {
         let mut at = match attempt < CLIMBS {
-            true => drawn(setting, &mut random, attempt % 2 == 0),
+            true => random.state(setting, [attempt % 2 == 0; 3]),
             false => hopped(&best, setting, &mut random),
         };
         climb(setting, &mut at, value)?;
@@ -94,49 +87,15 @@ fn search(
     Ok(most)
 }
 
-/// A state of the box, or one at its corners.
-fn drawn(setting: &Setting, random: &mut Random, is_corner: bool) -> At {
-    setting.ranges.each_ref().map(|list| {
-        let draw = |range: &[f64; 2]| {
-            let [low, high] = ends(*range);
-            let share = random.next();
-            low + (high - low) * if is_corner { share.round() } else { share }
-        };
-        list.iter().map(draw).collect()
-    })
-}
-
 /// A state with some of its coordinates drawn anew.
 fn hopped(from: &At, setting: &Setting, random: &mut Random) -> At {
     let mut at = from.clone();
     for _ in 0..3 {
         let mut pick = |count: usize| ((random.next() * count as f64) as usize).min(count - 1);
         let (which, joint) = (pick(3), pick(setting.joints.len()));
-        let [low, high] = ends(setting.ranges[which][joint]);
-        let share = random.next();
-        at[which][joint] = low + (high - low) * if which > 0 { share.round() } else { share };
+        at[which][joint] = random.within(setting.ranges[which][joint], which > 0);
     }
     at
-}
-
-/// A range, of what has none a point.
-fn ends([low, high]: [f64; 2]) -> [f64; 2] {
-    if low <= high { [low, high] } else { [0.0; 2] }
-}
-
-fn values(claim: &Claim, setting: &Setting, at: &At) -> Result<Vec<f64>, Fault> {
-    let states = states::<f64>(setting, at);
-    let (rows, work) = (claim.rows(), &mut Work::default());
-    claim.function()?.outputs(setting, &states, &rows, work)
-}
-
-/// Returns a lower bound of an output's magnitude at a state.
-fn least(claim: &Claim, setting: &Setting, output: usize, at: &At) -> Result<f64, Fault> {
-    let states: Vec<State<Polynomial>> = states(setting, at);
-    let (rows, work) = (claim.rows(), &mut Work::default());
-    let all = claim.function()?.outputs(setting, &states, &rows, work)?;
-    let value = all[output].terms.first().map_or(0.0, |term| term.1.abs());
-    Ok((value - all[output].rest).next_down())
 }
 
 /// Moves a state to where a value is larger, one coordinate after the other.

@@ -319,14 +319,139 @@ fn bundles() {
     );
 }
 
-/// A function of many states is not read, and nobody can take it for one that was.
+/// Functions of many states: what is found is what Rust's functions of one have.
 #[test]
-fn batches_are_refused_by_name() {
-    let batch = "static inline void planar2r_gravity_batch(const size_t n, const double *q, double *c)\n{\n}\n";
-    let end = "\n#if defined(__GNUC__) && !defined(__clang__) && (defined(__FP";
-    let source = header();
-    let place = source.rfind(end).unwrap();
-    let with = format!("{}\n{batch}{}", &source[..place], &source[place..]);
-    let fault = check(&with, &robot(), None).unwrap_err().to_string();
-    assert!(fault.contains("batches are not checked"), "{fault}");
+fn batches() {
+    let [header, rust] =
+        ["h", "rs"].map(|kind| format!("checker/tests/data/generated/planar2r-batch.{kind}"));
+    is_same(&header, &rust);
+    for name in ["columns", "columns-polynomial"] {
+        let found = report(&file(&format!(
+            "checker/tests/data/generated/planar2r-{name}.h"
+        )));
+        assert!(found.is_shown(), "{found:?}");
+    }
+}
+
+/// A header that has one function of another, with all that calls it.
+fn alone(source: &str, name: &str) -> (String, String, String) {
+    let start = |from: usize| {
+        from + source[from..]
+            .find("\nstatic inline void planar2r_")
+            .unwrap()
+    };
+    let (first, own) = (
+        start(0),
+        source.find(&format!(" planar2r_{name}_any(")).unwrap(),
+    );
+    let own = source[..own].rfind("\nstatic").unwrap();
+    let results = source.find(&format!("/* The results of planar2r_{name}."));
+    let own = results.unwrap_or_else(|| source[..own].rfind("/*\n").unwrap());
+    let end = own + source[own..].find(&format!("_{name}_batch(")).unwrap();
+    let end = end + source[end..].find("\n}\n").unwrap() + 3;
+    let behind = source.rfind("\n#if defined(__GNUC__)").unwrap();
+    let parts = [&source[..first + 1], &source[own..end], &source[behind..]];
+    parts.map(str::to_owned).into()
+}
+
+/// Of what calls a function, no line can go or say something else.
+#[test]
+fn batches_that_are_something_else() {
+    let source = file("checker/tests/data/generated/planar2r-batch.h");
+    let is_shown = |source: &str| check(source, &robot(), None).is_ok_and(|own| own.is_shown());
+    for name in ["gravity", "kinetic_energy", "servo"] {
+        let (before, own, behind) = alone(&source, name);
+        let with = |own: &str| format!("{before}{own}{behind}");
+        assert!(is_shown(&with(&own)), "{name}");
+        let lines: Vec<&str> = own.lines().collect();
+        let first = lines
+            .iter()
+            .position(|line| line.contains("(const int far, "));
+        for index in first.unwrap()..lines.len() {
+            let line = lines[index];
+            let is_other = |start: &&str| line.trim_start().starts_with(*start);
+            if line.is_empty() || ["const double t", "/*", "*"].iter().any(is_other) {
+                continue;
+            }
+            let mut others = vec![String::new(), line.replace(';', " + 0.0;")];
+            for (from, to) in [
+                ("n + s", "s"),
+                ("[s]", "[n + s]"),
+                ("[s]", "[0]"),
+                ("(2U * n)", "(3U * n)"),
+                ("* n", "* s"),
+                ("{q[s]", "{q[0]"),
+                ("[0]", "[1]"),
+                ("[1]", "[0]"),
+                ("q_s", "qd_s"),
+                ("qd", "q"),
+                ("tau", "d"),
+                ("(0, ", "(1, "),
+                ("(1, ", "(0, "),
+                ("far", "0"),
+                ("p1", "p2"),
+                (".sin", ".cos"),
+                ("_any", ""),
+                ("_batch", ""),
+                ("planar2r_", "planar2r_f32_"),
+                ("gravity", "coriolis"),
+                ("gravity", "coriolis_matrix"),
+                ("kinetic_energy", "momentum"),
+                ("servo", "other"),
+                ("double", "float"),
+                ("const ", ""),
+                ("s = 0U", "s = 1U"),
+                ("s < n", "s <= n"),
+                ("s < n", "s + 1U < n"),
+                ("++s", "s += 2U"),
+                ("4096.0", "8192.0"),
+                (" && ", " || "),
+                ("<=", ">="),
+                ("continue", "break"),
+                ("flatten", "optimize(3)"),
+                ("static inline", "inline"),
+                ("PLANAR2R_SIMD", "PLANAR2R_UNFUSED"),
+                ("_RESTRICT", "_OTHER"),
+                ("{", "{ s += 1U;"),
+                ("}", "} return;"),
+            ] {
+                others.push(line.replacen(from, to, 1));
+            }
+            for other in others.iter().filter(|other| *other != line) {
+                let mut changed = lines.clone();
+                changed[index] = other;
+                assert!(
+                    !is_shown(&with(&(changed.join("\n") + "\n"))),
+                    "{line} -> {other}"
+                );
+            }
+            // Neighbours in another order, where that is another text.
+            let next = lines.get(index + 1).unwrap_or(&"");
+            if !line.starts_with("    const ") && !next.is_empty() && next.trim() != line.trim() {
+                let mut changed = lines.clone();
+                changed.swap(index, index + 1);
+                assert!(
+                    !is_shown(&with(&changed.join("\n"))),
+                    "{line} behind the next"
+                );
+            }
+        }
+    }
+    // What calls a function is there, and so are the macros of loops.
+    let (before, own, behind) = alone(&source, "gravity");
+    let batch = own.rfind("/* planar2r").unwrap();
+    assert!(!is_shown(&format!("{before}{}{behind}", &own[..batch])));
+    let inner = "    return pair;";
+    for (from, to) in [
+        (inner, "    pair.sin = 0.0;\n    return pair;"),
+        ("#include <stddef.h>\n", ""),
+        (", \"no-tree-pre\"", ""),
+        ("\"GCC ivdep\"", "\"GCC unroll 2\""),
+        ("\"omp simd\"", "\"omp parallel for\""),
+        ("defined(_OPENMP)", "1"),
+    ] {
+        let source = format!("{before}{own}{behind}");
+        assert!(source.contains(from), "{from}");
+        assert!(!is_shown(&source.replacen(from, to, 1)), "{to}");
+    }
 }

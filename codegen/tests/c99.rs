@@ -39,7 +39,7 @@ fn request(sincos: SinCos, entries: Entries) -> Request {
     }
 }
 
-/// States of the arms: as many as a campaign has where the tests are optimised.
+/// States of the arms: as many as a campaign has where the tests are optimised, of every output.
 fn states() -> usize {
     *support::dose(&[100, 100_000], 1).last().unwrap()
 }
@@ -59,6 +59,8 @@ fn compiled_functions_have_the_bits_of_the_program() {
             ),
         ] {
             let mut request = request(sincos, entries);
+            let all = support::dose(&Function::ALL, 6);
+            request.functions = all.to_vec();
             request.plan = RobotFile::read(
                 &Path::new(env!("CARGO_MANIFEST_DIR"))
                     .join(format!("../generated/robots/{name}.toml")),
@@ -69,6 +71,21 @@ fn compiled_functions_have_the_bits_of_the_program() {
             same_bits(&what, &robot, &request, states(), &plain);
         }
     }
+}
+
+/// Returns a planar arm with a frame on its last link, and outputs there and under a wrench.
+fn framed() -> (Robot, Vec<Function>) {
+    let frame = "\n[[frame]]\nname = \"eye\"\nlink = 2\nxyz = [0.1, 0.2, 0]\nrpy = [0, 0, 0.5]\n";
+    let robot = support::read_robot(&(support::source("planar2r", "") + frame));
+    let functions = [
+        "jacobian@eye:local",
+        "contact_wrench@eye:linear",
+        "operational_inertia@eye:linear",
+        "forward_dynamics_with_wrench",
+        "task=operational_inertia@eye:linear+null_space_projector@eye:linear",
+    ];
+    let functions = functions.map(|text| Function::parse(text).unwrap());
+    (robot, functions.to_vec())
 }
 
 /// Whatever else changes what is printed, in both scalars and, of most, of many states too.
@@ -84,7 +101,14 @@ pub fn changes() -> Vec<(&'static str, Robot, Request)> {
     let scene = support::reading_with("planar2r", scene).scenes.remove(0);
     let coulomb = include_str!("../../model/tests/data/coulomb.toml");
     let bundle = Function::bundle("servo", [torques, Function::Jacobian]).unwrap();
+    let (framed, at_frames) = framed();
     vec![
+        (
+            "outputs",
+            planar.clone(),
+            of(&Function::ALL, SinCos::Together),
+        ),
+        ("frames", framed, of(&at_frames, SinCos::Together)),
         (
             "scene",
             planar.clone(),
@@ -122,7 +146,7 @@ pub fn changes() -> Vec<(&'static str, Robot, Request)> {
     ]
 }
 
-/// Scenes with a tolerance, friction, arguments for payload and gravity, bundles and products
+/// Every output, frames, scenes with a tolerance, friction, arguments for payload and gravity, bundles and products
 /// that are fused.
 #[test]
 fn whatever_is_printed_has_the_bits_of_the_program() {
@@ -208,9 +232,17 @@ fn batches_are_vectors() {
             void f(size_t n, const double *q, const double *qd, const double *qdd, double *tau)\n\
             {\n    planar2r_inverse_dynamics_batch(n, q, qd, qdd, tau);\n}\n";
         fs::write(&source, call).unwrap();
-        for compiler in there(&["gcc", "clang"]) {
+        // With FMA, and in GNU C too, where gcc fuses products and sums unless it is told.
+        let options = [
+            &["-mavx2"][..],
+            &["-mavx2", "-mfma"],
+            &["-mfma", "-mavx2", "-std=c99"],
+        ];
+        let compilers = there(&["gcc", "clang"]).into_iter();
+        for (compiler, options) in compilers.flat_map(|own| options.map(|all| (own, all))) {
             let output = Command::new(compiler)
-                .args(["-O3", "-mavx2", "-Werror", "-S", "-o", "-"])
+                .args(["-O3", "-Werror", "-S", "-o", "-"])
+                .args(options)
                 .arg(&source)
                 .output()
                 .unwrap();
@@ -221,7 +253,7 @@ fn batches_are_vectors() {
             let products = lines.filter(|line| line.contains("vmulpd") && line.contains("%ymm"));
             assert!(
                 sincos == SinCos::Libm || products.count() > 20,
-                "{compiler}"
+                "{compiler} {options:?}"
             );
         }
     }
@@ -253,27 +285,35 @@ fn misra_is_kept_but_for_what_the_guide_says() {
     }
 }
 
-/// Names are distinct, and no longer than every compiler tells apart.
+/// Names of every output, of many states too, are distinct and no longer than every compiler tells
+/// apart, where the robot has a name of some length.
 #[test]
 fn names_are_short_and_distinct() {
     let robot = support::robot("planar2r");
-    let text = generate(&robot, &request(SinCos::Together, Entries::Batch))
-        .unwrap()
-        .text;
-    let heads = text
-        .lines()
-        .filter_map(|line| line.strip_prefix("static inline "));
-    let names = heads.map(|head| {
-        let head = head.split('(').next().unwrap();
-        head.rsplit(' ').next().unwrap()
-    });
-    let names: Vec<&str> = names.collect();
-    assert!(
-        names.len() > 30 && names.iter().all(|name| name.len() <= 31),
-        "{names:?}"
-    );
-    let distinct: BTreeSet<&&str> = names.iter().collect();
-    assert_eq!(distinct.len(), names.len());
+    for (library, sincos) in [(false, SinCos::Together), (true, SinCos::Libm)] {
+        let mut request = request(sincos, Entries::Batch);
+        request.functions = Function::ALL.to_vec();
+        request.module = library.then(|| "stanford".to_owned());
+        let text = generate(&robot, &request).unwrap().text;
+        let heads = text
+            .lines()
+            .filter_map(|line| line.strip_prefix("static inline "));
+        let names = heads.map(|head| {
+            let head = head.split('(').next().unwrap();
+            head.rsplit(' ').next().unwrap()
+        });
+        let names: Vec<&str> = names.collect();
+        assert!(names.len() >= 4 * Function::ALL.len(), "{names:?}");
+        assert!(names.iter().all(|name| name.len() <= 31), "{names:?}");
+        let distinct: BTreeSet<&&str> = names.iter().collect();
+        assert_eq!(distinct.len(), names.len());
+    }
+    // Two bundles, the one called as what the other's batch calls.
+    let bundle = |name| Function::bundle(name, [Function::Gravity]).unwrap();
+    let mut request = request(SinCos::Together, Entries::Batch);
+    request.functions = vec![bundle("servo"), bundle("servo_any")];
+    let error = generate(&robot, &request).unwrap_err().to_string();
+    assert!(error.contains("`planar2r_servo_any`"), "{error}");
 }
 
 /// What C and CUDA lack is refused by name.

@@ -1,5 +1,6 @@
 //! The header of a robot in C or CUDA: guard, macros, sines, structs and functions of each scalar.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use super::module::{function_doc, header};
@@ -12,11 +13,14 @@ use crate::program::{Library, Lowered, ScalarType};
 use crate::task::Task;
 
 /// Where gcc fuses products and sums by itself.
-const CONTRACTS: &str = "defined(__GNUC__) && !defined(__clang__) && \
+const FUSES: &str = "defined(__GNUC__) && !defined(__clang__) && \
      (defined(__FP_FAST_FMA) || defined(__FP_FAST_FMAF)) && \
      (defined(__cplusplus) || !defined(__STRICT_ANSI__))";
+/// gcc. It inlines only functions that have the options of those that call them, and makes no
+/// vectors without masks where it first computes (`tree-pre`) what follows of an angle that is far.
+const GCC: &str = "defined(__GNUC__) && !defined(__clang__)";
 
-/// Returns the first name that some C compiler does not take: too long, or of other letters.
+/// Returns the first name that some C compiler does not take: too long, of other letters, or of two.
 pub(crate) fn misnamed(
     base: &str,
     functions: &[Function],
@@ -36,18 +40,18 @@ pub(crate) fn misnamed(
         if c99::is_bundle(*function) {
             words.push(format!("{}_t", function.name()));
         }
-        words.extend(parameters::name(*function).map(str::to_lowercase));
+        let constant = parameters::name(*function).map(str::to_lowercase);
+        words.extend(constant.filter(|constant| !words.contains(constant)));
     }
     let names = scalars
         .iter()
         .map(|&scalar| Names::new(base, Language::C, scalar));
-    let names = names.flat_map(|names| {
-        let macros = ["RESTRICT", "UNFUSED", "SIMD"].map(|word| names.constant(word));
-        let words: Vec<String> = words.iter().map(|word| names.of(word)).collect();
-        words.into_iter().chain(macros)
-    });
-    let names: Vec<String> = names.collect();
-    names.into_iter().find(|name| name.len() > LONGEST)
+    let names = names.flat_map(|names| words.iter().map(move |word| names.of(word)));
+    let macros = ["RESTRICT", "UNFUSED", "SIMD"];
+    let macros = macros.map(|word| Names::new(base, Language::C, ScalarType::F64).constant(word));
+    let mut seen = BTreeSet::new();
+    let mut names = names.chain(macros);
+    names.find(|name| name.len() > LONGEST || !seen.insert(name.clone()))
 }
 
 /// Prints the whole file: in each scalar, the functions' programs.
@@ -87,6 +91,11 @@ pub(crate) fn write(
     let includes: String = includes
         .map(|(name, _)| format!("#include <{name}.h>\n"))
         .collect();
+    let has_loops = request.entries == Entries::Batch && request.language == Language::C;
+    let (when, options) = match has_loops {
+        true => (GCC, "\"fp-contract=off\", \"no-tree-pre\""),
+        false => (FUSES, "\"fp-contract=off\""),
+    };
     // Writing to a string cannot fail.
     let _ = write!(
         text,
@@ -97,14 +106,14 @@ pub(crate) fn write(
          #if defined(__clang__)\n\
          #define {unfused} _Pragma(\"STDC FP_CONTRACT OFF\")\n\
          #else\n#define {unfused}\n#endif\n\
-         #if {CONTRACTS}\n\
+         #if {when}\n\
          #pragma GCC push_options\n\
-         #pragma GCC optimize (\"fp-contract=off\")\n\
+         #pragma GCC optimize ({options})\n\
          #endif\n"
     );
     if request.language == Language::Cuda {
         text.push_str(cuda::PRODUCTS);
-    } else if request.entries == Entries::Batch {
+    } else if has_loops {
         let simd = names.constant("SIMD");
         // It warns where it cannot, of loops that call the C library.
         let calls_libm = codes_of().any(|code| calls(&code) && code.library == Library::Libm);
@@ -118,7 +127,7 @@ pub(crate) fn write(
         let _ = write!(
             text,
             "\n/* States of a batch are independent of one another. */\n\
-             #if defined(__GNUC__) && !defined(__clang__)\n\
+             #if {GCC}\n\
              #define {simd} _Pragma(\"GCC ivdep\")\n\
              {clang}#elif defined(_OPENMP)\n\
              #define {simd} _Pragma(\"omp simd\")\n\
@@ -206,7 +215,7 @@ pub(crate) fn write(
     }
     let _ = write!(
         text,
-        "\n#if {CONTRACTS}\n#pragma GCC pop_options\n#endif\n\n#endif\n"
+        "\n#if {when}\n#pragma GCC pop_options\n#endif\n\n#endif\n"
     );
     text
 }

@@ -44,7 +44,7 @@ impl fmt::Display for Lacks {
             Lacks::Name(name) => write!(
                 f,
                 "`{name}` is no name that every compiler takes: letters, digits and `_`, at most 31 \
-                 of them; give the module a short name"
+                 of them, each name once; give the module a short name"
             ),
         }
     }

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use super::c99::{Names, float, is_bundle, is_number, is_told, largest, structure_name};
 use super::{Language, Printed};
-use crate::program::{Literal, Lowered};
+use crate::program::Literal;
 
 /// The parts of a function of any number of states.
 struct Columns {
@@ -51,9 +51,9 @@ impl Columns {
             let mut of = "";
             if is_bundle(function) {
                 let kind = structure_name(function, names);
-                let _ = writeln!(gathered, "        {kind} result_s;");
-                passed.push("&result_s".to_owned());
-                of = "result_s.";
+                let _ = writeln!(gathered, "        {kind} result_s[1];");
+                passed.push("result_s".to_owned());
+                of = "result_s->";
             }
             for quantity in function.quantities() {
                 let (field, length) = (quantity.field(), quantity.len(sizes));
@@ -96,8 +96,7 @@ impl Columns {
 }
 
 /// Prints the function of any number of states, in columns: entry i of state s is at
-/// `i * n + s`. gcc makes no vectors without masks where it first computes (`tree-pre`) what
-/// follows of an angle that is far.
+/// `i * n + s`.
 pub(crate) fn batch(printed: &Printed<'_>, names: &Names) -> String {
     if names.language() == Language::Cuda {
         return kernel(printed, names);
@@ -110,13 +109,13 @@ pub(crate) fn batch(printed: &Printed<'_>, names: &Names) -> String {
         let call = columns.call(printed, names, is_told);
         format!("    for (s = 0U; s < n; ++s) {{\n{gathered}{when}{call}    }}\n")
     };
-    // Where an angle may be far, once more: no joint is that far whose sums are not.
+    // Where an angle may be far, once more: of joints that are not, no sum is.
     let mut again = String::new();
     if is_told {
-        let far = names.dialect().literal(Literal(far(printed.code)));
-        let f = printed.code.scalar.math_suffix();
-        let joints = 0..printed.sizes.joints;
-        let near = joints.map(|joint| format!("(fabs{f}(q_s[{joint}]) <= {far})"));
+        let (scalar, joints) = (printed.code.scalar, printed.sizes.joints);
+        let far = largest(scalar) / joints.next_power_of_two() as f64;
+        let (far, f) = (names.dialect().literal(Literal(far)), scalar.math_suffix());
+        let near = (0..joints).map(|joint| format!("(fabs{f}(q_s[{joint}]) <= {far})"));
         let near: Vec<String> = near.collect();
         let when = format!(
             "        if ({}) {{\n            continue;\n        }}\n",
@@ -127,8 +126,7 @@ pub(crate) fn batch(printed: &Printed<'_>, names: &Names) -> String {
     format!(
         "/* {} at n states, in columns: entry i of state s stands at i * n + s. Each state\n \
          * has the results that it has alone, bit for bit. */\n\
-         #if defined(__clang__)\n__attribute__((flatten))\n#elif defined(__GNUC__)\n\
-         __attribute__((flatten, optimize(\"no-tree-pre\")))\n#endif\n\
+         #if defined(__GNUC__)\n__attribute__((flatten))\n#endif\n\
          static inline void {}({})\n{{\n    size_t s;\n    {simd}\n{}{again}}}\n",
         names.of(function.name()),
         names.of(&format!("{function}_batch")),
@@ -155,11 +153,4 @@ fn kernel(printed: &Printed<'_>, names: &Names) -> String {
         columns.gathered,
         columns.call(printed, names, false)
     )
-}
-
-/// As far as joints may turn for all angles, sums of them too, to be those that sines are
-/// computed of without a library.
-fn far(code: &Lowered) -> f64 {
-    let terms = code.trig.iter().map(|trig| trig.angle.terms().count());
-    largest(code.scalar) / terms.max().unwrap_or(1).next_power_of_two() as f64
 }

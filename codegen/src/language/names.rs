@@ -30,6 +30,21 @@ const SHORT: [(&str, &str); 19] = [
     ("wrench", "wr"),
 ];
 
+/// What is shortened further where that is still too long: `id` and `fd` are the inverse and the
+/// forward dynamics.
+const SHORTER: [(&str, &str); 10] = [
+    ("inv_dyn_", "id_"),
+    ("fwd_dyn_", "fd_"),
+    ("sec_deriv", "deriv2"),
+    ("coriolis", "cor"),
+    ("dalembert", "dal"),
+    ("jacobian", "jac"),
+    ("reaction_wrenches", "react_wr"),
+    ("oper_inertia", "oper_in"),
+    ("consistent", "cons"),
+    ("null_space", "null"),
+];
+
 /// The names of one scalar's functions in a header of a language.
 #[derive(Clone, Debug)]
 pub struct Names {
@@ -62,21 +77,22 @@ impl Names {
     }
 
     /// A function or type by its word, shortened where it would be too long.
-    pub(crate) fn of(&self, word: &str) -> String {
+    pub fn of(&self, word: &str) -> String {
         let infix = match self.scalar {
             ScalarType::F64 => "",
             ScalarType::F32 => "f32_",
         };
-        let name = format!("{}_{infix}{word}", self.base);
-        if name.len() <= LONGEST {
-            return name;
-        }
+        let name = |word: &str| format!("{}_{infix}{word}", self.base);
         let words = word.split('_').map(|part| {
             let short = SHORT.iter().find(|(long, _)| *long == part);
             short.map_or(part, |(_, short)| short)
         });
-        let words: Vec<&str> = words.collect();
-        format!("{}_{infix}{}", self.base, words.join("_"))
+        let short = words.collect::<Vec<&str>>().join("_");
+        let replaced = |text: String, (long, short): &(&str, &str)| text.replace(long, short);
+        let shorter = SHORTER.iter().fold(short.clone(), replaced);
+        let mut names = [word, &short].into_iter().map(name);
+        let fits = names.find(|name| name.len() <= LONGEST);
+        fits.unwrap_or_else(|| name(&shorter))
     }
 
     /// A macro, which both scalars share.

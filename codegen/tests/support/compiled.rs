@@ -7,6 +7,7 @@ use std::process::{Command, Stdio};
 
 use dalembert_codegen::workspace::function::{Argument, Function};
 use dalembert_codegen::workspace::generate::{Generated, generate};
+use dalembert_codegen::workspace::language::c99::Names;
 use dalembert_codegen::workspace::language::{Entries, Language};
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::program::run::State;
@@ -46,45 +47,18 @@ pub fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// A name whose words are shortened, as headers have it.
-fn short(name: &str) -> String {
-    let pairs = [
-        ("inverse", "inv"),
-        ("forward", "fwd"),
-        ("dynamics", "dyn"),
-        ("derivatives", "deriv"),
-        ("second", "sec"),
-        ("kinematics", "kin"),
-        ("coefficients", "coef"),
-        ("manipulator", "manip"),
-        ("equation", "eq"),
-        ("kinetic", "kin"),
-        ("energy", "en"),
-        ("potential", "pot"),
-        ("momentum", "mom"),
-        ("operational", "oper"),
-        ("projector", "proj"),
-        ("wrench", "wr"),
-    ];
-    let shortened = |name: String, (long, short): (&str, &str)| name.replace(long, short);
-    pairs.into_iter().fold(name.to_owned(), shortened)
-}
-
 /// A call of a function on `STATES` states or one; what it gives is put aside.
 fn call(base: &str, generated: &Generated, emitted: &Emitted, request: &Request) -> String {
     let function = emitted.function;
-    let (float, infix) = match emitted.scalar {
-        ScalarType::F64 => ("double", ""),
-        ScalarType::F32 => ("float", "_f32"),
+    let float = match emitted.scalar {
+        ScalarType::F64 => "double",
+        ScalarType::F32 => "float",
     };
     let batch = request.entries == Entries::Batch;
     let states = if batch { STATES } else { 1 };
     let suffix = if batch { "_batch" } else { "" };
-    let name = format!("{base}{infix}_{function}{suffix}");
-    let name = match generated.text.contains(&format!(" {name}(")) {
-        true => name,
-        false => short(&name),
-    };
+    let names = Names::new(base, request.language, emitted.scalar);
+    let name = names.of(&format!("{function}{suffix}"));
     let mut of = generated.functions.iter();
     let of = of.find(|of| of.function == function).unwrap();
     let mut body = "    {\n".to_owned();
