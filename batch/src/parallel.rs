@@ -14,19 +14,19 @@ const FEW: usize = 1024;
 ///
 /// # Errors
 /// [`Unequal`]; then nothing is computed.
-pub fn states<F, const A: usize, const N: usize, const M: usize>(
+pub fn states<F, const A: usize, const N: usize, const M: usize, const K: usize>(
     arguments: [&[[F::Scalar; N]]; A],
     results: &mut [F::State],
 ) -> Result<(), Unequal>
 where
-    F: Function<A, N, M>,
+    F: Function<A, N, M, K>,
     F::Scalar: Sync,
     F::State: Send,
 {
     check_states(&arguments, results.len())?;
     let count = results.len();
     if count <= FEW {
-        return crate::states::<F, A, N, M>(arguments, results);
+        return crate::states::<F, A, N, M, K>(arguments, results);
     }
     let half = middle(count);
     let (left, right) = results.split_at_mut(half);
@@ -35,8 +35,8 @@ where
         arguments.map(|argument| argument.split_at(half).1),
     );
     let (left, right) = rayon::join(
-        || states::<F, A, N, M>(first, left),
-        || states::<F, A, N, M>(second, right),
+        || states::<F, A, N, M, K>(first, left),
+        || states::<F, A, N, M, K>(second, right),
     );
     left.and(right)
 }
@@ -45,17 +45,17 @@ where
 ///
 /// # Errors
 /// [`Unequal`]; then nothing is computed.
-pub fn columns<F, const A: usize, const N: usize, const M: usize>(
+pub fn columns<F, const A: usize, const N: usize, const M: usize, const K: usize>(
     arguments: [&[&[F::Scalar]; N]; A],
     results: &mut [&mut [F::Scalar]; M],
 ) -> Result<(), Unequal>
 where
-    F: Function<A, N, M>,
+    F: Function<A, N, M, K>,
     F::Scalar: Send + Sync,
 {
     let count = check_columns(&arguments, results)?;
     if count <= FEW {
-        return crate::columns::<F, A, N, M>(arguments, results);
+        return crate::columns::<F, A, N, M, K>(arguments, results);
     }
     let half = middle(count);
     let first = arguments.map(|columns| columns.map(|column| column.split_at(half).0));
@@ -69,8 +69,8 @@ where
         (*left, *right) = (a, b);
     }
     let (left, right) = rayon::join(
-        || columns::<F, A, N, M>(first.each_ref(), &mut left),
-        || columns::<F, A, N, M>(second.each_ref(), &mut right),
+        || columns::<F, A, N, M, K>(first.each_ref(), &mut left),
+        || columns::<F, A, N, M, K>(second.each_ref(), &mut right),
     );
     left.and(right)
 }

@@ -1,35 +1,33 @@
-//! Compiled for the target as it is.
+//! The vectors of the target as it is compiled for, of 128 bits, by the crate `wide`.
 
-use crate::{Function, Unequal, columns_in_lanes, states_in_lanes};
+use dalembert_sines::text::{Doubles, Singles, by_pairs};
 
-/// The number of lanes: two vectors of SSE or NEON in f64, one in f32. A plain x86-64 build was
-/// fastest with these.
-const LANES: usize = 4;
+use crate::vector::{BLOCK, Vector, lanes};
 
-/// The function at every state.
-///
-/// # Errors
-/// [`Unequal`]; then nothing is computed.
-pub fn states<F, const A: usize, const N: usize, const M: usize>(
-    arguments: [&[[F::Scalar; N]]; A],
-    results: &mut [F::State],
-) -> Result<(), Unequal>
-where
-    F: Function<A, N, M>,
-{
-    states_in_lanes::<F, LANES, A, N, M>(arguments, results)
+macro_rules! portable {
+    ($vector:ident, $float:ident, $lanes:literal) => {
+        impl Vector<$float> for $vector {
+            type Token = ();
+
+            lanes!(
+                $float,
+                $lanes,
+                |vector| vector.to_array(),
+                |_token, from| { $vector::from_array(from) }
+            );
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                self.root()
+            }
+
+            #[inline(always)]
+            fn mul_add(self, factor: Self, addend: Self) -> Self {
+                self.fused(factor, addend)
+            }
+        }
+    };
 }
 
-/// The function at every state, whose numbers stand in columns.
-///
-/// # Errors
-/// [`Unequal`]; then nothing is computed.
-pub fn columns<F, const A: usize, const N: usize, const M: usize>(
-    arguments: [&[&[F::Scalar]; N]; A],
-    results: &mut [&mut [F::Scalar]; M],
-) -> Result<(), Unequal>
-where
-    F: Function<A, N, M>,
-{
-    columns_in_lanes::<F, LANES, A, N, M>(arguments, results)
-}
+portable!(Doubles, f64, 2);
+portable!(Singles, f32, 4);

@@ -132,11 +132,12 @@ mod vectors {
 }
 
 /// The computation as it stands, generic over numbers: what the generator's proof of
-/// its error reads.
+/// its error reads, and what batches compute in vectors of their own.
 #[doc(hidden)]
 pub mod text {
-    pub use crate::angle::{Angle, rest};
-    pub use crate::number::Number;
+    pub use crate::angle::{Angle, alone, by_pairs, rest};
+    pub use crate::number::{Floats, Number, Pair};
+    pub use crate::vectors::{FourFloats as Singles, TwoDoubles as Doubles};
 }
 
 /// Roots, correctly rounded: libm's, for code that has all from here.

@@ -4,7 +4,7 @@
 //! Not eight doubles: with vectors of 512 bits, processors have fewer units left for
 //! the scalar arithmetic around them (an UR10's torques took 81 ns for 43).
 
-use core::ops::{Add, Mul, Sub};
+use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use wide::bytemuck::cast;
 use wide::{f32x4, f32x8, f64x2, f64x4, u32x4, u32x8, u64x2, u64x4};
@@ -102,7 +102,7 @@ macro_rules! operation {
 }
 
 macro_rules! vector {
-    ($vector:ident, $wide:ident, $bits:ident, $float:ident, $lanes:literal) => {
+    ($vector:ident, $wide:ident, $bits:ident, $float:ident, $lanes:literal, $fma:ident) => {
         #[doc = concat!("`", stringify!($wide), "`, with what the computation asks of it.")]
         #[derive(Clone, Copy)]
         pub struct $vector($wide);
@@ -110,10 +110,59 @@ macro_rules! vector {
         operation!($vector, $wide, $float, Add, add, +);
         operation!($vector, $wide, $float, Sub, sub, -);
         operation!($vector, $wide, $float, Mul, mul, *);
+        operation!($vector, $wide, $float, Div, div, /);
+
+        impl $vector {
+            /// Returns the vector of an array.
+            #[inline(always)]
+            pub fn from_array(array: [$float; $lanes]) -> Self {
+                $vector($wide::new(array))
+            }
+
+            /// Returns the array of a vector.
+            #[inline(always)]
+            pub fn to_array(self) -> [$float; $lanes] {
+                self.0.to_array()
+            }
+
+            /// Returns nothing: such vectors are on every processor of the target.
+            #[inline(always)]
+            pub fn token(self) {}
+
+            /// Returns the roots.
+            #[inline(always)]
+            pub fn root(self) -> Self {
+                $vector(self.0.sqrt())
+            }
+
+            /// Returns the products plus the addends, rounded once.
+            #[inline(always)]
+            pub fn fused(self, factor: Self, addend: Self) -> Self {
+                // Elsewhere the crate `wide` rounds twice.
+                if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
+                    return $vector(self.0.mul_add(factor.0, addend.0));
+                }
+                let (mut left, right) = (self.to_array(), factor.to_array());
+                let mut lane = 0;
+                while lane < $lanes {
+                    left[lane] = libm::$fma(left[lane], right[lane], addend.to_array()[lane]);
+                    lane += 1;
+                }
+                $vector::from_array(left)
+            }
+        }
+
+        impl Neg for $vector {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                $vector(-self.0)
+            }
+        }
 
         impl Number<$float> for $vector {
             #[inline(always)]
-            fn all(value: $float) -> Self {
+            fn all(self, value: $float) -> Self {
                 $vector($wide::splat(value))
             }
         }
@@ -132,13 +181,13 @@ macro_rules! vector {
             }
 
             #[inline(always)]
-            fn power(exponent: usize) -> $bits {
+            fn power(self, exponent: usize) -> $bits {
                 $bits::splat(1 << exponent)
             }
 
             #[inline(always)]
-            fn shifted(bits: $bits, by: usize) -> $bits {
-                bits << by as u32
+            fn raised(bits: $bits) -> $bits {
+                bits << ($float::SIGN as u32 - 1)
             }
 
             #[inline(always)]
@@ -183,7 +232,7 @@ macro_rules! vector {
         }
     };
 }
-vector!(TwoDoubles, f64x2, u64x2, f64, 2);
-vector!(FourDoubles, f64x4, u64x4, f64, 4);
-vector!(FourFloats, f32x4, u32x4, f32, 4);
-vector!(EightFloats, f32x8, u32x8, f32, 8);
+vector!(TwoDoubles, f64x2, u64x2, f64, 2, fma);
+vector!(FourDoubles, f64x4, u64x4, f64, 4, fma);
+vector!(FourFloats, f32x4, u32x4, f32, 4, fmaf);
+vector!(EightFloats, f32x8, u32x8, f32, 8, fmaf);
