@@ -5,10 +5,12 @@
 use core::array::from_fn;
 
 use crate::slices::{check_columns, check_states};
+use crate::vector::BLOCK;
 use crate::{Function, Unequal};
 
-/// The number of states below which threads do not pay: some microseconds of work.
-const FEW: usize = 1024;
+/// The least number of states of a task: to hand one to another thread, and to wait for it, takes
+/// some ten microseconds, which must be a small part of its work.
+const TASK: usize = 4096;
 
 /// [`states`](crate::states) on all cores.
 ///
@@ -25,7 +27,7 @@ where
 {
     check_states(&arguments, results.len())?;
     let count = results.len();
-    if count <= FEW {
+    if is_one_task(count) {
         return crate::states::<F, A, N, M, K>(arguments, results);
     }
     let half = middle(count);
@@ -54,7 +56,7 @@ where
     F::Scalar: Send + Sync,
 {
     let count = check_columns(&arguments, results)?;
-    if count <= FEW {
+    if is_one_task(count) {
         return crate::columns::<F, A, N, M, K>(arguments, results);
     }
     let half = middle(count);
@@ -75,7 +77,12 @@ where
     left.and(right)
 }
 
-/// The middle of so many states, a whole number of vectors.
+/// Returns whether so many states are not worth a second thread, or there is none.
+fn is_one_task(count: usize) -> bool {
+    count < 2 * TASK || rayon::current_num_threads() == 1
+}
+
+/// The middle of so many states, a whole number of blocks.
 fn middle(count: usize) -> usize {
-    (count / 2).next_multiple_of(64)
+    (count / 2).next_multiple_of(BLOCK)
 }

@@ -103,36 +103,52 @@ pub(crate) fn run_states<F, V, const A: usize, const N: usize, const M: usize, c
         let mut argument = 0;
         while argument < A {
             if let Some(states) = arguments[argument].get(start..start + count) {
-                transpose(&mut columns.0[argument], states);
+                match states.first_chunk() {
+                    Some(states) => transpose(states, &mut columns.0[argument]),
+                    None => transpose(&filled(states), &mut columns.0[argument]),
+                }
             }
             argument += 1;
         }
         let block = columns.0.each_ref().map(|argument| argument.each_ref());
         let mut places = found.0.each_mut().map(|place| &mut place[..count]);
         run_block::<F, V, A, N, M, K>(token, &block, &mut sin, &mut cos, &mut places, 0);
-        let mut state = 0;
-        while state < count {
-            results[state] = F::state(from_fn(|number| found.0[number][state]));
-            state += 1;
-        }
+        write_states::<F, A, N, M, K>(&found.0, &mut results[..count]);
         start += BLOCK;
     }
 }
 
-/// Puts states in columns. If they are fewer than a block, the first of them is in the other
-/// places, too: a state that somebody asked for, of which no library's slow path is taken that
-/// would not be taken anyway.
-#[inline(always)]
-fn transpose<T: Copy, const N: usize>(columns: &mut [[T; BLOCK]; N], states: &[[T; N]]) {
-    let mut at = 0;
-    while at < BLOCK {
-        let state = if at < states.len() { at } else { 0 };
+/// Puts a block of states in columns. It is compiled for the target as it is: with wider vectors,
+/// compilers gather, which takes three times as long.
+#[inline(never)]
+fn transpose<T: Copy, const N: usize>(states: &[[T; N]; BLOCK], columns: &mut [[T; BLOCK]; N]) {
+    let mut state = 0;
+    while state < BLOCK {
         let mut entry = 0;
         while entry < N {
-            columns[entry][at] = states[state][entry];
+            columns[entry][state] = states[state][entry];
             entry += 1;
         }
-        at += 1;
+        state += 1;
+    }
+}
+
+/// Puts results in their states; compiled as [`transpose`] is.
+#[inline(never)]
+fn write_states<F, const A: usize, const N: usize, const M: usize, const K: usize>(
+    found: &[[F::Scalar; BLOCK]; M],
+    results: &mut [F::State],
+) where
+    F: Function<A, N, M, K>,
+{
+    for (state, result) in results.iter_mut().enumerate().take(BLOCK) {
+        let mut numbers = [F::Scalar::default(); M];
+        let mut number = 0;
+        while number < M {
+            numbers[number] = found[number][state];
+            number += 1;
+        }
+        *result = F::state(numbers);
     }
 }
 
@@ -227,11 +243,9 @@ fn one_by_one<F, const A: usize, const N: usize, const M: usize, const K: usize>
     }
 }
 
-/// Returns a block with the beginning of a column; if that is short, its first number fills the
-/// other places.
-fn filled<T: Copy + Default>(column: &[T]) -> [T; BLOCK] {
-    from_fn(|at| {
-        let value = column.get(at).or(column.first());
-        value.copied().unwrap_or_default()
-    })
+/// Returns a block with the beginning of a slice; if that is short, its first entry fills the
+/// other places: of a state that somebody asked for, no library's slow path is taken that would
+/// not be taken anyway.
+fn filled<T: Copy>(slice: &[T]) -> [T; BLOCK] {
+    from_fn(|at| *slice.get(at).unwrap_or(&slice[0]))
 }

@@ -108,7 +108,7 @@ fn write_angles(text: &mut String, printed: &Printed<'_>, around: &Around<'_>) {
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "\n    #[inline(always)]\n    \
+        "    #[inline(always)]\n    \
          fn angles<V: {}::Floats<{}>>([{}]: &[[V; {n}]; {count}]) -> [V; {}] {{",
         around.batch,
         code.scalar,
