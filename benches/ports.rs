@@ -298,7 +298,7 @@ macro_rules! number {
             fn load((): (), _: &[$float; 64], _: usize) -> Counted {
                 Counted
             }
-            fn store(self, _: &mut [$float], _: usize) {}
+            fn store(self, _: &mut [$float; 64], _: usize) {}
             fn sqrt(self) -> Counted {
                 count(8);
                 Counted

@@ -5,6 +5,7 @@
 //! certain is. (`zip` is not, without link-time optimisation of a crate's parts.)
 
 use core::array::from_fn;
+use core::hint::black_box;
 
 use dalembert_sines::text::alone;
 
@@ -59,10 +60,13 @@ pub(crate) fn run_columns<F, V, const A: usize, const N: usize, const M: usize, 
     let states = results.first().map_or(0, |first| first.len());
     let zeros = [F::Scalar::default(); BLOCK];
     let (mut sin, mut cos) = (Aligned([zeros; K]), Aligned([zeros; K]));
-    let mut rest = Aligned([[zeros; N]; A]);
+    // What is left over after whole blocks, and its results.
+    let (mut rest, mut found) = (Aligned([[zeros; N]; A]), Aligned([zeros; M]));
     let mut start = 0;
     while start < states {
-        if states - start < BLOCK {
+        // Hidden, or compilers would write the function twice: for whole blocks and for others.
+        let count = black_box(BLOCK.min(states - start));
+        if count < BLOCK {
             rest.0 = arguments.map(|argument| argument.map(|column| filled(&column[start..])));
         }
         let mut block = rest.0.each_ref().map(|argument| argument.each_ref());
@@ -78,7 +82,21 @@ pub(crate) fn run_columns<F, V, const A: usize, const N: usize, const M: usize, 
             }
             argument += 1;
         }
-        run_block::<F, V, A, N, M, K>(token, &block, &mut sin, &mut cos, results, start);
+        let mut places = found.0.each_mut();
+        if count == BLOCK {
+            for (place, column) in places.iter_mut().zip(results.iter_mut()) {
+                let column = column.get_mut(start..);
+                if let Some(whole) = column.and_then(|column| column.first_chunk_mut()) {
+                    *place = whole;
+                }
+            }
+        }
+        run_block::<F, V, A, N, M, K>(token, &block, &mut sin, &mut cos, &mut places, count);
+        if count < BLOCK {
+            for (column, found) in results.iter_mut().zip(&found.0) {
+                column[start..].copy_from_slice(&found[..count]);
+            }
+        }
         start += BLOCK;
     }
 }
@@ -111,8 +129,8 @@ pub(crate) fn run_states<F, V, const A: usize, const N: usize, const M: usize, c
             argument += 1;
         }
         let block = columns.0.each_ref().map(|argument| argument.each_ref());
-        let mut places = found.0.each_mut().map(|place| &mut place[..count]);
-        run_block::<F, V, A, N, M, K>(token, &block, &mut sin, &mut cos, &mut places, 0);
+        let mut places = found.0.each_mut();
+        run_block::<F, V, A, N, M, K>(token, &block, &mut sin, &mut cos, &mut places, count);
         write_states::<F, A, N, M, K>(&found.0, &mut results[..count]);
         start += BLOCK;
     }
@@ -152,22 +170,21 @@ fn write_states<F, const A: usize, const N: usize, const M: usize, const K: usiz
     }
 }
 
-/// Runs a function over a block, or over as many of its states as have places for results from
-/// `start` on.
+/// Runs a function over so many states of a block, and over the others of the last vector.
 #[inline(always)]
 fn run_block<F, V, const A: usize, const N: usize, const M: usize, const K: usize>(
     token: V::Token,
     block: &[[&[F::Scalar; BLOCK]; N]; A],
     sin: &mut Sines<F::Scalar, K>,
     cos: &mut Sines<F::Scalar, K>,
-    results: &mut [&mut [F::Scalar]; M],
-    start: usize,
+    results: &mut [&mut [F::Scalar; BLOCK]; M],
+    states: usize,
 ) where
     F: Function<A, N, M, K>,
     V: Vector<F::Scalar>,
 {
-    let states = results.first().map_or(0, |first| first.len() - start);
-    let vectors = states.min(BLOCK).div_ceil(V::LANES);
+    // Said in such a way that no compiler doubts whether a block has so many.
+    let vectors = states.div_ceil(V::LANES).min(BLOCK / V::LANES);
     let mut usual = true;
     let mut after = 0;
     while K > 0 && after < vectors {
@@ -175,8 +192,8 @@ fn run_block<F, V, const A: usize, const N: usize, const M: usize, const K: usiz
         let (sines, cosines, all) = V::sincos(&angles);
         let mut angle = 0;
         while angle < K {
-            sines[angle].store(&mut sin.0[angle], after * V::LANES);
-            cosines[angle].store(&mut cos.0[angle], after * V::LANES);
+            sines[angle].store(&mut sin.0[angle], after);
+            cosines[angle].store(&mut cos.0[angle], after);
             angle += 1;
         }
         usual &= all;
@@ -198,7 +215,7 @@ fn run_block<F, V, const A: usize, const N: usize, const M: usize, const K: usiz
         let found = F::vectors(&arguments, &sines, &cosines);
         let mut result = 0;
         while result < M {
-            found[result].store(results[result], start + after * V::LANES);
+            found[result].store(results[result], after);
             result += 1;
         }
         after += 1;

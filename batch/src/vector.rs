@@ -44,8 +44,8 @@ pub trait Vector<T>: Floats<T> {
     /// Returns the vector that stands after so many others.
     fn load(token: Self::Token, from: &[T; BLOCK], after: usize) -> Self;
 
-    /// Writes the vector from a place on; what has no place there is left out.
-    fn store(self, to: &mut [T], at: usize);
+    /// Writes the vector after so many others.
+    fn store(self, to: &mut [T; BLOCK], after: usize);
 
     /// Returns the roots.
     #[must_use]
@@ -94,15 +94,11 @@ macro_rules! lanes {
         }
 
         #[inline(always)]
-        fn store(self, to: &mut [$float], at: usize) {
+        fn store(self, to: &mut [$float; BLOCK], after: usize) {
             let $vector = self;
-            let array: [$float; $lanes] = $array;
-            let Some(rest) = to.get_mut(at..) else {
-                return;
-            };
-            match rest.first_chunk_mut::<$lanes>() {
-                Some(place) => *place = array,
-                None => crate::vector::store_some(rest, array),
+            let (places, _) = to.as_chunks_mut::<$lanes>();
+            if let Some(place) = places.get_mut(after) {
+                *place = $array;
             }
         }
 
@@ -133,11 +129,3 @@ macro_rules! lanes {
     };
 }
 pub(crate) use lanes;
-
-/// Writes as many as there is room for.
-#[cold]
-pub(crate) fn store_some<T: Copy, const L: usize>(to: &mut [T], lanes: [T; L]) {
-    for (place, value) in to.iter_mut().zip(lanes) {
-        *place = value;
-    }
-}
