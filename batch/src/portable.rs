@@ -1,33 +1,84 @@
-//! The vectors of the target as it is compiled for, of 128 bits, by the crate `wide`.
+//! The vectors of the target as it is compiled for, of 128 bits, by the crate `wide`; where it has
+//! none, numbers.
 
-use dalembert_sines::text::{Doubles, Singles, by_pairs};
+use dalembert_sines::text::by_pairs;
 
 use crate::vector::{BLOCK, Vector, lanes};
 
-macro_rules! portable {
-    ($vector:ident, $float:ident, $lanes:literal) => {
-        impl Vector<$float> for $vector {
-            type Token = ();
+#[cfg(any(
+    target_arch = "x86",
+    target_arch = "x86_64",
+    target_arch = "aarch64",
+    target_arch = "wasm32"
+))]
+mod vectors {
+    use dalembert_sines::text::{Doubles, Singles};
 
-            lanes!(
-                $float,
-                $lanes,
-                |vector| vector.to_array(),
-                |_token, from| { $vector::from_array(from) }
-            );
+    use super::{BLOCK, Vector, by_pairs, lanes};
 
-            #[inline(always)]
-            fn sqrt(self) -> Self {
-                self.root()
+    macro_rules! portable {
+        ($vector:ident, $float:ident, $lanes:literal) => {
+            impl Vector<$float> for $vector {
+                type Token = ();
+
+                lanes!(
+                    $float,
+                    $lanes,
+                    |vector| vector.to_array(),
+                    |_vector| (),
+                    |_token, from| $vector::from_array(from)
+                );
+
+                #[inline(always)]
+                fn sqrt(self) -> Self {
+                    self.root()
+                }
+
+                #[inline(always)]
+                fn mul_add(self, factor: Self, addend: Self) -> Self {
+                    self.fused(factor, addend)
+                }
             }
-
-            #[inline(always)]
-            fn mul_add(self, factor: Self, addend: Self) -> Self {
-                self.fused(factor, addend)
-            }
-        }
-    };
+        };
+    }
+    portable!(Doubles, f64, 2);
+    portable!(Singles, f32, 4);
 }
 
-portable!(Doubles, f64, 2);
-portable!(Singles, f32, 4);
+#[cfg(not(any(
+    target_arch = "x86",
+    target_arch = "x86_64",
+    target_arch = "aarch64",
+    target_arch = "wasm32"
+)))]
+mod numbers {
+    use super::{BLOCK, Vector, by_pairs, lanes};
+
+    macro_rules! number {
+        ($float:ident, $sqrt:ident, $fma:ident) => {
+            impl Vector<$float> for $float {
+                type Token = ();
+
+                lanes!(
+                    $float,
+                    1,
+                    |number| [number],
+                    |_number| (),
+                    |_token, from| from[0]
+                );
+
+                #[inline(always)]
+                fn sqrt(self) -> Self {
+                    dalembert_sines::$sqrt(self)
+                }
+
+                #[inline(always)]
+                fn mul_add(self, factor: Self, addend: Self) -> Self {
+                    dalembert_sines::text::$fma(self, factor, addend)
+                }
+            }
+        };
+    }
+    number!(f64, sqrt, fma);
+    number!(f32, sqrtf, fmaf);
+}

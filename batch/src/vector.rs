@@ -83,7 +83,8 @@ pub fn sqrtf<V: Vector<f32>>(vector: V) -> V {
 
 /// What vectors have in common that can be made of an array, and made one.
 macro_rules! lanes {
-    ($float:ident, $lanes:literal, |$vector:ident| $array:expr, |$token:ident, $from:ident| $made:expr) => {
+    ($float:ident, $lanes:literal, |$vector:ident| $array:expr, |$own:ident| $shown:expr,
+     |$token:ident, $from:ident| $made:expr) => {
         const LANES: usize = $lanes;
 
         #[inline(always)]
@@ -117,7 +118,8 @@ macro_rules! lanes {
                 (first[lane], second[lane]) = function(array[lane]);
                 lane += 1;
             }
-            let $token = $vector.token();
+            let $own = $vector;
+            let $token = $shown;
             let make = |$from: [$float; $lanes]| $made;
             (make(first), make(second))
         }

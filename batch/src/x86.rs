@@ -57,13 +57,6 @@ macro_rules! vector {
         operation!($bits, Add, add, $plus);
         operation!($bits, Sub, sub, $minus);
 
-        impl $vector {
-            #[inline(always)]
-            fn token(self) -> $token {
-                self.0
-            }
-        }
-
         impl Neg for $vector {
             type Output = Self;
             #[inline(always)]
@@ -113,9 +106,13 @@ macro_rules! vector {
         impl Vector<$float> for $vector {
             type Token = $token;
 
-            lanes!($float, $lanes, |vector| cast(vector.1), |token, from| {
-                $vector(token, cast(from))
-            });
+            lanes!(
+                $float,
+                $lanes,
+                |vector| cast(vector.1),
+                |vector| vector.0,
+                |token, from| $vector(token, cast(from))
+            );
 
             #[inline(always)]
             fn sqrt(self) -> Self {

@@ -102,7 +102,7 @@ macro_rules! operation {
 }
 
 macro_rules! vector {
-    ($vector:ident, $wide:ident, $bits:ident, $float:ident, $lanes:literal, $fma:ident) => {
+    ($vector:ident, $wide:ident, $bits:ident, $float:ident, $lanes:literal) => {
         #[doc = concat!("`", stringify!($wide), "`, with what the computation asks of it.")]
         #[derive(Clone, Copy)]
         pub struct $vector($wide);
@@ -111,46 +111,6 @@ macro_rules! vector {
         operation!($vector, $wide, $float, Sub, sub, -);
         operation!($vector, $wide, $float, Mul, mul, *);
         operation!($vector, $wide, $float, Div, div, /);
-
-        impl $vector {
-            /// Returns the vector of an array.
-            #[inline(always)]
-            pub fn from_array(array: [$float; $lanes]) -> Self {
-                $vector($wide::new(array))
-            }
-
-            /// Returns the array of a vector.
-            #[inline(always)]
-            pub fn to_array(self) -> [$float; $lanes] {
-                self.0.to_array()
-            }
-
-            /// Returns nothing: such vectors are on every processor of the target.
-            #[inline(always)]
-            pub fn token(self) {}
-
-            /// Returns the roots.
-            #[inline(always)]
-            pub fn root(self) -> Self {
-                $vector(self.0.sqrt())
-            }
-
-            /// Returns the products plus the addends, rounded once.
-            #[inline(always)]
-            pub fn fused(self, factor: Self, addend: Self) -> Self {
-                // Elsewhere the crate `wide` rounds twice.
-                if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
-                    return $vector(self.0.mul_add(factor.0, addend.0));
-                }
-                let (mut left, right) = (self.to_array(), factor.to_array());
-                let mut lane = 0;
-                while lane < $lanes {
-                    left[lane] = libm::$fma(left[lane], right[lane], addend.to_array()[lane]);
-                    lane += 1;
-                }
-                $vector::from_array(left)
-            }
-        }
 
         impl Neg for $vector {
             type Output = Self;
@@ -232,7 +192,50 @@ macro_rules! vector {
         }
     };
 }
-vector!(TwoDoubles, f64x2, u64x2, f64, 2, fma);
-vector!(FourDoubles, f64x4, u64x4, f64, 4, fma);
-vector!(FourFloats, f32x4, u32x4, f32, 4, fmaf);
-vector!(EightFloats, f32x8, u32x8, f32, 8, fmaf);
+vector!(TwoDoubles, f64x2, u64x2, f64, 2);
+vector!(FourDoubles, f64x4, u64x4, f64, 4);
+vector!(FourFloats, f32x4, u32x4, f32, 4);
+vector!(EightFloats, f32x8, u32x8, f32, 8);
+
+/// What batches ask of their vectors besides.
+macro_rules! batched {
+    ($vector:ident, $wide:ident, $float:ident, $lanes:literal, $fma:ident) => {
+        impl $vector {
+            /// Returns the vector of an array.
+            #[inline(always)]
+            pub fn from_array(array: [$float; $lanes]) -> Self {
+                $vector($wide::new(array))
+            }
+
+            /// Returns the array of a vector.
+            #[inline(always)]
+            pub fn to_array(self) -> [$float; $lanes] {
+                self.0.to_array()
+            }
+
+            /// Returns the roots.
+            #[inline(always)]
+            pub fn root(self) -> Self {
+                $vector(self.0.sqrt())
+            }
+
+            /// Returns the products plus the addends, rounded once.
+            #[inline(always)]
+            pub fn fused(self, factor: Self, addend: Self) -> Self {
+                // Elsewhere the crate `wide` rounds twice.
+                if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
+                    return $vector(self.0.mul_add(factor.0, addend.0));
+                }
+                let (mut left, right) = (self.to_array(), factor.to_array());
+                let mut lane = 0;
+                while lane < $lanes {
+                    left[lane] = libm::$fma(left[lane], right[lane], addend.to_array()[lane]);
+                    lane += 1;
+                }
+                $vector::from_array(left)
+            }
+        }
+    };
+}
+batched!(TwoDoubles, f64x2, f64, 2, fma);
+batched!(FourFloats, f32x4, f32, 4, fmaf);
