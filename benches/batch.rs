@@ -78,31 +78,32 @@ macro_rules! bench {
      $clock:ident, $compiled:ident, $place:expr, is_alone: $is_alone:expr) => {{
         type Kind = $module::$kind;
         const LINE: usize = 64 / size_of::<$scalar>();
-        let all = numbers(MANY);
-        let mut all = all.map(|columns| {
+        let own = |states: usize| {
             let cast = |column: Vec<f64>| {
                 let mut column: Vec<_> = column.into_iter().map(|x| x as $scalar).collect();
                 column.extend([0.0; LINE]);
                 column
             };
-            columns.map(cast)
-        });
-        let many = all
+            numbers(states).map(|columns| columns.map(cast))
+        };
+        let (mut few, mut many) = (own(STATES), own(MANY));
+        let columns = few
+            .each_mut()
+            .map(|argument| argument.each_mut().map(|column| &*aligned(column, STATES)));
+        let many = many
             .each_mut()
             .map(|argument| argument.each_mut().map(|column| &*aligned(column, MANY)));
-        let columns = many.map(|argument| argument.map(|column| &column[..STATES]));
-        let rows = many.map(|argument| {
-            (0..MANY)
+        let rows = columns.map(|argument| {
+            (0..STATES)
                 .map(|k| argument.map(|column| column[k]))
                 .collect::<Vec<_>>()
         });
-        let [a, b, c] = rows.each_ref().map(|rows| &rows[..STATES]);
+        let [a, b, c] = rows.each_ref().map(|rows| &rows[..]);
         let state = |k: usize| $module::$function(&a[k], &b[k], &c[k]);
         let mut found: Vec<_> = (0..STATES).map(state).collect();
         let expected = found.clone();
         let mut in_columns: [Vec<$scalar>; $results] =
-            std::array::from_fn(|_| vec![0.0; MANY + LINE]);
-        let mut in_columns = in_columns.each_mut().map(|column| aligned(column, MANY));
+            std::array::from_fn(|_| vec![0.0; STATES + LINE]);
         let mut rounds = Rounds::of(STATES);
         for _ in 0..ROUNDS {
             if $is_alone {
@@ -130,7 +131,7 @@ macro_rules! bench {
                 if !vectors.are_there() {
                     continue;
                 }
-                let mut slices = in_columns.each_mut().map(|column| &mut column[..STATES]);
+                let mut slices = in_columns.each_mut().map(|column| aligned(column, STATES));
                 let arguments = black_box(columns.each_ref());
                 rounds.time(rows, || {
                     assert!(
@@ -155,7 +156,7 @@ macro_rules! bench {
                     rounds.note(gcc, time);
                 }
                 for (k, expected) in expected.iter().enumerate() {
-                    let own = in_columns.each_ref().map(|column| column[k]);
+                    let own = slices.each_ref().map(|column| column[k]);
                     assert!(<Kind as Function<3, 6, $results, 4>>::state(own) == *expected);
                 }
             }
@@ -171,8 +172,10 @@ macro_rules! bench {
         });
         if $is_alone {
             let mut rounds = Rounds::of(MANY);
+            let mut in_columns: [Vec<$scalar>; $results] =
+                std::array::from_fn(|_| vec![0.0; MANY + LINE]);
             for _ in 0..ROUNDS / 4 {
-                let mut slices = in_columns.each_mut().map(|column| &mut **column);
+                let mut slices = in_columns.each_mut().map(|column| aligned(column, MANY));
                 rounds.time("one thread", || {
                     let widest = Vectors::widest();
                     assert!(
@@ -203,7 +206,8 @@ fn main() {
     let clock = ports::clock();
     println!("clock: {clock:.3} GHz");
     let compile = |name: &str, functions: &[Output], fma: Fma| {
-        let narrow = ["-march=x86-64-v3"];
+        // Else gcc makes no vectors of 256 bits.
+        let narrow = ["-march=x86-64-v3", "-fno-tree-pre"];
         let wide = ["-march=x86-64-v4", "-mprefer-vector-width=512"];
         let is_there = |vectors: Vectors| vectors.are_there().then_some(());
         Compiled {
