@@ -3,6 +3,7 @@
 //! One vector at a time: with two of them, values do not stay in registers (PUMA's torques with
 //! AVX2, f64: 16.8 ns with four lanes, 21 to 27 with eight).
 
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
 use core::marker::PhantomData;
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
