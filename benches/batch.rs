@@ -1,30 +1,53 @@
 //! One function by all its entries in one run, f64 and f32: a state a call, the
-//! same with sines given, lanes, batches of 1024 states; in the vectors that the
-//! processor has, in those of AVX2 and in those of a plain build. Read the ratios,
-//! the times are this machine's.
+//! same with sines given, and batches of 1024 states, in rows and in columns; in the vectors that
+//! the processor has, in those of AVX2 and in those of a plain build. Beside each stands how many
+//! times the limit of the processor's ports it takes (`ports.rs`), and what gcc -O3 makes of the
+//! same functions in C, if there is a gcc.
 //!
-//! `cargo bench --bench batch`
+//! `cargo bench --bench batch`, or of some functions alone, by parts of their names:
+//! `cargo bench --bench batch -- torques`.
 
+mod gcc;
+mod ports;
 mod rounds;
 
 use std::hint::black_box;
 
-use dalembert::batch::{Function, columns_in_lanes, states_in_lanes};
+use dalembert::batch::{Function, Vectors, columns_in, parallel, states_in};
+use dalembert_codegen::workspace::task::Fma;
 
 #[rustfmt::skip] // As the generator writes it.
 #[path = "generated/puma560_batch.rs"]
 mod generated;
+use gcc::Gcc;
 use generated::{puma560, puma560_f32};
 use rounds::Rounds;
+
+dalembert::dynamics! {
+    mod derivatives = "generated/robots/puma560.toml";
+    outputs: inverse_dynamics_derivatives, forward_dynamics_derivatives;
+    entries: batch;
+    scalar: f64, f32;
+}
+dalembert::dynamics! {
+    mod fused = "generated/robots/puma560.toml";
+    outputs: inverse_dynamics, forward_dynamics;
+    entries: batch;
+    scalar: f64, f32;
+    fma: on;
+}
 
 /// States a batch.
 const STATES: usize = 1024;
 
-/// Rounds in which each variant runs once.
-const ROUNDS: usize = 1001;
+/// States a batch on several cores.
+const MANY: usize = 16_384;
 
-/// Seeded states inside ±π, arguments in the order of the function.
-fn states() -> [Vec<[f64; 6]>; 3] {
+/// Rounds in which each variant runs once.
+const ROUNDS: usize = 401;
+
+/// Seeded numbers inside ±π in columns, for each argument.
+fn numbers(states: usize) -> [[Vec<f64>; 6]; 3] {
     let mut bits = 0x9e37_79b9_7f4a_7c15_u64;
     let mut unit = || {
         bits = bits
@@ -32,178 +55,208 @@ fn states() -> [Vec<[f64; 6]>; 3] {
             .wrapping_add(1442695040888963407);
         (bits >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     };
-    [(); 3].map(|()| {
-        let state = |_| [0.0; 6].map(|_: f64| std::f64::consts::PI * unit());
-        (0..STATES).map(state).collect()
-    })
+    let mut column = || (0..states).map(|_| std::f64::consts::PI * unit()).collect();
+    [(); 3].map(|()| [(); 6].map(|()| column()))
 }
 
-/// A function over states, to be compiled for chosen vectors.
-struct States<'a, F: Function<3, 6, 6>, const L: usize>(
-    [&'a [[F::Scalar; 6]]; 3],
-    &'a mut [F::State],
-);
-
-impl<F: Function<3, 6, 6>, const L: usize> pulp::NullaryFnOnce for States<'_, F, L> {
-    type Output = bool;
-    #[inline(always)]
-    fn call(self) -> bool {
-        states_in_lanes::<F, L, 3, 6, 6>(self.0, self.1).is_ok()
-    }
+/// What begins where a line of the cache does, in a vector that is longer by one.
+fn aligned<T>(column: &mut [T], states: usize) -> &mut [T] {
+    let start = column.as_ptr().align_offset(64);
+    &mut column[start..start + states]
 }
 
-struct Columns<'a, 'r, F: Function<3, 6, 6>, const L: usize>(
-    [&'a [&'a [F::Scalar]; 6]; 3],
-    &'a mut [&'r mut [F::Scalar]; 6],
-);
-
-impl<F: Function<3, 6, 6>, const L: usize> pulp::NullaryFnOnce for Columns<'_, '_, F, L> {
-    type Output = bool;
-    #[inline(always)]
-    fn call(self) -> bool {
-        columns_in_lanes::<F, L, 3, 6, 6>(self.0, self.1).is_ok()
-    }
+/// What gcc made, for AVX-512 and for AVX2.
+struct Compiled {
+    wide: Option<Gcc>,
+    narrow: Option<Gcc>,
 }
 
-/// Runs what AVX2 can do by it; `None` where there is none.
-#[cfg(target_arch = "x86_64")]
-fn with_avx2<F: pulp::NullaryFnOnce>(f: F) -> Option<F::Output> {
-    pulp::x86::V3::try_new().map(|avx2| avx2.vectorize(f))
-}
-
-#[cfg(not(target_arch = "x86_64"))]
-fn with_avx2<F: pulp::NullaryFnOnce>(_: F) -> Option<F::Output> {
-    None
-}
-
+/// One function: its module, scalar and names; the kind and sizes of its batches; its place among
+/// the functions of gcc.
 macro_rules! bench {
-    ($what:literal, $module:ident, $scalar:ty, $function:ident, $given:ident, $in_lanes:ident,
-     $batch:ident, $columns:ident, $kind:ident, $avx2:literal) => {{
+    ($what:literal, $module:ident, $scalar:ty, $function:ident, $kind:ident, $results:literal,
+     $clock:ident, $compiled:ident, $place:expr, is_alone: $is_alone:expr) => {{
         type Kind = $module::$kind;
-        let all = states().map(|states| {
-            let cast = |state: [f64; 6]| state.map(|x| x as $scalar);
-            states.into_iter().map(cast).collect::<Vec<_>>()
+        const LINE: usize = 64 / size_of::<$scalar>();
+        let own = |states: usize| {
+            let cast = |column: Vec<f64>| {
+                let mut column: Vec<_> = column.into_iter().map(|x| x as $scalar).collect();
+                column.extend([0.0; LINE]);
+                column
+            };
+            numbers(states).map(|columns| columns.map(cast))
+        };
+        let (mut few, mut many) = (own(STATES), own(MANY));
+        let columns = few
+            .each_mut()
+            .map(|argument| argument.each_mut().map(|column| &*aligned(column, STATES)));
+        let many = many
+            .each_mut()
+            .map(|argument| argument.each_mut().map(|column| &*aligned(column, MANY)));
+        let rows = columns.map(|argument| {
+            (0..STATES)
+                .map(|k| argument.map(|column| column[k]))
+                .collect::<Vec<_>>()
         });
-        let [a, b, c] = [&all[0][..], &all[1][..], &all[2][..]];
-        let columns = all.each_ref().map(|states| {
-            [0, 1, 2, 3, 4, 5].map(|i| states.iter().map(|x| x[i]).collect::<Vec<_>>())
-        });
-        let columns = columns
-            .each_ref()
-            .map(|c| c.each_ref().map(|column| &column[..]));
-        let sines: Vec<_> = a
-            .iter()
-            .map(|q| (q.map(<$scalar>::sin), q.map(<$scalar>::cos)))
-            .collect();
-        let single = |k: usize| $module::$function(&a[k], &b[k], &c[k]);
-        let expected: Vec<[$scalar; 6]> = (0..STATES).map(single).collect();
-        let mut found = vec![[0.0; 6]; STATES];
-        let mut in_columns = [(); 6].map(|()| vec![0.0; STATES]);
+        let [a, b, c] = rows.each_ref().map(|rows| &rows[..]);
+        let state = |k: usize| $module::$function(&a[k], &b[k], &c[k]);
+        let mut found: Vec<_> = (0..STATES).map(state).collect();
+        let expected = found.clone();
+        let mut in_columns: [Vec<$scalar>; $results] =
+            std::array::from_fn(|_| vec![0.0; STATES + LINE]);
         let mut rounds = Rounds::of(STATES);
         for _ in 0..ROUNDS {
-            rounds.time("a call a state", || {
-                for k in 0..STATES {
-                    black_box($module::$function(black_box(&a[k]), &b[k], &c[k]));
+            if $is_alone {
+                rounds.time("a call a state", || {
+                    for k in 0..STATES {
+                        black_box($module::$function(black_box(&a[k]), &b[k], &c[k]));
+                    }
+                });
+            }
+            for (vectors, rows, in_rows, gcc) in [
+                (
+                    Vectors::Avx512,
+                    "columns, AVX-512",
+                    "rows, AVX-512",
+                    "gcc -O3, AVX-512",
+                ),
+                (
+                    Vectors::Avx2,
+                    "columns, AVX2",
+                    "rows, AVX2",
+                    "gcc -O3, AVX2",
+                ),
+                (Vectors::Portable, "columns, plain", "rows, plain", ""),
+            ] {
+                if !vectors.are_there() {
+                    continue;
                 }
-            });
-            rounds.time("sines given", || {
-                for (k, (sin, cos)) in sines.iter().enumerate() {
-                    black_box($module::$given(black_box(&a[k]), &b[k], &c[k], sin, cos));
-                }
-            });
-            rounds.time("8 lanes, plain", || {
-                let lanes = |i: usize, k: usize| -> [[$scalar; 8]; 6] {
-                    columns[i].map(|column| *column[k..].first_chunk().unwrap_or(&[0.0; 8]))
+                let mut slices = in_columns.each_mut().map(|column| aligned(column, STATES));
+                let arguments = black_box(columns.each_ref());
+                rounds.time(rows, || {
+                    assert!(
+                        columns_in::<Kind, 3, 6, $results, 4>(vectors, arguments, &mut slices)
+                            .is_ok()
+                    );
+                });
+                rounds.time(in_rows, || {
+                    let arguments = black_box([a, b, c]);
+                    assert!(
+                        states_in::<Kind, 3, 6, $results, 4>(vectors, arguments, &mut found)
+                            .is_ok()
+                    );
+                });
+                assert!(found == expected);
+                let program = match vectors {
+                    Vectors::Avx512 => &mut $compiled.wide,
+                    _ => &mut $compiled.narrow,
                 };
-                for k in (0..STATES).step_by(8) {
-                    black_box($module::$in_lanes(&lanes(0, k), &lanes(1, k), &lanes(2, k)));
+                let time = program.as_mut().filter(|_| !gcc.is_empty());
+                if let Some(time) = time.and_then(|program| program.run($place)) {
+                    rounds.note(gcc, time);
                 }
-            });
-            rounds.time("batch", || {
-                assert!($module::$batch(black_box(a), b, c, &mut found).is_ok());
-            });
-            assert!(found == expected);
-            rounds.time("columns", || {
-                let mut slices = in_columns.each_mut().map(|column| &mut column[..]);
-                let [a, b, c] = black_box(&columns);
-                assert!($module::$columns(a, b, c, &mut slices).is_ok());
-            });
-            rounds.time("batch, AVX2", || {
-                with_avx2(States::<Kind, $avx2>(black_box([a, b, c]), &mut found));
-            });
-            assert!(found == expected);
-            rounds.time("columns, AVX2", || {
-                let mut slices = in_columns.each_mut().map(|column| &mut column[..]);
-                with_avx2(Columns::<Kind, $avx2>(
-                    black_box(columns.each_ref()),
-                    &mut slices,
-                ));
-            });
-            rounds.time("batch, plain", || {
-                assert!(
-                    states_in_lanes::<Kind, 4, 3, 6, 6>(black_box([a, b, c]), &mut found).is_ok()
-                );
-            });
-            rounds.time("columns, plain", || {
-                let mut slices = in_columns.each_mut().map(|column| &mut column[..]);
-                let columns = black_box(columns.each_ref());
-                assert!(columns_in_lanes::<Kind, 4, 3, 6, 6>(columns, &mut slices).is_ok());
-            });
-            for (k, expected) in expected.iter().enumerate() {
-                assert!(in_columns.each_ref().map(|column| column[k]) == *expected);
+                for (k, expected) in expected.iter().enumerate() {
+                    let own = slices.each_ref().map(|column| column[k]);
+                    assert!(<Kind as Function<3, 6, $results, 4>>::state(own) == *expected);
+                }
             }
         }
-        rounds.print($what);
+        let operations = ports::operations::<Kind, 3, 6, $results, 4>();
+        rounds.print_limits($what, |name| {
+            let width = match name {
+                name if name.ends_with("AVX-512") => 512,
+                name if name.ends_with("AVX2") => 256,
+                _ => return None,
+            };
+            ports::limit::<$scalar>(&operations, width, $clock).map(|(limit, _)| limit)
+        });
+        if $is_alone {
+            let mut rounds = Rounds::of(MANY);
+            let mut in_columns: [Vec<$scalar>; $results] =
+                std::array::from_fn(|_| vec![0.0; MANY + LINE]);
+            for _ in 0..ROUNDS / 4 {
+                let mut slices = in_columns.each_mut().map(|column| aligned(column, MANY));
+                rounds.time("one thread", || {
+                    let widest = Vectors::widest();
+                    assert!(
+                        columns_in::<Kind, 3, 6, $results, 4>(widest, many.each_ref(), &mut slices)
+                            .is_ok()
+                    );
+                });
+                rounds.time("all cores", || {
+                    assert!(
+                        parallel::columns::<Kind, 3, 6, $results, 4>(many.each_ref(), &mut slices)
+                            .is_ok()
+                    );
+                });
+            }
+            rounds.print(concat!($what, ", 16384 states in columns"));
+        }
     }};
 }
 
 fn main() {
-    bench!(
-        "puma560 inverse_dynamics f64",
-        puma560,
-        f64,
-        inverse_dynamics,
-        inverse_dynamics_with_sincos,
-        inverse_dynamics_lanes,
-        inverse_dynamics_batch,
-        inverse_dynamics_columns,
-        InverseDynamicsBatch,
-        4
-    );
-    bench!(
-        "puma560 inverse_dynamics f32",
-        puma560_f32,
-        f32,
-        inverse_dynamics,
-        inverse_dynamics_with_sincos,
-        inverse_dynamics_lanes,
-        inverse_dynamics_batch,
-        inverse_dynamics_columns,
-        InverseDynamicsBatch,
-        8
-    );
-    bench!(
-        "puma560 forward_dynamics f64",
-        puma560,
-        f64,
-        forward_dynamics,
-        forward_dynamics_with_sincos,
-        forward_dynamics_lanes,
-        forward_dynamics_batch,
-        forward_dynamics_columns,
-        ForwardDynamicsBatch,
-        4
-    );
-    bench!(
-        "puma560 forward_dynamics f32",
-        puma560_f32,
-        f32,
-        forward_dynamics,
-        forward_dynamics_with_sincos,
-        forward_dynamics_lanes,
-        forward_dynamics_batch,
-        forward_dynamics_columns,
-        ForwardDynamicsBatch,
-        8
-    );
+    use dalembert_codegen::workspace::function::Function as Output;
+    let chosen: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|word| !word.starts_with('-'))
+        .collect();
+    let is_chosen =
+        |name: &str| chosen.is_empty() || chosen.iter().any(|part| name.contains(part.as_str()));
+    let clock = ports::clock();
+    println!("clock: {clock:.3} GHz");
+    let compile = |name: &str, functions: &[Output], fma: Fma| {
+        // Else gcc makes no vectors of 256 bits.
+        let narrow = ["-march=x86-64-v3", "-fno-tree-pre"];
+        let wide = ["-march=x86-64-v4", "-mprefer-vector-width=512"];
+        let is_there = |vectors: Vectors| vectors.are_there().then_some(());
+        Compiled {
+            wide: is_there(Vectors::Avx512)
+                .and_then(|()| Gcc::start(&format!("{name}_avx512"), functions, fma, &wide)),
+            narrow: is_there(Vectors::Avx2)
+                .and_then(|()| Gcc::start(&format!("{name}_avx2"), functions, fma, &narrow)),
+        }
+    };
+    let dynamics = [Output::InverseDynamics, Output::ForwardDynamics];
+    if is_chosen("torques") || is_chosen("accelerations") {
+        let mut gcc = compile("batch", &dynamics, Fma::Off);
+        if is_chosen("torques") {
+            bench!("torques, f64", puma560, f64, inverse_dynamics,
+                InverseDynamicsBatch, 6, clock, gcc, 0, is_alone: true);
+            bench!("torques, f32", puma560_f32, f32, inverse_dynamics,
+                InverseDynamicsBatch, 6, clock, gcc, 2, is_alone: true);
+        }
+        if is_chosen("accelerations") {
+            bench!("accelerations, f64", puma560, f64, forward_dynamics,
+                ForwardDynamicsBatch, 6, clock, gcc, 1, is_alone: true);
+            bench!("accelerations, f32", puma560_f32, f32, forward_dynamics,
+                ForwardDynamicsBatch, 6, clock, gcc, 3, is_alone: true);
+        }
+    }
+    if is_chosen("fused") {
+        let mut gcc = compile("fused", &dynamics, Fma::On);
+        bench!("fused torques, f64", fused, f64, inverse_dynamics,
+            InverseDynamicsBatch, 6, clock, gcc, 0, is_alone: false);
+        bench!("fused torques, f32", fused_f32, f32, inverse_dynamics,
+            InverseDynamicsBatch, 6, clock, gcc, 2, is_alone: false);
+        bench!("fused accelerations, f64", fused, f64, forward_dynamics,
+            ForwardDynamicsBatch, 6, clock, gcc, 1, is_alone: false);
+        bench!("fused accelerations, f32", fused_f32, f32, forward_dynamics,
+            ForwardDynamicsBatch, 6, clock, gcc, 3, is_alone: false);
+    }
+    if is_chosen("derivatives") {
+        let functions = [
+            Output::InverseDynamicsDerivatives,
+            Output::ForwardDynamicsDerivatives,
+        ];
+        let mut gcc = compile("derivatives", &functions, Fma::Off);
+        bench!("derivatives of torques, f64", derivatives, f64, inverse_dynamics_derivatives,
+            InverseDynamicsDerivativesBatch, 108, clock, gcc, 0, is_alone: false);
+        bench!("derivatives of torques, f32", derivatives_f32, f32, inverse_dynamics_derivatives,
+            InverseDynamicsDerivativesBatch, 108, clock, gcc, 2, is_alone: false);
+        bench!("derivatives of accelerations, f64", derivatives, f64, forward_dynamics_derivatives,
+            ForwardDynamicsDerivativesBatch, 108, clock, gcc, 1, is_alone: false);
+        bench!("derivatives of accelerations, f32", derivatives_f32, f32, forward_dynamics_derivatives,
+            ForwardDynamicsDerivativesBatch, 108, clock, gcc, 3, is_alone: false);
+    }
 }

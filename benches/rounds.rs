@@ -25,18 +25,23 @@ impl Rounds {
     pub fn time(&mut self, name: &'static str, run: impl FnOnce()) {
         let start = Instant::now();
         run();
-        let time = start.elapsed().as_secs_f64() * 1e9 / self.units as f64;
+        self.note(name, start.elapsed().as_secs_f64() * 1e9);
+    }
+
+    /// The nanoseconds that one run of a variant took, once a round.
+    pub fn note(&mut self, name: &'static str, time: f64) {
         let place = self.names.iter().position(|known| *known == name);
         let place = place.unwrap_or_else(|| {
             self.names.push(name);
             self.times.push(Vec::new());
             self.names.len() - 1
         });
-        self.times[place].push(time);
+        self.times[place].push(time / self.units as f64);
     }
 
     /// Medians: of the times, and of how many times as fast as the first variant
     /// in the same round each was.
+    #[allow(dead_code)] // Every bench compiles this file for itself.
     pub fn print(&self, what: &str) {
         println!("\n{what}: ns each, times as fast as the first");
         for (name, times) in self.names.iter().zip(&self.times) {
@@ -47,6 +52,21 @@ impl Rounds {
                 median(times.clone()),
                 median(ratios.collect())
             );
+        }
+    }
+
+    /// Medians and least times, and these as multiples of the least that is possible, where
+    /// somebody knows it. Short runs are least where nobody disturbed them.
+    #[allow(dead_code)]
+    pub fn print_limits(&self, what: &str, limit: impl Fn(&str) -> Option<f64>) {
+        println!("\n{what}: ns each, median and least; port limit, times that");
+        for (name, times) in self.names.iter().zip(&self.times) {
+            let least = times.iter().copied().fold(f64::MAX, f64::min);
+            print!("{name:32} {:10.2} {least:10.2}", median(times.clone()));
+            match limit(name) {
+                Some(limit) => println!(" {limit:10.2} {:8.2}", least / limit),
+                None => println!(),
+            }
         }
     }
 }

@@ -1,29 +1,83 @@
 //! As wide as the processor's vectors are.
 //!
-//! As many lanes as a vector has: with twice as many, values do not stay in
-//! registers (PUMA's torques with AVX2, f64: 16.8 ns with four lanes, 21 to 27
-//! with eight).
+//! One vector at a time: with two of them, values do not stay in registers (PUMA's torques with
+//! AVX2, f64: 16.8 ns with four lanes, 21 to 27 with eight).
 
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
 use core::marker::PhantomData;
 
-use pulp::{Arch, Simd, WithSimd};
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+use pulp::x86::{V3, V4};
 
 use crate::slices::{check_columns, check_states, run_columns, run_states};
-use crate::{Function, Unequal};
+use crate::{Float, Function, Unequal, Vector};
+
+/// The vectors that a batch is computed in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Vectors {
+    /// Those of the target that the program was compiled for.
+    Portable,
+    /// Those of AVX2 with fused products, of 256 bits.
+    Avx2,
+    /// Those of AVX-512, of 512 bits.
+    Avx512,
+}
+
+impl Vectors {
+    /// Returns the widest that the processor has.
+    #[must_use]
+    pub fn widest() -> Vectors {
+        let wider = [Vectors::Avx512, Vectors::Avx2].into_iter();
+        wider
+            .into_iter()
+            .find(|vectors| vectors.are_there())
+            .unwrap_or(Vectors::Portable)
+    }
+
+    /// Returns whether the processor has them; without the feature `std` nobody asks it.
+    #[must_use]
+    pub fn are_there(self) -> bool {
+        match self {
+            Vectors::Portable => true,
+            #[cfg(all(feature = "std", target_arch = "x86_64"))]
+            Vectors::Avx2 => V3::is_available(),
+            #[cfg(all(feature = "std", target_arch = "x86_64"))]
+            Vectors::Avx512 => V4::is_available(),
+            #[cfg(not(all(feature = "std", target_arch = "x86_64")))]
+            Vectors::Avx2 | Vectors::Avx512 => false,
+        }
+    }
+}
 
 /// The function at every state.
 ///
 /// # Errors
 /// [`Unequal`]; then nothing is computed.
-pub fn states<F, const A: usize, const N: usize, const M: usize>(
+pub fn states<F, const A: usize, const N: usize, const M: usize, const K: usize>(
     arguments: [&[[F::Scalar; N]]; A],
     results: &mut [F::State],
 ) -> Result<(), Unequal>
 where
-    F: Function<A, N, M>,
+    F: Function<A, N, M, K>,
+{
+    states_in::<F, A, N, M, K>(Vectors::widest(), arguments, results)
+}
+
+/// [`states`] in vectors of the caller's choice; where the processor lacks them, in portable
+/// ones. The bits are the same.
+///
+/// # Errors
+/// [`Unequal`]; then nothing is computed.
+pub fn states_in<F, const A: usize, const N: usize, const M: usize, const K: usize>(
+    vectors: Vectors,
+    arguments: [&[[F::Scalar; N]]; A],
+    results: &mut [F::State],
+) -> Result<(), Unequal>
+where
+    F: Function<A, N, M, K>,
 {
     check_states(&arguments, results.len())?;
-    Arch::new().dispatch(States::<F, A, N, M> { arguments, results });
+    run(vectors, States::<F, A, N, M, K> { arguments, results });
     Ok(())
 }
 
@@ -31,71 +85,114 @@ where
 ///
 /// # Errors
 /// [`Unequal`]; then nothing is computed.
-pub fn columns<F, const A: usize, const N: usize, const M: usize>(
+pub fn columns<F, const A: usize, const N: usize, const M: usize, const K: usize>(
     arguments: [&[&[F::Scalar]; N]; A],
     results: &mut [&mut [F::Scalar]; M],
 ) -> Result<(), Unequal>
 where
-    F: Function<A, N, M>,
+    F: Function<A, N, M, K>,
+{
+    columns_in::<F, A, N, M, K>(Vectors::widest(), arguments, results)
+}
+
+/// [`columns`] in vectors of the caller's choice; where the processor lacks them, in portable
+/// ones. The bits are the same.
+///
+/// # Errors
+/// [`Unequal`]; then nothing is computed.
+pub fn columns_in<F, const A: usize, const N: usize, const M: usize, const K: usize>(
+    vectors: Vectors,
+    arguments: [&[&[F::Scalar]; N]; A],
+    results: &mut [&mut [F::Scalar]; M],
+) -> Result<(), Unequal>
+where
+    F: Function<A, N, M, K>,
 {
     check_columns(&arguments, results)?;
-    Arch::new().dispatch(Columns::<F, A, N, M> {
-        arguments,
-        results,
-        function: PhantomData,
-    });
+    run(vectors, Columns::<F, A, N, M, K> { arguments, results });
     Ok(())
 }
 
-struct States<'a, F: Function<A, N, M>, const A: usize, const N: usize, const M: usize> {
-    arguments: [&'a [[F::Scalar; N]]; A],
-    results: &'a mut [F::State],
+/// What is to be computed, in whatever vectors.
+trait Work {
+    type Scalar: Float;
+
+    fn with<V: Vector<Self::Scalar>>(self, token: V::Token);
 }
 
-struct Columns<'a, 'c, 'r, F: Function<A, N, M>, const A: usize, const N: usize, const M: usize> {
-    arguments: [&'a [&'a [F::Scalar]; N]; A],
-    results: &'r mut [&'c mut [F::Scalar]; M],
-    function: PhantomData<F>,
+/// Does work in vectors, in code that is compiled for them.
+fn run<W: Work>(vectors: Vectors, work: W) {
+    #[cfg(all(feature = "std", target_arch = "x86_64"))]
+    match vectors {
+        Vectors::Avx512 => {
+            if let Some(simd) = V4::try_new() {
+                return simd.vectorize(In(work, simd, PhantomData::<<W::Scalar as Float>::Avx512>));
+            }
+        }
+        Vectors::Avx2 => {
+            if let Some(simd) = V3::try_new() {
+                return simd.vectorize(In(work, simd, PhantomData::<<W::Scalar as Float>::Avx2>));
+            }
+        }
+        Vectors::Portable => {}
+    }
+    let _ = vectors;
+    work.with::<<W::Scalar as Float>::Portable>(());
 }
 
-/// Returns the number of lanes of a vector.
-const fn lanes<S: Simd, T>() -> usize {
-    size_of::<S::f64s>() / size_of::<T>()
-}
+/// Work in one kind of vectors.
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+struct In<W, T, V>(W, T, PhantomData<V>);
 
-impl<F, const A: usize, const N: usize, const M: usize> WithSimd for States<'_, F, A, N, M>
-where
-    F: Function<A, N, M>,
-{
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+impl<W: Work, V: Vector<W::Scalar>> pulp::NullaryFnOnce for In<W, V::Token, V> {
     type Output = ();
 
     // Inlined into what is compiled for the vectors.
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let (arguments, results) = (self.arguments, self.results);
-        match const { lanes::<S, F::Scalar>() } {
-            16.. => run_states::<F, 16, A, N, M>(arguments, results),
-            8.. => run_states::<F, 8, A, N, M>(arguments, results),
-            // A plain build has vectors of two doubles, of which four lanes take
-            // two: the fastest there.
-            _ => run_states::<F, 4, A, N, M>(arguments, results),
-        }
+    fn call(self) {
+        self.0.with::<V>(self.1);
     }
 }
 
-impl<F, const A: usize, const N: usize, const M: usize> WithSimd for Columns<'_, '_, '_, F, A, N, M>
+struct States<'a, F, const A: usize, const N: usize, const M: usize, const K: usize>
 where
-    F: Function<A, N, M>,
+    F: Function<A, N, M, K>,
 {
-    type Output = ();
+    arguments: [&'a [[F::Scalar; N]]; A],
+    results: &'a mut [F::State],
+}
+
+impl<F, const A: usize, const N: usize, const M: usize, const K: usize> Work
+    for States<'_, F, A, N, M, K>
+where
+    F: Function<A, N, M, K>,
+{
+    type Scalar = F::Scalar;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let (arguments, results) = (self.arguments, self.results);
-        match const { lanes::<S, F::Scalar>() } {
-            16.. => run_columns::<F, 16, A, N, M>(arguments, results),
-            8.. => run_columns::<F, 8, A, N, M>(arguments, results),
-            _ => run_columns::<F, 4, A, N, M>(arguments, results),
-        }
+    fn with<V: Vector<F::Scalar>>(self, token: V::Token) {
+        run_states::<F, V, A, N, M, K>(token, self.arguments, self.results);
+    }
+}
+
+struct Columns<'a, 'c, 'r, F, const A: usize, const N: usize, const M: usize, const K: usize>
+where
+    F: Function<A, N, M, K>,
+{
+    arguments: [&'a [&'a [F::Scalar]; N]; A],
+    results: &'r mut [&'c mut [F::Scalar]; M],
+}
+
+impl<F, const A: usize, const N: usize, const M: usize, const K: usize> Work
+    for Columns<'_, '_, '_, F, A, N, M, K>
+where
+    F: Function<A, N, M, K>,
+{
+    type Scalar = F::Scalar;
+
+    #[inline(always)]
+    fn with<V: Vector<F::Scalar>>(self, token: V::Token) {
+        run_columns::<F, V, A, N, M, K>(token, self.arguments, self.results);
     }
 }

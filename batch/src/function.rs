@@ -1,25 +1,30 @@
 //! A generated function as batches see it.
 
-/// A function of A arguments of N numbers each, which returns M numbers; in
-/// lanes, so many states at once as somebody says.
+use dalembert_sines::text::Floats;
+
+use crate::{Float, Vector};
+
+/// A function of A arguments of N numbers each, which returns M numbers and takes sines and
+/// cosines of K angles; of one state, or of as many as a vector has lanes.
 ///
 /// Its methods must be `#[inline(always)]`: they are compiled for the vectors of
 /// whoever calls them.
-pub trait Function<const A: usize, const N: usize, const M: usize> {
+pub trait Function<const A: usize, const N: usize, const M: usize, const K: usize> {
     /// f64 or f32.
-    type Scalar: Copy + Default;
+    type Scalar: Float;
     /// The results of one state.
     type State;
-    /// The results of L states.
-    type Lanes<const L: usize>;
 
-    /// Its results at L states: entry `[a][i][l]` is argument a's number i in
-    /// state l.
-    fn lanes<const L: usize>(arguments: &[[[Self::Scalar; L]; N]; A]) -> Self::Lanes<L>;
+    /// Returns the angles whose sines and cosines [`vectors`](Function::vectors) takes.
+    fn angles<V: Floats<Self::Scalar>>(arguments: &[[V; N]; A]) -> [V; K];
 
-    /// The results of one of the states.
-    fn state<const L: usize>(results: &Self::Lanes<L>, l: usize) -> Self::State;
+    /// Returns the numbers of the results in their order.
+    fn vectors<V: Vector<Self::Scalar>>(
+        arguments: &[[V; N]; A],
+        sin: &[V; K],
+        cos: &[V; K],
+    ) -> [V; M];
 
-    /// The numbers of the results in their order, each with its lanes.
-    fn columns<const L: usize>(results: &Self::Lanes<L>) -> [[Self::Scalar; L]; M];
+    /// Returns the results of a state by their numbers.
+    fn state(results: [Self::Scalar; M]) -> Self::State;
 }

@@ -7,29 +7,30 @@
 //! joint. The latter is the faster one: nothing has to be moved.
 //!
 //! ```
+//! use dalembert_batch::{Floats, Vector};
+//!
 //! // What a generator prints; here the torque that holds a pendulum of 1 kg and 1 m.
 //! pub struct GravityBatch;
-//! impl dalembert_batch::Function<1, 1, 1> for GravityBatch {
+//! impl dalembert_batch::Function<1, 1, 1, 1> for GravityBatch {
 //!     type Scalar = f64;
 //!     type State = [f64; 1];
-//!     type Lanes<const L: usize> = [[f64; L]; 1];
-//!     fn lanes<const L: usize>([q]: &[[[f64; L]; 1]; 1]) -> [[f64; L]; 1] {
-//!         [q[0].map(|q| 9.81 * q.cos())]
+//!     fn angles<V: Floats<f64>>([q]: &[[V; 1]; 1]) -> [V; 1] {
+//!         [q[0]]
 //!     }
-//!     fn state<const L: usize>(results: &[[f64; L]; 1], l: usize) -> [f64; 1] {
-//!         [results[0][l]]
+//!     fn vectors<V: Vector<f64>>(_: &[[V; 1]; 1], _sin: &[V; 1], cos: &[V; 1]) -> [V; 1] {
+//!         [cos[0] * 9.81]
 //!     }
-//!     fn columns<const L: usize>(results: &[[f64; L]; 1]) -> [[f64; L]; 1] {
-//!         [results[0]]
+//!     fn state(results: [f64; 1]) -> [f64; 1] {
+//!         results
 //!     }
 //! }
 //!
 //! let q = [[0.0], [0.5], [1.0]];
 //! let mut tau = [[0.0]; 3];
-//! dalembert_batch::states::<GravityBatch, 1, 1, 1>([&q], &mut tau)?;
+//! dalembert_batch::states::<GravityBatch, 1, 1, 1, 1>([&q], &mut tau)?;
 //! assert_eq!(tau[1], [9.81 * 0.5f64.cos()]);
 //!
-//! let error = dalembert_batch::states::<GravityBatch, 1, 1, 1>([&q[..2]], &mut tau);
+//! let error = dalembert_batch::states::<GravityBatch, 1, 1, 1, 1>([&q[..2]], &mut tau);
 //! assert_eq!(error.unwrap_err().to_string(), "argument 1 has 2 states, the results have 3");
 //! # Ok::<(), dalembert_batch::Unequal>(())
 //! ```
@@ -46,7 +47,8 @@
 //!
 //! - `function`: what a generator says of a function
 //! - `unequal`: slices of different lengths
-//! - `slices`: from slices to lanes and back
+//! - `vector`: floats side by side, `x86` and `portable`: those of a processor
+//! - `slices`: from slices to vectors and back
 //! - `dispatch`: as wide as the processor's vectors are
 //! - `parallel`: on all cores
 #![no_std]
@@ -56,16 +58,24 @@
 
 mod function;
 mod unequal;
+mod vector;
+
+mod portable;
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+mod x86;
 
 mod slices;
 
-#[cfg_attr(not(feature = "std"), path = "portable.rs")]
 mod dispatch;
 
 #[cfg(feature = "rayon")]
 pub mod parallel;
 
-pub use dispatch::{columns, states};
+#[doc(no_inline)]
+pub use dalembert_sines::text::Floats;
+pub use dispatch::{Vectors, columns, columns_in, states, states_in};
 pub use function::Function;
-pub use slices::{columns_in_lanes, states_in_lanes};
 pub use unequal::{Slice, Unequal};
+pub use vector::{Float, Vector};
+#[doc(hidden)]
+pub use vector::{sqrt, sqrtf};

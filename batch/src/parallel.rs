@@ -5,28 +5,30 @@
 use core::array::from_fn;
 
 use crate::slices::{check_columns, check_states};
+use crate::vector::BLOCK;
 use crate::{Function, Unequal};
 
-/// The number of states below which threads do not pay: some microseconds of work.
-const FEW: usize = 1024;
+/// The least number of states of a task: to hand one to another thread, and to wait for it, takes
+/// some ten microseconds, which must be a small part of its work.
+const TASK: usize = 4096;
 
 /// [`states`](crate::states) on all cores.
 ///
 /// # Errors
 /// [`Unequal`]; then nothing is computed.
-pub fn states<F, const A: usize, const N: usize, const M: usize>(
+pub fn states<F, const A: usize, const N: usize, const M: usize, const K: usize>(
     arguments: [&[[F::Scalar; N]]; A],
     results: &mut [F::State],
 ) -> Result<(), Unequal>
 where
-    F: Function<A, N, M>,
+    F: Function<A, N, M, K>,
     F::Scalar: Sync,
     F::State: Send,
 {
     check_states(&arguments, results.len())?;
     let count = results.len();
-    if count <= FEW {
-        return crate::states::<F, A, N, M>(arguments, results);
+    if is_one_task(count) {
+        return crate::states::<F, A, N, M, K>(arguments, results);
     }
     let half = middle(count);
     let (left, right) = results.split_at_mut(half);
@@ -35,8 +37,8 @@ where
         arguments.map(|argument| argument.split_at(half).1),
     );
     let (left, right) = rayon::join(
-        || states::<F, A, N, M>(first, left),
-        || states::<F, A, N, M>(second, right),
+        || states::<F, A, N, M, K>(first, left),
+        || states::<F, A, N, M, K>(second, right),
     );
     left.and(right)
 }
@@ -45,17 +47,17 @@ where
 ///
 /// # Errors
 /// [`Unequal`]; then nothing is computed.
-pub fn columns<F, const A: usize, const N: usize, const M: usize>(
+pub fn columns<F, const A: usize, const N: usize, const M: usize, const K: usize>(
     arguments: [&[&[F::Scalar]; N]; A],
     results: &mut [&mut [F::Scalar]; M],
 ) -> Result<(), Unequal>
 where
-    F: Function<A, N, M>,
+    F: Function<A, N, M, K>,
     F::Scalar: Send + Sync,
 {
     let count = check_columns(&arguments, results)?;
-    if count <= FEW {
-        return crate::columns::<F, A, N, M>(arguments, results);
+    if is_one_task(count) {
+        return crate::columns::<F, A, N, M, K>(arguments, results);
     }
     let half = middle(count);
     let first = arguments.map(|columns| columns.map(|column| column.split_at(half).0));
@@ -69,13 +71,18 @@ where
         (*left, *right) = (a, b);
     }
     let (left, right) = rayon::join(
-        || columns::<F, A, N, M>(first.each_ref(), &mut left),
-        || columns::<F, A, N, M>(second.each_ref(), &mut right),
+        || columns::<F, A, N, M, K>(first.each_ref(), &mut left),
+        || columns::<F, A, N, M, K>(second.each_ref(), &mut right),
     );
     left.and(right)
 }
 
-/// The middle of so many states, a whole number of vectors.
+/// Returns whether so many states are not worth a second thread, or there is none.
+fn is_one_task(count: usize) -> bool {
+    count < 2 * TASK || rayon::current_num_threads() == 1
+}
+
+/// The middle of so many states, a whole number of blocks.
 fn middle(count: usize) -> usize {
-    (count / 2).next_multiple_of(64)
+    (count / 2).next_multiple_of(BLOCK)
 }

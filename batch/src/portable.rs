@@ -1,35 +1,84 @@
-//! Compiled for the target as it is.
+//! The vectors of the target as it is compiled for, of 128 bits, by the crate `wide`; where it has
+//! none, numbers.
 
-use crate::{Function, Unequal, columns_in_lanes, states_in_lanes};
+use dalembert_sines::text::by_pairs;
 
-/// The number of lanes: two vectors of SSE or NEON in f64, one in f32. A plain x86-64 build was
-/// fastest with these.
-const LANES: usize = 4;
+use crate::vector::{BLOCK, Vector, lanes};
 
-/// The function at every state.
-///
-/// # Errors
-/// [`Unequal`]; then nothing is computed.
-pub fn states<F, const A: usize, const N: usize, const M: usize>(
-    arguments: [&[[F::Scalar; N]]; A],
-    results: &mut [F::State],
-) -> Result<(), Unequal>
-where
-    F: Function<A, N, M>,
-{
-    states_in_lanes::<F, LANES, A, N, M>(arguments, results)
+#[cfg(any(
+    target_arch = "x86",
+    target_arch = "x86_64",
+    target_arch = "aarch64",
+    target_arch = "wasm32"
+))]
+mod vectors {
+    use dalembert_sines::text::{Doubles, Singles};
+
+    use super::{BLOCK, Vector, by_pairs, lanes};
+
+    macro_rules! portable {
+        ($vector:ident, $float:ident, $lanes:literal) => {
+            impl Vector<$float> for $vector {
+                type Token = ();
+
+                lanes!(
+                    $float,
+                    $lanes,
+                    |vector| vector.to_array(),
+                    |_vector| (),
+                    |_token, from| $vector::from_array(from)
+                );
+
+                #[inline(always)]
+                fn sqrt(self) -> Self {
+                    self.root()
+                }
+
+                #[inline(always)]
+                fn mul_add(self, factor: Self, addend: Self) -> Self {
+                    self.fused(factor, addend)
+                }
+            }
+        };
+    }
+    portable!(Doubles, f64, 2);
+    portable!(Singles, f32, 4);
 }
 
-/// The function at every state, whose numbers stand in columns.
-///
-/// # Errors
-/// [`Unequal`]; then nothing is computed.
-pub fn columns<F, const A: usize, const N: usize, const M: usize>(
-    arguments: [&[&[F::Scalar]; N]; A],
-    results: &mut [&mut [F::Scalar]; M],
-) -> Result<(), Unequal>
-where
-    F: Function<A, N, M>,
-{
-    columns_in_lanes::<F, LANES, A, N, M>(arguments, results)
+#[cfg(not(any(
+    target_arch = "x86",
+    target_arch = "x86_64",
+    target_arch = "aarch64",
+    target_arch = "wasm32"
+)))]
+mod numbers {
+    use super::{BLOCK, Vector, by_pairs, lanes};
+
+    macro_rules! number {
+        ($float:ident, $sqrt:ident, $fma:ident) => {
+            impl Vector<$float> for $float {
+                type Token = ();
+
+                lanes!(
+                    $float,
+                    1,
+                    |number| [number],
+                    |_number| (),
+                    |_token, from| from[0]
+                );
+
+                #[inline(always)]
+                fn sqrt(self) -> Self {
+                    dalembert_sines::$sqrt(self)
+                }
+
+                #[inline(always)]
+                fn mul_add(self, factor: Self, addend: Self) -> Self {
+                    dalembert_sines::text::$fma(self, factor, addend)
+                }
+            }
+        };
+    }
+    number!(f64, sqrt, fma);
+    number!(f32, sqrtf, fmaf);
 }

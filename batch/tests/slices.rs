@@ -1,35 +1,90 @@
-//! From slices to lanes and back: every state once, in its place, whatever the
-//! length and the number of lanes.
+//! From slices to vectors and back: every state once, in its place, whatever the
+//! length and the vectors.
 
-use dalembert_batch::{Function, columns, columns_in_lanes, states, states_in_lanes};
+use dalembert_batch::{Floats, Function, Vector, Vectors, columns, columns_in, states, states_in};
 
 /// x y, x − 2 y and x/y of the first entry of one argument and the second of the
 /// other.
 struct Three;
 
-impl Function<2, 2, 3> for Three {
+impl Function<2, 2, 3, 0> for Three {
     type Scalar = f32;
     type State = (f32, [f32; 2]);
-    type Lanes<const L: usize> = [[f32; L]; 3];
 
     #[inline(always)]
-    fn lanes<const L: usize>([x, y]: &[[[f32; L]; 2]; 2]) -> [[f32; L]; 3] {
-        let mut results = [[0.0; L]; 3];
-        for l in 0..L {
-            let (x, y) = (x[0][l], y[1][l]);
-            (results[0][l], results[1][l], results[2][l]) = (x * y, x - 2.0 * y, x / y);
-        }
+    fn angles<V: Floats<f32>>(_: &[[V; 2]; 2]) -> [V; 0] {
+        []
+    }
+
+    #[inline(always)]
+    fn vectors<V: Vector<f32>>([x, y]: &[[V; 2]; 2], _: &[V; 0], _: &[V; 0]) -> [V; 3] {
+        let (x, y) = (x[0], y[1]);
+        [x * y, x - y * 2.0, x / y]
+    }
+
+    #[inline(always)]
+    fn state([product, difference, quotient]: [f32; 3]) -> (f32, [f32; 2]) {
+        (product, [difference, quotient])
+    }
+}
+
+/// Every operation of a vector on angles of every size, one of which is NaN.
+struct Operations;
+
+impl Function<1, 1, 8, 2> for Operations {
+    type Scalar = f64;
+    type State = [f64; 8];
+
+    #[inline(always)]
+    fn angles<V: Floats<f64>>([x]: &[[V; 1]; 1]) -> [V; 2] {
+        [x[0], x[0] * 1e4]
+    }
+
+    #[inline(always)]
+    fn vectors<V: Vector<f64>>([x]: &[[V; 1]; 1], sin: &[V; 2], cos: &[V; 2]) -> [V; 8] {
+        let x = x[0];
+        let (floor, fraction) = x.both(|x| (x.floor(), x - x.floor()));
+        let root = (x * x)
+            .sqrt()
+            .mul_add(x.all(1.0 / 3.0), -x.each(f64::abs) * (1.0 / 3.0));
+        [sin[0], cos[0], sin[1], cos[1], floor, fraction, root, -x]
+    }
+
+    #[inline(always)]
+    fn state(results: [f64; 8]) -> [f64; 8] {
         results
     }
+}
 
-    #[inline(always)]
-    fn state<const L: usize>(results: &[[f32; L]; 3], l: usize) -> (f32, [f32; 2]) {
-        (results[0][l], [results[1][l], results[2][l]])
-    }
+const ALL: [Vectors; 3] = [Vectors::Portable, Vectors::Avx2, Vectors::Avx512];
 
-    #[inline(always)]
-    fn columns<const L: usize>(results: &[[f32; L]; 3]) -> [[f32; L]; 3] {
-        *results
+/// All vectors compute what one number after the other does.
+#[test]
+fn every_operation_in_all_vectors() {
+    let odd = [f64::NAN, f64::INFINITY, -0.0, 8192.1, 5e-324, -1e300];
+    let value = |k: usize| match k % 7 {
+        6 => odd[k / 7 % odd.len()],
+        _ => (k as f64 - 90.0) * 0.0371,
+    };
+    let x: Vec<[f64; 1]> = (0..200).map(|k| [value(k)]).collect();
+    for vectors in ALL {
+        for count in [1, 7, 64, 65, 200] {
+            let mut found = vec![[0.5; 8]; count];
+            states_in::<Operations, 1, 1, 8, 2>(vectors, [&x[..count]], &mut found).unwrap();
+            for (found, [x]) in found.iter().zip(&x) {
+                let (sin, cos) = dalembert_sines::sincos(&[*x, x * 1e4]);
+                let root = f64::mul_add((x * x).sqrt(), 1.0 / 3.0, -x.abs() * (1.0 / 3.0));
+                let rest = [x.floor(), x - x.floor(), root, -x];
+                let expected = [sin[0], cos[0], sin[1], cos[1]].into_iter().chain(rest);
+                for (found, expected) in found.iter().zip(expected) {
+                    let same = found.to_bits() == expected.to_bits();
+                    assert!(
+                        same || (found.is_nan() && expected.is_nan()),
+                        "{vectors:?}: {x:e}"
+                    );
+                }
+            }
+        }
     }
 }
 
@@ -73,25 +128,26 @@ macro_rules! check {
 }
 
 #[test]
-fn every_length_in_every_number_of_lanes() {
-    macro_rules! lanes {
-        ($($lanes:literal)*) => {$(
-            for count in 0..=2 * $lanes + 1 {
-                check!(
-                    count,
-                    states_in_lanes::<Three, $lanes, 2, 2, 3>,
-                    columns_in_lanes::<Three, $lanes, 2, 2, 3>
-                );
-            }
-        )*};
+fn every_length_in_all_vectors() {
+    for vectors in ALL {
+        for count in 0..=2 * 64 + 17 {
+            check!(
+                count,
+                |arguments, results| states_in::<Three, 2, 2, 3, 0>(vectors, arguments, results),
+                |arguments, results| columns_in::<Three, 2, 2, 3, 0>(vectors, arguments, results)
+            );
+        }
     }
-    lanes!(1 2 3 4 7 8 16);
 }
 
 #[test]
 fn every_length_as_the_processor_has_it() {
     for count in 0..=67 {
-        check!(count, states::<Three, 2, 2, 3>, columns::<Three, 2, 2, 3>);
+        check!(
+            count,
+            states::<Three, 2, 2, 3, 0>,
+            columns::<Three, 2, 2, 3, 0>
+        );
     }
 }
 
@@ -99,11 +155,11 @@ fn every_length_as_the_processor_has_it() {
 #[test]
 fn every_length_on_all_cores() {
     use dalembert_batch::parallel;
-    for count in [0, 1, 1023, 1024, 1025, 3000, 10_001] {
+    for count in [0, 1, 8191, 8192, 8193, 20_001] {
         check!(
             count,
-            parallel::states::<Three, 2, 2, 3>,
-            parallel::columns::<Three, 2, 2, 3>
+            parallel::states::<Three, 2, 2, 3, 0>,
+            parallel::columns::<Three, 2, 2, 3, 0>
         );
     }
 }

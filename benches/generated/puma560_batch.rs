@@ -344,24 +344,283 @@ pub fn inverse_dynamics_lanes<const L: usize>(q: &[[f64; L]; 6], qd: &[[f64; L];
 #[derive(Clone, Copy, Debug)]
 pub struct InverseDynamicsBatch;
 
-impl dalembert_batch::Function<3, 6, 6> for InverseDynamicsBatch {
+impl dalembert_batch::Function<3, 6, 6, 4> for InverseDynamicsBatch {
     type Scalar = f64;
     type State = [f64; 6];
-    type Lanes<const L: usize> = [[f64; L]; 6];
 
     #[inline(always)]
-    fn lanes<const L: usize>([q, qd, qdd]: &[[[f64; L]; 6]; 3]) -> [[f64; L]; 6] {
-        inverse_dynamics_lanes(q, qd, qdd)
+    fn angles<V: dalembert_batch::Floats<f64>>([q, _qd, _qdd]: &[[V; 6]; 3]) -> [V; 4] {
+        [q[1], q[2], q[3], q[4]]
     }
 
     #[inline(always)]
-    fn state<const L: usize>(results: &[[f64; L]; 6], l: usize) -> [f64; 6] {
-        [results[0][l], results[1][l], results[2][l], results[3][l], results[4][l], results[5][l]]
+    fn vectors<V: dalembert_batch::Vector<f64>>([q, qd, qdd]: &[[V; 6]; 3], &[s2, s3, s4, s5]: &[V; 4], &[c2, c3, c4, c5]: &[V; 4]) -> [V; 6] {
+        let of = q[0];
+        let t1 = c2 * s3;
+        let t2 = s2 * c3;
+        let t3 = t1 + t2;
+        let t4 = t3 * qd[0];
+        let t5 = t4 * s4;
+        let t6 = qd[1] + qd[2];
+        let t7 = t6 * c4;
+        let t8 = t5 + t7;
+        let t9 = s3 * s2;
+        let t10 = c2 * c3;
+        let t11 = t9 - t10;
+        let t12 = t11 * qd[0];
+        let t13 = t12 - qd[3];
+        let t14 = t13 * t8;
+        let t15 = t12 * t4;
+        let t16 = qdd[1] + qdd[2];
+        let t17 = t15 + t16;
+        let t18 = t17 * s4;
+        let t19 = t14 - t18;
+        let t20 = t14 + t19;
+        let t21 = t6 * t12;
+        let t22 = qdd[0] * t3;
+        let t23 = t22 - t21;
+        let t24 = t21 - t23;
+        let t25 = t24 * c4;
+        let t26 = t25 - t20;
+        let t27 = t26 * c5;
+        let t28 = t4 * c4;
+        let t29 = t6 * s4;
+        let t30 = t29 - t28;
+        let t31 = t8 * t30;
+        let t32 = t6 * t4;
+        let t33 = qdd[0] * t11;
+        let t34 = t32 + t33;
+        let t35 = t34 - qdd[3];
+        let t36 = t31 + t35;
+        let t37 = s5 * t36;
+        let t38 = s5 * t30;
+        let t39 = t13 * c5;
+        let t40 = t38 - t39;
+        let t41 = t8 + qd[4];
+        let t42 = t40 * t41;
+        let t43 = t42 - t37;
+        let t44 = t27 - t43;
+        let t45 = t42 - t44;
+        let t46 = t45 * of.all(0.001243584);
+        let t47 = t12 * t12;
+        let t48 = t6 * t6;
+        let t49 = t48 + t47;
+        let t50 = t49 * of.all(0.04701250578971746);
+        let t51 = t50 + t17;
+        let t52 = qd[1] * qd[1];
+        let t53 = qd[0] * qd[0];
+        let t54 = t52 + t53;
+        let t55 = c2 * t54;
+        let t56 = s2 * qdd[1];
+        let t57 = t55 + t56;
+        let t58 = qdd[0] * of.all(0.34749884205650766);
+        let t59 = t57 - t58;
+        let t60 = t11 * t59;
+        let t61 = s2 * t52;
+        let t62 = t61 - of.all(22.71885132005558);
+        let t63 = c2 * qdd[1];
+        let t64 = t63 - t62;
+        let t65 = t3 * t64;
+        let t66 = t65 + t60;
+        let t67 = t51 - t66;
+        let t68 = t67 * s4;
+        let t69 = t32 + t34;
+        let t70 = t69 * of.all(0.04701250578971746);
+        let t71 = t24 - t70;
+        let t72 = qd[1] * qd[0];
+        let t73 = t72 + t72;
+        let t74 = s2 * t73;
+        let t75 = qdd[0] * c2;
+        let t76 = t74 - t75;
+        let t77 = t53 * of.all(0.34749884205650766);
+        let t78 = t76 - t77;
+        let t79 = t71 - t78;
+        let t80 = t79 * c4;
+        let t81 = t68 + t80;
+        let t82 = t81 * of.all(0.23306405);
+        let t83 = t82 - t46;
+        let t84 = c4 * t83;
+        let t85 = t13 * t30;
+        let t86 = t17 * c4;
+        let t87 = t85 + t86;
+        let t88 = t24 * s4;
+        let t89 = t87 - t88;
+        let t90 = t89 + qdd[4];
+        let t91 = c5 * t30;
+        let t92 = t13 * s5;
+        let t93 = t92 + t91;
+        let t94 = t40 * t93;
+        let t95 = t94 + t90;
+        let t96 = c5 * of.all(0.001243584);
+        let t97 = t95 * t96;
+        let t98 = t93 * t93;
+        let t99 = t41 * t41;
+        let t100 = t99 + t98;
+        let t101 = s5 * of.all(0.001243584);
+        let t102 = t100 * t101;
+        let t103 = t102 - t97;
+        let t104 = t67 * c4;
+        let t105 = s4 * t79;
+        let t106 = t105 - t104;
+        let t107 = t106 * of.all(0.23306405);
+        let t108 = t107 + t103;
+        let t109 = s4 * t108;
+        let t110 = t84 + t109;
+        let t111 = t95 * of.all(0.00044216);
+        let t112 = t48 - t47;
+        let t113 = t53 + t112;
+        let t114 = t15 - t16;
+        let t115 = t114 * of.all(0.04701250578971746);
+        let t116 = t113 + t115;
+        let t117 = t3 * t59;
+        let t118 = t11 * t64;
+        let t119 = t118 - t117;
+        let t120 = t116 + t119;
+        let t121 = t101 * t120;
+        let t122 = t111 + t121;
+        let t123 = t106 * t96;
+        let t124 = t122 - t123;
+        let t125 = t40 + qd[5];
+        let t126 = t125 * of.all(4e-5);
+        let t127 = t93 * t126;
+        let t128 = t127 - t124;
+        let t129 = t94 - t90;
+        let t130 = t129 * of.all(0.0002);
+        let t131 = t128 + t130;
+        let t132 = t85 + t89;
+        let t133 = t132 * of.all(0.00065);
+        let t134 = t133 - t131;
+        let t135 = s4 * t134;
+        let t136 = t110 - t135;
+        let t137 = t78 * of.all(0.151812244);
+        let t138 = t137 - t136;
+        let t139 = t26 * s5;
+        let t140 = c5 * t36;
+        let t141 = t41 * t93;
+        let t142 = t141 - t140;
+        let t143 = t139 + t142;
+        let t144 = t141 + t143;
+        let t145 = t144 * of.all(0.0002);
+        let t146 = t143 + qdd[5];
+        let t147 = t146 * of.all(4e-5);
+        let t148 = t145 + t147;
+        let t149 = s5 * t148;
+        let t150 = t26 * of.all(0.00075);
+        let t151 = t150 + t149;
+        let t152 = t45 * of.all(0.00044216);
+        let t153 = t81 * of.all(0.001243584);
+        let t154 = t153 - t152;
+        let t155 = t41 * t126;
+        let t156 = t155 + t154;
+        let t157 = c5 * t156;
+        let t158 = t157 + t151;
+        let t159 = c4 * t158;
+        let t160 = t69 * of.all(0.000316274);
+        let t161 = t24 * of.all(0.108170908);
+        let t162 = t160 - t161;
+        let t163 = t112 * of.all(0.0047376);
+        let t164 = t163 + t162;
+        let t165 = t159 - t164;
+        let t166 = t138 - t165;
+        let t167 = t3 * t166;
+        let t168 = s4 * t83;
+        let t169 = c4 * t108;
+        let t170 = t168 - t169;
+        let t171 = t17 * of.all(0.151812244);
+        let t172 = t171 + t170;
+        let t173 = t11 * t172;
+        let t174 = t101 * t95;
+        let t175 = t100 * t96;
+        let t176 = t174 + t175;
+        let t177 = t120 * of.all(0.23306405);
+        let t178 = t176 + t177;
+        let t179 = t113 * of.all(0.151812244);
+        let t180 = t179 + t178;
+        let t181 = t3 * t180;
+        let t182 = t181 + t173;
+        let t183 = t182 * of.all(0.34749884205650766);
+        let t184 = t167 + t183;
+        let t185 = c2 * of.all(0.609401856);
+        let t186 = s2 * of.all(0.023751);
+        let t187 = t185 - t186;
+        let t188 = t52 * t187;
+        let t189 = c2 * of.all(0.0141984);
+        let t190 = s2 * of.all(1.368797152);
+        let t191 = t189 + t190;
+        let t192 = s2 * t191;
+        let t193 = qdd[0] * t192;
+        let t194 = t188 + t193;
+        let t195 = c2 * t191;
+        let t196 = of.all(0.0070992) - t195;
+        let t197 = t73 * t196;
+        let t198 = t197 - t194;
+        let t199 = c2 * of.all(0.023751);
+        let t200 = s2 * of.all(0.609401856);
+        let t201 = t199 + t200;
+        let t202 = qdd[1] * t201;
+        let t203 = t198 - t202;
+        let t204 = qdd[0] * of.all(2.87556937);
+        let t205 = t203 + t204;
+        let t206 = t184 + t205;
+        let t207 = s5 * t156;
+        let t208 = c5 * t148;
+        let t209 = t208 - t207;
+        let t210 = t31 - t35;
+        let t211 = t210 * of.all(0.00065);
+        let t212 = t36 * of.all(0.00075);
+        let t213 = t211 - t212;
+        let t214 = t209 + t213;
+        let t215 = t110 * of.all(0.04701250578971746);
+        let t216 = t215 + t214;
+        let t217 = t17 * of.all(0.0047376);
+        let t218 = t216 - t217;
+        let t219 = t24 * of.all(0.000316274);
+        let t220 = t69 * of.all(0.01625);
+        let t221 = t219 - t220;
+        let t222 = t218 + t221;
+        let t223 = t11 * t222;
+        let t224 = t24 * of.all(0.151812244);
+        let t225 = t224 + t110;
+        let t226 = c2 * t225;
+        let t227 = t226 - t223;
+        let t228 = t227 + t206;
+        let t229 = s4 * t158;
+        let t230 = c4 * t134;
+        let t231 = t230 + t229;
+        let t232 = t66 * of.all(0.151812244);
+        let t233 = t17 * of.all(0.108170908);
+        let t234 = t233 - t232;
+        let t235 = t33 * of.all(0.0047376);
+        let t236 = t234 + t235;
+        let t237 = t49 - t113;
+        let t238 = t237 * of.all(0.000316274);
+        let t239 = t238 + t236;
+        let t240 = t114 * of.all(0.01625);
+        let t241 = t239 - t240;
+        let t242 = t231 + t241;
+        let t243 = t178 * of.all(0.04701250578971746);
+        let t244 = t170 - t243;
+        let t245 = t242 + t244;
+        let t246 = s3 * t172;
+        let t247 = c3 * t180;
+        let t248 = t246 + t247;
+        let t249 = t245 - t248;
+        let t250 = t53 * t196;
+        let t251 = qdd[1] * of.all(1.515049952);
+        let t252 = t250 - t251;
+        let t253 = c2 * of.all(31.9397904);
+        let t254 = t253 - t252;
+        let t255 = qdd[0] * t201;
+        let t256 = t254 - t255;
+        let t257 = t256 + t249;
+        let t258 = s2 * of.all(1.024164);
+        let t259 = t257 - t258;
+        [t228, t259, t245, t214, -t131, t147]
     }
 
     #[inline(always)]
-    fn columns<const L: usize>(results: &[[f64; L]; 6]) -> [[f64; L]; 6] {
-        [results[0], results[1], results[2], results[3], results[4], results[5]]
+    fn state(results: [f64; 6]) -> [f64; 6] {
+    [results[0], results[1], results[2], results[3], results[4], results[5]]
     }
 }
 
@@ -371,7 +630,7 @@ impl dalembert_batch::Function<3, 6, 6> for InverseDynamicsBatch {
 /// # Errors
 /// The slices are of different lengths; then nothing is computed.
 pub fn inverse_dynamics_batch(q: &[[f64; 6]], qd: &[[f64; 6]], qdd: &[[f64; 6]], results: &mut [[f64; 6]]) -> Result<(), dalembert_batch::Unequal> {
-    dalembert_batch::states::<InverseDynamicsBatch, 3, 6, 6>([q, qd, qdd], results)
+    dalembert_batch::states::<InverseDynamicsBatch, 3, 6, 6, 4>([q, qd, qdd], results)
 }
 
 /// [`inverse_dynamics_batch`] with states in columns: a slice for every entry of an argument, and of
@@ -380,7 +639,7 @@ pub fn inverse_dynamics_batch(q: &[[f64; 6]], qd: &[[f64; 6]], qdd: &[[f64; 6]],
 /// # Errors
 /// The slices are of different lengths; then nothing is computed.
 pub fn inverse_dynamics_columns(q: &[&[f64]; 6], qd: &[&[f64]; 6], qdd: &[&[f64]; 6], results: &mut [&mut [f64]; 6]) -> Result<(), dalembert_batch::Unequal> {
-    dalembert_batch::columns::<InverseDynamicsBatch, 3, 6, 6>([q, qd, qdd], results)
+    dalembert_batch::columns::<InverseDynamicsBatch, 3, 6, 6, 4>([q, qd, qdd], results)
 }
 
 /// Forward dynamics: the accelerations q̈ = D⁻¹ (τ - h - c - b∘q̇).
@@ -855,24 +1114,446 @@ pub fn forward_dynamics_lanes<const L: usize>(q: &[[f64; L]; 6], qd: &[[f64; L];
 #[derive(Clone, Copy, Debug)]
 pub struct ForwardDynamicsBatch;
 
-impl dalembert_batch::Function<3, 6, 6> for ForwardDynamicsBatch {
+impl dalembert_batch::Function<3, 6, 6, 4> for ForwardDynamicsBatch {
     type Scalar = f64;
     type State = [f64; 6];
-    type Lanes<const L: usize> = [[f64; L]; 6];
 
     #[inline(always)]
-    fn lanes<const L: usize>([q, qd, tau]: &[[[f64; L]; 6]; 3]) -> [[f64; L]; 6] {
-        forward_dynamics_lanes(q, qd, tau)
+    fn angles<V: dalembert_batch::Floats<f64>>([q, _qd, _tau]: &[[V; 6]; 3]) -> [V; 4] {
+        [q[1], q[2], q[3], q[4]]
     }
 
     #[inline(always)]
-    fn state<const L: usize>(results: &[[f64; L]; 6], l: usize) -> [f64; 6] {
-        [results[0][l], results[1][l], results[2][l], results[3][l], results[4][l], results[5][l]]
+    fn vectors<V: dalembert_batch::Vector<f64>>([q, qd, tau]: &[[V; 6]; 3], &[s2, s3, s4, s5]: &[V; 4], &[c2, c3, c4, c5]: &[V; 4]) -> [V; 6] {
+        let of = q[0];
+        let t1 = c3 * s2;
+        let t2 = c2 * s3;
+        let t3 = t1 + t2;
+        let t4 = t3 * qd[0];
+        let t5 = s4 * t4;
+        let t6 = qd[1] + qd[2];
+        let t7 = c4 * t6;
+        let t8 = t7 + t5;
+        let t9 = c3 * c2;
+        let t10 = s2 * s3;
+        let t11 = t9 - t10;
+        let t12 = t11 * qd[0];
+        let t13 = t12 + qd[3];
+        let t14 = t13 * t8;
+        let t15 = t14 + t14;
+        let t16 = t7 + t8;
+        let t17 = t12 * t16;
+        let t18 = t15 - t17;
+        let t19 = c5 * t18;
+        let t20 = c4 * t4;
+        let t21 = s4 * t6;
+        let t22 = t20 - t21;
+        let t23 = t22 * t8;
+        let t24 = t4 * t6;
+        let t25 = t24 - t23;
+        let t26 = s5 * t25;
+        let t27 = t26 + t19;
+        let t28 = s5 * t22;
+        let t29 = c5 * t13;
+        let t30 = t29 - t28;
+        let t31 = qd[4] + t8;
+        let t32 = t30 * t31;
+        let t33 = t32 + t32;
+        let t34 = t33 - t27;
+        let t35 = t34 * of.all(0.00044216);
+        let t36 = qd[1] * qd[1];
+        let t37 = qd[0] * qd[0];
+        let t38 = t36 + t37;
+        let t39 = c2 * t38;
+        let t40 = t11 * t39;
+        let t41 = s2 * t36;
+        let t42 = t41 - of.all(22.71885132005558);
+        let t43 = t3 * t42;
+        let t44 = t40 + t43;
+        let t45 = t4 * t4;
+        let t46 = t6 * t6;
+        let t47 = t37 + t46;
+        let t48 = t45 - t47;
+        let t49 = t48 * of.all(0.04701250578971746);
+        let t50 = t44 - t49;
+        let t51 = s4 * t50;
+        let t52 = t24 * of.all(0.09402501157943492);
+        let t53 = qd[1] + qd[1];
+        let t54 = qd[0] * t53;
+        let t55 = s2 * t54;
+        let t56 = t37 * of.all(0.34749884205650766);
+        let t57 = t55 - t56;
+        let t58 = t57 + t52;
+        let t59 = c4 * t58;
+        let t60 = t51 - t59;
+        let t61 = t17 - t60;
+        let t62 = t61 * of.all(0.001243584);
+        let t63 = t35 + t62;
+        let t64 = t30 + qd[5];
+        let t65 = t64 * of.all(4e-5);
+        let t66 = t31 * t65;
+        let t67 = t66 - t63;
+        let t68 = c5 * t67;
+        let t69 = s5 * t18;
+        let t70 = c5 * t25;
+        let t71 = t70 - t69;
+        let t72 = c5 * t22;
+        let t73 = s5 * t13;
+        let t74 = t72 + t73;
+        let t75 = t74 * t31;
+        let t76 = t75 + t71;
+        let t77 = t75 + t76;
+        let t78 = t77 * of.all(0.0002);
+        let t79 = tau[5] - t78;
+        let t80 = s5 * t79;
+        let t81 = t80 + t68;
+        let t82 = t34 * of.all(0.001243584);
+        let t83 = t18 * of.all(0.00075);
+        let t84 = t82 - t83;
+        let t85 = t81 - t84;
+        let t86 = s4 * t85;
+        let t87 = c4 * t50;
+        let t88 = s4 * t58;
+        let t89 = t88 + t87;
+        let t90 = t21 - t22;
+        let t91 = t12 * t90;
+        let t92 = t91 + t89;
+        let t93 = c5 * t92;
+        let t94 = t3 * t39;
+        let t95 = t11 * t42;
+        let t96 = t95 - t94;
+        let t97 = t4 * t12;
+        let t98 = t97 * of.all(0.04701250578971746);
+        let t99 = t96 - t98;
+        let t100 = t45 + t46;
+        let t101 = t100 + t99;
+        let t102 = s5 * t101;
+        let t103 = t93 + t102;
+        let t104 = t103 * of.all(0.001243584);
+        let t105 = t74 * t65;
+        let t106 = t105 + t104;
+        let t107 = t13 * t22;
+        let t108 = t107 + t91;
+        let t109 = t108 * of.all(0.00064216);
+        let t110 = t109 + t106;
+        let t111 = t30 * t74;
+        let t112 = t111 * of.all(0.00024216);
+        let t113 = t110 - t112;
+        let t114 = t108 - t111;
+        let t115 = c5 * of.all(0.001243584);
+        let t116 = t115 * t114;
+        let t117 = t74 * t74;
+        let t118 = t31 * t31;
+        let t119 = t117 + t118;
+        let t120 = s5 * of.all(0.001243584);
+        let t121 = t120 * t119;
+        let t122 = t116 - t121;
+        let t123 = t107 + t108;
+        let t124 = t123 * of.all(0.00065);
+        let t125 = t122 + t124;
+        let t126 = t125 + t113;
+        let t127 = c4 * t126;
+        let t128 = t120 * t114;
+        let t129 = t115 * t119;
+        let t130 = t128 + t129;
+        let t131 = t130 * of.all(0.04701250578971746);
+        let t132 = t127 - t131;
+        let t133 = t132 + t86;
+        let t134 = t96 * of.all(0.010956925);
+        let t135 = t44 * of.all(0.384876294);
+        let t136 = t134 - t135;
+        let t137 = t100 + t48;
+        let t138 = t137 * of.all(0.011273199);
+        let t139 = t136 + t138;
+        let t140 = t97 * of.all(0.3244698455);
+        let t141 = t139 + t140;
+        let t142 = t141 - t133;
+        let t143 = t142 + tau[2];
+        let t144 = t113 - tau[4];
+        let t145 = t144 * of.all(1557.2443004858603);
+        let t146 = t115 + of.all(0.00064216);
+        let t147 = c4 * t146;
+        let t148 = s5 * of.all(5.8464e-5);
+        let t149 = t148 - t147;
+        let t150 = t149 * t145;
+        let t151 = t143 - t150;
+        let t152 = s5 * t67;
+        let t153 = c5 * t79;
+        let t154 = t23 * of.all(0.0001);
+        let t155 = t24 * of.all(0.0014);
+        let t156 = t155 - t154;
+        let t157 = t153 - t156;
+        let t158 = t157 - t152;
+        let t159 = t158 - tau[3];
+        let t160 = s5 * of.all(0.00024216);
+        let t161 = s5 * t160;
+        let t162 = t161 + of.all(0.0016);
+        let t163 = of.all(1.0) / t162;
+        let t164 = t163 * t159;
+        let t165 = c5 + of.all(5.1353815659068385);
+        let t166 = t160 * t165;
+        let t167 = t166 * s4;
+        let t168 = t167 * t164;
+        let t169 = t151 - t168;
+        let t170 = c4 * t148;
+        let t171 = t170 * of.all(21.27093596059113);
+        let t172 = of.all(0.010956925) - t171;
+        let t173 = t172 * t3;
+        let t174 = t115 + of.all(0.384876294);
+        let t175 = t174 * t11;
+        let t176 = t173 + t175;
+        let t177 = s2 * t176;
+        let t178 = t172 * t11;
+        let t179 = t3 * t174;
+        let t180 = t178 - t179;
+        let t181 = c2 * t180;
+        let t182 = t177 + t181;
+        let t183 = t167 * t163;
+        let t184 = t148 * s4;
+        let t185 = t184 * of.all(21.27093596059113);
+        let t186 = s3 * t185;
+        let t187 = t183 * t186;
+        let t188 = t187 + t182;
+        let t189 = t149 * of.all(1557.2443004858603);
+        let t190 = c4 * t115;
+        let t191 = s3 * t190;
+        let t192 = t120 * c3;
+        let t193 = t192 + t191;
+        let t194 = t189 * t193;
+        let t195 = t188 - t194;
+        let t196 = of.all(0.341677118) - t161;
+        let t197 = of.all(0.341777118) - t196;
+        let t198 = s4 * t197;
+        let t199 = s4 * t198;
+        let t200 = t199 + of.all(0.00075);
+        let t201 = t170 + t200;
+        let t202 = t170 - t162;
+        let t203 = t202 - of.all(0.0167651125);
+        let t204 = t203 + t201;
+        let t205 = t115 + t196;
+        let t206 = t115 + t205;
+        let t207 = t204 - t206;
+        let t208 = t149 * t189;
+        let t209 = t207 + t208;
+        let t210 = t167 * t183;
+        let t211 = t209 + t210;
+        let t212 = of.all(1.0) / t211;
+        let t213 = t212 * t195;
+        let t214 = t213 * t169;
+        let t215 = t186 * t164;
+        let t216 = t193 * t145;
+        let t217 = t216 - t215;
+        let t218 = s4 * t82;
+        let t219 = c4 * t122;
+        let t220 = t218 - t219;
+        let t221 = t48 * of.all(0.010956925);
+        let t222 = t97 * of.all(0.384876294);
+        let t223 = t221 + t222;
+        let t224 = t223 + t220;
+        let t225 = s3 * t224;
+        let t226 = t97 * of.all(0.010956925);
+        let t227 = t130 - t226;
+        let t228 = t100 * of.all(0.384876294);
+        let t229 = t227 + t228;
+        let t230 = c3 * t229;
+        let t231 = t230 - t225;
+        let t232 = tau[2] - tau[1];
+        let t233 = t231 - t232;
+        let t234 = s2 * of.all(1.601861202);
+        let t235 = c2 * of.all(0.0141984);
+        let t236 = t234 + t235;
+        let t237 = c2 * t236;
+        let t238 = t237 - of.all(0.0070992);
+        let t239 = t37 * t238;
+        let t240 = t239 - t233;
+        let t241 = s2 * of.all(1.024164);
+        let t242 = c2 * of.all(37.2347379);
+        let t243 = t241 - t242;
+        let t244 = t240 - t243;
+        let t245 = t217 + t244;
+        let t246 = t245 - t214;
+        let t247 = t195 * t213;
+        let t248 = t193 * of.all(1557.2443004858603);
+        let t249 = t193 * t248;
+        let t250 = t249 - of.all(1.748114002);
+        let t251 = t163 * t186;
+        let t252 = t186 * t251;
+        let t253 = t250 + t252;
+        let t254 = t253 - t247;
+        let t255 = of.all(1.0) / t254;
+        let t256 = t255 * t246;
+        let t257 = t11 * t202;
+        let t258 = c4 * t166;
+        let t259 = t3 * t258;
+        let t260 = t257 - t259;
+        let t261 = s5 * s4;
+        let t262 = t261 * of.all(0.000432144);
+        let t263 = t11 * t262;
+        let t264 = t171 * c2;
+        let t265 = t263 - t264;
+        let t266 = t260 - t265;
+        let t267 = t183 * t266;
+        let t268 = t176 * of.all(0.34749884205650766);
+        let t269 = t167 + of.all(0.0047376);
+        let t270 = t11 * t269;
+        let t271 = t268 + t270;
+        let t272 = c4 * t198;
+        let t273 = t272 - t184;
+        let t274 = t3 * t273;
+        let t275 = t271 - t274;
+        let t276 = t275 + t267;
+        let t277 = t11 * t190;
+        let t278 = t120 * t3;
+        let t279 = t277 - t278;
+        let t280 = t279 * of.all(0.34749884205650766);
+        let t281 = c5 * of.all(5.8464e-5);
+        let t282 = s4 * t281;
+        let t283 = c2 * t282;
+        let t284 = t283 * of.all(21.27093596059113);
+        let t285 = t280 + t284;
+        let t286 = s4 * t146;
+        let t287 = t3 * t286;
+        let t288 = t11 * t282;
+        let t289 = t287 - t288;
+        let t290 = t285 - t289;
+        let t291 = t189 * t290;
+        let t292 = t276 + t291;
+        let t293 = t292 * t212;
+        let t294 = t293 * t195;
+        let t295 = t266 * t251;
+        let t296 = t294 - t295;
+        let t297 = t290 * t248;
+        let t298 = s2 * of.all(0.6903913435);
+        let t299 = t298 + t297;
+        let t300 = c2 * of.all(0.023751);
+        let t301 = t300 + t299;
+        let t302 = s2 * t185;
+        let t303 = t301 + t302;
+        let t304 = t296 + t303;
+        let t305 = t304 * t256;
+        let t306 = c4 * t85;
+        let t307 = t57 * of.all(0.384876294);
+        let t308 = t306 - t307;
+        let t309 = t37 - t100;
+        let t310 = t309 * of.all(0.0047376);
+        let t311 = t6 * t12;
+        let t312 = t311 * of.all(0.682469916);
+        let t313 = t312 - t310;
+        let t314 = t24 * of.all(0.022546398);
+        let t315 = t313 + t314;
+        let t316 = t308 - t315;
+        let t317 = s4 * t126;
+        let t318 = t317 - t316;
+        let t319 = t3 * t318;
+        let t320 = c4 * t82;
+        let t321 = s4 * t122;
+        let t322 = t321 + t320;
+        let t323 = t24 * of.all(0.02191385);
+        let t324 = t323 + t322;
+        let t325 = t311 * of.all(0.769752588);
+        let t326 = t324 + t325;
+        let t327 = c2 * t326;
+        let t328 = t319 - t327;
+        let t329 = t11 * t224;
+        let t330 = t3 * t229;
+        let t331 = t329 + t330;
+        let t332 = t331 * of.all(0.34749884205650766);
+        let t333 = t332 + t328;
+        let t334 = t57 * of.all(0.010956925);
+        let t335 = t158 - t334;
+        let t336 = t97 * of.all(0.0047376);
+        let t337 = t311 * of.all(0.022546398);
+        let t338 = t336 - t337;
+        let t339 = t24 * of.all(0.033530225);
+        let t340 = t339 - t338;
+        let t341 = t335 - t340;
+        let t342 = t322 * of.all(0.04701250578971746);
+        let t343 = t341 - t342;
+        let t344 = t11 * t343;
+        let t345 = t333 + t344;
+        let t346 = t54 * t238;
+        let t347 = s2 * of.all(0.023751);
+        let t348 = c2 * of.all(0.6903913435);
+        let t349 = t347 - t348;
+        let t350 = t36 * t349;
+        let t351 = t350 - t346;
+        let t352 = t345 + t351;
+        let t353 = tau[0] - t352;
+        let t354 = t266 * t164;
+        let t355 = t353 - t354;
+        let t356 = t355 + t305;
+        let t357 = t290 * t145;
+        let t358 = t356 - t357;
+        let t359 = t293 * t169;
+        let t360 = t359 - t358;
+        let t361 = t304 * t255;
+        let t362 = t304 * t361;
+        let t363 = t204 + t206;
+        let t364 = t3 * t363;
+        let t365 = t11 + t11;
+        let t366 = t258 - t281;
+        let t367 = of.all(0.011273199) - t366;
+        let t368 = t365 * t367;
+        let t369 = t364 - t368;
+        let t370 = t3 * t369;
+        let t371 = t204 - t370;
+        let t372 = of.all(1.674987602) - t371;
+        let t373 = s2 * t236;
+        let t374 = t372 - t373;
+        let t375 = t181 + t374;
+        let t376 = t181 + of.all(1.461789571125);
+        let t377 = t376 + t375;
+        let t378 = t262 + t262;
+        let t379 = t377 + t378;
+        let t380 = t200 + t379;
+        let t381 = t290 * of.all(1557.2443004858603);
+        let t382 = t290 * t381;
+        let t383 = t382 - t380;
+        let t384 = t163 * t266;
+        let t385 = t266 * t384;
+        let t386 = t383 + t385;
+        let t387 = t362 - t386;
+        let t388 = t292 * t293;
+        let t389 = t387 + t388;
+        let t390 = t360 / t389;
+        let t391 = t361 * t390;
+        let t392 = t256 + t391;
+        let t393 = t213 * t392;
+        let t394 = t293 * t390;
+        let t395 = t393 + t394;
+        let t396 = t212 * t169;
+        let t397 = t395 - t396;
+        let t398 = t392 - t397;
+        let t399 = t183 * t397;
+        let t400 = t251 * t392;
+        let t401 = t400 - t399;
+        let t402 = t384 * t390;
+        let t403 = t164 + t402;
+        let t404 = t401 + t403;
+        let t405 = t189 * t397;
+        let t406 = t381 * t390;
+        let t407 = t145 + t406;
+        let t408 = t405 - t407;
+        let t409 = t248 * t392;
+        let t410 = t408 + t409;
+        let t411 = c5 * t404;
+        let t412 = tau[5] * of.all(25000.0);
+        let t413 = t411 + t412;
+        let t414 = t261 * t397;
+        let t415 = t76 - t414;
+        let t416 = c4 * t3;
+        let t417 = s5 * t416;
+        let t418 = c5 * t11;
+        let t419 = t418 - t417;
+        let t420 = t390 * t419;
+        let t421 = t415 + t420;
+        let t422 = t413 + t421;
+        [-t390, t392, -t398, -t404, t410, t422]
     }
 
     #[inline(always)]
-    fn columns<const L: usize>(results: &[[f64; L]; 6]) -> [[f64; L]; 6] {
-        [results[0], results[1], results[2], results[3], results[4], results[5]]
+    fn state(results: [f64; 6]) -> [f64; 6] {
+    [results[0], results[1], results[2], results[3], results[4], results[5]]
     }
 }
 
@@ -882,7 +1563,7 @@ impl dalembert_batch::Function<3, 6, 6> for ForwardDynamicsBatch {
 /// # Errors
 /// The slices are of different lengths; then nothing is computed.
 pub fn forward_dynamics_batch(q: &[[f64; 6]], qd: &[[f64; 6]], tau: &[[f64; 6]], results: &mut [[f64; 6]]) -> Result<(), dalembert_batch::Unequal> {
-    dalembert_batch::states::<ForwardDynamicsBatch, 3, 6, 6>([q, qd, tau], results)
+    dalembert_batch::states::<ForwardDynamicsBatch, 3, 6, 6, 4>([q, qd, tau], results)
 }
 
 /// [`forward_dynamics_batch`] with states in columns: a slice for every entry of an argument, and of
@@ -891,7 +1572,7 @@ pub fn forward_dynamics_batch(q: &[[f64; 6]], qd: &[[f64; 6]], tau: &[[f64; 6]],
 /// # Errors
 /// The slices are of different lengths; then nothing is computed.
 pub fn forward_dynamics_columns(q: &[&[f64]; 6], qd: &[&[f64]; 6], tau: &[&[f64]; 6], results: &mut [&mut [f64]; 6]) -> Result<(), dalembert_batch::Unequal> {
-    dalembert_batch::columns::<ForwardDynamicsBatch, 3, 6, 6>([q, qd, tau], results)
+    dalembert_batch::columns::<ForwardDynamicsBatch, 3, 6, 6, 4>([q, qd, tau], results)
 }
 }
 
@@ -1239,24 +1920,283 @@ pub fn inverse_dynamics_lanes<const L: usize>(q: &[[f32; L]; 6], qd: &[[f32; L];
 #[derive(Clone, Copy, Debug)]
 pub struct InverseDynamicsBatch;
 
-impl dalembert_batch::Function<3, 6, 6> for InverseDynamicsBatch {
+impl dalembert_batch::Function<3, 6, 6, 4> for InverseDynamicsBatch {
     type Scalar = f32;
     type State = [f32; 6];
-    type Lanes<const L: usize> = [[f32; L]; 6];
 
     #[inline(always)]
-    fn lanes<const L: usize>([q, qd, qdd]: &[[[f32; L]; 6]; 3]) -> [[f32; L]; 6] {
-        inverse_dynamics_lanes(q, qd, qdd)
+    fn angles<V: dalembert_batch::Floats<f32>>([q, _qd, _qdd]: &[[V; 6]; 3]) -> [V; 4] {
+        [q[1], q[2], q[3], q[4]]
     }
 
     #[inline(always)]
-    fn state<const L: usize>(results: &[[f32; L]; 6], l: usize) -> [f32; 6] {
-        [results[0][l], results[1][l], results[2][l], results[3][l], results[4][l], results[5][l]]
+    fn vectors<V: dalembert_batch::Vector<f32>>([q, qd, qdd]: &[[V; 6]; 3], &[s2, s3, s4, s5]: &[V; 4], &[c2, c3, c4, c5]: &[V; 4]) -> [V; 6] {
+        let of = q[0];
+        let t1 = c2 * s3;
+        let t2 = s2 * c3;
+        let t3 = t1 + t2;
+        let t4 = t3 * qd[0];
+        let t5 = t4 * s4;
+        let t6 = qd[1] + qd[2];
+        let t7 = t6 * c4;
+        let t8 = t5 + t7;
+        let t9 = s3 * s2;
+        let t10 = c2 * c3;
+        let t11 = t9 - t10;
+        let t12 = t11 * qd[0];
+        let t13 = t12 - qd[3];
+        let t14 = t13 * t8;
+        let t15 = t12 * t4;
+        let t16 = qdd[1] + qdd[2];
+        let t17 = t15 + t16;
+        let t18 = t17 * s4;
+        let t19 = t14 - t18;
+        let t20 = t14 + t19;
+        let t21 = t6 * t12;
+        let t22 = qdd[0] * t3;
+        let t23 = t22 - t21;
+        let t24 = t21 - t23;
+        let t25 = t24 * c4;
+        let t26 = t25 - t20;
+        let t27 = t26 * c5;
+        let t28 = t4 * c4;
+        let t29 = t6 * s4;
+        let t30 = t29 - t28;
+        let t31 = t8 * t30;
+        let t32 = t6 * t4;
+        let t33 = qdd[0] * t11;
+        let t34 = t32 + t33;
+        let t35 = t34 - qdd[3];
+        let t36 = t31 + t35;
+        let t37 = s5 * t36;
+        let t38 = s5 * t30;
+        let t39 = t13 * c5;
+        let t40 = t38 - t39;
+        let t41 = t8 + qd[4];
+        let t42 = t40 * t41;
+        let t43 = t42 - t37;
+        let t44 = t27 - t43;
+        let t45 = t42 - t44;
+        let t46 = t45 * of.all(0.001243584);
+        let t47 = t12 * t12;
+        let t48 = t6 * t6;
+        let t49 = t48 + t47;
+        let t50 = t49 * of.all(0.047012504);
+        let t51 = t50 + t17;
+        let t52 = qd[1] * qd[1];
+        let t53 = qd[0] * qd[0];
+        let t54 = t52 + t53;
+        let t55 = c2 * t54;
+        let t56 = s2 * qdd[1];
+        let t57 = t55 + t56;
+        let t58 = qdd[0] * of.all(0.34749883);
+        let t59 = t57 - t58;
+        let t60 = t11 * t59;
+        let t61 = s2 * t52;
+        let t62 = t61 - of.all(22.718851);
+        let t63 = c2 * qdd[1];
+        let t64 = t63 - t62;
+        let t65 = t3 * t64;
+        let t66 = t65 + t60;
+        let t67 = t51 - t66;
+        let t68 = t67 * s4;
+        let t69 = t32 + t34;
+        let t70 = t69 * of.all(0.047012504);
+        let t71 = t24 - t70;
+        let t72 = qd[1] * qd[0];
+        let t73 = t72 + t72;
+        let t74 = s2 * t73;
+        let t75 = qdd[0] * c2;
+        let t76 = t74 - t75;
+        let t77 = t53 * of.all(0.34749883);
+        let t78 = t76 - t77;
+        let t79 = t71 - t78;
+        let t80 = t79 * c4;
+        let t81 = t68 + t80;
+        let t82 = t81 * of.all(0.23306406);
+        let t83 = t82 - t46;
+        let t84 = c4 * t83;
+        let t85 = t13 * t30;
+        let t86 = t17 * c4;
+        let t87 = t85 + t86;
+        let t88 = t24 * s4;
+        let t89 = t87 - t88;
+        let t90 = t89 + qdd[4];
+        let t91 = c5 * t30;
+        let t92 = t13 * s5;
+        let t93 = t92 + t91;
+        let t94 = t40 * t93;
+        let t95 = t94 + t90;
+        let t96 = c5 * of.all(0.001243584);
+        let t97 = t95 * t96;
+        let t98 = t93 * t93;
+        let t99 = t41 * t41;
+        let t100 = t99 + t98;
+        let t101 = s5 * of.all(0.001243584);
+        let t102 = t100 * t101;
+        let t103 = t102 - t97;
+        let t104 = t67 * c4;
+        let t105 = s4 * t79;
+        let t106 = t105 - t104;
+        let t107 = t106 * of.all(0.23306406);
+        let t108 = t107 + t103;
+        let t109 = s4 * t108;
+        let t110 = t84 + t109;
+        let t111 = t95 * of.all(0.00044216);
+        let t112 = t48 - t47;
+        let t113 = t53 + t112;
+        let t114 = t15 - t16;
+        let t115 = t114 * of.all(0.047012504);
+        let t116 = t113 + t115;
+        let t117 = t3 * t59;
+        let t118 = t11 * t64;
+        let t119 = t118 - t117;
+        let t120 = t116 + t119;
+        let t121 = t101 * t120;
+        let t122 = t111 + t121;
+        let t123 = t106 * t96;
+        let t124 = t122 - t123;
+        let t125 = t40 + qd[5];
+        let t126 = t125 * of.all(4e-5);
+        let t127 = t93 * t126;
+        let t128 = t127 - t124;
+        let t129 = t94 - t90;
+        let t130 = t129 * of.all(0.0002);
+        let t131 = t128 + t130;
+        let t132 = t85 + t89;
+        let t133 = t132 * of.all(0.00065);
+        let t134 = t133 - t131;
+        let t135 = s4 * t134;
+        let t136 = t110 - t135;
+        let t137 = t78 * of.all(0.15181224);
+        let t138 = t137 - t136;
+        let t139 = t26 * s5;
+        let t140 = c5 * t36;
+        let t141 = t41 * t93;
+        let t142 = t141 - t140;
+        let t143 = t139 + t142;
+        let t144 = t141 + t143;
+        let t145 = t144 * of.all(0.0002);
+        let t146 = t143 + qdd[5];
+        let t147 = t146 * of.all(4e-5);
+        let t148 = t145 + t147;
+        let t149 = s5 * t148;
+        let t150 = t26 * of.all(0.00075);
+        let t151 = t150 + t149;
+        let t152 = t45 * of.all(0.00044216);
+        let t153 = t81 * of.all(0.001243584);
+        let t154 = t153 - t152;
+        let t155 = t41 * t126;
+        let t156 = t155 + t154;
+        let t157 = c5 * t156;
+        let t158 = t157 + t151;
+        let t159 = c4 * t158;
+        let t160 = t69 * of.all(0.000316274);
+        let t161 = t24 * of.all(0.10817091);
+        let t162 = t160 - t161;
+        let t163 = t112 * of.all(0.0047376);
+        let t164 = t163 + t162;
+        let t165 = t159 - t164;
+        let t166 = t138 - t165;
+        let t167 = t3 * t166;
+        let t168 = s4 * t83;
+        let t169 = c4 * t108;
+        let t170 = t168 - t169;
+        let t171 = t17 * of.all(0.15181224);
+        let t172 = t171 + t170;
+        let t173 = t11 * t172;
+        let t174 = t101 * t95;
+        let t175 = t100 * t96;
+        let t176 = t174 + t175;
+        let t177 = t120 * of.all(0.23306406);
+        let t178 = t176 + t177;
+        let t179 = t113 * of.all(0.15181224);
+        let t180 = t179 + t178;
+        let t181 = t3 * t180;
+        let t182 = t181 + t173;
+        let t183 = t182 * of.all(0.34749883);
+        let t184 = t167 + t183;
+        let t185 = c2 * of.all(0.6094019);
+        let t186 = s2 * of.all(0.023751);
+        let t187 = t185 - t186;
+        let t188 = t52 * t187;
+        let t189 = c2 * of.all(0.0141984);
+        let t190 = s2 * of.all(1.3687972);
+        let t191 = t189 + t190;
+        let t192 = s2 * t191;
+        let t193 = qdd[0] * t192;
+        let t194 = t188 + t193;
+        let t195 = c2 * t191;
+        let t196 = of.all(0.0070992) - t195;
+        let t197 = t73 * t196;
+        let t198 = t197 - t194;
+        let t199 = c2 * of.all(0.023751);
+        let t200 = s2 * of.all(0.6094019);
+        let t201 = t199 + t200;
+        let t202 = qdd[1] * t201;
+        let t203 = t198 - t202;
+        let t204 = qdd[0] * of.all(2.8755693);
+        let t205 = t203 + t204;
+        let t206 = t184 + t205;
+        let t207 = s5 * t156;
+        let t208 = c5 * t148;
+        let t209 = t208 - t207;
+        let t210 = t31 - t35;
+        let t211 = t210 * of.all(0.00065);
+        let t212 = t36 * of.all(0.00075);
+        let t213 = t211 - t212;
+        let t214 = t209 + t213;
+        let t215 = t110 * of.all(0.047012504);
+        let t216 = t215 + t214;
+        let t217 = t17 * of.all(0.0047376);
+        let t218 = t216 - t217;
+        let t219 = t24 * of.all(0.000316274);
+        let t220 = t69 * of.all(0.01625);
+        let t221 = t219 - t220;
+        let t222 = t218 + t221;
+        let t223 = t11 * t222;
+        let t224 = t24 * of.all(0.15181224);
+        let t225 = t224 + t110;
+        let t226 = c2 * t225;
+        let t227 = t226 - t223;
+        let t228 = t227 + t206;
+        let t229 = s4 * t158;
+        let t230 = c4 * t134;
+        let t231 = t230 + t229;
+        let t232 = t66 * of.all(0.15181224);
+        let t233 = t17 * of.all(0.10817091);
+        let t234 = t233 - t232;
+        let t235 = t33 * of.all(0.0047376);
+        let t236 = t234 + t235;
+        let t237 = t49 - t113;
+        let t238 = t237 * of.all(0.000316274);
+        let t239 = t238 + t236;
+        let t240 = t114 * of.all(0.01625);
+        let t241 = t239 - t240;
+        let t242 = t231 + t241;
+        let t243 = t178 * of.all(0.047012504);
+        let t244 = t170 - t243;
+        let t245 = t242 + t244;
+        let t246 = s3 * t172;
+        let t247 = c3 * t180;
+        let t248 = t246 + t247;
+        let t249 = t245 - t248;
+        let t250 = t53 * t196;
+        let t251 = qdd[1] * of.all(1.5150499);
+        let t252 = t250 - t251;
+        let t253 = c2 * of.all(31.93979);
+        let t254 = t253 - t252;
+        let t255 = qdd[0] * t201;
+        let t256 = t254 - t255;
+        let t257 = t256 + t249;
+        let t258 = s2 * of.all(1.024164);
+        let t259 = t257 - t258;
+        [t228, t259, t245, t214, -t131, t147]
     }
 
     #[inline(always)]
-    fn columns<const L: usize>(results: &[[f32; L]; 6]) -> [[f32; L]; 6] {
-        [results[0], results[1], results[2], results[3], results[4], results[5]]
+    fn state(results: [f32; 6]) -> [f32; 6] {
+    [results[0], results[1], results[2], results[3], results[4], results[5]]
     }
 }
 
@@ -1266,7 +2206,7 @@ impl dalembert_batch::Function<3, 6, 6> for InverseDynamicsBatch {
 /// # Errors
 /// The slices are of different lengths; then nothing is computed.
 pub fn inverse_dynamics_batch(q: &[[f32; 6]], qd: &[[f32; 6]], qdd: &[[f32; 6]], results: &mut [[f32; 6]]) -> Result<(), dalembert_batch::Unequal> {
-    dalembert_batch::states::<InverseDynamicsBatch, 3, 6, 6>([q, qd, qdd], results)
+    dalembert_batch::states::<InverseDynamicsBatch, 3, 6, 6, 4>([q, qd, qdd], results)
 }
 
 /// [`inverse_dynamics_batch`] with states in columns: a slice for every entry of an argument, and of
@@ -1275,7 +2215,7 @@ pub fn inverse_dynamics_batch(q: &[[f32; 6]], qd: &[[f32; 6]], qdd: &[[f32; 6]],
 /// # Errors
 /// The slices are of different lengths; then nothing is computed.
 pub fn inverse_dynamics_columns(q: &[&[f32]; 6], qd: &[&[f32]; 6], qdd: &[&[f32]; 6], results: &mut [&mut [f32]; 6]) -> Result<(), dalembert_batch::Unequal> {
-    dalembert_batch::columns::<InverseDynamicsBatch, 3, 6, 6>([q, qd, qdd], results)
+    dalembert_batch::columns::<InverseDynamicsBatch, 3, 6, 6, 4>([q, qd, qdd], results)
 }
 
 /// Forward dynamics: the accelerations q̈ = D⁻¹ (τ - h - c - b∘q̇).
@@ -1750,24 +2690,446 @@ pub fn forward_dynamics_lanes<const L: usize>(q: &[[f32; L]; 6], qd: &[[f32; L];
 #[derive(Clone, Copy, Debug)]
 pub struct ForwardDynamicsBatch;
 
-impl dalembert_batch::Function<3, 6, 6> for ForwardDynamicsBatch {
+impl dalembert_batch::Function<3, 6, 6, 4> for ForwardDynamicsBatch {
     type Scalar = f32;
     type State = [f32; 6];
-    type Lanes<const L: usize> = [[f32; L]; 6];
 
     #[inline(always)]
-    fn lanes<const L: usize>([q, qd, tau]: &[[[f32; L]; 6]; 3]) -> [[f32; L]; 6] {
-        forward_dynamics_lanes(q, qd, tau)
+    fn angles<V: dalembert_batch::Floats<f32>>([q, _qd, _tau]: &[[V; 6]; 3]) -> [V; 4] {
+        [q[1], q[2], q[3], q[4]]
     }
 
     #[inline(always)]
-    fn state<const L: usize>(results: &[[f32; L]; 6], l: usize) -> [f32; 6] {
-        [results[0][l], results[1][l], results[2][l], results[3][l], results[4][l], results[5][l]]
+    fn vectors<V: dalembert_batch::Vector<f32>>([q, qd, tau]: &[[V; 6]; 3], &[s2, s3, s4, s5]: &[V; 4], &[c2, c3, c4, c5]: &[V; 4]) -> [V; 6] {
+        let of = q[0];
+        let t1 = c3 * s2;
+        let t2 = c2 * s3;
+        let t3 = t1 + t2;
+        let t4 = t3 * qd[0];
+        let t5 = s4 * t4;
+        let t6 = qd[1] + qd[2];
+        let t7 = c4 * t6;
+        let t8 = t7 + t5;
+        let t9 = c3 * c2;
+        let t10 = s2 * s3;
+        let t11 = t9 - t10;
+        let t12 = t11 * qd[0];
+        let t13 = t12 + qd[3];
+        let t14 = t13 * t8;
+        let t15 = t14 + t14;
+        let t16 = t7 + t8;
+        let t17 = t12 * t16;
+        let t18 = t15 - t17;
+        let t19 = c5 * t18;
+        let t20 = c4 * t4;
+        let t21 = s4 * t6;
+        let t22 = t20 - t21;
+        let t23 = t22 * t8;
+        let t24 = t4 * t6;
+        let t25 = t24 - t23;
+        let t26 = s5 * t25;
+        let t27 = t26 + t19;
+        let t28 = s5 * t22;
+        let t29 = c5 * t13;
+        let t30 = t29 - t28;
+        let t31 = qd[4] + t8;
+        let t32 = t30 * t31;
+        let t33 = t32 + t32;
+        let t34 = t33 - t27;
+        let t35 = t34 * of.all(0.00044216);
+        let t36 = qd[1] * qd[1];
+        let t37 = qd[0] * qd[0];
+        let t38 = t36 + t37;
+        let t39 = c2 * t38;
+        let t40 = t11 * t39;
+        let t41 = s2 * t36;
+        let t42 = t41 - of.all(22.718851);
+        let t43 = t3 * t42;
+        let t44 = t40 + t43;
+        let t45 = t4 * t4;
+        let t46 = t6 * t6;
+        let t47 = t37 + t46;
+        let t48 = t45 - t47;
+        let t49 = t48 * of.all(0.047012504);
+        let t50 = t44 - t49;
+        let t51 = s4 * t50;
+        let t52 = t24 * of.all(0.09402501);
+        let t53 = qd[1] + qd[1];
+        let t54 = qd[0] * t53;
+        let t55 = s2 * t54;
+        let t56 = t37 * of.all(0.34749883);
+        let t57 = t55 - t56;
+        let t58 = t57 + t52;
+        let t59 = c4 * t58;
+        let t60 = t51 - t59;
+        let t61 = t17 - t60;
+        let t62 = t61 * of.all(0.001243584);
+        let t63 = t35 + t62;
+        let t64 = t30 + qd[5];
+        let t65 = t64 * of.all(4e-5);
+        let t66 = t31 * t65;
+        let t67 = t66 - t63;
+        let t68 = c5 * t67;
+        let t69 = s5 * t18;
+        let t70 = c5 * t25;
+        let t71 = t70 - t69;
+        let t72 = c5 * t22;
+        let t73 = s5 * t13;
+        let t74 = t72 + t73;
+        let t75 = t74 * t31;
+        let t76 = t75 + t71;
+        let t77 = t75 + t76;
+        let t78 = t77 * of.all(0.0002);
+        let t79 = tau[5] - t78;
+        let t80 = s5 * t79;
+        let t81 = t80 + t68;
+        let t82 = t34 * of.all(0.001243584);
+        let t83 = t18 * of.all(0.00075);
+        let t84 = t82 - t83;
+        let t85 = t81 - t84;
+        let t86 = s4 * t85;
+        let t87 = c4 * t50;
+        let t88 = s4 * t58;
+        let t89 = t88 + t87;
+        let t90 = t21 - t22;
+        let t91 = t12 * t90;
+        let t92 = t91 + t89;
+        let t93 = c5 * t92;
+        let t94 = t3 * t39;
+        let t95 = t11 * t42;
+        let t96 = t95 - t94;
+        let t97 = t4 * t12;
+        let t98 = t97 * of.all(0.047012504);
+        let t99 = t96 - t98;
+        let t100 = t45 + t46;
+        let t101 = t100 + t99;
+        let t102 = s5 * t101;
+        let t103 = t93 + t102;
+        let t104 = t103 * of.all(0.001243584);
+        let t105 = t74 * t65;
+        let t106 = t105 + t104;
+        let t107 = t13 * t22;
+        let t108 = t107 + t91;
+        let t109 = t108 * of.all(0.00064216);
+        let t110 = t109 + t106;
+        let t111 = t30 * t74;
+        let t112 = t111 * of.all(0.00024216);
+        let t113 = t110 - t112;
+        let t114 = t108 - t111;
+        let t115 = c5 * of.all(0.001243584);
+        let t116 = t115 * t114;
+        let t117 = t74 * t74;
+        let t118 = t31 * t31;
+        let t119 = t117 + t118;
+        let t120 = s5 * of.all(0.001243584);
+        let t121 = t120 * t119;
+        let t122 = t116 - t121;
+        let t123 = t107 + t108;
+        let t124 = t123 * of.all(0.00065);
+        let t125 = t122 + t124;
+        let t126 = t125 + t113;
+        let t127 = c4 * t126;
+        let t128 = t120 * t114;
+        let t129 = t115 * t119;
+        let t130 = t128 + t129;
+        let t131 = t130 * of.all(0.047012504);
+        let t132 = t127 - t131;
+        let t133 = t132 + t86;
+        let t134 = t96 * of.all(0.010956925);
+        let t135 = t44 * of.all(0.38487628);
+        let t136 = t134 - t135;
+        let t137 = t100 + t48;
+        let t138 = t137 * of.all(0.011273199);
+        let t139 = t136 + t138;
+        let t140 = t97 * of.all(0.32446983);
+        let t141 = t139 + t140;
+        let t142 = t141 - t133;
+        let t143 = t142 + tau[2];
+        let t144 = t113 - tau[4];
+        let t145 = t144 * of.all(1557.2443);
+        let t146 = t115 + of.all(0.00064216);
+        let t147 = c4 * t146;
+        let t148 = s5 * of.all(5.8464e-5);
+        let t149 = t148 - t147;
+        let t150 = t149 * t145;
+        let t151 = t143 - t150;
+        let t152 = s5 * t67;
+        let t153 = c5 * t79;
+        let t154 = t23 * of.all(0.0001);
+        let t155 = t24 * of.all(0.0014);
+        let t156 = t155 - t154;
+        let t157 = t153 - t156;
+        let t158 = t157 - t152;
+        let t159 = t158 - tau[3];
+        let t160 = s5 * of.all(0.00024216);
+        let t161 = s5 * t160;
+        let t162 = t161 + of.all(0.0016);
+        let t163 = of.all(1.0) / t162;
+        let t164 = t163 * t159;
+        let t165 = c5 + of.all(5.1353817);
+        let t166 = t160 * t165;
+        let t167 = t166 * s4;
+        let t168 = t167 * t164;
+        let t169 = t151 - t168;
+        let t170 = c4 * t148;
+        let t171 = t170 * of.all(21.270935);
+        let t172 = of.all(0.010956925) - t171;
+        let t173 = t172 * t3;
+        let t174 = t115 + of.all(0.38487628);
+        let t175 = t174 * t11;
+        let t176 = t173 + t175;
+        let t177 = s2 * t176;
+        let t178 = t172 * t11;
+        let t179 = t3 * t174;
+        let t180 = t178 - t179;
+        let t181 = c2 * t180;
+        let t182 = t177 + t181;
+        let t183 = t167 * t163;
+        let t184 = t148 * s4;
+        let t185 = t184 * of.all(21.270935);
+        let t186 = s3 * t185;
+        let t187 = t183 * t186;
+        let t188 = t187 + t182;
+        let t189 = t149 * of.all(1557.2443);
+        let t190 = c4 * t115;
+        let t191 = s3 * t190;
+        let t192 = t120 * c3;
+        let t193 = t192 + t191;
+        let t194 = t189 * t193;
+        let t195 = t188 - t194;
+        let t196 = of.all(0.34167713) - t161;
+        let t197 = of.all(0.34177712) - t196;
+        let t198 = s4 * t197;
+        let t199 = s4 * t198;
+        let t200 = t199 + of.all(0.00075);
+        let t201 = t170 + t200;
+        let t202 = t170 - t162;
+        let t203 = t202 - of.all(0.016765112);
+        let t204 = t203 + t201;
+        let t205 = t115 + t196;
+        let t206 = t115 + t205;
+        let t207 = t204 - t206;
+        let t208 = t149 * t189;
+        let t209 = t207 + t208;
+        let t210 = t167 * t183;
+        let t211 = t209 + t210;
+        let t212 = of.all(1.0) / t211;
+        let t213 = t212 * t195;
+        let t214 = t213 * t169;
+        let t215 = t186 * t164;
+        let t216 = t193 * t145;
+        let t217 = t216 - t215;
+        let t218 = s4 * t82;
+        let t219 = c4 * t122;
+        let t220 = t218 - t219;
+        let t221 = t48 * of.all(0.010956925);
+        let t222 = t97 * of.all(0.38487628);
+        let t223 = t221 + t222;
+        let t224 = t223 + t220;
+        let t225 = s3 * t224;
+        let t226 = t97 * of.all(0.010956925);
+        let t227 = t130 - t226;
+        let t228 = t100 * of.all(0.38487628);
+        let t229 = t227 + t228;
+        let t230 = c3 * t229;
+        let t231 = t230 - t225;
+        let t232 = tau[2] - tau[1];
+        let t233 = t231 - t232;
+        let t234 = s2 * of.all(1.6018612);
+        let t235 = c2 * of.all(0.0141984);
+        let t236 = t234 + t235;
+        let t237 = c2 * t236;
+        let t238 = t237 - of.all(0.0070992);
+        let t239 = t37 * t238;
+        let t240 = t239 - t233;
+        let t241 = s2 * of.all(1.024164);
+        let t242 = c2 * of.all(37.234737);
+        let t243 = t241 - t242;
+        let t244 = t240 - t243;
+        let t245 = t217 + t244;
+        let t246 = t245 - t214;
+        let t247 = t195 * t213;
+        let t248 = t193 * of.all(1557.2443);
+        let t249 = t193 * t248;
+        let t250 = t249 - of.all(1.748114);
+        let t251 = t163 * t186;
+        let t252 = t186 * t251;
+        let t253 = t250 + t252;
+        let t254 = t253 - t247;
+        let t255 = of.all(1.0) / t254;
+        let t256 = t255 * t246;
+        let t257 = t11 * t202;
+        let t258 = c4 * t166;
+        let t259 = t3 * t258;
+        let t260 = t257 - t259;
+        let t261 = s5 * s4;
+        let t262 = t261 * of.all(0.000432144);
+        let t263 = t11 * t262;
+        let t264 = t171 * c2;
+        let t265 = t263 - t264;
+        let t266 = t260 - t265;
+        let t267 = t183 * t266;
+        let t268 = t176 * of.all(0.34749883);
+        let t269 = t167 + of.all(0.0047376);
+        let t270 = t11 * t269;
+        let t271 = t268 + t270;
+        let t272 = c4 * t198;
+        let t273 = t272 - t184;
+        let t274 = t3 * t273;
+        let t275 = t271 - t274;
+        let t276 = t275 + t267;
+        let t277 = t11 * t190;
+        let t278 = t120 * t3;
+        let t279 = t277 - t278;
+        let t280 = t279 * of.all(0.34749883);
+        let t281 = c5 * of.all(5.8464e-5);
+        let t282 = s4 * t281;
+        let t283 = c2 * t282;
+        let t284 = t283 * of.all(21.270935);
+        let t285 = t280 + t284;
+        let t286 = s4 * t146;
+        let t287 = t3 * t286;
+        let t288 = t11 * t282;
+        let t289 = t287 - t288;
+        let t290 = t285 - t289;
+        let t291 = t189 * t290;
+        let t292 = t276 + t291;
+        let t293 = t292 * t212;
+        let t294 = t293 * t195;
+        let t295 = t266 * t251;
+        let t296 = t294 - t295;
+        let t297 = t290 * t248;
+        let t298 = s2 * of.all(0.69039136);
+        let t299 = t298 + t297;
+        let t300 = c2 * of.all(0.023751);
+        let t301 = t300 + t299;
+        let t302 = s2 * t185;
+        let t303 = t301 + t302;
+        let t304 = t296 + t303;
+        let t305 = t304 * t256;
+        let t306 = c4 * t85;
+        let t307 = t57 * of.all(0.38487628);
+        let t308 = t306 - t307;
+        let t309 = t37 - t100;
+        let t310 = t309 * of.all(0.0047376);
+        let t311 = t6 * t12;
+        let t312 = t311 * of.all(0.6824699);
+        let t313 = t312 - t310;
+        let t314 = t24 * of.all(0.022546398);
+        let t315 = t313 + t314;
+        let t316 = t308 - t315;
+        let t317 = s4 * t126;
+        let t318 = t317 - t316;
+        let t319 = t3 * t318;
+        let t320 = c4 * t82;
+        let t321 = s4 * t122;
+        let t322 = t321 + t320;
+        let t323 = t24 * of.all(0.02191385);
+        let t324 = t323 + t322;
+        let t325 = t311 * of.all(0.76975256);
+        let t326 = t324 + t325;
+        let t327 = c2 * t326;
+        let t328 = t319 - t327;
+        let t329 = t11 * t224;
+        let t330 = t3 * t229;
+        let t331 = t329 + t330;
+        let t332 = t331 * of.all(0.34749883);
+        let t333 = t332 + t328;
+        let t334 = t57 * of.all(0.010956925);
+        let t335 = t158 - t334;
+        let t336 = t97 * of.all(0.0047376);
+        let t337 = t311 * of.all(0.022546398);
+        let t338 = t336 - t337;
+        let t339 = t24 * of.all(0.033530224);
+        let t340 = t339 - t338;
+        let t341 = t335 - t340;
+        let t342 = t322 * of.all(0.047012504);
+        let t343 = t341 - t342;
+        let t344 = t11 * t343;
+        let t345 = t333 + t344;
+        let t346 = t54 * t238;
+        let t347 = s2 * of.all(0.023751);
+        let t348 = c2 * of.all(0.69039136);
+        let t349 = t347 - t348;
+        let t350 = t36 * t349;
+        let t351 = t350 - t346;
+        let t352 = t345 + t351;
+        let t353 = tau[0] - t352;
+        let t354 = t266 * t164;
+        let t355 = t353 - t354;
+        let t356 = t355 + t305;
+        let t357 = t290 * t145;
+        let t358 = t356 - t357;
+        let t359 = t293 * t169;
+        let t360 = t359 - t358;
+        let t361 = t304 * t255;
+        let t362 = t304 * t361;
+        let t363 = t204 + t206;
+        let t364 = t3 * t363;
+        let t365 = t11 + t11;
+        let t366 = t258 - t281;
+        let t367 = of.all(0.011273199) - t366;
+        let t368 = t365 * t367;
+        let t369 = t364 - t368;
+        let t370 = t3 * t369;
+        let t371 = t204 - t370;
+        let t372 = of.all(1.6749876) - t371;
+        let t373 = s2 * t236;
+        let t374 = t372 - t373;
+        let t375 = t181 + t374;
+        let t376 = t181 + of.all(1.4617896);
+        let t377 = t376 + t375;
+        let t378 = t262 + t262;
+        let t379 = t377 + t378;
+        let t380 = t200 + t379;
+        let t381 = t290 * of.all(1557.2443);
+        let t382 = t290 * t381;
+        let t383 = t382 - t380;
+        let t384 = t163 * t266;
+        let t385 = t266 * t384;
+        let t386 = t383 + t385;
+        let t387 = t362 - t386;
+        let t388 = t292 * t293;
+        let t389 = t387 + t388;
+        let t390 = t360 / t389;
+        let t391 = t361 * t390;
+        let t392 = t256 + t391;
+        let t393 = t213 * t392;
+        let t394 = t293 * t390;
+        let t395 = t393 + t394;
+        let t396 = t212 * t169;
+        let t397 = t395 - t396;
+        let t398 = t392 - t397;
+        let t399 = t183 * t397;
+        let t400 = t251 * t392;
+        let t401 = t400 - t399;
+        let t402 = t384 * t390;
+        let t403 = t164 + t402;
+        let t404 = t401 + t403;
+        let t405 = t189 * t397;
+        let t406 = t381 * t390;
+        let t407 = t145 + t406;
+        let t408 = t405 - t407;
+        let t409 = t248 * t392;
+        let t410 = t408 + t409;
+        let t411 = c5 * t404;
+        let t412 = tau[5] * of.all(25000.0);
+        let t413 = t411 + t412;
+        let t414 = t261 * t397;
+        let t415 = t76 - t414;
+        let t416 = c4 * t3;
+        let t417 = s5 * t416;
+        let t418 = c5 * t11;
+        let t419 = t418 - t417;
+        let t420 = t390 * t419;
+        let t421 = t415 + t420;
+        let t422 = t413 + t421;
+        [-t390, t392, -t398, -t404, t410, t422]
     }
 
     #[inline(always)]
-    fn columns<const L: usize>(results: &[[f32; L]; 6]) -> [[f32; L]; 6] {
-        [results[0], results[1], results[2], results[3], results[4], results[5]]
+    fn state(results: [f32; 6]) -> [f32; 6] {
+    [results[0], results[1], results[2], results[3], results[4], results[5]]
     }
 }
 
@@ -1777,7 +3139,7 @@ impl dalembert_batch::Function<3, 6, 6> for ForwardDynamicsBatch {
 /// # Errors
 /// The slices are of different lengths; then nothing is computed.
 pub fn forward_dynamics_batch(q: &[[f32; 6]], qd: &[[f32; 6]], tau: &[[f32; 6]], results: &mut [[f32; 6]]) -> Result<(), dalembert_batch::Unequal> {
-    dalembert_batch::states::<ForwardDynamicsBatch, 3, 6, 6>([q, qd, tau], results)
+    dalembert_batch::states::<ForwardDynamicsBatch, 3, 6, 6, 4>([q, qd, tau], results)
 }
 
 /// [`forward_dynamics_batch`] with states in columns: a slice for every entry of an argument, and of
@@ -1786,6 +3148,6 @@ pub fn forward_dynamics_batch(q: &[[f32; 6]], qd: &[[f32; 6]], tau: &[[f32; 6]],
 /// # Errors
 /// The slices are of different lengths; then nothing is computed.
 pub fn forward_dynamics_columns(q: &[&[f32]; 6], qd: &[&[f32]; 6], tau: &[&[f32]; 6], results: &mut [&mut [f32]; 6]) -> Result<(), dalembert_batch::Unequal> {
-    dalembert_batch::columns::<ForwardDynamicsBatch, 3, 6, 6>([q, qd, tau], results)
+    dalembert_batch::columns::<ForwardDynamicsBatch, 3, 6, 6, 4>([q, qd, tau], results)
 }
 }

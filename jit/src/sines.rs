@@ -70,13 +70,13 @@ macro_rules! operations {
 operations!(Add add, Sub sub, Mul mul);
 
 impl Number<f64> for Traced<'_, '_> {
-    fn all(value: f64) -> Self {
+    fn all(self, value: f64) -> Self {
         Traced::Constant(value)
     }
 }
 
 impl Number<f32> for Traced<'_, '_> {
-    fn all(value: f32) -> Self {
+    fn all(self, value: f32) -> Self {
         Traced::Constant(f64::from(value))
     }
 }

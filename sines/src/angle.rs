@@ -2,7 +2,7 @@
 
 use core::ops::{Add, Mul, Sub};
 
-use crate::number::{Floats, Number};
+use crate::number::{Floats, Number, Pair};
 
 /// A float that angles are in.
 pub trait Angle:
@@ -50,7 +50,7 @@ pub fn rest<T: Angle, V: Number<T>>(x: V) -> (V, V, V) {
     let w = z * z;
     let (sine, cosine) = T::polynomials(z, w);
     let half = z * T::HALF;
-    let one = V::all(T::ONE);
+    let one = x.all(T::ONE);
     let top = one - half;
     let sin = r - (lacks * top + (r * z) * sine);
     let cos = top + (((one - top) - half) + (w * cosine + r * lacks));
@@ -63,13 +63,13 @@ pub fn rest<T: Angle, V: Number<T>>(x: V) -> (V, V, V) {
 /// count plus one the cosine's.
 #[inline(always)]
 pub(crate) fn turned<T: Angle, V: Floats<T>>(shifted: V, sin: V, cos: V) -> (V, V) {
+    let one = shifted.power(0);
+    let (first, sign) = (shifted.power(T::SIGN - 1), shifted.power(T::SIGN));
     let (count, sin, cos) = (shifted.bits(), sin.bits(), cos.bits());
-    let one = V::power(0);
     // None of the bits for an odd count, all that differ for an even one.
     let kept = (sin ^ cos) & ((count & one) - one);
-    let half_turn = V::shifted(count, T::SIGN - 1);
-    let next = half_turn + V::power(T::SIGN - 1);
-    let sign = V::power(T::SIGN);
+    let half_turn = V::raised(count);
+    let next = half_turn + first;
     (
         V::of_bits(cos ^ kept ^ (half_turn & sign)),
         V::of_bits(sin ^ kept ^ (next & sign)),
@@ -81,13 +81,41 @@ pub(crate) fn turned<T: Angle, V: Floats<T>>(shifted: V, sin: V, cos: V) -> (V, 
 pub(crate) fn singly<T: Angle, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
     let (mut sines, mut cosines) = ([T::default(); N], [T::default(); N]);
     for ((angle, sine), cosine) in angles.iter().zip(&mut sines).zip(&mut cosines) {
-        let (shifted, sin, cos) = rest::<T, T>(*angle);
-        (*sine, *cosine) = match angle.are_within(T::LARGEST) {
-            true => turned(shifted, sin, cos),
-            false => angle.library(),
-        };
+        (*sine, *cosine) = alone(*angle);
     }
     (sines, cosines)
+}
+
+/// Computes sine and cosine of any angle, to the bits that it has among others.
+#[inline(always)]
+pub fn alone<T: Angle>(angle: T) -> (T, T) {
+    let (shifted, sin, cos) = rest::<T, T>(angle);
+    match angle.are_within(T::LARGEST) {
+        true => turned(shifted, sin, cos),
+        false => angle.library(),
+    }
+}
+
+/// Computes sines and cosines, two angles at a time, and returns whether the polynomials are for
+/// all of them.
+#[inline(always)]
+pub fn by_pairs<T: Angle, V: Floats<T>, const N: usize>(angles: &[V; N]) -> ([V; N], [V; N], bool)
+where
+    Pair<V>: Number<T>,
+{
+    let (mut sines, mut cosines) = (*angles, *angles);
+    let mut usual = true;
+    let mut at = 0;
+    while at < N {
+        let other = if at + 1 < N { at + 1 } else { at };
+        let both = Pair(angles[at], angles[other]);
+        usual &= both.0.are_within(T::LARGEST) & both.1.are_within(T::LARGEST);
+        let (shifted, sin, cos) = rest::<T, Pair<V>>(both);
+        (sines[other], cosines[other]) = turned(shifted.1, sin.1, cos.1);
+        (sines[at], cosines[at]) = turned(shifted.0, sin.0, cos.0);
+        at += 2;
+    }
+    (sines, cosines, usual)
 }
 
 /// Sines and cosines of any number of angles in every lane of a caller: a loop
@@ -96,20 +124,24 @@ pub(crate) fn singly<T: Angle, const N: usize>(angles: &[T; N]) -> ([T; N], [T; 
 #[inline(always)]
 pub fn across<T: Angle, const N: usize, const L: usize>(
     angles: &[[T; L]; N],
-) -> ([[T; L]; N], [[T; L]; N]) {
+) -> ([[T; L]; N], [[T; L]; N])
+where
+    Pair<T>: Number<T>,
+{
     let (mut sines, mut cosines) = ([[T::default(); L]; N], [[T::default(); L]; N]);
     let mut usual = true;
     let mut angle = 0;
     while angle < N {
+        let other = if angle + 1 < N { angle + 1 } else { angle };
         let mut lane = 0;
         while lane < L {
-            let x = angles[angle][lane];
-            let (shifted, sin, cos) = rest::<T, T>(x);
-            (sines[angle][lane], cosines[angle][lane]) = turned(shifted, sin, cos);
-            usual &= x.are_within(T::LARGEST);
+            let (sin, cos, both) = by_pairs(&[angles[angle][lane], angles[other][lane]]);
+            [sines[angle][lane], sines[other][lane]] = sin;
+            [cosines[angle][lane], cosines[other][lane]] = cos;
+            usual &= both;
             lane += 1;
         }
-        angle += 1;
+        angle += 2;
     }
     match usual {
         true => (sines, cosines),

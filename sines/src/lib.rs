@@ -132,11 +132,35 @@ mod vectors {
 }
 
 /// The computation as it stands, generic over numbers: what the generator's proof of
-/// its error reads.
+/// its error reads, and what batches compute in vectors of their own.
 #[doc(hidden)]
 pub mod text {
-    pub use crate::angle::{Angle, rest};
-    pub use crate::number::Number;
+    pub use crate::angle::{Angle, alone, by_pairs, rest};
+    pub use crate::number::{Floats, Number, Pair};
+    #[cfg(any(
+        target_arch = "x86",
+        target_arch = "x86_64",
+        target_arch = "aarch64",
+        target_arch = "wasm32"
+    ))]
+    pub use crate::vectors::{FourFloats as Singles, TwoDoubles as Doubles};
+    /// Without vectors, one number.
+    #[cfg(not(any(
+        target_arch = "x86",
+        target_arch = "x86_64",
+        target_arch = "aarch64",
+        target_arch = "wasm32"
+    )))]
+    pub type Doubles = f64;
+    /// Without vectors, one number.
+    #[cfg(not(any(
+        target_arch = "x86",
+        target_arch = "x86_64",
+        target_arch = "aarch64",
+        target_arch = "wasm32"
+    )))]
+    pub type Singles = f32;
+    pub use libm::{fma, fmaf};
 }
 
 /// Roots, correctly rounded: libm's, for code that has all from here.

@@ -1,7 +1,7 @@
 //! The operations that the computation needs of a number, and of several at once.
 
 use core::num::Wrapping;
-use core::ops::{Add, BitAnd, BitXor, Mul, Sub};
+use core::ops::{Add, BitAnd, BitXor, Div, Mul, Neg, Sub};
 
 /// A float, or one for each lane; the other operand may be one for all.
 pub trait Number<T>:
@@ -13,12 +13,12 @@ pub trait Number<T>:
     + Sub<T, Output = Self>
     + Mul<T, Output = Self>
 {
-    /// Returns the same number in every lane.
-    fn all(value: T) -> Self;
+    /// Returns a value in every lane that this number has.
+    fn all(self, value: T) -> Self;
 }
 
 /// Floats of known bits: one, or a vector of them.
-pub trait Floats<T>: Number<T> {
+pub trait Floats<T>: Number<T> + Neg<Output = Self> + Div<Output = Self> {
     /// Their bits, as integers that wrap.
     type Bits: Copy
         + BitXor<Output = Self::Bits>
@@ -28,10 +28,10 @@ pub trait Floats<T>: Number<T> {
 
     fn bits(self) -> Self::Bits;
     fn of_bits(bits: Self::Bits) -> Self;
-    /// Powers of two in every lane; of the exponent that the sign's bit has,
-    /// the sign's.
-    fn power(exponent: usize) -> Self::Bits;
-    fn shifted(bits: Self::Bits, by: usize) -> Self::Bits;
+    /// Returns a power of two in every lane; of the exponent that the sign's bit has, that bit.
+    fn power(self, exponent: usize) -> Self::Bits;
+    /// Shifts the last two bits of every lane to its first two places.
+    fn raised(bits: Self::Bits) -> Self::Bits;
     /// Returns whether every lane is at most `largest` in magnitude, and a number.
     fn are_within(self, largest: T) -> bool;
 }
@@ -40,7 +40,7 @@ macro_rules! scalar {
     ($float:ident, $bits:ident) => {
         impl Number<$float> for $float {
             #[inline(always)]
-            fn all(value: $float) -> $float {
+            fn all(self, value: $float) -> $float {
                 value
             }
         }
@@ -59,13 +59,13 @@ macro_rules! scalar {
             }
 
             #[inline(always)]
-            fn power(exponent: usize) -> Self::Bits {
+            fn power(self, exponent: usize) -> Self::Bits {
                 Wrapping(1 << exponent)
             }
 
             #[inline(always)]
-            fn shifted(bits: Self::Bits, by: usize) -> Self::Bits {
-                bits << by
+            fn raised(bits: Self::Bits) -> Self::Bits {
+                bits << ($bits::BITS as usize - 2)
             }
 
             #[inline(always)]
@@ -77,3 +77,48 @@ macro_rules! scalar {
 }
 scalar!(f64, u64);
 scalar!(f32, u32);
+
+/// Two numbers side by side: what is done with one is done with the other in between, so that
+/// neither has to wait for itself.
+#[derive(Clone, Copy)]
+pub struct Pair<V>(pub V, pub V);
+
+macro_rules! pairwise {
+    ($($operation:ident, $method:ident);*) => {$(
+        impl<V: $operation<Output = V>> $operation for Pair<V> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Pair(self.0.$method(other.0), self.1.$method(other.1))
+            }
+        }
+
+        impl<V: $operation<f64, Output = V>> $operation<f64> for Pair<V> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: f64) -> Self {
+                Pair(self.0.$method(other), self.1.$method(other))
+            }
+        }
+
+        impl<V: $operation<f32, Output = V>> $operation<f32> for Pair<V> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: f32) -> Self {
+                Pair(self.0.$method(other), self.1.$method(other))
+            }
+        }
+    )*};
+}
+pairwise!(Add, add; Sub, sub; Mul, mul);
+
+impl<T, V: Number<T>> Number<T> for Pair<V>
+where
+    Pair<V>: Add<T, Output = Self> + Sub<T, Output = Self> + Mul<T, Output = Self>,
+    T: Copy,
+{
+    #[inline(always)]
+    fn all(self, value: T) -> Self {
+        Pair(self.0.all(value), self.1.all(value))
+    }
+}

@@ -8,6 +8,7 @@ use dalembert_model::number::{Angle as Turn, Rational, Rounded};
 use std::vec::Vec;
 
 use crate::angle::{Angle, across, singly};
+use crate::number::{Number, Pair};
 use crate::vectors::together;
 use crate::{double, single};
 
@@ -153,7 +154,10 @@ fn no_angle_is_nearer_to_a_quarter_turn_than_stated() {
 }
 
 /// Angles in seven lanes of three, as a caller has them.
-fn in_lanes<T: Angle>(angles: &[T; 21]) -> ([T; 21], [T; 21]) {
+fn in_lanes<T: Angle>(angles: &[T; 21]) -> ([T; 21], [T; 21])
+where
+    Pair<T>: Number<T>,
+{
     let lanes: [[T; 7]; 3] = core::array::from_fn(|i| core::array::from_fn(|l| angles[7 * i + l]));
     let (sin, cos) = across(&lanes);
     let flat = |lanes: [[T; 7]; 3]| core::array::from_fn(|i| lanes[i / 7][i % 7]);

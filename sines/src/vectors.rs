@@ -4,7 +4,7 @@
 //! Not eight doubles: with vectors of 512 bits, processors have fewer units left for
 //! the scalar arithmetic around them (an UR10's torques took 81 ns for 43).
 
-use core::ops::{Add, Mul, Sub};
+use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use wide::bytemuck::cast;
 use wide::{f32x4, f32x8, f64x2, f64x4, u32x4, u32x8, u64x2, u64x4};
@@ -110,10 +110,19 @@ macro_rules! vector {
         operation!($vector, $wide, $float, Add, add, +);
         operation!($vector, $wide, $float, Sub, sub, -);
         operation!($vector, $wide, $float, Mul, mul, *);
+        operation!($vector, $wide, $float, Div, div, /);
+
+        impl Neg for $vector {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                $vector(-self.0)
+            }
+        }
 
         impl Number<$float> for $vector {
             #[inline(always)]
-            fn all(value: $float) -> Self {
+            fn all(self, value: $float) -> Self {
                 $vector($wide::splat(value))
             }
         }
@@ -132,13 +141,13 @@ macro_rules! vector {
             }
 
             #[inline(always)]
-            fn power(exponent: usize) -> $bits {
+            fn power(self, exponent: usize) -> $bits {
                 $bits::splat(1 << exponent)
             }
 
             #[inline(always)]
-            fn shifted(bits: $bits, by: usize) -> $bits {
-                bits << by as u32
+            fn raised(bits: $bits) -> $bits {
+                bits << ($float::SIGN as u32 - 1)
             }
 
             #[inline(always)]
@@ -187,3 +196,46 @@ vector!(TwoDoubles, f64x2, u64x2, f64, 2);
 vector!(FourDoubles, f64x4, u64x4, f64, 4);
 vector!(FourFloats, f32x4, u32x4, f32, 4);
 vector!(EightFloats, f32x8, u32x8, f32, 8);
+
+/// What batches ask of their vectors besides.
+macro_rules! batched {
+    ($vector:ident, $wide:ident, $float:ident, $lanes:literal, $fma:ident) => {
+        impl $vector {
+            /// Returns the vector of an array.
+            #[inline(always)]
+            pub fn from_array(array: [$float; $lanes]) -> Self {
+                $vector($wide::new(array))
+            }
+
+            /// Returns the array of a vector.
+            #[inline(always)]
+            pub fn to_array(self) -> [$float; $lanes] {
+                self.0.to_array()
+            }
+
+            /// Returns the roots.
+            #[inline(always)]
+            pub fn root(self) -> Self {
+                $vector(self.0.sqrt())
+            }
+
+            /// Returns the products plus the addends, rounded once.
+            #[inline(always)]
+            pub fn fused(self, factor: Self, addend: Self) -> Self {
+                // Elsewhere the crate `wide` rounds twice.
+                if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
+                    return $vector(self.0.mul_add(factor.0, addend.0));
+                }
+                let (mut left, right) = (self.to_array(), factor.to_array());
+                let mut lane = 0;
+                while lane < $lanes {
+                    left[lane] = libm::$fma(left[lane], right[lane], addend.to_array()[lane]);
+                    lane += 1;
+                }
+                $vector::from_array(left)
+            }
+        }
+    };
+}
+batched!(TwoDoubles, f64x2, f64, 2, fma);
+batched!(FourFloats, f32x4, f32, 4, fmaf);

@@ -41,6 +41,14 @@ impl Dialect {
         }
     }
 
+    /// Rust over vectors: `of` is one of them, which knows what vectors there are.
+    pub(crate) const fn vectors(scalar: ScalarType) -> Dialect {
+        Dialect {
+            literal: "of.all({})",
+            ..Dialect::rust(scalar)
+        }
+    }
+
     /// The line that gives a value its name.
     pub(crate) fn declare(&self, name: &str, value: &str) -> String {
         filled(self.declaration, &[name, value])

@@ -12,7 +12,7 @@ use crate::language::dialect::Dialect;
 use crate::language::result::{self, array_type};
 use crate::language::{Printed, parts, speed, trig};
 use crate::program::fused::pieces;
-use crate::program::{Literal, Lowered, Operand, Output, ScalarType};
+use crate::program::{Input, Literal, Lowered, Operand, Output, ScalarType};
 
 /// A function of more operations than this is printed in blocks.
 pub(crate) const FLAT: usize = 1000;
@@ -59,11 +59,14 @@ pub fn write(printed: &Printed<'_>, path: &str, doc: &[String]) -> String {
 
 /// What follows the sines: what is read of speeds, the arithmetic and the result.
 pub(super) fn write_body(text: &mut String, printed: &Printed<'_>, path: &str) {
-    let code = printed.code;
-    speed::write(text, Dialect::rust(code.scalar), code, path);
-    write_steps(text, printed);
+    let dialect = Dialect::rust(printed.code.scalar);
+    speed::write(text, dialect, printed.code, path);
+    match printed.code.steps.len() > parts::LONG {
+        true => parts::write(text, printed),
+        false => write_steps(text, printed.code, dialect),
+    }
     let (function, sizes) = (printed.function, printed.sizes);
-    let items = code.outputs.iter().map(|o| result_item(o, code.scalar));
+    let items = printed.code.outputs.iter().map(|o| result_item(o, dialect));
     result::write(text, function, function.structure(), sizes, items);
 }
 
@@ -75,19 +78,14 @@ pub(super) fn write_doc(text: &mut String, doc: &[String]) {
     }
 }
 
-fn write_steps(text: &mut String, printed: &Printed<'_>) {
-    let code = printed.code;
-    let dialect = Dialect::rust(code.scalar);
+/// Prints the arithmetic, in blocks if it is long.
+pub(super) fn write_steps(text: &mut String, code: &Lowered, dialect: Dialect) {
     if code.steps.len() <= FLAT {
         for index in 0..code.steps.len() {
             if let Some(line) = dialect.statement(code, index) {
                 push(text, format_args!("    {line}"));
             }
         }
-        return;
-    }
-    if code.steps.len() > parts::LONG {
-        parts::write(text, printed);
         return;
     }
     let last_use = parts::last_uses(code);
@@ -160,9 +158,21 @@ pub(super) fn reads(code: &Lowered, argument: Argument) -> bool {
         || code.outputs.iter().any(|output| is(&output.value))
 }
 
-fn result_item(output: &Output<Literal>, scalar: ScalarType) -> String {
+/// Returns whether an entry of the argument is read; a sine is none.
+pub(super) fn reads_entry(code: &Lowered, argument: Argument) -> bool {
+    let is = |operand: &Operand<Literal>| match operand {
+        Operand::Input(Input::Entry(read, _)) => *read == argument,
+        Operand::Input(Input::PerSpeed(_)) => argument == Argument::Velocity,
+        _ => false,
+    };
+    code.steps.iter().any(|s| is(&s.left) || is(&s.right))
+        || code.outputs.iter().any(|output| is(&output.value))
+}
+
+/// Returns a number of the result.
+pub(super) fn result_item(output: &Output<Literal>, dialect: Dialect) -> String {
     let sign = if output.negative { "-" } else { "" };
-    format!("{sign}{}", Dialect::rust(scalar).operand(&output.value))
+    format!("{sign}{}", dialect.operand(&output.value))
 }
 
 /// A line. Writing to a string cannot fail.

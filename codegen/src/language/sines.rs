@@ -10,8 +10,8 @@
 
 use std::fmt::Write;
 
+use crate::language::dialect::Dialect;
 use crate::language::scope::Scope;
-use crate::program::ScalarType;
 use crate::program::kernel::{Kernel, Term, Value};
 
 /// The block that computes one angle's sine and cosine; `argument` is how the
@@ -22,11 +22,11 @@ pub(super) fn write(
     names: &str,
     argument: &str,
     kernel: &Kernel,
-    scalar: ScalarType,
+    dialect: Dialect,
 ) {
     let term = |term: Term| match term {
         Term::Input(_) => argument.to_owned(),
-        Term::Constant(value) => value.text(scalar),
+        Term::Constant(value) => dialect.literal(value),
         Term::Step(step) => format!("x{}", step + 1),
     };
     let value = |value: Value| {

@@ -46,19 +46,24 @@ pub(super) fn alone(
     path: &str,
 ) {
     let (pair, angle) = (scope.pair(trig), scope.angle(trig.angle));
+    let dialect = Dialect::rust(code.scalar);
     if let Some(kernel) = &trig.kernel {
-        return sines::write(text, scope, &pair, &angle, kernel, code.scalar);
+        return sines::write(text, scope, &pair, &angle, kernel, dialect);
     }
-    let call = match (trig.sin, trig.cos) {
-        (true, false) => "sin",
-        (false, true) => "cos",
-        _ => "sincos",
-    };
     let Scope {
         indent, binding, ..
     } = scope;
-    let value = Dialect::rust(code.scalar).call(path, call, &angle);
+    let value = dialect.call(path, called(trig), &angle);
     let _ = writeln!(text, "{indent}{binding}{pair} = {value};");
+}
+
+/// Returns the name of the function that gives what is taken of an angle.
+pub(super) fn called(trig: &LoweredTrig) -> &'static str {
+    match (trig.sin, trig.cos) {
+        (true, false) => "sin",
+        (false, true) => "cos",
+        _ => "sincos",
+    }
 }
 
 /// One call for all of them; what is not needed gets no name. In lanes, names

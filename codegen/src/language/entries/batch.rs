@@ -5,7 +5,7 @@
 
 use std::fmt::Write;
 
-use super::{Around, arguments, lanes, places};
+use super::{Around, arguments, vectors};
 use crate::language::{Printed, function, result};
 
 /// Prints them.
@@ -18,7 +18,8 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_
     let passed = arguments.join(", ");
     let result = function::result_type(printed.function, printed.sizes, scalar);
     let (count, entries) = (arguments.len(), printed.code.outputs.len());
-    let sizes = format!("{count}, {n}, {entries}");
+    let taken = vectors::taken(printed.code).count();
+    let sizes = format!("{count}, {n}, {entries}, {taken}");
     let parameters = |kind: &str| -> String {
         let each = arguments.iter();
         each.map(|name| format!("{name}: {kind}, ")).collect()
@@ -56,45 +57,24 @@ fn marker(text: &mut String, printed: &Printed<'_>, around: &Around<'_>, kind: &
         printed.code.scalar,
         around.batch,
     );
-    let arguments = arguments(printed);
-    let (count, entries) = (arguments.len(), printed.code.outputs.len());
-    let in_lanes = lanes::result_type(printed);
+    let (count, entries) = (printed.arguments.len(), printed.code.outputs.len());
+    let taken = vectors::taken(printed.code).count();
     let result = function::result_type(printed.function, printed.sizes, scalar);
-    let passed = arguments.join(", ");
+    // Writing to a string cannot fail.
     let _ = writeln!(
         text,
         "/// [`{name}`] as the functions of `dalembert-batch` take it.\n\
          #[derive(Clone, Copy, Debug)]\npub struct {kind};\n\n\
-         impl {batch}::Function<{count}, {n}, {entries}> for {kind} {{\n    \
-         type Scalar = {scalar};\n    type State = {result};\n    \
-         type Lanes<const L: usize> = {in_lanes};\n\n    \
-         #[inline(always)]\n    \
-         fn lanes<const L: usize>([{passed}]: &[[[{scalar}; L]; {n}]; {count}]) -> {in_lanes} {{\n        \
-         {name}_lanes({passed})\n    }}\n\n    \
-         #[inline(always)]\n    \
-         fn state<const L: usize>(results: &{in_lanes}, l: usize) -> {result} {{",
+         impl {batch}::Function<{count}, {n}, {entries}, {taken}> for {kind} {{\n    \
+         type Scalar = {scalar};\n    type State = {result};\n"
     );
-    let (function, sizes) = (printed.function, printed.sizes);
-    let places = places(printed.function, printed.sizes);
-    let items = places.iter().map(|place| format!("results{place}[l]"));
-    let mut state = String::new();
-    result::write(&mut state, function, function.structure(), sizes, items);
-    for line in state.lines() {
-        let _ = writeln!(text, "    {line}");
-    }
-    let columns: Vec<String> = places
-        .iter()
-        .map(|place| format!("results{place}"))
-        .collect();
+    vectors::write(text, printed, around);
     let _ = writeln!(
         text,
-        "    }}\n\n    #[inline(always)]\n    \
-         fn columns<const L: usize>(results: &{in_lanes}) -> [[{scalar}; L]; {entries}] {{\n        \
-         [{}]\n    }}\n}}",
-        match places.as_slice() {
-            // One number: the whole result, behind its reference.
-            [place] if place.is_empty() => "*results".to_owned(),
-            _ => columns.join(", "),
-        }
+        "    #[inline(always)]\n    fn state(results: [{scalar}; {entries}]) -> {result} {{"
     );
+    let (function, sizes) = (printed.function, printed.sizes);
+    let items = (0..entries).map(|index| format!("results[{index}]"));
+    result::write(text, function, function.structure(), sizes, items);
+    text.push_str("    }\n}\n");
 }

@@ -12,10 +12,9 @@ use std::fmt::Write;
 
 use super::Around;
 use super::angles::list;
-use crate::function::Argument;
 use crate::language::scope::Scope;
 use crate::language::{Printed, function};
-use crate::program::{Input, Literal, Lowered, LoweredTrig, Operand};
+use crate::program::LoweredTrig;
 
 /// Prints it.
 pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_>) {
@@ -67,7 +66,7 @@ fn parameters(printed: &Printed<'_>, around: &Around<'_>) -> Vec<String> {
     let (scalar, count) = (printed.code.scalar, around.angles.count());
     let mark = |read: bool| if read { "" } else { "_" };
     let arguments = printed.arguments.iter().map(|&argument| {
-        let mark = mark(reads(printed.code, argument));
+        let mark = mark(function::reads_entry(printed.code, argument));
         let kind = function::argument_type(argument, printed.sizes, scalar);
         format!("{mark}{}: &{kind}", argument.name())
     });
@@ -78,15 +77,4 @@ fn parameters(printed: &Printed<'_>, around: &Around<'_>) -> Vec<String> {
     let pair = [("sin", sin), ("cos", cos)]
         .map(|(name, read)| format!("{}{name}: &[{scalar}; {count}]", mark(read)));
     arguments.chain(pair).collect()
-}
-
-/// Returns whether an entry of the argument is read; a sine is none.
-fn reads(code: &Lowered, argument: Argument) -> bool {
-    let is = |operand: &Operand<Literal>| match operand {
-        Operand::Input(Input::Entry(read, _)) => *read == argument,
-        Operand::Input(Input::PerSpeed(_)) => argument == Argument::Velocity,
-        _ => false,
-    };
-    code.steps.iter().any(|s| is(&s.left) || is(&s.right))
-        || code.outputs.iter().any(|output| is(&output.value))
 }

@@ -1,20 +1,21 @@
 //! More ways to call a function, for those who ask for them: with sines that the
 //! caller has, in lanes, in batches.
 //!
-//! The arithmetic is printed once, in `NAME_with_sincos`; what else there is of a
-//! function computes sines and calls it.
+//! The arithmetic of a state is printed once, in `NAME_with_sincos`; what else there is of a
+//! function of states computes sines and calls it.
 //!
 //! - this file: [`Entries`], which of them there are
 //! - [`angles`]: where each angle's sine is
 //! - `single`: `NAME`, `given`: `NAME_with_sincos`
 //! - `lanes`: `NAME_lanes`, several states at once
-//! - `batch`: `NAME_batch` and `NAME_columns`, any number of states
+//! - `batch`: `NAME_batch` and `NAME_columns`, any number of states, and `vectors`: what these run
 
 pub(crate) mod angles;
 mod batch;
 mod given;
 mod lanes;
 mod single;
+mod vectors;
 
 use crate::function::{Function, Sizes};
 use crate::language::Printed;

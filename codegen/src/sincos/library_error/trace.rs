@@ -91,13 +91,13 @@ operation!(Sub, sub);
 operation!(Mul, mul);
 
 impl Number<f64> for Traced<'_> {
-    fn all(value: f64) -> Self {
+    fn all(self, value: f64) -> Self {
         Traced::literal(value)
     }
 }
 
 impl Number<f32> for Traced<'_> {
-    fn all(value: f32) -> Self {
+    fn all(self, value: f32) -> Self {
         Traced::literal(value.into())
     }
 }
