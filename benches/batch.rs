@@ -59,7 +59,7 @@ fn numbers(states: usize) -> [[Vec<f64>; 6]; 3] {
     [(); 3].map(|()| [(); 6].map(|()| column()))
 }
 
-/// What begins where a line of the cache does, in a vector that is longer by one.
+/// Returns what begins where a line of the cache does, in a vector that is longer by one.
 fn aligned<T>(column: &mut [T], states: usize) -> &mut [T] {
     let start = column.as_ptr().align_offset(64);
     &mut column[start..start + states]

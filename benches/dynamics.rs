@@ -25,7 +25,7 @@ const CALLS: usize = 200;
 /// Rounds in which each variant runs once.
 const ROUNDS: usize = 1001;
 
-/// The generic runtime of a checked-in robot.
+/// Returns the generic runtime of a checked-in robot.
 fn reference(name: &str) -> Reference<f64> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let file = root

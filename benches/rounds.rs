@@ -21,7 +21,7 @@ impl Rounds {
         }
     }
 
-    /// One run of a variant, once a round.
+    /// Times one run of a variant, once a round.
     pub fn time(&mut self, name: &'static str, run: impl FnOnce()) {
         let start = Instant::now();
         run();
@@ -39,8 +39,8 @@ impl Rounds {
         self.times[place].push(time / self.units as f64);
     }
 
-    /// Medians: of the times, and of how many times as fast as the first variant
-    /// in the same round each was.
+    /// Prints medians: of the times, and of how many times as fast as the first variant in the
+    /// same round each was.
     #[allow(dead_code)] // Every bench compiles this file for itself.
     pub fn print(&self, what: &str) {
         println!("\n{what}: ns each, times as fast as the first");

@@ -17,17 +17,17 @@ mod variants;
 
 /// std's sine and cosine by libm's names.
 pub mod std_math {
-    /// Both.
+    /// Returns both.
     #[inline]
     pub fn sincos(x: f64) -> (f64, f64) {
         x.sin_cos()
     }
-    /// The sine.
+    /// Returns the sine.
     #[inline]
     pub fn sin(x: f64) -> f64 {
         x.sin()
     }
-    /// The cosine.
+    /// Returns the cosine.
     #[inline]
     pub fn cos(x: f64) -> f64 {
         x.cos()
@@ -62,7 +62,7 @@ fn states() -> Vec<State> {
 /// Rounds in which each variant runs once.
 const ROUNDS: usize = 301;
 
-/// The program with each of its sines.
+/// Times the program with each of its sines.
 fn torques(states: &[State]) {
     let mut rounds = Rounds::of(STATES);
     for _ in 0..ROUNDS {
@@ -80,7 +80,7 @@ fn torques(states: &[State]) {
     rounds.print("puma560 inverse_dynamics f64, by its sines");
 }
 
-/// Six sines and cosines together and one by one: f64 and f32.
+/// Times six sines and cosines together and one by one: f64 and f32.
 fn six_angles(states: &[State]) {
     let single: Vec<[f32; 6]> = states.iter().map(|[q, ..]| q.map(|x| x as f32)).collect();
     let mut rounds = [(); 2].map(|()| Rounds::of(STATES));

@@ -24,28 +24,28 @@
 
 use nalgebra::{SMatrix, SVector, Scalar};
 
-/// A result that is a vector.
+/// Returns a result that is a vector.
 #[inline]
 #[must_use]
 pub fn vector<T: Scalar, const N: usize>(array: [T; N]) -> SVector<T, N> {
     SVector::from(array)
 }
 
-/// A result that is a matrix: its rows become the matrix's rows.
+/// Returns a result that is a matrix: its rows become the matrix's rows.
 #[inline]
 #[must_use]
 pub fn matrix<T: Scalar, const R: usize, const C: usize>(rows: [[T; C]; R]) -> SMatrix<T, R, C> {
     SMatrix::from_fn(|row, column| rows[row][column].clone())
 }
 
-/// A vector as an argument; nothing is copied.
+/// Returns a vector as an argument; nothing is copied.
 #[inline]
 #[must_use]
 pub fn array<T: Scalar, const N: usize>(vector: &SVector<T, N>) -> &[T; N] {
     &vector.data.0[0]
 }
 
-/// A matrix as an array of rows.
+/// Returns a matrix as an array of rows.
 #[inline]
 #[must_use]
 pub fn rows<T: Scalar, const R: usize, const C: usize>(matrix: &SMatrix<T, R, C>) -> [[T; C]; R] {

@@ -118,7 +118,7 @@ fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |most, x| most.max(x.abs()))
 }
 
-/// max|a − b| ≤ bound·max|b|.
+/// Asserts that max|a − b| ≤ bound·max|b|.
 fn close(a: &[f64], b: &[f64], bound: f64, what: &str) {
     assert_eq!(a.len(), b.len(), "{what}");
     let error = largest(a.iter().zip(b).map(|(a, b)| a - b));

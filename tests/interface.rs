@@ -32,7 +32,7 @@ dalembert::dynamics! {
     interface: traits;
 }
 
-/// Computed torque: all that it knows of the robot is what it can be asked.
+/// Computes the torques of a controller: all that it knows of the robot is what it can be asked.
 fn control<const N: usize>(
     robot: &impl InverseDynamics<f64, N>,
     wanted: &[f64; N],
@@ -43,7 +43,7 @@ fn control<const N: usize>(
     robot.inverse_dynamics(q, qd, &qdd)
 }
 
-/// The controlled arm from rest, by steps of a millisecond: how far it is in the end.
+/// Returns the controlled arm from rest, by steps of a millisecond: how far it is in the end.
 fn reach<R, const N: usize>(robot: R, wanted: [f64; N]) -> f64
 where
     R: InverseDynamics<f64, N> + ForwardDynamics<f64, N>,
@@ -80,8 +80,8 @@ fn one_controller_for_two_robots() {
     assert!(reach(Slack, [0.4, -0.7]) > 0.1);
 }
 
-/// Computed torque by a struct: D times the acceleration that brings the arm there, with
-/// what it takes to keep its motion.
+/// Computes them by a struct: D times the acceleration that brings the arm there, with what it
+/// takes to keep its motion.
 fn control_by_terms<const N: usize>(
     robot: &impl ManipulatorEquation<f64, N>,
     wanted: &[f64; N],
@@ -94,7 +94,8 @@ fn control_by_terms<const N: usize>(
     std::array::from_fn(|i| inertial(&d[i]) + h[i] + c[i])
 }
 
-/// Both controllers say the same, and a regressor gives what they say from parameters.
+/// Asserts that both controllers say the same, and a regressor gives what they say from
+/// parameters.
 fn agree<R, const N: usize, const K: usize>(robot: &R, parameters: &[f64; K])
 where
     R: InverseDynamics<f64, N> + ManipulatorEquation<f64, N> + Regressor<f64, N, K>,

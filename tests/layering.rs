@@ -52,7 +52,7 @@ fn reach(uses: &Uses, from: &str) -> BTreeSet<String> {
     seen
 }
 
-/// Those that reach each other, each with the arrows among them.
+/// Returns those that reach each other, each with the arrows among them.
 fn circles(uses: &Uses) -> Vec<String> {
     let reached: BTreeMap<&String, BTreeSet<String>> =
         uses.keys().map(|name| (name, reach(uses, name))).collect();
@@ -84,7 +84,7 @@ fn circles(uses: &Uses) -> Vec<String> {
     knots.into_iter().map(describe).collect()
 }
 
-/// The stages in the order of the list in `codegen/src/lib.rs`.
+/// Returns the stages in the order of the list in `codegen/src/lib.rs`.
 fn stages() -> Vec<String> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/codegen/src/lib.rs");
     let text = std::fs::read_to_string(path).unwrap();

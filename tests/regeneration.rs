@@ -119,7 +119,7 @@ fn others(robot: &Robot, request: &Request) -> Vec<GeneratedFunction> {
     own
 }
 
-/// The README with the code and the rows of counts as they are now.
+/// Returns the README with the code and the rows of counts as they are now.
 fn updated(readme: &str, planar2r: &str, all: &Table) -> String {
     let mut text = String::new();
     let mut columns: Vec<&str> = Vec::new();
@@ -151,7 +151,7 @@ fn updated(readme: &str, planar2r: &str, all: &Table) -> String {
     text
 }
 
-/// A row of the table: multiplications/additions, and divisions where there are any.
+/// Returns a row of the table: multiplications/additions, and divisions where there are any.
 fn counts(first: &str, named: &[Function], robots: &[&str], all: &Table) -> String {
     let mut row = format!("| {first} |");
     for robot in robots {
@@ -168,7 +168,7 @@ fn counts(first: &str, named: &[Function], robots: &[&str], all: &Table) -> Stri
     row + "\n"
 }
 
-/// A function of the first module, without its documentation.
+/// Returns a function of the first module, without its documentation.
 fn body(text: &str, function: Function) -> String {
     let start = text.find(&format!("pub fn {function}(")).unwrap();
     let end = start + text[start..].find("\n}\n").unwrap() + 3;

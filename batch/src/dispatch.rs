@@ -49,7 +49,7 @@ impl Vectors {
     }
 }
 
-/// The function at every state.
+/// Computes the function at every state.
 ///
 /// # Errors
 /// [`Unequal`]; then nothing is computed.
@@ -81,7 +81,7 @@ where
     Ok(())
 }
 
-/// The function at every state, whose numbers stand in columns.
+/// Computes the function at every state, whose numbers stand in columns.
 ///
 /// # Errors
 /// [`Unequal`]; then nothing is computed.

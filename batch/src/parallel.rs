@@ -12,7 +12,7 @@ use crate::{Function, Unequal};
 /// some ten microseconds, which must be a small part of its work.
 const TASK: usize = 4096;
 
-/// [`states`](crate::states) on all cores.
+/// Runs [`states`](crate::states) on all cores.
 ///
 /// # Errors
 /// [`Unequal`]; then nothing is computed.
@@ -43,7 +43,7 @@ where
     left.and(right)
 }
 
-/// [`columns`](crate::columns) on all cores.
+/// Runs [`columns`](crate::columns) on all cores.
 ///
 /// # Errors
 /// [`Unequal`]; then nothing is computed.
@@ -82,7 +82,7 @@ fn is_one_task(count: usize) -> bool {
     count < 2 * TASK || rayon::current_num_threads() == 1
 }
 
-/// The middle of so many states, a whole number of blocks.
+/// Returns the middle of so many states, a whole number of blocks.
 fn middle(count: usize) -> usize {
     (count / 2).next_multiple_of(BLOCK)
 }

@@ -101,7 +101,7 @@ pub(crate) fn run_columns<F, V, const A: usize, const N: usize, const M: usize, 
     }
 }
 
-/// Runs a function over states one after the other: they are put in columns block by block.
+/// Computes the states of slices, which are all of one length.
 #[inline(always)]
 pub(crate) fn run_states<F, V, const A: usize, const N: usize, const M: usize, const K: usize>(
     token: V::Token,

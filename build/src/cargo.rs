@@ -21,7 +21,7 @@ pub(crate) fn watch(robot: &Path, output: &Path) {
     }
 }
 
-/// The robot's folder, if no build writes into it or below.
+/// Returns the robot's folder, if no build writes into it or below.
 fn quiet_folder<'r>(robot: &'r Path, output: &Path) -> Option<&'r Path> {
     let folder = robot.parent().filter(|folder| folder.is_dir())?;
     let whole = fs::canonicalize(folder).ok()?;
@@ -36,7 +36,7 @@ fn quiet_folder<'r>(robot: &'r Path, output: &Path) -> Option<&'r Path> {
     (!busy).then_some(folder)
 }
 
-/// A warning of cargo's, on one line as it wants it.
+/// Prints a warning of cargo's, on one line as it wants it.
 pub(crate) fn warn(place: &str, message: &str, help: Option<&str>) {
     let help = help.map(|help| format!(" ({help})")).unwrap_or_default();
     tell(&format!("warning={place}: {message}{help}"));

@@ -148,27 +148,26 @@ macro_rules! setters {
 dalembert_codegen::each_option!(setters);
 
 impl Generator {
-    /// A generator with nothing chosen but the defaults.
+    /// Returns a generator with nothing chosen but the defaults.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// The robot file, relative to the package. There is no default.
+    /// Sets the robot file, relative to the package. There is no default.
     #[must_use]
     pub fn robot(mut self, path: impl Into<PathBuf>) -> Self {
         self.robot = Some(path.into());
         self
     }
 
-    /// Only these functions: the others need not be searched, proved and
-    /// compiled.
+    /// Generates only these functions: the others need not be searched, proved and compiled.
     #[must_use]
     pub fn outputs(mut self, outputs: impl IntoIterator<Item = Output>) -> Self {
         self.outputs = Some(outputs.into_iter().collect());
         self
     }
 
-    /// One function of this name that returns what all of these do, in a struct,
+    /// Sets one function of this name that returns what all of these do, in a struct,
     /// and shares their work: for a control loop that wants them at one state.
     /// `.bundle("servo", [Output::InverseDynamics, Output::Jacobian])` returns a
     /// `Servo`; its arguments are all that one of its parts reads. It comes besides
@@ -179,27 +178,26 @@ impl Generator {
         self
     }
 
-    /// Only these scalars: `f32` where the hardware has no doubles, `f64`
-    /// where accuracy matters. Of two, the f32 module is called `NAME_f32`.
+    /// Generates only these scalars: `f32` where the hardware has no doubles, `f64` where
+    /// accuracy matters. Of two, the f32 module is called `NAME_f32`.
     #[must_use]
     pub fn scalars(mut self, scalars: impl IntoIterator<Item = Scalar>) -> Self {
         self.scalars = Some(scalars.into_iter().collect());
         self
     }
 
-    /// Only what a scene of the robot file needs: locked joints, rates that
-    /// are zero and joints that nobody asks for are gone from the code. Its
-    /// outputs and scalar count where none were chosen here, and the module is
-    /// called `ROBOT_SCENE`. If it has a tolerance, the cheapest code found
-    /// that is certified to stay within it: in each scalar that was chosen, or
-    /// else in the cheapest that it admits.
+    /// Generates only what a scene of the robot file needs: locked joints, rates that are zero
+    /// and joints that nobody asks for are gone from the code. Its outputs and scalar count where
+    /// none were chosen here, and the module is called `ROBOT_SCENE`. If it has a tolerance, the
+    /// cheapest code found that is certified to stay within it: in each scalar that was chosen,
+    /// or else in the cheapest that it admits.
     #[must_use]
     pub fn scene(mut self, name: impl Into<String>) -> Self {
         self.scene = Some(name.into());
         self
     }
 
-    /// The name of the module, if the robot's is taken or says too little.
+    /// Sets the name of the module, if the robot's is taken or says too little.
     #[must_use]
     pub fn module(mut self, name: impl Into<String>) -> Self {
         self.request.module = Some(name.into());
@@ -227,7 +225,7 @@ impl Generator {
         self
     }
 
-    /// The outputs that were chosen, if any were.
+    /// Returns the outputs that were chosen, if any were.
     fn chosen(&self) -> Result<Option<Vec<Output>>, BuildError> {
         let bundles: Result<Vec<Output>, BundleError> = self.bundles.iter().cloned().collect();
         let bundles = bundles.map_err(BuildError::Bundle)?;

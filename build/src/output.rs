@@ -9,7 +9,7 @@ use hmac_sha256::Hash;
 
 use dalembert_codegen::workspace::task::Request;
 
-/// The hash of everything that the text depends on.
+/// Returns the hash of everything that the text depends on.
 pub(crate) fn key(source: &str, request: &Request) -> String {
     let version = env!("CARGO_PKG_VERSION");
     // Lengths keep the parts apart; the request prints the same every time.

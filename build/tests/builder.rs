@@ -11,7 +11,7 @@ use dalembert_codegen::workspace::clauses::RobotFile;
 use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::task::Request;
 
-/// An empty folder of one test, with the robot file of the planar arm.
+/// Returns an empty folder of one test, with the robot file of the planar arm.
 fn folder(test: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
         .join("builder")

@@ -129,7 +129,7 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
     Err(Fault::Text(end, "the header does not end".into()))
 }
 
-/// The module of the function that has this head, and its name there.
+/// Returns the module of the function that has this head, and its name there.
 fn word<'t>(header: &str, head: &'t str) -> Option<(&'t str, &'t str)> {
     let (before, list) = head.strip_prefix("static inline ")?.split_once('(')?;
     let ends = [("const int far, ", "_any"), ("const size_t n, ", "_batch")];
@@ -143,7 +143,7 @@ fn word<'t>(header: &str, head: &'t str) -> Option<(&'t str, &'t str)> {
     Some((named.strip_suffix(word)?.trim_end_matches('_'), word))
 }
 
-/// Whether a name is another whose words are shortened.
+/// Returns whether a name is another whose words are shortened.
 fn is_short(word: &str, long: &str) -> bool {
     let mut pairs = word.split('_').zip(long.split('_'));
     let is_alike =
@@ -289,7 +289,7 @@ impl<'t> Parser<'t> {
         between(self.next()?, &before, &format!("({list})"))
     }
 
-    /// All statements; returns the line behind them.
+    /// Reads all statements; returns the line behind them.
     fn c_statements(&mut self, float: &str, is_told: bool) -> Option<&'t str> {
         loop {
             let line = self.next()?;

@@ -45,7 +45,7 @@ pub struct Claim {
 }
 
 impl Claim {
-    /// The claim that nothing was left out of a text; E is for the checker to find.
+    /// Returns the claim that nothing was left out of a text; E is for the checker to find.
     pub(crate) fn exact(found: &Found, is_single: bool, setting: &Setting) -> Claim {
         let [position, velocity, acceleration] = setting.ranges.clone();
         Claim {
@@ -80,7 +80,7 @@ impl Claim {
         Err(Fault::certificate(why))
     }
 
-    /// The rows, from zero.
+    /// Returns the rows, from zero.
     pub(crate) fn rows(&self) -> Vec<usize> {
         self.rows.iter().map(|row| row - 1).collect()
     }

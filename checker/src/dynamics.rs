@@ -38,7 +38,7 @@ fn each<N>(mut entry: impl FnMut(usize) -> Result<N, Fault>) -> Result<Vector<N>
 struct Products<'w>(&'w mut Work);
 
 impl Products<'_> {
-    /// a·b + c·d
+    /// Returns a·b + c·d
     fn two<N: Number>(&mut self, a: &N, b: &N, c: &N, d: &N) -> Result<N, Fault> {
         Ok(a.times(b, self.0)?.plus(&c.times(d, self.0)?))
     }
@@ -54,7 +54,7 @@ impl Products<'_> {
             .plus(&a[2].times(&b[2], self.0)?))
     }
 
-    /// ẇ × v + w × (w × v), of w and ẇ.
+    /// Returns ẇ × v + w × (w × v), of w and ẇ.
     fn swing<N: Number>(&mut self, v: &Vector<N>, w: [&Vector<N>; 2]) -> Result<Vector<N>, Fault> {
         let swing = self.cross(w[0], v)?;
         Ok(sum(&self.cross(w[1], v)?, &self.cross(w[0], &swing)?))
@@ -68,7 +68,7 @@ impl Products<'_> {
         each(|i| self.dot(&m[i], v))
     }
 
-    /// v turned about the axis before two others, from the first of them to the second.
+    /// Returns v turned about the axis before two others, from the first of them to the second.
     fn turned<N: Number>(
         &mut self,
         v: &Vector<N>,
@@ -81,7 +81,7 @@ impl Products<'_> {
         Ok(turned)
     }
 
-    /// A vector, or a point, of the last frame of a way in the axes of the first.
+    /// Returns a vector, or a point, of the last frame of a way in the axes of the first.
     fn outward<N: Number>(
         &mut self,
         v: &Vector<N>,
@@ -99,7 +99,7 @@ impl Products<'_> {
         Ok(v)
     }
 
-    /// A vector of the first frame of a way in the axes of the last.
+    /// Returns a vector of the first frame of a way in the axes of the last.
     fn inward<N: Number>(&mut self, v: &Vector<N>, way: &[Step<N>]) -> Result<Vector<N>, Fault> {
         let mut v = v.clone();
         for step in way {
@@ -111,7 +111,7 @@ impl Products<'_> {
     }
 }
 
-/// The numbers of a way.
+/// Returns the numbers of a way.
 fn way<N: Number>(steps: &[Step]) -> Vec<Step<N>> {
     let step = |step: &Step| match step {
         Step::Turn(axes, pair) => Step::Turn(*axes, pair.map(N::constant)),
@@ -120,7 +120,7 @@ fn way<N: Number>(steps: &[Step]) -> Vec<Step<N>> {
     steps.iter().map(step).collect()
 }
 
-/// The direction of a joint's axis in the frame of the joint before it.
+/// Returns the direction of a joint's axis in the frame of the joint before it.
 ///
 /// # Errors
 /// As of [`Number::times`].
@@ -182,7 +182,7 @@ struct Link<N> {
     moment: Vector<N>,
 }
 
-/// The torques or forces τ = D q̈ + h + c + b∘q̇, one a joint, in N·m or N; `gravity` and
+/// Returns the torques or forces τ = D q̈ + h + c + b∘q̇, one a joint, in N·m or N; `gravity` and
 /// `friction` say whether c and b∘q̇ are in them.
 ///
 /// # Errors

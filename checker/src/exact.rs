@@ -44,7 +44,7 @@ pub struct Distance {
 }
 
 impl Distance {
-    /// The bound of both, in units of half an ulp.
+    /// Returns the bound of both, in units of half an ulp.
     pub fn units(&self) -> f64 {
         (self.edits + self.rounding) / self.unit
     }

@@ -20,12 +20,12 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// A fault of the robot file.
+    /// Returns a fault of the robot file.
     pub(crate) fn robot(key: impl Into<String>, why: impl Into<String>) -> Fault {
         Fault::Robot(key.into(), why.into())
     }
 
-    /// A fault of the certificate.
+    /// Returns a fault of the certificate.
     pub(crate) fn certificate(why: impl Into<String>) -> Fault {
         Fault::Certificate(why.into())
     }

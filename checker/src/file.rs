@@ -112,28 +112,28 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
     }
 }
 
-/// A line that the generator would not print.
+/// Returns a line that the generator would not print.
 pub(crate) fn fault((number, line): (usize, &str)) -> Fault {
     Fault::Text(number, format!("nothing that is generated: `{line}`"))
 }
 
-/// Whether a character is one of names.
+/// Returns whether a character is one of names.
 pub(crate) fn is_letter(c: char) -> bool {
     c.is_ascii_alphanumeric() || c == '_'
 }
 
-/// What is in a text between its beginning and its end.
+/// Returns what is in a text between its beginning and its end.
 pub(crate) fn between<'t>(text: &'t str, before: &str, behind: &str) -> Option<&'t str> {
     text.strip_prefix(before)?.strip_suffix(behind)
 }
 
-/// A whole number as it is printed.
+/// Returns a whole number as it is printed.
 pub(crate) fn whole(word: &str) -> Option<usize> {
     let number = word.parse().ok()?;
     (word == format!("{number}")).then_some(number)
 }
 
-/// The fields of the struct that a text returns, and how many entries each has; none if it
+/// Returns the fields of the struct that a text returns, and how many entries each has; none if it
 /// returns no struct.
 pub(crate) fn results<'t>(name: &str, text: &'t str, rows: usize) -> Vec<(&'t str, usize)> {
     let declared = |line: &'t str| {
@@ -154,7 +154,7 @@ pub(crate) fn results<'t>(name: &str, text: &'t str, rows: usize) -> Vec<(&'t st
     tail.match_indices(": ").filter_map(listed).collect()
 }
 
-/// The name of the struct that a function returns.
+/// Returns the name of the struct that a function returns.
 pub(crate) fn structure(name: &str) -> String {
     let words = name.split('_').filter_map(|word| word.split_at_checked(1));
     let words = words.map(|(first, rest)| first.to_ascii_uppercase() + rest);
@@ -177,13 +177,13 @@ fn is_attribute(words: &str) -> bool {
     ATTRIBUTES.contains(&words) || LISTS.iter().any(is_list)
 }
 
-/// The name of a module that begins.
+/// Returns the name of a module that begins.
 fn module_head(line: &str) -> Option<&str> {
     let name = between(line, "pub mod ", " {")?;
     name.chars().all(is_letter).then_some(name)
 }
 
-/// Whether a line begins an item of a known kind. Types begin with a capital letter: in
+/// Returns whether a line begins an item of a known kind. Types begin with a capital letter: in
 /// Rust a type's name may stand where a crate's stands.
 fn is_item(words: &str) -> bool {
     let word = |rest: &str| rest.starts_with(|c: char| c.is_ascii_uppercase());
@@ -200,7 +200,7 @@ fn is_item(words: &str) -> bool {
     is_type || is_function || of.is_some_and(|(_, name)| word(name))
 }
 
-/// Whether a line has no quotes, comments, macros or attributes, at most one item, and
+/// Returns whether a line has no quotes, comments, macros or attributes, at most one item, and
 /// that at its beginning.
 fn is_code(words: &str) -> bool {
     let known = |c: char| is_letter(c) || " .,;:()[]{}<>&+-*/=".contains(c);

@@ -16,29 +16,29 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// The numbers between two ends; everything if these are no numbers in order.
+    /// Returns the numbers between two ends; everything if these are no numbers in order.
     pub fn new(low: f64, high: f64) -> Interval {
         let known = Some((low, high)).filter(|_| low <= high);
         let (low, high) = known.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
         Interval { low, high }
     }
 
-    /// One number.
+    /// Returns one number.
     pub fn point(value: f64) -> Interval {
         Interval::new(value, value)
     }
 
-    /// All numbers at most so far from a number.
+    /// Returns all numbers at most so far from a number.
     pub fn around(value: f64, radius: f64) -> Interval {
         Interval::new((value - radius).next_down(), (value + radius).next_up())
     }
 
-    /// The largest magnitude in it.
+    /// Returns the largest magnitude in it.
     pub fn magnitude(self) -> f64 {
         self.low.abs().max(self.high.abs())
     }
 
-    /// One step outward: an operation on the ends was rounded to nearest.
+    /// Returns one step outward: an operation on the ends was rounded to nearest.
     fn outward(low: f64, high: f64) -> Interval {
         Interval::new(low.next_down(), high.next_up())
     }
@@ -73,7 +73,7 @@ impl Mul for Interval {
 /// The errors of what [`sin_cos`] returns are below this, for angles up to 1000 rad.
 pub const SINE_ERROR: f64 = 1e-15;
 
-/// Sine and cosine of a double by Taylor's series, each within [`SINE_ERROR`] for
+/// Returns sine and cosine of a double by Taylor's series, each within [`SINE_ERROR`] for
 /// |x| ≤ 1000.
 ///
 /// π/2 is taken off as the sum of two doubles and a third: the first has 33 bits, so

@@ -31,7 +31,7 @@ pub(crate) struct Search {
 }
 
 impl Search {
-    /// The coefficients of a polynomial's F, and the order of its angles.
+    /// Returns the coefficients of a polynomial's F, and the order of its angles.
     pub(crate) fn new(polynomial: &Polynomial, ring: &Ring, steps: u64) -> Search {
         // Groups by rates and errors; the first one is the sum of all at the middle.
         let mut groups: BTreeMap<(Key, Key), f64> = BTreeMap::new();
@@ -126,7 +126,7 @@ impl Search {
         self.steps = self.steps.saturating_sub(from.len() as u64 + 20);
     }
 
-    /// A bound of F without looking at the angles from a level on; behind the last, F.
+    /// Returns a bound of F without looking at the angles from a level on; behind the last, F.
     pub(crate) fn norm(&self, level: usize) -> f64 {
         let values = &self.values[level];
         if level < self.levels.len() {
@@ -144,7 +144,7 @@ impl Search {
     }
 }
 
-/// The least and the largest sum of products of factors from −1 to 1, factor 0 being 1. It
+/// Returns the least and the largest sum of products of factors from −1 to 1, factor 0 being 1. It
 /// is linear in each of them, so that it is found where all are −1 or 1. `linear` is what
 /// those from `next` on are multiplied with, the others being in `sum`.
 fn corners<const N: usize>(

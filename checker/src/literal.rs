@@ -44,7 +44,7 @@ impl Angle {
         }
     }
 
-    /// An angle that is so near to a double.
+    /// Returns an angle that is so near to a double.
     fn near(radians: f64, radius: f64) -> Option<Angle> {
         let (sin, cos) = sin_cos(radians);
         let radius = radius + SINE_ERROR;
@@ -58,7 +58,7 @@ impl Literal {
         matches!(self, Literal::Whole(0)) || matches!(self, Literal::Decimal(x) if *x == 0.0)
     }
 
-    /// A number in decimal, or a fraction of two whole ones: the nearest double, and an
+    /// Returns a number in decimal, or a fraction of two whole ones: the nearest double, and an
     /// ulp for what it is off. (A decimal below the least double counts as zero.)
     fn number(&self) -> Option<(f64, f64)> {
         let value = match self {
@@ -95,7 +95,7 @@ impl Literal {
         Ok(self.real(key)?.value)
     }
 
-    /// A number that may be missing, and then is NaN.
+    /// Returns a number that may be missing, and then is NaN.
     pub(crate) fn optional(literal: Option<&Literal>, key: &str) -> Result<f64, Fault> {
         literal.map_or(Ok(f64::NAN), |literal| literal.double(key))
     }

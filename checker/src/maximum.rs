@@ -42,7 +42,7 @@ enum Unshown {
     Steps,
 }
 
-/// A bound of the magnitude of a polynomial over the box, at most `wanted` if that can be
+/// Returns a bound of the magnitude of a polynomial over the box, at most `wanted` if that can be
 /// shown, else a little above the largest F.
 pub fn bound(polynomial: &Polynomial, ring: &Ring, wanted: f64) -> f64 {
     let mut search = Search::new(polynomial, ring, MOST_STEPS);

@@ -33,24 +33,24 @@ impl From<f64> for Real {
 
 /// A commutative ring with the numbers of a robot file in it. The default is zero.
 pub trait Number: Clone + Default {
-    /// A number of the robot file.
+    /// Returns a number of the robot file.
     fn constant(real: Real) -> Self;
 
-    /// The sum of two.
+    /// Returns the sum of two.
     #[must_use]
     fn plus(&self, other: &Self) -> Self;
 
-    /// The opposite.
+    /// Returns the opposite.
     #[must_use]
     fn negated(&self) -> Self;
 
-    /// The product of two.
+    /// Returns the product of two.
     ///
     /// # Errors
     /// More than is written out, or more work than is done.
     fn times(&self, other: &Self, work: &mut Work) -> Result<Self, Fault>;
 
-    /// One.
+    /// Returns one.
     fn one() -> Self {
         Self::constant(1.0.into())
     }

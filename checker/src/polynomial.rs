@@ -46,18 +46,18 @@ pub enum Variable {
     OddError,
 }
 
-/// The monomial that is a variable of a joint.
+/// Returns the monomial that is a variable of a joint.
 pub fn key(variable: Variable, joint: usize) -> Key {
     1 << (joint * WIDTH + FIELDS[variable as usize].0)
 }
 
-/// The exponent of a variable of a joint in a monomial.
+/// Returns the exponent of a variable of a joint in a monomial.
 pub fn exponent(key: Key, variable: Variable, joint: usize) -> u32 {
     let (start, bits) = FIELDS[variable as usize];
     (key >> (joint * WIDTH + start)) as u32 & ((1 << bits) - 1)
 }
 
-/// These bits of every joint.
+/// Returns these bits of every joint.
 const fn each(bits: Key) -> Key {
     let (mut all, mut joint) = (0, 0);
     while joint < MAX_JOINTS {
@@ -83,7 +83,7 @@ pub struct Polynomial {
 }
 
 impl Polynomial {
-    /// A variable times a power of two, or any double.
+    /// Returns a variable times a power of two, or any double.
     pub fn variable(variable: Variable, joint: usize, factor: f64) -> Polynomial {
         Polynomial::term(key(variable, joint), factor, 0.0)
     }
@@ -94,7 +94,7 @@ impl Polynomial {
         Polynomial { terms, rest }
     }
 
-    /// Its first coefficient: all of a number's.
+    /// Returns its first coefficient: all of a number's.
     pub(crate) fn value(&self) -> f64 {
         self.terms.first().map_or(0.0, |term| term.1)
     }

@@ -91,7 +91,7 @@ pub const FUNCTIONS: [(&str, &[Field]); 9] = [
 ];
 
 impl Function {
-    /// The function of a name.
+    /// Returns the function of a name.
     pub fn named(name: &str) -> Option<Function> {
         let known = FUNCTIONS.iter().find(|(own, _)| *own == name);
         known.map(|(_, fields)| Function {
@@ -132,7 +132,7 @@ impl Function {
         places
     }
 
-    /// Its outputs at a state, over these rows, from zero.
+    /// Returns its outputs at a state, over these rows, from zero.
     ///
     /// # Errors
     /// As of [`torques`].
@@ -163,7 +163,7 @@ struct At<'a, N> {
 }
 
 impl<N: Number> At<'_, N> {
-    /// The loads of all joints at other rates.
+    /// Returns the loads of all joints at other rates.
     fn loads(&mut self, qd: &[N], qdd: &[N], with: (bool, bool)) -> Result<Vec<N>, Fault> {
         let states = self.states.iter().zip(qd).zip(qdd);
         let states = states.map(|((state, qd), qdd)| State {
@@ -179,7 +179,7 @@ impl<N: Number> At<'_, N> {
         vec![N::default(); self.states.len()]
     }
 
-    /// One for a joint, zero for all others.
+    /// Returns one for a joint, zero for all others.
     fn unit(&self, joint: usize) -> Vec<N> {
         let mut unit = self.zeros();
         unit[joint] = N::one();
@@ -195,7 +195,7 @@ impl<N: Number> At<'_, N> {
         self.loads(qd, &zeros, (false, false))
     }
 
-    /// C(v) e_k, the load that a velocity and a joint's give together.
+    /// Returns C(v) e_k, the load that a velocity and a joint's give together.
     fn together(&mut self, v: &[N], own: &[N], joint: usize) -> Result<Vec<N>, Fault> {
         let unit = self.unit(joint);
         let sum: Vec<N> = v.iter().zip(&unit).map(|(a, b)| a.plus(b)).collect();
@@ -207,7 +207,7 @@ impl<N: Number> At<'_, N> {
         rests.map(|rest| rest.times(&half, self.work)).collect()
     }
 
-    /// C(v), by columns over the rows.
+    /// Returns C(v), by columns over the rows.
     fn columns(&mut self, v: &[N]) -> Result<Vec<Vec<N>>, Fault> {
         let (rows, own) = (self.rows, self.coriolis(v)?);
         rows.iter().map(|&k| self.together(v, &own, k)).collect()
@@ -221,7 +221,7 @@ impl<N: Number> At<'_, N> {
         Ok(sum)
     }
 
-    /// The entries over the rows of columns of all joints, row by row.
+    /// Returns the entries over the rows of columns of all joints, row by row.
     fn matrix(&self, columns: &[Vec<N>]) -> Vec<N> {
         let row = |&row: &usize| columns.iter().map(move |column| column[row].clone());
         self.rows.iter().flat_map(row).collect()

@@ -28,7 +28,7 @@ pub struct Ring {
     rates: [Vec<[f64; 2]>; 2],
 }
 
-/// The least power of two that is not below a size, which is not zero.
+/// Returns the least power of two that is not below a size, which is not zero.
 fn unit(size: f64) -> f64 {
     // To the next exponent, unless nothing is behind the point.
     let behind = (1 << 52) - 1;
@@ -36,7 +36,7 @@ fn unit(size: f64) -> f64 {
 }
 
 impl Ring {
-    /// The variables of a setting's joints over the ranges of a claim.
+    /// Returns the variables of a setting's joints over the ranges of a claim.
     ///
     /// # Errors
     /// Ranges that are none: not one a joint, not finite, or with ends in the wrong order.
@@ -75,7 +75,7 @@ impl Ring {
         Ok(ring)
     }
 
-    /// Sine, cosine and position of the next joint.
+    /// Returns sine, cosine and position of the next joint.
     fn positioned(
         &mut self,
         mut state: State<Polynomial>,
@@ -112,7 +112,7 @@ impl Ring {
         Ok(state)
     }
 
-    /// Whether the axis of a joint that turns is parallel to that of the one before,
+    /// Returns whether the axis of a joint that turns is parallel to that of the one before,
     /// which turns too and is not locked: 1, or −1 if it points the other way.
     fn parallel(setting: &Setting, joint: usize, work: &mut Work) -> Result<Option<f64>, Fault> {
         let moves = |k: usize| setting.joints[k].turns && setting.locks[k].is_none();
@@ -124,7 +124,7 @@ impl Ring {
         Ok([1.0, -1.0].into_iter().find(|one| sign(*one)))
     }
 
-    /// The values that the rates and errors of a monomial take over the box: the middle
+    /// Returns the values that the rates and errors of a monomial take over the box: the middle
     /// of their range, and half its length.
     pub fn factor(&self, key: Key) -> (f64, f64) {
         let (mut low, mut high) = (1.0f64, 1.0f64);

@@ -154,7 +154,7 @@ pub struct Joint {
 }
 
 impl Row {
-    /// The ways before and behind the joint.
+    /// Returns the ways before and behind the joint.
     fn ways(&self, convention: Option<&str>) -> Result<[Vec<Step>; 2], Fault> {
         let mut row = vec![
             Step::Shift([self.a.real("a")?, Real::default(), Real::default()]),
@@ -240,13 +240,13 @@ impl Row {
         known("torque", &self.limits.torque)
     }
 
-    /// The ends of a range of positions, if they are in order.
+    /// Returns the ends of a range of positions, if they are in order.
     pub(crate) fn range(&self, [low, high]: &[Literal; 2], why: &str) -> Result<[f64; 2], Fault> {
         let range = [self.position(low)?, self.position(high)?];
         Fault::require(range[0] < range[1], "position", why).map(|()| range)
     }
 
-    /// Whether the joint turns; else it slides.
+    /// Returns whether the joint turns; else it slides.
     pub(crate) fn turns(&self) -> Result<bool, Fault> {
         match self.kind.as_deref() {
             Some("revolute") => Ok(true),
@@ -255,7 +255,7 @@ impl Row {
         }
     }
 
-    /// An angle or a length, as the joint has it.
+    /// Returns an angle or a length, as the joint has it.
     pub(crate) fn position(&self, at: &Literal) -> Result<f64, Fault> {
         match self.turns()? {
             true => Ok(at.angle("position")?.radians),

@@ -13,7 +13,7 @@ use crate::scene::Setting;
 /// A state: positions, velocities and accelerations.
 pub(crate) type At = [Vec<f64>; 3];
 
-/// The outputs of a claim's function at a state.
+/// Returns the outputs of a claim's function at a state.
 ///
 /// # Errors
 /// As of [`crate::dynamics::torques`]; in practice none, numbers being short polynomials.
@@ -81,7 +81,7 @@ pub fn worst(
     Ok(worst)
 }
 
-/// What is seen of each output at a state, once that is of the scalar's numbers.
+/// Returns what is seen of each output at a state, once that is of the scalar's numbers.
 ///
 /// # Errors
 /// As of [`outputs`].
@@ -113,7 +113,7 @@ pub(crate) fn seen(
 pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    /// The next number, from zero to one.
+    /// Returns the next number, from zero to one.
     pub(crate) fn next(&mut self) -> f64 {
         // Knuth's multiplier and increment; the high bits are the good ones.
         let next = self.0.wrapping_mul(6_364_136_223_846_793_005);
@@ -121,7 +121,7 @@ impl Random {
         (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// A number of a range, or one of its ends.
+    /// Returns a number of a range, or one of its ends.
     pub(crate) fn within(&mut self, range: [f64; 2], is_end: bool) -> f64 {
         let ([low, high], share) = (ends(range), self.next());
         low + (high - low) * if is_end { share.round() } else { share }
@@ -142,7 +142,7 @@ fn rounded(value: f64, is_single: bool) -> f64 {
     if is_single { single } else { value }
 }
 
-/// A range, of what has none a point.
+/// Returns a range, of what has none a point.
 pub(crate) fn ends([low, high]: [f64; 2]) -> [f64; 2] {
     if low <= high { [low, high] } else { [0.0; 2] }
 }

@@ -176,7 +176,7 @@ fn steps(placement: &Option<Placement>) -> Result<Vec<Step>, Fault> {
     placement.as_ref().map_or(Ok(Vec::new()), Placement::steps)
 }
 
-/// A joint by its number, from one, or by its name.
+/// Returns a joint by its number, from one, or by its name.
 fn joint(rows: &[Row], word: &str) -> Result<usize, Fault> {
     let found = match word.parse::<usize>() {
         Ok(number) => number.checked_sub(1).filter(|&joint| joint < rows.len()),
@@ -210,7 +210,7 @@ fn in_order(rows: &[Row], given: &Bounds) -> Result<(), Fault> {
     Ok(())
 }
 
-/// The box: the scene's, else the joints' limits, and a whole turn where a joint that
+/// Returns the box: the scene's, else the joints' limits, and a whole turn where a joint that
 /// turns has none. What is locked has one position; what stands still has no rates.
 fn ranges(
     rows: &[Row],

@@ -22,7 +22,7 @@ pub struct Scalar {
 }
 
 impl Scalar {
-    /// f32 or f64.
+    /// Returns f32 or f64.
     pub fn of(name: &str) -> Scalar {
         let (unit, least, most) = match name {
             "f32" => (SINGLE_UNIT, 1e-45, f64::from(f32::MAX)),
@@ -31,7 +31,7 @@ impl Scalar {
         Scalar { unit, least, most }
     }
 
-    /// How far the result of an operation is off: its operands' share, and rounding.
+    /// Returns how far the result of an operation is off: its operands' share, and rounding.
     pub fn rounded(self, size: f64, inherited: f64) -> f64 {
         let error = inherited + self.unit * (size + inherited) + self.least;
         match (size + error) * SLACK < self.most {
@@ -41,7 +41,7 @@ impl Scalar {
     }
 }
 
-/// The largest difference of what a block computes in floating point, at the angles of a
+/// Returns the largest difference of what a block computes in floating point, at the angles of a
 /// range, from the sine (or cosine); infinite if nothing can be said.
 ///
 /// Of f, the block in real numbers less the sine, the value at the middle of each cell

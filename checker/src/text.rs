@@ -134,7 +134,7 @@ impl<'t> Parser<'t> {
         lines.all(|line| self.next() == Some(line)).then_some(())
     }
 
-    /// Whether no text is left.
+    /// Returns whether no text is left.
     pub(crate) fn is_done(&self) -> bool {
         self.lines[self.line..].iter().all(|line| line.is_empty())
     }
@@ -176,7 +176,7 @@ impl<'t> Parser<'t> {
         Some(())
     }
 
-    /// All statements; returns the line behind them.
+    /// Reads all statements; returns the line behind them.
     fn statements(&mut self) -> Option<&'t str> {
         let mut line = self.next()?;
         while let Some((names, value)) = line.strip_prefix("let ").and_then(|s| s.split_once(" = "))
@@ -269,7 +269,7 @@ impl<'t> Parser<'t> {
         self.unsigned(word)
     }
 
-    /// A name, a literal, or an entry of an argument; what a block reads beside its own
+    /// Reads a name, a literal, or an entry of an argument; what a block reads beside its own
     /// is its angle, always the same.
     fn unsigned(&mut self, word: &'t str) -> Option<usize> {
         if let Some(&value) = self.names.get(word) {
@@ -292,7 +292,7 @@ impl<'t> Parser<'t> {
         self.push(Node::Input(argument, joint)).filter(|_| is_entry)
     }
 
-    /// A part of a long function: it hands on values by their names, and the others are
+    /// Reads a part of a long function: it hands on values by their names, and the others are
     /// no more.
     fn long(&mut self, names: &'t str) -> Option<()> {
         if self.is_inside || std::mem::replace(&mut self.is_part, true) {
@@ -309,7 +309,7 @@ impl<'t> Parser<'t> {
         Some(())
     }
 
-    /// A block: arithmetic on one angle, with names of its own.
+    /// Reads a block: arithmetic on one angle, with names of its own.
     fn block(&mut self, names: &'t str) -> Option<()> {
         self.open();
         let line = self.statements()?;
@@ -349,14 +349,14 @@ impl<'t> Parser<'t> {
     }
 }
 
-/// A number as it is printed.
+/// Returns a number as it is printed.
 fn literal<T: FromStr + Debug + Into<f64>>(word: &str) -> Option<f64> {
     let value: T = word.parse().ok()?;
     let is_printed = format!("{value:?}") == word;
     Some(value.into()).filter(|value| is_printed && value.is_finite())
 }
 
-/// Both parts of `(one, other)`.
+/// Returns both parts of `(one, other)`.
 fn pair(text: &str) -> Option<[&str; 2]> {
     let (one, other) = between(text, "(", ")")?.split_once(", ")?;
     Some([one, other])

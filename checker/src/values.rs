@@ -42,7 +42,7 @@ struct Values<'a> {
     errors: usize,
 }
 
-/// The outputs of a text over a box.
+/// Returns the outputs of a text over a box.
 ///
 /// # Errors
 /// A text that reads what it may not, or polynomials that are too long.
@@ -72,7 +72,7 @@ pub fn outputs(
     program.outputs.iter().map(output).collect()
 }
 
-/// The joints of an angle, or of its opposite.
+/// Returns the joints of an angle, or of its opposite.
 fn signed(joints: &[(usize, bool)], minus: bool) -> impl Iterator<Item = (usize, bool)> {
     let joints = joints.iter();
     joints.map(move |&(joint, negative)| (joint, negative != minus))
@@ -149,7 +149,7 @@ impl Values<'_> {
         Ok(Meaning::Number(value))
     }
 
-    /// An entry of an argument; `None` of an angle.
+    /// Returns an entry of an argument; `None` of an angle.
     fn input(&self, argument: usize, joint: usize) -> Result<Option<&Polynomial>, Fault> {
         let state = &self.ring.states[joint];
         let is_still = argument > 0 && self.setting.still[argument - 1];
@@ -167,7 +167,7 @@ impl Values<'_> {
         Err(Fault::certificate(why))
     }
 
-    /// A sine or cosine of a sum of angles, with what it is off.
+    /// Returns a sine or cosine of a sum of angles, with what it is off.
     fn sine(
         &mut self,
         joints: &[(usize, bool)],

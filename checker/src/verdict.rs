@@ -44,7 +44,7 @@ impl Output {
         self.found.bound() <= self.claimed * (1.0 + 1e-9)
     }
 
-    /// Whether the user's tolerance is shown; of a scene without one, whether E is. What
+    /// Returns whether the user's tolerance is shown; of a scene without one, whether E is. What
     /// errs more than E at a state is not.
     pub fn is_shown(&self) -> bool {
         let is_none = self.claimed == 0.0 && !self.holds();
@@ -66,7 +66,7 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// Whether every output is shown to be within the user's tolerance, and of a scene
+    /// Returns whether every output is shown to be within the user's tolerance, and of a scene
     /// that has none within its E.
     pub fn is_shown(&self) -> bool {
         self.outputs.iter().all(Output::is_shown)
@@ -134,7 +134,7 @@ pub struct Found {
 }
 
 impl Found {
-    /// The bound of both.
+    /// Returns the bound of both.
     pub fn bound(&self) -> f64 {
         let sum = self.edits + self.rounding;
         if sum == 0.0 { 0.0 } else { sum.next_up() }
@@ -205,7 +205,7 @@ fn about(claim: &Claim, setting: &Setting) -> Result<(), Fault> {
     Fault::unless(lists.all(has_all), why)
 }
 
-/// A number that a rounded one is not below; zero is exact.
+/// Returns a number that a rounded one is not below; zero is exact.
 fn below(value: f64) -> f64 {
     if value > 0.0 {
         value.next_down()
@@ -214,7 +214,7 @@ fn below(value: f64) -> f64 {
     }
 }
 
-/// What T may be at most, one an output: the actuators' limits, or what the output
+/// Returns what T may be at most, one an output: the actuators' limits, or what the output
 /// reaches at a state of the box. Refuses a T that is above it: E would look smaller than
 /// it is.
 fn attainable(

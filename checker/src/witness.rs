@@ -37,7 +37,7 @@ pub fn reached(claim: &Claim, setting: &Setting) -> Result<Vec<f64>, Fault> {
     claim.scale.iter().enumerate().map(one).collect()
 }
 
-/// The largest error of an output that is found, looked for until one is above
+/// Returns the largest error of an output that is found, looked for until one is above
 /// what is claimed: it then refutes the claim.
 ///
 /// # Errors
@@ -60,7 +60,7 @@ pub fn error(
     search(setting, 0, claimed, &value, &sure)
 }
 
-/// The largest of what is sure at states where a value is large, until it is above another.
+/// Returns the largest of what is sure at states where a value is large, until it is above another.
 fn search(
     setting: &Setting,
     hops: usize,
@@ -87,7 +87,7 @@ fn search(
     Ok(most)
 }
 
-/// A state with some of its coordinates drawn anew.
+/// Returns a state with some of its coordinates drawn anew.
 fn hopped(from: &At, setting: &Setting, random: &mut Random) -> At {
     let mut at = from.clone();
     for _ in 0..3 {

@@ -8,7 +8,7 @@ fn data(name: &str) -> String {
     format!("cli/tests/data/attacks/{name}")
 }
 
-/// What the audit says of a false claim: a fault's words, or nothing if it is only not
+/// Returns what the audit says of a false claim: a fault's words, or nothing if it is only not
 /// shown.
 fn refused(certificate: &str, robot: &str, scene: Option<&str>) -> String {
     let mut claim = claim(&data(certificate));

@@ -6,7 +6,7 @@ use crate::support::{audited, claim, file};
 
 const SCARA: &str = "cli/tests/data/attacks/scara.toml";
 
-/// How many outputs are shown to be within their E.
+/// Returns how many outputs are shown to be within their E.
 fn held(certificate: &str, robot: &str) -> usize {
     let verdict = audited(certificate, robot).unwrap();
     assert!(verdict.is_shown(), "{certificate}: {verdict:?}");
@@ -79,7 +79,7 @@ fn bounds_are_near_what_is_seen() {
     }
 }
 
-/// The bound of the planar arm's second load of gravity by a sum of angles, of which the
+/// Returns the bound of the planar arm's second load of gravity by a sum of angles, of which the
 /// cosine is the fifth by polynomials, with a number added.
 fn with_polynomials(added: &str) -> f64 {
     let block = |angle: &str| {

@@ -16,7 +16,7 @@ fn report(source: &str) -> Report {
     check(source, &robot(), None).unwrap()
 }
 
-/// The units of half an ulp that a function is shown to be within; none if it is not.
+/// Returns the units of half an ulp that a function is shown to be within; none if it is not.
 fn units(report: &Report, name: &str) -> Option<f64> {
     let line = report.lines.iter().find(|line| line.name == name)?;
     let found = line.result.as_ref().ok()?;

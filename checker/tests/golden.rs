@@ -17,7 +17,7 @@ fn list(value: &Value) -> Vec<f64> {
         .collect()
 }
 
-/// A robot file of golden parameters.
+/// Returns a robot file of golden parameters.
 fn toml(robot: &Value) -> String {
     let convention = if robot["mdh"] == true {
         "modified"

@@ -17,7 +17,7 @@ fn report(source: &str) -> Report {
     check(source, &robot(), None).unwrap()
 }
 
-/// Of each function what is found: the same numbers, whichever language it is in.
+/// Compares what is found of each function: the same numbers, whichever language it is in.
 fn is_same(header: &str, rust: &str) {
     let [header, rust] = [header, rust].map(|path| report(&file(path)));
     assert!(header.is_shown(), "{header:?}");
@@ -333,7 +333,7 @@ fn batches() {
     }
 }
 
-/// A header that has one function of another, with all that calls it.
+/// Returns a header that has one function of another, with all that calls it.
 fn alone(source: &str, name: &str) -> (String, String, String) {
     let start = |from: usize| {
         from + source[from..]

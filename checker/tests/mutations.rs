@@ -18,7 +18,7 @@ impl Random {
     }
 }
 
-/// The torques of two links of 1 m and 1 kg that are thin rods.
+/// Returns the torques of two links of 1 m and 1 kg that are thin rods.
 fn closed_form(q: [f64; 2], qd: [f64; 2], qdd: [f64; 2]) -> [f64; 2] {
     let (g, (s, c), inertia) = (9.81, q[1].sin_cos(), 0.083_333_333_333_333_33);
     let (one, two) = (q[0].cos(), (q[0] + q[1]).cos());
@@ -32,7 +32,7 @@ fn closed_form(q: [f64; 2], qd: [f64; 2], qdd: [f64; 2]) -> [f64; 2] {
     ]
 }
 
-/// What the text returns, read by means of the test's own.
+/// Returns what the text returns, read by means of the test's own.
 fn run(text: &str, state: &[[f64; 2]; 3]) -> Option<Vec<f64>> {
     let mut values = std::collections::HashMap::new();
     let value = |word: &str, values: &std::collections::HashMap<String, f64>| -> Option<f64> {
@@ -76,7 +76,7 @@ fn run(text: &str, state: &[[f64; 2]; 3]) -> Option<Vec<f64>> {
     None
 }
 
-/// Whether the text is within a share of T at many states of the box.
+/// Returns whether the text is within a share of T at many states of the box.
 fn is_true(claim: &Claim, allowed: &[f64]) -> bool {
     let mut random = Random(3);
     (0..600).all(|_| {
@@ -121,7 +121,7 @@ fn replaced(
     format!("{}{new}{}", &text[..start], &text[end..])
 }
 
-/// Where words of a kind stand in the body of a text.
+/// Finds where words of a kind stand in the body of a text.
 fn places(text: &str, is: impl Fn(&str) -> bool) -> Vec<(usize, usize)> {
     let body = text.find("{\n").unwrap();
     let mut found = Vec::new();

@@ -9,7 +9,8 @@ fn is_shown(source: &str, robot: &str, scene: Option<&str>) -> bool {
     check(source, robot, scene).unwrap().is_shown()
 }
 
-/// A file is shown; with one word of it, or of the robot file, changed it is not.
+/// Asserts that a file is shown, and that it is not with one word of it, or of the robot file,
+/// changed.
 fn case(
     robot: &str,
     source: &str,

@@ -41,7 +41,7 @@ pub fn robot_and_request(path: &Path, choice: &Choice) -> Result<(Robot, Request
     Ok((reading.robot, request))
 }
 
-/// A scene of a robot file.
+/// Returns a scene of a robot file.
 pub fn scene<'r>(path: &Path, reading: &'r Reading, name: &str) -> Result<&'r Scene, Failure> {
     find(&reading.scenes, name).map_err(|error| {
         Failure::Input(format!(
@@ -100,7 +100,7 @@ pub fn generated(
     })
 }
 
-/// The request of a choice, with the plan beside the robot file unless the
+/// Returns the request of a choice, with the plan beside the robot file unless the
 /// choice does without.
 fn request(robot_file: &Path, choice: &Choice) -> Result<Request, Failure> {
     let mut request = choice.request();
@@ -131,7 +131,7 @@ pub fn states(path: &Path, n: usize) -> Result<Vec<GivenState>, Failure> {
     })
 }
 
-/// A whole file.
+/// Returns a whole file.
 ///
 /// # Errors
 /// It cannot be read, or is longer than `most`.
@@ -161,7 +161,7 @@ fn begin(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
     })
 }
 
-/// The first bytes of a file: no more are read, since a device may have no
+/// Returns the first bytes of a file: no more are read, since a device may have no
 /// end.
 pub fn first(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();

@@ -25,7 +25,7 @@ pub fn print_json(value: &Value) -> Result<(), Failure> {
     print(&format!("{value:#}\n"))
 }
 
-/// Something about a file, as JSON.
+/// Writes something about a file, as JSON.
 pub fn diagnostic(found: &Diagnostic) -> Value {
     json!({
         "severity": found.severity.to_string(),
@@ -51,7 +51,7 @@ pub fn counts(counts: &Counts) -> Value {
     })
 }
 
-/// A line, or several, on standard error.
+/// Prints a line, or several, on standard error.
 pub fn note(text: &str) {
     let mut err = io::stderr().lock();
     // There is nowhere left to complain to.

@@ -67,7 +67,7 @@ struct RungObserver {
 }
 
 impl Steps {
-    /// So many of them.
+    /// Begins to count so many of them.
     pub fn new(steps: usize) -> Steps {
         let bar = bar(steps as u64);
         let name = Mutex::default();
@@ -88,7 +88,7 @@ impl Waiting for Steps {
         name.clone_into(&mut current);
     }
 
-    /// A line where there is no terminal that shows a bar.
+    /// Prints a line where there is no terminal that shows a bar.
     fn done(&self, rung: &Rung, resumed: bool) {
         if resumed {
             // Its search and its attempts to refute.
@@ -100,7 +100,7 @@ impl Waiting for Steps {
     }
 }
 
-/// A rung in one line.
+/// Returns a rung in one line.
 fn line(rung: &Rung, resumed: bool) -> String {
     let variants = rung.points.iter().map(|point| {
         let certificate = &point.certificate;
@@ -159,7 +159,7 @@ impl Drop for Steps {
     }
 }
 
-/// `function 2 of 6: `, where there are several.
+/// Returns `function 2 of 6: `, where there are several.
 fn place(functions: &[Function], function: Function) -> String {
     let at = functions.iter().position(|one| *one == function);
     match (at, functions.len()) {
@@ -168,7 +168,7 @@ fn place(functions: &[Function], function: Function) -> String {
     }
 }
 
-/// The best program so far, or how many were tried.
+/// Returns the best program so far, or how many were tried.
 fn reached(progress: &Progress) -> String {
     match (progress.best, progress.rounds) {
         (Some(counts), _) => format!(": {counts}"),
@@ -177,7 +177,7 @@ fn reached(progress: &Progress) -> String {
     }
 }
 
-/// On standard error; it hides itself where that is no terminal.
+/// Shows a bar on standard error; it hides itself where that is no terminal.
 fn bar(length: u64) -> ProgressBar {
     let bar = ProgressBar::new(length);
     if let Ok(style) = ProgressStyle::with_template("{elapsed} {bar:24} {wide_msg}") {
@@ -188,8 +188,8 @@ fn bar(length: u64) -> ProgressBar {
 }
 
 impl Terminal {
-    /// The first time asks for an end, the second time is one; what comes
-    /// after the search has no end but that.
+    /// Asks for an end the first time, and ends the second time; what comes after the search has
+    /// no end but that.
     fn interrupt(&self) {
         let over = self.over.load(Ordering::Relaxed);
         if self.stop.swap(true, Ordering::Relaxed) || over {

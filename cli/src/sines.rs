@@ -26,7 +26,7 @@ impl Check {
         self.error <= self.bound
     }
 
-    /// It as JSON.
+    /// Writes it as JSON.
     pub fn json(&self) -> Value {
         json!({
             "function": self.function.name(),
@@ -39,7 +39,7 @@ impl Check {
     }
 }
 
-/// The angles that are not libm's, at some states.
+/// Returns the angles that are not libm's, at some states.
 pub fn checks(generated: &Generated, states: &[JointState]) -> Vec<Check> {
     let mut checks = Vec::new();
     for emitted in &generated.emitted {
@@ -61,7 +61,7 @@ pub fn checks(generated: &Generated, states: &[JointState]) -> Vec<Check> {
     checks
 }
 
-/// The checks as a table with its title; nothing if there are none.
+/// Returns the checks as a table with its title; nothing if there are none.
 pub fn table(checks: &[Check]) -> String {
     if checks.is_empty() {
         return String::new();

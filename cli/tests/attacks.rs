@@ -17,7 +17,7 @@ fn certify(certificate: &str, robot: &str, more: &[&str]) -> Ran {
     run(&[&["certify", certificate, "--robot", &robot], more].concat())
 }
 
-/// Refused, and why.
+/// Asserts that it is refused, and why.
 fn refused(ran: &Ran, why: &str) {
     assert_eq!(ran.code, 1, "{}{}", ran.out, ran.err);
     let said = ran.out.contains(why) || ran.err.contains(why);

@@ -18,7 +18,7 @@ fn is_refused(ran: &Ran, why: &str) {
     assert!(ran.err.contains(why), "{}", ran.err);
 }
 
-/// The certificate is not shown: a state refutes its E.
+/// Asserts that the certificate is not shown: a state refutes its E.
 fn is_refuted(certificate: &str, robot: &str) {
     let ran = certify(certificate, robot);
     assert_eq!(ran.code, 1, "{}{}", ran.out, ran.err);

@@ -4,7 +4,7 @@ use std::fs;
 
 use crate::support::{arm, robot, run};
 
-/// The list of boxes that have a cross, and of those that have none.
+/// Returns the list of boxes that have a cross, and of those that have none.
 fn boxes(text: &str) -> [Vec<&str>; 2] {
     ["- [x] ", "- [ ] "].map(|mark| text.lines().filter_map(|l| l.strip_prefix(mark)).collect())
 }

@@ -157,7 +157,7 @@ fn states_have_bounds() {
     }
 }
 
-/// The lines of generated code that begin with a name, by their numbers.
+/// Returns the lines of generated code that begin with a name, by their numbers.
 fn constants(arm: &str) -> Vec<(usize, String)> {
     let ran = run(&["generate", arm, "--outputs", "inverse_dynamics"]);
     assert_eq!(ran.code, 0, "{}", ran.err);

@@ -114,7 +114,7 @@ fn certificates_made_better_by_hand_are_caught() {
     }
 }
 
-/// The same ranges, half as long.
+/// Returns the same ranges, half as long.
 fn half_ranges(ranges: &Value) -> Value {
     let half = |range: &Value| [0, 1].map(|end| range[end].as_f64().unwrap() * 0.5);
     let each = ranges.as_array().unwrap().iter().map(half);

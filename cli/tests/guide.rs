@@ -24,7 +24,7 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/src")
 }
 
-/// The chapters in the order of the table of contents.
+/// Returns the chapters in the order of the table of contents.
 fn chapters() -> Vec<PathBuf> {
     let summary = fs::read_to_string(folder().join("SUMMARY.md")).unwrap();
     let links = summary.lines().filter_map(|line| line.split_once("]("));
@@ -87,7 +87,7 @@ fn shows(shown: &[&str], lines: &[&str]) -> bool {
     }
 }
 
-/// A block of commands with what they print.
+/// Returns a block of commands with what they print.
 fn ran(lines: &[String], inside: &Path, what: &str) -> Vec<String> {
     let mut all = Vec::new();
     for line in lines {

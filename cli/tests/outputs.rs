@@ -13,7 +13,7 @@ tolerance = { value = 0.3, relative_to = "range" }
 scalar = "f64"
 "#;
 
-/// A folder with a robot file.
+/// Returns a folder with a robot file.
 fn arm(name: &str) -> (PathBuf, String) {
     support::arm(name, "planar2r", SCENE)
 }
@@ -30,7 +30,7 @@ fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Refused with these words before anything was searched for: there is no
+/// Asserts that it is refused with these words before anything was searched for: there is no
 /// report, and the folder is as it was.
 fn refused(ran: &Ran, words: &str, folder: &Path, before: &[String]) {
     assert_eq!(ran.code, 2, "{words}: {}", ran.err);

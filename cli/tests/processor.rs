@@ -11,7 +11,7 @@ fn report(arguments: &[&str]) -> Ran {
     run(&[&generate[..], arguments].concat())
 }
 
-/// The words of the line that begins with a function, in the table behind a head.
+/// Returns the words of the line that begins with a function, in the table behind a head.
 fn row(ran: &Ran, head: &str) -> Vec<String> {
     assert_eq!(ran.code, 0, "{}", ran.err);
     let mut lines = ran.out.lines().skip_while(|line| !line.starts_with(head));

@@ -65,7 +65,7 @@ tolerance = { value = 1e-6, relative_to = "range" }
 scalar = "f32"
 "#;
 
-/// The planar arm of two joints with these scenes, in a folder of its own.
+/// Returns the planar arm of two joints with these scenes, in a folder of its own.
 fn arm(name: &str) -> (PathBuf, String) {
     let folder = temporary(name);
     let file = folder.join("arm.toml");

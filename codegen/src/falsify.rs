@@ -143,7 +143,7 @@ impl<'c> Falsifier<'c> {
         }
     }
 
-    /// The errors relative to T, a column an output; the largest are noted.
+    /// Returns the errors relative to T, a column an output; the largest are noted.
     fn errors(&mut self, states: &[JointState]) -> Vec<Vec<f64>> {
         let Certificate { scalar, limits, .. } = self.certificate;
         let states: Vec<JointState> = states.iter().map(|s| held(s, *scalar, limits)).collect();
@@ -181,7 +181,7 @@ impl<'c> Falsifier<'c> {
     }
 }
 
-/// So many coordinates moved, by no more than a part of their ranges.
+/// Moves so many coordinates, by no more than a part of their ranges.
 fn nudged(
     limits: &InputBox,
     state: &JointState,
@@ -201,7 +201,7 @@ fn nudged(
     next
 }
 
-/// The nearest state of the scalar's numbers inside the box.
+/// Returns the nearest state of the scalar's numbers inside the box.
 pub(crate) fn held(state: &JointState, scalar: ScalarType, limits: &InputBox) -> JointState {
     if scalar == ScalarType::F64 {
         return state.clone();

@@ -12,12 +12,12 @@ pub struct ErrorByCause {
 }
 
 impl ErrorByCause {
-    /// E
+    /// Returns E
     pub fn total(self) -> f64 {
         (self.model + self.sincos + self.rounding) * (1.0 + 1e-15)
     }
 
-    /// The smaller of two bounds, cause by cause.
+    /// Returns the smaller of two bounds, cause by cause.
     #[must_use]
     pub fn min(self, other: ErrorByCause) -> ErrorByCause {
         ErrorByCause {

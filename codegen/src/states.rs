@@ -36,7 +36,7 @@ pub struct JointState {
 }
 
 impl JointState {
-    /// From the entries of each argument.
+    /// Makes a state from the entries of each argument.
     pub fn new(mut entries: impl FnMut(Argument) -> Vec<f64>) -> JointState {
         let mut state = JointState::default();
         for argument in Argument::ALL {
@@ -45,7 +45,7 @@ impl JointState {
         state
     }
 
-    /// The entries of an argument.
+    /// Returns the entries of an argument.
     pub fn of(&self, argument: Argument) -> &[f64] {
         match argument {
             Argument::Position => &self.q,
@@ -69,7 +69,7 @@ impl JointState {
         entries.all(|x| x.is_finite())
     }
 
-    /// An entry of an argument; NaN where the state has none, which
+    /// Returns an entry of an argument; NaN where the state has none, which
     /// reaches whatever reads it.
     pub fn entry(&self, argument: Argument, index: usize) -> f64 {
         let entry = self.of(argument).get(index);
@@ -139,13 +139,13 @@ pub fn seeded(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
 }
 
 impl JointState {
-    /// The nearest f32 state, held in doubles. A load follows from the payload, and
+    /// Returns the nearest f32 state, held in doubles. A load follows from the payload, and
     /// code rounds it to its own scalar.
     pub fn in_single(&self) -> JointState {
         self.each(|x| f64::from(x as f32))
     }
 
-    /// The nearest state of finite f32 numbers: what is beyond the largest of them is
+    /// Returns the nearest state of finite f32 numbers: what is beyond the largest of them is
     /// that, and what is no number is zero.
     pub fn in_finite_single(&self) -> JointState {
         let most = f64::from(f32::MAX);
@@ -155,7 +155,7 @@ impl JointState {
         })
     }
 
-    /// The state with each of its entries changed, but for a load.
+    /// Returns the state with each of its entries changed, but for a load.
     fn each(&self, change: impl Fn(f64) -> f64) -> JointState {
         let mut state = self.clone();
         for argument in Argument::ALL {
@@ -169,12 +169,12 @@ impl JointState {
     }
 }
 
-/// Between which ends each joint's position is drawn.
+/// Returns between which ends each joint's position is drawn.
 pub fn positions(robot: &Robot) -> Vec<[f64; 2]> {
     robot.joints.iter().map(position).collect()
 }
 
-/// Between which ends a joint's entry of an argument is drawn.
+/// Returns between which ends a joint's entry of an argument is drawn.
 fn range(joint: &Joint, argument: Argument) -> [f64; 2] {
     let limits = &joint.limits;
     let most = match argument.limit() {

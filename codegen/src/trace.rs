@@ -24,7 +24,7 @@ pub struct Trace {
     pub traced: Counts,
 }
 
-/// The motion of a robot in its scene in symbols. Of the arguments that are no part of a
+/// Returns the motion of a robot in its scene in symbols. Of the arguments that are no part of a
 /// state only these are inputs: a search pairs whatever a graph has, and what
 /// nothing reads would only be in its way.
 pub(crate) fn symbols(

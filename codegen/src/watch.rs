@@ -60,7 +60,7 @@ pub struct Progress {
 
 /// Who waits for a search.
 pub trait Observer: Send + Sync {
-    /// The search has come this far.
+    /// Tells that the search has come this far.
     fn step(&self, progress: &Progress);
 
     /// Returns whether the search should end. Once `true` it should stay so: functions that
@@ -76,7 +76,7 @@ pub trait Observer: Send + Sync {
 pub struct Watch(Option<Arc<dyn Observer>>);
 
 impl Watch {
-    /// With an observer.
+    /// Makes a watch with an observer.
     pub fn by(observer: Arc<dyn Observer>) -> Watch {
         Watch(Some(observer))
     }
@@ -86,7 +86,7 @@ impl Watch {
         self.0.as_deref().is_some_and(Observer::stop)
     }
 
-    /// The watch over the search for one function.
+    /// Returns the watch over the search for one function.
     pub fn over(&self, function: Function) -> FunctionWatch<'_> {
         FunctionWatch {
             observer: self.0.as_deref(),

@@ -85,7 +85,7 @@ impl Word for bool {
     }
 }
 
-/// The value of a word.
+/// Returns the value of a word.
 ///
 /// # Errors
 /// `UnknownWord`, with the word that was probably meant.
@@ -101,7 +101,7 @@ pub fn parse<W: Word>(text: &str) -> Result<W, UnknownWord> {
     })
 }
 
-/// The bundle that a text makes, `NAME=OUTPUT+OUTPUT`.
+/// Returns the bundle that a text makes, `NAME=OUTPUT+OUTPUT`.
 ///
 /// ```
 /// use dalembert_codegen::workspace::words::bundle;
@@ -149,7 +149,7 @@ impl UnknownWord {
         format!("unknown {} `{}`", self.what, self.found)
     }
 
-    /// The likely fix.
+    /// Returns the likely fix.
     pub(crate) fn help(&self) -> String {
         match self.meant {
             Some(meant) => format!("did you mean `{meant}`?"),

@@ -11,12 +11,12 @@ use dalembert_codegen::workspace::task::{Prefer, Request};
 use dalembert_codegen::workspace::verify::floating::Runtime;
 use dalembert_codegen::workspace::verify::rounding::Rounding;
 
-/// τ by a quick search.
+/// Returns τ by a quick search.
 fn torques(source: &str, prefer: Prefer) -> GeneratedFunction {
     found(source, Function::InverseDynamics, prefer)
 }
 
-/// A function by a quick search.
+/// Returns a function by a quick search.
 fn found(source: &str, function: Function, prefer: Prefer) -> GeneratedFunction {
     let request = Request {
         functions: vec![function],
@@ -28,7 +28,7 @@ fn found(source: &str, function: Function, prefer: Prefer) -> GeneratedFunction 
     generated.functions.pop().unwrap()
 }
 
-/// The file with every mass multiplied.
+/// Returns the file with every mass multiplied.
 fn heavier(source: &str, factor: f64) -> String {
     let line = |line: &str| match line.strip_prefix("mass = ") {
         Some(mass) => format!("mass = {:.6}\n", mass.parse::<f64>().unwrap() * factor),

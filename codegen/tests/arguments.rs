@@ -60,7 +60,7 @@ fn number(x: f64) -> Rational {
     Rational::from_float(x).unwrap()
 }
 
-/// The robot of a file in which the last link carries the payload, merged exactly,
+/// Returns the robot of a file in which the last link carries the payload, merged exactly,
 /// and gravity is as the state says where it says anything.
 fn in_the_file(robot: &Robot, state: &JointState) -> Robot {
     let mut scene = Scene {
@@ -91,7 +91,7 @@ fn in_the_file(robot: &Robot, state: &JointState) -> Robot {
     scene.apply(robot)
 }
 
-/// The emitted code at a state, the load as the emitted `load` gives it.
+/// Returns the emitted code at a state, the load as the emitted `load` gives it.
 fn run(generated: &Generated, emitted: &Emitted, state: &JointState) -> Vec<f64> {
     let mut state = state.clone();
     let mut all = generated.emitted.iter();
@@ -102,9 +102,8 @@ fn run(generated: &Generated, emitted: &Emitted, state: &JointState) -> Vec<f64>
     emitted.run(&state)
 }
 
-/// Emitted code against the runtime of the robot with all that in its file, by the
-/// rule of every function: 100 u of a vector's largest entry, or of a sixteenth of
-/// the largest met.
+/// Compares emitted code against the runtime of the robot with all that in its file, by the rule
+/// of every function: 100 u of a vector's largest entry, or of a sixteenth of the largest met.
 fn check(robot: &Robot, request: &Request, states: usize) {
     let generated = generate(robot, request);
     let scene_robot = request.scene_robot(robot).unwrap();
@@ -373,7 +372,7 @@ fn wrong_entries_are_disproved() {
     assert!(planted > 10, "{planted}");
 }
 
-/// The program with other inputs.
+/// Returns the program with other inputs.
 fn with_inputs(program: &Program, other: impl Fn(Input) -> Input) -> Program {
     let mut program = program.clone();
     let change = |operand: &mut Operand| {

@@ -88,7 +88,7 @@ fn framed() -> (Robot, Vec<Function>) {
     (robot, functions.to_vec())
 }
 
-/// Whatever else changes what is printed, in both scalars and, of most, of many states too.
+/// Lists whatever else changes what is printed, in both scalars and, of most, of many states too.
 pub fn changes() -> Vec<(&'static str, Robot, Request)> {
     let of = |functions: &[Function], sincos| Request {
         functions: functions.to_vec(),

@@ -28,7 +28,7 @@ const FINENESS: BoundEffort = BoundEffort {
     ..BoundEffort::QUICK
 };
 
-/// The largest E and the largest error that was seen.
+/// Returns the largest E and the largest error that was seen.
 fn falsified(certificate: &Certificate) -> (f64, f64) {
     let falsification = falsify(certificate, SAMPLES, CLIMBS, 11).unwrap();
     assert_eq!(
@@ -45,8 +45,8 @@ fn falsified(certificate: &Certificate) -> (f64, f64) {
     )
 }
 
-/// A robot in the scene of its file, at another tolerance; without guesses
-/// nothing is left out.
+/// Certifies a robot in the scene of its file, at another tolerance; without guesses nothing is
+/// left out.
 fn campaign(name: &str, tolerance: f64, scalars: &[ScalarType], guesses: usize) {
     let reading = support::reading(name);
     let bare = reading.scenes.first().map(Scene::without_tolerance);

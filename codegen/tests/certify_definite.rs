@@ -44,7 +44,7 @@ fn certificate(
     Certificate::make(robot, stages, program, ScalarType::F64, limits, &ones)
 }
 
-/// At 15 % of each entry's range.
+/// Prunes at 15 % of each entry's range.
 fn pruned(program: &Program, limits: &InputBox, stages: usize, alike: usize) -> Pruned {
     let ranges = scale::range(program, limits);
     let allowances: Vec<f64> = ranges.iter().map(|t| 0.15 * t).collect();

@@ -100,7 +100,7 @@ fn honest() -> Vec<Certificate> {
     all.into_iter().chain([together]).collect()
 }
 
-/// A float's value by an operation in the scalar.
+/// Returns a float's value by an operation in the scalar.
 fn round(x: f64, scalar: ScalarType) -> f64 {
     match scalar {
         ScalarType::F64 => x,
@@ -242,7 +242,8 @@ fn is_true(claim: &Claim, verdict: &Verdict, scene_robot: &SceneRobot) -> bool {
     })
 }
 
-/// Refused, or true; how many were refused. The scene is the robot file's first.
+/// Asserts that each is refused or true; returns how many were refused. The scene is the robot
+/// file's first.
 fn judge(texts: impl Iterator<Item = String>, source: &str) -> usize {
     let robot = reading(source).unwrap();
     let scene_robot = SceneRobot::new(&robot.robot, &robot.scenes[0]).unwrap();
@@ -460,7 +461,7 @@ fn scenes() {
     assert!(refused >= MUTATIONS / 3, "{refused}");
 }
 
-/// The words of a line, one of them changed by another of `words`.
+/// Returns the words of a line, one of them changed by another of `words`.
 fn other_word(line: &str, random: &mut Random, words: &[&str]) -> String {
     let mut parts: Vec<&str> = line.split(' ').collect();
     let at = random.below(parts.len());

@@ -35,7 +35,7 @@ fn request(reading: &Reading, scene: usize) -> Request {
     Request::default().in_scene(&reading.scenes[scene])
 }
 
-/// The arm, and the text of the plan that `--save-plan` would write for a scene.
+/// Returns the arm, and the text of the plan that `--save-plan` would write for a scene.
 fn planned(scene: usize) -> (Reading, String) {
     let mut reading = support::reading_with("planar3r", SCENES);
     if scene == 1 {
@@ -50,7 +50,7 @@ fn planned(scene: usize) -> (Reading, String) {
     (reading, kept.plan.write())
 }
 
-/// The plan with other numbers in the lines that begin with a word.
+/// Returns the plan with other numbers in the lines that begin with a word.
 fn forged(plan: &str, word: &str, change: impl Fn(usize, f64) -> f64) -> String {
     let line = |line: &str| match line.strip_prefix(word) {
         Some(numbers) => {
@@ -108,7 +108,7 @@ fn a_smaller_bound_than_can_be_shown_is_refused() {
     );
 }
 
-/// The plan with other lines in front of the last program.
+/// Returns the plan with other lines in front of the last program.
 fn with_steps(plan: &str, lines: &[String]) -> String {
     let last = plan.rfind("\nnext\n").unwrap() + "\nnext\n".len();
     format!("{}{}\n{}", &plan[..last], lines.join("\n"), &plan[last..])
@@ -201,7 +201,7 @@ fn variants_that_are_other_functions() {
     assert!(error.contains("a quotient, of which no bound"), "{error}");
 }
 
-/// A folder with the arm, its scenes and a plan.
+/// Returns a folder with the arm, its scenes and a plan.
 fn folder(name: &str, plan: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::create_dir_all(&folder).unwrap();

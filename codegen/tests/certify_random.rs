@@ -17,7 +17,7 @@ use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{JointKind, Position, Robot};
 use dalembert_model::scene::Scale;
 
-/// Limits: the whole circle or a part of it, and rates.
+/// Returns Limits: the whole circle or a part of it, and rates.
 fn limited(mut robot: Robot, draw: &mut Draw) -> Robot {
     for joint in &mut robot.joints {
         joint.limits.position = Some(match joint.kind {
@@ -39,7 +39,7 @@ fn limited(mut robot: Robot, draw: &mut Draw) -> Robot {
     robot
 }
 
-/// A twentieth of the range, by a short search.
+/// Returns a twentieth of the range, by a short search.
 fn pruned(program: &Program, limits: &InputBox, scales: &[f64]) -> Pruned {
     let allowances: Vec<f64> = scales.iter().map(|t| 0.05 * t).collect();
     let settings = PruneSettings {

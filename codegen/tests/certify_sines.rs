@@ -41,7 +41,7 @@ fn case(robot: Robot, scales: impl Fn(&Robot, &Program) -> Vec<f64>) -> Case {
     }
 }
 
-/// A light one, whose angles add up.
+/// Returns a light one, whose angles add up.
 fn planar() -> Case {
     let mut robot = support::robot("planar3r");
     for joint in &mut robot.joints {
@@ -73,7 +73,7 @@ impl Case {
         libm.with_sines(&SceneRobot::whole(robot), sines, &sensitivity)
     }
 
-    /// The certificate with other sines in its text, and the same claims.
+    /// Returns the certificate with other sines in its text, and the same claims.
     fn with_other(&self, honest: &Certificate, sines: Sines) -> Certificate {
         let mut other = honest.clone();
         let code = lowered(&self.program, honest.scalar, Library::Libm, &sines);

@@ -14,7 +14,7 @@ use crate::support;
 const ALLOW: &str = "allow = [\"impossible_inertia\", \"unusual_gravity\", \"large_length\", \
                      \"large_mass\", \"large_angle\", \"large_limit\", \"large_velocity\"]\n";
 
-/// A number whose size is a random power of ten up to `span` either way.
+/// Returns a number whose size is a random power of ten up to `span` either way.
 fn number(random: &mut Random, span: f64) -> f64 {
     let sign = if random.below(3) == 0 { -1.0 } else { 1.0 };
     let digits = 1.0 + 9.0 * random.unit();
@@ -24,7 +24,7 @@ fn number(random: &mut Random, span: f64) -> f64 {
         .unwrap()
 }
 
-/// An arm whose lengths, masses, rates and gravity each are ordinary or extreme.
+/// Returns an arm whose lengths, masses, rates and gravity each are ordinary or extreme.
 fn arm(seed: usize) -> String {
     let mut random = Random::new(seed as u64);
     let sizes = [3.0, 9.0, 30.0, 60.0, 100.0, 140.0];
@@ -73,7 +73,7 @@ fn reading(seed: usize, scene: &str) -> Reading {
     read::parse(&source, &read::Options::default()).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
-/// Refused or not: no defect is reported that there is not.
+/// Asserts that no defect is reported that there is not, refused or not.
 fn never_contradicted(reading: &Reading, request: &Request, seed: usize) -> bool {
     match generate(&reading.robot, request) {
         Ok(_) => true,

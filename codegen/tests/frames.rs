@@ -37,7 +37,7 @@ fn file(name: &str) -> Value {
     serde_json::from_str(&text).unwrap()
 }
 
-/// The tables of a file's frames.
+/// Returns the tables of a file's frames.
 fn tables(frames: &Value) -> String {
     let keys = ["name", "link", "xyz", "rpy"];
     let table = |frame: &Value| {
@@ -47,7 +47,7 @@ fn tables(frames: &Value) -> String {
     frames.as_array().unwrap().iter().map(table).collect()
 }
 
-/// A checked-in robot with the frames of its file. Scenes end a robot file.
+/// Returns a checked-in robot with the frames of its file. Scenes end a robot file.
 fn with_frames(name: &str) -> Robot {
     let source = support::source(name, "");
     let rows = source.split("\n[scene").next().unwrap();
@@ -68,7 +68,7 @@ fn state(json: &Value) -> JointState {
     })
 }
 
-/// The function and the quantity of a key of a file.
+/// Returns the function and the quantity of a key of a file.
 fn asked(key: &str) -> Option<(Function, Quantity)> {
     let (name, view) = key.split_once('@').unwrap_or((key, ""));
     let mut known = Quantity::ALL.iter();
@@ -85,7 +85,7 @@ fn asked(key: &str) -> Option<(Function, Quantity)> {
 /// Values below this in SI units are what rounding leaves of zero.
 const LEAST: f64 = 1e-3;
 
-/// The largest difference as a part of the largest number of the file.
+/// Returns the largest difference as a part of the largest number of the file.
 fn off(found: &[f64], known: &[f64]) -> f64 {
     assert_eq!(found.len(), known.len());
     let size = known.iter().fold(LEAST, |most, x| most.max(x.abs()));
@@ -94,7 +94,7 @@ fn off(found: &[f64], known: &[f64]) -> f64 {
     worst / size
 }
 
-/// One quantity of a function's results.
+/// Returns one quantity of a function's results.
 fn part(function: Function, quantity: Quantity, emitted: &Emitted, all: &[f64]) -> Vec<f64> {
     let before = function.quantities().iter().take_while(|q| **q != quantity);
     let start: usize = before.map(|q| q.len(emitted.sizes)).sum();

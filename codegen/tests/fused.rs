@@ -35,7 +35,7 @@ fn fused(request: &Request) -> Request {
     }
 }
 
-/// q, q̇, q̈ and the torques of an independent library.
+/// Returns q, q̇, q̈ and the torques of an independent library.
 fn golden(name: &str) -> Vec<(JointState, Vec<f64>)> {
     let folder =
         std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../model/tests/data/golden");

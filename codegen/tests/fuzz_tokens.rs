@@ -7,7 +7,7 @@ use dalembert_codegen::workspace::clauses::expand;
 use dalembert_codegen::workspace::random::Random;
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 
-/// A dose for every day; `FUZZ_TIMES` multiplies it.
+/// Returns a dose for every day; `FUZZ_TIMES` multiplies it.
 fn dose(runs: usize) -> usize {
     let times = std::env::var("FUZZ_TIMES").ok();
     let times: Option<usize> = times.and_then(|times| times.parse().ok());
@@ -85,7 +85,7 @@ fn piece(random: &mut Random) -> TokenStream {
     TokenStream::from_str(PIECES[random.below(PIECES.len())]).expect("pieces are tokens")
 }
 
-/// The tokens with a few cut out, doubled, moved, put in or wrapped.
+/// Returns the tokens with a few cut out, doubled, moved, put in or wrapped.
 fn mutate(tokens: TokenStream, random: &mut Random, rate: usize) -> TokenStream {
     let mut out: Vec<TokenTree> = Vec::new();
     for tree in tokens {
@@ -120,7 +120,7 @@ fn mutate(tokens: TokenStream, random: &mut Random, rate: usize) -> TokenStream 
     out.into_iter().collect()
 }
 
-/// Something comes back, and it is tokens that print and read again.
+/// Asserts that something comes back, and that it is tokens that print and read again.
 fn check(tokens: TokenStream) -> bool {
     let said = tokens.to_string();
     let text = expand(tokens, Path::new(env!("CARGO_MANIFEST_DIR"))).to_string();

@@ -12,7 +12,7 @@ use dalembert_codegen::workspace::task::Request;
 use dalembert_model::read::{Options, parse};
 use dalembert_model::robot::write;
 
-/// A dose for every day; `FUZZ_TIMES` multiplies it.
+/// Returns a dose for every day; `FUZZ_TIMES` multiplies it.
 fn dose(runs: usize) -> usize {
     let times = std::env::var("FUZZ_TIMES").ok();
     let times: Option<usize> = times.and_then(|times| times.parse().ok());

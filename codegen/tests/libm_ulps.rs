@@ -18,18 +18,18 @@ fn the_locked_version_is_the_tested_one() {
     assert!(locked.starts_with(&format!("{TESTED}\"")));
 }
 
-/// The distance between neighbours where the true value is.
+/// Returns the distance between neighbours where the true value is.
 fn ulp(x: f64) -> f64 {
     x.abs().next_up() - x.abs()
 }
 
-/// The error of a result in ulps of the true value.
+/// Returns the error of a result in ulps of the true value.
 fn ulps(found: f64, exact: &Big) -> f64 {
     let error = Big::from_f64(found).unwrap().sub(exact).abs();
     error.to_f64() / ulp(exact.to_f64())
 }
 
-/// The worst of sine, cosine and both at once.
+/// Returns the worst of sine, cosine and both at once.
 fn worst(x: f64) -> f64 {
     let (sin, cos) = Big::from_f64(x).unwrap().sin_cos();
     let both = libm::sincos(x);

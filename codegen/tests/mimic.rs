@@ -31,7 +31,7 @@ fn robot() -> Robot {
     reading("").robot
 }
 
-/// What can be had of an arm whose joints follow others.
+/// Returns what can be had of an arm whose joints follow others.
 fn functions() -> Vec<Function> {
     let all = Function::ALL.into_iter();
     // Of base parameters there are none: its axes are turned against each other anyhow.

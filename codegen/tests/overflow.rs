@@ -6,7 +6,7 @@ use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::task::Request;
 use dalembert_model::read;
 
-/// The warnings for the PUMA's torques with another limit of velocity.
+/// Returns the warnings for the PUMA's torques with another limit of velocity.
 fn warnings(velocity: &str, scalar: ScalarType) -> Vec<String> {
     let source = include_str!("../../generated/robots/puma560.toml");
     let source = source

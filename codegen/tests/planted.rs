@@ -32,7 +32,7 @@ fn programs() -> Vec<(Robot, Program)> {
     programs
 }
 
-/// Some steps of a program, spread over all of it.
+/// Returns some steps of a program, spread over all of it.
 fn some(program: &Program) -> impl Iterator<Item = usize> + use<> {
     let len = program.steps.len();
     (0..len).step_by((len / 60).max(1))
@@ -84,7 +84,7 @@ fn a_dropped_term() {
     }
 }
 
-/// The exact constant, and the double that it rounds to moved by one ulp.
+/// Returns the exact constant, and the double that it rounds to moved by one ulp.
 fn neighbour(constant: &Exact) -> Exact {
     let next = f64::nearest(constant).next_up();
     Exact::from(Rational::from_float(next).unwrap())
@@ -126,7 +126,7 @@ fn a_missing_output() {
     );
 }
 
-/// The text of a program, and whether it passes for the program.
+/// Returns the text of a program, and whether it passes for the program.
 fn passes(program: &Program, scalar: ScalarType, text: &str) -> bool {
     Lowered::parse(text, program.function, scalar)
         .is_ok_and(|read| read.matches(program, Library::Libm, &[]).is_ok())
@@ -153,7 +153,7 @@ fn every_slip_of_the_printer() {
     }
 }
 
-/// Other lines that compile just as well.
+/// Lists other lines that compile just as well.
 fn slips(line: &str, scalar: ScalarType) -> Vec<String> {
     let mut slips = vec![String::new()];
     for (a, b) in [

@@ -43,7 +43,7 @@ fn text(layout: Layout, scalars: &[ScalarType], entries: Entries) -> String {
     generate(&robot(), &request).unwrap().text
 }
 
-/// A crate that has the file in both ways and calls none of it.
+/// Returns a crate that has the file in both ways and calls none of it.
 fn files() -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("printed_file");
     fs::create_dir_all(&folder).unwrap();

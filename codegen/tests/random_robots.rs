@@ -19,7 +19,7 @@ use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::Exact;
 use dalembert_model::scene::Scene;
 
-/// A function whose code stays small enough for a test.
+/// Returns a function whose code stays small enough for a test.
 fn function(n: usize, draw: &mut Draw) -> Function {
     let few = match n {
         0..=3 => 6,

@@ -61,7 +61,7 @@ fn generate(linear: Linear, robot: &Robot, scene: Option<&Scene>) -> Generated {
     dalembert_codegen::generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The constants with π of the text, a module each.
+/// Returns the constants with π of the text, a module each.
 fn printed(linear: Linear, text: &str) -> Vec<Vec<f64>> {
     let declared = format!("pub const {}: [", linear.constant);
     let constants = text.split(&declared).skip(1);
@@ -75,7 +75,7 @@ fn printed(linear: Linear, text: &str) -> Vec<Vec<f64>> {
     constants.collect()
 }
 
-/// The values of π that functions of a header write, a scalar each.
+/// Returns the values of π that functions of a header write, a scalar each.
 fn printed_in_c(text: &str) -> Vec<Vec<f64>> {
     let functions = text.lines().enumerate();
     let functions =
@@ -118,7 +118,7 @@ fn headers_have_the_same_parameters() {
     }
 }
 
-/// The rank of Y over all links' parameters, in f64 from the runtime: elimination
+/// Returns the rank of Y over all links' parameters, in f64 from the runtime: elimination
 /// with the largest pivot there is, columns brought to one length first.
 fn rank(runtime: &Runtime, scene_robot: &SceneRobot) -> usize {
     let rows = scene_robot.rows().len();
@@ -169,7 +169,7 @@ fn rank(runtime: &Runtime, scene_robot: &SceneRobot) -> usize {
     }
 }
 
-/// The emitted Y times the printed π against the runtime's torques, relative to
+/// Returns the emitted Y times the printed π against the runtime's torques, relative to
 /// what the sums are made of; and as many columns as the rank.
 fn check(linear: Linear, robot: &Robot, scene: Option<&Scene>, drives: usize) -> Generated {
     let scene_robot = SceneRobot::of(robot, scene).unwrap();
@@ -178,7 +178,7 @@ fn check(linear: Linear, robot: &Robot, scene: Option<&Scene>, drives: usize) ->
     with_columns(linear, robot, scene, base)
 }
 
-/// The same with so many columns.
+/// Returns the same with so many columns.
 fn with_columns(linear: Linear, robot: &Robot, scene: Option<&Scene>, base: usize) -> Generated {
     let generated = generate(linear, robot, scene);
     let scene_robot = SceneRobot::of(robot, scene).unwrap();

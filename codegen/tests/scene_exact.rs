@@ -48,8 +48,8 @@ fn run(robot: &Robot, scene: &Scene, functions: &[Function]) -> Generated {
     generate(robot, &request(scene, functions)).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The scene's text against the runtime of the whole robot, at states that
-/// have the scene's values; nothing here goes through [`SceneRobot`].
+/// Compares the scene's text against the runtime of the whole robot, at states that have the
+/// scene's values; nothing here goes through [`SceneRobot`].
 fn check_floats(robot: &Robot, scene: &Scene, generated: &Generated) {
     let whole = Runtime::new(&scene.apply(robot));
     let rows = scene.rows(robot.joints.len());

@@ -13,7 +13,7 @@ velocity = "zero"
 scalar = "f64"
 "#;
 
-/// A folder with the planar arm of three joints and a scene.
+/// Returns a folder with the planar arm of three joints and a scene.
 fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::create_dir_all(&folder).unwrap();
@@ -28,7 +28,7 @@ fn expanded(invocation: &str, base: &Path) -> String {
     expand(tokens, base).to_string()
 }
 
-/// The tokens without spaces: these depend on the lexer.
+/// Returns the tokens without spaces: these depend on the lexer.
 fn plain(text: &str) -> String {
     text.split_whitespace().collect()
 }

@@ -44,7 +44,7 @@ fn of(robot: &Robot, functions: &[Function], request: Request) -> Generated {
     generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Both by one generation in f64.
+/// Returns both by one generation in f64.
 fn double(robot: &Robot, functions: &[Function]) -> Generated {
     let request = Request {
         scalars: vec![ScalarType::F64],

@@ -71,7 +71,7 @@ fn polynomials_are_printed_counted_read_back_and_near() {
     }
 }
 
-/// The sine and cosine of one angle, as far as they are wanted: a function of two
+/// Returns the sine and cosine of one angle, as far as they are wanted: a function of two
 /// results.
 fn pair(sin: bool, cos: bool) -> Program {
     let angle = AngleSum::joint(0);

@@ -16,7 +16,7 @@ const BRANCHES: [&str; 10] = [
 /// A product of CUDA is a macro.
 const MACRO: &str = "DALEMBERT_MUL";
 
-/// The functions of a text: the line that each begins with, and those behind it.
+/// Returns the functions of a text: the line that each begins with, and those behind it.
 fn functions(text: &str) -> Vec<(&str, Vec<&str>)> {
     let lines: Vec<&str> = text.lines().collect();
     let heads = lines.iter().enumerate();
@@ -29,7 +29,7 @@ fn functions(text: &str) -> Vec<(&str, Vec<&str>)> {
     functions.collect()
 }
 
-/// The words behind which a bracket opens.
+/// Returns the words behind which a bracket opens.
 fn calls(line: &str) -> impl Iterator<Item = &str> {
     let is_letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let before = line.match_indices('(').map(|(place, _)| &line[..place]);

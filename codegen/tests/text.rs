@@ -76,7 +76,7 @@ fn what_was_not_is_refused() {
     );
 }
 
-/// The same function with all its angles in one call.
+/// Returns the same function with all its angles in one call.
 fn together() -> String {
     let alone = "    let (s1, c1) = libm::sincos(q[0]);\n    let a1p2 = q[0] + q[1];\n    \
                  let c1p2 = libm::cos(a1p2);\n";

@@ -51,7 +51,7 @@ fn main() {
     }
 }
 
-/// A robot, with more in its file.
+/// Returns a robot, with more in its file.
 fn reading(name: &str, more: &str) -> Reading {
     let root = env!("CARGO_MANIFEST_DIR");
     let places = ["../generated/robots", "tests/data"];
@@ -63,7 +63,7 @@ fn reading(name: &str, more: &str) -> Reading {
     read::parse(&text, &read::Options::default()).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
-/// A robot that moves within limits: its own, or some.
+/// Returns a robot that moves within limits: its own, or some.
 fn limited(name: &str) -> Robot {
     let mut robot = reading(name, "").robot;
     let milli = |x: i64| Rational::new(x.into(), 1000.into());
@@ -88,7 +88,7 @@ fn exact(robot: &Robot, function: Function) -> Program {
     generated.functions.remove(0).program
 }
 
-/// The largest of each output's ratio, over all.
+/// Returns the largest of each output's ratio, over all.
 fn worst(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
     let ratios = pairs.map(|(bound, seen)| if bound == 0.0 { 0.0 } else { bound / seen });
     ratios.fold(0.0, f64::max)
@@ -137,7 +137,7 @@ fn rounding(name: &str) {
     }
 }
 
-/// The largest sum of |own rounding|·|adjoint| at a state that climbs find.
+/// Searches for the largest sum of |own rounding|·|adjoint| at a state that climbs find.
 fn floor(name: &str) {
     let robot = limited(name);
     let program = exact(&robot, Function::InverseDynamics);

@@ -5,7 +5,7 @@ use dalembert_fit::{Accumulator, Error, Model, Options, Prior, fit};
 
 use crate::support::{ARMS, State, accumulated, file, guess, model, states, torques, truth};
 
-/// The states in contiguous parts, each in batches, merged from the first to the last.
+/// Returns the states in contiguous parts, each in batches, merged from the first to the last.
 fn in_parts(
     model: &Model,
     both: &[(&State, &Vec<f64>)],

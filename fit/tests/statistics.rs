@@ -5,8 +5,8 @@ use dalembert_fit::{Prior, fit};
 
 use crate::support::{ARMS, accumulated, guess, model, states, true_parameters, truth};
 
-/// Over `seeds` logs of an arm that differ by the noise of the torques alone: the part of all
-/// parameters that lie within three standard errors, and the root mean square in these.
+/// Returns, over `seeds` logs of an arm that differ by the noise of the torques alone, the part
+/// of all parameters that lie within three standard errors, and the root mean square in these.
 fn coverage(name: &str, seeds: u64, count: usize) -> [f64; 2] {
     let truth = truth(name);
     let model = model(&guess(&truth));

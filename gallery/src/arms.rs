@@ -56,7 +56,7 @@ impl Arm {
         }
     }
 
-    /// Its robot file, relative to the gallery.
+    /// Returns its robot file, relative to the gallery.
     pub fn robot_file(&self) -> String {
         match self.source {
             Source::Urdf(_) => format!("robots/{}.toml", self.name),
@@ -64,7 +64,7 @@ impl Arm {
         }
     }
 
-    /// Its picture, relative to the gallery.
+    /// Returns its picture, relative to the gallery.
     pub fn picture(&self) -> String {
         format!("pictures/{}.svg", self.name)
     }

@@ -17,7 +17,7 @@ pub mod page;
 
 use std::path::Path;
 
-/// The folder of the gallery in this checkout.
+/// Returns the folder of the gallery in this checkout.
 pub fn folder() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }

@@ -73,7 +73,7 @@ impl Made {
         })
     }
 
-    /// The files of the arm, by their names in the gallery.
+    /// Returns the files of the arm, by their names in the gallery.
     pub fn files(&self) -> Vec<(String, String)> {
         let file = self.file.clone();
         let file = file.map(|text| (self.arm.robot_file(), text));
@@ -103,7 +103,7 @@ fn options(arm: &Arm) -> Options {
     }
 }
 
-/// The comment above a robot file: what it is, from where, under which licence.
+/// Returns the comment above a robot file: what it is, from where, under which licence.
 fn head(arm: &Arm) -> String {
     format!(
         "# {}.\n#\n# Source: {}.\n# Licence: {}.\n#\n",
@@ -111,7 +111,7 @@ fn head(arm: &Arm) -> String {
     )
 }
 
-/// The operations of every one of [`FUNCTIONS`], by a quick search without a plan.
+/// Returns the operations of every one of [`FUNCTIONS`], by a quick search without a plan.
 ///
 /// # Errors
 /// Nothing can be generated for the robot.

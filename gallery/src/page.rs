@@ -31,7 +31,7 @@ for one; with \"pi/2\" in its robot file the torques take 212/199 instead of 327
 product of inertia is given, as for most arms of seven joints, each of them has to be computed with.
 ";
 
-/// The whole page.
+/// Returns the whole page.
 pub fn text(rows: &[(Made, Vec<Counts>)]) -> String {
     let mut text = String::from(HEAD);
     text +=
@@ -56,7 +56,7 @@ pub fn text(rows: &[(Made, Vec<Counts>)]) -> String {
     text
 }
 
-/// The row of an arm.
+/// Returns the row of an arm.
 pub fn row(made: &Made, counts: &[Counts]) -> String {
     let arm = made.arm;
     let mut text = format!(
@@ -72,7 +72,7 @@ pub fn row(made: &Made, counts: &[Counts]) -> String {
     text + "\n"
 }
 
-/// The kinds of the joints from the base on: `3P 3R`.
+/// Returns the kinds of the joints from the base on: `3P 3R`.
 fn joints(robot: &Robot) -> String {
     let mut groups: Vec<(char, usize)> = Vec::new();
     for joint in &robot.joints {

@@ -75,7 +75,7 @@ pub(crate) fn position(joint: &Joint, text: &str, problems: &mut Problems) -> Op
     Some(at)
 }
 
-/// The position that errors advise: zero, or the limit that is nearest to it.
+/// Returns the position that errors advise: zero, or the limit that is nearest to it.
 pub(crate) fn advised(joint: &Joint) -> &str {
     let zero = match joint.kind {
         Kind::Prismatic => Position::Length(Default::default()),

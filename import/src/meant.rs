@@ -13,7 +13,7 @@ pub(crate) const MAX: i32 = -5;
 /// The digits that tell π/6 from a number that happens to be near it.
 pub(crate) const TELLING: usize = 5;
 
-/// The multiple of π/2, π/4 or π/6 that an angle was meant to be.
+/// Returns the multiple of π/2, π/4 or π/6 that an angle was meant to be.
 pub(crate) fn meant(angle: &Angle, text: &str) -> Option<Angle> {
     let Angle::Radians(value) = angle else {
         return None;
@@ -22,7 +22,7 @@ pub(crate) fn meant(angle: &Angle, text: &str) -> Option<Angle> {
     within(value, unit, digits)
 }
 
-/// The same of an angle that is known up to this unit, of so many digits.
+/// Returns the same of an angle that is known up to this unit, of so many digits.
 pub(crate) fn within(value: &Rational, unit: Rational, digits: usize) -> Option<Angle> {
     if value.is_zero() {
         return None;
@@ -46,7 +46,7 @@ pub(crate) fn within(value: &Rational, unit: Rational, digits: usize) -> Option<
     })
 }
 
-/// One unit of the last digit of a decimal, and how many digits it has.
+/// Returns one unit of the last digit of a decimal, and how many digits it has.
 pub(crate) fn digits(text: &str) -> (Rational, usize) {
     let (mantissa, exponent) = match text.split_once(['e', 'E']) {
         Some((mantissa, exponent)) => (mantissa, exponent.parse().unwrap_or(0)),
@@ -61,7 +61,7 @@ pub(crate) fn digits(text: &str) -> (Rational, usize) {
     (power(unit.clamp(-1000, 1000)), digits)
 }
 
-/// 10 to a power.
+/// Returns 10 to a power.
 pub(crate) fn power(exponent: i32) -> Rational {
     Rational::from_integer(10.into()).pow(exponent)
 }

@@ -44,7 +44,7 @@ pub(crate) struct Link {
     pub(crate) body: Body,
 }
 
-/// The bodies of a chain; `None` after saying what is wrong with one.
+/// Returns the bodies of a chain; `None` after saying what is wrong with one.
 pub(crate) fn arm(urdf: &Urdf, chain: &Chain, problems: &mut Problems) -> Option<Arm> {
     if !are_possible(urdf, chain, problems) {
         return None;
@@ -167,7 +167,7 @@ fn size(urdf: &Urdf, chain: &Chain) -> Rational {
     }
 }
 
-/// From the first step's parent to the last one's child.
+/// Returns the way from the first step's parent to the last one's child.
 fn way(urdf: &Urdf, steps: &[Step]) -> Option<Columns<Wide>> {
     steps.iter().try_fold(Columns::identity(), |at, step| {
         let joint = &urdf.joints[step.joint];
@@ -194,7 +194,7 @@ fn displaced(joint: &Joint, position: &Position) -> Option<Columns<Wide>> {
     })
 }
 
-/// The unit vector of an axis: a direction of length zero was refused when it was
+/// Returns the unit vector of an axis: a direction of length zero was refused when it was
 /// read, and none that is not zero is taken for zero.
 fn direction_of(joint: &Joint) -> Option<Vector<Wide>> {
     direction(&joint.axis.each_ref().map(|x| x.value.clone()))
@@ -241,7 +241,7 @@ fn body(urdf: &Urdf, moving: &Moving, size: &Rational) -> Option<(Rational, Body
     Some((total, Body { com, inertia }))
 }
 
-/// A decimal that a person would write, or 20 digits.
+/// Returns a decimal that a person would write, or 20 digits.
 fn short(value: Rational) -> Rational {
     match write_decimal(&value) {
         Some(text) if text.len() < 28 => value,

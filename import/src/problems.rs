@@ -89,7 +89,7 @@ impl<'s> Problems<'s> {
         self.more > 0 || found.any(|found| found.severity == Severity::Error)
     }
 
-    /// The robot file that was written is refused: what its reader says.
+    /// Reports that the robot file that was written is refused: what its reader says.
     pub(crate) fn refused(&mut self, errors: &Diagnostics, text: &str) {
         for error in &errors.0 {
             let line = text.lines().nth(error.line.saturating_sub(1));
@@ -103,7 +103,7 @@ impl<'s> Problems<'s> {
         }
     }
 
-    /// The notes and warnings in the order of the file, or the errors alone.
+    /// Returns the notes and warnings in the order of the file, or the errors alone.
     pub(crate) fn finish(mut self) -> Result<Vec<Diagnostic>, Diagnostics> {
         if let (1.., Some(last)) = (self.more, self.found.last_mut()) {
             last.severity = Severity::Error;
@@ -121,7 +121,7 @@ impl<'s> Problems<'s> {
     }
 }
 
-/// Line and column of a byte, both from one.
+/// Returns line and column of a byte, both from one.
 pub(crate) fn place(source: &str, byte: usize) -> (usize, usize) {
     let before = source.get(..byte).unwrap_or_default();
     let line = before.bytes().filter(|b| *b == b'\n').count() + 1;
@@ -129,7 +129,7 @@ pub(crate) fn place(source: &str, byte: usize) -> (usize, usize) {
     (line, before[start..].chars().count() + 1)
 }
 
-/// The help for a name that there is not.
+/// Returns the help for a name that there is not.
 pub(crate) fn instead<'n>(name: &str, names: impl Iterator<Item = &'n str>) -> String {
     let names: Vec<&str> = names.collect();
     let has_it = |known: &&&str| !name.is_empty() && known.contains(name);

@@ -25,7 +25,7 @@ pub struct Snap {
 }
 
 impl Snap {
-    /// The line of the URDF, from one.
+    /// Returns the line of the URDF, from one.
     pub fn line(&self, source: &str) -> usize {
         crate::problems::place(source, self.span.start).0
     }
@@ -37,7 +37,7 @@ impl fmt::Display for Snap {
     }
 }
 
-/// The URDF with every number of the chain taken for what it was meant to be.
+/// Returns the URDF with every number of the chain taken for what it was meant to be.
 pub(crate) fn snapped(urdf: &Urdf, chain: &Chain) -> (Urdf, Vec<Snap>) {
     let mut urdf = urdf.clone();
     let mut snaps = Snaps(Vec::new());
@@ -131,7 +131,7 @@ impl Snaps {
         }
     }
 
-    /// Nothing, where it is less than this.
+    /// Makes a length nothing, where it is less than this.
     fn length(&mut self, length: &mut Number, least: &Rational, of: &str) {
         if !length.value.is_zero() && length.value.abs() < *least {
             self.take(length, Rational::zero(), "0".to_owned(), of);
@@ -164,7 +164,7 @@ mod tests {
 
     use super::*;
 
-    /// What `rpy` is taken for, an angle each.
+    /// Returns what `rpy` is taken for, an angle each.
     fn taken(rpy: [&str; 3]) -> [String; 3] {
         let angle = |text: &str| Value {
             value: Angle::Radians(parse_decimal(text).expect("a number")),

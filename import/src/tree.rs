@@ -44,7 +44,7 @@ pub(crate) struct Step {
 }
 
 impl Chain {
-    /// Every joint that the chain's parameters come from, each once.
+    /// Returns every joint that the chain's parameters come from, each once.
     pub(crate) fn joints(&self) -> BTreeSet<usize> {
         let moving = self.moving.iter().flat_map(|moving| {
             let ways = moving.links.iter().flat_map(|(_, way)| way);
@@ -56,7 +56,7 @@ impl Chain {
             .collect()
     }
 
-    /// Every link whose mass moves.
+    /// Returns every link whose mass moves.
     pub(crate) fn links(&self) -> BTreeSet<usize> {
         let all = self.moving.iter().flat_map(|moving| &moving.links);
         all.map(|(link, _)| *link).collect()
@@ -234,7 +234,7 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         self.urdf.links.iter().position(|link| link.name == name)
     }
 
-    /// The only link that hangs on nothing.
+    /// Returns the only link that hangs on nothing.
     fn root(&mut self) -> Option<usize> {
         let all = 0..self.urdf.links.len();
         let roots: Vec<usize> = all.filter(|link| !self.above.contains_key(link)).collect();
@@ -309,7 +309,7 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         false
     }
 
-    /// The joint as a step that stays, or none if it moves.
+    /// Returns the joint as a step that stays, or none if it moves.
     pub(crate) fn step(&self, joint: usize) -> Option<Step> {
         let at = self.locks.get(&joint).cloned();
         let stays = at.is_some() || self.urdf.joints[joint].kind == Kind::Fixed;
@@ -377,7 +377,7 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         None
     }
 
-    /// The joints from the base to the tip.
+    /// Returns the joints from the base to the tip.
     fn path(&mut self, base: usize, tip: usize) -> Option<Vec<usize>> {
         let mut path = Vec::new();
         let mut at = tip;

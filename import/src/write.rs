@@ -139,7 +139,7 @@ fn frames(text: &mut String, urdf: &Urdf, arm: &Arm) {
     }
 }
 
-/// A name of a frame that is none of these yet; none where nothing is left of the link's.
+/// Returns a name of a frame that is none of these yet; none where nothing is left of the link's.
 fn frame_name(own: &str, taken: &BTreeSet<String>) -> Option<String> {
     let words = suggested_name(own)?;
     let words = words.split('_').filter(|word| !word.is_empty());
@@ -316,7 +316,7 @@ fn line(text: &mut String, key: &str, value: &str) {
     let _ = writeln!(text, "{key} = {value}");
 }
 
-/// A comment on one line: names may be anything.
+/// Writes a comment on one line: names may be anything.
 fn comment(text: &mut String, what: &str) {
     let plain = what
         .chars()

@@ -37,7 +37,7 @@ const WORDS: [&str; 16] = [
     "revolute",
 ];
 
-/// The URDF with some of it deleted, doubled, exchanged or replaced.
+/// Returns the URDF with some of it deleted, doubled, exchanged or replaced.
 fn mutated(source: &str, draw: &mut Draw) -> String {
     let mut text: Vec<char> = source.chars().collect();
     for _ in 0..1 + draw.below(4) {

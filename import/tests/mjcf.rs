@@ -42,7 +42,7 @@ fn imported(name: &str, options: &Options) -> Imported {
     import_text(&text, options).unwrap_or_else(|errors| panic!("{}", text.render(&errors.0)))
 }
 
-/// The largest differences of torques, and of all else relative to its size.
+/// Returns the largest differences of torques, and of all else relative to its size.
 fn compared(name: &str, exact: bool) -> (Vec<f64>, f64, Imported) {
     let (golden, options) = golden(name);
     let imported = imported(name, &Options { exact, ..options });

@@ -31,7 +31,7 @@ const ARM: &str = r#"<mujoco model="arm">
 </mujoco>
 "#;
 
-/// At the hand, the finger held.
+/// Returns the arm at the hand, the finger held.
 fn at_the_hand() -> Options {
     Options {
         tip: Some("hand".into()),

@@ -55,7 +55,7 @@ fn at_the_hand() -> Options {
     }
 }
 
-/// All that hangs on the chain is held there.
+/// Returns all that hangs on the chain is held there.
 fn others(at: &str) -> Options {
     Options {
         lock: vec![("*".into(), at.into())],

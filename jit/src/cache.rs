@@ -26,7 +26,7 @@ const MAX_BYTES: u64 = 1 << 28;
 /// A folder with entries and plans.
 pub(crate) struct Folder(PathBuf);
 
-/// Names an entry by all that it is made from.
+/// Returns names an entry by all that it is made from.
 pub(crate) fn key(source: &str, name: &str, plan: Option<&str>, load: &Load) -> String {
     let request = Load {
         // Where it is kept changes nothing.
@@ -43,7 +43,7 @@ pub(crate) fn key(source: &str, name: &str, plan: Option<&str>, load: &Load) -> 
     hash_of(GENERATOR, &parts)
 }
 
-/// Names the plan of a robot, by its hash: for all functions and scalars that are searched
+/// Returns names the plan of a robot, by its hash: for all functions and scalars that are searched
 /// for in the same way.
 pub(crate) fn plan_key(robot: &str, load: &Load) -> String {
     let search = Load {

@@ -191,7 +191,7 @@ fn address(emitter: &Emitter<'_>, table: Value, index: usize) -> Value {
     emitter.with(|b| b.ins().load(types::I64, flags, table, 8 * index as i32))
 }
 
-/// As many states as vectors take: the loop ends before those that are left.
+/// Emits as many states as vectors take: the loop ends before those that are left.
 fn many(
     emitter: &Emitter<'_>,
     code: &Lowered,

@@ -23,7 +23,7 @@ pub(crate) enum Lanes {
 }
 
 impl Lanes {
-    /// The number of states.
+    /// Returns the number of states.
     pub(crate) fn count(self, scalar: ScalarType) -> usize {
         match self {
             Lanes::One => 1,
@@ -32,7 +32,7 @@ impl Lanes {
     }
 }
 
-/// The bytes of a number.
+/// Returns the bytes of a number.
 pub(crate) fn bytes(scalar: ScalarType) -> usize {
     match scalar {
         ScalarType::F64 => 8,
@@ -120,7 +120,7 @@ impl<'f> Emitter<'f> {
         }
     }
 
-    /// A constant in every lane.
+    /// Returns a constant in every lane.
     pub(crate) fn constant(&self, value: f64) -> Value {
         self.with(|b| match (self.lanes, self.scalar) {
             (Lanes::One, ScalarType::F64) => b.ins().f64const(value),
@@ -132,7 +132,7 @@ impl<'f> Emitter<'f> {
         })
     }
 
-    /// A power of two as integer in every lane.
+    /// Returns a power of two as integer in every lane.
     pub(crate) fn power(&self, exponent: usize) -> Value {
         let ty = self.integers();
         self.with(|b| match (self.lanes, self.scalar) {
@@ -259,7 +259,7 @@ impl<'f> Emitter<'f> {
     }
 }
 
-/// A constant vector of repeated bytes.
+/// Returns a constant vector of repeated bytes.
 fn vector(b: &mut FunctionBuilder<'_>, ty: Type, lane: &[u8]) -> Value {
     let bytes: Vec<u8> = lane.iter().copied().cycle().take(VECTOR).collect();
     let handle = b.func.dfg.constants.insert(ConstantData::from(&bytes[..]));

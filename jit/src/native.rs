@@ -412,7 +412,7 @@ impl Native {
     }
 }
 
-/// The entries of a state.
+/// Returns the entries of a state.
 ///
 /// # Safety
 /// All of them are in the memory at the address, which is readable.

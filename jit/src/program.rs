@@ -39,7 +39,7 @@ impl<R: FnMut(Argument, usize) -> Option<Value>> Inputs<'_, '_, R> {
         Ok(value)
     }
 
-    /// q₂ + q₃, added from the left.
+    /// Returns q₂ + q₃, added from the left.
     fn angle(&mut self, angle: AngleSum) -> Result<Value, Unreadable> {
         let mut sum: Option<Value> = None;
         for (joint, negative) in angle.terms() {
@@ -127,7 +127,7 @@ where
     Ok(())
 }
 
-/// Sine and cosine by polynomials of the program's own; one that is not wanted is the
+/// Returns sine and cosine by polynomials of the program's own; one that is not wanted is the
 /// angle, which nobody reads.
 fn polynomials(
     emitter: &Emitter<'_>,

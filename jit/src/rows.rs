@@ -30,7 +30,7 @@ impl Place {
         }
     }
 
-    /// The same entries for all states.
+    /// Returns the same entries for all states.
     pub fn constant(entries: usize) -> Place {
         Place {
             state: 0,

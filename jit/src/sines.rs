@@ -106,7 +106,8 @@ where
     }
 }
 
-/// By how many quarter turns: as `turned` of `dalembert-sines`, operation by operation.
+/// Turns by how many quarter turns there are: as `turned` of `dalembert-sines`, operation by
+/// operation.
 fn turned(
     emitter: &Emitter<'_>,
     sign: usize,

@@ -23,9 +23,9 @@ use crate::scalar::Divide;
 
 /// The floats that a [`Reference`] computes in: f64 and f32.
 pub trait Float: Divide + Rounded + fmt::Debug + sealed::Sealed + 'static {
-    /// sin and cos, within an ulp at every size.
+    /// Returns sin and cos, within an ulp at every size.
     fn sin_cos(self) -> (Self, Self);
-    /// The square root, correctly rounded.
+    /// Returns the square root, correctly rounded.
     fn root(self) -> Self;
 }
 
@@ -108,8 +108,8 @@ pub struct JointVectors<T> {
 }
 
 impl<T: Float> JointVectors<T> {
-    /// From the entries of each argument, in the order of signatures: q, q̇, q̈,
-    /// τ, v and a; of those that nothing reads none.
+    /// Makes a state from the entries of each argument, in the order of signatures: q, q̇, q̈, τ,
+    /// v and a; of those that nothing reads none.
     pub fn new([q, qd, qdd, tau, v, a]: [DVector<T>; 6]) -> Self {
         JointVectors {
             q,
@@ -126,7 +126,7 @@ impl<T: Float> JointVectors<T> {
         }
     }
 
-    /// The vector of an argument; none of gravity and payloads, which the arm has.
+    /// Returns the vector of an argument; none of gravity and payloads, which the arm has.
     fn of(&self, argument: Argument) -> Option<&DVector<T>> {
         Some(match argument {
             Argument::Position => &self.q,
@@ -142,7 +142,7 @@ impl<T: Float> JointVectors<T> {
         })
     }
 
-    /// At these positions, without a motion.
+    /// Makes a state at these positions, without a motion.
     fn at(q: &DVector<T>) -> Self {
         let mut all = [(); 6].map(|()| none());
         all[Argument::Position.index()] = q.clone();
@@ -207,7 +207,7 @@ pub struct Reference<T> {
 }
 
 impl<T: Float> Reference<T> {
-    /// The dynamics of an arm; lengths without effect are folded away first
+    /// Returns the dynamics of an arm; lengths without effect are folded away first
     /// ([`Arm::fold_base`]).
     pub fn new(arm: Arm<T>) -> Self {
         Reference {
@@ -216,7 +216,7 @@ impl<T: Float> Reference<T> {
         }
     }
 
-    /// The dynamics of a robot, each parameter rounded once.
+    /// Returns the dynamics of a robot, each parameter rounded once.
     pub fn from_robot(robot: &Robot) -> Self {
         // Folded while exact: sin α of a parallel axis is zero here, not small.
         let exact: Arm<Exact> = Arm::from_robot(robot, &mut Exact::clone);
@@ -226,12 +226,12 @@ impl<T: Float> Reference<T> {
         }
     }
 
-    /// The arm as it is computed with.
+    /// Returns the arm as it is computed with.
     pub fn arm(&self) -> &Arm<T> {
         &self.arm
     }
 
-    /// n, without the joints that follow others.
+    /// Returns n, without the joints that follow others.
     pub fn joints(&self) -> usize {
         self.arm.links.len() - self.arm.following.len()
     }
@@ -413,7 +413,7 @@ impl<T: Float> Reference<T> {
         links.zip(q).map(position).collect()
     }
 
-    /// The rows whose joints follow none.
+    /// Returns the rows whose joints follow none.
     fn rows(&self) -> Vec<usize> {
         let mut rows: Vec<usize> = (0..self.arm.links.len()).collect();
         rows.retain(|row| self.arm.following.iter().all(|own| own.row != *row));

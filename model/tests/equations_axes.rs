@@ -68,7 +68,7 @@ fn arm(convention: Convention, twists: &[Twist], slides: u32, points: &mut Point
     arm.map(|x| Known(*x))
 }
 
-/// Every choice of axes within what the links allow.
+/// Returns every choice of axes within what the links allow.
 fn choices(chain: &Chain<Known>) -> Vec<Vec<i32>> {
     let mut all = vec![Vec::new()];
     for [less, more] in chain.freedoms() {

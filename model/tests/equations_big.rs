@@ -25,7 +25,7 @@ fn at(arm: &Arm<Big>, q: &[f64]) -> Vec<DhVariables<Big>> {
     arm.at(&position)
 }
 
-/// max|found − truth| / max|truth| as an f64.
+/// Returns max|found − truth| / max|truth| as an f64.
 fn relative(found: &[Big], truth: &[String]) -> f64 {
     assert_eq!(found.len(), truth.len());
     let truth: Vec<Big> = truth
@@ -44,7 +44,7 @@ fn relative(found: &[Big], truth: &[String]) -> f64 {
     }
 }
 
-/// Worst error of τ, D, h, c.
+/// Returns the worst error of τ, D, h, c.
 fn errors(case: &Extreme, arm: &Arm<Big>, formulation: Formulation) -> [f64; 4] {
     let at = at(arm, &case.q);
     let rates = |values: &[f64]| values.iter().map(|x| number(*x)).collect::<Vec<_>>();

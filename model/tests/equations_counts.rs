@@ -69,7 +69,7 @@ fn torques<'a>(formulation: Formulation, arm: &Arm<Count<'a>>, counter: &'a Coun
     (counter.multiplications(), counter.additions())
 }
 
-/// A golden robot: its numbers are numbers, not values.
+/// Returns a golden robot: its numbers are numbers, not values.
 fn golden(name: &str, formulation: Formulation) -> (u64, u64) {
     let number = |x: f64| match x {
         0.0 => Count::Zero,

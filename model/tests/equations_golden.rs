@@ -41,7 +41,7 @@ fn golden_states() {
     }
 }
 
-/// The runtime of the arm in the golden file, and of the robot file.
+/// Returns the runtime of the arm in the golden file, and of the robot file.
 fn runtimes(name: &str, arm: Arm<f64>) -> [Reference<f64>; 2] {
     let robots = concat!(env!("CARGO_MANIFEST_DIR"), "/../generated/robots");
     let text = std::fs::read_to_string(format!("{robots}/{name}.toml")).unwrap();

@@ -14,7 +14,7 @@ use dalembert_model::scalar::field::{Field, Points};
 
 const CONVENTIONS: [Convention; 2] = [Convention::Standard, Convention::Modified];
 
-/// Every kind pattern up to four joints, then random patterns up to eight.
+/// Returns every kind pattern up to four joints, then random patterns up to eight.
 fn cases() -> Vec<Case> {
     let mut points = Points::new(20);
     let mut cases = Vec::new();

@@ -11,7 +11,7 @@ use dalembert_model::scalar::field::{Field, Points};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
-/// The decimal number that a float is written as.
+/// Returns the decimal number that a float is written as.
 fn decimal(x: f64) -> Field {
     let text = format!("{x:e}");
     let (digits, exponent) = text.split_once('e').unwrap();
@@ -23,7 +23,7 @@ fn decimal(x: f64) -> Field {
     Field::from_rational(&(BigRational::from_integer(numer) * scale)).unwrap()
 }
 
-/// Non-zero entries among all those given, and how many of them differ by more
+/// Returns Non-zero entries among all those given, and how many of them differ by more
 /// than a sign.
 fn nonzero_and_distinct(entries: &[Field]) -> (usize, usize) {
     let nonzero = entries.iter().filter(|h| **h != Field::ZERO);

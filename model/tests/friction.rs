@@ -38,7 +38,7 @@ const VELOCITIES: [[f64; 3]; 4] = [
     [0.0, 0.0, 0.0],
 ];
 
-/// F q̇/√(q̇² + w²) by the platform's own hypotenuse.
+/// Returns F q̇/√(q̇² + w²) by the platform's own hypotenuse.
 fn by_hand(qd: &[f64; 3]) -> [f64; 3] {
     std::array::from_fn(|i| FORCES[i] * qd[i] / qd[i].hypot(WIDTHS[i]))
 }
@@ -153,7 +153,7 @@ mod slopes {
         Big::from_decimal(text).unwrap()
     }
 
-    /// The arm at a velocity.
+    /// Returns the arm at a velocity.
     fn at_speed(qd: &[Big]) -> Arm<Big> {
         let arm = Arm::from_robot(&super::robot(), &mut number);
         let speeds = arm.links.iter().zip(qd);

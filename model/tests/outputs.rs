@@ -93,7 +93,7 @@ fn golden_list() {
     assert_eq!(Function::by_default(), by_default);
 }
 
-/// Every kind pattern up to three joints, then one of six, then links with a
+/// Returns every kind pattern up to three joints, then one of six, then links with a
 /// turn about y; all of them again with a base and a tool.
 fn cases() -> Vec<Case> {
     let mut points = Points::new(0x6f75);
@@ -168,7 +168,7 @@ fn entries(argument: Argument, n: usize, points: &mut Points) -> Vec<Field> {
     (0..length).map(|_| points.field()).collect()
 }
 
-/// As many columns as a full regressor has.
+/// Returns as many columns as a full regressor has.
 fn columns(case: &Case, points: &mut Points) -> Vec<Column<Field>> {
     let n = case.arm.links.len();
     let mut columns = of_links(n);
@@ -213,7 +213,7 @@ fn regressors_give_the_torques() {
     }
 }
 
-/// Y π of the links, and what friction and rotors take at these rates.
+/// Returns Y π of the links, and what friction and rotors take at these rates.
 fn products(
     arm: &Arm<Field>,
     y: &[Vec<Field>],
@@ -232,7 +232,7 @@ fn products(
     };
     y.iter().enumerate().map(sum).collect()
 }
-/// The arm and its position as they change at the case's velocities.
+/// Returns the arm and its position as they change at the case's velocities.
 fn moving(case: &Case) -> (Arm<Dual<Field>>, Vec<DhVariables<Dual<Field>>>) {
     let links = case.arm.links.iter().zip(&case.at).zip(&case.qd);
     let at = links.map(|((link, at), rate)| {
@@ -322,7 +322,7 @@ fn energy_and_wrenches_belong_to_the_torques() {
     }
 }
 
-/// The case with torques, where only some joints move.
+/// Returns the case with torques, where only some joints move.
 fn driven(case: &Case, moves: &[bool], points: &mut Points) -> Motion<Field> {
     let held = |values: &[Field]| -> Vec<Field> {
         let values = values.iter().zip(moves);

@@ -79,7 +79,7 @@ fn payloads_move_with_the_frame() {
     }
 }
 
-/// Two axes 0.4 m apart, the second tilted towards the first by an angle in
+/// Returns two axes 0.4 m apart, the second tilted towards the first by an angle in
 /// the plane of both, or across.
 fn tilted(radians: &str, about: usize) -> Robot {
     let mut rpy = ["0", "0", "0"];

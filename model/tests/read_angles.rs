@@ -85,7 +85,7 @@ fn values() {
     assert_eq!(Angle::Radians(ratio(0, 1)).canonical(), Angle::default());
 }
 
-/// The double that is `steps` away from `value`.
+/// Returns the double that is `steps` away from `value`.
 fn ulps(value: f64, steps: i64) -> f64 {
     f64::from_bits((value.to_bits() as i64 + steps) as u64)
 }

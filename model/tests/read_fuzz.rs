@@ -23,7 +23,7 @@ impl Random {
     }
 }
 
-/// A dose for every day; `FUZZ_TIMES` multiplies it.
+/// Returns a dose for every day; `FUZZ_TIMES` multiplies it.
 fn dose(runs: usize) -> usize {
     let times = std::env::var("FUZZ_TIMES").ok();
     let times: Option<usize> = times.and_then(|times| times.parse().ok());
@@ -92,8 +92,8 @@ const PIECES: [&str; 58] = [
     "_1_",
 ];
 
-/// Whatever comes back must make sense: positions within the text, errors
-/// printable, robots valid and able to go round.
+/// Asserts that whatever comes back makes sense: positions within the text, errors printable,
+/// robots valid and able to go round.
 fn check(bytes: &[u8]) {
     let source = core::str::from_utf8(bytes).unwrap_or("");
     match parse_bytes(bytes, &Options::default()) {

@@ -7,7 +7,7 @@ use dalembert_model::reference::Reference;
 use dalembert_model::robot::{Placement, Robot, write};
 use nalgebra::DVector;
 
-/// Two joints, nothing of them zero, with more of the robot's own keys.
+/// Returns two joints, nothing of them zero, with more of the robot's own keys.
 fn file(more: &str) -> String {
     format!(
         "name = \"arm\"\nconvention = \"standard\"\ngravity = [0, 0, -9.81]\n{more}\n\
@@ -168,7 +168,7 @@ fn gravity_is_in_base_axes() {
     assert!((lifted - 3.0 * 9.81 * 3.0).abs() < 1e-13, "{lifted}");
 }
 
-/// A file with tables behind its joints.
+/// Returns a file with tables behind its joints.
 fn behind(more: &str) -> Result<Robot, String> {
     let text = file("") + more;
     let read = parse(&text, &Options::default());

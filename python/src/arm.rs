@@ -25,13 +25,13 @@ pub fn outputs() -> Vec<(&'static str, &'static str)> {
 
 #[pymethods]
 impl Arm {
-    /// The robot's name.
+    /// Returns the robot's name.
     #[getter]
     fn name(&self) -> &str {
         &self.0.robot().name
     }
 
-    /// The joints: their names and kinds.
+    /// Returns the joints: their names and kinds.
     #[getter]
     fn joints(&self) -> Vec<(String, &'static str)> {
         let joints = self.0.robot().joints.iter().enumerate();
@@ -47,7 +47,7 @@ impl Arm {
         joints.map(of).collect()
     }
 
-    /// Each joint's limits: lowest and highest position, velocity, acceleration, torque;
+    /// Returns each joint's limits: lowest and highest position, velocity, acceleration, torque;
     /// an infinity where there is none.
     #[getter]
     fn limits(&self) -> Vec<[f64; 5]> {
@@ -97,7 +97,7 @@ impl Arm {
         self.0.functions().iter().map(about).collect()
     }
 
-    /// A function by its name; `structure` makes the named tuple of several results.
+    /// Returns a function by its name; `structure` makes the named tuple of several results.
     #[pyo3(signature = (name, structure, refuses_nan))]
     fn function(
         &self,
@@ -108,7 +108,7 @@ impl Arm {
         Function::new(&self.0, name, structure, refuses_nan)
     }
 
-    /// The certificates of a scene's tolerance, as JSON.
+    /// Returns the certificates of a scene's tolerance, as JSON.
     #[getter]
     fn certificates(&self) -> Option<&str> {
         self.0.certificates()
@@ -132,30 +132,30 @@ impl Arm {
         self.0.has_ended_early()
     }
 
-    /// The functions as Rust.
+    /// Returns the functions as Rust.
     #[getter]
     fn rust(&self) -> &str {
         self.0.rust()
     }
 
-    /// The functions as one header of C99.
+    /// Returns the functions as one header of C99.
     fn c(&self, py: Python<'_>) -> PyResult<String> {
         py.detach(|| self.0.c()).map_err(|error| raised(&error))
     }
 
-    /// The robot as a robot file.
+    /// Returns the robot as a robot file.
     #[getter]
     fn robot_file(&self) -> &str {
         self.0.robot_file()
     }
 
-    /// The programs that were found, as a plan beside the robot file.
+    /// Returns the programs that were found, as a plan beside the robot file.
     #[getter]
     fn plan(&self) -> &str {
         self.0.plan()
     }
 
-    /// The arm at a position, drawn as SVG.
+    /// Returns the arm at a position, drawn as SVG.
     fn svg(&self, q: Vec<f64>) -> PyResult<String> {
         dalembert_report::drawing::svg(self.0.robot(), &q)
             .map_err(|error| PyValueError::new_err(error.to_string()))

@@ -74,25 +74,25 @@ impl Function {
 
 #[pymethods]
 impl Function {
-    /// The function's name.
+    /// Returns the function's name.
     #[getter]
     fn __name__(&self) -> &'static str {
         self.compiled().next().map_or("", Compiled::name)
     }
 
-    /// The names of the arguments, in order.
+    /// Returns the names of the arguments, in order.
     #[getter]
     fn arguments(&self) -> Vec<&'static str> {
         self.arguments.clone()
     }
 
-    /// The results by name, each with its shape for one state.
+    /// Returns the results by name, each with its shape for one state.
     #[getter]
     fn results(&self) -> Vec<Quantity> {
         self.quantities.clone()
     }
 
-    /// The dtypes that it computes in.
+    /// Returns the dtypes that it computes in.
     #[getter]
     fn dtypes(&self) -> Vec<&'static str> {
         self.compiled().map(|own| dtype(own.scalar())).collect()

@@ -39,7 +39,7 @@ unsafe impl<T: Send> Send for Layout<T> {}
 unsafe impl<T: Sync> Sync for Layout<T> {}
 
 impl<T: Element> Layout<T> {
-    /// The layout of an array whose first axes, so many, count states: none or one.
+    /// Returns the layout of an array whose first axes, so many, count states: none or one.
     /// `None` where the array must be copied first.
     pub(crate) fn of(array: &Bound<'_, PyArrayDyn<T>>, state_axes: usize) -> Option<Layout<T>> {
         let size = size_of::<T>();
@@ -84,7 +84,7 @@ impl<T: Element> Layout<T> {
         unsafe { std::slice::from_raw_parts(self.data, self.length) }
     }
 
-    /// The entries to be written.
+    /// Returns the entries to be written.
     pub(crate) fn slice_mut(&mut self) -> &mut [T] {
         if self.length == 0 {
             return &mut [];
@@ -94,7 +94,7 @@ impl<T: Element> Layout<T> {
         unsafe { std::slice::from_raw_parts_mut(self.data, self.length) }
     }
 
-    /// The argument.
+    /// Returns the argument.
     pub(crate) fn rows(&self) -> Rows<'_, T> {
         Rows {
             data: self.slice(),
@@ -102,7 +102,7 @@ impl<T: Element> Layout<T> {
         }
     }
 
-    /// The result.
+    /// Returns the result.
     pub(crate) fn rows_mut(&mut self) -> RowsMut<'_, T> {
         let place = self.place.clone();
         RowsMut {

@@ -223,7 +223,7 @@ impl Couplings {
         listed.collect()
     }
 
-    /// The name of an entry, one-based: `D_12`, `h_346`.
+    /// Returns the name of an entry, one-based: `D_12`, `h_346`.
     pub fn name(&self, entry: &Coupling) -> String {
         let index = entry
             .joints
@@ -232,7 +232,7 @@ impl Couplings {
         entry.quantity.entry(index, Sizes::whole(self.joints))
     }
 
-    /// The member of a class that a coefficient repeats: one that a rule for
+    /// Returns the member of a class that a coefficient repeats: one that a rule for
     /// every arm ties it to if there is one, else the first.
     fn repeats(&self, joints: &[usize], members: &[(usize, bool)], negative: bool) -> Finding {
         let tied = members.iter().find(|(index, sign)| {
@@ -260,7 +260,7 @@ struct Class {
     node: NodeId,
 }
 
-/// Every coefficient once: the symmetric ones in ascending order.
+/// Returns every coefficient once: the symmetric ones in ascending order.
 fn coefficients(n: usize) -> impl Iterator<Item = (Quantity, Vec<usize>)> {
     let d = (0..n).flat_map(move |i| (i..n).map(move |k| (Quantity::Inertia, vec![i, k])));
     let h = (0..n).flat_map(move |i| {
@@ -270,7 +270,7 @@ fn coefficients(n: usize) -> impl Iterator<Item = (Quantity, Vec<usize>)> {
     d.chain(h).chain(c)
 }
 
-/// The place of a coefficient among the outputs of `dynamic_coefficients`.
+/// Returns the place of a coefficient among the outputs of `dynamic_coefficients`.
 fn place(quantity: Quantity, joints: &[usize], n: usize) -> usize {
     let before: usize = Function::DynamicCoefficients
         .quantities()

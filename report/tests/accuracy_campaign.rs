@@ -28,7 +28,7 @@ const LEAST_PART: f64 = 1.0 / 16.0;
 /// The worst error of a quantity in units of u, and how many robots had it.
 type Worst = BTreeMap<(Quantity, ScalarType), (f64, usize)>;
 
-/// So many outputs a robot, in turn, that each is met by robots of every length.
+/// Runs so many outputs a robot, in turn, that each is met by robots of every length.
 fn campaign(count: usize, each: usize, longest: usize) -> Worst {
     let mut worst = Worst::new();
     // A load is of functions that take it.
@@ -90,7 +90,7 @@ struct Case {
     granted: Granted,
 }
 
-/// The truth at a finite state. What was proved to vanish does so, and not within
+/// Returns the truth at a finite state. What was proved to vanish does so, and not within
 /// 134 digits only.
 fn exactly(emitted: &Emitted, truth: Option<Vec<Big>>) -> Vec<Big> {
     let truth = truth.expect("a finite state").into_iter();
@@ -99,7 +99,7 @@ fn exactly(emitted: &Emitted, truth: Option<Vec<Big>>) -> Vec<Big> {
     exact.collect()
 }
 
-/// The worst error of each quantity, in units of u.
+/// Returns the worst error of each quantity, in units of u.
 fn errors(emitted: &Emitted, cases: &[Case]) -> Vec<(Quantity, f64)> {
     let mut start = 0;
     let quantities = emitted.function.quantities().iter();

@@ -20,7 +20,7 @@ fn the_known_counts() {
     assert_eq!(summary(&stanford, Quantity::Christoffel), (126, 64, 34));
 }
 
-/// Standard DH, every number general but the joint kinds.
+/// Returns an arm by standard DH, every number general but the joint kinds.
 fn general(kinds: &[&str]) -> String {
     let mut text =
         String::from("name = \"general\"\nconvention = \"standard\"\ngravity = [1, 2, -9]\n");

@@ -198,7 +198,7 @@ fn never_silent(found: &[f64], truth: &[Big]) -> bool {
     !truth.iter().any(beyond) || found.iter().any(|x| !x.is_finite())
 }
 
-/// One line a category: τ normwise / per joint, then D normwise.
+/// Prints one line a category: τ normwise / per joint, then D normwise.
 fn print(scalar: ScalarType, worst: &Table) {
     let categories: BTreeSet<&String> = worst.keys().map(|key| &key.0).collect();
     let mut text = format!("| category | runtime {scalar} | emitted {scalar} |\n|---|---|---|\n");

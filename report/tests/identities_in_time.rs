@@ -40,7 +40,7 @@ impl Symbols {
         Symbols(generate(robot, &request).unwrap().emitted.remove(0))
     }
 
-    /// C_ik = Σ_m h_ikm q̇_m
+    /// Returns C_ik = Σ_m h_ikm q̇_m
     fn matrix(&self, state: &JointState) -> Matrix {
         let n = state.q.len();
         let results = self.0.run(state);
@@ -52,7 +52,7 @@ impl Symbols {
     }
 }
 
-/// Ḋ by dual numbers through a formula for D. Over the big float: in doubles
+/// Returns Ḋ by dual numbers through a formula for D. Over the big float: in doubles
 /// the formulas as written cancel up to 90 u of Ḋ themselves.
 fn inertia_rate(robot: &Robot, formula: Formulation, state: &JointState) -> Matrix {
     let arm = Arm::from_robot(robot, &mut |x| Dual::constant(number(x)));
@@ -74,7 +74,7 @@ fn inertia_rate(robot: &Robot, formula: Formulation, state: &JointState) -> Matr
     d.iter().map(rates).collect()
 }
 
-/// Ḋ − 2C and its size before the subtraction.
+/// Returns Ḋ − 2C and its size before the subtraction.
 fn difference(rate: &Matrix, c: &Matrix) -> (Matrix, f64) {
     let mut size = 0.0f64;
     let entry = |(rate, c): (&f64, &f64)| {
@@ -89,7 +89,7 @@ fn difference(rate: &Matrix, c: &Matrix) -> (Matrix, f64) {
     (s, size)
 }
 
-/// max |S + Sᵀ|
+/// Returns max |S + Sᵀ|
 fn asymmetry(s: &Matrix) -> f64 {
     let n = s.len();
     let pairs = (0..n * n).map(|i| (i / n, i % n));
@@ -183,7 +183,7 @@ macro_rules! passive {
             }
             return energies;
 
-            /// D x = b, by elimination: D is positive definite.
+            /// Returns D x = b, by elimination: D is positive definite.
             fn solve(mut d: [[$t; 6]; 6], mut b: [$t; 6]) -> [$t; 6] {
                 for i in 0..6 {
                     let (row, value) = (d[i], b[i]);
@@ -212,7 +212,7 @@ fn kinetic(d: &[[f64; 6]; 6], qd: &[f64; 6]) -> f64 {
     0.5 * d.iter().zip(qd).map(|(d, v)| row(d) * v).sum::<f64>()
 }
 
-/// −Σ m g·r, from the poses.
+/// Returns −Σ m g·r, from the poses.
 fn potential(arm: &Arm<f64>, q: &[f64; 6]) -> f64 {
     let pair = |q: &f64| {
         let (sin, cos) = libm::sincos(*q);
@@ -230,7 +230,7 @@ fn potential(arm: &Arm<f64>, q: &[f64; 6]) -> f64 {
     sum
 }
 
-/// Largest drift of the energy over the span of the potential.
+/// Returns the largest drift of the energy over the span of the potential.
 fn drift(energies: &[(f64, f64)]) -> f64 {
     let first = energies[0].0;
     let drift = energies

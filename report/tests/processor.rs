@@ -57,7 +57,7 @@ fn sincos(joint: usize) -> LoweredTrig {
     }
 }
 
-/// t1 = q0·q1, t2 = q1·q2, t3 = t1 + t2, t4 = t3/t1, t5 = t4·t4 and −t5, t4, t3.
+/// Returns t1 = q0·q1, t2 = q1·q2, t3 = t1 + t2, t4 = t3/t1, t5 = t4·t4 and −t5, t4, t3.
 fn small() -> Lowered {
     text(
         &[

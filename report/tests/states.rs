@@ -39,7 +39,7 @@ fn states(robot: &Robot) -> Vec<GivenState> {
     states.collect()
 }
 
-/// The one explanation of states that a changed robot gives, or that are
+/// Returns the one explanation of states that a changed robot gives, or that are
 /// changed themselves.
 fn explained(
     name: &str,
@@ -62,7 +62,7 @@ fn each(change: impl Fn(&mut Joint)) -> impl Fn(&mut Robot) {
     move |robot| robot.joints.iter_mut().for_each(&change)
 }
 
-/// The inertia about the origin: I + m (r² 1 − r rᵀ).
+/// Returns the inertia about the origin: I + m (r² 1 − r rᵀ).
 fn about_origin(joint: &mut Joint, sign: i64) {
     let m = &joint.mass * Rational::from_integer(sign.into());
     let [x, y, z] = joint.com.clone();

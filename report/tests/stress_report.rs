@@ -76,7 +76,7 @@ fn the_search_finds_where_two_rods_are_nearest_to_singular() {
     }
 }
 
-/// Point masses at the ends of two links, of these masses.
+/// Adds point masses at the ends of two links, of these masses.
 fn points(masses: [&str; 2]) -> Robot {
     let joint = |mass: &str| {
         format!(

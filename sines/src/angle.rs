@@ -24,7 +24,7 @@ pub trait Angle:
     /// 1
     const ONE: Self;
 
-    /// (r − sin r)/r³ and (cos r − 1 + r²/2)/r⁴ of z = r² and w = z².
+    /// Returns (r − sin r)/r³ and (cos r − 1 + r²/2)/r⁴ of z = r² and w = z².
     fn polynomials<V: Number<Self>>(z: V, w: V) -> (V, V);
 
     /// Computes sine and cosine of any angle, by libm.
@@ -57,7 +57,7 @@ pub fn rest<T: Angle, V: Number<T>>(x: V) -> (V, V, V) {
     (shifted, sin, cos)
 }
 
-/// Sine and cosine of the angle from those of what is left of it. The last
+/// Returns sine and cosine of the angle from those of what is left of it. The last
 /// two bits of the shifted count say by how many quarter turns: an odd one
 /// exchanges them, the second bit is the sine's sign, and that of the
 /// count plus one the cosine's.
@@ -76,7 +76,7 @@ pub(crate) fn turned<T: Angle, V: Floats<T>>(shifted: V, sin: V, cos: V) -> (V, 
     )
 }
 
-/// One after the other, to the same bits.
+/// Returns one after the other, to the same bits.
 #[inline(never)]
 pub(crate) fn singly<T: Angle, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
     let (mut sines, mut cosines) = ([T::default(); N], [T::default(); N]);
@@ -160,7 +160,7 @@ fn one_by_one<T: Angle, const N: usize, const L: usize>(
     (pairs.map(|pair| pair.0), pairs.map(|pair| pair.1))
 }
 
-/// The angles that the polynomials are not for.
+/// Computes the angles that the polynomials are not for.
 #[cold]
 #[inline(never)]
 pub fn unusual<T: Angle>(angles: &[T], sines: &mut [T], cosines: &mut [T]) {

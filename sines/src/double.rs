@@ -28,7 +28,7 @@ pub(crate) const COSINE: [f64; 6] = [
     -1.1359934021914191e-11,
 ];
 
-/// The polynomial of degree 5, in halves: shorter than one product after the
+/// Returns the polynomial of degree 5, in halves: shorter than one product after the
 /// other.
 #[inline(always)]
 fn polynomial<V: Number<f64>>(c: [f64; 6], z: V, w: V) -> V {

@@ -187,7 +187,7 @@ pub fn sincos<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
     vectors::all(angles)
 }
 
-/// [`sincos`] in f32.
+/// Returns [`sincos`] in f32.
 ///
 /// ```
 /// let ([sin], [cos]) = dalembert_sines::sincosf(&[100.5f32]);
@@ -199,7 +199,7 @@ pub fn sincosf<const N: usize>(angles: &[f32; N]) -> ([f32; N], [f32; N]) {
     vectors::all(angles)
 }
 
-/// [`sincos`] in lanes: `angles[i][l]` is angle i of lane l, and so is what
+/// Returns [`sincos`] in lanes: `angles[i][l]` is angle i of lane l, and so is what
 /// comes back, with the bits that [`sincos`] gives.
 ///
 /// It is inlined, to be compiled for the vectors of its caller.
@@ -218,7 +218,7 @@ pub fn sincos_lanes<const N: usize, const L: usize>(
     angle::across(angles)
 }
 
-/// [`sincos_lanes`] in f32.
+/// Returns [`sincos_lanes`] in f32.
 ///
 /// ```
 /// let ([[sin, _]], [[cos, _]]) = dalembert_sines::sincosf_lanes(&[[100.5f32, 0.0]]);

@@ -24,7 +24,7 @@ fn magnitude(x: Rational) -> Rational {
     if x < whole(0) { -x } else { x }
 }
 
-/// log₂ of a positive number.
+/// Returns log₂ of a positive number.
 fn bits(x: &Rational) -> f64 {
     f64::nearest_rational(x).log2()
 }
@@ -33,7 +33,7 @@ fn quarter() -> Rational {
     Turn::right_angles(1).radians()
 }
 
-/// An upper bound of |Σ c_k z^k| over 0 ≤ z ≤ top: the polynomial is written
+/// Returns an upper bound of |Σ c_k z^k| over 0 ≤ z ≤ top: the polynomial is written
 /// about the middle of each of many pieces, where the sum of its coefficients'
 /// magnitudes is next to its largest value.
 fn largest(coefficients: &[Rational], top: &Rational, pieces: u64) -> Rational {
@@ -52,7 +52,7 @@ fn largest(coefficients: &[Rational], top: &Rational, pieces: u64) -> Rational {
     (0..pieces).map(piece).max().unwrap()
 }
 
-/// Taylor's coefficients 1/first!, −1/(first + 2)!, …, and a bound of what the
+/// Returns Taylor's coefficients 1/first!, −1/(first + 2)!, …, and a bound of what the
 /// others add where r² ≤ 1.
 fn taylor(first: u64, terms: u64) -> (Vec<Rational>, Rational) {
     let factorial = |n: u64| (1..=n).fold(whole(1), |product, k| product * whole(k));
@@ -64,7 +64,7 @@ fn taylor(first: u64, terms: u64) -> (Vec<Rational>, Rational) {
     ((0..terms).map(term).collect(), rest)
 }
 
-/// The error of a polynomial p against (r − sin r)/r³ = 1/3! − r²/5! + … or
+/// Returns the error of a polynomial p against (r − sin r)/r³ = 1/3! − r²/5! + … or
 /// (cos r − 1 + r²/2)/r⁴ = 1/4! − r²/6! + …, times r^power: a bound in bits.
 fn error(polynomial: &[f64], first: u64, power: usize, reach: f64) -> f64 {
     let (mut difference, rest) = taylor(first, 11);
@@ -107,7 +107,7 @@ fn counts(largest: f64) -> u64 {
     (largest / core::f64::consts::FRAC_PI_2).round() as u64
 }
 
-/// Significant bits of a number.
+/// Counts the significant bits of a number.
 fn width(x: f64) -> u32 {
     let significand = (x.to_bits() & ((1 << 52) - 1)) | 1 << 52;
     53 - significand.trailing_zeros()

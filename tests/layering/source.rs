@@ -42,7 +42,7 @@ impl Crate {
         }
     }
 
-    /// The modules that have files of their own; the crate is `""`.
+    /// Returns the modules that have files of their own; the crate is `""`.
     pub fn folders(&self) -> BTreeSet<String> {
         let parent = |file: &String| match file.rsplit_once("::") {
             Some((parent, _)) => parent.to_owned(),
@@ -51,7 +51,7 @@ impl Crate {
         self.files.keys().map(parent).collect()
     }
 
-    /// The children of a module, each with all that is below it, and which of
+    /// Returns the children of a module, each with all that is below it, and which of
     /// them each uses.
     pub fn children(&self, module: &str) -> BTreeMap<String, BTreeSet<String>> {
         let child = |file: &str| {
@@ -75,7 +75,7 @@ impl Crate {
         children
     }
 
-    /// The files of a module that use another module.
+    /// Returns the files of a module that use another module.
     pub fn why(&self, from: &str, to: &str) -> Vec<&str> {
         let uses = |uses: &BTreeSet<String>| uses.iter().any(|file| top(file) == to);
         let files = self
@@ -113,7 +113,7 @@ fn collect(folder: &Path, module: &[String], sources: &mut BTreeMap<String, Sour
     }
 }
 
-/// The text without comments, string literals and tests.
+/// Returns the text without comments, string literals and tests.
 fn code(text: &str) -> String {
     let mut code = String::new();
     let mut rest = text;
@@ -174,7 +174,7 @@ fn imports(code: &str, file: &str) -> Vec<(String, Vec<String>)> {
     found
 }
 
-/// The paths of a tree such as `a::{b, c::{d, e as f}}`.
+/// Lists the paths of a tree such as `a::{b, c::{d, e as f}}`.
 fn flatten(tree: &str, head: &[String], flat: &mut Vec<(Vec<String>, Option<String>)>) {
     let tree = tree.trim();
     let mut path = head.to_vec();
@@ -213,7 +213,7 @@ fn flatten(tree: &str, head: &[String], flat: &mut Vec<(Vec<String>, Option<Stri
     }
 }
 
-/// From the crate's root, if it is in the crate.
+/// Returns the path from the crate's root, if it is in the crate.
 fn absolute(path: &[String], file: &str) -> Option<Vec<String>> {
     let mut base: Vec<String> = file
         .split("::")
@@ -255,7 +255,7 @@ fn paths(code: &str, file: &str) -> Vec<Vec<String>> {
     found
 }
 
-/// The file that has what a path names, through the imports on the way.
+/// Returns the file that has what a path names, through the imports on the way.
 fn resolve(
     path: &[String],
     sources: &BTreeMap<String, Source>,

@@ -9,7 +9,7 @@ use phyz_model::{Model, ModelBuilder};
 
 use crate::{Ready, timed};
 
-/// By `dynibo`, whose gravity is 9.80665 m/s² against z whatever the robot says.
+/// Computes them by `dynibo`, whose gravity is 9.80665 m/s² against z whatever the robot says.
 pub fn dynibo(urdf: &Path, function: &str) -> Result<Option<Ready>, Box<dyn Error>> {
     let robot = dynibo::Robot::from_urdf(urdf)?;
     let mut result = vec![0.0; robot.generalized_count()];
@@ -43,7 +43,7 @@ pub fn dynibo(urdf: &Path, function: &str) -> Result<Option<Ready>, Box<dyn Erro
     }))
 }
 
-/// By `phyz-rigid`, of rows `slides rotation(9) place(3) mass com(3) inertia(9)`
+/// Computes them by `phyz-rigid`, of rows `slides rotation(9) place(3) mass com(3) inertia(9)`
 /// after one of gravity.
 pub fn phyz(rows: &[Vec<f64>], function: &str) -> Option<Ready> {
     let (gravity, joints) = rows.split_first()?;

@@ -54,7 +54,7 @@ pub(super) fn function_parser() -> FunctionParser {
     FunctionParser
 }
 
-/// A value by its word, of which clap lists all and suggests one.
+/// Returns a value by its word, of which clap lists all and suggests one.
 pub(super) fn word_parser<W: Word + Send + Sync + 'static>() -> impl TypedValueParser<Value = W> {
     PossibleValuesParser::new(W::known()).try_map(|word| parse::<W>(&word))
 }

@@ -50,7 +50,7 @@ fn is_fused(call: &str) -> bool {
     ["mul_add", "fma", "fmaf"].contains(&call)
 }
 
-/// The paths behind which a bracket opens.
+/// Returns the paths behind which a bracket opens.
 fn calls(line: &str) -> Vec<&str> {
     let is_part = |c: char| c.is_ascii_alphanumeric() || "_:".contains(c);
     let before = line.match_indices('(').map(|(place, _)| &line[..place]);

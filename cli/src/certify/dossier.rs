@@ -216,7 +216,7 @@ pub fn write(
     Ok(text)
 }
 
-/// A function with its module, if that has a name.
+/// Returns a function with its module, if that has a name.
 fn title(line: &Line) -> String {
     match line.module.as_str() {
         "" => format!("`{}`", line.name),
@@ -224,7 +224,7 @@ fn title(line: &Line) -> String {
     }
 }
 
-/// What the generator says above a function of its proof.
+/// Returns what the generator says above a function of its proof.
 fn proof(source: &str, line: usize) -> Option<&str> {
     let before: Vec<&str> = source.lines().take(line.saturating_sub(1)).collect();
     let is_end = |line: &&&str| !["}", "};"].contains(&line.trim());

@@ -98,7 +98,7 @@ fn words(output: &Output) -> &'static str {
     }
 }
 
-/// A number relative to T; of an output that is always zero as it is.
+/// Returns a number relative to T; of an output that is always zero as it is.
 fn relative(x: f64, output: &Output) -> f64 {
     if output.scale == 0.0 {
         x
@@ -107,7 +107,7 @@ fn relative(x: f64, output: &Output) -> f64 {
     }
 }
 
-/// The joints of an output, from one: of an entry of D its row and its column.
+/// Returns the joints of an output, from one: of an entry of D its row and its column.
 fn joints(output: &Output) -> Vec<usize> {
     output.joints.iter().map(|joint| joint + 1).collect()
 }
@@ -149,7 +149,7 @@ fn table(verdict: &Verdict) -> String {
     output::table(&rows, 1)
 }
 
-/// The text of a file.
+/// Returns the text of a file.
 fn text(path: &Path) -> Result<String, Failure> {
     let bytes = input::bytes(path, MOST_BYTES as u64)?;
     let expected = |_| Failure::Input(format!("error: {}: expected UTF-8 text", path.display()));

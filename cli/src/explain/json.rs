@@ -15,7 +15,7 @@ use super::{Measured, QUANTITIES};
 use crate::args::ExplainArgs;
 use crate::output;
 
-/// Everything.
+/// Returns everything.
 pub fn write(robot: &Robot, args: &ExplainArgs, explanations: &[Measured]) -> Value {
     let functions: Map<String, Value> = explanations
         .iter()

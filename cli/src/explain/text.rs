@@ -17,7 +17,7 @@ use super::{Measured, QUANTITIES};
 use crate::args::ExplainArgs;
 use crate::output;
 
-/// Everything.
+/// Returns everything.
 pub fn write(robot: &Robot, args: &ExplainArgs, explanations: &[Measured]) -> String {
     let (scene, states) = (args.scene.as_deref(), args.states);
     let scene = scene.map_or_else(String::new, |scene| format!(", scene {scene}"));
@@ -52,7 +52,7 @@ pub fn write(robot: &Robot, args: &ExplainArgs, explanations: &[Measured]) -> St
     text
 }
 
-/// Table 3 is about whole arms.
+/// Returns the section of Table 3, which is about whole arms.
 fn table3(robot: &Robot) -> String {
     let head = ["Table 3, torques", "mul", "add", "as written: mul", "add"];
     let mut rows = vec![head.map(String::from).to_vec()];
@@ -66,7 +66,7 @@ fn table3(robot: &Robot) -> String {
     format!("\n{}", output::table(&rows, 0))
 }
 
-/// Every coefficient, what it is, and why.
+/// Returns every coefficient, what it is, and why.
 fn entries(couplings: &Couplings) -> String {
     let rows = couplings.listed().into_iter().map(|listed| {
         let value = match (listed.zero, listed.equals, listed.opposite_of) {
@@ -237,7 +237,7 @@ fn values(list: impl Iterator<Item = (Parameter, f64)>) -> String {
     shown.collect::<Vec<_>>().join(", ")
 }
 
-/// Six figures, without those that say nothing.
+/// Returns six figures, without those that say nothing.
 fn figures(value: f64) -> String {
     let text = format!("{value:.5e}");
     let rounded: f64 = text.parse().unwrap_or(value);

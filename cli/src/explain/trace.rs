@@ -45,7 +45,7 @@ pub fn run(args: &ExplainArgs, robot: &Robot, mut request: Request, name: &str) 
     output::print(&text)
 }
 
-/// The command that prints the code.
+/// Returns the command that prints the code.
 fn command(args: &ExplainArgs) -> String {
     let mut command = format!("dalembert generate {}", args.robot.display());
     if let Some(scene) = &args.scene {

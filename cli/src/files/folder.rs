@@ -16,7 +16,7 @@ use crate::outcome::{Failure, Outcome};
 pub struct Folder(PathBuf);
 
 impl Folder {
-    /// A folder that is there or can be made, in which these files can be
+    /// Returns a folder that is there or can be made, in which these files can be
     /// written, none of which is the input.
     ///
     /// # Errors
@@ -55,7 +55,7 @@ impl Folder {
         Ok(Folder(path.to_owned()))
     }
 
-    /// As the user calls it.
+    /// Returns the path as the user calls it.
     pub fn path(&self) -> &Path {
         &self.0
     }

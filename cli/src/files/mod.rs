@@ -23,7 +23,7 @@ fn unwritable(path: &Path, why: impl Display) -> Failure {
     Failure::Input(format!("error: `{path}` cannot be written: {why}"))
 }
 
-/// The folder that a path is in.
+/// Returns the folder that a path is in.
 fn parent(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,

@@ -34,7 +34,7 @@ const OPEN: [&str; 4] = ["/dev/stdout", "/dev/stderr", "/dev/fd", "/proc/self/fd
 const HEAD: u64 = 4096;
 
 impl Target {
-    /// Standard output.
+    /// Returns standard output.
     pub fn standard() -> Target {
         Target {
             name: "standard output".into(),
@@ -88,7 +88,7 @@ impl Target {
         }
     }
 
-    /// The file, unless it is a device or a pipe.
+    /// Returns the file, unless it is a device or a pipe.
     pub fn file(&self) -> Option<&Path> {
         match &self.place {
             Destination::File(path) => Some(path),
@@ -117,7 +117,7 @@ fn place(path: &Path) -> io::Result<Destination> {
     }
 }
 
-/// A pipe is not opened: that waits for its reader.
+/// Enters a target; a pipe is not opened: that waits for its reader.
 fn enter(path: &Path) -> io::Result<()> {
     #[cfg(unix)]
     {

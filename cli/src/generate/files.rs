@@ -167,7 +167,7 @@ fn compare(target: &Target, text: &str) -> Outcome {
     )))
 }
 
-/// The first line, from one, in which a file differs from a text.
+/// Returns the first line, from one, in which a file differs from a text.
 fn first_difference(bytes: &[u8], text: &str) -> usize {
     let same = bytes
         .iter()

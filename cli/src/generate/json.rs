@@ -84,7 +84,7 @@ fn tolerance(admitted: &Admitted) -> Value {
     })
 }
 
-/// The bounds of a certificate, output by output.
+/// Returns the bounds of a certificate, output by output.
 pub fn bounds(certificate: &Certificate) -> Vec<Value> {
     let pairs = certificate.bounds.iter().zip(&certificate.scales);
     let bounds = pairs.enumerate().map(|(index, (bound, scale))| {

@@ -76,7 +76,7 @@ pub fn run(args: &GenerateArgs) -> Outcome {
     }
 }
 
-/// The certificates of a scene with a tolerance.
+/// Returns the certificates of a scene with a tolerance.
 fn certificates(generated: &Generated) -> Option<String> {
     let admitted = generated
         .functions

@@ -39,7 +39,7 @@ pairs: products that one sum alone reads; so many instructions fewer where a com
   contracts both to one (rustc does not, unless that keeps both roundings)
 ";
 
-/// The tables.
+/// Returns the tables.
 pub fn text(robot: &Robot, request: &Request, generated: &Generated, report: &Report) -> String {
     let footprints = &report.footprints;
     let mut text = format!(
@@ -73,7 +73,7 @@ fn cuts(steps: usize) -> bool {
     steps > dalembert_codegen::workspace::language::parts::LONG
 }
 
-/// The scalars, in the order of the text.
+/// Returns the scalars, in the order of the text.
 fn scalars(footprints: &[Footprint]) -> Vec<ScalarType> {
     let mut scalars: Vec<ScalarType> = footprints.iter().map(|f| f.scalar).collect();
     scalars.dedup();
@@ -113,7 +113,7 @@ fn programs(footprints: &[&Footprint]) -> String {
     output::table(&rows, 4)
 }
 
-/// `4 libm`
+/// Returns `4 libm`
 fn sines(sines: &Sines) -> String {
     let all = [
         (sines.libm, "libm"),

@@ -28,7 +28,7 @@ pub fn brief(robot: &Robot, request: &Request, generated: &Generated) -> String 
     text + &warnings(generated)
 }
 
-/// The sentence that the functions were proved.
+/// Returns the sentence that the functions were proved.
 pub fn proved(generated: &Generated) -> &'static str {
     match generated.functions.iter().any(|f| f.admitted.is_some()) {
         true => "proved before anything was left out, and certified to stay within the tolerance",
@@ -36,7 +36,7 @@ pub fn proved(generated: &Generated) -> &'static str {
     }
 }
 
-/// Robot and scene.
+/// Writes robot and scene.
 pub fn head(robot: &Robot, request: &Request) -> String {
     let joints = match robot.joints.len() {
         1 => "1 joint".to_owned(),
@@ -58,7 +58,7 @@ pub fn warnings(generated: &Generated) -> String {
         .collect()
 }
 
-/// All that there is to say about the code.
+/// Returns all that there is to say about the code.
 pub fn text(robot: &Robot, request: &Request, generated: &Generated, states: usize) -> String {
     let mut text = head(robot, request);
     text += &counts(generated, true);
@@ -128,7 +128,7 @@ pub fn measured(
     Some(functions.map(errors).collect())
 }
 
-/// The table of them.
+/// Returns the table of them.
 fn errors(robot: &Robot, request: &Request, generated: &Generated, states: usize) -> String {
     let Some(measured) = measured(robot, request, generated, states) else {
         return String::new();
@@ -189,7 +189,7 @@ fn tolerance(admitted: &Admitted, ended: bool) -> String {
     text + &output::table(&rows, 1)
 }
 
-/// The bounds of a certificate, output by output.
+/// Returns the bounds of a certificate, output by output.
 pub fn bounds(certificate: &Certificate) -> Vec<Vec<String>> {
     let head = ["output", "T", "model", "sincos", "rounding", "E"];
     let mut rows = vec![head.map(String::from).to_vec()];
@@ -203,7 +203,7 @@ pub fn bounds(certificate: &Certificate) -> Vec<Vec<String>> {
     rows
 }
 
-/// `, scene pick`, if there is one.
+/// Returns `, scene pick`, if there is one.
 pub fn scene(request: &Request) -> String {
     let scene = request.scene.as_ref();
     scene.map_or_else(String::new, |scene| format!(", scene {}", scene.name))
@@ -256,7 +256,7 @@ pub fn counts(generated: &Generated, whole: bool) -> String {
     output::table(&rows, if whole { 2 } else { 0 })
 }
 
-/// The table of the polynomials that give sines, if any do.
+/// Returns the table of the polynomials that give sines, if any do.
 pub fn sines(generated: &Generated) -> String {
     let head = [
         "function", "scalar", "trig_mul", "trig_add", "angles", "error",

@@ -130,7 +130,7 @@ fn no_urdf(robot: &str) -> Failure {
     ))
 }
 
-/// The robot of a text that was read before, or is this command's own.
+/// Returns the robot of a text that was read before, or is this command's own.
 fn reading(text: &str) -> Result<Reading, Failure> {
     read::parse(text, &read::Options::default())
         .map_err(|errors| Failure::Input(errors.render("the robot file", text)))

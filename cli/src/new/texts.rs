@@ -30,7 +30,7 @@ limits = { position = [\"-pi\", \"pi\"], velocity = 3, acceleration = 10, torque
 /// The crates that the new one depends on.
 pub(super) const DEPENDENCIES: [&str; 2] = ["dalembert", "nalgebra"];
 
-/// Cargo.toml. It is a workspace of its own, wherever it is put.
+/// Returns Cargo.toml. It is a workspace of its own, wherever it is put.
 pub(super) fn manifest(name: &str, dependency: &str) -> String {
     format!(
         "[package]\nname = \"{name}\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n\
@@ -42,7 +42,7 @@ pub(super) fn manifest(name: &str, dependency: &str) -> String {
     )
 }
 
-/// src/main.rs: the macro, torques, and a test against the runtime.
+/// Returns src/main.rs: the macro, torques, and a test against the runtime.
 pub(super) fn source(robot: &str, joints: usize) -> String {
     SOURCE
         .replace("ROBOT", robot)

@@ -32,8 +32,8 @@ const ROUND: [&[f64]; 2] = [&[1.0, 2.0, 5.0], &[1.0, 1.5, 2.0, 3.0, 5.0, 7.0]];
 const EVEN: [f64; 5] = [2.0, 1.0, 0.5, 0.2, 0.1];
 
 impl Axis {
-    /// Over values above zero, which others are drawn below, from one place of
-    /// the picture to another; names are at least so far apart.
+    /// Makes an axis over values above zero, which others are drawn below, from one place of the
+    /// picture to another; names are at least so far apart.
     pub fn over(values: impl Iterator<Item = f64>, places: [f64; 2], least: f64) -> Axis {
         let logs = values.filter(|v| *v > 0.0 && v.is_finite()).map(f64::log10);
         let nothing = [f64::INFINITY, f64::NEG_INFINITY];
@@ -78,7 +78,7 @@ impl Axis {
         best.into_iter().map(tick).collect()
     }
 
-    /// Every power of ten; as many are named as there is room for.
+    /// Returns every power of ten; as many are named as there is room for.
     fn decades(&self) -> Vec<Tick> {
         let [low, high] = self.ends;
         let [from, to] = self.places;
@@ -100,8 +100,8 @@ impl Axis {
         all.filter(inside).collect()
     }
 
-    /// Round numbers, equally far apart, by a part of a power of ten: for less
-    /// than a decade.
+    /// Returns round numbers, equally far apart, by a part of a power of ten: for less than a
+    /// decade.
     fn even(&self, part: f64) -> Vec<f64> {
         let [low, high] = self.ends.map(|end| 10f64.powf(end));
         let step = part * 10f64.powi((high - low).log10().floor() as i32);
@@ -117,7 +117,7 @@ impl Axis {
     }
 }
 
-/// Few digits: what a person would write.
+/// Writes a number in few digits: what a person would write.
 fn number(value: f64) -> String {
     match value {
         0.001..100_000.0 => format!("{}", (value * 1e6).round() / 1e6),

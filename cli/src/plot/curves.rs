@@ -22,7 +22,7 @@ pub struct Chart {
 const FOOT: f64 = 0.1;
 
 impl Chart {
-    /// The chart's text.
+    /// Returns the chart's text.
     pub fn svg(&self) -> String {
         let points = || self.curves.iter().flat_map(|(_, points)| points);
         let x = Picture::across(points().map(|point| point.0));

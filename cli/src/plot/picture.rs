@@ -51,17 +51,17 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// The horizontal axis over values.
+    /// Returns the horizontal axis over values.
     pub fn across(values: impl Iterator<Item = f64>) -> Axis {
         Axis::over(values, [LEFT, WIDTH - RIGHT], BESIDE_EACH_OTHER)
     }
 
-    /// The vertical axis over values.
+    /// Returns the vertical axis over values.
     pub fn upward(values: impl Iterator<Item = f64>) -> Axis {
         Axis::over(values, [HEIGHT - BOTTOM, TOP], ABOVE_EACH_OTHER)
     }
 
-    /// The paper with its title, the axes and their names.
+    /// Returns the paper with its title, the axes and their names.
     pub fn new(title: &str, [x, y]: [&Axis; 2], [below, beside]: [&str; 2]) -> Picture {
         let mut picture = Picture {
             svg: Svg::new(title, [WIDTH, HEIGHT], "", STYLE),
@@ -96,7 +96,7 @@ impl Picture {
         picture
     }
 
-    /// A curve in one of four colours and one of four dashes.
+    /// Draws a curve in one of four colours and one of four dashes.
     pub fn curve(&mut self, colour: usize, dashes: usize, points: &[[f64; 2]]) {
         let colour = colour % DASHES.len();
         let dashes = match DASHES[dashes % DASHES.len()] {
@@ -107,15 +107,15 @@ impl Picture {
         self.svg.polyline(&attributes, points);
     }
 
-    /// A level, from side to side.
+    /// Draws a level, from side to side.
     pub fn level(&mut self, y: f64) {
         let right = WIDTH - RIGHT;
         self.svg
             .element(&format!("<path class=\"b\" d=\"M{LEFT} {y:.1}H{right}\"/>"));
     }
 
-    /// From a mark to where its end is marked. Not shorter than a mark: that
-    /// could not be seen.
+    /// Draws a line from a mark to where its end is marked, not shorter than a mark: that could
+    /// not be seen. Not shorter than a mark: that could not be seen.
     pub fn whisker(&mut self, class: &str, [x, y]: [f64; 2], end: f64) {
         if (x - end).abs() > 6.0 {
             let top = y - 3.0;
@@ -125,7 +125,7 @@ impl Picture {
         }
     }
 
-    /// A mark.
+    /// Draws a mark.
     pub fn mark(&mut self, shape: Shape, class: &str, [x, y]: [f64; 2]) {
         let (fill, path) = match shape {
             Shape::Ring => ("o", "m-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0"),
@@ -138,7 +138,7 @@ impl Picture {
         ));
     }
 
-    /// A name in the legend; where to draw what it stands for: from, to.
+    /// Returns a name in the legend; where to draw what it stands for: from, to.
     pub fn legend(&mut self, name: &str) -> [[f64; 2]; 2] {
         let at = TOP + 10.0 + 18.0 * self.legends as f64;
         self.legends += 1;
@@ -147,7 +147,7 @@ impl Picture {
         [[left, at], [left + 28.0, at]]
     }
 
-    /// A level in the legend.
+    /// Draws a level in the legend.
     pub fn legend_of_level(&mut self, name: &str) {
         let [[from, y], [to, _]] = self.legend(name);
         self.svg.element(&format!(
@@ -155,7 +155,7 @@ impl Picture {
         ));
     }
 
-    /// The text.
+    /// Returns the text.
     pub fn end(self) -> String {
         self.svg.end()
     }

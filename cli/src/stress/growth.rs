@@ -122,7 +122,7 @@ const MATH: &str = "pub mod math {
 }
 ";
 
-/// The time that rustc -O takes for the module.
+/// Returns the time that rustc -O takes for the module.
 fn compile(text: &str) -> Option<Duration> {
     let folder = env::temp_dir().join(format!("dalembert-growth-{}", process::id()));
     fs::create_dir_all(&folder).ok()?;

@@ -72,7 +72,7 @@ fn word(verdict: Verdict) -> &'static str {
     }
 }
 
-/// An error that no criterion asks for stands in brackets.
+/// Returns an error that no criterion asks for stands in brackets.
 fn cell(error: f64, asked: bool) -> String {
     if asked {
         format!("{error:.1}")

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::word;
 use crate::output;
 
-/// The part of the text after the matrix.
+/// Returns the part of the text after the matrix.
 pub fn text(divided: &Divided) -> String {
     let nearest = &divided.nearest;
     let mut text = format!(

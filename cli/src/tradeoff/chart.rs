@@ -135,7 +135,7 @@ mod tests {
 
     use super::{Dot, OPERATIONS, front};
 
-    /// A ladder as a robot gives it: both scalars, both kinds of sines, and
+    /// Returns a ladder as a robot gives it: both scalars, both kinds of sines, and
     /// exact programs that several tolerances lead to.
     fn ladder() -> Vec<Dot> {
         let mut dots = Vec::new();
@@ -160,7 +160,7 @@ mod tests {
         dots
     }
 
-    /// The numbers of an attribute, wherever it stands.
+    /// Returns the numbers of an attribute, wherever it stands.
     fn numbers(svg: &str, attribute: &str) -> Vec<f64> {
         let key = format!(" {attribute}=\"");
         let values = svg.split(&key).skip(1);

@@ -92,7 +92,7 @@ fn main() {
 ";
 
 impl Compiler {
-    /// The installed cargo.
+    /// Returns the installed cargo.
     pub fn find() -> Result<Compiler, Failure> {
         let cargo = env::var("CARGO").unwrap_or_else(|_| "cargo".into());
         match Command::new(&cargo).arg("--version").output() {
@@ -137,7 +137,7 @@ impl Compiler {
         Ok(())
     }
 
-    /// Without the network if the packages are here already.
+    /// Builds without the network if the packages are here already.
     fn build(&self, folder: &Folder) -> Result<(), Failure> {
         let mut last = Vec::new();
         for offline in [true, false] {

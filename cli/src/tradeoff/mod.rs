@@ -162,7 +162,7 @@ fn identity(
     format!("{robot}\n{scene:?}\n{relative_to:?}\n{options:?}\n{exact:?}")
 }
 
-/// The table, the charts and the certificates, by name.
+/// Returns the table, the charts and the certificates, by name.
 fn files(charts: Vec<(String, String)>, points: &[Point]) -> Vec<(String, String)> {
     let mut files = charts;
     files.push((CSV.into(), report::csv(points)));
@@ -173,7 +173,7 @@ fn files(charts: Vec<(String, String)>, points: &[Point]) -> Vec<(String, String
     files
 }
 
-/// Ascending, each once.
+/// Returns the tolerances, ascending, each once.
 fn tolerances(args: &TradeoffArgs) -> Result<Vec<f64>, Failure> {
     let mut tolerances = match args.tolerances.as_slice() {
         [] => TOLERANCES.to_vec(),
@@ -237,7 +237,7 @@ fn charts(
     charts
 }
 
-/// The exact program, which tolerances are applied to: from the plan if there is
+/// Returns the exact program, which tolerances are applied to: from the plan if there is
 /// one, of the scene without its own.
 fn exact(
     args: &TradeoffArgs,

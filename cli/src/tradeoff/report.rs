@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use crate::output;
 
-/// The rows, for people or for programs, which get more digits and columns.
+/// Returns the rows, for people or for programs, which get more digits and columns.
 fn rows(points: &[Point], all: bool) -> Vec<Vec<String>> {
     let digits = if all { 6 } else { 2 };
     // What was not observed is no zero.
@@ -68,7 +68,7 @@ fn rows(points: &[Point], all: bool) -> Vec<Vec<String>> {
     rows
 }
 
-/// A variant for programs, by the names of the table.
+/// Returns a variant for programs, by the names of the table.
 pub fn json(point: &Point) -> Value {
     let mut value = json!({
         "tolerance": point.tolerance,
@@ -98,12 +98,12 @@ fn by(point: &Point) -> &'static str {
     }
 }
 
-/// For people.
+/// Writes it for people.
 pub fn table(points: &[Point]) -> String {
     output::table(&rows(points, false), 1)
 }
 
-/// For programs.
+/// Writes it for programs.
 pub fn csv(points: &[Point]) -> String {
     let rows = rows(points, true);
     let lines = rows

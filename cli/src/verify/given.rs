@@ -110,7 +110,7 @@ impl<'a> Given<'a> {
         text
     }
 
-    /// The rows of the table of errors.
+    /// Returns the rows of the table of errors.
     pub fn rows(&self) -> impl Iterator<Item = Vec<String>> {
         self.compared.iter().map(|one| {
             let u = ScalarType::F64.unit_roundoff();
@@ -127,7 +127,7 @@ impl<'a> Given<'a> {
         })
     }
 
-    /// For programs.
+    /// Writes them for programs.
     pub fn errors(&self) -> impl Iterator<Item = Value> {
         self.compared.iter().map(|one| {
             json!({
@@ -144,7 +144,7 @@ impl<'a> Given<'a> {
         })
     }
 
-    /// For programs: what was compared, and what explains a disagreement.
+    /// Writes it for programs: what was compared, and what explains a disagreement.
     pub fn json(&self, robot: &Robot) -> Value {
         let keys = self.keys().into_iter();
         let compared = self.compared.iter().map(|one| one.quantity);
@@ -208,7 +208,7 @@ impl<'a> Given<'a> {
     }
 }
 
-/// The key of a quantity in a file.
+/// Returns the key of a quantity in a file.
 fn word(quantity: Quantity) -> &'static str {
     quantity.given().unwrap_or_else(|| quantity.symbol())
 }

@@ -117,7 +117,7 @@ pub fn run(args: &VerifyArgs) -> Outcome {
     disagreement.map_or(Ok(()), |why| Err(Failure::Check(why)))
 }
 
-/// The certificates of a scene with a tolerance, falsified.
+/// Returns the certificates of a scene with a tolerance, falsified.
 fn claims(generated: &Generated) -> Result<Vec<Claim<'_>>, Failure> {
     let admitted = generated
         .functions

@@ -22,7 +22,7 @@ pub struct Found<'a> {
 }
 
 impl Found<'_> {
-    /// For people.
+    /// Writes it for people.
     pub fn text(&self) -> String {
         let Found {
             robot,
@@ -80,7 +80,7 @@ impl Found<'_> {
         text + &sines::table(self.sines)
     }
 
-    /// For programs.
+    /// Writes it for programs.
     pub fn json(&self) -> Value {
         let Found {
             robot,

@@ -27,19 +27,19 @@ pub fn run(arguments: &[&str]) -> Ran {
     }
 }
 
-/// A checked-in robot file.
+/// Returns a checked-in robot file.
 pub fn robot(name: &str) -> String {
     let root = env!("CARGO_MANIFEST_DIR");
     format!("{root}/../generated/robots/{name}.toml")
 }
 
-/// The states of a robot by an independent library.
+/// Returns the states of a robot by an independent library.
 pub fn golden(name: &str) -> String {
     let root = env!("CARGO_MANIFEST_DIR");
     format!("{root}/../model/tests/data/golden/{name}.json")
 }
 
-/// An empty folder of this test run.
+/// Returns an empty folder of this test run.
 pub fn temporary(name: &str) -> PathBuf {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = fs::remove_dir_all(&folder);
@@ -47,7 +47,7 @@ pub fn temporary(name: &str) -> PathBuf {
     folder
 }
 
-/// A checked-in robot with more in its file, in a folder of its own, and the file's name.
+/// Returns a checked-in robot with more in its file, in a folder of its own, and the file's name.
 pub fn arm(folder: &str, of: &str, more: &str) -> (PathBuf, String) {
     let folder = temporary(folder);
     let file = folder.join("arm.toml");

@@ -24,7 +24,7 @@ outputs = ["gravity"]
 tolerance = { value = [1e-3, 1e-3, 1e-2], relative_to = "range" }
 "#;
 
-/// The planar arm of three joints with scenes, in a folder of its own.
+/// Returns the planar arm of three joints with scenes, in a folder of its own.
 pub fn arm(name: &str) -> (PathBuf, String) {
     super::arm(name, "planar3r", SCENES)
 }

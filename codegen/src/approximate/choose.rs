@@ -56,7 +56,7 @@ pub struct ErrorBudget<'a> {
 const KEPT: usize = 3;
 
 impl<'a> ErrorBudget<'a> {
-    /// The box of a robot in its scene, and T over it.
+    /// Returns the box of a robot in its scene, and T over it.
     ///
     /// # Errors
     /// [`ToleranceError::Missing`] limits, or a program that cannot be read back.
@@ -86,7 +86,7 @@ impl<'a> ErrorBudget<'a> {
         })
     }
 
-    /// The same under a watch: where it is over, a search ends with its best.
+    /// Returns the same under a watch: where it is over, a search ends with its best.
     pub fn watched(self, watch: FunctionWatch<'a>) -> ErrorBudget<'a> {
         ErrorBudget {
             watch: Some(watch),
@@ -94,7 +94,7 @@ impl<'a> ErrorBudget<'a> {
         }
     }
 
-    /// The tolerance of each output.
+    /// Returns the tolerance of each output.
     pub fn tolerances(&self, tolerance: &Tolerance) -> Vec<f64> {
         scale::tolerances(self.exact, tolerance)
     }
@@ -159,7 +159,7 @@ impl<'a> ErrorBudget<'a> {
         }
     }
 
-    /// The exact program's certificates, whatever they come to.
+    /// Returns the exact program's certificates, whatever they come to.
     pub fn unedited(&self, scalars: &[ScalarType], bound_effort: BoundEffort) -> Admitted {
         self.certified(&[], self.exact, scalars, bound_effort)
     }
@@ -193,7 +193,7 @@ impl<'a> ErrorBudget<'a> {
         Admitted::of(stages, emitted, certificates.collect())
     }
 
-    /// The variant of a plan, with its claims: program and edits are proved to
+    /// Returns the variant of a plan, with its claims: program and edits are proved to
     /// belong together. Of its bounds [`ErrorBudget::derived`] says whether they hold.
     ///
     /// # Errors
@@ -234,7 +234,7 @@ impl<'a> ErrorBudget<'a> {
             .try_for_each(|certificate| certificate.check_claims(&shared).map(|_| ()))
     }
 
-    /// The cheapest variant found of which every output in every scalar is
+    /// Returns the cheapest variant found of which every output in every scalar is
     /// certified to stay within its tolerance.
     ///
     /// # Errors
@@ -250,7 +250,7 @@ impl<'a> ErrorBudget<'a> {
         self.choose_from(&[], tolerances, scalars, settings, bound_effort)
     }
 
-    /// The same, of what comes of these programs as well, which others found for smaller
+    /// Returns the same, of what comes of these programs as well, which others found for smaller
     /// tolerances: never dearer than the first of them.
     ///
     /// # Errors
@@ -345,7 +345,7 @@ impl<'a> ErrorBudget<'a> {
         Ok(unedited)
     }
 
-    /// A variant with polynomials for its sines: the cheapest that what edits
+    /// Returns a variant with polynomials for its sines: the cheapest that what edits
     /// and rounding leave of the tolerances admits; as it is if it has no sines.
     ///
     /// # Errors
@@ -385,7 +385,7 @@ impl<'a> ErrorBudget<'a> {
         Err(NoPolynomials::Indefinite)
     }
 
-    /// A variant of which another program is emitted that is the same function: its
+    /// Returns a variant of which another program is emitted that is the same function: its
     /// roundings are bounded anew.
     ///
     /// # Errors
@@ -403,7 +403,7 @@ impl<'a> ErrorBudget<'a> {
         Ok(found)
     }
 
-    /// The claim of a variant whose sines this library computes, unless polynomials do.
+    /// Returns the claim of a variant whose sines this library computes, unless polynomials do.
     ///
     /// # Errors
     /// [`ToleranceError::Above`], as of any variant.

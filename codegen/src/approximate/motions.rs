@@ -46,7 +46,7 @@ impl Motions {
         1 + self.accelerations.len() + 2 * v + v * v.saturating_sub(1) / 2
     }
 
-    /// The motions at each position.
+    /// Returns the motions at each position.
     pub(super) fn states(&self, positions: &[Vec<f64>]) -> Vec<JointState> {
         let mut states = Vec::with_capacity(positions.len() * self.len());
         for q in positions {
@@ -78,9 +78,9 @@ impl Motions {
         states
     }
 
-    /// From values at the motions of each position to what each monomial can
-    /// be at most; linear. The rest, then accelerations, then pairs of a
-    /// velocity's linear and square part, then products.
+    /// Turns values at the motions of each position into what each monomial can be at most;
+    /// linear. The rest, then accelerations, then pairs of a velocity's linear and square part,
+    /// then products.
     pub(super) fn monomials(&self, values: &mut [f64]) {
         let (a, v) = (self.accelerations.len(), self.velocities.len());
         for block in values.chunks_exact_mut(self.len()) {
@@ -105,18 +105,18 @@ impl Motions {
         }
     }
 
-    /// The largest magnitude at one position, from its monomials.
+    /// Returns the largest magnitude at one position, from its monomials.
     pub(super) fn largest(&self, block: &[f64]) -> f64 {
         self.beyond(block, 0.0)
     }
 
-    /// The largest magnitude at any of some positions, from their monomials.
+    /// Returns the largest magnitude at any of some positions, from their monomials.
     pub(super) fn largest_of(&self, blocks: &[f64]) -> f64 {
         let blocks = blocks.chunks_exact(self.len());
         blocks.fold(0.0, |most, block| f64::max(most, self.beyond(block, most)))
     }
 
-    /// The same at one position, or anything smaller than a magnitude that it is not above.
+    /// Returns the same at one position, or anything smaller than a magnitude that it is not above.
     fn beyond(&self, block: &[f64], most: f64) -> f64 {
         let (a, v) = (self.accelerations.len(), self.velocities.len());
         let (single, products) = block.split_at(1 + a + 2 * v);

@@ -27,7 +27,7 @@ const LOOKS: [(usize, f64); 2] = [(16, 0.45), (40, 0.7)];
 /// Regroupings that are looked at closer, in each round.
 const CLOSER: usize = 12;
 
-/// An exact program that pruning is about to leave less of than of the given
+/// Returns an exact program that pruning is about to leave less of than of the given
 /// one; `None` if none was found.
 pub(super) fn descend(
     scene_robot: &SceneRobot,

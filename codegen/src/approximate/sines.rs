@@ -20,7 +20,7 @@ use crate::sincos::{self, AngleKernel, Sines, TooAccurate};
 /// An error that is small beside any sine, and large beside libm's.
 const UNIT: f64 = 1e-4;
 
-/// The cheapest polynomials found with which sines and cosines cost no output
+/// Returns the cheapest polynomials found with which sines and cosines cost no output
 /// more than its allowance, in its unit, over the box of the
 /// program's sensitivity. No sines without angles: nothing is needed then.
 ///
@@ -74,7 +74,7 @@ pub fn within(
     }
 }
 
-/// The largest error that all sines may have alike; zero if none.
+/// Returns the largest error that all sines may have alike; zero if none.
 fn uniform(
     program: &Program,
     scalar: ScalarType,
@@ -99,7 +99,7 @@ fn uniform(
     least.fold(0.1, f64::min).max(0.0)
 }
 
-/// The angles of each range that need the same, by their places, and the
+/// Returns the angles of each range that need the same, by their places, and the
 /// kernels for them that are not too far off, from cheap to dear.
 fn groups(
     program: &Program,

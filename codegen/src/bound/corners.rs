@@ -41,7 +41,7 @@ impl Corners {
         self.beyond(first + 1, 0.0, &self.products[first])
     }
 
-    /// The extremes over the factors from one on: `sum` has the terms of those before, and
+    /// Returns the extremes over the factors from one on: `sum` has the terms of those before, and
     /// `linear` what each of the others is multiplied with.
     fn beyond(&self, factor: usize, sum: f64, linear: &[f64; MOST]) -> (f64, f64) {
         if factor + 1 >= self.factors {

@@ -89,7 +89,7 @@ impl fmt::Display for Indefinite {
 
 impl std::error::Error for Indefinite {}
 
-/// A lower bound, above zero, of the least eigenvalue of S D S over the box,
+/// Returns a lower bound, above zero, of the least eigenvalue of S D S over the box,
 /// D as code in the scalar computes it.
 ///
 /// # Errors
@@ -180,7 +180,7 @@ fn shown(
         .ok_or(Indefinite::Unproved)
 }
 
-/// The row from which on D is not positive definite at one of some positions, the
+/// Returns the row from which on D is not positive definite at one of some positions, the
 /// middle of the box first, as far as doubles tell for certain.
 fn negative(
     program: &Program,
@@ -202,7 +202,7 @@ fn negative(
     })
 }
 
-/// The row of the first negative pivot, eliminated from the last row on: D of the
+/// Returns the row of the first negative pivot, eliminated from the last row on: D of the
 /// joints from that one on is not positive definite.
 fn negative_pivot(mut d: Vec<Vec<f64>>) -> Option<usize> {
     let n = d.len();
@@ -256,7 +256,7 @@ fn start(program: &Program) -> Option<usize> {
     None
 }
 
-/// The diagonal of S: powers of two.
+/// Returns the diagonal of S: powers of two.
 fn scales(
     program: &Program,
     limits: &InputBox,

@@ -28,7 +28,7 @@ impl Distinct {
         Distinct { firsts, places }
     }
 
-    /// The first of each value, of a list over all outputs.
+    /// Returns the first of each value, of a list over all outputs.
     pub(super) fn pick<T: Clone>(&self, all: &[T]) -> Vec<T> {
         debug_assert_eq!(all.len(), self.places.len());
         let firsts = self.firsts.iter();

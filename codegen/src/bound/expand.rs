@@ -41,7 +41,7 @@ const MAX_WORK: usize = 100_000_000;
 /// Products of terms that take about a unit of work.
 const TERMS: usize = 16;
 
-/// The outputs written out; `None` if they are too large, or of higher degree
+/// Returns the outputs written out; `None` if they are too large, or of higher degree
 /// than fits.
 pub(super) fn expand(graph: &Graph, limits: &InputBox) -> Option<Vec<Polynomial>> {
     let mut found: Vec<Polynomial> = vec![Vec::new(); graph.nodes.len()];
@@ -145,13 +145,13 @@ pub(super) const fn shift(joint: usize) -> usize {
     16 + 5 * joint
 }
 
-/// The power of the cosine and of the sine of a joint.
+/// Returns the power of the cosine and of the sine of a joint.
 pub(super) fn powers(key: Key, joint: usize) -> (u32, u32) {
     let bits = (key >> shift(joint)) as u32 & 31;
     (bits & 15, bits >> 4)
 }
 
-/// The rates of a key.
+/// Returns the rates of a key.
 pub(super) fn rates(key: Key) -> [u8; 2] {
     [(key >> 8) as u8, key as u8]
 }
@@ -259,7 +259,7 @@ fn product(a: &Polynomial, b: &Polynomial) -> Option<Polynomial> {
     Some(out)
 }
 
-/// The product of two monomials: each squared sine splits it in two.
+/// Returns the product of two monomials: each squared sine splits it in two.
 fn multiply(x: Key, y: Key, coefficient: Interval, out: &mut Polynomial) -> Option<()> {
     let [a, b] = rates(x);
     let [c, d] = rates(y);

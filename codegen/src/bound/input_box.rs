@@ -53,7 +53,7 @@ impl fmt::Display for MissingLimit {
 impl std::error::Error for MissingLimit {}
 
 impl InputBox {
-    /// The robot's limits. A revolute joint without limits of position may
+    /// Returns the robot's limits. A revolute joint without limits of position may
     /// stand anywhere: one turn.
     ///
     /// # Errors
@@ -65,7 +65,7 @@ impl InputBox {
         )
     }
 
-    /// The states of a robot in its scene that a function reads: its box, or the robot's
+    /// Returns the states of a robot in its scene that a function reads: its box, or the robot's
     /// limits. Locked joints stand still where they are, and a rate that is
     /// zero, or not an argument, is zero.
     ///
@@ -116,7 +116,7 @@ impl InputBox {
         Ok(limits)
     }
 
-    /// The ranges of an argument; none of one that a box does not bound.
+    /// Returns the ranges of an argument; none of one that a box does not bound.
     pub fn of_argument(&self, argument: Argument) -> &[Interval] {
         match argument {
             Argument::Position => &self.position,
@@ -126,12 +126,12 @@ impl InputBox {
         }
     }
 
-    /// The number of joints.
+    /// Returns the number of joints.
     pub fn joints(&self) -> usize {
         self.position.len()
     }
 
-    /// The values that an angle takes.
+    /// Returns the values that an angle takes.
     pub fn angle(&self, angle: AngleSum) -> Interval {
         angle
             .terms()
@@ -146,7 +146,7 @@ impl InputBox {
             })
     }
 
-    /// The values that an input takes.
+    /// Returns the values that an input takes.
     pub fn input(&self, input: Input) -> Interval {
         match input {
             Input::Sin(angle) => self.angle(angle).sin(),
@@ -168,7 +168,7 @@ fn value(position: &Position) -> f64 {
     }
 }
 
-/// A position that need not be a double.
+/// Returns a position that need not be a double.
 fn around(at: &Position) -> Interval {
     let near = value(at);
     Interval::new(near.next_down(), near.next_up()).unwrap_or(Interval::point(near))

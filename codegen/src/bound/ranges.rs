@@ -72,7 +72,7 @@ impl std::fmt::Display for Finding {
     }
 }
 
-/// The range table over a box, from at most `boxes` sub-boxes; sines are
+/// Returns the range table over a box, from at most `boxes` sub-boxes; sines are
 /// libm's where there are no polynomials for them.
 pub fn ranges(
     program: &Program,

@@ -5,7 +5,7 @@ use crate::interval::Interval;
 use crate::random::Random;
 use crate::states::JointState;
 
-/// A state of the box: each coordinate at an end, in the middle or anywhere.
+/// Returns a state of the box: each coordinate at an end, in the middle or anywhere.
 /// Errors are largest at the ends of the rates far more often than inside.
 pub fn draw(limits: &InputBox, random: &mut Random) -> JointState {
     let corners = random.below(4) > 0;
@@ -36,7 +36,7 @@ pub fn draw(limits: &InputBox, random: &mut Random) -> JointState {
     }
 }
 
-/// A multiple of a quarter turn, where sines and cosines are extreme.
+/// Returns a multiple of a quarter turn, where sines and cosines are extreme.
 fn quarter(x: Interval, random: &mut Random) -> f64 {
     let turns = random.below(5) as f64 - 2.0;
     (turns * std::f64::consts::FRAC_PI_2).clamp(x.low(), x.high())

@@ -44,7 +44,7 @@ impl From<MissingLimit> for NoScale {
     }
 }
 
-/// The torque limits of the actuators. For an entry of D the inertia, for one
+/// Returns the torque limits of the actuators. For an entry of D the inertia, for one
 /// of h_ikm the coefficient, that alone takes the whole limit at the largest
 /// rates, of the smaller of D_ik and D_ki: then D's scales are symmetric.
 ///
@@ -85,7 +85,7 @@ pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, NoScale> {
     Ok(scales)
 }
 
-/// The tolerance of each output: that of its joint, for an entry of D the
+/// Returns the tolerance of each output: that of its joint, for an entry of D the
 /// smaller of its two joints'.
 pub(crate) fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
     let (rows, sizes) = (&program.rows, program.sizes());
@@ -110,7 +110,7 @@ pub(crate) fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
     all
 }
 
-/// A magnitude that each output attains, found by climbing from actual states:
+/// Returns a magnitude that each output attains, found by climbing from actual states:
 /// its largest over the box or just below, so an error relative to it is not
 /// understated.
 pub fn range(program: &Program, limits: &InputBox) -> Vec<f64> {

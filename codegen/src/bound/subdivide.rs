@@ -3,8 +3,8 @@
 use crate::bound::input_box::InputBox;
 use crate::program::Program;
 
-/// Equal sub-boxes, at most `boxes`: the angles that a program reads are halved
-/// joint after joint.
+/// Returns equal sub-boxes, at most `boxes`: the angles that a program reads are halved joint
+/// after joint.
 pub(super) fn sub_boxes(program: &Program, limits: &InputBox, boxes: usize) -> Vec<InputBox> {
     let mut joints: Vec<usize> = program
         .trig

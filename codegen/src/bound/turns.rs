@@ -20,7 +20,7 @@ pub(crate) fn turns_freely(robot: &Robot, trig: &[Trig], joint: usize) -> bool {
     free && !sums.any(|trig| trig.angle.terms().any(|(of, _)| of == joint))
 }
 
-/// The positions over which a program's sines must be good: those of the box, and
+/// Returns the positions over which a program's sines must be good: those of the box, and
 /// [`stated`] angles of a joint that [turns freely](turns_freely).
 pub(crate) fn sine_positions(
     robot: &Robot,

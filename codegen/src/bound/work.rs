@@ -25,7 +25,7 @@ pub(crate) struct Meter {
 }
 
 impl Meter {
-    /// So many units; without a limit if `None`.
+    /// Makes a limit of so many units; without a limit if `None`.
     pub(crate) fn new(limit: Option<u64>) -> Meter {
         Meter {
             from: DONE.get(),
@@ -33,7 +33,7 @@ impl Meter {
         }
     }
 
-    /// Units since its beginning.
+    /// Returns the units since its beginning.
     pub(crate) fn done(self) -> u64 {
         DONE.get().wrapping_sub(self.from)
     }

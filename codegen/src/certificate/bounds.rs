@@ -105,7 +105,7 @@ impl Certificate {
         }
     }
 
-    /// D, if it is not the model's, must be claimed to be positive definite, and be.
+    /// Checks that D, if it is not the model's, is claimed to be positive definite, and is.
     fn check_definite(&self) -> Result<(), Refuted> {
         let changed = changes_inertia(&self.stages, &self.emitted, &self.sines);
         if self.lambda_min.is_none() && !changed {

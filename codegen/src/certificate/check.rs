@@ -16,8 +16,8 @@ impl Certificate {
         self.check_edits()
     }
 
-    /// Each stage's edits apply and give the program that follows.
-    /// A function that is bounded against the exact one need not come of it by edits.
+    /// Checks that each stage's edits apply and give the program that follows. A function that is
+    /// bounded against the exact one need not come of it by edits.
     fn check_edits(&self) -> Result<(), Refuted> {
         if direct(&self.stages, &self.emitted).is_some() {
             return Ok(());

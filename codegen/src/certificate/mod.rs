@@ -108,7 +108,7 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// The positions of a joint of this robot for which it holds; `None` for all.
+    /// Returns the positions of a joint of this robot for which it holds; `None` for all.
     ///
     /// Where a joint [turns freely](turns_freely), one turn is certified and its
     /// sine reaches further: so does the certificate.
@@ -151,7 +151,7 @@ impl Certificate {
         }
     }
 
-    /// The claim's part about sines and rounding: of the emitted program by
+    /// Returns the claim's part about sines and rounding: of the emitted program by
     /// itself, as if that were the full model.
     #[must_use]
     pub fn of_rounding(&self) -> Certificate {
@@ -166,7 +166,7 @@ impl Certificate {
         }
     }
 
-    /// The same claim with polynomials for sines; the edits' bounds stay.
+    /// Returns the same claim with polynomials for sines; the edits' bounds stay.
     #[must_use]
     pub fn with_sines(
         &self,
@@ -188,7 +188,7 @@ impl Certificate {
         }
     }
 
-    /// The same claim with another program for what is emitted, which is the same
+    /// Returns the same claim with another program for what is emitted, which is the same
     /// function: the edits' bounds stay.
     #[must_use]
     pub fn with_emitted(
@@ -204,7 +204,7 @@ impl Certificate {
         other.with_sines(scene_robot, &self.sines, sensitivity)
     }
 
-    /// The claim about the text that calls this library, with what is known of its
+    /// Returns the claim about the text that calls this library, with what is known of its
     /// sines; the edits' bounds stay, and so does the least eigenvalue, for which they are
     /// within one ulp.
     #[must_use]

@@ -90,7 +90,7 @@ impl Checker<'_> {
         }
     }
 
-    /// An operand of a step, or a result, that may read the steps before it.
+    /// Checks an operand of a step, or a result, that may read the steps before it.
     fn operand(&self, program: &str, operand: &Operand, before: usize) -> Result<(), Refuted> {
         match operand {
             Operand::Constant(_) => Ok(()),

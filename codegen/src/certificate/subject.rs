@@ -40,7 +40,7 @@ pub(crate) struct Subject<'a> {
 }
 
 impl Subject<'_> {
-    /// The largest errors of the edits, one an output, in its unit: the part
+    /// Returns the largest errors of the edits, one an output, in its unit: the part
     /// of the bounds that every scalar shares, and the longest to find.
     pub(crate) fn model(&self, bound_effort: BoundEffort) -> Vec<f64> {
         let error = match direct(self.stages, self.emitted) {
@@ -66,7 +66,7 @@ impl Subject<'_> {
             .collect()
     }
 
-    /// The edits' errors relative to the scales.
+    /// Returns the edits' errors relative to the scales.
     pub(super) fn relative(&self, model: &[f64]) -> Vec<f64> {
         let pairs = model.iter().zip(self.scales);
         pairs
@@ -94,7 +94,7 @@ impl Subject<'_> {
             .collect()
     }
 
-    /// The angles that are never beyond what `dalembert-sines` computes itself. What turns
+    /// Returns the angles that are never beyond what `dalembert-sines` computes itself. What turns
     /// freely may stand anywhere.
     fn proved(&self, scalar: ScalarType) -> Vec<AngleSum> {
         let trig = &self.emitted.trig;
@@ -120,7 +120,7 @@ impl Subject<'_> {
         Sensitivity::of(self.emitted, self.limits, bound_effort)
     }
 
-    /// A lower bound of the least eigenvalue of S D S, if D is an output and
+    /// Returns a lower bound of the least eigenvalue of S D S, if D is an output and
     /// not the model's; `None` as well if there is none above zero.
     pub(crate) fn least_eigenvalue(&self, scalar: ScalarType) -> Option<f64> {
         if !changes_inertia(self.stages, self.emitted, self.sines(scalar)) {
@@ -129,7 +129,7 @@ impl Subject<'_> {
         least_eigenvalue(self.emitted, scalar, self.sines(scalar), self.limits).ok()
     }
 
-    /// The claim for a scalar with these bounds, whether they hold or not;
+    /// Returns the claim for a scalar with these bounds, whether they hold or not;
     /// nothing is claimed of the least eigenvalue.
     pub(crate) fn claim(&self, scalar: ScalarType, bounds: Vec<ErrorByCause>) -> Certificate {
         Certificate {
@@ -153,7 +153,7 @@ impl Subject<'_> {
         }
     }
 
-    /// The polynomials for sines in a scalar.
+    /// Returns the polynomials for sines in a scalar.
     pub(crate) fn sines(&self, scalar: ScalarType) -> &[AngleKernel] {
         sincos::of(self.sines, scalar)
     }
@@ -178,7 +178,7 @@ pub(super) fn changes_inertia(stages: &[Stage], emitted: &Program, sines: &[Angl
     has_inertia(emitted) && (has_edits(stages) || !sines.is_empty())
 }
 
-/// The text of a claim: a program and its sines, printed by themselves.
+/// Returns the text of a claim: a program and its sines, printed by themselves.
 pub(super) fn printed(
     program: &Program,
     scalar: ScalarType,

@@ -11,12 +11,12 @@ use super::messages::Message;
 pub(super) struct Errors(Vec<syn::Error>);
 
 impl Errors {
-    /// A message of the table.
+    /// Adds a message of the table.
     pub(super) fn push(&mut self, at: impl ToTokens, message: &Message) {
         self.say(at, message.text, message.help);
     }
 
-    /// A message that was put together.
+    /// Adds a message that was put together.
     pub(super) fn say(&mut self, at: impl ToTokens, text: &str, help: &str) {
         let help = match help {
             "" => String::new(),
@@ -26,7 +26,7 @@ impl Errors {
             .push(syn::Error::new_spanned(at, format!("{text}{help}")));
     }
 
-    /// A name that is there already.
+    /// Reports a name that is there already.
     pub(super) fn twice(&mut self, name: impl ToTokens) {
         let text = format!("`{}` is given twice", name.to_token_stream());
         self.say(name, &text, "");
@@ -45,7 +45,7 @@ impl Errors {
         self.0.len()
     }
 
-    /// One `compile_error!` each.
+    /// Returns one `compile_error!` each.
     pub(super) fn into_tokens(self) -> TokenStream {
         self.0.iter().map(syn::Error::to_compile_error).collect()
     }

@@ -23,7 +23,7 @@ use crate::program::ScalarType;
 use crate::task::Request;
 use crate::task::in_scene::find;
 
-/// The modules that an invocation asks for, or everything that is wrong with
+/// Returns the modules that an invocation asks for, or everything that is wrong with
 /// it next to modules whose functions have no bodies.
 ///
 /// Paths of robot files are relative to `base`.
@@ -31,7 +31,7 @@ pub fn expand(input: TokenStream, base: &Path) -> TokenStream {
     expand_from(input, &[base], true)
 }
 
-/// [`expand`], where paths of robot files are relative to the first of these folders that
+/// Returns [`expand`], where paths of robot files are relative to the first of these folders that
 /// has the file, and `has_batch` says whether the crate `dalembert` has its feature `batch`.
 pub fn expand_from(input: TokenStream, folders: &[&Path], has_batch: bool) -> TokenStream {
     let mut errors = Errors::default();
@@ -103,7 +103,7 @@ fn source(invocation: &Invocation, folders: &[&Path], errors: &mut Errors) -> So
     }
 }
 
-/// The scene that stands in the invocation.
+/// Returns the scene that stands in the invocation.
 fn written(invocation: &Invocation) -> Option<(&Ident, &Group)> {
     let (name, body) = invocation.scene.as_ref()?;
     Some((name, body.as_ref()?))
@@ -164,7 +164,7 @@ fn file(
     }
 }
 
-/// The import of a file that is not there would be a second error.
+/// Returns whether there is such a file: the import of one that is not would be a second error.
 fn path_exists(path: &str) -> bool {
     Path::new(path).is_file()
 }

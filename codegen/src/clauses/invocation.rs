@@ -109,7 +109,7 @@ pub(super) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation
 
 type Head = (Vec<Attribute>, Visibility, Ident, RobotSource);
 
-/// `/// … pub mod name = "file";` or `/// … pub mod name { … }`.
+/// Returns `/// … pub mod name = "file";` or `/// … pub mod name { … }`.
 fn head(input: ParseStream<'_>, errors: &mut Errors) -> syn::Result<Head> {
     let attributes = input.call(Attribute::parse_outer)?;
     let visibility = input.parse()?;
@@ -248,7 +248,7 @@ fn braces(tree: &TokenTree) -> Option<&Group> {
     statement::group(tree, Delimiter::Brace)
 }
 
-/// The name of a clause; an unknown one counts as the one that was probably
+/// Returns the name of a clause; an unknown one counts as the one that was probably
 /// meant, so that it is not missing as well.
 fn clause_name(key: &Ident, errors: &mut Errors) -> Option<&'static str> {
     let (word, names) = (key.to_string(), names());
@@ -264,7 +264,7 @@ fn clause_name(key: &Ident, errors: &mut Errors) -> Option<&'static str> {
     meant
 }
 
-/// An error of sines, as a float literal.
+/// Returns an error of sines, as a float literal.
 fn sincos_error(value: &[TokenTree], errors: &mut Errors) -> Option<f64> {
     let tokens: TokenStream = value.iter().cloned().collect();
     let number = match value {
@@ -278,7 +278,7 @@ fn sincos_error(value: &[TokenTree], errors: &mut Errors) -> Option<f64> {
     number
 }
 
-/// The path of the facade crate, as an import inside the module can take it.
+/// Returns the path of the facade crate, as an import inside the module can take it.
 fn facade(value: &[TokenTree], errors: &mut Errors) -> Option<TokenStream> {
     let tokens: TokenStream = value.iter().cloned().collect();
     if value.is_empty() {

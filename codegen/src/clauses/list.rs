@@ -94,7 +94,7 @@ fn read<T>(
     read
 }
 
-/// The value of a word, or of the word that was probably meant.
+/// Returns the value of a word, or of the word that was probably meant.
 fn meant<T>(
     item: &[TokenTree],
     errors: &mut Errors,
@@ -119,7 +119,7 @@ fn meant<T>(
     }
 }
 
-/// An output by its word, or one at a frame.
+/// Returns an output by its word, or one at a frame.
 fn output(item: &[TokenTree], errors: &mut Errors) -> Option<Function> {
     let sign = |tree: &TokenTree| is_punct(tree, '@') || is_punct(tree, ':');
     if !item.iter().any(sign) {
@@ -135,7 +135,7 @@ fn output(item: &[TokenTree], errors: &mut Errors) -> Option<Function> {
     }
 }
 
-/// `name = output + output`
+/// Returns `name = output + output`
 fn bundle(
     item: &[TokenTree],
     before: &[(Function, TokenStream)],

@@ -105,7 +105,7 @@ pub(super) const NO_NUMBER: Message = message(
 );
 
 impl Message {
-    /// Both, as the compiler shows them.
+    /// Returns both, as the compiler shows them.
     pub(super) fn with_help(&self) -> String {
         match self.help {
             "" => self.text.to_owned(),

@@ -25,8 +25,8 @@ pub(super) const TRAITS: &str = "__traits";
 /// Where batches find the crate that runs them.
 pub(super) const BATCH: &str = "__batch";
 
-/// Whose sines the bodies call: by default those of all angles together, which
-/// the facade has with it.
+/// Returns whose sines the bodies call: by default those of all angles together, which the facade
+/// has with it.
 pub(super) fn math(sincos: SinCos) -> MathPath {
     match sincos.library(Library::Together) {
         Library::Together => MathPath::together(format!("{MATH}::together")),
@@ -115,7 +115,7 @@ pub(super) fn assemble(
     Ok(tokens)
 }
 
-/// The module's name as the user wrote it, so that tools find their way.
+/// Returns the module's name as the user wrote it, so that tools find their way.
 fn name(word: &Ident, invocation: &Invocation) -> Ident {
     if *word == invocation.name {
         return invocation.name.clone();
@@ -123,7 +123,7 @@ fn name(word: &Ident, invocation: &Invocation) -> Ident {
     Ident::new(&word.to_string(), invocation.name.span())
 }
 
-/// The text with its comments of documentation as the attributes that they stand for:
+/// Returns the text with its comments of documentation as the attributes that they stand for:
 /// an editor that reads tokens itself takes a third slash for a part of the comment.
 fn with_attributes(text: &str) -> String {
     let mut attributes = String::with_capacity(text.len());
@@ -137,7 +137,7 @@ fn with_attributes(text: &str) -> String {
     attributes
 }
 
-/// The tokens where they are to be found: a function at its output's name in the macro,
+/// Returns the tokens where they are to be found: a function at its output's name in the macro,
 /// as far as that was written, all else at the macro as a whole. Places in the generated
 /// text would be places in no file.
 fn located(tokens: TokenStream, invocation: &Invocation) -> TokenStream {

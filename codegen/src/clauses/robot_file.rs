@@ -64,7 +64,7 @@ impl RobotFile {
     }
 }
 
-/// One byte more than a robot file may have is enough for the reader to say
+/// Returns one byte more than a robot file may have is enough for the reader to say
 /// so; the path may be a device without end.
 fn bytes(path: &Path) -> std::io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
@@ -118,7 +118,7 @@ impl RobotFileError {
         }
     }
 
-    /// Every error by itself; those of the text with their line. Never empty.
+    /// Returns every error by itself; those of the text with their line. Never empty.
     pub fn messages(&self) -> Vec<String> {
         match self {
             RobotFileError::Missing { shown, meant } => {

@@ -121,7 +121,7 @@ pub(super) fn is_punct(tree: &TokenTree, c: char) -> bool {
     matches!(tree, TokenTree::Punct(punct) if punct.as_char() == c)
 }
 
-/// The items of a list; a comma at its end is fine.
+/// Returns the items of a list; a comma at its end is fine.
 pub(super) fn items(trees: &[TokenTree]) -> Vec<&[TokenTree]> {
     let mut items: Vec<&[TokenTree]> = trees.split(|tree| is_punct(tree, ',')).collect();
     if items.last().is_some_and(|last| last.is_empty()) {
@@ -130,7 +130,7 @@ pub(super) fn items(trees: &[TokenTree]) -> Vec<&[TokenTree]> {
     items
 }
 
-/// The trees without the invisible groups around what another macro put in.
+/// Returns the trees without the invisible groups around what another macro put in.
 pub(super) fn trees(tokens: TokenStream) -> Vec<TokenTree> {
     let mut trees = Vec::new();
     for tree in tokens {
@@ -144,7 +144,7 @@ pub(super) fn trees(tokens: TokenStream) -> Vec<TokenTree> {
     trees
 }
 
-/// The contents of a group in these delimiters.
+/// Returns the contents of a group in these delimiters.
 pub(super) fn group(tree: &TokenTree, delimiter: Delimiter) -> Option<&Group> {
     match tree {
         TokenTree::Group(group) if group.delimiter() == delimiter => Some(group),

@@ -127,7 +127,7 @@ struct Blocks {
     scenes: Vec<(Ident, Group)>,
 }
 
-/// The robot's own keys, its joints, its frames and its scenes. A file has them in this
+/// Returns the robot's own keys, its joints, its frames and its scenes. A file has them in this
 /// order too.
 fn split(block: &Group, errors: &mut Errors) -> Blocks {
     let mut blocks = Blocks::default();
@@ -183,8 +183,8 @@ impl File {
         self.marks.push((start..self.text.len(), tokens));
     }
 
-    /// The file begins with the name: what is wrong with the robot as a whole
-    /// is reported there.
+    /// Reads the name, with which the file begins: what is wrong with the robot as a whole is
+    /// reported there.
     fn name(&mut self, name: &Ident) {
         self.mark(name.to_token_stream(), |file| {
             file.text += "name = ";
@@ -193,7 +193,7 @@ impl File {
         self.text.push('\n');
     }
 
-    /// A scene's table.
+    /// Writes a scene's table.
     fn scene(&mut self, head: &Ident, body: &Group, errors: &mut Errors) {
         self.text += "[scene.";
         self.mark(head.to_token_stream(), |file| {
@@ -230,7 +230,7 @@ impl File {
         }
     }
 
-    /// `{ 4: 0, elbow: pi/2 }`
+    /// Writes `{ 4: 0, elbow: pi/2 }`
     fn locks(&mut self, block: &Group, errors: &mut Errors) {
         self.text += "{ ";
         let mut written = 0;
@@ -303,7 +303,7 @@ impl File {
         self.text += " }";
     }
 
-    /// A number, an angle or a word, from the source text of its tokens.
+    /// Writes a number, an angle or a word, from the source text of its tokens.
     fn scalar(&mut self, value: &[TokenTree], errors: &mut Errors) {
         let literals = value.iter().filter_map(|tree| match tree {
             TokenTree::Literal(literal) => Some(Lit::new(literal.clone())),
@@ -393,7 +393,7 @@ impl File {
     }
 }
 
-/// The source text of a value; spaces only where two words would become one.
+/// Returns the source text of a value; spaces only where two words would become one.
 fn join(value: &[TokenTree]) -> String {
     let mut text = String::new();
     let mut word = false;

@@ -17,12 +17,12 @@ pub(super) struct Warning {
 }
 
 impl Warning {
-    /// A line of the module's documentation.
+    /// Returns a line of the module's documentation.
     pub(super) fn documentation(&self) -> String {
         format!("Warning: {}.", self.text)
     }
 
-    /// Its constant and the use of that.
+    /// Returns its constant and the use of that.
     fn tokens(&self, number: usize) -> TokenStream {
         let note = match &self.help {
             Some(help) => format!("{}\n  = help: {help}", self.text),
@@ -49,7 +49,7 @@ pub(super) fn tokens(warnings: &[Warning]) -> TokenStream {
         .collect()
 }
 
-/// The first of the tokens: a stable compiler joins no spans.
+/// Returns the first of the tokens: a stable compiler joins no spans.
 fn span(tokens: &TokenStream) -> Span {
     let first = tokens.clone().into_iter().next();
     first.as_ref().map_or_else(Span::call_site, TokenTree::span)

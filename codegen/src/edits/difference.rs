@@ -20,7 +20,7 @@ use crate::graph::{Builder, Folding, Graph};
 use crate::program::{Operand, Operation, Program};
 
 impl Stage {
-    /// The edited program's graph, folded; what nothing reads is gone.
+    /// Returns the edited program's graph, folded; what nothing reads is gone.
     pub fn edited(&self, folding: Folding) -> Graph {
         let mut run = Run::new(self, folding);
         run.steps();
@@ -36,7 +36,7 @@ impl Stage {
         run.builder.finish(&outputs)
     }
 
-    /// The edited program.
+    /// Returns the edited program.
     pub fn program(&self, folding: Folding) -> Program {
         self.program.with_graph(&self.edited(folding))
     }
@@ -73,7 +73,7 @@ pub(crate) fn traced(program: &Program, builder: &mut Builder) -> Vec<Value> {
     outputs.collect()
 }
 
-/// The errors of all stages together: edited − exact, output by output. Each
+/// Returns the errors of all stages together: edited − exact, output by output. Each
 /// stage's edited program must be equal to the next stage's program.
 pub fn difference(stages: &[Stage]) -> Graph {
     let mut builder = Builder::new(Folding::Syntactic);
@@ -157,7 +157,7 @@ impl<'a> Run<'a> {
         self.builder.negate_if(&value, edit.negative)
     }
 
-    /// replacement after − operand before
+    /// Returns replacement after − operand before
     fn moved(&mut self, edit: &Edit, operand: &Operand) -> Value {
         let after = self.replacement(edit);
         let before = self.before(operand);
@@ -175,7 +175,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// An operand of a step: before, after, and the difference.
+    /// Returns an operand of a step: before, after, and the difference.
     fn operand(&mut self, operand: &Operand, place: EditSite) -> [Value; 3] {
         let before = self.before(operand);
         match self.edit(place) {
@@ -250,7 +250,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// A step's operation on values.
+/// Returns a step's operation on values.
 fn operate(builder: &mut Builder, operation: Operation, a: &Value, b: &Value) -> Value {
     match operation {
         Operation::Add => builder.add(a, b),

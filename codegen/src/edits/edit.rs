@@ -61,7 +61,7 @@ impl std::fmt::Display for BadEdit {
 impl std::error::Error for BadEdit {}
 
 impl Edit {
-    /// A constant in place of a value.
+    /// Returns a constant in place of a value.
     pub fn constant(place: EditSite, value: Exact) -> Edit {
         Edit {
             place,
@@ -77,14 +77,14 @@ impl Edit {
             && matches!(self.value, Operand::Constant(_))
     }
 
-    /// Zero in place of a value: its term is dropped.
+    /// Puts zero in place of a value: its term is dropped.
     pub fn zero(place: EditSite) -> Edit {
         Edit::constant(place, Exact::zero())
     }
 }
 
 impl Stage {
-    /// A program as it is.
+    /// Returns a program as it is.
     pub fn unedited(program: Program) -> Stage {
         Stage {
             program,
@@ -122,7 +122,7 @@ impl Stage {
         Ok(())
     }
 
-    /// The function that is computed.
+    /// Returns the function that is computed.
     pub fn function(&self) -> Function {
         self.program.function
     }

@@ -30,7 +30,7 @@ impl fmt::Display for EditFault {
 
 impl std::error::Error for EditFault {}
 
-/// An edit as text: `t12 = ~t3`, `qd[5] = #0`.
+/// Returns an edit as text: `t12 = ~t3`, `qd[5] = #0`.
 pub fn write_edit(edit: &Edit) -> String {
     let place = match edit.place {
         EditSite::Input(input) => input_name(input),

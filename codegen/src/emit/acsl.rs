@@ -154,7 +154,7 @@ fn bounds(exact: &str, certificate: &Certificate, printed: &Printed<'_>) -> Vec<
     clauses.collect()
 }
 
-/// The full model as a function over the reals: the proved program.
+/// Returns the full model as a function over the reals: the proved program.
 fn logic(
     exact: &str,
     certificate: &Certificate,
@@ -197,7 +197,7 @@ fn logic(
     text + &format!("      {};\n*/\n", results(program))
 }
 
-/// The result of a number.
+/// Returns the result of a number.
 fn results(program: &Program) -> String {
     let values = program.outputs.iter().map(|output| {
         let sign = if output.negative { "-" } else { "" };
@@ -223,8 +223,8 @@ fn operand(operand: &Operand) -> String {
     }
 }
 
-/// A constant without rounding: numbers have a point, since integers are divided as in C, and a
-/// power is a product.
+/// Returns a constant without rounding: numbers have a point, since integers are divided as in
+/// C, and a power is a product.
 fn real(value: &Exact) -> String {
     let (text, mut real) = (value.to_string(), String::new());
     let (mut chars, mut factor) = (text.chars().peekable(), 0);

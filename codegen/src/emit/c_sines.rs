@@ -77,15 +77,15 @@ impl Words {
         }
     }
 
-    /// The operations, so far from the margin.
+    /// Returns the operations, so far from the margin.
     fn steps(&self, margin: &str) -> String {
         let lines = self.steps.iter().map(|line| format!("{margin}{line}\n"));
         lines.collect()
     }
 
-    /// The function of several angles. Its loop has no branch and no integer, of which gcc makes
-    /// vectors for every processor; clang keeps results in memory if it is not inlined, which is
-    /// shorter than taking vectors apart.
+    /// Returns the function of several angles. Its loop has no branch and no integer, of which
+    /// gcc makes vectors for every processor; clang keeps results in memory if it is not
+    /// inlined, which is shorter than taking vectors apart.
     fn several(&self, names: &Names, count: usize) -> String {
         let Words {
             float,
@@ -129,7 +129,7 @@ impl Words {
         )
     }
 
-    /// The function of one angle, which is told whether it may be far.
+    /// Returns the function of one angle, which is told whether it may be far.
     fn one(&self, names: &Names) -> String {
         let Words {
             float,

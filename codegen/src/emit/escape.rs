@@ -1,6 +1,6 @@
 //! Names that users chose, inside documentation.
 
-/// The name as text that no reader of documentation takes for markup: a bar
+/// Returns the name as text that no reader of documentation takes for markup: a bar
 /// would end a table's cell, a backtick begin code, `<` an HTML tag.
 ///
 /// Markdown lets a backslash stand before any ASCII punctuation. It is left out

@@ -10,7 +10,7 @@ pub(super) enum Side {
     Below,
 }
 
-/// A number of so many digits, on one side of another and next to it.
+/// Returns a number of so many digits, on one side of another and next to it.
 fn rounded(x: f64, digits: usize, side: Side) -> f64 {
     let near = format!("{x:.*e}", digits.saturating_sub(1));
     let read = near.parse().unwrap_or(x);
@@ -34,7 +34,7 @@ fn rounded(x: f64, digits: usize, side: Side) -> f64 {
     moved.ok().and_then(Result::ok).unwrap_or(x)
 }
 
-/// A number as people write it.
+/// Returns a number as people write it.
 fn plain(x: f64) -> String {
     if x == 0.0 || (1e-3..1e5).contains(&x.abs()) {
         format!("{x}")
@@ -43,12 +43,12 @@ fn plain(x: f64) -> String {
     }
 }
 
-/// Five digits, not below: an error relative to it stays a bound.
+/// Writes five digits, not below: an error relative to it stays a bound.
 pub(crate) fn at_least(x: f64) -> String {
     plain(rounded(x, 5, Side::Above))
 }
 
-/// A decimal as the robot file would have it; a fraction if it is none.
+/// Returns a decimal as the robot file would have it; a fraction if it is none.
 pub(super) fn decimal(value: &dalembert_model::number::Rational) -> String {
     dalembert_model::number::parse::write_decimal(value).unwrap_or_else(|| value.to_string())
 }
@@ -60,12 +60,12 @@ pub(super) fn placed(placement: &dalembert_model::robot::Placement) -> String {
     format!("xyz ({xyz}) m, rpy ({rpy})")
 }
 
-/// Three digits, not below: what is read off is a bound too.
+/// Returns three digits, not below: what is read off is a bound too.
 pub(crate) fn bound(x: f64) -> String {
     bound_of(x, 3)
 }
 
-/// So many digits, not below.
+/// Writes so many digits, not below.
 pub fn bound_of(x: f64, digits: usize) -> String {
     match x == 0.0 || !x.is_finite() {
         true => format!("{x}"),
@@ -77,7 +77,7 @@ pub fn bound_of(x: f64, digits: usize) -> String {
     }
 }
 
-/// A range of seven digits inside a range, or all its digits if it is that
+/// Returns a range of seven digits inside a range, or all its digits if it is that
 /// narrow.
 pub fn inside(low: f64, high: f64) -> String {
     let ends = (rounded(low, 7, Side::Above), rounded(high, 7, Side::Below));

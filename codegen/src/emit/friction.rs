@@ -5,7 +5,7 @@ use super::generated::GeneratedFunction;
 use crate::function::Argument;
 use crate::scene::SceneRobot;
 
-/// The equation of the friction that is in it, joint by joint; nothing of functions
+/// Returns the equation of the friction that is in it, joint by joint; nothing of functions
 /// that have none in them.
 pub(super) fn doc(generated: &GeneratedFunction, scene_robot: &SceneRobot) -> Vec<String> {
     let program = &generated.program;

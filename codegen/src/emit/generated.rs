@@ -41,12 +41,12 @@ pub struct GeneratedFunction {
 }
 
 impl GeneratedFunction {
-    /// The polynomials of its sines in a scalar; none if they are libm's.
+    /// Returns the polynomials of its sines in a scalar; none if they are libm's.
     pub fn sines(&self, scalar: ScalarType) -> &[AngleKernel] {
         sincos::of(&self.sines, scalar)
     }
 
-    /// The program in a scalar, each constant rounded once: what is printed. Sines
+    /// Returns the program in a scalar, each constant rounded once: what is printed. Sines
     /// without polynomials are the library's.
     pub fn code(&self, scalar: ScalarType, library: Library) -> Lowered {
         sincos::lowered(&self.program, scalar, library, self.sines(scalar))

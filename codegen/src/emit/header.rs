@@ -231,7 +231,7 @@ fn comment(text: &mut String, lines: &[String]) {
     text.push_str(" */\n");
 }
 
-/// A line that ends no comment and begins none; without the marks of Rust's documentation.
+/// Returns a line that ends no comment and begins none; without the marks of Rust's documentation.
 fn plain(line: &str) -> String {
     let line = line.replace("[`", "`").replace("`]", "`").replace('\\', "");
     line.replace("*/", "* /")

@@ -11,7 +11,7 @@ use crate::program::ScalarType;
 /// The type that has the traits.
 pub(crate) const ROBOT: &str = "Robot";
 
-/// The trait that asks what a function answers. What bundles return, what is at a frame,
+/// Returns the trait that asks what a function answers. What bundles return, what is at a frame,
 /// and what a load is, are each module's own.
 pub fn question(function: Function) -> Option<String> {
     let is_own = matches!(
@@ -33,7 +33,7 @@ pub(crate) fn answer(
     Some(format!("{path}::answers::{name}<{scalar}, {joints}>"))
 }
 
-/// The type and what it answers; `path` is where the traits are.
+/// Returns the type and what it answers; `path` is where the traits are.
 pub(super) fn write(functions: &[GeneratedFunction], scalar: ScalarType, path: &str) -> String {
     let asked = |generated: &&GeneratedFunction| fits(generated);
     let (with, without): (Vec<_>, Vec<_>) = functions.iter().partition(asked);

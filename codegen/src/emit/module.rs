@@ -23,7 +23,7 @@ use crate::task::{Interface, Layout, Task};
 /// are the equations', that a flat function is as long as it is.
 const ALLOWED: &str = "dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery";
 
-/// The name of one scalar's module: `puma560`, `puma560_f32`. A module that
+/// Returns the name of one scalar's module: `puma560`, `puma560_f32`. A module that
 /// was asked for alone keeps the plain name.
 pub(crate) fn name(base: &str, scalar: ScalarType, all: &[ScalarType]) -> String {
     match scalar {
@@ -32,7 +32,7 @@ pub(crate) fn name(base: &str, scalar: ScalarType, all: &[ScalarType]) -> String
     }
 }
 
-/// The part of a generated file that is one module, where it has modules.
+/// Returns the part of a generated file that is one module, where it has modules.
 pub(crate) fn section<'a>(text: &'a str, module: &str) -> Option<&'a str> {
     let head = format!("pub mod {module} {{\n");
     let start = text.find(&head)? + head.len();
@@ -155,12 +155,12 @@ fn module(
     text
 }
 
-/// The angles of a robot's functions.
+/// Returns the angles of a robot's functions.
 pub(crate) fn angles(joints: usize, functions: &[GeneratedFunction]) -> Angles {
     Angles::of(joints, functions.iter().map(|generated| &generated.program))
 }
 
-/// The position of a joint that follows, from the number of the one that leads.
+/// Returns the position of a joint that follows, from the number of the one that leads.
 fn followed(own: &Follower, number: usize) -> String {
     let by = decimal(&own.multiplier);
     let offset = match &own.offset {
@@ -173,7 +173,7 @@ fn followed(own: &Follower, number: usize) -> String {
     }
 }
 
-/// Robot, conventions, DH table, counts and proof.
+/// Writes robot, conventions, DH table, counts and proof.
 pub(super) fn header(
     robot: &Robot,
     scene_robot: &SceneRobot,

@@ -61,7 +61,7 @@ pub(super) fn doc(function: Function, scene_robot: &SceneRobot) -> Vec<String> {
     lines
 }
 
-/// The constant π; nothing of functions that are over no base parameters.
+/// Returns the constant π; nothing of functions that are over no base parameters.
 pub(super) fn constant(function: Function, scene_robot: &SceneRobot, scalar: ScalarType) -> String {
     let mut text = String::new();
     let Some((name, values)) = values(function, scene_robot, scalar) else {
@@ -81,7 +81,7 @@ pub(super) fn constant(function: Function, scene_robot: &SceneRobot, scalar: Sca
     text
 }
 
-/// The function that writes π in C; nothing of functions that are over no base parameters.
+/// Returns the function that writes π in C; nothing of functions that are over no base parameters.
 pub(super) fn write_c(function: Function, scene_robot: &SceneRobot, names: &Names) -> String {
     let mut text = String::new();
     let dialect = names.dialect();
@@ -106,7 +106,7 @@ pub(super) fn write_c(function: Function, scene_robot: &SceneRobot, names: &Name
     text
 }
 
-/// π of a function that is over base parameters, and its name.
+/// Returns π of a function that is over base parameters, and its name.
 fn values(
     function: Function,
     scene_robot: &SceneRobot,
@@ -127,8 +127,8 @@ pub(super) fn name(function: Function) -> Option<&'static str> {
     }
 }
 
-/// If a function is over base parameters: what its columns sum up to, the constant
-/// for their values, and what they are.
+/// Returns, if a function is over base parameters, what its columns sum up to, the constant for
+/// their values, and what they are.
 fn over_base(
     function: Function,
     scene_robot: &SceneRobot,
@@ -144,7 +144,7 @@ fn has_drives(base: &BaseParameters) -> bool {
     terms.any(|(parameter, _)| !matches!(parameter, Parameter::Link(..)))
 }
 
-/// A constant without factors of one and signs after signs.
+/// Returns a constant without factors of one and signs after signs.
 fn plain(constant: &Exact) -> String {
     let mut text = String::new();
     for c in constant.to_string().chars() {
@@ -161,7 +161,7 @@ fn plain(constant: &Exact) -> String {
     text.replace("+-", " - ").replace('+', " + ")
 }
 
-/// `Izz2 + 0.25 m3 - mx4`; exact.
+/// Returns `Izz2 + 0.25 m3 - mx4`; exact.
 fn combination(terms: &[(Parameter, Exact)]) -> String {
     let mut text = String::new();
     for (parameter, factor) in terms {

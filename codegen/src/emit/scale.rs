@@ -7,7 +7,7 @@ use dalembert_model::scene::Scale;
 use crate::function::{ErrorScale, Quantity};
 use crate::program::Program;
 
-/// A line or two for each kind of output that the function has.
+/// Returns a line or two for each kind of output that the function has.
 pub(super) fn sentences(relative_to: Option<Scale>, quantities: &[Quantity]) -> Vec<String> {
     match relative_to {
         None => vec!["T is as given.".into()],
@@ -48,7 +48,7 @@ fn actuators(quantities: &[Quantity]) -> Vec<String> {
     lines
 }
 
-/// The unit of each output.
+/// Returns the unit of each output.
 pub(super) fn units(program: &Program, robot: &Robot) -> Vec<&'static str> {
     let (rows, sizes) = (&program.rows, program.sizes());
     let mut units = Vec::new();

@@ -5,7 +5,7 @@ use dalembert_model::scene::Scene;
 
 use crate::emit::figures::decimal;
 
-/// A line each.
+/// Returns a line each.
 pub(super) fn describe(scene: &Scene, robot: &Robot) -> Vec<String> {
     let mut lines = vec![format!(
         "Scene `{}` {}. Its functions are the full model's at:",

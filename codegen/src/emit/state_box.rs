@@ -41,7 +41,7 @@ impl StateBox {
         (!columns.is_empty()).then_some(StateBox { columns })
     }
 
-    /// The constant, its type and the function that asks.
+    /// Writes the constant, its type and the function that asks.
     pub(super) fn write(&self, text: &mut String, scalar: ScalarType) {
         text.push_str(
             "\n/// The lowest and the highest entries of arguments for which the functions of this\n\
@@ -147,7 +147,7 @@ impl StateBox {
     }
 }
 
-/// Where one function holds.
+/// Writes where one function holds.
 fn bound(
     column: &mut [Option<Interval>],
     argument: Argument,
@@ -189,7 +189,7 @@ fn narrower(known: Option<Interval>, range: Interval) -> Interval {
     both.unwrap_or(range)
 }
 
-/// The outermost numbers of the scalar that are inside a range.
+/// Returns the outermost numbers of the scalar that are inside a range.
 fn ends(range: Option<Interval>, scalar: ScalarType) -> [String; 2] {
     let Some(range) = range else {
         return ["NEG_INFINITY", "INFINITY"].map(|end| format!("{scalar}::{end}"));

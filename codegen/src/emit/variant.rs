@@ -13,7 +13,7 @@ use crate::program::ScalarType;
 use crate::scene::SceneRobot;
 use crate::split::ErrorByCause;
 
-/// A line each: the certificate, the box, what was left out.
+/// Returns a line each: the certificate, the box, what was left out.
 pub(super) fn describe(
     admitted: &Admitted,
     scene_robot: &SceneRobot,
@@ -106,7 +106,7 @@ fn bounds(certificate: &Certificate, scene_robot: &SceneRobot) -> Vec<String> {
     lines
 }
 
-/// The entries of an argument for which a certificate holds; `None` for all.
+/// Returns the entries of an argument for which a certificate holds; `None` for all.
 pub(super) fn held(
     certificate: &Certificate,
     scene_robot: &SceneRobot,
@@ -119,7 +119,7 @@ pub(super) fn held(
     }
 }
 
-/// The box, for what the function reads; what is printed is inside it.
+/// Returns the box, for what the function reads; what is printed is inside it.
 fn states(certificate: &Certificate, scene_robot: &SceneRobot) -> Vec<String> {
     let limits = &certificate.limits;
     let columns = &certificate.emitted.arguments;

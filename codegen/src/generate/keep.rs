@@ -19,7 +19,7 @@ pub struct Kept {
     pub own: Vec<(Function, ScalarType)>,
 }
 
-/// The plan with the programs of a run in it. Those of other requests for the
+/// Returns the plan with the programs of a run in it. Those of other requests for the
 /// same robot stay, and after a search that was ended early those that are no
 /// dearer than what it found.
 pub fn keep(robot: &Robot, request: &Request, generated: &Generated, plan: Option<Plan>) -> Kept {
@@ -80,7 +80,7 @@ fn emitted(entry: &Entry) -> &Program {
     edited.map_or(&entry.program, |edited| &edited.program)
 }
 
-/// The scalars that a function was emitted in.
+/// Returns the scalars that a function was emitted in.
 fn scalars(request: &Request, function: &GeneratedFunction) -> Vec<ScalarType> {
     match &function.admitted {
         None => request.scalars.clone(),
@@ -88,7 +88,7 @@ fn scalars(request: &Request, function: &GeneratedFunction) -> Vec<ScalarType> {
     }
 }
 
-/// The proved program: what a tolerance was applied to.
+/// Returns the proved program: what a tolerance was applied to.
 fn exact(function: &GeneratedFunction) -> &Program {
     let admitted = function.admitted.as_ref();
     let first = admitted.and_then(|admitted| admitted.stages.first());

@@ -291,7 +291,7 @@ fn proved(task: &Task<'_>, function: Function) -> Result<GeneratedFunction, Gene
     })
 }
 
-/// The polynomials of a program's sines in each scalar.
+/// Returns the polynomials of a program's sines in each scalar.
 fn sines(
     task: &Task<'_>,
     generated: &GeneratedFunction,

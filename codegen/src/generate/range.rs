@@ -14,7 +14,7 @@ use crate::graph::Points;
 use crate::program::{Operand, Program, ScalarType};
 use crate::scene::SceneRobot;
 
-/// A parameter that the search cannot tell from zero.
+/// Returns a parameter that the search cannot tell from zero.
 pub(super) fn vanishing(scene_robot: &SceneRobot) -> Option<Exact> {
     let mut lost = None;
     let mut constant = |value: &Exact| {
@@ -28,7 +28,7 @@ pub(super) fn vanishing(scene_robot: &SceneRobot) -> Option<Exact> {
     lost
 }
 
-/// A constant that becomes infinite or zero is an error, a subnormal one a
+/// Checks the constants: one that becomes infinite or zero is an error, a subnormal one a
 /// warning: its relative rounding error is no longer bounded by u.
 pub(super) fn check_constants(
     program: &Program,

@@ -16,7 +16,7 @@ use crate::simplify::{self, Effort, Pass, Simplified};
 use crate::verify::accuracy::{AccuracyFilter, Refused};
 use crate::watch::{FunctionWatch, Part};
 
-/// The plan's program, the first requested scalar's that it has.
+/// Returns the plan's program, the first requested scalar's that it has.
 pub fn replay<'a>(task: &Task<'a>, function: Function) -> Result<Option<&'a Entry>, GenerateError> {
     let Task {
         scene_robot,
@@ -135,7 +135,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The quick search: without a limit first, since most robots need none.
+    /// Returns the quick search: without a limit first, since most robots need none.
     /// Where that costs too many digits, again within the limit, also from
     /// where the other one ended.
     fn quick(&self, watch: Option<FunctionWatch<'_>>) -> Result<Found, GenerateError> {
@@ -157,7 +157,7 @@ impl Search<'_> {
         Ok(found)
     }
 
-    /// A refused program, worth a word only where it is cheaper.
+    /// Returns a refused program, worth a word only where it is cheaper.
     fn refused(&self, counts: Counts, error: f64, taken: &Found) -> Option<Refused> {
         let graph = &taken.simplified.graph;
         let is_cheaper = counts.operations() < graph.counts().operations();

@@ -126,7 +126,7 @@ fn bound_effort(task: &Task<'_>) -> BoundEffort {
     }
 }
 
-/// The plan's variant, if the tolerances admit it. A plan is a text that anybody
+/// Returns the plan's variant, if the tolerances admit it. A plan is a text that anybody
 /// can edit, and its bounds are what documentation and certificate will say: they
 /// are found anew.
 fn usable(
@@ -233,7 +233,7 @@ fn chosen(
     Ok(admitted)
 }
 
-/// A variant that was just found is the exact program with its edits: proved, as it is
+/// Proves that a variant that was just found is the exact program with its edits, as is proved
 /// of one that a plan kept. The scalars share both.
 fn proved(budget: &ErrorBudget<'_>, found: Admitted) -> Result<Admitted, GenerateError> {
     let programs = found.certificates.first();
@@ -258,7 +258,7 @@ fn thorough(request: &Request) -> PruneSettings {
     }
 }
 
-/// The plan's variant, if it has the same one for each of the scalars.
+/// Returns the plan's variant, if it has the same one for each of the scalars.
 fn kept(
     task: &Task<'_>,
     budget: &ErrorBudget<'_>,

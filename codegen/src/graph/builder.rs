@@ -30,7 +30,7 @@ pub enum Value {
 }
 
 impl Value {
-    /// The constant zero.
+    /// Returns the constant zero.
     pub fn zero() -> Self {
         Value::Constant(Exact::zero())
     }
@@ -58,7 +58,7 @@ pub struct Builder {
 }
 
 impl Builder {
-    /// An empty graph.
+    /// Returns an empty graph.
     pub fn new(folding: Folding) -> Self {
         Builder {
             graph: Graph::default(),
@@ -78,20 +78,20 @@ impl Builder {
         self.asked
     }
 
-    /// The finished graph with these outputs.
+    /// Returns the finished graph with these outputs.
     pub fn finish(mut self, outputs: &[Value]) -> Graph {
         let outputs = outputs.iter().map(|value| self.edge(value)).collect();
         self.graph.outputs = outputs;
         self.graph
     }
 
-    /// The print of a value.
+    /// Returns the print of a value.
     pub fn print(&mut self, value: &Value) -> Fingerprint {
         let edge = self.edge(value);
         self.edge_print(edge)
     }
 
-    /// The value with this print, if the builder has met one.
+    /// Returns the value with this print, if the builder has met one.
     pub fn find(&self, print: &Fingerprint) -> Option<Value> {
         let (canonical, negative) = print.canonical();
         let edge = self.by_print.get(&canonical)?;
@@ -102,13 +102,13 @@ impl Builder {
         self.prints[edge.node().index()].negate_if(edge.is_negative())
     }
 
-    /// An input.
+    /// Returns an input.
     pub fn input(&mut self, input: Input) -> Value {
         let print = self.points.input(input);
         Value::Edge(self.intern(Node::Input(input), print, false))
     }
 
-    /// a + b
+    /// Returns a + b
     pub fn add(&mut self, a: &Value, b: &Value) -> Value {
         if a.as_constant().is_none() || b.as_constant().is_none() {
             self.asked.add += 1;
@@ -133,13 +133,13 @@ impl Builder {
         self.operation(node, negative)
     }
 
-    /// a − b
+    /// Returns a − b
     pub fn sub(&mut self, a: &Value, b: &Value) -> Value {
         let b = self.negate_if(b, true);
         self.add(a, &b)
     }
 
-    /// a · b
+    /// Returns a · b
     pub fn mul(&mut self, a: &Value, b: &Value) -> Value {
         let (constant, other) = match (a, b) {
             (Value::Constant(x), Value::Constant(y)) => return Value::Constant(x.mul(y)),
@@ -153,7 +153,7 @@ impl Builder {
         self.scale(constant, other)
     }
 
-    /// a / b, where b vanishes in no state in which the program has values: a
+    /// Returns a / b, where b vanishes in no state in which the program has values: a
     /// divisor of a formula's own.
     pub fn div(&mut self, a: &Value, b: &Value) -> Value {
         if let Value::Constant(divisor) = b {
@@ -175,7 +175,7 @@ impl Builder {
         self.operation(Node::Quotient(a.node(), b.node()), negative)
     }
 
-    /// constant · edge
+    /// Returns constant · edge
     fn scale(&mut self, constant: &Exact, edge: Edge) -> Value {
         if constant.is_zero() {
             return Value::zero();
@@ -214,7 +214,7 @@ impl Builder {
         self.operation(Node::Product(a, b), negative)
     }
 
-    /// The value, negated if `negative`: free.
+    /// Returns the value, negated if `negative`: free.
     pub fn negate_if(&mut self, value: &Value, negative: bool) -> Value {
         match value {
             Value::Constant(c) if negative => Value::Constant(c.neg()),
@@ -275,7 +275,7 @@ impl Builder {
         value
     }
 
-    /// The exact value of a node that does not depend on the state: its value
+    /// Returns the exact value of a node that does not depend on the state: its value
     /// at rest, where every angle, position and rate is zero.
     fn constant_value(&mut self, node: Node, print: &Fingerprint) -> Option<Exact> {
         let [a, b] = node.operands()?;
@@ -285,7 +285,7 @@ impl Builder {
         (self.points.constant(&value).as_ref() == Some(print)).then_some(value)
     }
 
-    /// A node's value at rest; none where a divisor is no rational number
+    /// Returns a node's value at rest; none where a divisor is no rational number
     /// there, or zero.
     fn rest(&mut self, id: NodeId) -> Option<Exact> {
         // Operands come first, so a pass in order needs no recursion.
@@ -319,7 +319,7 @@ impl Builder {
         self.at_rest[&id].clone()
     }
 
-    /// The edge of a value; constants are interned.
+    /// Returns the edge of a value; constants are interned.
     pub fn edge(&mut self, value: &Value) -> Edge {
         let constant = match value {
             Value::Edge(edge) => return *edge,
@@ -366,7 +366,7 @@ impl Builder {
     }
 }
 
-/// The exact value of an operation; none of a quotient by what is no rational
+/// Returns the exact value of an operation; none of a quotient by what is no rational
 /// number, or zero.
 fn at_rest(node: Node, x: &Exact, y: &Exact) -> Option<Exact> {
     Some(match node {

@@ -24,7 +24,7 @@ impl Graph {
         counts
     }
 
-    /// The angles whose sine or cosine the outputs need.
+    /// Returns the angles whose sine or cosine the outputs need.
     pub fn angles(&self) -> BTreeSet<AngleSum> {
         let nodes = self.nodes.iter().zip(self.live());
         let live = nodes.filter_map(|(node, live)| live.then_some(node));

@@ -33,39 +33,39 @@ impl Hash for Fingerprint {
 }
 
 impl Fingerprint {
-    /// The print of zero.
+    /// Returns the print of zero.
     pub fn zero() -> Self {
         Fingerprint([Field::zero(); POINTS])
     }
     fn zip(&self, other: &Fingerprint, f: impl Fn(&Field, &Field) -> Field) -> Fingerprint {
         Fingerprint(core::array::from_fn(|i| f(&self.0[i], &other.0[i])))
     }
-    /// Of a sum.
+    /// Returns that of a sum.
     pub fn add(&self, other: &Fingerprint) -> Fingerprint {
         self.zip(other, Field::add)
     }
-    /// Of a difference.
+    /// Returns that of a difference.
     pub fn sub(&self, other: &Fingerprint) -> Fingerprint {
         self.zip(other, Field::sub)
     }
-    /// Of a product.
+    /// Returns that of a product.
     pub fn mul(&self, other: &Fingerprint) -> Fingerprint {
         self.zip(other, Field::mul)
     }
-    /// Of a quotient. A divisor that is zero at a point has a chance of 2⁻⁶¹
-    /// if it is not zero everywhere.
+    /// Returns that of a quotient. A divisor that is zero at a point has a chance of 2⁻⁶¹ if it
+    /// is not zero everywhere.
     pub fn div(&self, other: &Fingerprint) -> Fingerprint {
         self.zip(other, Field::div)
     }
-    /// Of the negated node.
+    /// Returns that of the negated node.
     pub fn neg(&self) -> Fingerprint {
         Fingerprint(self.0.map(|x| x.neg()))
     }
-    /// Of the node, negated if `negative`.
+    /// Returns that of the node, negated if `negative`.
     pub fn negate_if(&self, negative: bool) -> Fingerprint {
         if negative { self.neg() } else { *self }
     }
-    /// The print up to sign, and whether it had to be negated.
+    /// Returns the print up to sign, and whether it had to be negated.
     pub fn canonical(&self) -> (Fingerprint, bool) {
         let negated = self.neg();
         if negated < *self {
@@ -91,7 +91,7 @@ impl Points {
     /// The points that the simplifier uses.
     pub const SEARCH: Points = Points { seed: 0x5eed };
 
-    /// The print of an input.
+    /// Returns the print of an input.
     pub fn input(&self, input: Input) -> Fingerprint {
         Fingerprint(core::array::from_fn(|point| self.input_at(input, point)))
     }
@@ -117,7 +117,7 @@ impl Points {
         circle(mix([self.seed, point as u64, 1, joint as u64]))
     }
 
-    /// The print of a constant; `None` if a denominator is divisible by the
+    /// Returns the print of a constant; `None` if a denominator is divisible by the
     /// prime (no decimal's is).
     pub fn constant(&self, value: &Exact) -> Option<Fingerprint> {
         if let Some(rational) = value.as_rational() {
@@ -157,7 +157,7 @@ fn circle(parameter: u64) -> SinCosPair<Field> {
     SinCosPair { sin, cos }
 }
 
-/// One well-mixed word from several (SplitMix64 over the words).
+/// Returns one well-mixed word from several (SplitMix64 over the words).
 fn mix(words: [u64; 4]) -> u64 {
     words
         .into_iter()
@@ -169,7 +169,7 @@ fn mix(words: [u64; 4]) -> u64 {
         })
 }
 
-/// The same on every machine: over the digits of the exact value.
+/// Returns the same on every machine: over the digits of the exact value.
 fn hash_angle(angle: &Angle) -> u64 {
     // The number of digits tells where the numerator ends.
     let word = |kind: u64, value: &Rational| {

@@ -33,11 +33,11 @@ impl NodeId {
         debug_assert!(index < (u32::MAX / 2) as usize);
         NodeId(index as u32)
     }
-    /// Its place in [`Graph::nodes`].
+    /// Returns its place in [`Graph::nodes`].
     pub fn index(self) -> usize {
         self.0 as usize
     }
-    /// The edge to it, with a sign.
+    /// Returns the edge to it, with a sign.
     pub fn signed(self, negative: bool) -> Edge {
         Edge(self.0 << 1 | u32::from(negative))
     }
@@ -48,7 +48,7 @@ impl NodeId {
 pub struct Edge(u32);
 
 impl Edge {
-    /// The node.
+    /// Returns the node.
     pub fn node(self) -> NodeId {
         NodeId(self.0 >> 1)
     }
@@ -56,7 +56,7 @@ impl Edge {
     pub fn is_negative(self) -> bool {
         self.0 & 1 == 1
     }
-    /// The same node, negated if `negative`.
+    /// Returns the same node, negated if `negative`.
     pub fn negated_if(self, negative: bool) -> Edge {
         Edge(self.0 ^ u32::from(negative))
     }
@@ -82,7 +82,7 @@ pub enum Node {
 }
 
 impl Node {
-    /// The operands, if it is an operation.
+    /// Returns the operands, if it is an operation.
     pub fn operands(&self) -> Option<[NodeId; 2]> {
         match *self {
             Node::Sum(a, b)
@@ -106,7 +106,7 @@ pub struct Graph {
 }
 
 impl Graph {
-    /// The node behind an index.
+    /// Returns the node behind an index.
     pub fn node(&self, id: NodeId) -> Node {
         self.nodes[id.index()]
     }
@@ -135,7 +135,7 @@ impl Graph {
         matches!(self.node(output.node()), Node::Constant(c) if self.constants[c as usize].is_zero())
     }
 
-    /// The same outputs through another builder: folded, and merged by
+    /// Returns the same outputs through another builder: folded, and merged by
     /// fingerprint if the builder does that. Dead nodes are left behind.
     pub fn rebuild(&self, folding: Folding) -> Graph {
         let mut builder = Builder::new(folding);
@@ -148,7 +148,7 @@ impl Graph {
         builder.finish(&outputs)
     }
 
-    /// Every live node as a value of a builder; dead ones are zero.
+    /// Returns every live node as a value of a builder; dead ones are zero.
     pub fn replay(&self, builder: &mut Builder) -> Vec<Value> {
         let live = self.live();
         let mut values: Vec<Value> = Vec::with_capacity(self.nodes.len());

@@ -25,13 +25,13 @@ pub(crate) enum Symbol {
 }
 
 impl Symbol {
-    /// An input of the traced program.
+    /// Returns an input of the traced program.
     pub(crate) fn input(builder: &Rc<RefCell<Builder>>, input: Input) -> Symbol {
         let value = builder.borrow_mut().input(input);
         Symbol::wrap(builder, value)
     }
 
-    /// The value in a builder, which is that of its nodes if it has any.
+    /// Returns the value in a builder, which is that of its nodes if it has any.
     pub(crate) fn value(&self, builder: &mut Builder) -> Value {
         match self {
             Symbol::Constant(constant) => Value::Constant(constant.clone()),
@@ -50,7 +50,7 @@ impl Symbol {
         }
     }
 
-    /// a/b; by zero: zero, which no formula asks for.
+    /// Returns a/b; by zero: zero, which no formula asks for.
     fn quotient(a: Exact, b: Exact) -> Symbol {
         match b.as_rational() {
             Some(divisor) => Symbol::Constant(a.divide(divisor).unwrap_or_else(Exact::zero)),
@@ -59,7 +59,7 @@ impl Symbol {
         }
     }
 
-    /// Dividend and divisor of a value without nodes.
+    /// Returns dividend and divisor of a value without nodes.
     fn fraction(&self) -> Option<[Exact; 2]> {
         match self {
             Symbol::Constant(constant) => Some([constant.clone(), Exact::one()]),
@@ -97,7 +97,7 @@ impl Symbol {
     }
 }
 
-/// a/b ± c/d; whole numbers stay whole.
+/// Returns a/b ± c/d; whole numbers stay whole.
 fn sum([a, b]: [Exact; 2], [c, d]: [Exact; 2], of: fn(&Exact, &Exact) -> Exact) -> [Exact; 2] {
     match b == d {
         true => [of(&a, &c), b],

@@ -28,22 +28,22 @@ impl Interval {
         high: f64::INFINITY,
     };
 
-    /// One number, exactly.
+    /// Returns one number, exactly.
     pub const fn point(x: f64) -> Interval {
         Interval { low: x, high: x }
     }
 
-    /// From one end to the other; `None` if they are out of order or NaN.
+    /// Makes the interval from one end to the other; `None` if they are out of order or NaN.
     pub fn new(low: f64, high: f64) -> Option<Interval> {
         (low <= high).then_some(Interval { low, high })
     }
 
-    /// −x to x for x = |`radius`|.
+    /// Returns −x to x for x = |`radius`|.
     pub fn symmetric(radius: f64) -> Interval {
         checked(-radius.abs(), radius.abs())
     }
 
-    /// An enclosure of an exact constant. The nearest double is within half
+    /// Returns an enclosure of an exact constant. The nearest double is within half
     /// an ulp, so its neighbours enclose.
     pub fn exact(value: &Exact) -> Interval {
         if let Some(rational) = value.as_rational() {
@@ -53,7 +53,7 @@ impl Interval {
         checked(near.next_down(), near.next_up())
     }
 
-    /// An enclosure of a rational: a point if a double holds it.
+    /// Returns an enclosure of a rational: a point if a double holds it.
     pub fn rational(value: &Rational) -> Interval {
         let near = f64::nearest_rational(value);
         if Rational::from_float(near).as_ref() == Some(value) {
@@ -63,22 +63,22 @@ impl Interval {
         }
     }
 
-    /// The lower end.
+    /// Returns the lower end.
     pub fn low(self) -> f64 {
         self.low
     }
 
-    /// The upper end.
+    /// Returns the upper end.
     pub fn high(self) -> f64 {
         self.high
     }
 
-    /// The largest |x|.
+    /// Returns the largest |x|.
     pub fn magnitude(self) -> f64 {
         self.low.abs().max(self.high.abs())
     }
 
-    /// The least |x|.
+    /// Returns the least |x|.
     pub fn mignitude(self) -> f64 {
         if self.contains(0.0) {
             0.0
@@ -87,18 +87,18 @@ impl Interval {
         }
     }
 
-    /// A number inside, near the middle.
+    /// Returns a number inside, near the middle.
     pub fn mid(self) -> f64 {
         (0.5 * self.low + 0.5 * self.high).clamp(self.low, self.high)
     }
 
-    /// At least half the width, seen from [`mid`](Self::mid).
+    /// Returns at least half the width, seen from [`mid`](Self::mid).
     pub fn radius(self) -> f64 {
         let mid = self.mid();
         (mid - self.low).max(self.high - mid).next_up()
     }
 
-    /// The width, roughly.
+    /// Returns the width, roughly.
     pub fn width(self) -> f64 {
         self.high - self.low
     }
@@ -108,7 +108,7 @@ impl Interval {
         self.low <= x && x <= self.high
     }
 
-    /// The least interval around both.
+    /// Returns the least interval around both.
     pub fn hull(self, other: Interval) -> Interval {
         Interval {
             low: self.low.min(other.low),
@@ -116,31 +116,31 @@ impl Interval {
         }
     }
 
-    /// Both halves.
+    /// Returns both halves.
     pub fn split(self) -> [Interval; 2] {
         let mid = self.mid();
         [checked(self.low, mid), checked(mid, self.high)]
     }
 
-    /// x²
+    /// Returns x²
     pub fn square(self) -> Interval {
         let (least, most) = (self.mignitude(), self.magnitude());
         let low = (least * least).next_down().max(0.0);
         checked(low, (most * most).next_up())
     }
 
-    /// −x
+    /// Returns −x
     pub fn negated(self) -> Interval {
         checked(-self.high, -self.low)
     }
 
-    /// x widened by a number on both sides.
+    /// Returns x widened by a number on both sides.
     pub fn widened(self, by: f64) -> Interval {
         self + Interval::symmetric(by)
     }
 }
 
-/// The interval of two ends; the whole line if an end is no number.
+/// Returns the interval of two ends; the whole line if an end is no number.
 fn checked(low: f64, high: f64) -> Interval {
     if low <= high {
         Interval { low, high }

@@ -42,7 +42,7 @@ pub(crate) fn forward<C: PartialEq, I: PartialEq>(
     Forward { values, own }
 }
 
-/// The largest power of two that is at most x; x if that is no normal number.
+/// Returns the largest power of two that is at most x; x if that is no normal number.
 /// Rounding a number that is no larger than x moves it by at most this times u.
 pub(crate) fn binade(x: f64) -> f64 {
     match x.is_normal() && x > 0.0 {

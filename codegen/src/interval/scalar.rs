@@ -29,7 +29,7 @@ impl Scalar for Interval {
 }
 
 impl Divide for Interval {
-    /// Every number where the divisor may vanish: there is no quotient then.
+    /// Returns every number where the divisor may vanish: there is no quotient then.
     fn div(&self, other: &Self) -> Self {
         if other.contains(0.0) {
             return Interval::ALL;

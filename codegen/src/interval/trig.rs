@@ -19,18 +19,18 @@ const INVERSE_PI: f64 = std::f64::consts::FRAC_1_PI;
 const LARGEST: f64 = 1e9;
 
 impl Interval {
-    /// The sines of its numbers.
+    /// Returns the sines of its numbers.
     pub fn sin(self) -> Interval {
         periodic(self, libm::sin, Interval::point(0.5))
     }
 
-    /// The cosines of its numbers.
+    /// Returns the cosines of its numbers.
     pub fn cos(self) -> Interval {
         periodic(self, libm::cos, Interval::ZERO)
     }
 }
 
-/// A function with value (−1)^k at its stationary points (k + shift)·π.
+/// Returns a function with value (−1)^k at its stationary points (k + shift)·π.
 fn periodic(x: Interval, function: fn(f64) -> f64, shift: Interval) -> Interval {
     let unit = Interval::symmetric(1.0);
     if x.magnitude().is_nan() || x.magnitude() > LARGEST {

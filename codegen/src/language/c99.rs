@@ -30,7 +30,7 @@ use crate::program::kernel::{Kernel, Term, Value};
 use crate::program::{AngleSum, Library, Lowered, LoweredTrig, ScalarType};
 
 impl Dialect {
-    /// C99.
+    /// Returns C99.
     pub(crate) const fn c99(scalar: ScalarType) -> Dialect {
         let (declaration, fused, literal) = match scalar {
             ScalarType::F64 => ("const double {} = {};", "fma({}, {}, {})", "{}"),
@@ -59,7 +59,7 @@ pub(crate) fn is_number(function: Function) -> bool {
     function.structure().is_none() && function.quantities()[0].shape().0.is_empty()
 }
 
-/// The struct that a bundle's results are in.
+/// Returns the struct that a bundle's results are in.
 pub(crate) fn structure(printed: &Printed<'_>, names: &Names) -> Option<String> {
     let function = printed.function;
     is_bundle(function).then(|| {
@@ -85,7 +85,7 @@ pub(crate) fn structure_name(function: Function, names: &Names) -> String {
     names.of(&format!("{}_t", function.name()))
 }
 
-/// A quantity with its unit and its axes.
+/// Returns a quantity with its unit and its axes.
 pub(crate) fn shaped(quantity: Quantity, printed: &Printed<'_>) -> String {
     let lengths = quantity.shape().lengths(printed.sizes);
     let lengths: Vec<String> = lengths.map(|length| format!("[{length}]")).collect();
@@ -101,7 +101,7 @@ pub(crate) fn shaped(quantity: Quantity, printed: &Printed<'_>) -> String {
 /// a batch the function is told.
 pub(crate) const FAR: [&str; 2] = ["1", "far"];
 
-/// The head of a function; of one that is told whether angles may be far, by another name.
+/// Returns the head of a function; of one that is told whether angles may be far, by another name.
 pub(crate) fn head(printed: &Printed<'_>, names: &Names, is_told: bool) -> String {
     let (function, sizes, float) = (printed.function, printed.sizes, float(printed.code.scalar));
     let restrict = names.constant("RESTRICT");
@@ -134,7 +134,7 @@ pub(crate) fn head(printed: &Printed<'_>, names: &Names, is_told: bool) -> Strin
     )
 }
 
-/// The names of the results that a function writes.
+/// Returns the names of the results that a function writes.
 fn written(function: Function) -> Vec<&'static str> {
     match (is_number(function), is_bundle(function)) {
         (true, _) => Vec::new(),
@@ -281,7 +281,7 @@ pub(crate) fn write(printed: &Printed<'_>, names: &Names, is_told: bool) -> Stri
     text
 }
 
-/// The names of what is taken of an angle, and whether each is its sine.
+/// Returns the names of what is taken of an angle, and whether each is its sine.
 fn taken(trig: &LoweredTrig) -> impl Iterator<Item = (String, bool)> {
     let both = [
         (trig.sin, format!("s{}", trig.angle), true),

@@ -49,8 +49,8 @@ impl Called {
         trig.kernel.is_none()
     }
 
-    /// The angles of neighbouring joints: an even number, if that takes one joint more at the most,
-    /// since vectors hold two or four.
+    /// Returns the angles of neighbouring joints: an even number, if that takes one joint more at
+    /// the most, since vectors hold two or four.
     fn neighbours(angles: &[AngleSum], joints: usize) -> Option<Called> {
         let joint = |angle: &AngleSum| match angle.additions() {
             0 => Some(angle.terms().next()?.0),
@@ -71,7 +71,7 @@ impl Called {
         is_near.then(|| Called::from(first, count))
     }
 
-    /// So many joints from one on.
+    /// Names so many joints from one on.
     pub(super) fn from(first: usize, count: usize) -> Called {
         Called {
             first: Some(first),
@@ -84,7 +84,7 @@ impl Called {
         names.of(&format!("sines_{count}"))
     }
 
-    /// The lines of the call.
+    /// Returns the lines of the call.
     pub(super) fn lines(&self, names: &Names) -> Vec<String> {
         let (float, count) = (float(names.dialect().scalar), self.angles.len());
         let mut lines = Vec::new();

@@ -20,7 +20,7 @@ struct Columns {
 }
 
 impl Columns {
-    /// Entry i of state s is at `i * n + s`.
+    /// Returns columns in which entry i of state s is at `i * n + s`.
     fn of(printed: &Printed<'_>, names: &Names, restrict: &str) -> Columns {
         let (function, sizes) = (printed.function, printed.sizes);
         let float = float(printed.code.scalar);
@@ -79,8 +79,8 @@ impl Columns {
         }
     }
 
-    /// The lines that call the function of one state, and write its results; of one that is told
-    /// whether angles may be far, by another name.
+    /// Returns the lines that call the function of one state, and write its results; of one that
+    /// is told whether angles may be far, by another name.
     fn call(&self, printed: &Printed<'_>, names: &Names, is_told: bool) -> String {
         let (function, passed) = (printed.function, self.passed.join(", "));
         let call = match is_told {

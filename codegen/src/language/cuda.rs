@@ -25,7 +25,7 @@ pub(crate) const NO_PRODUCTS: &str = "
 ";
 
 impl Dialect {
-    /// CUDA: C, but for what a function begins with and for products.
+    /// Returns CUDA: C, but for what a function begins with and for products.
     pub(crate) const fn cuda(scalar: ScalarType) -> Dialect {
         Dialect {
             function: "static __host__ __device__ inline",

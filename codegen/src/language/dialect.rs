@@ -27,7 +27,7 @@ pub(crate) struct Dialect {
 }
 
 impl Dialect {
-    /// Rust.
+    /// Returns Rust.
     pub(crate) const fn rust(scalar: ScalarType) -> Dialect {
         Dialect {
             scalar,
@@ -49,12 +49,12 @@ impl Dialect {
         }
     }
 
-    /// The line that gives a value its name.
+    /// Returns the line that gives a value its name.
     pub(crate) fn declare(&self, name: &str, value: &str) -> String {
         filled(self.declaration, &[name, value])
     }
 
-    /// An operation on two operands.
+    /// Returns an operation on two operands.
     pub(crate) fn operation(&self, operation: Operation, left: &str, right: &str) -> String {
         match operation {
             Operation::Mul => filled(self.product, &[left, right]),
@@ -76,18 +76,18 @@ impl Dialect {
         (operation != Operation::Mul).then_some((operation, [left, right]))
     }
 
-    /// A call of a library's function.
+    /// Returns a call of a library's function.
     pub(crate) fn call(&self, path: &str, function: &str, argument: &str) -> String {
         let (separator, suffix) = (self.separator, self.scalar.math_suffix());
         format!("{path}{separator}{function}{suffix}({argument})")
     }
 
-    /// A literal, as short as it reads back to the same bits.
+    /// Returns a literal, as short as it reads back to the same bits.
     pub(crate) fn literal(&self, value: Literal) -> String {
         self.digits(&value.text(self.scalar))
     }
 
-    /// A literal of these digits.
+    /// Returns a literal of these digits.
     pub(crate) fn digits(&self, digits: &str) -> String {
         filled(self.literal, &[digits])
     }
@@ -101,7 +101,7 @@ impl Dialect {
         value.flatten().map(Literal)
     }
 
-    /// The name or literal of an operand.
+    /// Returns the name or literal of an operand.
     pub(crate) fn operand(&self, operand: &Operand<Literal>) -> String {
         match operand {
             Operand::Input(input) => input_name(*input),
@@ -110,8 +110,8 @@ impl Dialect {
         }
     }
 
-    /// One operation as one line: `let t3 = t1 * s2;`, or `let t5 = t3.mul_add(s2, t1);` for
-    /// a sum and the product that it takes, which has no line of its own.
+    /// Returns one operation as one line: `let t3 = t1 * s2;`, or `let t5 = t3.mul_add(s2,
+    /// t1);` for a sum and the product that it takes, which has no line of its own.
     pub(crate) fn statement(&self, code: &Lowered, index: usize) -> Option<String> {
         let step = code.steps.get(index)?;
         if step.operation == Operation::Fused {

@@ -33,7 +33,7 @@ pub(crate) const PAYLOAD: &str = "Payload";
 /// The name of the type of gravity, where it is an argument.
 pub(crate) const GRAVITY: &str = "Gravity";
 
-/// The name of an argument's type, if it has one: a type for each, so that none is passed
+/// Returns the name of an argument's type, if it has one: a type for each, so that none is passed
 /// for another of as many numbers.
 pub(crate) fn own_type(argument: Argument) -> Option<&'static str> {
     match argument {
@@ -57,7 +57,7 @@ pub fn write(printed: &Printed<'_>, path: &str, doc: &[String]) -> String {
     text
 }
 
-/// What follows the sines: what is read of speeds, the arithmetic and the result.
+/// Writes what follows the sines: what is read of speeds, the arithmetic and the result.
 pub(super) fn write_body(text: &mut String, printed: &Printed<'_>, path: &str) {
     let dialect = Dialect::rust(printed.code.scalar);
     speed::write(text, dialect, printed.code, path);
@@ -70,7 +70,7 @@ pub(super) fn write_body(text: &mut String, printed: &Printed<'_>, path: &str) {
     result::write(text, function, function.structure(), sizes, items);
 }
 
-/// Documentation, one line an item.
+/// Writes documentation, one line an item.
 pub(super) fn write_doc(text: &mut String, doc: &[String]) {
     for line in doc {
         let space = if line.is_empty() { "" } else { " " };
@@ -105,7 +105,7 @@ pub(super) fn write_steps(text: &mut String, code: &Lowered, dialect: Dialect) {
     }
 }
 
-/// The signature, without a brace.
+/// Returns the signature, without a brace.
 fn signature(printed: &Printed<'_>) -> String {
     let (function, sizes, scalar) = (printed.function, printed.sizes, printed.code.scalar);
     let arguments: Vec<String> = printed
@@ -130,7 +130,7 @@ fn signature(printed: &Printed<'_>) -> String {
     )
 }
 
-/// The type of an argument: an array, which has a name where it is no joint vector
+/// Returns the type of an argument: an array, which has a name where it is no joint vector
 /// of as many numbers as users would count.
 pub(super) fn argument_type(argument: Argument, sizes: Sizes, scalar: ScalarType) -> String {
     match own_type(argument) {
@@ -175,7 +175,7 @@ pub(super) fn result_item(output: &Output<Literal>, dialect: Dialect) -> String 
     format!("{sign}{}", dialect.operand(&output.value))
 }
 
-/// A line. Writing to a string cannot fail.
+/// Appends a line. Writing to a string cannot fail.
 fn push(text: &mut String, line: std::fmt::Arguments<'_>) {
     let _ = text.write_fmt(line);
     text.push('\n');

@@ -64,7 +64,7 @@ pub struct Printed<'a> {
 }
 
 impl<'a> Printed<'a> {
-    /// A program that was lowered to this code.
+    /// Returns a program that was lowered to this code.
     pub fn of(program: &'a Program, code: &'a Lowered) -> Printed<'a> {
         Printed {
             function: program.function,
@@ -95,7 +95,7 @@ impl MathPath {
         }
     }
 
-    /// A function of all angles together.
+    /// Returns a function of all angles together.
     pub fn together(path: impl Into<String>) -> MathPath {
         MathPath {
             library: Library::Together,
@@ -103,7 +103,7 @@ impl MathPath {
         }
     }
 
-    /// The library by the name of its crate.
+    /// Returns the library by the name of its crate.
     pub fn of(library: Library) -> MathPath {
         match library {
             Library::Libm => MathPath::libm("libm"),

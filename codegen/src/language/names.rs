@@ -54,7 +54,7 @@ pub struct Names {
 }
 
 impl Names {
-    /// The names of a module's functions in a scalar.
+    /// Returns the names of a module's functions in a scalar.
     pub fn new(base: &str, language: Language, scalar: ScalarType) -> Names {
         Names {
             base: base.to_owned(),
@@ -63,7 +63,7 @@ impl Names {
         }
     }
 
-    /// The language.
+    /// Returns the language.
     pub(super) fn language(&self) -> Language {
         self.language
     }
@@ -76,7 +76,7 @@ impl Names {
         }
     }
 
-    /// A function or type by its word, shortened where it would be too long.
+    /// Returns a function or type by its word, shortened where it would be too long.
     pub fn of(&self, word: &str) -> String {
         let infix = match self.scalar {
             ScalarType::F64 => "",
@@ -95,13 +95,13 @@ impl Names {
         fits.unwrap_or_else(|| name(&shorter))
     }
 
-    /// A macro, which both scalars share.
+    /// Returns a macro, which both scalars share.
     pub(crate) fn constant(&self, word: &str) -> String {
         format!("{}_{word}", self.base.to_uppercase())
     }
 }
 
-/// The scalar's type.
+/// Returns the scalar's type.
 pub(crate) fn float(scalar: ScalarType) -> &'static str {
     match scalar {
         ScalarType::F64 => "double",

@@ -123,7 +123,7 @@ impl Reads {
     }
 }
 
-/// The last step that reads each step; past the end for results.
+/// Returns the last step that reads each step; past the end for results.
 pub(super) fn last_uses(code: &Lowered) -> Vec<usize> {
     let mut last = vec![0; code.steps.len()];
     for (index, step) in code.steps.iter().enumerate() {

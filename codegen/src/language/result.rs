@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::function::{Function, Quantity, Sizes};
 use crate::program::ScalarType;
 
-/// The array type of a quantity: `[[f64; 6]; 6]` for a matrix over the joints.
+/// Returns the array type of a quantity: `[[f64; 6]; 6]` for a matrix over the joints.
 /// An entry is of a type of its own, such as `[f64; L]`.
 pub(super) fn array_of(entry: &str, quantity: Quantity, sizes: Sizes) -> String {
     let lengths = quantity.shape().lengths(sizes).rev();
@@ -14,12 +14,12 @@ pub(super) fn array_of(entry: &str, quantity: Quantity, sizes: Sizes) -> String 
     })
 }
 
-/// The array type of a quantity.
+/// Returns the array type of a quantity.
 pub(crate) fn array_type(quantity: Quantity, sizes: Sizes, scalar: ScalarType) -> String {
     array_of(scalar.name(), quantity, sizes)
 }
 
-/// The struct that a function returns, if it does.
+/// Returns the struct that a function returns, if it does.
 pub fn structure(function: Function, sizes: Sizes, scalar: ScalarType) -> Option<String> {
     let name = function.structure()?;
     let mut text = format!("/// What [`{function}`] returns.\n");
@@ -31,8 +31,7 @@ pub fn structure(function: Function, sizes: Sizes, scalar: ScalarType) -> Option
     Some(text)
 }
 
-/// The fields of the struct that a function returns, a line and its
-/// documentation each.
+/// Writes the fields of the struct that a function returns, a line and its documentation each.
 pub(super) fn fields(text: &mut String, function: Function, entry: &str, sizes: Sizes) {
     for &quantity in function.quantities() {
         let (doc, field) = (quantity.summary(), quantity.field());
@@ -77,7 +76,7 @@ pub(super) fn write(
     }
 }
 
-/// An array of these lengths, the outermost first; a number without any.
+/// Writes an array of these lengths, the outermost first; a number without any.
 fn write_array(
     text: &mut String,
     items: &mut impl Iterator<Item = String>,

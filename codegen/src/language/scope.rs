@@ -38,7 +38,7 @@ impl Scope {
         }
     }
 
-    /// A sum of angles, term by term.
+    /// Returns a sum of angles, term by term.
     pub(crate) fn sum(self, angle: AngleSum) -> String {
         let mut sum = String::new();
         for (index, (joint, negative)) in angle.terms().enumerate() {

@@ -14,8 +14,8 @@ use crate::language::dialect::Dialect;
 use crate::language::scope::Scope;
 use crate::program::kernel::{Kernel, Term, Value};
 
-/// The block that computes one angle's sine and cosine; `argument` is how the
-/// code names the angle.
+/// Writes the block that computes one angle's sine and cosine; `argument` is how the code names
+/// the angle.
 pub(super) fn write(
     text: &mut String,
     scope: Scope,

@@ -37,7 +37,7 @@ pub(super) fn is_together(trig: &LoweredTrig, code: &Lowered) -> bool {
     code.library == Library::Together && trig.kernel.is_none()
 }
 
-/// One angle's by polynomials or a call of its own.
+/// Writes one angle's sines by polynomials or a call of its own.
 pub(super) fn alone(
     text: &mut String,
     trig: &LoweredTrig,
@@ -66,7 +66,7 @@ pub(super) fn called(trig: &LoweredTrig) -> &'static str {
     }
 }
 
-/// One call for all of them; what is not needed gets no name. In lanes, names
+/// Returns one call for all of them; what is not needed gets no name. In lanes, names
 /// and angles are arrays, and the function has another name.
 pub(super) fn together(
     text: &mut String,

@@ -107,7 +107,7 @@ impl Entry {
 }
 
 impl Plan {
-    /// The entry for a function, formulation and scalar that takes the same
+    /// Returns the entry for a function, formulation and scalar that takes the same
     /// parameters, in a scene of this name. Whether the scene and the load's numbers
     /// are still the same, their hashes say.
     pub fn find(

@@ -157,7 +157,7 @@ fn program(words: &[&str]) -> Result<Entry, PlanFault> {
     })
 }
 
-/// `scene NAME HASH ROWS ARGUMENTS`: what a scene leaves of the program.
+/// Reads `scene NAME HASH ROWS ARGUMENTS`: what a scene leaves of the program.
 fn scene(words: &[&str], entry: &mut Entry) -> Result<(), PlanFault> {
     let &[name, hash, rows, arguments] = words else {
         return Err(PlanFault::Scene);
@@ -184,8 +184,8 @@ fn scene(words: &[&str], entry: &mut Entry) -> Result<(), PlanFault> {
     Ok(())
 }
 
-/// `parameters NAMES LOAD HASH`: which parameters of the robot are arguments, and how
-/// many numbers the load has.
+/// Reads `parameters NAMES LOAD HASH`: which parameters of the robot are arguments, and how many
+/// numbers the load has.
 fn parameters(words: &[&str], entry: &mut Entry) -> Result<(), PlanFault> {
     let &[names, load, hash] = words else {
         return Err(PlanFault::Parameters);

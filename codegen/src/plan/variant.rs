@@ -22,7 +22,7 @@ pub(super) struct Variant {
 }
 
 impl Variant {
-    /// Of an entry's program.
+    /// Makes the variant of an entry's program.
     pub(super) fn of(entry: &Entry) -> Variant {
         Variant {
             stages: Vec::new(),
@@ -113,7 +113,7 @@ fn eigenvalue(words: &[&str]) -> Result<f64, PlanFault> {
     }
 }
 
-/// The words as numbers; none if one of them is no number.
+/// Returns the words as numbers; none if one of them is no number.
 fn numbers(words: &[&str]) -> Vec<f64> {
     let numbers: Option<Vec<f64>> = words.iter().map(|word| word.parse().ok()).collect();
     numbers.unwrap_or_default()

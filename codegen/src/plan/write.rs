@@ -8,7 +8,7 @@ use crate::program::text::write_steps;
 use crate::split::ErrorByCause;
 
 impl Plan {
-    /// The text; [`Plan::parse`] reads it back.
+    /// Returns the text; [`Plan::parse`] reads it back.
     pub fn write(&self) -> String {
         let mut text = String::from(
             "# Programs kept by `dalembert generate --save-plan`, so that nobody searches again.\n\
@@ -62,7 +62,7 @@ impl Plan {
     }
 }
 
-/// The edits of the program above, then program after program; the bounds.
+/// Writes the edits of the program above, then program after program; the bounds.
 fn variant(text: &mut String, edited: &Edited) {
     text.push_str("edited\n");
     for (index, stage) in edited.stages.iter().enumerate() {

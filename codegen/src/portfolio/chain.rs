@@ -83,7 +83,7 @@ pub fn trace_chain(
     (graph.finish(&outputs), traced)
 }
 
-/// A quantity that the chain formulas do not give, by the recursion in link
+/// Returns a quantity that the chain formulas do not give, by the recursion in link
 /// axes.
 fn written(
     scene_robot: &SceneRobot,
@@ -95,7 +95,7 @@ fn written(
     quantity.written(&textbook(&arm, &arm.at(&motion.q), motion))
 }
 
-/// The whole arm in motion.
+/// Returns the whole arm in motion.
 fn arm(
     scene_robot: &SceneRobot,
     gravity: Option<&Vector<Symbol>>,
@@ -111,7 +111,7 @@ fn arm(
     arm.at_speeds(&motion.per_speed)
 }
 
-/// What the recursion in link axes is given.
+/// Returns what the recursion in link axes is given.
 fn textbook<'a>(
     arm: &'a Arm<Symbol>,
     at: &'a [DhVariables<Symbol>],
@@ -132,7 +132,7 @@ pub fn skeleton(scene_robot: &SceneRobot) -> Skeleton<Exact> {
     with_columns(scene_robot, &[])
 }
 
-/// A vector of base axes in those of frame 0.
+/// Returns a vector of base axes in those of frame 0.
 fn in_frame_0(scene_robot: &SceneRobot, vector: &Vector<Symbol>) -> Vector<Symbol> {
     let arm = Arm::from_robot(scene_robot.robot(), &mut |x: &Exact| {
         Symbol::from(x.clone())
@@ -140,7 +140,7 @@ fn in_frame_0(scene_robot: &SceneRobot, vector: &Vector<Symbol>) -> Vector<Symbo
     arm.with_gravity(vector).gravity
 }
 
-/// The same for a function: if it is a regressor, with its columns; if it takes a
+/// Returns the same for a function: if it is a regressor, with its columns; if it takes a
 /// load, with a payload whose parameters are unknown.
 pub fn skeleton_for(scene_robot: &SceneRobot, function: Function) -> Skeleton<Exact> {
     if !scene_robot.takes(function, RuntimeParameter::Payload) {
@@ -169,7 +169,7 @@ fn with_columns(scene_robot: &SceneRobot, columns: &[Column<Exact>]) -> Skeleton
 /// The most choices of axes that the search is offered at once.
 const MAX_AXES: usize = 16;
 
-/// A function in each of these chain forms, in one regrouping, in its axes and in
+/// Returns a function in each of these chain forms, in one regrouping, in its axes and in
 /// others: what is dear in one choice of axes may be cheap in another, and
 /// the search mixes them.
 pub(crate) fn regrouped(
@@ -197,7 +197,7 @@ pub(crate) fn regrouped(
     variants
 }
 
-/// A function in the regroupings that differ from a tuned one in one link, in its
+/// Returns a function in the regroupings that differ from a tuned one in one link, in its
 /// form.
 pub(crate) fn neighbours(
     scene_robot: &SceneRobot,
@@ -209,7 +209,7 @@ pub(crate) fn neighbours(
     regroupings.iter().map(graph).collect()
 }
 
-/// The regroupings that differ from one in one link; none of chains too long to
+/// Returns the regroupings that differ from one in one link; none of chains too long to
 /// look at each.
 pub(crate) fn regroupings(
     scene_robot: &SceneRobot,
@@ -223,7 +223,7 @@ pub(crate) fn regroupings(
     }
 }
 
-/// A function in a regrouping and a form, merged by fingerprint.
+/// Returns a function in a regrouping and a form, merged by fingerprint.
 pub(crate) fn in_regrouping(
     scene_robot: &SceneRobot,
     function: Function,
@@ -247,7 +247,7 @@ pub(super) fn merged(
     trace_chain(scene_robot, function, chain, form, Folding::Semantic).0
 }
 
-/// The chain's own axes, each link's, those before each group of parallel
+/// Returns the chain's own axes, each link's, those before each group of parallel
 /// axes, those after it, then what differs from the first two in one link.
 fn axes(chain: &Chain<Exact>) -> Vec<Vec<i32>> {
     let freedom = chain.freedoms();

@@ -27,7 +27,7 @@ pub(crate) type Limit<'a> = &'a dyn Fn(&Graph) -> f64;
 /// its error, so that a descent from there first goes where it is admitted.
 const REFUSED: u64 = 1 << 48;
 
-/// The price of a program under a limit; `below` is the price to beat.
+/// Returns the price of a program under a limit; `below` is the price to beat.
 fn price(graph: &Graph, limit: Option<Limit<'_>>, below: u64) -> u64 {
     let cost = simplify::cost(graph);
     let Some(limit) = limit.filter(|_| cost < below) else {
@@ -39,7 +39,7 @@ fn price(graph: &Graph, limit: Option<Limit<'_>>, below: u64) -> u64 {
     }
 }
 
-/// The regrouping that is cheapest for a function in one of these forms within a limit,
+/// Returns the regrouping that is cheapest for a function in one of these forms within a limit,
 /// if there is one; the best so far where the watch is over. `from` are regroupings to
 /// start from, besides those that every robot has.
 pub(crate) fn tuned(

@@ -17,10 +17,10 @@ use crate::scene::SceneRobot;
 use crate::scene::load::LoadParameters;
 use crate::simplify::Effort;
 
-/// The robot in its scene with the load's numbers, if a payload is an argument: those of the
-/// regrouping in which torques cost least, as far as torques depend on them. No
-/// other quantity that takes a load depends on more. The same for every request, so
-/// that whoever has the parameters has the load.
+/// Returns the robot in its scene with the load's numbers, if a payload is an argument:
+/// those of the regrouping in which torques cost least, as far as torques depend on them. No
+/// other quantity that takes a load depends on more. The same for every request, so that
+/// whoever has the parameters has the load.
 #[must_use]
 pub(crate) fn chosen(scene_robot: SceneRobot) -> SceneRobot {
     if !scene_robot.has(RuntimeParameter::Payload) {

@@ -47,7 +47,7 @@ pub enum Source {
 }
 
 impl Source {
-    /// Its name in reports.
+    /// Returns its name in reports.
     pub fn name(self) -> &'static str {
         match self {
             Source::Textbook(Formulation::LagrangeEuler) => "lagrange_euler",
@@ -58,7 +58,7 @@ impl Source {
         }
     }
 
-    /// The source of a name.
+    /// Returns the source of a name.
     pub fn from_name(name: &str) -> Option<Source> {
         let textbook = start::TEXTBOOK.into_iter().map(Source::Textbook);
         let mut all = textbook.chain([Source::Regrouped]);

@@ -7,7 +7,7 @@ use crate::function::Function;
 use crate::scene::SceneRobot;
 use crate::trace::trace;
 
-/// A textbook formulation.
+/// Returns a textbook formulation.
 pub(crate) fn textbook(
     scene_robot: &SceneRobot,
     function: Function,

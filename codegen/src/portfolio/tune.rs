@@ -95,7 +95,7 @@ pub(crate) fn tune(
     descent.best
 }
 
-/// The cheapest of the forms in a regrouping that is given.
+/// Returns the cheapest of the forms in a regrouping that is given.
 pub(crate) fn form(
     arm: &Skeleton<Exact>,
     regrouping: Regrouping<Exact>,
@@ -238,7 +238,7 @@ fn is_large(chain: &Chain<Exact>) -> bool {
     chain.links.iter().any(|link| terms(link) > MAX_TERMS)
 }
 
-/// The most monomials of a constant of the link.
+/// Returns the most monomials of a constant of the link.
 fn terms(link: &ChainLink<Exact>) -> usize {
     let second = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
     let second = second.map(|(i, j)| entry(&link.body.second, i, j));
@@ -246,7 +246,7 @@ fn terms(link: &ChainLink<Exact>) -> usize {
     constants.map(Exact::terms).max().unwrap_or(0)
 }
 
-/// a / b for rational b.
+/// Returns a / b for rational b.
 fn quotient(a: &Exact, b: &Exact) -> Option<Exact> {
     a.divide(b.as_rational()?)
 }
@@ -366,7 +366,7 @@ fn prismatic(
     candidates
 }
 
-/// The entries of a body that cost operations in every regrouping.
+/// Returns the entries of a body that cost operations in every regrouping.
 fn costly(body: &Body<Exact>) -> Vec<Exact> {
     let second = &body.second;
     vec![
@@ -381,7 +381,7 @@ fn costly(body: &Body<Exact>) -> Vec<Exact> {
     ]
 }
 
-/// A unit mass, first or second moment on the axis.
+/// Returns a unit mass, first or second moment on the axis.
 fn unit_body(mass: i64, first: i64, second: i64) -> Body<Exact> {
     let number = |n: i64| if n == 0 { Exact::zero() } else { Exact::one() };
     let mut body = Body::zero();

@@ -39,7 +39,7 @@ impl Operation {
 }
 
 impl Operation {
-    /// [`Operation::parts`] at every state, that of one side added to `sums`.
+    /// Computes [`Operation::parts`] at every state, that of one side added to `sums`.
     pub fn add_parts<T: Machine>(
         self,
         side: usize,
@@ -96,10 +96,10 @@ fn add_each<T: Machine>(
     }
 }
 
-/// From the step `top` backwards. `operands` are the values that a step reads.
-/// `visit` is given every step with its whole adjoint, users before operands,
-/// and says whether to go on through it: what adds nothing ends there. `leaf`
-/// is given what steps read besides each other, use by use.
+/// Goes from the step `top` backwards. `operands` are the values that a step reads. `visit` is
+/// given every step with its whole adjoint, users before operands, and says whether to go on
+/// through it: what adds nothing ends there. `leaf` is given what steps read besides each other,
+/// use by use.
 pub(crate) fn backward<'p, C, I, S: Divide>(
     steps: &'p [Step<C, I>],
     top: usize,

@@ -21,7 +21,7 @@ pub struct Columns<T> {
 }
 
 impl<T: Machine> Columns<T> {
-    /// From states, each number rounded to the machine's.
+    /// Makes columns from states, each number rounded to the machine's.
     pub fn of(states: &[JointState]) -> Columns<T> {
         let columns = |argument: Argument| {
             let part = |state: &'_ JointState, joint: usize| T::literal(state.of(argument)[joint]);
@@ -37,7 +37,7 @@ impl<T: Machine> Columns<T> {
 }
 
 impl Lowered {
-    /// The results, a column each, in the order of the function's quantities.
+    /// Returns the results, a column each, in the order of the function's quantities.
     pub fn run_columns<T: Machine>(&self, states: &Columns<T>) -> Vec<Vec<T>> {
         let m = states.len;
         let trig = self.trig_columns(states);
@@ -104,7 +104,7 @@ impl Lowered {
     }
 }
 
-/// An input's column.
+/// Returns an input's column.
 fn at<'c, T>(states: &'c Columns<T>, trig: &'c BTreeMap<Input, Vec<T>>, input: Input) -> &'c [T] {
     match input {
         Input::Entry(argument, joint) => &states.arguments[argument.index()][joint],
@@ -122,7 +122,7 @@ pub enum Column<'c, T> {
 }
 
 impl Operation {
-    /// The operation at every state, in one loop: no state waits for another.
+    /// Computes the operation at every state, in one loop: no state waits for another.
     pub fn at_each<T: Machine>(self, left: Column<'_, T>, right: Column<'_, T>, out: &mut [T]) {
         match self {
             Operation::Add => zip(out, left, right, |x, y| x.add(&y)),
@@ -134,7 +134,7 @@ impl Operation {
 }
 
 impl<C, I> Fusion<'_, C, I> {
-    /// The sum at every state, from the factors and what the product is added to.
+    /// Computes the sum at every state, from the factors and what the product is added to.
     fn at_each<T: Machine>(&self, operands: [Column<'_, T>; 3], out: &mut [T]) {
         for (state, out) in out.iter_mut().enumerate() {
             let [left, right, addend] = operands.map(|column| match column {

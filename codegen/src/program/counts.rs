@@ -43,7 +43,7 @@ impl Counts {
         }
     }
 
-    /// With what so many r = 1/√(q̇² + w²) of Coulomb friction take.
+    /// Returns the counts with what so many r = 1/√(q̇² + w²) of Coulomb friction take.
     pub(crate) fn with_speeds(self, speeds: usize) -> Counts {
         let [mul, add, sqrt, div] = super::speed::OPERATIONS.map(|each| each * speeds);
         Counts {

@@ -6,7 +6,7 @@ use dalembert_model::scalar::Divide;
 use super::fused::fusion;
 use super::{Input, Operand, Operation, Output, Program, Step};
 
-/// The outputs of steps in a scalar, from the values of inputs and constants;
+/// Returns the outputs of steps in a scalar, from the values of inputs and constants;
 /// `None` if one of these has none, or a step reads what is not computed yet.
 pub fn evaluate<'c, C, I, S: Divide>(
     steps: &'c [Step<C, I>],
@@ -42,7 +42,7 @@ pub fn evaluate<'c, C, I, S: Divide>(
 }
 
 impl Operation {
-    /// The operation in a scalar.
+    /// Returns the operation in a scalar.
     pub fn apply<S: Divide>(self, left: &S, right: &S) -> S {
         match self {
             Operation::Add => left.add(right),
@@ -54,7 +54,7 @@ impl Operation {
 }
 
 impl Program {
-    /// The outputs in a scalar; as [`evaluate`].
+    /// Returns the outputs in a scalar; as [`evaluate`].
     pub fn evaluate<S: Divide>(
         &self,
         input: impl FnMut(&Input) -> Option<S>,

@@ -71,7 +71,7 @@ pub fn fusion<C, I>(steps: &[Step<C, I>], index: usize) -> Option<Fusion<'_, C, 
 }
 
 impl<C, I> Fusion<'_, C, I> {
-    /// The sum in a scalar, from its operands' values.
+    /// Returns the sum in a scalar, from its operands' values.
     pub fn apply<S: Scalar>(&self, left: &S, right: &S, addend: &S) -> S {
         let addend = match self.minus {
             true => addend.neg(),
@@ -94,7 +94,7 @@ pub(crate) fn underflows<C, I>(steps: &[Step<C, I>], index: usize) -> bool {
     }
 }
 
-/// The ends of pieces of at least so many steps; none ends between a product and
+/// Returns the ends of pieces of at least so many steps; none ends between a product and
 /// the sum that takes it.
 pub(crate) fn pieces<C, I>(steps: &[Step<C, I>], length: usize) -> Vec<std::ops::Range<usize>> {
     let mut pieces = Vec::new();
@@ -230,7 +230,7 @@ impl Program {
     }
 }
 
-/// The product, fused; a literal on the right, since `mul_add` is a method of the
+/// Returns the product, fused; a literal on the right, since `mul_add` is a method of the
 /// left factor and a literal has no type of its own.
 fn factors(product: Step) -> Step {
     let swap = matches!(product.left, Operand::Constant(_));
@@ -250,7 +250,7 @@ fn is_negative(operand: &Operand) -> bool {
 }
 
 impl Step<Exact> {
-    /// The step where others have moved to these places.
+    /// Returns the step where others have moved to these places.
     fn moved(&self, place: &[usize]) -> Step {
         Step {
             operation: self.operation,

@@ -17,7 +17,7 @@ pub struct AngleSum {
 }
 
 impl AngleSum {
-    /// The angle of one joint (zero-based, below 64).
+    /// Returns the angle of one joint (zero-based, below 64).
     pub fn joint(joint: usize) -> Self {
         debug_assert!(joint < 64);
         AngleSum {
@@ -26,7 +26,7 @@ impl AngleSum {
         }
     }
 
-    /// The sum with one more joint; `None` if the joint is in it already.
+    /// Returns the sum with one more joint; `None` if the joint is in it already.
     pub fn with(self, joint: usize, negative: bool) -> Option<Self> {
         let bit = 1u64.checked_shl(joint as u32)?;
         let mut sum = self;
@@ -39,14 +39,14 @@ impl AngleSum {
         ((self.plus | self.minus) & bit == 0).then_some(sum)
     }
 
-    /// The joints (zero-based, ascending) and whether each is subtracted.
+    /// Returns the joints (zero-based, ascending) and whether each is subtracted.
     pub fn terms(self) -> impl Iterator<Item = (usize, bool)> {
         (0..64)
             .filter(move |joint| (self.plus | self.minus) >> joint & 1 == 1)
             .map(move |joint| (joint, self.minus >> joint & 1 == 1))
     }
 
-    /// The sine and cosine of the sum from those of the joints' angles.
+    /// Returns the sine and cosine of the sum from those of the joints' angles.
     pub fn pair<S: Scalar>(self, mut of: impl FnMut(usize) -> SinCosPair<S>) -> SinCosPair<S> {
         let mut sum = SinCosPair {
             sin: S::zero(),
@@ -62,14 +62,14 @@ impl AngleSum {
         sum
     }
 
-    /// The additions that forming the angle takes.
+    /// Returns the additions that forming the angle takes.
     pub fn additions(self) -> usize {
         (self.plus | self.minus).count_ones() as usize - 1
     }
 }
 
 impl fmt::Display for AngleSum {
-    /// One-based joint numbers: `2p3` for q₂ + q₃, `4m5` for q₄ − q₅.
+    /// Writes one-based joint numbers: `2p3` for q₂ + q₃, `4m5` for q₄ − q₅.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (index, (joint, negative)) in self.terms().enumerate() {
             match (index, negative) {
@@ -124,7 +124,7 @@ pub enum Input {
 }
 
 impl Input {
-    /// The argument that it is made from.
+    /// Returns the argument that it is made from.
     pub fn argument(self) -> Argument {
         match self {
             Input::Sin(_) | Input::Cos(_) => Argument::Position,
@@ -133,7 +133,7 @@ impl Input {
         }
     }
 
-    /// The angle, if it is the sine or cosine of one.
+    /// Returns the angle, if it is the sine or cosine of one.
     pub fn angle(self) -> Option<AngleSum> {
         match self {
             Input::Sin(angle) | Input::Cos(angle) => Some(angle),

@@ -23,7 +23,7 @@ pub(crate) type KernelStep = Step<Literal, Angle>;
 /// A kernel's result.
 pub(crate) type Value = Output<Literal, Angle>;
 
-/// A literal as an operand.
+/// Returns a literal as an operand.
 pub(crate) fn literal(value: f64) -> Term {
     Operand::Constant(Literal(value))
 }
@@ -50,12 +50,12 @@ impl Kernel {
         Term::Step(self.steps.len() - 1)
     }
 
-    /// left·right
+    /// Returns left·right
     pub fn mul(&mut self, left: Term, right: Term) -> Term {
         self.push(Operation::Mul, left, right)
     }
 
-    /// left + literal; a negative literal is subtracted, which is the same.
+    /// Returns left + literal; a negative literal is subtracted, which is the same.
     pub fn add_literal(&mut self, left: Term, value: f64) -> Term {
         if value < 0.0 {
             self.push(Operation::Sub, left, literal(-value))
@@ -64,7 +64,7 @@ impl Kernel {
         }
     }
 
-    /// Σ c_k·x^k by Horner's scheme; the constant alone is a literal.
+    /// Returns Σ c_k·x^k by Horner's scheme; the constant alone is a literal.
     pub fn horner(&mut self, x: Term, coefficients: &[f64]) -> Term {
         let mut coefficients = coefficients.iter().rev();
         let Some(&first) = coefficients.next() else {

@@ -27,7 +27,7 @@ impl Library {
         }
     }
 
-    /// Sine and cosine as it computes them, to the last bit.
+    /// Returns sine and cosine as it computes them, to the last bit.
     pub fn pair<T: Machine>(self, angle: T, sin: bool, cos: bool) -> (T, T) {
         match (self, sin, cos) {
             (Library::Together, ..) => angle.together(),

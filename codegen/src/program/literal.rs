@@ -8,7 +8,7 @@ use super::ScalarType;
 pub struct Literal(pub f64);
 
 impl Literal {
-    /// The shortest text that reads back as the value in the scalar.
+    /// Returns the shortest text that reads back as the value in the scalar.
     pub fn text(self, scalar: ScalarType) -> String {
         match scalar {
             ScalarType::F64 => format!("{:?}", self.0),

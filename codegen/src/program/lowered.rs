@@ -37,7 +37,7 @@ pub struct LoweredTrig {
 }
 
 impl Program {
-    /// The program in a scalar; an angle without a kernel calls libm.
+    /// Returns the program in a scalar; an angle without a kernel calls libm.
     pub fn lower<'k>(
         &self,
         scalar: ScalarType,

@@ -8,19 +8,19 @@ use super::ScalarType;
 pub trait Machine: Divide + Copy {
     /// Its name in emitted code, and what it rounds.
     const SCALAR: ScalarType;
-    /// The literal's value: exact, since it was parsed in this type.
+    /// Returns the literal's value: exact, since it was parsed in this type.
     fn literal(value: f64) -> Self;
-    /// Exact.
+    /// Returns Exact.
     fn to_f64(self) -> f64;
-    /// The sine that emitted code calls when it needs no cosine.
+    /// Returns the sine that emitted code calls when it needs no cosine.
     fn sin(self) -> Self;
-    /// The cosine that emitted code calls when it needs no sine.
+    /// Returns the cosine that emitted code calls when it needs no sine.
     fn cos(self) -> Self;
-    /// The square root, correctly rounded.
+    /// Returns the square root, correctly rounded.
     fn root(self) -> Self;
-    /// Both at once.
+    /// Returns both at once.
     fn sincos(self) -> (Self, Self);
-    /// Both, where the code calls for all angles together: an angle's bits do
+    /// Returns both, where the code calls for all angles together: an angle's bits do
     /// not depend on the others.
     fn together(self) -> (Self, Self);
 }

@@ -14,7 +14,7 @@ impl<C, I> Operand<C, I> {
 }
 
 impl<C: Clone, I: Clone> Operand<C, I> {
-    /// The operand where steps have moved to these places.
+    /// Returns the operand where steps have moved to these places.
     pub(crate) fn moved(&self, place: &[usize]) -> Self {
         match self {
             Operand::Step(step) => Operand::Step(place.get(*step).copied().unwrap_or(usize::MAX)),

@@ -142,7 +142,7 @@ impl Operation {
         Operation::Fused,
     ];
 
-    /// The operation of a symbol of Rust's.
+    /// Returns the operation of a symbol of Rust's.
     pub fn from_symbol(symbol: &str) -> Option<Operation> {
         let is = |operation: &Operation| {
             *operation != Operation::Fused && symbol.chars().eq([operation.symbol()])
@@ -150,7 +150,7 @@ impl Operation {
         Operation::ALL.into_iter().find(is)
     }
 
-    /// Its symbol, Rust's but for a fused product, which has none there.
+    /// Returns its symbol, Rust's but for a fused product, which has none there.
     pub fn symbol(self) -> char {
         match self {
             Operation::Add => '+',
@@ -163,7 +163,7 @@ impl Operation {
 }
 
 impl<C, I> Output<C, I> {
-    /// A value as it is.
+    /// Returns a value as it is.
     pub fn of(value: Operand<C, I>) -> Output<C, I> {
         Output {
             negative: false,

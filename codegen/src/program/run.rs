@@ -15,21 +15,21 @@ pub struct State<'a, T> {
 }
 
 impl<'a, T> State<'a, T> {
-    /// From the entries of each argument.
+    /// Makes a state from the entries of each argument.
     pub fn of(entries: impl FnMut(Argument) -> &'a [T]) -> State<'a, T> {
         State {
             arguments: Argument::ALL.map(entries),
         }
     }
 
-    /// The entries of an argument.
+    /// Returns the entries of an argument.
     pub fn argument(&self, argument: Argument) -> &'a [T] {
         self.arguments[argument.index()]
     }
 }
 
 impl Lowered {
-    /// The results at a state, in the order of the function's quantities; none
+    /// Returns the results at a state, in the order of the function's quantities; none
     /// if the state has no value that is read.
     pub fn run<T: Machine>(&self, state: State<'_, T>) -> Vec<T> {
         let read = self.inputs(state);
@@ -60,7 +60,7 @@ impl Lowered {
         }
     }
 
-    /// The results at a state rounded to the code's own scalar, as doubles
+    /// Returns the results at a state rounded to the code's own scalar, as doubles
     /// that hold them exactly.
     pub fn run_at(&self, state: &JointState) -> Vec<f64> {
         match self.scalar {
@@ -81,7 +81,7 @@ impl Lowered {
 }
 
 impl LoweredTrig {
-    /// Sine and cosine as the code computes them; of one that it does not
+    /// Returns sine and cosine as the code computes them; of one that it does not
     /// need, whatever.
     pub(super) fn pair<T: Machine>(&self, library: Library, q: &[T]) -> (T, T) {
         let angle = angle_value(self.angle, q);
@@ -92,7 +92,7 @@ impl LoweredTrig {
     }
 }
 
-/// q₂ + q₃ as emitted code adds it: from the left.
+/// Returns q₂ + q₃ as emitted code adds it: from the left.
 pub(crate) fn angle_value<T: Machine>(angle: AngleSum, q: &[T]) -> T {
     let mut sum: Option<T> = None;
     for (joint, negative) in angle.terms() {

@@ -26,7 +26,7 @@ impl ScalarType {
         }
     }
 
-    /// u: half an ulp of 1.
+    /// Returns u: half an ulp of 1.
     pub fn unit_roundoff(self) -> f64 {
         match self {
             ScalarType::F64 => f64::EPSILON / 2.0,
@@ -34,7 +34,7 @@ impl ScalarType {
         }
     }
 
-    /// The least number with a full significand.
+    /// Returns the least number with a full significand.
     pub fn least_normal(self) -> f64 {
         match self {
             ScalarType::F64 => f64::MIN_POSITIVE,
@@ -42,7 +42,7 @@ impl ScalarType {
         }
     }
 
-    /// The constant, rounded once from its exact value, as a double that
+    /// Returns the constant, rounded once from its exact value, as a double that
     /// holds the rounded value exactly.
     pub fn round(self, value: &Exact) -> f64 {
         match self {
@@ -51,7 +51,7 @@ impl ScalarType {
         }
     }
 
-    /// The nearest number of the type, as a double that holds it exactly.
+    /// Returns the nearest number of the type, as a double that holds it exactly.
     pub fn nearest(self, value: f64) -> f64 {
         match self {
             ScalarType::F64 => value,
@@ -59,7 +59,7 @@ impl ScalarType {
         }
     }
 
-    /// The least number of the type that is not below a value, as a double
+    /// Returns the least number of the type that is not below a value, as a double
     /// that holds it exactly.
     pub fn above(self, value: f64) -> f64 {
         match self {
@@ -69,7 +69,7 @@ impl ScalarType {
         }
     }
 
-    /// The value of a literal in this type, as a double.
+    /// Returns the value of a literal in this type, as a double.
     pub fn parse(self, literal: &str) -> Option<f64> {
         match self {
             ScalarType::F64 => literal.parse().ok(),
@@ -84,7 +84,7 @@ impl fmt::Display for ScalarType {
     }
 }
 
-/// Half the least subnormal.
+/// Returns half the least subnormal.
 pub(crate) fn underflow(scalar: ScalarType) -> f64 {
     match scalar {
         // Half of 2^−1074 is no double: the whole.

@@ -154,7 +154,7 @@ impl Program {
         inner
     }
 
-    /// The terms or factors of a step, those of the steps within it among them, left
+    /// Collects the terms or factors of a step, those of the steps within it among them, left
     /// before right.
     fn terms(
         &self,
@@ -237,7 +237,7 @@ impl Writer {
     }
 }
 
-/// The operation of two terms or factors, a constant on its right, and whether what
+/// Returns the operation of two terms or factors, a constant on its right, and whether what
 /// comes of it is to be subtracted: never at the end, since a sum's first term
 /// is added.
 fn ordered(kind: Kind, first: Term, second: Term) -> (Operand, Operand, Operation, bool) {

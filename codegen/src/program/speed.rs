@@ -23,7 +23,7 @@ pub struct Speed<C = Exact> {
 pub(crate) const OPERATIONS: [usize; 4] = [1; 4];
 
 impl Speed<Literal> {
-    /// r as the code computes it, from the velocities; none if there is none of
+    /// Returns r as the code computes it, from the velocities; none if there is none of
     /// the joint.
     pub fn run<T: Machine>(&self, qd: &[T]) -> Option<T> {
         let qd = qd.get(self.joint)?;
@@ -31,7 +31,7 @@ impl Speed<Literal> {
     }
 }
 
-/// The joints whose r is read, ascending.
+/// Returns the joints whose r is read, ascending.
 pub(crate) fn read<C>(steps: &[Step<C>], outputs: &[Output<C>]) -> BTreeSet<usize> {
     let operands = steps.iter().flat_map(|step| [&step.left, &step.right]);
     let operands = operands.chain(outputs.iter().map(|output| &output.value));

@@ -8,13 +8,13 @@ use super::SceneRobot;
 use crate::program::Speed;
 
 impl SceneRobot {
-    /// The width of a joint's friction; none of a joint without.
+    /// Returns the width of a joint's friction; none of a joint without.
     fn width(&self, joint: usize) -> Option<&Rational> {
         let joint = self.robot().joints.get(joint)?;
         joint.has_coulomb().then_some(&joint.coulomb_width)
     }
 
-    /// The joints with Coulomb friction, and the squares of their widths.
+    /// Returns the joints with Coulomb friction, and the squares of their widths.
     pub fn speeds(&self) -> Vec<Speed> {
         let of = |&joint: &usize| {
             let width = self.width(joint)?;
@@ -29,12 +29,12 @@ impl SceneRobot {
         self.robot().joints.iter().any(|joint| joint.has_coulomb())
     }
 
-    /// 1/w of a joint that does not move, exactly.
+    /// Returns 1/w of a joint that does not move, exactly.
     pub(super) fn per_speed_at_rest(&self, joint: usize) -> Option<Exact> {
         self.width(joint).map(|width| Exact::from(width.recip()))
     }
 
-    /// 1/√(q̇² + w²) of a joint in a scalar that has roots; zero of one without
+    /// Returns 1/√(q̇² + w²) of a joint in a scalar that has roots; zero of one without
     /// friction, which nothing reads.
     pub fn per_speed<S: Divide>(
         &self,

@@ -67,7 +67,7 @@ impl ParametersKey {
     }
 }
 
-/// The hash of a robot as plans and claims write it.
+/// Returns the hash of a robot as plans and claims write it.
 pub fn input_hash(robot: &Robot) -> String {
     let hash = robot.input_hash();
     hash.iter().map(|byte| format!("{byte:02x}")).collect()

@@ -71,7 +71,7 @@ pub struct Unknowns {
 }
 
 impl SceneRobot {
-    /// The parameters of a payload.
+    /// Returns the parameters of a payload.
     pub fn unknowns(&self) -> Unknowns {
         let taken = self.constant_angles();
         let candidates =
@@ -86,7 +86,7 @@ impl SceneRobot {
         }
     }
 
-    /// The angles of the table, the frames and the locks, with their opposites.
+    /// Returns the angles of the table, the frames and the locks, with their opposites.
     fn constant_angles(&self) -> Vec<(Angle, Angle)> {
         let robot = self.robot();
         let rows = robot.rows().into_iter();
@@ -111,7 +111,7 @@ impl SceneRobot {
 }
 
 impl Unknowns {
-    /// Each as an exact number.
+    /// Returns each as an exact number.
     pub fn values(&self) -> Vec<Exact> {
         let value = |angle| Exact::sincos(angle).sin;
         self.angles.iter().map(value).collect()
@@ -127,7 +127,7 @@ impl Unknowns {
         found
     }
 
-    /// A number that is linear in them, by its coefficients.
+    /// Returns a number that is linear in them, by its coefficients.
     fn row(&self, number: &Exact) -> LoadRow<Exact> {
         let own = self.where_one_is(number, None);
         let parameters = LinkParameter::ALL.into_iter().zip(&self.angles);
@@ -141,7 +141,7 @@ impl Unknowns {
         }
     }
 
-    /// A number where one of them is one and the others are zero.
+    /// Returns a number where one of them is one and the others are zero.
     fn where_one_is(&self, number: &Exact, one: Option<&Angle>) -> Exact {
         let value = number.map(
             &mut |x| Some(Exact::from(x.clone())),

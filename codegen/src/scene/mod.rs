@@ -111,7 +111,7 @@ impl fmt::Display for SceneError {
 impl std::error::Error for SceneError {}
 
 impl SceneRobot {
-    /// The whole robot.
+    /// Returns the whole robot.
     pub fn whole(robot: &Robot) -> SceneRobot {
         let n = robot.joints.len();
         let joints: Vec<usize> = (0..n).collect();
@@ -129,7 +129,7 @@ impl SceneRobot {
         }
     }
 
-    /// A robot in a scene.
+    /// Returns a robot in a scene.
     ///
     /// # Errors
     /// What [`Scene::validate`] finds, but for warnings.
@@ -159,7 +159,7 @@ impl SceneRobot {
         })
     }
 
-    /// A robot in a scene, if there is one.
+    /// Returns a robot in a scene, if there is one.
     ///
     /// # Errors
     /// As [`SceneRobot::new`].
@@ -226,12 +226,12 @@ impl SceneRobot {
         function == Function::Load || all.any(|parameter| self.takes(function, parameter))
     }
 
-    /// The robot with the scene's payload and gravity, the box as its limits.
+    /// Returns the robot with the scene's payload and gravity, the box as its limits.
     pub fn robot(&self) -> &Robot {
         &self.robot
     }
 
-    /// The scene, unless the robot is whole.
+    /// Returns the scene, unless the robot is whole.
     pub fn scene(&self) -> Option<&Scene> {
         self.scene.as_ref()
     }
@@ -247,28 +247,28 @@ impl SceneRobot {
         same && self.rows == self.joints && self.locks.iter().all(Option::is_none)
     }
 
-    /// All joints, zero-based.
+    /// Returns all joints, zero-based.
     pub fn joints(&self) -> &[usize] {
         &self.joints
     }
 
-    /// The joints that results are over, zero-based, in their order.
+    /// Returns the joints that results are over, zero-based, in their order.
     pub fn rows(&self) -> &[usize] {
         &self.rows
     }
 
-    /// The joints that a chain needs: those that move, and locked ones whose
+    /// Returns the joints that a chain needs: those that move, and locked ones whose
     /// torque is asked for (what their brakes hold).
     pub fn chained(&self) -> &[usize] {
         &self.chained
     }
 
-    /// The joints that follow others, multipliers sent through `scalar`.
+    /// Returns the joints that follow others, multipliers sent through `scalar`.
     pub fn following<S>(&self, mut scalar: impl FnMut(&Exact) -> S) -> Vec<Following<S>> {
         Following::of(&self.robot, &mut scalar)
     }
 
-    /// The rows of the table that a chain needs: those of its joints, and of what follows
+    /// Returns the rows of the table that a chain needs: those of its joints, and of what follows
     /// them.
     pub fn chained_rows(&self) -> Vec<usize> {
         let rows = 0..self.robot.rows().len();
@@ -276,7 +276,7 @@ impl SceneRobot {
             .collect()
     }
 
-    /// The locks that merge links, a row each: those of joints without a torque to show.
+    /// Returns the locks that merge links, a row each: those of joints without a torque to show.
     pub fn merged(&self) -> Vec<Option<JointPosition<Exact>>> {
         let merges = |(i, lock): (usize, &Option<_>)| match self.chained.contains(&i) {
             true => None,
@@ -299,7 +299,7 @@ impl SceneRobot {
         self.locks.get(joint).and_then(Option::as_ref)
     }
 
-    /// The arguments that a function keeps: rates that are zero need none.
+    /// Returns the arguments that a function keeps: rates that are zero need none.
     pub fn arguments(&self, function: Function) -> Vec<Argument> {
         let all = function.arguments().into_iter();
         let mut own: Vec<Argument> = all.filter(|&argument| !self.has_zero(argument)).collect();
@@ -319,7 +319,7 @@ impl SceneRobot {
         })
     }
 
-    /// The motion of all rows from the values of a program's inputs, with the scene's
+    /// Returns the motion of all rows from the values of a program's inputs, with the scene's
     /// constants in their places.
     pub fn motion<S: Scalar>(
         &self,
@@ -357,7 +357,7 @@ impl SceneRobot {
         motion.of_rows(&self.following(constant))
     }
 
-    /// The base parameters that a quantity is over, which are those of its own
+    /// Returns the base parameters that a quantity is over, which are those of its own
     /// equation: where a scene has rates that are zero, one may feel what another
     /// does not. None of other quantities.
     ///
@@ -379,7 +379,7 @@ impl SceneRobot {
         }
     }
 
-    /// The numbers of the regrouped chain that a payload changes; none before they
+    /// Returns the numbers of the regrouped chain that a payload changes; none before they
     /// are chosen.
     pub fn load(&self) -> Option<&LoadParameters> {
         self.load.as_ref()
@@ -413,7 +413,7 @@ impl SceneRobot {
         self.sizes_of(over_base, is_loaded)
     }
 
-    /// With a quantity that is over base parameters, if there is one.
+    /// Returns the sizes with a quantity that is over base parameters, if there is one.
     fn sizes_of(&self, over_base: Option<Quantity>, is_loaded: bool) -> Sizes {
         let base = over_base.and_then(|quantity| self.base(quantity).ok());
         let is_loaded = is_loaded && self.has(RuntimeParameter::Payload);
@@ -426,7 +426,7 @@ impl SceneRobot {
         }
     }
 
-    /// The results over the scene's joints, from results over these rows; both flat, in the
+    /// Returns the results over the scene's joints, from results over these rows; both flat, in the
     /// order of the function's quantities. Loads of joints that follow are gathered.
     pub fn select<S: Scalar>(
         &self,
@@ -445,7 +445,7 @@ impl SceneRobot {
         selected
     }
 
-    /// The entries of one quantity over the scene's joints, from those over these rows.
+    /// Returns the entries of one quantity over the scene's joints, from those over these rows.
     pub fn select_of<S: Scalar>(
         &self,
         quantity: Quantity,

@@ -7,7 +7,7 @@ use dalembert_model::robot::{JointKind, Robot};
 use crate::function::Argument;
 use crate::program::{AngleSum, Input};
 
-/// The motion of a robot from the values of a program's inputs.
+/// Returns the motion of a robot from the values of a program's inputs.
 pub fn motion<S>(robot: &Robot, mut input: impl FnMut(Input) -> S) -> Motion<S> {
     let n = robot.joints.len();
     let q = robot.joints.iter().enumerate().map(|(i, joint)| {

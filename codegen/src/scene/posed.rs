@@ -33,7 +33,7 @@ pub struct Posed<S> {
 pub(crate) type Value = Recorded<Input, Exact>;
 
 impl SceneRobot {
-    /// A formula over the scene's arm and motion as a function takes them, as it is
+    /// Returns a formula over the scene's arm and motion as a function takes them, as it is
     /// executed.
     pub fn record(
         &self,
@@ -60,7 +60,7 @@ impl SceneRobot {
         recorder.finish(&outputs)
     }
 
-    /// The scene's arm, given in the scalar, and its motion from the values of a
+    /// Returns the scene's arm, given in the scalar, and its motion from the values of a
     /// program's inputs and of constants.
     pub fn posed<S: Scalar>(
         &self,
@@ -95,14 +95,14 @@ impl SceneRobot {
         }
     }
 
-    /// The numbers of a payload.
+    /// Returns the numbers of a payload.
     fn payload<S>(&self, mut input: impl FnMut(Input) -> S) -> Vec<S> {
         let length = Argument::Payload.length(self.sizes(Function::Load));
         let entry = |index| input(Input::Entry(Argument::Payload, index));
         (0..length).map(entry).collect()
     }
 
-    /// The numbers of the load that a payload is.
+    /// Returns the numbers of the load that a payload is.
     pub fn load_of<S: Scalar>(
         &self,
         input: impl FnMut(Input) -> S,
@@ -111,7 +111,7 @@ impl SceneRobot {
         self.loading(input, constant).load()
     }
 
-    /// A payload, and what turns it into a load.
+    /// Returns a payload, and what turns it into a load.
     fn loading<S: Scalar>(
         &self,
         input: impl FnMut(Input) -> S,
@@ -125,7 +125,7 @@ impl SceneRobot {
         }
     }
 
-    /// The frame that payloads are given in, in the last link's, where it is another.
+    /// Returns the frame that payloads are given in, in the last link's, where it is another.
     fn payload_frame<S>(&self, constant: impl FnMut(&Exact) -> S) -> Option<Columns<S>> {
         let frame = self.robot().payload_frame.as_ref()?;
         Some(exact_pose(frame).map(constant))
@@ -133,12 +133,12 @@ impl SceneRobot {
 }
 
 impl<S: Divide> Posed<S> {
-    /// The results over all joints there are.
+    /// Returns the results over all joints there are.
     pub fn all(&self, function: Function, formulation: Formulation) -> Vec<S> {
         function.evaluate(formulation, &self.arm, &self.motion, &self.columns)
     }
 
-    /// What each quantity of a function inverts beside D.
+    /// Returns what each quantity of a function inverts beside D.
     pub fn divisors(&self, function: Function) -> Vec<Vec<S>> {
         let written = Written {
             formulation: Formulation::NewtonEulerLink,
@@ -153,12 +153,12 @@ impl<S: Divide> Posed<S> {
             .collect()
     }
 
-    /// The results over the scene's rows, from those over all.
+    /// Returns the results over the scene's rows, from those over all.
     pub fn select(&self, scene_robot: &SceneRobot, function: Function, all: Vec<S>) -> Vec<S> {
         scene_robot.select(function, &self.rows, &self.arm.following, all)
     }
 
-    /// The results over the scene's rows.
+    /// Returns the results over the scene's rows.
     pub fn results(
         &self,
         scene_robot: &SceneRobot,

@@ -36,7 +36,7 @@ impl SceneRobot {
         states
     }
 
-    /// The load that a payload is, each number rounded once.
+    /// Returns the load that a payload is, each number rounded once.
     pub fn load_at(&self, payload: &[f64]) -> Vec<f64> {
         let entry = |input| match input {
             Input::Entry(_, index) => {
@@ -49,14 +49,14 @@ impl SceneRobot {
         load.iter().map(f64::nearest).collect()
     }
 
-    /// The largest mass of a link, or a kilogram.
+    /// Returns the largest mass of a link, or a kilogram.
     fn heaviest(&self) -> f64 {
         let masses = self.robot().joints.iter();
         let masses = masses.map(|joint| f64::nearest_rational(&joint.mass));
         positive(masses.fold(0.0, f64::max))
     }
 
-    /// The largest length of the table, or a metre.
+    /// Returns the largest length of the table, or a metre.
     fn longest(&self) -> f64 {
         let joints = self.robot().joints.iter();
         let lengths = joints.flat_map(|joint| [&joint.a, &joint.d]);
@@ -69,7 +69,7 @@ fn positive(x: f64) -> f64 {
     if x > 0.0 { x } else { 1.0 }
 }
 
-/// A body of at most this mass, a quarter of the length away at most. Moments of
+/// Returns a body of at most this mass, a quarter of the length away at most. Moments of
 /// which the least is at least half the largest, and products of inertia of a
 /// tenth of that, are those of a body.
 fn body(draw: &mut impl FnMut(f64) -> f64, mass: f64, length: f64) -> Vec<f64> {

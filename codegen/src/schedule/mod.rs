@@ -7,7 +7,7 @@ use crate::program::{Operand, Operation, Output, Program, Step};
 use crate::scene::SceneRobot;
 
 impl Program {
-    /// Straight-line code for the graph of a function of a whole robot.
+    /// Returns Straight-line code for the graph of a function of a whole robot.
     pub fn new(function: Function, joints: usize, graph: &Graph) -> Program {
         let empty = Program {
             function,
@@ -23,7 +23,7 @@ impl Program {
         empty.with_graph(graph)
     }
 
-    /// Straight-line code for the graph of a function in a scene.
+    /// Returns Straight-line code for the graph of a function in a scene.
     pub fn in_scene(scene_robot: &SceneRobot, function: Function, graph: &Graph) -> Program {
         let empty = Program {
             function,
@@ -39,7 +39,7 @@ impl Program {
         empty.with_graph(graph)
     }
 
-    /// The same function with the same arguments and results, by another
+    /// Returns the same function with the same arguments and results, by another
     /// graph.
     #[must_use]
     pub fn with_graph(&self, graph: &Graph) -> Program {
@@ -121,8 +121,8 @@ fn output(graph: &Graph, place: &[Option<usize>], edge: Edge) -> Output {
     }
 }
 
-/// Depth first from the outputs, the operand that needs more operations
-/// first: its temporaries are dead before the other's live.
+/// Orders the steps depth first from the outputs, the operand that needs more operations first:
+/// its temporaries are dead before the other's live.
 fn evaluation_order(graph: &Graph) -> Vec<NodeId> {
     let mut weight = vec![0u64; graph.nodes.len()];
     for (index, node) in graph.nodes.iter().enumerate() {

@@ -32,7 +32,7 @@ pub(crate) enum ENode {
 }
 
 impl ENode {
-    /// The operands.
+    /// Returns the operands.
     pub(crate) fn operands(self) -> [ClassId; 2] {
         match self {
             ENode::Sum(a, b)
@@ -91,7 +91,7 @@ pub(crate) struct Classes {
 }
 
 impl Classes {
-    /// The classes of a graph, which also gives the outputs.
+    /// Returns the classes of a graph, which also gives the outputs.
     pub(crate) fn new(graph: &Graph) -> Classes {
         let mut classes = Classes::default();
         let values = classes.absorb(graph);
@@ -103,7 +103,7 @@ impl Classes {
         classes
     }
 
-    /// The first way of each class: of a fresh [`Classes::new`] the program
+    /// Returns the first way of each class: of a fresh [`Classes::new`] the program
     /// that the graph was, since a merged graph computes each class once.
     pub(crate) fn program(&self) -> Vec<Option<ENode>> {
         self.classes
@@ -117,19 +117,19 @@ impl Classes {
         self.classes.len()
     }
 
-    /// A class.
+    /// Returns a class.
     pub(crate) fn get(&self, id: ClassId) -> &Class {
         &self.classes[id as usize]
     }
 
-    /// The class of a print, and whether the print is its negative.
+    /// Returns the class of a print, and whether the print is its negative.
     pub(crate) fn find(&self, print: &Fingerprint) -> Option<Signed> {
         let (canonical, negative) = print.canonical();
         let &class = self.by_print.get(&canonical)?;
         Some(Signed { class, negative })
     }
 
-    /// The class of a print, made if it is new.
+    /// Returns the class of a print, made if it is new.
     pub(crate) fn intern(&mut self, print: &Fingerprint) -> Signed {
         let (canonical, negative) = print.canonical();
         let classes = &mut self.classes;
@@ -170,7 +170,7 @@ impl Classes {
         true
     }
 
-    /// The value of an operation on two constants.
+    /// Returns the value of an operation on two constants.
     fn folded(&self, way: ENode) -> Option<Exact> {
         let [a, b] = way.operands().map(|id| match &self.get(id).leaf {
             Some(Leaf::Constant(constant)) => Some(constant),
@@ -185,7 +185,7 @@ impl Classes {
         })
     }
 
-    /// The print of a way's result.
+    /// Returns the print of a way's result.
     pub(crate) fn way_print(&self, way: ENode) -> Fingerprint {
         let [a, b] = way.operands().map(|id| self.get(id).print);
         match way {
@@ -263,7 +263,7 @@ impl Classes {
         Some(value)
     }
 
-    /// The graph that computes the outputs by the chosen ways.
+    /// Returns the graph that computes the outputs by the chosen ways.
     ///
     /// The choice must be acyclic below the outputs and name a way for each
     /// class that they need; classes beyond its end have no way.

@@ -45,7 +45,7 @@ impl Effort {
         }
     }
 
-    /// Annealing of what the e-graph found.
+    /// Returns the schedule for annealing what the e-graph found.
     pub(super) fn first_schedule(self) -> Schedule {
         Schedule {
             moves: match self {
@@ -56,7 +56,7 @@ impl Effort {
         }
     }
 
-    /// The rounds for a program of so many operations. A small one gets many short
+    /// Returns the rounds for a program of so many operations. A small one gets many short
     /// rounds: a SCARA's torques need some without any gain to come from 71 to 62,
     /// and a long round finds no more in them.
     pub(super) fn search(self, operations: usize) -> SearchLimits {

@@ -113,7 +113,7 @@ pub(crate) fn saturate(classes: &mut Classes, choice: &[Option<ENode>], budget: 
     harvest(&egraph, classes);
 }
 
-/// The rules of a phase; signs are always among them.
+/// Returns the rules of a phase; signs are always among them.
 fn rewrites(phase: Phase) -> Vec<Rewrite<Term, Prints>> {
     SATURATION
         .iter()
@@ -150,7 +150,7 @@ fn run_phase(egraph: &mut EGraph<Term, Prints>, phase: Phase, budget: Saturation
     }
 }
 
-/// The chosen program as terms.
+/// Inserts the chosen program as terms.
 fn insert(egraph: &mut EGraph<Term, Prints>, classes: &Classes, choice: &[Option<ENode>]) {
     let mut ids: FxHashMap<ClassId, Id> = FxHashMap::default();
     let mut pending: Vec<ClassId> = Vec::new();
@@ -217,7 +217,7 @@ fn merge_by_print(egraph: &mut EGraph<Term, Prints>) {
     }
 }
 
-/// Every e-node as a way to compute its class.
+/// Takes every e-node as a way to compute its class.
 fn harvest(egraph: &EGraph<Term, Prints>, classes: &mut Classes) {
     let mut ids: Vec<Id> = egraph.classes().map(|class| class.id).collect();
     ids.sort_unstable();

@@ -76,7 +76,7 @@ pub struct Simplified {
     pub saturated: Graph,
 }
 
-/// The cheapest program found for a function from one or more graphs of it;
+/// Returns the cheapest program found for a function from one or more graphs of it;
 /// never dearer than the cheapest of them merged by fingerprint.
 ///
 /// `helpers` are graphs of other values that may serve, such as the sines of
@@ -91,7 +91,7 @@ pub(crate) fn simplify(
     watched(variants, helpers, effort, accept, None)
 }
 
-/// `simplify` under a watch: where it is over, the search ends with its
+/// Returns `simplify` under a watch: where it is over, the search ends with its
 /// round.
 pub fn watched(
     variants: &[Graph],
@@ -159,7 +159,7 @@ pub fn watched(
     })
 }
 
-/// The price that the search minimises, in hundredths of an operation.
+/// Returns the price that the search minimises, in hundredths of an operation.
 pub fn cost(graph: &Graph) -> u64 {
     CostModel::OPERATIONS.price(&graph.counts(), graph.angles().into_iter())
 }

@@ -26,7 +26,7 @@ pub(crate) struct SearchLimits {
 /// A program with more values than this is not paired whole in any search.
 const MAX_OWN: usize = 1_500;
 
-/// One round from a program: what other graphs and the fingerprints offer,
+/// Returns one round from a program: what other graphs and the fingerprints offer,
 /// then extraction. Never returns a dearer program.
 pub(crate) fn round(
     program: &Graph,
@@ -57,7 +57,7 @@ pub(crate) fn round(
     }
 }
 
-/// A round without annealing: what a program is about worth.
+/// Returns a round without annealing: what a program is about worth.
 pub(crate) fn quick_round(program: &Graph, helpers: &[Graph]) -> Graph {
     let limits = SearchLimits {
         rounds: 1,

@@ -15,7 +15,7 @@ pub(super) struct Sieve {
 const BITS: usize = 8;
 
 impl Sieve {
-    /// For about so many keys.
+    /// Makes a sieve for about so many keys.
     pub(super) fn new(keys: usize) -> Sieve {
         let bits = keys.saturating_mul(BITS).next_power_of_two().max(64);
         Sieve {

@@ -46,7 +46,7 @@ pub struct Candidates {
 }
 
 impl Candidates {
-    /// For an angle in a range.
+    /// Begins a choice for an angle in a range.
     pub fn new(need: Need, scalar: ScalarType, range: Interval) -> Candidates {
         let mut candidates = Candidates {
             need,
@@ -96,8 +96,7 @@ impl Candidates {
         candidates
     }
 
-    /// The forms of one centre: of those with one number of operations only
-    /// the best.
+    /// Adds the forms of one centre: of those with one number of operations only the best.
     fn add(&mut self, reduced: bool, centre: Centre, radius: f64) {
         let halvings = match centre {
             Centre::Quarter(_) => MAX_HALVINGS,
@@ -147,7 +146,7 @@ impl Candidates {
         }
     }
 
-    /// Each kernel that is more accurate than all cheaper ones, from cheap to
+    /// Returns each kernel that is more accurate than all cheaper ones, from cheap to
     /// dear, until one errs no more than `enough`. Those that are thought to
     /// err more than `most` are left out.
     pub fn front(&self, most: f64, enough: f64) -> Vec<Choice> {
@@ -184,7 +183,7 @@ impl Candidates {
         front
     }
 
-    /// The cheapest kernel that errs no more than `enough`; else the most
+    /// Returns the cheapest kernel that errs no more than `enough`; else the most
     /// accurate one, if there is any.
     pub fn cheapest(&self, enough: f64) -> Option<Choice> {
         let fit = |choice: &Choice| choice.errors.worst() <= enough;

@@ -73,7 +73,7 @@ pub struct Need {
 }
 
 impl Form {
-    /// Its kernel; `fit` is of the form's centre and halvings. Without a fit
+    /// Returns its kernel; `fit` is of the form's centre and halvings. Without a fit
     /// every coefficient is one: the kernel has the right number of steps.
     pub fn kernel(&self, fit: Option<&Fit>, need: Need, scalar: ScalarType) -> Kernel {
         let mut kernel = Kernel::default();
@@ -138,8 +138,8 @@ impl Form {
         kernel.without_dead()
     }
 
-    /// Roughly how far the form is from sine and cosine: the fits' errors
-    /// through the doublings.
+    /// Estimates how far the form is from sine and cosine: the fits' errors through the
+    /// doublings.
     pub fn estimate(&self, fit: &Fit, need: Need) -> f64 {
         let [mut s, mut c] = [
             fit.tail(Wave::Sin, self.degrees[0]),
@@ -162,7 +162,7 @@ fn round(x: &Rational, scalar: ScalarType) -> f64 {
     }
 }
 
-/// λ_0 … λ_h, to 40 digits. That they are cut short costs nothing: the proof
+/// Returns λ_0 … λ_h, to 40 digits. That they are cut short costs nothing: the proof
 /// is of the literals.
 fn factors(halvings: u32) -> Vec<Rational> {
     const BITS: u32 = 140;

@@ -60,7 +60,7 @@ impl SinCos {
     /// The error of polynomials for which none is given.
     pub const ERROR: f64 = 1e-6;
 
-    /// The library of what is called, where `auto` is this one.
+    /// Returns the library of what is called, where `auto` is this one.
     pub fn library(self, auto: Library) -> Library {
         match self {
             SinCos::Auto => auto,
@@ -150,7 +150,7 @@ impl fmt::Display for TooAccurate {
 
 impl std::error::Error for TooAccurate {}
 
-/// The largest |q| for which the polynomials of a joint without limits hold.
+/// Returns the largest |q| for which the polynomials of a joint without limits hold.
 pub fn stated(scalar: ScalarType) -> f64 {
     match scalar {
         ScalarType::F64 => 1e6,
@@ -158,7 +158,7 @@ pub fn stated(scalar: ScalarType) -> f64 {
     }
 }
 
-/// The positions of a robot's joints: their limits, or what is
+/// Returns the positions of a robot's joints: their limits, or what is
 /// [`stated`] where there are none. Joints that slide have no angle.
 pub(crate) fn positions(robot: &Robot, scalar: ScalarType) -> Vec<Interval> {
     let value = |position: &Position| match position {
@@ -175,7 +175,7 @@ pub(crate) fn positions(robot: &Robot, scalar: ScalarType) -> Vec<Interval> {
         .collect()
 }
 
-/// The values that an angle takes as the emitted code adds it.
+/// Returns the values that an angle takes as the emitted code adds it.
 pub(crate) fn range_of(angle: AngleSum, positions: &[Interval], scalar: ScalarType) -> Interval {
     let (mut sum, mut reach) = (Interval::ZERO, 0.0);
     for (index, (joint, negative)) in angle.terms().enumerate() {
@@ -190,7 +190,7 @@ pub(crate) fn range_of(angle: AngleSum, positions: &[Interval], scalar: ScalarTy
     }
 }
 
-/// The cheapest polynomials for a program whose every sine and cosine errs
+/// Returns the cheapest polynomials for a program whose every sine and cosine errs
 /// by no more than `error`, proved. `positions` are the joints' ranges.
 ///
 /// # Errors
@@ -265,13 +265,13 @@ fn one(
     }
 }
 
-/// The polynomials of one scalar; none if its sines are a library's.
+/// Returns the polynomials of one scalar; none if its sines are a library's.
 pub(crate) fn of(all: &[(ScalarType, Sines)], scalar: ScalarType) -> &[AngleKernel] {
     let found = all.iter().find(|(known, _)| *known == scalar);
     found.map_or(&[], |(_, sines)| sines)
 }
 
-/// A program in a scalar with these polynomials; other angles are the library's.
+/// Returns a program in a scalar with these polynomials; other angles are the library's.
 pub fn lowered(
     program: &Program,
     scalar: ScalarType,
@@ -291,7 +291,7 @@ pub fn counts(sines: &[AngleKernel]) -> (usize, usize) {
     counts.fold((0, 0), |(m, a), (mul, add)| (m + mul, a + add))
 }
 
-/// `q2 + q3`, one-based.
+/// Returns `q2 + q3`, one-based.
 pub fn angle_name(angle: AngleSum) -> String {
     let mut name = String::new();
     for (index, (joint, negative)) in angle.terms().enumerate() {

@@ -18,7 +18,7 @@ pub(crate) struct Poly {
 }
 
 impl Poly {
-    /// From integer coefficients.
+    /// Makes a polynomial from integer coefficients.
     pub(crate) fn integers(coefficients: Vec<BigInt>) -> Poly {
         Poly {
             coefficients,
@@ -27,7 +27,7 @@ impl Poly {
         .trimmed()
     }
 
-    /// A float; `None` if it is not finite.
+    /// Returns a float; `None` if it is not finite.
     pub(crate) fn constant(value: f64) -> Option<Poly> {
         if !value.is_finite() {
             return None;
@@ -49,12 +49,12 @@ impl Poly {
         Some(poly.trimmed())
     }
 
-    /// x
+    /// Returns x
     pub(crate) fn variable() -> Poly {
         Poly::integers(vec![BigInt::zero(), BigInt::one()])
     }
 
-    /// The degree; zero for zero.
+    /// Returns the degree; zero for zero.
     pub(crate) fn degree(&self) -> usize {
         self.coefficients.len().saturating_sub(1)
     }
@@ -65,13 +65,13 @@ impl Poly {
         numerators.unwrap_or(0) + self.exponent
     }
 
-    /// c_k
+    /// Returns c_k
     pub(crate) fn coefficient(&self, k: usize) -> Rational {
         let numerator = self.coefficients.get(k).cloned().unwrap_or_default();
         Rational::new(numerator, BigInt::one() << self.exponent)
     }
 
-    /// self + other
+    /// Returns self + other
     #[must_use]
     pub(crate) fn add(&self, other: &Poly) -> Poly {
         let exponent = self.exponent.max(other.exponent);
@@ -86,13 +86,13 @@ impl Poly {
         .trimmed()
     }
 
-    /// self − other
+    /// Returns self − other
     #[must_use]
     pub(crate) fn sub(&self, other: &Poly) -> Poly {
         self.add(&other.scaled(&BigInt::from(-1)))
     }
 
-    /// self·other
+    /// Returns self·other
     #[must_use]
     pub(crate) fn mul(&self, other: &Poly) -> Poly {
         let len = self.coefficients.len() + other.coefficients.len();
@@ -109,7 +109,7 @@ impl Poly {
         .trimmed()
     }
 
-    /// self·factor
+    /// Returns self·factor
     #[must_use]
     pub(crate) fn scaled(&self, factor: &BigInt) -> Poly {
         Poly {
@@ -119,7 +119,7 @@ impl Poly {
         .trimmed()
     }
 
-    /// The polynomial p(inner(x)).
+    /// Returns the polynomial p(inner(x)).
     #[must_use]
     pub(crate) fn compose(&self, inner: &Poly) -> Poly {
         let mut sum = Poly::integers(Vec::new());
@@ -133,8 +133,8 @@ impl Poly {
         sum
     }
 
-    /// This over a divisor with coefficients cut to few bits, and what that
-    /// changes at most where |x| is up to a reach.
+    /// Divides by a divisor with coefficients cut to few bits, and says what that changes at most
+    /// where |x| is up to a reach.
     #[must_use]
     pub(crate) fn divided(&self, divisor: &BigInt, reach: f64) -> (Poly, f64) {
         const BITS: u64 = 100;
@@ -154,7 +154,7 @@ impl Poly {
         (poly, error)
     }
 
-    /// p((centre + radius·y)/2^`bits`) as a polynomial in y.
+    /// Returns p((centre + radius·y)/2^`bits`) as a polynomial in y.
     #[must_use]
     pub(crate) fn on(&self, centre: i64, radius: i64, bits: u64) -> Poly {
         let mut sum: Vec<BigInt> = Vec::with_capacity(self.coefficients.len());
@@ -176,7 +176,7 @@ impl Poly {
         }
     }
 
-    /// The same polynomial as Σ a_k·T_k(x): the coefficients a_k.
+    /// Returns the same polynomial as Σ a_k·T_k(x): the coefficients a_k.
     ///
     /// Horner's scheme with x·T_0 = T_1 and 2x·T_k = T_(k+1) + T_(k−1).
     #[must_use]
@@ -201,7 +201,7 @@ impl Poly {
         }
     }
 
-    /// Σ a_k·T_k for k up to a degree, as Σ c_k·x^k.
+    /// Returns Σ a_k·T_k for k up to a degree, as Σ c_k·x^k.
     #[must_use]
     pub(crate) fn in_powers(&self, degree: usize) -> Poly {
         let two_x = Poly::integers(vec![BigInt::zero(), BigInt::from(2)]);
@@ -216,7 +216,7 @@ impl Poly {
         sum
     }
 
-    /// Σ |c_k| over the coefficients from the k-th on, over a divisor,
+    /// Returns Σ |c_k| over the coefficients from the k-th on, over a divisor,
     /// rounded up.
     ///
     /// Of the Chebyshev form this bounds |p| on \[−1, 1\], where no |T_k|
@@ -230,7 +230,7 @@ impl Poly {
         f64::nearest_rational(&Rational::new(sum, divisor << self.exponent)).next_up()
     }
 
-    /// The numerators at a larger exponent.
+    /// Returns the numerators at a larger exponent.
     fn at(&self, exponent: u64) -> Vec<BigInt> {
         let by = exponent - self.exponent;
         self.coefficients.iter().map(|c| c << by).collect()

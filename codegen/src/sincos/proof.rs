@@ -35,7 +35,7 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// The larger one.
+    /// Returns the larger one.
     pub fn worst(self) -> f64 {
         self.sin.max(self.cos)
     }
@@ -103,7 +103,7 @@ pub(super) fn approximations(kernel: &Kernel, range: Interval) -> Option<Errors>
     })
 }
 
-/// The polynomial of each step.
+/// Returns the polynomial of each step.
 fn expand(kernel: &Kernel) -> Option<Vec<Poly>> {
     let mut values: Vec<Poly> = Vec::with_capacity(kernel.steps.len());
     for step in &kernel.steps {
@@ -168,7 +168,7 @@ fn approximation(poly: &Poly, wave: Wave, range: Interval) -> Option<f64> {
     Some(((most + taylor.remainder).next_up() + cut).next_up())
 }
 
-/// Rounding errors of both results, the worst of the sub-ranges.
+/// Bounds the rounding errors of both results, the worst of the sub-ranges.
 fn rounding(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
     let mut worst = Errors::default();
     let width = range.width() / CELLS as f64;
@@ -215,7 +215,7 @@ fn forward(kernel: &Kernel, scalar: ScalarType, angle: Interval) -> Forward {
     })
 }
 
-/// Σ |adjoint|·rounding for one result.
+/// Returns Σ |adjoint|·rounding for one result.
 fn error(kernel: &Kernel, ran: &Forward, result: Term, angle: Interval) -> f64 {
     let Term::Step(top) = result else { return 0.0 };
     let mut sum = Interval::ZERO;

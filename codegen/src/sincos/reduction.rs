@@ -24,7 +24,7 @@ pub(crate) struct Rest {
     pub error: f64,
 }
 
-/// Significand bits.
+/// Returns the significand bits.
 pub(super) fn digits(scalar: ScalarType) -> i32 {
     match scalar {
         ScalarType::F64 => f64::MANTISSA_DIGITS as i32,
@@ -32,12 +32,12 @@ pub(super) fn digits(scalar: ScalarType) -> i32 {
     }
 }
 
-/// 1.5·2^(p−1)
+/// Returns 1.5·2^(p−1)
 pub(super) fn magic(scalar: ScalarType) -> f64 {
     1.5 * libm::exp2(f64::from(digits(scalar) - 1))
 }
 
-/// 2π to 120 digits.
+/// Returns 2π to 120 digits.
 fn turn() -> Rational {
     Angle::right_angles(4).radians()
 }
@@ -66,7 +66,7 @@ pub(crate) fn write(kernel: &mut Kernel, scalar: ScalarType) -> Term {
     kernel.push(Operation::Sub, rest, little)
 }
 
-/// The reduction that a kernel begins with, as (ι, A, B), and the kernel of
+/// Returns the reduction that a kernel begins with, as (ι, A, B), and the kernel of
 /// what is left; `None` if it begins with none.
 pub(crate) fn split(kernel: &Kernel, scalar: ScalarType) -> Option<([f64; 3], Kernel)> {
     use Operand::{Constant, Input, Step as At};
@@ -168,7 +168,7 @@ pub(super) fn is_exact(x: f64, turns: f64, scalar: ScalarType) -> bool {
     plain && spare >= 0 && turns <= libm::exp2(f64::from(spare))
 }
 
-/// The value of a normal number's last bit that is not zero.
+/// Returns the value of a normal number's last bit that is not zero.
 pub(super) fn last_bit(x: f64) -> f64 {
     let (mantissa, exponent, _) = FloatCore::integer_decode(x);
     let zeros = mantissa.trailing_zeros().min(63) as i32;

@@ -41,7 +41,7 @@ pub(crate) struct Taylor {
 }
 
 impl Taylor {
-    /// For |angle| up to a reach; `None` beyond [`FARTHEST`].
+    /// Makes the series for |angle| up to a reach; `None` beyond [`FARTHEST`].
     ///
     /// Every derivative of a sine is at most one, so what degree n leaves out
     /// is at most reach^(n+1)/(n+1)!.
@@ -76,7 +76,7 @@ impl Taylor {
         })
     }
 
-    /// One of the two.
+    /// Returns one of the two.
     pub(crate) fn wave(&self, wave: Wave) -> &Poly {
         match wave {
             Wave::Sin => &self.sin,
@@ -96,7 +96,7 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// `None` beyond [`FARTHEST`].
+    /// Returns `None` beyond [`FARTHEST`].
     pub fn new(centre: f64, radius: f64, halvings: i32) -> Option<Fit> {
         let radius = coarse(radius);
         let scaled = radius * libm::exp2(-f64::from(halvings));
@@ -119,12 +119,12 @@ impl Fit {
         }
     }
 
-    /// The error of cutting the series off after a degree, from above.
+    /// Returns the error of cutting the series off after a degree, from above.
     pub fn tail(&self, wave: Wave, degree: usize) -> f64 {
         self.series(wave).sum_from(degree + 1, &self.factorial)
     }
 
-    /// The coefficients of factor · series up to a degree in powers of x,
+    /// Returns the coefficients of factor · series up to a degree in powers of x,
     /// each rounded once.
     pub fn coefficients(
         &self,
@@ -149,7 +149,7 @@ impl Fit {
     }
 }
 
-/// Up to the next multiple of 2^−20: few bits make short integers.
+/// Returns up to the next multiple of 2^−20: few bits make short integers.
 pub(crate) fn coarse(x: f64) -> f64 {
     const GRID: f64 = 1_048_576.0;
     (libm::floor(x.abs() * GRID) + 1.0) / GRID

@@ -12,7 +12,7 @@ const BOTH: Need = Need {
     cos: true,
 };
 
-/// The largest errors seen: at the ends and at random floats of the range,
+/// Returns the largest errors seen: at the ends and at random floats of the range,
 /// against a sine in double precision.
 fn seen(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
     let mut random = Random::new(11);

@@ -26,7 +26,7 @@ impl UnknownScene {
         format!("the robot has no scene `{}`", self.found)
     }
 
-    /// The likely fix.
+    /// Returns the likely fix.
     pub fn help(&self) -> String {
         match (&self.meant, self.known.as_slice()) {
             (Some(meant), _) => format!("did you mean `{meant}`?"),
@@ -44,7 +44,7 @@ impl fmt::Display for UnknownScene {
 
 impl std::error::Error for UnknownScene {}
 
-/// The scene of a name.
+/// Returns the scene of a name.
 ///
 /// # Errors
 /// [`UnknownScene`], with the name that was probably meant.
@@ -72,7 +72,7 @@ impl From<Float> for ScalarType {
 }
 
 impl Request {
-    /// The request with the outputs and scalars that somebody chose, if any, and
+    /// Returns the request with the outputs and scalars that somebody chose, if any, and
     /// in a scene, if any: it takes the scene's outputs where none were chosen,
     /// and the same for its scalar. With a tolerance and no scalar chosen, the
     /// cheapest that it admits is taken.
@@ -111,7 +111,7 @@ impl Request {
         self
     }
 
-    /// The request in a scene, with its outputs and its scalar.
+    /// Returns the request in a scene, with its outputs and its scalar.
     #[must_use]
     pub fn in_scene(self, scene: &Scene) -> Request {
         self.choose(None, None, Some(scene))

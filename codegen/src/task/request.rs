@@ -78,7 +78,7 @@ macro_rules! request {
 each_option!(request);
 
 impl Request {
-    /// The units of [`work`](Request::work) of the ways in that keep a compiler
+    /// Returns the units of [`work`](Request::work) of the ways in that keep a compiler
     /// waiting, `dynamics!` and build scripts; no limit for who asks for a
     /// thorough search there.
     pub fn work_while_compiling(effort: Effort) -> Option<u64> {
@@ -88,7 +88,7 @@ impl Request {
         }
     }
 
-    /// The robot in the scene, where functions take the parameters.
+    /// Returns the robot in the scene, where functions take the parameters.
     ///
     /// # Errors
     /// The scene is none of this robot.
@@ -97,7 +97,7 @@ impl Request {
         Ok(load::chosen(scene_robot.taking(&self.parameters)))
     }
 
-    /// The module's name.
+    /// Returns the module's name.
     pub fn module_name(&self, robot: &Robot) -> String {
         match (&self.module, &self.scene) {
             (Some(name), _) => name.clone(),

@@ -64,7 +64,7 @@ impl<'a> AccuracyFilter<'a> {
         }
     }
 
-    /// Whatever it costs.
+    /// Admits a program whatever it costs.
     pub(crate) fn lenient(scene_robot: &'a SceneRobot, function: Function) -> Self {
         AccuracyFilter {
             scene_robot,
@@ -78,7 +78,7 @@ impl<'a> AccuracyFilter<'a> {
         self.excess(graph) <= 1.0
     }
 
-    /// The program's error over the largest that is accepted; zero where
+    /// Returns the program's error over the largest that is accepted; zero where
     /// nothing is measured.
     pub(crate) fn excess(&self, graph: &Graph) -> f64 {
         let Some(reference_formulation) = &self.reference_formulation else {
@@ -88,7 +88,7 @@ impl<'a> AccuracyFilter<'a> {
         own.factor(reference_formulation, FLOOR) / WORSE
     }
 
-    /// The program's largest normwise error, in units of u.
+    /// Returns the program's largest normwise error, in units of u.
     pub(crate) fn error(&self, graph: &Graph) -> f64 {
         estimate(self.scene_robot, self.function, graph).worst()
     }

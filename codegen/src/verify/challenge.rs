@@ -32,7 +32,7 @@ const MAX_TRIES: u64 = 1 << 14;
 pub(crate) struct Transcript(Hash);
 
 impl Transcript {
-    /// An empty statement with a purpose.
+    /// Returns an empty statement with a purpose.
     pub(crate) fn new(purpose: &str) -> Transcript {
         let mut transcript = Transcript(Hash::new());
         transcript.text(DOMAIN);
@@ -40,12 +40,12 @@ impl Transcript {
         transcript
     }
 
-    /// A number.
+    /// Adds a number.
     pub(crate) fn number(&mut self, x: usize) {
         self.0.update((x as u64).to_le_bytes());
     }
 
-    /// A text.
+    /// Adds a text.
     pub(crate) fn text(&mut self, text: &str) {
         self.number(text.len());
         self.0.update(text.as_bytes());
@@ -56,7 +56,7 @@ impl Transcript {
         list.iter().for_each(|&x| self.number(x));
     }
 
-    /// The robot with its payload and gravity, what is locked, the results.
+    /// Adds the robot with its payload and gravity, what is locked, the results.
     pub(crate) fn scene_robot(&mut self, scene_robot: &SceneRobot) {
         self.text(&write_robot(scene_robot.robot()));
         self.text(&scene_robot.scene().map(write_scene).unwrap_or_default());
@@ -70,7 +70,7 @@ impl Transcript {
         }
     }
 
-    /// A program with its exact constants.
+    /// Adds a program with its exact constants.
     pub(crate) fn program(&mut self, program: &Program) {
         self.text(&program.function.text());
         self.number(program.joints);
@@ -141,7 +141,7 @@ impl Transcript {
 pub(crate) struct Challenge([u8; 32]);
 
 impl Challenge {
-    /// A prime with its point, the same for the same index; `None` if there is
+    /// Returns a prime with its point, the same for the same index; `None` if there is
     /// no prime among [`MAX_TRIES`] numbers, which never happens.
     pub(crate) fn draw(&self, index: usize) -> Option<Point> {
         let words = (0..MAX_TRIES / 4).flat_map(|counter| self.words(index, "prime", "", counter));
@@ -185,17 +185,17 @@ pub(crate) struct Point {
 }
 
 impl Point {
-    /// The prime.
+    /// Returns the prime.
     pub(crate) fn prime(&self) -> Prime {
         self.prime
     }
 
-    /// Another state, with the same prime and the same constants.
+    /// Returns another state, with the same prime and the same constants.
     pub(crate) fn with_state(self, state: usize) -> Point {
         Point { state, ..self }
     }
 
-    /// A residue, each equally likely.
+    /// Returns a residue, each equally likely.
     fn residue(&self, kind: &str, name: &str) -> u64 {
         let below = |block| {
             let words = self.seed.words(self.index, kind, name, block);
@@ -210,7 +210,7 @@ impl Point {
         Residue::circle_point(self.prime, self.residue(kind, name))
     }
 
-    /// The value of an input.
+    /// Returns the value of an input.
     pub(crate) fn input(&self, input: Input) -> Residue {
         let free = |kind: &str, joint: usize| {
             Residue::new(self.prime, self.residue(kind, &self.name(joint)))
@@ -227,7 +227,7 @@ impl Point {
         self.circle("joint", &self.name(joint))
     }
 
-    /// What tells an entry of a state from those of others.
+    /// Returns what tells an entry of a state from those of others.
     fn name(&self, entry: usize) -> String {
         match self.state {
             0 => entry.to_string(),
@@ -235,7 +235,7 @@ impl Point {
         }
     }
 
-    /// The value of a constant; `None` if the prime divides a denominator or a
+    /// Returns the value of a constant; `None` if the prime divides a denominator or a
     /// coefficient that is not zero: it is unfit then.
     pub(crate) fn constant(&self, value: &Exact) -> Option<Residue> {
         value.map(

@@ -42,7 +42,7 @@ impl Condition {
     }
 }
 
-/// Largest over least eigenvalue, infinite where the least is not positive.
+/// Returns the largest over least eigenvalue, infinite where the least is not positive.
 fn ratio(matrix: Vec<Vec<f64>>) -> f64 {
     let values = eigenvalues(matrix);
     let largest = values.iter().copied().fold(0.0, f64::max);
@@ -54,7 +54,7 @@ fn ratio(matrix: Vec<Vec<f64>>) -> f64 {
     }
 }
 
-/// The least pivot of the elimination without exchanges: for a semidefinite
+/// Returns the least pivot of the elimination without exchanges: for a semidefinite
 /// matrix they are all ≥ 0 and need none.
 fn least_pivot(mut m: Vec<Vec<f64>>) -> f64 {
     let n = m.len();
@@ -76,7 +76,7 @@ fn least_pivot(mut m: Vec<Vec<f64>>) -> f64 {
     least
 }
 
-/// Jacobi's rotations: on a matrix with a unit diagonal they find small
+/// Returns Jacobi's rotations: on a matrix with a unit diagonal they find small
 /// eigenvalues to relative accuracy.
 fn eigenvalues(mut m: Vec<Vec<f64>>) -> Vec<f64> {
     let n = m.len();
@@ -103,7 +103,7 @@ fn eigenvalues(mut m: Vec<Vec<f64>>) -> Vec<f64> {
     (0..n).map(|i| m[i][i]).collect()
 }
 
-/// Rows and columns p < q.
+/// Rotates rows and columns p < q.
 fn rotate(m: &mut [Vec<f64>], p: usize, q: usize, c: f64, s: f64) {
     for row in m.iter_mut() {
         let (a, b) = (row[p], row[q]);

@@ -93,7 +93,7 @@ impl Degree {
         degree.unwrap_or_else(Degree::one)
     }
 
-    /// The degree in the random parameters; the largest there is if it was
+    /// Returns the degree in the random parameters; the largest there is if it was
     /// beyond counting.
     pub fn bound(&self) -> u64 {
         match self.is_beyond_counting() {
@@ -109,7 +109,7 @@ impl Degree {
         all.any(|&degree| degree == u32::MAX)
     }
 
-    /// The bits of its coefficients once they are integers.
+    /// Returns the bits of its coefficients once they are integers.
     pub fn height(&self, denominators: &Denominators) -> u64 {
         let size = self.size.map_or(0, |size| size.bits());
         let shared = denominators.bits().saturating_mul(self.constants.into());
@@ -117,7 +117,7 @@ impl Degree {
         bits.saturating_add(self.pairs() + u64::from(self.halvings))
     }
 
-    /// The degree in all pairs together.
+    /// Returns the degree in all pairs together.
     fn pairs(&self) -> u64 {
         let joints = self.joints.iter().map(|&degree| u64::from(degree));
         joints.sum::<u64>() + u64::from(self.angles)

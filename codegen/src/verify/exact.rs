@@ -68,7 +68,7 @@ pub struct Proof {
 }
 
 impl Proof {
-    /// The exponent, unless there is no chance of a miss.
+    /// Returns the exponent, unless there is no chance of a miss.
     pub fn miss(&self) -> Option<i32> {
         (self.failure_exponent != i32::MIN).then_some(self.failure_exponent)
     }
@@ -264,7 +264,7 @@ impl Formula {
         }
     }
 
-    /// The results at a point, which solve their equations there. None where they
+    /// Returns the results at a point, which solve their equations there. None where they
     /// have no values.
     fn at(&self, point: &Point) -> Result<Option<Vec<Residue>>, Disproof> {
         let recording = self.solving.as_ref().unwrap_or(&self.results);
@@ -282,7 +282,7 @@ impl Formula {
         Ok(Some(values))
     }
 
-    /// The degrees of the results in the variables.
+    /// Returns the degrees of the results in the variables.
     fn degrees(&self, denominators: &RefCell<Denominators>) -> Vec<Ratio> {
         let input = |input: &Input| Ratio::input(*input);
         let constant =
@@ -329,7 +329,7 @@ fn compare(
     Err(Disproof::Unfit)
 }
 
-/// Degree and height of the differences between outputs, if a miss is unlikely.
+/// Bounds the degree and height of the differences between outputs, if a miss is unlikely.
 fn bounded(
     own: &[Ratio],
     others: &[Ratio],
@@ -356,7 +356,7 @@ struct Inputs<'a> {
 }
 
 impl Inputs<'_> {
-    /// The values of the load; none where a constant has no value.
+    /// Returns the values of the load; none where a constant has no value.
     fn load<S: Scalar>(
         &self,
         input: impl FnMut(Input) -> S,
@@ -375,7 +375,7 @@ impl Inputs<'_> {
         is_whole.then_some(load)
     }
 
-    /// The program at a point, as [`run`].
+    /// Returns the program at a point, as [`run`].
     fn run(&self, point: &Point) -> Option<Vec<Residue>> {
         let constant = |constant: &Exact| point.constant(constant);
         let load = self.load(|input| point.input(input), constant)?;
@@ -386,7 +386,7 @@ impl Inputs<'_> {
         self.program.evaluate(input, constant)
     }
 
-    /// The degrees of every output in the variables.
+    /// Returns the degrees of every output in the variables.
     fn degrees(&self, denominators: &RefCell<Denominators>) -> Vec<Ratio> {
         let constant =
             |constant: &Exact| Some(Ratio::constant(constant, &mut denominators.borrow_mut()));
@@ -399,7 +399,7 @@ impl Inputs<'_> {
     }
 }
 
-/// The program at a point; `None` if a constant has no value there, or a step
+/// Returns the program at a point; `None` if a constant has no value there, or a step
 /// reads one that comes later.
 fn run(program: &Program, point: &Point) -> Option<Vec<Residue>> {
     let constant = |constant: &Exact| point.constant(constant);
@@ -407,7 +407,7 @@ fn run(program: &Program, point: &Point) -> Option<Vec<Residue>> {
 }
 
 impl Program {
-    /// The name of an output: `D_12`, `h_346`.
+    /// Returns the name of an output: `D_12`, `h_346`.
     pub fn entry(&self, mut index: usize) -> String {
         for quantity in self.function.quantities() {
             let len = quantity.len(self.sizes());

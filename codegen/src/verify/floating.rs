@@ -62,7 +62,7 @@ pub struct Measure {
 }
 
 impl Measure {
-    /// The error in units of the scalar's u.
+    /// Returns the error in units of the scalar's u.
     pub fn in_units(&self) -> f64 {
         self.error / self.scalar.unit_roundoff()
     }
@@ -76,7 +76,7 @@ impl Measure {
 pub struct Granted(Vec<(Quantity, f64)>);
 
 impl Granted {
-    /// To a quantity: what else is in a function inverts nothing.
+    /// Returns the condition of a quantity: what else is in a function inverts nothing.
     pub fn to(&self, quantity: Quantity) -> f64 {
         let own = self.0.iter().find(|(own, _)| *own == quantity);
         own.map_or(1.0, |(_, factor)| *factor)
@@ -161,7 +161,7 @@ impl Runtime {
         Granted(factors.collect())
     }
 
-    /// A formula of a function, recorded unless it is there.
+    /// Returns a formula of a function, recorded unless it is there.
     fn recorded(
         &self,
         known: &Formulas,
@@ -179,7 +179,7 @@ impl Runtime {
         recording.clone()
     }
 
-    /// A formula at a state.
+    /// Returns a formula at a state.
     fn run_at(&self, recording: &Recording<Input, f64>, state: &JointState) -> Vec<f64> {
         let input = |input: &Input| {
             // A motion reads the angles of single joints only.
@@ -200,7 +200,7 @@ impl Runtime {
         results.unwrap_or_default()
     }
 
-    /// The results of a function at a state, flat.
+    /// Returns the results of a function at a state, flat.
     pub fn run(&self, function: Function, state: &JointState) -> Vec<f64> {
         let formulation = Formulation::NewtonEulerLink;
         let results =
@@ -209,7 +209,7 @@ impl Runtime {
         self.run_at(&recording, state)
     }
 
-    /// The arm that a function is of.
+    /// Returns the arm that a function is of.
     fn arm_of(&self, function: Function) -> &Arm<Exact> {
         let mut quantities = function.quantities().iter();
         match quantities.any(|quantity| quantity.depends_on_base()) {
@@ -220,7 +220,7 @@ impl Runtime {
 }
 
 impl Emitted {
-    /// The results at a state, flat, as doubles that hold them exactly.
+    /// Returns the results at a state, flat, as doubles that hold them exactly.
     pub fn run(&self, state: &JointState) -> Vec<f64> {
         self.text.run_at(state)
     }
@@ -241,7 +241,7 @@ impl Emitted {
         outputs.map(|output| output.value == Operand::Constant(Literal(0.0)))
     }
 
-    /// The errors against the runtime, a quantity each. Sines are libm's on
+    /// Returns the errors against the runtime, a quantity each. Sines are libm's on
     /// both sides: how far polynomials are from them is
     /// [measured apart](Emitted::sines).
     pub fn against_runtime(&self, runtime: &Runtime, states: &[JointState]) -> Vec<Measure> {
@@ -276,7 +276,7 @@ impl Emitted {
         measures
     }
 
-    /// The largest |polynomial − libm's f64| of each angle over the states, in
+    /// Returns the largest |polynomial − libm's f64| of each angle over the states, in
     /// the order of the text; none for angles that are libm's.
     pub fn sines(&self, states: &[JointState]) -> Vec<(AngleSum, f64)> {
         let angles = self.text.trig.iter();
@@ -325,7 +325,7 @@ fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, x| most.max(x.abs()))
 }
 
-/// max|a − b| / max|b| of the worst case; absolute where b vanishes.
+/// Returns max|a − b| / max|b| of the worst case; absolute where b vanishes.
 fn worst(cases: &[Case], least: f64) -> f64 {
     let mut worst = 0.0f64;
     for (actual, expected, granted) in cases {

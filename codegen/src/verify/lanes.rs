@@ -31,12 +31,12 @@ impl Lanes {
         Lanes(from_fn(|k| f(self.0[k], other.0[k])))
     }
 
-    /// x²
+    /// Returns x²
     pub(super) fn square(&self) -> Lanes {
         self.map(|x| x * x)
     }
 
-    /// √x
+    /// Returns √x
     pub(super) fn sqrt(&self) -> Lanes {
         self.map(libm::sqrt)
     }

@@ -36,7 +36,7 @@ pub(crate) fn is_small(degree: u64, height: u64, primes: usize) -> bool {
     digits(degree, height, primes, ATTEMPTS_EXPONENT) <= MAX_EXPONENT
 }
 
-/// In integers: no libm in a stated bound.
+/// Counts digits in integers: no libm in a stated bound.
 fn digits(degree: u64, height: u64, primes: usize, attempts: u32) -> i32 {
     let shared = 128 * u128::from(height.div_ceil(62));
     let chance = BigUint::from(shared + u128::from(degree)).pow(primes as u32) << attempts;

@@ -103,7 +103,7 @@ impl Statement<'_> {
         transcript
     }
 
-    /// All parameters of the robot file, in the order of the full columns.
+    /// Returns all parameters of the robot file, in the order of the full columns.
     fn parameters(&self) -> Vec<Parameter> {
         use dalembert_model::equations::regressor::LinkParameter;
         let rows = 0..self.scene_robot.robot().rows().len();
@@ -119,7 +119,7 @@ impl Statement<'_> {
         links.chain(drives).collect()
     }
 
-    /// Each base parameter's terms: the place of a parameter, and its factor. None if
+    /// Returns each base parameter's terms: the place of a parameter, and its factor. None if
     /// there is no such parameter.
     fn combinations(&self) -> Option<Vec<Vec<(usize, &Exact)>>> {
         let places: BTreeMap<Parameter, usize> = (self.parameters().into_iter())
@@ -134,7 +134,7 @@ impl Statement<'_> {
         combinations.collect()
     }
 
-    /// Y_full − Y B over the rows, row by row, as a formula.
+    /// Returns Y_full − Y B over the rows, row by row, as a formula.
     fn differences(&self) -> Option<Recording<Input, Exact>> {
         let combinations = self.combinations()?;
         let scene_robot = self.scene_robot;

@@ -50,7 +50,7 @@ impl Ratio {
         Degree::constant(constant, denominators).into()
     }
 
-    /// The polynomial that vanishes with it; none if its degree is beyond
+    /// Returns the polynomial that vanishes with it; none if its degree is beyond
     /// counting.
     pub fn top(&self) -> Option<&Degree> {
         self.top.as_ref()
@@ -69,7 +69,7 @@ impl Ratio {
         found.map_or(0, |(_, power)| *power)
     }
 
-    /// The divisors of both, each once.
+    /// Returns the divisors of both, each once.
     fn divisors(&self, other: &Ratio) -> Vec<Rc<Degree>> {
         let mut all: Vec<Rc<Degree>> = Vec::new();
         for (divisor, _) in self.powers.iter().chain(&other.powers) {
@@ -80,7 +80,7 @@ impl Ratio {
         all
     }
 
-    /// The polynomial by divisors raised to what is left of their powers
+    /// Returns the polynomial by divisors raised to what is left of their powers
     /// above these.
     fn above(&self, least: &[(Rc<Degree>, i64)]) -> Option<Degree> {
         let mut top = self.top.clone()?;
@@ -105,7 +105,7 @@ impl Ratio {
     }
 }
 
-/// dᵏ
+/// Returns dᵏ
 fn raised(degree: &Degree, mut exponent: u64) -> Degree {
     let (mut power, mut square) = (Degree::one(), degree.clone());
     while exponent > 0 {
@@ -191,7 +191,7 @@ impl Divide for Ratio {
 }
 
 impl Program {
-    /// The degrees of every output; the denominators of its constants are
+    /// Returns the degrees of every output; the denominators of its constants are
     /// noted.
     pub fn degrees(&self, denominators: &mut Denominators) -> Vec<Ratio> {
         let constant = |constant: &Exact| Some(Ratio::constant(constant, denominators));

@@ -92,7 +92,7 @@ pub fn reach(
     equations.solve().ok_or(Unreached::Unfit)
 }
 
-/// The numbers that the formula reads of a robot, in its order.
+/// Returns the numbers that the formula reads of a robot, in its order.
 fn numbers(robot: &Robot) -> Vec<Exact> {
     let mut all = Vec::new();
     let _: Arm<Dual<f64>> = Arm::from_robot(robot, &mut |x: &Exact| {
@@ -102,7 +102,7 @@ fn numbers(robot: &Robot) -> Vec<Exact> {
     all
 }
 
-/// How fast each of these numbers changes; `None` if they are no multiples of the change.
+/// Returns how fast each of these numbers changes; `None` if they are no multiples of the change.
 fn rates(scene_robot: &SceneRobot, others: [&SceneRobot; 2]) -> Option<Vec<Exact>> {
     let own = numbers(scene_robot.robot());
     let [once, twice] = others.map(|other| numbers(other.robot()));
@@ -124,7 +124,7 @@ fn rates(scene_robot: &SceneRobot, others: [&SceneRobot; 2]) -> Option<Vec<Exact
     is_linear.then_some(rates)
 }
 
-/// Where constants are, in the program's order.
+/// Returns where constants are, in the program's order.
 fn places<'p>(program: &'p Program) -> Vec<(Place, &'p Exact)> {
     let steps = program.steps.iter().enumerate();
     let of_steps = steps.flat_map(|(index, step)| {
@@ -240,7 +240,7 @@ impl Equations<'_> {
         Some(Reach { outputs, constants })
     }
 
-    /// The formula's results at a state, and how fast they change.
+    /// Returns the formula's results at a state, and how fast they change.
     fn formula(&self, at: &Point) -> Option<Vec<Dual<Residue>>> {
         let mut is_whole = true;
         let mut number = |constant: &Exact| {

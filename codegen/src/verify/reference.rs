@@ -58,7 +58,7 @@ impl TrueValue {
         self.value.magnitude()
     }
 
-    /// The same; zero of what cannot be told from zero.
+    /// Returns the same; zero of what cannot be told from zero.
     pub fn size(&self) -> f64 {
         match self.magnitude() {
             size if size <= self.lost => 0.0,
@@ -83,7 +83,7 @@ impl<'s> Reference<'s> {
         self.scene_robot
     }
 
-    /// The results of a function over the scene's rows at a state of finite
+    /// Returns the results of a function over the scene's rows at a state of finite
     /// numbers, flat.
     pub fn run(&self, function: Function, state: &JointState) -> Vec<TrueValue> {
         let finite = |x: f64| Wide::from_f64(x).unwrap_or_else(Wide::zero);
@@ -145,7 +145,7 @@ impl Known {
         }
     }
 
-    /// Rounded itself, with what its operands' errors make of it.
+    /// Returns it rounded itself, with what its operands' errors make of it.
     fn rounded(value: Wide, carried: f64) -> Known {
         let size = value.bound();
         Known {
@@ -164,7 +164,7 @@ impl Known {
         value.unwrap_or_else(|| Known::rounded(Wide::from_exact(constant), f64::INFINITY))
     }
 
-    /// The root of what is above zero: what x is off moves it by Δx/(2 √x); the
+    /// Returns the root of what is above zero: what x is off moves it by Δx/(2 √x); the
     /// whole Δx/√x, since x is off itself.
     fn sqrt(&self) -> Known {
         let value = self.value.sqrt();
@@ -176,7 +176,7 @@ impl Known {
     }
 }
 
-/// 0·∞: what is exactly zero is off by nothing, whatever it is multiplied by.
+/// Returns 0·∞: what is exactly zero is off by nothing, whatever it is multiplied by.
 fn part(size: f64, lost: f64) -> f64 {
     match size == 0.0 || lost == 0.0 {
         true => 0.0,

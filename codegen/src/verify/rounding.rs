@@ -68,7 +68,7 @@ impl Rounding {
         rounding
     }
 
-    /// The largest factor by which a quantity is worse than another program's,
+    /// Returns the largest factor by which a quantity is worse than another program's,
     /// where an error of `floor` units is as good as none.
     pub fn factor(&self, than: &Rounding, floor: f64) -> f64 {
         let worst = |own: &[f64], other: &[f64]| {
@@ -80,7 +80,7 @@ impl Rounding {
         worst(&self.normwise, &than.normwise).max(worst(&self.per_output, &than.per_output))
     }
 
-    /// The largest normwise error of a quantity.
+    /// Returns the largest normwise error of a quantity.
     pub fn worst(&self) -> f64 {
         self.normwise.iter().copied().fold(0.0, f64::max)
     }
@@ -116,7 +116,7 @@ impl<'a> Network<'a> {
         }
     }
 
-    /// Each output with its error, in units of u, a list a state.
+    /// Returns each output with its error, in units of u, a list a state.
     fn errors(&self, states: &[JointState]) -> Vec<Vec<(f64, f64)>> {
         let mut runs = Vec::with_capacity(states.len());
         for chunk in states.chunks(LANES) {
@@ -185,7 +185,7 @@ impl<'a> Network<'a> {
         outputs.collect()
     }
 
-    /// The root of the sum of squares of all errors, as they reach an output.
+    /// Returns the root of the sum of squares of all errors, as they reach an output.
     fn error(
         &self,
         output: &Operand,

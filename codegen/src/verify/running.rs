@@ -42,12 +42,12 @@ impl<T: Machine> Bounded<T> {
         Bounded { value, error: 0.0 }
     }
 
-    /// The magnitude of the computed value.
+    /// Returns the magnitude of the computed value.
     fn size(&self) -> f64 {
         self.value.to_f64().abs()
     }
 
-    /// A computed value with what its operands' errors make of it and what it
+    /// Returns a computed value with what its operands' errors make of it and what it
     /// rounds itself.
     fn rounded(value: T, carried: f64) -> Self {
         let own = T::SCALAR.unit_roundoff() * value.to_f64().abs();
@@ -59,7 +59,7 @@ impl<T: Machine> Bounded<T> {
     }
 }
 
-/// The least subnormal.
+/// Returns the least subnormal.
 fn least(scalar: ScalarType) -> f64 {
     2.0 * scalar.least_normal() * scalar.unit_roundoff()
 }
@@ -178,7 +178,7 @@ fn errors_in<T: Machine>(
     }
 }
 
-/// One over a smoothed speed: a product, a constant and a sum of positive numbers,
+/// Returns one over a smoothed speed: a product, a constant and a sum of positive numbers,
 /// half of whose relative errors a root keeps, then a root and a quotient that
 /// round: 3 u, and a little more than that.
 fn speed<T: Machine>(own: &Speed, state: &JointState) -> Bounded<T> {
@@ -193,7 +193,7 @@ fn speed<T: Machine>(own: &Speed, state: &JointState) -> Bounded<T> {
     Bounded { value, error }
 }
 
-/// Sine and cosine of an angle, by a library or by a polynomial of its own.
+/// Returns sine and cosine of an angle, by a library or by a polynomial of its own.
 fn pair<T: Machine>(
     angle: AngleSum,
     own: Option<&AngleKernel>,
@@ -226,7 +226,7 @@ fn pair<T: Machine>(
     [bounded(sin, sin_error), bounded(cos, cos_error)]
 }
 
-/// A bound that is no number says nothing.
+/// Returns a bound that is no number says nothing.
 fn sound(error: f64) -> f64 {
     if error.is_nan() { f64::INFINITY } else { error }
 }

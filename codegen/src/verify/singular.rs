@@ -17,7 +17,7 @@ use crate::function::Function;
 use crate::program::Input;
 use crate::scene::SceneRobot;
 
-/// The joint nearest to the hand that moves no inertia in any state; none if
+/// Returns the joint nearest to the hand that moves no inertia in any state; none if
 /// D has an inverse almost everywhere.
 pub(crate) fn without_inertia(scene_robot: &SceneRobot, function: Function) -> Option<usize> {
     let mut transcript = Transcript::new("inertia");
@@ -63,7 +63,7 @@ fn pivots(scene_robot: &SceneRobot, function: Function) -> Pivots {
     Pivots { joints, values }
 }
 
-/// The first zero pivot's joint, if there is one; nothing at an unfit point.
+/// Returns the first zero pivot's joint, if there is one; nothing at an unfit point.
 fn zero_pivot(pivots: &Pivots, point: &Point) -> Option<Option<usize>> {
     let constant = |value: &Exact| point.constant(value);
     let values = pivots

@@ -37,7 +37,7 @@ impl Size {
         }
     }
 
-    /// a + b
+    /// Returns a + b
     pub(crate) fn add(self, other: Size) -> Size {
         let (large, small) = match self.exponent >= other.exponent {
             true => (self, other),
@@ -48,20 +48,20 @@ impl Size {
         Size::rounded(large.mantissa + shifted, large.exponent)
     }
 
-    /// a · b
+    /// Returns a · b
     pub(crate) fn mul(self, other: Size) -> Size {
         let exponent = self.exponent.saturating_add(other.exponent);
         Size::rounded(self.mantissa * other.mantissa, exponent)
     }
 
-    /// The least n with 2^n not below it, or 0.
+    /// Returns the least n with 2^n not below it, or 0.
     pub(crate) fn bits(self) -> u64 {
         let whole = self.mantissa == 1 << 31;
         let bits = self.exponent.saturating_add(if whole { 31 } else { 32 });
         u64::try_from(bits).unwrap_or(0)
     }
 
-    /// A mantissa of at least 32 bits, rounded up to 32.
+    /// Returns a mantissa of at least 32 bits, rounded up to 32.
     fn rounded(mantissa: u64, exponent: i64) -> Size {
         let shift = 32 - mantissa.leading_zeros();
         let shifted = u128::from(mantissa) + ((1 << shift) - 1);
@@ -111,7 +111,7 @@ impl Denominators {
         true
     }
 
-    /// The bits of the common denominator.
+    /// Returns the bits of the common denominator.
     pub fn bits(&self) -> u64 {
         self.common.bits().saturating_add(self.more)
     }

@@ -25,7 +25,7 @@ const STATES: usize = 5;
 const DEVICE: &str = "#define __host__\n#define __device__\n#define __global__\n\
     static struct { unsigned x; } gridDim = {2}, blockDim = {2}, blockIdx, threadIdx;\n";
 
-/// Those of these programs that are there.
+/// Returns those of these programs that are there.
 pub fn there(names: &[&'static str]) -> Vec<&'static str> {
     let is_there = |name: &&&str| {
         let run = Command::new(name)
@@ -47,7 +47,7 @@ pub fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// A call of a function on `STATES` states or one; what it gives is put aside.
+/// Returns a call of a function on `STATES` states or one; what it gives is put aside.
 fn call(base: &str, generated: &Generated, emitted: &Emitted, request: &Request) -> String {
     let function = emitted.function;
     let float = match emitted.scalar {
@@ -121,7 +121,7 @@ fn call(base: &str, generated: &Generated, emitted: &Emitted, request: &Request)
     body + "    }\n"
 }
 
-/// A program that reads states and writes what every function of a header gives, all in
+/// Returns a program that reads states and writes what every function of a header gives, all in
 /// doubles, state by state.
 fn main_of(base: &str, generated: &Generated, request: &Request) -> String {
     let calls = generated.emitted.iter();

@@ -12,13 +12,13 @@ impl Draw {
         self.0.below(one_in) == 0
     }
 
-    /// A number of thousandths in [low, high).
+    /// Returns a number of thousandths in [low, high).
     pub fn milli(&mut self, low: i64, high: i64) -> Rational {
         let value = low + self.0.below((high - low) as usize) as i64;
         Rational::new(value.into(), 1000.into())
     }
 
-    /// A length; now and then none.
+    /// Returns a length; now and then none.
     pub fn length(&mut self) -> Rational {
         if self.chance(4) {
             Rational::default()
@@ -27,7 +27,7 @@ impl Draw {
         }
     }
 
-    /// A right angle as often as not; else a fraction of π, or radians.
+    /// Returns a right angle as often as not; else a fraction of π, or radians.
     pub fn angle(&mut self) -> Angle {
         let turns =
             |over: i64, under: i64| Angle::PiTimes(Rational::new(over.into(), under.into()));

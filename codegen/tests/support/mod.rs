@@ -14,42 +14,42 @@ use dalembert_codegen::workspace::task::Request;
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
 
-/// A checked-in robot.
+/// Returns a checked-in robot.
 pub fn robot(name: &str) -> Robot {
     reading(name).robot
 }
 
-/// A checked-in robot with its scenes.
+/// Returns a checked-in robot with its scenes.
 pub fn reading(name: &str) -> Reading {
     reading_with(name, "")
 }
 
-/// A checked-in robot with more in its file, such as scenes.
+/// Returns a checked-in robot with more in its file, such as scenes.
 pub fn reading_with(name: &str, more: &str) -> Reading {
     let source = source(name, more);
     read::parse(&source, &read::Options::default()).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
-/// The text of a checked-in robot, and more.
+/// Returns the text of a checked-in robot, and more.
 pub fn source(name: &str, more: &str) -> String {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
     std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap() + more
 }
 
-/// The file of an arm that the tests have besides the checked-in robots.
+/// Returns the file of an arm that the tests have besides the checked-in robots.
 pub fn arm_file(name: &str) -> String {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
     std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap()
 }
 
-/// A robot from the text of its file.
+/// Returns a robot from the text of its file.
 pub fn read_robot(source: &str) -> Robot {
     read::parse(source, &read::Options::default())
         .unwrap_or_else(|errors| panic!("{errors}"))
         .robot
 }
 
-/// One function in both scalars.
+/// Returns one function in both scalars.
 pub fn one(robot: &Robot, function: Function) -> Generated {
     let request = Request {
         functions: vec![function],
@@ -58,7 +58,7 @@ pub fn one(robot: &Robot, function: Function) -> Generated {
     generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// One function in f64 from one formulation.
+/// Returns one function in f64 from one formulation.
 pub fn from(robot: &Robot, function: Function, start: Start) -> Generated {
     let request = Request {
         functions: vec![function],
@@ -69,12 +69,12 @@ pub fn from(robot: &Robot, function: Function, start: Start) -> Generated {
     generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Each scalar by itself.
+/// Returns each scalar by itself.
 pub fn each_scalar() -> [Vec<ScalarType>; 2] {
     ScalarType::ALL.map(|scalar| vec![scalar])
 }
 
-/// All of these where the tests are optimised, so many of the first where they are
+/// Returns all of these where the tests are optimised, so many of the first where they are
 /// not: the whole takes minutes then.
 pub fn dose<T>(all: &[T], first: usize) -> &[T] {
     match cfg!(debug_assertions) {

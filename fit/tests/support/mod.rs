@@ -9,7 +9,7 @@ use dalembert_model::robot::{Inertia, Robot};
 
 pub const ARMS: [&str; 3] = ["puma560", "ur10", "panda"];
 
-/// An arm of the generated ones.
+/// Returns an arm of the generated ones.
 pub fn file(name: &str) -> Robot {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../generated/robots");
     let text = std::fs::read_to_string(format!("{folder}/{name}.toml")).unwrap();
@@ -20,7 +20,7 @@ pub fn number(value: f64) -> Rational {
     parse_decimal(&format!("{value:.12e}")).unwrap()
 }
 
-/// The arm with bodies that exist, rotors and friction.
+/// Returns the arm with bodies that exist, rotors and friction.
 pub fn truth(name: &str) -> Robot {
     let mut robot = file(name);
     for (i, joint) in robot.joints.iter_mut().enumerate() {
@@ -52,7 +52,7 @@ fn raised(tensor: &Inertia<Rational>, by: &Rational) -> Inertia<Rational> {
     }
 }
 
-/// The arm as a data sheet has it: masses and centres a fifth wrong, no friction.
+/// Returns the arm as a data sheet has it: masses and centres a fifth wrong, no friction.
 pub fn guess(truth: &Robot) -> Robot {
     let mut robot = truth.clone();
     let mut random = Random::new(11);
@@ -80,7 +80,7 @@ pub struct State {
     pub y: Vec<f64>,
 }
 
-/// Random states within the limits.
+/// Draws random states within the limits.
 pub fn states(model: &Model, count: usize, seed: u64) -> Vec<State> {
     let mut random = Random::new(seed);
     let mut draw = |largest: &dyn Fn(usize) -> f64| -> Vec<f64> {
@@ -98,18 +98,18 @@ pub fn states(model: &Model, count: usize, seed: u64) -> Vec<State> {
     each.collect()
 }
 
-/// π of the true arm over the columns of a model of it.
+/// Returns π of the true arm over the columns of a model of it.
 pub fn true_parameters(truth: &Robot) -> Vec<f64> {
     model(truth).parameters().to_vec()
 }
 
-/// Y π
+/// Returns Y π
 pub fn torques(y: &[f64], parameters: &[f64]) -> Vec<f64> {
     let row = |row: &[f64]| row.iter().zip(parameters).map(|(y, p)| y * p).sum();
     y.chunks(parameters.len()).map(row).collect()
 }
 
-/// The noise of each joint's torque, N·m.
+/// Returns the noise of each joint's torque, N·m.
 pub fn noise(joint: usize) -> f64 {
     0.5 / (1.0 + joint as f64)
 }

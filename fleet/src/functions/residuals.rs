@@ -83,7 +83,7 @@ impl Joint {
         }
     }
 
-    /// Of equal ones the earliest, in whatever order they come.
+    /// Keeps the larger of two, of equal ones the earliest, in whatever order they come.
     fn see(&mut self, size: f64, time: f64) {
         let is_earlier = size == self.worst && (self.time.is_nan() || time < self.time);
         if size > self.worst || is_earlier {

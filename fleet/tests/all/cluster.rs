@@ -45,7 +45,7 @@ impl Drop for Process {
 
 static NEXT: AtomicU16 = AtomicU16::new(0);
 
-/// Two ports, one after the other, that nobody has.
+/// Returns two ports, one after the other, that nobody has.
 fn ports() -> u16 {
     let first = 42_000 + (std::process::id() % 5_000) as u16;
     loop {
@@ -111,7 +111,7 @@ impl Cluster {
     }
 }
 
-/// The number of files in a folder and those within it.
+/// Returns the number of files in a folder and those within it.
 fn files(folder: &Path) -> usize {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let each = entries.map(|entry| match entry.path() {
@@ -137,7 +137,7 @@ fn has_worked(work: &Path, before: usize, client: &mut Child) {
     }
 }
 
-/// Some logs in a folder, of so many states each.
+/// Writes some logs in a folder, of so many states each.
 fn logs(folder: &Folder, files: u64, states: usize) {
     let robot = robot("planar2r", true);
     for seed in 0..files {

@@ -18,7 +18,7 @@ use crate::support::{Sample, robot};
 
 const NAMES: [&str; 4] = ["q", "qd", "qdd", "tau"];
 
-/// A list column of a quantity.
+/// Returns a list column of a quantity.
 fn lists(sample: &Sample, quantity: usize, joints: usize, single: bool) -> ArrayRef {
     let states =
         (0..sample.count * joints).map(|at| sample.column(quantity, at % joints)[at / joints]);
@@ -36,8 +36,8 @@ fn lists(sample: &Sample, quantity: usize, joints: usize, single: bool) -> Array
     Arc::new(FixedSizeListArray::try_new(item, joints as i32, values, None).unwrap())
 }
 
-/// A table of columns `q1` …, of lists `q` … and of lists of floats `q_f32` …, of batches of
-/// some rows in some partitions.
+/// Returns a table of columns `q1` …, of lists `q` … and of lists of floats `q_f32` …, of
+/// batches of some rows in some partitions.
 fn table(sample: &Sample, joints: usize, batch: usize, partitions: usize) -> MemTable {
     let mut columns: Vec<(String, ArrayRef)> = vec![
         (
@@ -79,7 +79,7 @@ fn context(robot: &Arc<dyn Dynamics>, table: MemTable, partitions: usize) -> Ses
     context
 }
 
-/// The columns of a result, all batches as one.
+/// Returns the columns of a result, all batches as one.
 fn query(context: &SessionContext, sql: &str) -> Result<RecordBatch, String> {
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .worker_threads(2)

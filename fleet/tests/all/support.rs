@@ -9,12 +9,12 @@ use dalembert_fit::random::{Random, within};
 use dalembert_fleet::logs::{Table, canonical_names};
 use dalembert_fleet::{Dynamics, Loaded, States};
 
-/// A file of `generated/robots`.
+/// Returns a file of `generated/robots`.
 pub fn robot_file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../generated/robots/{name}.toml"))
 }
 
-/// A robot of `generated/`, with what a fit needs if asked for.
+/// Returns a robot of `generated/`, with what a fit needs if asked for.
 pub fn robot(name: &str, fit: bool) -> Arc<Loaded> {
     Arc::new(Loaded::open(&robot_file(name), &Default::default(), fit).unwrap())
 }
@@ -37,7 +37,7 @@ impl Folder {
         self.0.join(name)
     }
 
-    /// What is in it.
+    /// Returns what is in it.
     pub fn names(&self) -> Vec<String> {
         let entries = std::fs::read_dir(&self.0).unwrap();
         let mut names: Vec<String> = entries
@@ -163,7 +163,7 @@ pub fn text(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
-/// A table's rows of a file, or of `all`: joint, rms, 99 %, worst, and time.
+/// Returns a table's rows of a file, or of `all`: joint, rms, 99 %, worst, and time.
 pub fn rows(table: &str, name: &str) -> Vec<Vec<f64>> {
     let lines = table.lines().filter_map(|line| {
         let mut words = line.split_whitespace();

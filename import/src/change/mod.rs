@@ -71,7 +71,7 @@ struct Parts {
 }
 
 impl Change {
-    /// The motion within the URDF's limits; where it has none, ±1 m, 3 per second;
+    /// Returns the motion within the URDF's limits; where it has none, ±1 m, 3 per second;
     /// 10 per second squared always, of which a URDF does not speak.
     pub fn limits(&self) -> &Motion {
         &self.limits
@@ -140,12 +140,12 @@ impl Change {
         }
     }
 
-    /// A bound as text, two digits, not below.
+    /// Returns a bound as text, two digits, not below.
     pub fn in_digits(bound: f64) -> String {
         upward(bound)
     }
 
-    /// The largest of them within the limits, relative to the joint's effort, if
+    /// Returns the largest of them within the limits, relative to the joint's effort, if
     /// every joint has one.
     pub fn of_efforts(&self) -> Option<f64> {
         let torques = self.torques(&self.limits);
@@ -176,7 +176,8 @@ impl fmt::Display for Change {
 }
 
 impl Parts {
-    /// From the frame before to this one's origin, where the joint is at most so far out.
+    /// Returns the lever from the frame before to this one's origin, where the joint is at most
+    /// so far out.
     fn lever_at(&self, q: Pair) -> Pair {
         match self.slides {
             true => self.lever + self.turn * self.axis * q,
@@ -185,7 +186,7 @@ impl Parts {
     }
 }
 
-/// By how much two turns differ that move no unit vector further apart than this: that
+/// Returns by how much two turns differ that move no unit vector further apart than this: that
 /// chord belongs to 2 asin(x/2), which is less than x + x³/20 up to one.
 fn angle(chord: f64) -> f64 {
     match chord < 0.99 {
@@ -194,7 +195,7 @@ fn angle(chord: f64) -> f64 {
     }
 }
 
-/// The bound of two arms that differ by what was snapped.
+/// Returns the bound of two arms that differ by what was snapped.
 pub(crate) fn bound(written: &Arm, snapped: &Arm, urdf: &Urdf, chain: &Chain) -> Change {
     let joints = || chain.moving.iter().map(|moving| &urdf.joints[moving.joint]);
     let links = written.links.iter().zip(&snapped.links).zip(joints());

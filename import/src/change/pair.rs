@@ -11,7 +11,7 @@ pub(super) struct Pair {
     pub(super) off: f64,
 }
 
-/// Both lengths, and the distance.
+/// Returns both lengths, and the distance.
 pub(super) fn vectors(one: &Vector<Wide>, other: &Vector<Wide>) -> Pair {
     let length = |v: &Vector<Wide>| root_of_squares(&v.each_ref().map(Wide::magnitude));
     let off: Vector<Wide> = core::array::from_fn(|i| other[i].sub(&one[i]));
@@ -21,7 +21,7 @@ pub(super) fn vectors(one: &Vector<Wide>, other: &Vector<Wide>) -> Pair {
     }
 }
 
-/// √(a² + b² + c²), upward: of numbers whose squares may vanish, their sum.
+/// Returns √(a² + b² + c²), upward: of numbers whose squares may vanish, their sum.
 pub(super) fn root_of_squares(values: &[f64; 3]) -> f64 {
     let sum: f64 = values
         .iter()
@@ -59,7 +59,7 @@ impl Pair {
     }
 }
 
-/// a + b, not below.
+/// Returns a + b, not below.
 fn upward_sum(a: f64, b: f64) -> f64 {
     (a + b).next_up_unless_zero()
 }
@@ -92,7 +92,7 @@ impl std::ops::Mul for Pair {
     }
 }
 
-/// Two digits, not below.
+/// Returns two digits, not below.
 pub(super) fn upward(x: f64) -> String {
     let text = format!("{x:.1e}");
     match text.parse::<f64>() {

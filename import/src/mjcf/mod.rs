@@ -165,7 +165,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
     }
 }
 
-/// The elements of all parts of this name.
+/// Returns the elements of all parts of this name.
 fn within<'a, 'd: 'a>(
     root: Node<'a, 'd>,
     part: &'static str,

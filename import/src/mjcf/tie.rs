@@ -55,7 +55,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         }
     }
 
-    /// A joint that follows another, or a polynomial of it.
+    /// Reads a joint that follows another, or a polynomial of it.
     fn follower(&mut self, node: Node<'a, '_>, urdf: &mut Urdf) {
         let place = |this: &mut Self, key: &str| {
             let (name, span) = this.reader.attribute(node, key)?;
@@ -122,7 +122,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         Some(terms)
     }
 
-    /// Two bodies that are held together, by their names or those of sites.
+    /// Reads two bodies that are held together, by their names or those of sites.
     fn links_tied(&mut self, root: Node<'a, '_>, node: Node<'a, '_>, urdf: &mut Urdf) {
         let keys = match node.has_attribute("site1") {
             true => ["site1", "site2"],

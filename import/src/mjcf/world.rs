@@ -275,7 +275,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
     }
 }
 
-/// A link without mass.
+/// Returns a link without mass.
 fn link(name: String, span: std::ops::Range<usize>) -> Link {
     Link {
         name,

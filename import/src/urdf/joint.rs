@@ -33,7 +33,7 @@ impl Kind {
         ("floating", Kind::Floating),
     ];
 
-    /// Its word.
+    /// Returns its word.
     pub(crate) fn word(self) -> &'static str {
         let found = Kind::WORDS.iter().find(|(_, kind)| *kind == self);
         // The one that a URDF has no word for.
@@ -213,8 +213,8 @@ impl Reader<'_, '_, '_> {
         Some([lower, upper])
     }
 
-    /// The rotors of a transmission: inertia times the square of the reduction,
-    /// for every joint that it drives.
+    /// Reads the rotors of a transmission: inertia times the square of the reduction, for every
+    /// joint that it drives.
     pub(super) fn transmission(&mut self, node: Node, joints: &mut [Joint]) {
         let mut armature = Rational::zero();
         for actuator in node
@@ -253,7 +253,7 @@ impl Reader<'_, '_, '_> {
         }
     }
 
-    /// A number of an actuator: `<gear_ratio value="…"/>`, or as its text.
+    /// Reads a number of an actuator: `<gear_ratio value="…"/>`, or as its text.
     fn of_actuator(&mut self, actuator: Node, names: &[&str]) -> Option<Number> {
         let found = actuator
             .children()

@@ -155,7 +155,7 @@ impl Reader<'_, '_, '_> {
     }
 }
 
-/// The start tag of an element: what a message points at.
+/// Returns the start tag of an element: what a message points at.
 pub(crate) fn start_tag(source: &str, node: Node) -> Range<usize> {
     let range = node.range();
     let text = source.get(range.clone()).unwrap_or_default();
@@ -164,7 +164,7 @@ pub(crate) fn start_tag(source: &str, node: Node) -> Range<usize> {
     range.start..range.start + end
 }
 
-/// The first child of this name.
+/// Returns the first child of this name.
 pub(crate) fn child<'a, 'd>(node: Node<'a, 'd>, name: &str) -> Option<Node<'a, 'd>> {
     node.children()
         .find(|child| child.tag_name().name() == name)

@@ -43,7 +43,7 @@ pub(crate) struct Origin {
 }
 
 impl Origin {
-    /// The placement that it is.
+    /// Returns the placement that it is.
     pub(crate) fn placement(&self) -> Placement {
         Placement {
             xyz: self.xyz.each_ref().map(|x| x.value.clone()),
@@ -53,7 +53,7 @@ impl Origin {
 }
 
 impl Reader<'_, '_, '_> {
-    /// The `origin` of an element; the identity where there is none.
+    /// Reads the `origin` of an element; the identity where there is none.
     pub(crate) fn origin(&mut self, node: Node) -> Option<Origin> {
         let origin = super::child(node, "origin");
         let at = origin.unwrap_or(node);
@@ -79,7 +79,7 @@ impl Reader<'_, '_, '_> {
         })
     }
 
-    /// Three numbers in one attribute.
+    /// Reads three numbers in one attribute.
     pub(crate) fn triple(&mut self, node: Node, key: &str) -> Option<[Number; 3]> {
         let (text, span) = self.attribute(node, key)?;
         self.list(key, text, span)
@@ -120,20 +120,20 @@ impl Reader<'_, '_, '_> {
             .ok()
     }
 
-    /// A number that an attribute may give.
+    /// Reads a number that an attribute may give.
     pub(crate) fn number(&mut self, node: Node, key: &str) -> Option<Number> {
         node.attribute(key)?;
         let (text, span) = self.attribute(node, key)?;
         self.parse(text.trim(), span)
     }
 
-    /// A number that must be there.
+    /// Reads a number that must be there.
     pub(crate) fn required(&mut self, node: Node, key: &str) -> Option<Number> {
         let (text, span) = self.attribute(node, key)?;
         self.parse(text.trim(), span)
     }
 
-    /// The text of an attribute that must be there.
+    /// Reads the text of an attribute that must be there.
     pub(crate) fn attribute<'a>(
         &mut self,
         node: Node<'a, '_>,
@@ -150,7 +150,7 @@ impl Reader<'_, '_, '_> {
         attribute.map(|attribute| (attribute.value(), attribute.range_value()))
     }
 
-    /// The number of a text.
+    /// Reads the number of a text.
     pub(crate) fn parse(&mut self, text: &str, span: Range<usize>) -> Option<Number> {
         match parse_decimal(&spelled_out(text)) {
             Ok(value) => Some(Value {
@@ -167,7 +167,7 @@ impl Reader<'_, '_, '_> {
     }
 }
 
-/// `.5` and `5.` as 0.5 and 5, which other readers take too.
+/// Returns `.5` and `5.` as 0.5 and 5, which other readers take too.
 fn spelled_out(text: &str) -> String {
     let (mantissa, exponent) = match text.find(['e', 'E']) {
         Some(at) => text.split_at(at),

@@ -36,7 +36,7 @@ pub fn json(name: &str) -> Value {
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
-/// The chain of the golden values, every other joint that moves locked at 0.
+/// Returns the chain of the golden values, every other joint that moves locked at 0.
 pub fn snapped(name: &str) -> Options {
     let json = json(name);
     let text = |key: &str| json[key].as_str().unwrap().to_owned();
@@ -70,7 +70,7 @@ pub fn imported(name: &str, options: &Options) -> Imported {
     import(&source, options).unwrap_or_else(|errors| panic!("{}", errors.render(name, &source)))
 }
 
-/// The errors of an import, as they are printed.
+/// Returns the errors of an import, as they are printed.
 pub fn refused(source: &str, options: &Options) -> String {
     match import(source, options) {
         Ok(imported) => panic!("it was imported:\n{}", imported.text),
@@ -82,7 +82,7 @@ pub fn golden(name: &str) -> Golden {
     flat_states(&json(name))
 }
 
-/// The joints and the states of golden values.
+/// Returns the joints and the states of golden values.
 pub fn flat_states(json: &Value) -> Golden {
     let joints = json["joints"].as_array().unwrap();
     let states = json["states"].as_array().unwrap();
@@ -111,7 +111,7 @@ fn flat(json: &Value) -> Vec<f64> {
     }
 }
 
-/// The largest difference relative to the largest entry.
+/// Returns the largest difference relative to the largest entry.
 pub fn relative(found: &[f64], expected: &[f64]) -> f64 {
     assert_eq!(found.len(), expected.len());
     let size = expected.iter().fold(0.0f64, |most, x| most.max(x.abs()));

@@ -24,7 +24,7 @@ fn refused<T: Real>(native: &mut Native, fault: &str, plant: impl FnOnce(&mut Lo
     }
 }
 
-/// An arm's torques.
+/// Returns an arm's torques.
 fn torques(scalar: ScalarType) -> Native {
     let load = Load {
         outputs: Some(vec![crate::Output::InverseDynamics]),
@@ -42,7 +42,7 @@ fn torques(scalar: ScalarType) -> Native {
     native.unwrap()
 }
 
-/// Every instruction that is another one is found by the check, in each code.
+/// Asserts that every instruction that is another one is found by the check, in each code.
 fn every_fault_is_found<T: Real>() {
     let mut native = torques(T::SCALAR);
     for states in LAYOUTS {
@@ -73,7 +73,7 @@ fn a_wrong_instruction_is_found() {
     every_fault_is_found::<f32>();
 }
 
-/// The permissions of the memory at addresses.
+/// Returns the permissions of the memory at addresses.
 #[cfg(target_os = "linux")]
 fn permissions(addresses: &[usize]) -> Vec<Option<String>> {
     let maps = std::fs::read_to_string("/proc/self/maps").unwrap();

@@ -9,7 +9,7 @@ fn scalars() -> Option<Vec<Scalar>> {
     Some(Scalar::ALL.to_vec())
 }
 
-/// All outputs of a robot, at so many states each.
+/// Compares all outputs of a robot, at so many states each.
 fn all_outputs(name: &str, states: usize) {
     let load = Load {
         outputs: Some(Output::ALL.to_vec()),

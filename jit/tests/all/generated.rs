@@ -90,7 +90,7 @@ fn program(arm: &Arm) -> String {
     )
 }
 
-/// A library that this test is linked with, as cargo names it.
+/// Returns a library that this test is linked with, as cargo names it.
 fn library(folder: &Path, name: &str) -> PathBuf {
     let files = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap());
     let is_it = |path: &PathBuf| {
@@ -149,7 +149,7 @@ macro_rules! bytes {
 bytes!(f32);
 bytes!(f64);
 
-/// The arguments of the states of a function, after those of others.
+/// Appends the arguments of the states of a function, after those of others.
 fn put<T: Bytes>(function: &Function, input: &mut Vec<u8>) {
     let states = drawn::<T>(function.native(), STATES, 7);
     for at in 0..STATES {

@@ -19,18 +19,18 @@ pub const STATES: usize = if cfg!(debug_assertions) {
     100_000
 };
 
-/// A file of the project.
+/// Returns a file of the project.
 pub fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name)
 }
 
-/// A robot of `generated/`, with the plan beside its file.
+/// Returns a robot of `generated/`, with the plan beside its file.
 pub fn robot(name: &str, load: &Load) -> Arm {
     let path = path(&format!("generated/robots/{name}.toml"));
     Arm::load(path, load).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-/// Nothing kept.
+/// Returns nothing kept.
 pub fn fresh() -> Load {
     Load {
         cache: Cache::Off,
@@ -63,7 +63,7 @@ impl Drop for Folder {
     }
 }
 
-/// Mostly within the reach; one of 200 is large, tiny, infinite or no number.
+/// Draws an entry, mostly within the reach; one of 200 is large, tiny, infinite or no number.
 fn entry(random: &mut Random, reach: f64) -> f64 {
     const SPECIAL: [f64; 10] = [
         f64::NAN,
@@ -105,13 +105,13 @@ pub fn drawn<T: Real>(native: &Native, states: usize, seed: u64) -> Columns<T> {
     columns
 }
 
-/// Equal bits, or both no number.
+/// Returns whether bits are equal, or both no number.
 pub fn is_same<T: Real>(left: T, right: T) -> bool {
     let (left, right) = (left.to_f64(), right.to_f64());
     left.to_bits() == right.to_bits() || (left.is_nan() && right.is_nan())
 }
 
-/// One state of columns, an array an argument.
+/// Returns one state of columns, an array an argument.
 pub fn state<T: Real>(native: &Native, columns: &Columns<T>, at: usize) -> Vec<Vec<T>> {
     let arguments = native.signature().arguments.iter();
     let of = |&(argument, _): &(Argument, usize)| {
@@ -123,7 +123,7 @@ pub fn state<T: Real>(native: &Native, columns: &Columns<T>, at: usize) -> Vec<V
     arguments.map(of).collect()
 }
 
-/// The code for many states, its arguments and results as columns or as rows.
+/// Returns the code for many states, its arguments and results as columns or as rows.
 pub fn called<T: Real>(
     native: &Native,
     columns: &Columns<T>,

@@ -66,7 +66,7 @@ pub enum JointPosition<S> {
 }
 
 impl<S: Scalar> JointPosition<S> {
-    /// Where a joint is that follows one here, but for its offset, which is its row's.
+    /// Returns where a joint is that follows one here, but for its offset, which is its row's.
     #[must_use]
     pub fn followed_by(&self, follower: &Following<S>) -> JointPosition<S> {
         match self {
@@ -95,7 +95,7 @@ pub struct DhVariables<S> {
 }
 
 impl<S: Scalar> Arm<S> {
-    /// θ_i and d_i of every row at a position.
+    /// Returns θ_i and d_i of every row at a position.
     ///
     /// The offset enters as a product of pairs, never as a sum of angles:
     /// q + offset would lose |q|·u, or |offset|·u, of the angle.
@@ -167,7 +167,7 @@ impl<S: Clone> Arm<S> {
 }
 
 impl<S: Scalar> Link<S> {
-    /// A link without mass on a slide whose frame, at position zero, is the one
+    /// Returns a link without mass on a slide whose frame, at position zero, is the one
     /// before.
     pub fn still() -> Link<S> {
         let straight = || SinCosPair {
@@ -195,7 +195,7 @@ impl<S: Scalar> Link<S> {
 /// Pairs are converted entry by entry: a conversion that rounds leaves them on
 /// the circle only to its own accuracy.
 impl<S> Arm<S> {
-    /// Every parameter of the arm through `f`.
+    /// Returns every parameter of the arm through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Arm<T> {
         Arm {
             convention: self.convention,
@@ -210,7 +210,7 @@ impl<S> Arm<S> {
 }
 
 impl<S> Link<S> {
-    /// Every parameter of the link through `f`.
+    /// Returns every parameter of the link through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Link<T> {
         Link {
             kind: self.kind,
@@ -231,7 +231,7 @@ impl<S> Link<S> {
 /// The step from frame i−1 to frame i at a position: ⁱ⁻¹A_i, applied factor by
 /// factor, so that each is a plane rotation or a shift along one axis.
 impl<S: Scalar> Link<S> {
-    /// M ⁱ⁻¹A_i (eq. 2.1), with the turn about y where a link has one.
+    /// Returns M ⁱ⁻¹A_i (eq. 2.1), with the turn about y where a link has one.
     pub fn append(
         &self,
         convention: Convention,
@@ -259,7 +259,7 @@ impl<S: Scalar> Link<S> {
         }
     }
 
-    /// ⁱR_{i−1} v: components from frame i−1 into frame i.
+    /// Returns ⁱR_{i−1} v: components from frame i−1 into frame i.
     pub fn to_link(&self, convention: Convention, at: &DhVariables<S>, v: &Vector<S>) -> Vector<S> {
         match convention {
             Convention::Standard => {
@@ -269,7 +269,7 @@ impl<S: Scalar> Link<S> {
         }
     }
 
-    /// ⁱ⁻¹R_i v: components from frame i into frame i−1.
+    /// Returns ⁱ⁻¹R_i v: components from frame i into frame i−1.
     pub fn to_previous(
         &self,
         convention: Convention,
@@ -284,7 +284,7 @@ impl<S: Scalar> Link<S> {
 }
 
 impl<S: Scalar> Link<S> {
-    /// Ry(β) v
+    /// Returns Ry(β) v
     fn tilt(&self, v: Vector<S>) -> Vector<S> {
         match &self.beta {
             None => v,
@@ -292,7 +292,7 @@ impl<S: Scalar> Link<S> {
         }
     }
 
-    /// Ry(−β) v: from the axes after the twist into those of frame i.
+    /// Returns Ry(−β) v: from the axes after the twist into those of frame i.
     pub(super) fn tilt_back(&self, v: Vector<S>) -> Vector<S> {
         match &self.beta {
             None => v,
@@ -346,7 +346,7 @@ impl<S: Clone> Arm<S> {
         Some(arm)
     }
 
-    /// The arm and its position without the links behind the hand.
+    /// Returns the arm and its position without the links behind the hand.
     pub(super) fn to_hand<'a>(
         &'a self,
         at: &'a [DhVariables<S>],

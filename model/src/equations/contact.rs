@@ -16,7 +16,7 @@ use crate::robot::{Convention, JointKind};
 use crate::scalar::{Divide, Scalar};
 
 impl Formulation {
-    /// Jᵀ w of a wrench of six components, a torque or force a joint: the recursions in
+    /// Returns Jᵀ w of a wrench of six components, a torque or force a joint: the recursions in
     /// link axes carry the wrench along the chain, the others multiply by J.
     pub fn torques_of_wrench<S: Scalar>(
         self,
@@ -41,7 +41,7 @@ impl Formulation {
         }
     }
 
-    /// The wrench of the least |Jᵀ w − τ|² + λ² |w|², from torques that are its alone:
+    /// Returns the wrench of the least |Jᵀ w − τ|² + λ² |w|², from torques that are its alone:
     /// (J Jᵀ + λ² 1)⁻¹ J τ of the joints that move.
     ///
     /// The pivots of J Jᵀ + λ² 1 are λ² at least; with λ² = 0 they vanish where J loses
@@ -58,7 +58,7 @@ impl Formulation {
         Factor::new(&matrix).solve(&products(&j, tau))
     }
 
-    /// J of the components that are asked for, zero of joints that do not move.
+    /// Returns J of the components that are asked for, zero of joints that do not move.
     pub fn moving_jacobian<S: Scalar>(
         self,
         arm: &Arm<S>,
@@ -75,14 +75,14 @@ impl Formulation {
     }
 }
 
-/// J Jᵀ
+/// Returns J Jᵀ
 pub fn squared<S: Scalar>(j: &[Vec<S>]) -> Vec<Vec<S>> {
     symmetric(j.len(), |i, k| {
         total(j[i].iter().zip(&j[k]).map(|(a, b)| times(a, b)))
     })
 }
 
-/// The torques of the joints up to the hand.
+/// Returns the torques of the joints up to the hand.
 fn along_links<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: &[S]) -> Vec<S> {
     let (arm, at) = arm.to_hand(at);
     let part = |from: usize| -> Vector<S> { core::array::from_fn(|i| wrench[from + i].clone()) };
@@ -101,7 +101,7 @@ fn along_links<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: &[S]) -> 
     }
 }
 
-/// What a joint that acts along z of a frame feels of a wrench about its origin.
+/// Returns what a joint that acts along z of a frame feels of a wrench about its origin.
 fn felt<S: Scalar>(link: &Link<S>, wrench: &Wrench<S>) -> S {
     match link.kind {
         JointKind::Revolute => wrench.moment[2].clone(),
@@ -109,7 +109,7 @@ fn felt<S: Scalar>(link: &Link<S>, wrench: &Wrench<S>) -> S {
     }
 }
 
-/// The wrench in each link's axes, from the hand inward.
+/// Returns the wrench in each link's axes, from the hand inward.
 fn from_the_hand<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: Wrench<S>) -> Vec<S> {
     let mut wrench = match &arm.tool {
         None => wrench,
@@ -130,7 +130,7 @@ fn from_the_hand<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: Wrench<
     torques
 }
 
-/// A wrench about a frame's origin in its axes, about that and in those of the frame that
+/// Returns a wrench about a frame's origin in its axes, about that and in those of the frame that
 /// it is turned into, in which it is at `origin`.
 fn carried<S: Scalar>(
     wrench: &Wrench<S>,
@@ -144,7 +144,8 @@ fn carried<S: Scalar>(
     }
 }
 
-/// A wrench about the base's origin in base axes, in each link's axes, from the base outward.
+/// Returns a wrench about the base's origin in base axes, in each link's axes, from the base
+/// outward.
 fn from_the_base<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: Wrench<S>) -> Vec<S> {
     let outward = |wrench: &Wrench<S>, origin: &Vector<S>| Wrench {
         moment: difference(&wrench.moment, &cross(origin, &wrench.force)),

@@ -37,7 +37,7 @@ pub enum Part {
 }
 
 impl Part {
-    /// The arm whose links have this alone; drives left out.
+    /// Returns the arm whose links have this alone; drives left out.
     pub fn of<S: Scalar>(self, arm: &Arm<S>) -> Arm<S> {
         let mut arm = arm.clone().without_friction();
         for link in &mut arm.links {
@@ -75,7 +75,7 @@ pub struct Dalembert<'a, S> {
 }
 
 impl<'a, S: Scalar> Dalembert<'a, S> {
-    /// The shared quantities at a position.
+    /// Returns the shared quantities at a position.
     pub fn new(arm: &'a Arm<S>, at: &'a [DhVariables<S>]) -> Self {
         let n = arm.links.len();
         let mut this = Dalembert {
@@ -146,7 +146,7 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
         self.poses.push(pose);
     }
 
-    /// D^rot_ij = Σ_s (ˢR_0 z_{i−1})ᵀ I_s (ˢR_0 z_{j−1}) and
+    /// Returns D^rot_ij = Σ_s (ˢR_0 z_{i−1})ᵀ I_s (ˢR_0 z_{j−1}) and
     /// D^tran_ij = Σ_s m_s Jv_{s,j} · Jv_{s,i}, s ≥ max(i,j), n×n (eq. 4.2),
     /// without the armature.
     pub fn inertia_parts(&self) -> Split<Vec<Vec<S>>> {
@@ -162,7 +162,7 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
         }
     }
 
-    /// D = D^rot + D^tran, n×n, armature on the diagonal.
+    /// Returns D = D^rot + D^tran, n×n, armature on the diagonal.
     pub fn inertia(&self) -> Vec<Vec<S>> {
         let parts = self.inertia_parts();
         let rows = parts.rotation.iter().zip(&parts.translation);
@@ -171,7 +171,7 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
         d
     }
 
-    /// h^rot and h^tran (eqs. 4.3, 4.4), each of length n.
+    /// Returns h^rot and h^tran (eqs. 4.3, 4.4), each of length n.
     pub fn velocity_parts(&self, qd: &[S]) -> Split<Vec<S>> {
         let n = self.axes.len();
         // What link s adds to every joint before it: the moment
@@ -224,13 +224,13 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
         }
     }
 
-    /// h = h^rot + h^tran.
+    /// Returns h = h^rot + h^tran.
     pub fn velocity_terms(&self, qd: &[S]) -> Vec<S> {
         let parts = self.velocity_parts(qd);
         sums(&parts.rotation, &parts.translation)
     }
 
-    /// c_i = −g·[z_{i−1} × Σ_{j≥i} m_j (r_j − p_{i−1})] for a rotary joint,
+    /// Returns c_i = −g·[z_{i−1} × Σ_{j≥i} m_j (r_j − p_{i−1})] for a rotary joint,
     /// −(g·z_{i−1}) Σ_{j≥i} m_j for a prismatic one (eq. 4.5).
     pub fn gravity(&self) -> Vec<S> {
         let n = self.axes.len();
@@ -248,7 +248,7 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
         (0..n).map(of).collect()
     }
 
-    /// J_nᵀ (f, n): the torques that hold a wrench at the origin of frame n,
+    /// Returns J_nᵀ (f, n): the torques that hold a wrench at the origin of frame n,
     /// in base axes.
     pub fn tip_torques(&self, tip: &Wrench<S>) -> Vec<S> {
         let hand = &self.poses[self.axes.len()].origin;
@@ -268,28 +268,28 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
             .collect()
     }
 
-    /// τ_i = Σ_k D_ik q̈_k + h_i + c_i + b_i q̇_i (eq. 4.1).
+    /// Returns τ_i = Σ_k D_ik q̈_k + h_i + c_i + b_i q̇_i (eq. 4.1).
     pub fn inverse_dynamics(&self, qd: &[S], qdd: &[S]) -> Vec<S> {
         let [h, c] = [self.velocity_terms(qd), self.gravity()];
         assemble(self.arm, &self.inertia(), &h, &c, qd, qdd)
     }
 }
 
-/// [i][j] = Σ_{s ≥ max(i,j)} a[s][i] · b[s][j], symmetric by its meaning: the
+/// Returns [i][j] = Σ_{s ≥ max(i,j)} a[s][i] · b[s][j], symmetric by its meaning: the
 /// lower half is summed, the upper cloned.
 fn pair_sums<S: Scalar>(a: &[Vec<Vector<S>>], b: &[Vec<Vector<S>>]) -> Vec<Vec<S>> {
     let n = a.len();
     symmetric(n, |i, j| total((i..n).map(|s| dot(&a[s][i], &b[s][j]))))
 }
 
-/// [i] = Σ_{s ≥ i} a[s][i] · b[s]
+/// Returns [i] = Σ_{s ≥ i} a[s][i] · b[s]
 fn joint_sums<S: Scalar>(a: &[Vec<Vector<S>>], b: &[Vector<S>]) -> Vec<S> {
     let n = b.len();
     let of_joint = |i: usize| total((i..n).map(|s| dot(&a[s][i], &b[s])));
     (0..n).map(of_joint).collect()
 }
 
-/// a + b, entry by entry.
+/// Returns a + b, entry by entry.
 fn sums<S: Scalar>(a: &[S], b: &[S]) -> Vec<S> {
     a.iter().zip(b).map(|(a, b)| plus(a, b)).collect()
 }

@@ -10,7 +10,7 @@ use crate::scalar::Scalar;
 use crate::scalar::dual::Dual;
 
 impl Formulation {
-    /// ∂τ/∂q, n×n: row i has the slopes of τ_i.
+    /// Returns ∂τ/∂q, n×n: row i has the slopes of τ_i.
     pub fn torque_by_position<S: Scalar>(
         self,
         arm: &Arm<S>,
@@ -27,7 +27,7 @@ impl Formulation {
         )
     }
 
-    /// ∂τ/∂q̇, n×n, what friction grows by on its diagonal. What q̈ and gravity add to the
+    /// Returns ∂τ/∂q̇, n×n, what friction grows by on its diagonal. What q̈ and gravity add to the
     /// torques does not depend on q̇ and is left out. Lagrange–Euler has it from
     /// the symbols: Σ_m (h_ikm + h_imk) q̇_m = 2 C_ik.
     pub fn torque_by_velocity<S: Scalar>(
@@ -48,7 +48,7 @@ impl Formulation {
     }
 }
 
-/// ∂τ/∂q of any τ(q, q̇, q̈): joint by joint as it moves at a unit rate.
+/// Returns ∂τ/∂q of any τ(q, q̇, q̈): joint by joint as it moves at a unit rate.
 pub fn by_position<S: Scalar>(
     torques: impl Fn(&Arm<Dual<S>>, &[DhVariables<Dual<S>>], &[Dual<S>], &[Dual<S>]) -> Vec<Dual<S>>,
     arm: &Arm<S>,
@@ -65,7 +65,7 @@ pub fn by_position<S: Scalar>(
     })
 }
 
-/// ∂(h + (b + F∘r)∘q̇)/∂q̇ of any h(q, q̇): joint by joint as its velocity grows at a
+/// Returns ∂(h + (b + F∘r)∘q̇)/∂q̇ of any h(q, q̇): joint by joint as its velocity grows at a
 /// unit rate.
 pub fn by_velocity<S: Scalar>(
     velocity_terms: impl Fn(&Arm<Dual<S>>, &[DhVariables<Dual<S>>], &[Dual<S>]) -> Vec<Dual<S>>,
@@ -97,7 +97,7 @@ fn constants<S: Scalar>(values: &[S]) -> Vec<Dual<S>> {
     values.iter().cloned().map(Dual::constant).collect()
 }
 
-/// The rates of change of columns, row by row.
+/// Returns the rates of change of columns, row by row.
 pub(super) fn columns<S: Scalar>(n: usize, column: impl Fn(usize) -> Vec<Dual<S>>) -> Vec<Vec<S>> {
     let columns: Vec<Vec<Dual<S>>> = (0..n).map(column).collect();
     let row = |i: usize| {

@@ -13,7 +13,7 @@ use crate::scalar::Scalar;
 use crate::scalar::dual::Dual;
 
 impl Formulation {
-    /// p = D q̇, length n. A recursion gives it as the torques that would
+    /// Returns p = D q̇, length n. A recursion gives it as the torques that would
     /// accelerate the arm at rest, weightless, as fast as it moves.
     pub fn momentum<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S]) -> Vec<S> {
         match self {
@@ -29,13 +29,13 @@ impl Formulation {
         }
     }
 
-    /// T = ½ q̇ᵀ D q̇, the rotors' part included.
+    /// Returns T = ½ q̇ᵀ D q̇, the rotors' part included.
     pub fn kinetic_energy<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S]) -> S {
         let p = self.momentum(arm, at, qd);
         halved(&total(p.iter().zip(qd).map(|(p, qd)| times(p, qd))))
     }
 
-    /// Cᵀ q̇ = ∂T/∂q, length n: Lagrange–Euler from the Christoffel symbols;
+    /// Returns Cᵀ q̇ = ∂T/∂q, length n: Lagrange–Euler from the Christoffel symbols;
     /// elsewhere Ḋ q̇ − h, where Ḋ q̇ is the rate of the momentum of a motion
     /// that keeps its velocities.
     pub fn momentum_slope<S: Scalar>(
@@ -56,7 +56,7 @@ impl Formulation {
         p.iter().zip(&h).map(|(p, h)| minus(&p.rate, h)).collect()
     }
 
-    /// C, n×n: C_ik = Σ_m h_ikm q̇_m, so that C q̇ = h and Ḋ − 2C is skew.
+    /// Returns C, n×n: C_ik = Σ_m h_ikm q̇_m, so that C q̇ = h and Ḋ − 2C is skew.
     pub fn coriolis_matrix<S: Scalar>(
         self,
         arm: &Arm<S>,
@@ -66,7 +66,7 @@ impl Formulation {
         contracted(&self.christoffel(arm, at), qd)
     }
 
-    /// D a + C v + c + (b + F∘r)∘v, length n: Coulomb friction is taken as the
+    /// Returns D a + C v + c + (b + F∘r)∘v, length n: Coulomb friction is taken as the
     /// damping that it is at q̇, as C is taken at q̇. A recursion gives C v, which is bilinear
     /// in q̇ and v, as h of half their sum less h of half their difference.
     pub fn passivity<S: Scalar>(
@@ -100,7 +100,7 @@ impl Formulation {
         damped.collect()
     }
 
-    /// D^rot or D^tran, n×n, the armature in neither.
+    /// Returns D^rot or D^tran, n×n, the armature in neither.
     pub fn inertia_part<S: Scalar>(
         self,
         part: Part,
@@ -117,7 +117,7 @@ impl Formulation {
         }
     }
 
-    /// h^rot or h^tran, length n.
+    /// Returns h^rot or h^tran, length n.
     pub fn velocity_part<S: Scalar>(
         self,
         part: Part,
@@ -135,7 +135,7 @@ impl Formulation {
         }
     }
 
-    /// U = −Σ_j m_j g·r_j, r_j from the origin of the base, not of frame 0:
+    /// Returns U = −Σ_j m_j g·r_j, r_j from the origin of the base, not of frame 0:
     /// Lagrange–Euler from the pose of each link; elsewhere from first moments,
     /// gathered from the hand inward.
     pub fn potential_energy<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> S {
@@ -147,13 +147,13 @@ impl Formulation {
     }
 }
 
-/// C_ik = Σ_m h_ikm q̇_m
+/// Returns C_ik = Σ_m h_ikm q̇_m
 pub fn contracted<S: Scalar>(h: &[Vec<Vec<S>>], qd: &[S]) -> Vec<Vec<S>> {
     let entry = |row: &Vec<S>| total(row.iter().zip(qd).map(|(h, qd)| times(h, qd)));
     h.iter().map(|h| h.iter().map(entry).collect()).collect()
 }
 
-/// The arm and its position as they change at these velocities.
+/// Returns the arm and its position as they change at these velocities.
 pub(super) fn moving<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
@@ -176,7 +176,7 @@ pub(super) fn moving<S: Scalar>(
     (arm.map(|x| Dual::constant(x.clone())), at.collect())
 }
 
-/// From the base's origin to that of frame 0, in the axes of frame 0.
+/// Returns the lever from the base's origin to that of frame 0, in the axes of frame 0.
 fn base_lever<S: Scalar>(arm: &Arm<S>) -> Vector<S> {
     match &arm.base {
         None => zero_vector(),
@@ -184,7 +184,7 @@ fn base_lever<S: Scalar>(arm: &Arm<S>) -> Vector<S> {
     }
 }
 
-/// Σ_j m_j r_j from the base's origin in the axes of frame 0, link by link.
+/// Returns Σ_j m_j r_j from the base's origin in the axes of frame 0, link by link.
 fn first_moment_by_poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vector<S> {
     let mut pose = Columns {
         origin: base_lever(arm),

@@ -52,12 +52,12 @@ impl<S: Divide> Factor<S> {
         }
     }
 
-    /// d
+    /// Returns d
     pub fn pivots(&self) -> &[S] {
         &self.pivots
     }
 
-    /// x with D x = b.
+    /// Returns x with D x = b.
     pub fn solve(&self, b: &[S]) -> Vec<S> {
         self.substituted(self.eliminate(b, |k, x| match k {
             0 => over(x, &self.pivots[0]),
@@ -65,18 +65,18 @@ impl<S: Divide> Factor<S> {
         }))
     }
 
-    /// U⁻¹ b
+    /// Returns U⁻¹ b
     pub fn eliminated(&self, b: &[S]) -> Vec<S> {
         self.eliminate(b, |_, x| x.clone())
     }
 
-    /// diag(1/d) x
+    /// Returns diag(1/d) x
     pub fn scaled(&self, x: &[S]) -> Vec<S> {
         let pairs = x.iter().zip(&self.inverses);
         pairs.map(|(x, inverse)| times(x, inverse)).collect()
     }
 
-    /// U⁻ᵀ x
+    /// Returns U⁻ᵀ x
     pub fn substituted(&self, mut x: Vec<S>) -> Vec<S> {
         for k in 1..x.len() {
             for i in 0..k {
@@ -86,7 +86,7 @@ impl<S: Divide> Factor<S> {
         x
     }
 
-    /// U⁻¹ b, each entry through `then` once it has been eliminated from the others.
+    /// Returns U⁻¹ b, each entry through `then` once it has been eliminated from the others.
     fn eliminate(&self, b: &[S], then: impl Fn(usize, &S) -> S) -> Vec<S> {
         let mut x = b.to_vec();
         for k in (0..x.len()).rev() {
@@ -98,7 +98,7 @@ impl<S: Divide> Factor<S> {
         x
     }
 
-    /// D⁻¹ = U⁻ᵀ diag(1/d) U⁻¹, n×n, symmetric.
+    /// Returns D⁻¹ = U⁻ᵀ diag(1/d) U⁻¹, n×n, symmetric.
     pub fn inverse(&self) -> Vec<Vec<S>> {
         let n = self.pivots.len();
         // [k][i] = (U⁻¹)_ik, i ≤ k: U U⁻¹ = 1 column by column.
@@ -124,13 +124,13 @@ impl<S: Divide> Factor<S> {
     }
 }
 
-/// A matrix over these joints alone.
+/// Returns a matrix over these joints alone.
 pub fn submatrix<S: Scalar>(matrix: &[Vec<S>], joints: &[usize]) -> Vec<Vec<S>> {
     let row = |&i: &usize| joints.iter().map(|&k| matrix[i][k].clone()).collect();
     joints.iter().map(row).collect()
 }
 
-/// A vector of n entries that has these at these joints, and zeros elsewhere.
+/// Returns a vector of n entries that has these at these joints, and zeros elsewhere.
 pub fn scatter<S: Scalar>(values: &[S], joints: &[usize], n: usize) -> Vec<S> {
     let mut all = alloc::vec![S::zero(); n];
     for (value, &joint) in values.iter().zip(joints) {

@@ -30,7 +30,7 @@ pub struct Following<S> {
 }
 
 impl<S> Following<S> {
-    /// Those of a robot, multipliers sent through `scalar`.
+    /// Returns those of a robot, multipliers sent through `scalar`.
     pub fn of(robot: &Robot, scalar: &mut impl FnMut(&Exact) -> S) -> Vec<Following<S>> {
         let followers = robot.followers.iter();
         let following = followers.map(|follower| Following {
@@ -42,7 +42,7 @@ impl<S> Following<S> {
         following.collect()
     }
 
-    /// The multiplier through `f`.
+    /// Returns the multiplier through `f`.
     pub fn map<T>(&self, f: impl FnOnce(&S) -> T) -> Following<T> {
         Following {
             row: self.row,
@@ -54,7 +54,7 @@ impl<S> Following<S> {
 }
 
 impl<S: Clone> Following<S> {
-    /// The same among these rows alone, by their places there; none if it is not one.
+    /// Returns the same among these rows alone, by their places there; none if it is not one.
     pub fn among(&self, rows: &[usize]) -> Option<Following<S>> {
         let place = |row: usize| rows.iter().position(|own| *own == row);
         Some(Following {
@@ -66,7 +66,7 @@ impl<S: Clone> Following<S> {
 }
 
 impl<S: Scalar> Following<S> {
-    /// Its motion, from that of its leader.
+    /// Returns its motion, from that of its leader.
     pub fn motion(&self, leader: &S) -> S {
         times(&self.multiplier, leader)
     }
@@ -93,7 +93,7 @@ pub fn gather<S: Scalar>(
     }
 }
 
-/// Sᵀ b
+/// Returns Sᵀ b
 pub fn gathered<S: Scalar>(following: &[Following<S>], mut loads: Vec<S>) -> Vec<S> {
     for own in following {
         let part = own.motion(&loads[own.row]);
@@ -102,13 +102,13 @@ pub fn gathered<S: Scalar>(following: &[Following<S>], mut loads: Vec<S>) -> Vec
     loads
 }
 
-/// M S
+/// Returns M S
 pub fn gathered_rows<S: Scalar>(following: &[Following<S>], rows: Vec<Vec<S>>) -> Vec<Vec<S>> {
     let rows = rows.into_iter();
     rows.map(|row| gathered(following, row)).collect()
 }
 
-/// Sᵀ M
+/// Returns Sᵀ M
 pub fn gathered_columns<S: Scalar>(
     following: &[Following<S>],
     mut rows: Vec<Vec<S>>,
@@ -123,12 +123,12 @@ pub fn gathered_columns<S: Scalar>(
     rows
 }
 
-/// Sᵀ D S, symmetric.
+/// Returns Sᵀ D S, symmetric.
 pub fn gathered_square<S: Scalar>(following: &[Following<S>], d: Vec<Vec<S>>) -> Vec<Vec<S>> {
     gathered_columns(following, gathered_rows(following, d))
 }
 
-/// S ċ, from rates whose entries of followers mean nothing.
+/// Returns S ċ, from rates whose entries of followers mean nothing.
 pub fn spread<S: Scalar>(following: &[Following<S>], mut rates: Vec<S>) -> Vec<S> {
     for own in following {
         rates[own.row] = own.motion(&rates[own.leader]);

@@ -42,7 +42,7 @@ impl Formulation {
         matches!(self, Self::LagrangeEuler | Self::Dalembert)
     }
 
-    /// τ = D q̈ + h + c + b∘q̇, length n.
+    /// Returns τ = D q̈ + h + c + b∘q̇, length n.
     pub fn inverse_dynamics<S: Scalar>(
         self,
         arm: &Arm<S>,
@@ -67,7 +67,7 @@ impl Formulation {
         }
     }
 
-    /// D, n×n, symmetric, armature on the diagonal.
+    /// Returns D, n×n, symmetric, armature on the diagonal.
     pub fn inertia<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
         match self {
             Self::LagrangeEuler => LagrangeEuler::new(arm, at).inertia(),
@@ -80,7 +80,7 @@ impl Formulation {
         }
     }
 
-    /// h_i = Σ_k Σ_m h_ikm q̇_k q̇_m, length n, without damping.
+    /// Returns h_i = Σ_k Σ_m h_ikm q̇_k q̇_m, length n, without damping.
     pub fn velocity_terms<S: Scalar>(
         self,
         arm: &Arm<S>,
@@ -101,7 +101,7 @@ impl Formulation {
         }
     }
 
-    /// c, length n.
+    /// Returns c, length n.
     pub fn gravity<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<S> {
         match self {
             Self::LagrangeEuler => LagrangeEuler::new(arm, at).gravity(),
@@ -114,7 +114,7 @@ impl Formulation {
         }
     }
 
-    /// `h[i][k][m]` = h_ikm, n×n×n, symmetric in k and m.
+    /// Returns `h[i][k][m]` = h_ikm, n×n×n, symmetric in k and m.
     pub fn christoffel<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<Vec<S>>> {
         match self {
             Self::LagrangeEuler => LagrangeEuler::new(arm, at).christoffel(),

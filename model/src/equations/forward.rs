@@ -14,13 +14,13 @@ use super::{Arm, DhVariables, Formulation};
 use crate::scalar::dual::Dual;
 use crate::scalar::{Divide, Scalar};
 
-/// The joints that move, zero-based.
+/// Returns the joints that move, zero-based.
 pub fn free(moves: &[bool]) -> Vec<usize> {
     let joints = moves.iter().enumerate();
     joints.filter_map(|(i, moves)| moves.then_some(i)).collect()
 }
 
-/// D q̈ = τ − (h + c + b∘q̇) over the joints that move, solved for q̈.
+/// Returns D q̈ = τ − (h + c + b∘q̇) over the joints that move, solved for q̈.
 pub fn solved<S: Divide>(d: &[Vec<S>], bias: &[S], tau: &[S], moves: &[bool]) -> Vec<S> {
     let free = free(moves);
     let load = free.iter().map(|&i| minus(&tau[i], &bias[i]));
@@ -29,7 +29,7 @@ pub fn solved<S: Divide>(d: &[Vec<S>], bias: &[S], tau: &[S], moves: &[bool]) ->
     scatter(&accelerations, &free, moves.len())
 }
 
-/// D⁻¹ over the joints that move; zero in the rows and columns of the others.
+/// Returns D⁻¹ over the joints that move; zero in the rows and columns of the others.
 pub fn inverted<S: Divide>(d: &[Vec<S>], moves: &[bool]) -> Vec<Vec<S>> {
     let (free, n) = (free(moves), moves.len());
     let inverse = Factor::new(&submatrix(d, &free)).inverse();
@@ -41,7 +41,7 @@ pub fn inverted<S: Divide>(d: &[Vec<S>], moves: &[bool]) -> Vec<Vec<S>> {
     all
 }
 
-/// −D⁻¹ times the slopes of the torques: those of q̈.
+/// Returns −D⁻¹ times the slopes of the torques: those of q̈.
 pub fn against<S: Scalar>(inverse: &[Vec<S>], slopes: &[Vec<S>]) -> Vec<Vec<S>> {
     let entry = |row: &[S], k: usize| {
         let products = row.iter().zip(slopes);
@@ -51,7 +51,7 @@ pub fn against<S: Scalar>(inverse: &[Vec<S>], slopes: &[Vec<S>]) -> Vec<Vec<S>> 
     inverse.iter().map(row).collect()
 }
 
-/// The torques of Coulomb friction and what each grows by with its velocity;
+/// Returns the torques of Coulomb friction and what each grows by with its velocity;
 /// zero of a joint without.
 fn rubbed<S: Scalar>(arm: &Arm<S>, qd: &[S]) -> Vec<[S; 2]> {
     let links = arm.links.iter().zip(qd);
@@ -64,12 +64,12 @@ fn rubbed<S: Scalar>(arm: &Arm<S>, qd: &[S]) -> Vec<[S; 2]> {
 }
 
 impl Formulation {
-    /// Sᵀ D S, n×n: D gathered at the leaders of joints that follow.
+    /// Returns Sᵀ D S, n×n: D gathered at the leaders of joints that follow.
     pub fn gathered_inertia<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
         gathered_square(&arm.following, self.inertia(arm, at))
     }
 
-    /// q̈ of the joints that move under τ, zero of the others, which are held
+    /// Returns q̈ of the joints that move under τ, zero of the others, which are held
     /// where they are, or follow.
     pub fn forward_dynamics<S: Divide>(
         self,
@@ -88,7 +88,7 @@ impl Formulation {
         solved(&d, &bias, &tau, moves)
     }
 
-    /// D⁻¹ over the joints that move; zero in the rows and columns of the
+    /// Returns D⁻¹ over the joints that move; zero in the rows and columns of the
     /// others. A recursion gives its columns as the accelerations under unit
     /// torques, at rest and without weight.
     pub fn inertia_inverse<S: Divide>(
@@ -113,7 +113,7 @@ impl Formulation {
         (0..n).map(row).collect()
     }
 
-    /// ∂q̈/∂q and ∂q̈/∂q̇, n×n each: closed forms from the slopes of τ at the
+    /// Returns ∂q̈/∂q and ∂q̈/∂q̇, n×n each: closed forms from the slopes of τ at the
     /// motion that τ brings about, recursions by duals.
     pub fn acceleration_slopes<S: Divide>(
         self,

@@ -29,7 +29,7 @@ impl Axes {
         ("world", Axes::World),
     ];
 
-    /// Its word.
+    /// Returns its word.
     pub fn word(self) -> &'static str {
         let mut all = Axes::WORDS.into_iter();
         all.find(|(_, axes)| *axes == self)
@@ -57,7 +57,7 @@ impl Rows {
     const GROUPS: [(&'static str, Rows); 2] =
         [("linear", Rows(0b00_0111)), ("angular", Rows(0b11_1000))];
 
-    /// The components of a word: `linear`, `angular`, or names with `_` between, in their
+    /// Returns the components of a word: `linear`, `angular`, or names with `_` between, in their
     /// order, such as `x_y_rz`.
     pub fn of(word: &str) -> Option<Rows> {
         if let Some((_, rows)) = Rows::GROUPS.into_iter().find(|(name, _)| *name == word) {
@@ -75,7 +75,7 @@ impl Rows {
         Some(Rows(rows))
     }
 
-    /// Its word.
+    /// Returns its word.
     pub fn word(self) -> String {
         match Rows::GROUPS.into_iter().find(|(_, rows)| *rows == self) {
             Some((name, _)) => name.into(),
@@ -86,17 +86,17 @@ impl Rows {
         }
     }
 
-    /// The places of the components among six.
+    /// Returns the places of the components among six.
     pub fn indices(self) -> impl Iterator<Item = usize> + Clone {
         (0..6).filter(move |row| self.0 >> row & 1 == 1)
     }
 
-    /// The number of components.
+    /// Returns the number of components.
     pub fn count(self) -> usize {
         self.0.count_ones() as usize
     }
 
-    /// These of six.
+    /// Returns these of six.
     pub fn pick<T: Clone>(self, six: &[T]) -> Vec<T> {
         self.indices()
             .filter_map(|row| six.get(row).cloned())
@@ -155,7 +155,7 @@ impl<S> Default for Frames<S> {
 }
 
 impl<S> Frames<S> {
-    /// Every number through `f`.
+    /// Returns every number through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Frames<T> {
         let links = self.links.iter();
         let links = links.map(|pose| pose.as_ref().map(|pose| pose.map(&mut f)));

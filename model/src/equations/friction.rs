@@ -40,7 +40,7 @@ pub struct Coulomb<S> {
     pub per_speed: S,
 }
 
-/// 1/√(q̇² + w²), from w². The sum is not zero, since w is not.
+/// Returns 1/√(q̇² + w²), from w². The sum is not zero, since w is not.
 pub fn per_speed<S: Divide>(qd: &S, square_of_width: &S, sqrt: impl Fn(&S) -> S) -> S {
     S::one().div(&sqrt(&qd.mul(qd).add(square_of_width)))
 }
@@ -54,7 +54,7 @@ impl<S: Scalar> Friction<S> {
         }
     }
 
-    /// b + F r: what the velocity is multiplied by.
+    /// Returns b + F r: what the velocity is multiplied by.
     pub fn damping(&self) -> S {
         match &self.coulomb {
             None => self.viscous.clone(),
@@ -62,12 +62,12 @@ impl<S: Scalar> Friction<S> {
         }
     }
 
-    /// (b + F r) q̇: what the drive takes at a velocity, N·m or N.
+    /// Returns (b + F r) q̇: what the drive takes at a velocity, N·m or N.
     pub fn torque(&self, qd: &S) -> S {
         times(&self.damping(), qd)
     }
 
-    /// ∂((b + F r) q̇)/∂q̇ = b + F r (w r)²: what that grows by with the velocity.
+    /// Returns ∂((b + F r) q̇)/∂q̇ = b + F r (w r)²: what that grows by with the velocity.
     pub fn slope(&self) -> S {
         match &self.coulomb {
             None => self.viscous.clone(),
@@ -100,7 +100,7 @@ impl<S: Clone> Friction<S> {
 }
 
 impl<S: Divide> Friction<S> {
-    /// r at a velocity; none where there is no Coulomb friction that reads it.
+    /// Returns r at a velocity; none where there is no Coulomb friction that reads it.
     pub fn per_speed(&self, qd: &S, sqrt: impl Fn(&S) -> S) -> Option<S> {
         let Coulomb { width, .. } = self.coulomb.as_ref()?;
         Some(per_speed(qd, &width.mul(width), sqrt))
@@ -108,7 +108,7 @@ impl<S: Divide> Friction<S> {
 }
 
 impl<S> Friction<S> {
-    /// Every number through `f`.
+    /// Returns every number through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Friction<T> {
         Friction {
             viscous: f(&self.viscous),
@@ -122,12 +122,12 @@ impl<S> Friction<S> {
 }
 
 impl<S: Scalar> Coulomb<S> {
-    /// F r: the damping that it is at its velocity.
+    /// Returns F r: the damping that it is at its velocity.
     fn damping(&self) -> S {
         times(&self.force, &self.per_speed)
     }
 
-    /// F r q̇, N·m or N.
+    /// Returns F r q̇, N·m or N.
     pub fn torque(&self, qd: &S) -> S {
         times(&self.damping(), qd)
     }

@@ -10,7 +10,7 @@ use crate::robot::{Placement, Position, Robot};
 use crate::scalar::Scalar;
 
 impl<S> Arm<S> {
-    /// The arm of a robot, each exact parameter sent through `scalar`:
+    /// Returns the arm of a robot, each exact parameter sent through `scalar`:
     /// rounding for floats, a constant for symbols, a residue for fields.
     pub fn from_robot(robot: &Robot, scalar: &mut impl FnMut(&Exact) -> S) -> Arm<S> {
         let base = robot.base.as_ref().map(exact_pose);
@@ -90,12 +90,12 @@ impl<S> Arm<S> {
     }
 }
 
-/// [R | p] of a placement, exactly.
+/// Returns [R | p] of a placement, exactly.
 pub fn exact_pose(placement: &Placement) -> Columns<Exact> {
     pose_of(placement, Exact::sincos, |x| Exact::from(x.clone()))
 }
 
-/// [R | p] of a placement, R = Rz(yaw) Ry(pitch) Rx(roll), from what its angles
+/// Returns [R | p] of a placement, R = Rz(yaw) Ry(pitch) Rx(roll), from what its angles
 /// and lengths are in a scalar.
 pub fn pose_of<S: Scalar>(
     placement: &Placement,

@@ -10,7 +10,7 @@ use super::matrix::{halved, minus, plus, symmetric, zero_vector, zeros};
 use super::{Arm, DhVariables};
 use crate::scalar::Scalar;
 
-/// D, n×n: its column k is τ of q̈ = e_k at rest, without gravity.
+/// Returns D, n×n: its column k is τ of q̈ = e_k at rest, without gravity.
 ///
 /// Only the rows i ≥ k of a column are taken, the others by symmetry.
 pub fn inertia<S: Scalar>(
@@ -25,7 +25,7 @@ pub fn inertia<S: Scalar>(
     symmetric(n, |i, k| columns[k][i].clone())
 }
 
-/// h: τ of q̈ = 0 without gravity and damping.
+/// Returns h: τ of q̈ = 0 without gravity and damping.
 pub fn velocity_terms<S: Scalar>(
     torques: impl Fn(&Arm<S>, &[DhVariables<S>], &[S], &[S]) -> Vec<S>,
     arm: &Arm<S>,
@@ -40,7 +40,7 @@ pub fn velocity_terms<S: Scalar>(
     )
 }
 
-/// D a + C v + c without damping: C v is bilinear in q̇ and v, so h of half
+/// Returns D a + C v + c without damping: C v is bilinear in q̇ and v, so h of half
 /// their sum less h of half their difference, and τ has D a and c besides.
 pub fn passivity<S: Scalar>(
     torques: impl Fn(&Arm<S>, &[DhVariables<S>], &[S], &[S]) -> Vec<S>,
@@ -59,7 +59,7 @@ pub fn passivity<S: Scalar>(
     pairs.map(|(with, without)| minus(with, without)).collect()
 }
 
-/// c: τ at rest.
+/// Returns c: τ at rest.
 pub fn gravity<S: Scalar>(
     torques: impl Fn(&Arm<S>, &[DhVariables<S>], &[S], &[S]) -> Vec<S>,
     arm: &Arm<S>,
@@ -69,7 +69,7 @@ pub fn gravity<S: Scalar>(
     torques(arm, at, &zeros(n), &zeros(n))
 }
 
-/// `h[i][k][m]` = h_ikm by polarisation: h_ikk = h_i(e_k) and
+/// Returns `h[i][k][m]` = h_ikm by polarisation: h_ikk = h_i(e_k) and
 /// h_ikm = (h_i(e_k + e_m) − h_i(e_k) − h_i(e_m)) / 2.
 pub fn christoffel<S: Scalar>(
     torques: impl Fn(&Arm<S>, &[DhVariables<S>], &[S], &[S]) -> Vec<S>,
@@ -101,14 +101,14 @@ pub fn christoffel<S: Scalar>(
         .collect()
 }
 
-/// e_k
+/// Returns e_k
 fn unit<S: Scalar>(n: usize, k: usize) -> Vec<S> {
     let mut e = zeros(n);
     e[k] = S::one();
     e
 }
 
-/// The arm without gravity.
+/// Returns the arm without gravity.
 pub(super) fn weightless<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
     Arm {
         gravity: zero_vector(),

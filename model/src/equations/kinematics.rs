@@ -19,12 +19,12 @@ use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
 use crate::scalar::dual::Dual;
 
-/// ⁰A_i of every frame i = 1 … n, in base axes.
+/// Returns ⁰A_i of every frame i = 1 … n, in base axes.
 pub fn poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
     poses_from(&frame_0(arm), arm, at)
 }
 
-/// The pose of every link's own frame, in base axes.
+/// Returns the pose of every link's own frame, in base axes.
 pub fn link_poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
     let own = arm.frames.links.iter().map(Option::as_ref);
     let own = own.chain(core::iter::repeat(None));
@@ -36,12 +36,12 @@ pub fn link_poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns
     poses.collect()
 }
 
-/// The pose of frame 0 in base axes.
+/// Returns the pose of frame 0 in base axes.
 fn frame_0<S: Scalar>(arm: &Arm<S>) -> Columns<S> {
     arm.base.clone().unwrap_or_else(Columns::identity)
 }
 
-/// The poses of frames i = 1 … n where frame 0 has this one.
+/// Returns the poses of frames i = 1 … n where frame 0 has this one.
 fn poses_from<S: Scalar>(
     start: &Columns<S>,
     arm: &Arm<S>,
@@ -55,7 +55,7 @@ fn poses_from<S: Scalar>(
     poses
 }
 
-/// The pose of the hand, from those of the links.
+/// Returns the pose of the hand, from those of the links.
 fn hand_of<S: Scalar>(arm: &Arm<S>, poses: &[Columns<S>]) -> Columns<S> {
     let last = poses.last().cloned().unwrap_or_else(|| frame_0(arm));
     match &arm.tool {
@@ -73,7 +73,7 @@ fn in_base_axes<S: Scalar>(arm: &Arm<S>, vector: Vector<S>) -> Vector<S> {
 }
 
 impl Formulation {
-    /// The pose of the hand, ⁰A_n but for base and tool: the recursions in link
+    /// Returns the pose of the hand, ⁰A_n but for base and tool: the recursions in link
     /// axes go from the hand inward, which is less work alone, with three axes or with
     /// two; Lagrange–Euler multiplies from the base outward; the others add the levers
     /// of a Jacobian.
@@ -88,7 +88,7 @@ impl Formulation {
         }
     }
 
-    /// J, 6×n: row by row the linear and the angular velocity of the hand for
+    /// Returns J, 6×n: row by row the linear and the angular velocity of the hand for
     /// each unit rate, in the arm's [`Axes`].
     pub fn jacobian<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
         let n = at.len();
@@ -112,7 +112,7 @@ impl Formulation {
         (0..6).map(|r| row(r).collect()).collect()
     }
 
-    /// The columns of J in base axes at the hand, of the joints up to it.
+    /// Returns the columns of J in base axes at the hand, of the joints up to it.
     fn mixed_columns<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Vector<S>; 2]> {
         match self {
             Self::LagrangeEuler => (0..at.len()).map(|j| by_rates(arm, at, j)).collect(),
@@ -123,7 +123,7 @@ impl Formulation {
         }
     }
 
-    /// J̇ q̇, linear over angular, in the arm's [`Axes`]: the rate of J q̇ in a motion that
+    /// Returns J̇ q̇, linear over angular, in the arm's [`Axes`]: the rate of J q̇ in a motion that
     /// keeps its velocities. In base axes at the hand it is the hand's acceleration.
     pub fn jacobian_rate<S: Scalar>(
         self,
@@ -151,7 +151,7 @@ impl Formulation {
         in_axes(axes, Some(&self.hand(&arm, at)), [linear, angular])
     }
 
-    /// The acceleration of the hand without q̈, in base axes.
+    /// Returns the acceleration of the hand without q̈, in base axes.
     fn acceleration_without_qdd<S: Scalar>(
         self,
         arm: &Arm<S>,
@@ -192,7 +192,7 @@ impl Formulation {
     }
 }
 
-/// The wrenches in the axes of frame 0, as gravity is.
+/// Returns the wrenches in the axes of frame 0, as gravity is.
 fn wrenches_by_poses<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
@@ -226,7 +226,7 @@ fn wrenches_by_poses<S: Scalar>(
 /// A value with its first and second rates.
 type Twice<S> = Dual<Dual<S>>;
 
-/// The arm and its position as they move at these velocities and
+/// Returns the arm and its position as they move at these velocities and
 /// accelerations, with first and second rates.
 fn accelerated<S: Scalar>(
     arm: &Arm<S>,
@@ -243,7 +243,7 @@ fn accelerated<S: Scalar>(
     moving(&arm, &at, &rates.collect::<Vec<_>>())
 }
 
-/// ω of a frame: Ṙ Rᵀ is skew.
+/// Returns ω of a frame: Ṙ Rᵀ is skew.
 fn angular<S: Scalar>(frame: &Columns<Dual<S>>) -> Vector<S> {
     let entry = |row: usize, column: usize| {
         total(
@@ -256,7 +256,7 @@ fn angular<S: Scalar>(frame: &Columns<Dual<S>>) -> Vector<S> {
     [entry(2, 1), entry(0, 2), entry(1, 0)]
 }
 
-/// Linear and angular velocity of the hand for a unit rate of joint j, by the rate of
+/// Computes linear and angular velocity of the hand for a unit rate of joint j, by the rate of
 /// its pose.
 fn by_rates<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], j: usize) -> [Vector<S>; 2] {
     let mut rates = zeros(at.len());
@@ -284,7 +284,7 @@ pub(super) fn geometric<S: Scalar>(
     }
 }
 
-/// A velocity of the hand in base axes, in other axes; `hand` is its pose.
+/// Returns a velocity of the hand in base axes, in other axes; `hand` is its pose.
 fn in_axes<S: Scalar>(
     axes: Axes,
     hand: Option<&Columns<S>>,
@@ -298,7 +298,7 @@ fn in_axes<S: Scalar>(
     }
 }
 
-/// The columns of J in the hand's own axes: from the hand inward, the third row of its
+/// Returns the columns of J in the hand's own axes: from the hand inward, the third row of its
 /// axes in a joint's frame is the joint's axis in the hand's.
 fn local_columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Vector<S>; 2]> {
     let mut pose = arm.tool.clone().unwrap_or_else(Columns::identity);
@@ -325,7 +325,7 @@ fn local_columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Vector<
     columns
 }
 
-/// A pose in the frame of a link, in that of the link before.
+/// Returns a pose in the frame of a link, in that of the link before.
 fn inward<S: Scalar>(
     arm: &Arm<S>,
     link: &Link<S>,
@@ -340,7 +340,7 @@ fn inward<S: Scalar>(
     }
 }
 
-/// The axes of frames 0 … n and, in the place of the origin, the lever from there to
+/// Returns the axes of frames 0 … n and, in the place of the origin, the lever from there to
 /// the hand, in base axes. Added up from the hand on, no lever is a difference.
 pub(super) fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
     let unmoved = |frame: &Columns<S>| Columns {
@@ -363,7 +363,7 @@ pub(super) fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Colu
     frames
 }
 
-/// The pose of the hand, from the hand inward.
+/// Returns the pose of the hand, from the hand inward.
 fn hand_inward<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
     let mut pose = arm.tool.clone().unwrap_or_else(Columns::identity);
     for (link, at) in arm.links.iter().zip(at).rev() {
@@ -394,7 +394,7 @@ fn hand_by_two_axes<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S
     with_axes(x, z, origin)
 }
 
-/// A pose by two of its axes.
+/// Returns a pose by two of its axes.
 fn with_axes<S: Scalar>(x: Vector<S>, z: Vector<S>, origin: Vector<S>) -> Columns<S> {
     Columns {
         axes: [x.clone(), cross(&z, &x), z],
@@ -402,7 +402,7 @@ fn with_axes<S: Scalar>(x: Vector<S>, z: Vector<S>, origin: Vector<S>) -> Column
     }
 }
 
-/// The pose of the hand by the levers to it. Of its axes z is that of the last frame's,
+/// Returns the pose of the hand by the levers to it. Of its axes z is that of the last frame's,
 /// and x is seen from the frame two joints before: the one between need not have all of
 /// its axes.
 fn hand_by_levers<S: Scalar>(
@@ -433,14 +433,14 @@ fn hand_by_levers<S: Scalar>(
     hand
 }
 
-/// The x axis of the hand in the last frame.
+/// Returns the x axis of the hand in the last frame.
 fn tool_axis<S: Scalar>(arm: &Arm<S>) -> Vector<S> {
     let tool = arm.tool.clone().unwrap_or_else(Columns::identity);
     let [x, ..] = tool.axes;
     x
 }
 
-/// ∫ (r̈ − g) dm and ∫ r × (r̈ − g) dm of link i: from Ä J Aᵀ, whose last
+/// Returns ∫ (r̈ − g) dm and ∫ r × (r̈ − g) dm of link i: from Ä J Aᵀ, whose last
 /// column is the force.
 fn inertial<S: Scalar>(
     arm: &Arm<S>,

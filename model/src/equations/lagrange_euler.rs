@@ -32,7 +32,7 @@ pub struct LagrangeEuler<'a, S> {
 }
 
 impl<'a, S: Scalar> LagrangeEuler<'a, S> {
-    /// The poses ⁰A_i, their derivatives U_ij and the products U_ij J_i.
+    /// Returns the poses ⁰A_i, their derivatives U_ij and the products U_ij J_i.
     pub fn new(arm: &'a Arm<S>, at: &'a [DhVariables<S>]) -> Self {
         let n = arm.links.len();
         let mut poses = Vec::with_capacity(n + 1);
@@ -66,7 +66,7 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
         }
     }
 
-    /// D_ik = Σ_{j ≥ max(i,k)} Tr(U_jk J_j U_jiᵀ), n×n, armature on the diagonal.
+    /// Returns D_ik = Σ_{j ≥ max(i,k)} Tr(U_jk J_j U_jiᵀ), n×n, armature on the diagonal.
     pub fn inertia(&self) -> Vec<Vec<S>> {
         let n = self.arm.links.len();
         let mut d = symmetric(n, |i, k| {
@@ -76,7 +76,7 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
         d
     }
 
-    /// `h[i][k][m]` = h_ikm = Σ_{j ≥ max(i,k,m)} Tr(U_jkm J_j U_jiᵀ), n×n×n,
+    /// Returns `h[i][k][m]` = h_ikm = Σ_{j ≥ max(i,k,m)} Tr(U_jkm J_j U_jiᵀ), n×n×n,
     /// each k ≤ m from its traces, m < k by symmetry.
     pub fn christoffel(&self) -> Vec<Vec<Vec<S>>> {
         let n = self.arm.links.len();
@@ -89,7 +89,7 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
             .collect()
     }
 
-    /// c_i = Σ_{j ≥ i} −m_j g U_ji s̃_j: what holds the arm against gravity.
+    /// Returns c_i = Σ_{j ≥ i} −m_j g U_ji s̃_j: what holds the arm against gravity.
     pub fn gravity(&self) -> Vec<S> {
         let n = self.arm.links.len();
         (0..n)
@@ -102,7 +102,7 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
             .collect()
     }
 
-    /// λᵀ(D q̈ + h + c), with the sums over joints taken before those over links: of link j
+    /// Returns λᵀ(D q̈ + h + c), with the sums over joints taken before those over links: of link j
     /// Tr(A J_j Vᵀ) − m_j g V s̃_j, A = Σ U_jk q̈_k + Σ U_jkm q̇_k q̇_m and V = Σ U_ji λ_i.
     pub fn virtual_power(&self, qd: &[S], qdd: &[S], multiplier: &[S]) -> S {
         let second = self.second_derivatives();
@@ -125,7 +125,7 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
         total(self.arm.links.iter().enumerate().map(of_link))
     }
 
-    /// `[i][k][j]` = U_ijk = U_ikj for j ≤ k ≤ i.
+    /// Returns `[i][k][j]` = U_ijk = U_ikj for j ≤ k ≤ i.
     fn second_derivatives(&self) -> Vec<Vec<Vec<Columns<S>>>> {
         let mut all: Vec<Vec<Vec<Columns<S>>>> = Vec::with_capacity(self.u.len());
         for (i, link) in self.arm.links.iter().enumerate() {
@@ -193,7 +193,7 @@ impl<S: Scalar> PseudoInertia<S> {
         }
     }
 
-    /// U J
+    /// Returns U J
     pub(super) fn after(&self, u: &Columns<S>) -> Columns<S> {
         let [x, y, z] = &self.second;
         let column = |column: &Vector<S>, last: &S| u.apply(column, last);
@@ -208,22 +208,22 @@ impl<S: Scalar> PseudoInertia<S> {
     }
 }
 
-/// D, n×n: see [`LagrangeEuler::inertia`].
+/// Returns D, n×n: see [`LagrangeEuler::inertia`].
 pub fn inertia<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
     LagrangeEuler::new(arm, at).inertia()
 }
 
-/// h_ikm, n×n×n: see [`LagrangeEuler::christoffel`].
+/// Returns h_ikm, n×n×n: see [`LagrangeEuler::christoffel`].
 pub fn christoffel<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<Vec<S>>> {
     LagrangeEuler::new(arm, at).christoffel()
 }
 
-/// c: see [`LagrangeEuler::gravity`].
+/// Returns c: see [`LagrangeEuler::gravity`].
 pub fn gravity<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<S> {
     LagrangeEuler::new(arm, at).gravity()
 }
 
-/// h_i = Σ_k Σ_m h_ikm q̇_k q̇_m, the full double sum: a pair k < m counts twice.
+/// Returns h_i = Σ_k Σ_m h_ikm q̇_k q̇_m, the full double sum: a pair k < m counts twice.
 pub fn velocity_terms<S: Scalar>(h: &[Vec<Vec<S>>], qd: &[S]) -> Vec<S> {
     let n = qd.len();
     let doubled: Vec<S> = qd.iter().map(twice).collect();
@@ -239,7 +239,7 @@ pub fn velocity_terms<S: Scalar>(h: &[Vec<Vec<S>>], qd: &[S]) -> Vec<S> {
     h.iter().map(of_joint).collect()
 }
 
-/// τ_i = Σ_k D_ik q̈_k + h_i + c_i + b_i q̇_i (eq. 2.3).
+/// Returns τ_i = Σ_k D_ik q̈_k + h_i + c_i + b_i q̇_i (eq. 2.3).
 pub fn inverse_dynamics<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
@@ -251,7 +251,7 @@ pub fn inverse_dynamics<S: Scalar>(
     assemble(arm, &terms.inertia(), &h, &terms.gravity(), qd, qdd)
 }
 
-/// D q̈ + h + c + b∘q̇ from its parts.
+/// Returns D q̈ + h + c + b∘q̇ from its parts.
 pub(super) fn assemble<S: Scalar>(
     arm: &Arm<S>,
     d: &[Vec<S>],

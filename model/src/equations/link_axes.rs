@@ -73,7 +73,7 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
         }
     }
 
-    /// J′, m×n.
+    /// Returns J′, m×n.
     pub fn jacobian(&self) -> Vec<Vec<S>> {
         let asked = |part: usize| {
             let six = self.formulation.jacobian(self.arm, self.at);
@@ -87,7 +87,7 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
         self.picked(asked, of_link)
     }
 
-    /// J̇ q̇ in the axes of J′.
+    /// Returns J̇ q̇ in the axes of J′.
     pub fn rate(&self, qd: &[S]) -> Vec<S> {
         let asked = |part: usize| {
             let rate = self.formulation.jacobian_rate(self.arm, self.at, qd);
@@ -98,7 +98,7 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
         self.picked(asked, of_link)
     }
 
-    /// The components that are asked for, of three linear and three angular ones.
+    /// Returns the components that are asked for, of three linear and three angular ones.
     fn picked<T: Clone>(
         &self,
         asked: impl Fn(usize) -> Vec<T>,
@@ -111,7 +111,7 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
         self.arm.frames.rows.pick(&[part(0), part(1)].concat())
     }
 
-    /// G, m×m.
+    /// Returns G, m×m.
     fn turn(&self) -> Vec<Vec<S>> {
         let poses = poses(self.arm, self.at);
         let rows: Vec<usize> = self.arm.frames.rows.indices().collect();
@@ -124,13 +124,13 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
         rows.iter().map(row).collect()
     }
 
-    /// G x of each x, a row each.
+    /// Returns G x of each x, a row each.
     pub fn turned(&self, rows: &[Vec<S>]) -> Vec<Vec<S>> {
         let turn = self.turn();
         rows.iter().map(|row| products(&turn, row)).collect()
     }
 
-    /// G M Gᵀ of a symmetric M.
+    /// Returns G M Gᵀ of a symmetric M.
     pub fn turned_matrix(&self, matrix: &[Vec<S>]) -> Vec<Vec<S>> {
         // M Gᵀ, row by row: its columns are those of G M.
         let half = self.turned(matrix);
@@ -141,7 +141,8 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
     }
 }
 
-/// The columns of J, linear and angular, in the axes of the frame of a link, which is before the hand's.
+/// Returns the columns of J, linear and angular, in the axes of the frame of a link, which is
+/// before the hand's.
 fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], link: usize) -> Vec<[Vector<S>; 2]> {
     let n = at.len();
     let (arm, at) = arm.to_hand(at);
@@ -180,7 +181,8 @@ fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], link: usize) -> Vec<[
     columns
 }
 
-/// J̇ q̇, linear and angular, in the axes of the frame of a link, which is before the hand's.
+/// Returns J̇ q̇, linear and angular, in the axes of the frame of a link, which is before the
+/// hand's.
 fn acceleration<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],

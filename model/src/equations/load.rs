@@ -27,7 +27,7 @@ pub struct LoadRow<S> {
 }
 
 impl<S> LoadRow<S> {
-    /// Every number through `f`.
+    /// Returns every number through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> LoadRow<T> {
         let of = self.of.iter();
         LoadRow {
@@ -50,7 +50,7 @@ pub struct Loading<S> {
 }
 
 impl<S: Scalar> Loading<S> {
-    /// The numbers of the load.
+    /// Returns the numbers of the load.
     pub fn load(&self) -> Vec<S> {
         let body = Body::of(&carried(&self.payload, self.frame.as_ref()));
         let row = |row: &LoadRow<S>| {
@@ -62,7 +62,7 @@ impl<S: Scalar> Loading<S> {
     }
 }
 
-/// A payload as a link behind the last one that does not move: its frame is the
+/// Returns a payload as a link behind the last one that does not move: its frame is the
 /// last link's, in which the payload's own frame is placed. Entries that are missing
 /// are zero.
 pub fn carried<S: Scalar>(payload: &[S], frame: Option<&Columns<S>>) -> Link<S> {

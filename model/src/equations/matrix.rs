@@ -17,22 +17,22 @@ pub use crate::scalar::structural::{halved, minus, negative, over, plus, times, 
 /// A vector of three components.
 pub type Vector<S> = [S; 3];
 
-/// The zero vector.
+/// Returns the zero vector.
 pub fn zero_vector<S: Scalar>() -> Vector<S> {
     [S::zero(), S::zero(), S::zero()]
 }
 
-/// `n` zeros.
+/// Returns `n` zeros.
 pub fn zeros<S: Scalar>(n: usize) -> Vec<S> {
     (0..n).map(|_| S::zero()).collect()
 }
 
-/// The sum of terms, the first two first.
+/// Returns the sum of terms, the first two first.
 pub fn total<S: Scalar>(terms: impl Iterator<Item = S>) -> S {
     terms.fold(S::zero(), |total, term| plus(&total, &term))
 }
 
-/// A full n×n matrix from its lower half: each entry (i, k), k ≤ i, is made
+/// Returns a full n×n matrix from its lower half: each entry (i, k), k ≤ i, is made
 /// once and cloned to (k, i).
 pub fn symmetric<S: Clone>(n: usize, entry: impl Fn(usize, usize) -> S) -> Vec<Vec<S>> {
     let row = |i: usize| (0..=i).map(|k| entry(i, k)).collect();
@@ -41,49 +41,49 @@ pub fn symmetric<S: Clone>(n: usize, entry: impl Fn(usize, usize) -> S) -> Vec<V
     (0..n).map(row).collect()
 }
 
-/// a + b
+/// Returns a + b
 pub fn sum<S: Scalar>(a: &Vector<S>, b: &Vector<S>) -> Vector<S> {
     core::array::from_fn(|i| plus(&a[i], &b[i]))
 }
 
-/// a − b
+/// Returns a − b
 pub fn difference<S: Scalar>(a: &Vector<S>, b: &Vector<S>) -> Vector<S> {
     core::array::from_fn(|i| minus(&a[i], &b[i]))
 }
 
-/// −a
+/// Returns −a
 pub fn opposite<S: Scalar>(a: &Vector<S>) -> Vector<S> {
     core::array::from_fn(|i| negative(&a[i]))
 }
 
-/// s a
+/// Returns s a
 pub fn scaled<S: Scalar>(s: &S, a: &Vector<S>) -> Vector<S> {
     core::array::from_fn(|i| times(s, &a[i]))
 }
 
-/// a · b
+/// Returns a · b
 pub fn dot<S: Scalar>(a: &Vector<S>, b: &Vector<S>) -> S {
     let xy = plus(&times(&a[0], &b[0]), &times(&a[1], &b[1]));
     plus(&xy, &times(&a[2], &b[2]))
 }
 
-/// a × b
+/// Returns a × b
 pub fn cross<S: Scalar>(a: &Vector<S>, b: &Vector<S>) -> Vector<S> {
     let component = |i: usize, j: usize| minus(&times(&a[i], &b[j]), &times(&a[j], &b[i]));
     [component(1, 2), component(2, 0), component(0, 1)]
 }
 
-/// a × (s z_0), z_0 = (0, 0, 1)ᵀ.
+/// Returns a × (s z_0), z_0 = (0, 0, 1)ᵀ.
 pub fn cross_z<S: Scalar>(a: &Vector<S>, s: &S) -> Vector<S> {
     [times(&a[1], s), negative(&times(&a[0], s)), S::zero()]
 }
 
-/// ω × (ω × a), the centripetal acceleration of the point a.
+/// Returns ω × (ω × a), the centripetal acceleration of the point a.
 pub fn centripetal<S: Scalar>(omega: &Vector<S>, a: &Vector<S>) -> Vector<S> {
     cross(omega, &cross(omega, a))
 }
 
-/// I a for a symmetric tensor.
+/// Returns I a for a symmetric tensor.
 pub fn tensor_times<S: Scalar>(tensor: &Inertia<S>, a: &Vector<S>) -> Vector<S> {
     [
         dot(
@@ -102,7 +102,7 @@ pub fn tensor_times<S: Scalar>(tensor: &Inertia<S>, a: &Vector<S>) -> Vector<S> 
 }
 
 impl<S: Scalar> SinCosPair<S> {
-    /// The plane rotation by this angle: (c x − s y, s x + c y).
+    /// Returns the plane rotation by this angle: (c x − s y, s x + c y).
     pub fn turn(&self, x: &S, y: &S) -> [S; 2] {
         [
             minus(&times(&self.cos, x), &times(&self.sin, y)),
@@ -110,7 +110,7 @@ impl<S: Scalar> SinCosPair<S> {
         ]
     }
 
-    /// The inverse of [`SinCosPair::turn`]: (c x + s y, c y − s x).
+    /// Returns the inverse of [`SinCosPair::turn`]: (c x + s y, c y − s x).
     pub fn turn_back(&self, x: &S, y: &S) -> [S; 2] {
         [
             plus(&times(&self.cos, x), &times(&self.sin, y)),
@@ -134,7 +134,7 @@ pub struct Columns<S> {
 }
 
 impl<S> Columns<S> {
-    /// Every entry through `f`.
+    /// Returns every entry through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Columns<T> {
         Columns {
             axes: self.axes.each_ref().map(|axis| axis.each_ref().map(&mut f)),
@@ -144,7 +144,7 @@ impl<S> Columns<S> {
 }
 
 impl<S: Scalar> Columns<S> {
-    /// The pose 1.
+    /// Returns the pose 1.
     pub fn identity() -> Self {
         let axis = |i| core::array::from_fn(|k| if k == i { S::one() } else { S::zero() });
         Columns {
@@ -153,7 +153,7 @@ impl<S: Scalar> Columns<S> {
         }
     }
 
-    /// · Rz(θ)
+    /// Returns · Rz(θ)
     pub fn turn_z(self, theta: &SinCosPair<S>) -> Self {
         let [x, y, z] = self.axes;
         let [x, y] = turn_columns(theta, &x, &y);
@@ -163,7 +163,7 @@ impl<S: Scalar> Columns<S> {
         }
     }
 
-    /// · Rx(α)
+    /// Returns · Rx(α)
     pub fn turn_x(self, alpha: &SinCosPair<S>) -> Self {
         let [x, y, z] = self.axes;
         let [y, z] = turn_columns(alpha, &y, &z);
@@ -173,7 +173,7 @@ impl<S: Scalar> Columns<S> {
         }
     }
 
-    /// · Ry(β)
+    /// Returns · Ry(β)
     pub fn turn_y(self, beta: &SinCosPair<S>) -> Self {
         let [x, y, z] = self.axes;
         let [z, x] = turn_columns(beta, &z, &x);
@@ -183,19 +183,19 @@ impl<S: Scalar> Columns<S> {
         }
     }
 
-    /// · Tz(d)
+    /// Returns · Tz(d)
     pub fn shift_z(self, d: &S) -> Self {
         let origin = sum(&self.origin, &scaled(d, &self.axes[2]));
         Columns { origin, ..self }
     }
 
-    /// · Tx(a)
+    /// Returns · Tx(a)
     pub fn shift_x(self, a: &S) -> Self {
         let origin = sum(&self.origin, &scaled(a, &self.axes[0]));
         Columns { origin, ..self }
     }
 
-    /// · Q_i: the derivative with respect to the joint that acts here.
+    /// Returns · Q_i: the derivative with respect to the joint that acts here.
     ///
     /// Rotary: the columns become (y, −x, 0, 0). Prismatic: (0, 0, 0, z).
     pub fn derive(&self, kind: JointKind) -> Self {
@@ -212,7 +212,7 @@ impl<S: Scalar> Columns<S> {
         }
     }
 
-    /// · the pose of a frame that is fixed in the last one.
+    /// Returns · the pose of a frame that is fixed in the last one.
     pub fn then(&self, next: &Self) -> Self {
         Columns {
             axes: next.axes.each_ref().map(|axis| self.rotate(axis)),
@@ -220,31 +220,31 @@ impl<S: Scalar> Columns<S> {
         }
     }
 
-    /// The entries row by row, 3×4.
+    /// Returns the entries row by row, 3×4.
     pub fn rows(&self) -> Vec<S> {
         let columns = || self.axes.iter().chain([&self.origin]);
         let row = |row: usize| columns().map(move |column| column[row].clone());
         (0..3).flat_map(row).collect()
     }
 
-    /// The rotation's columns applied to a vector of the last frame.
+    /// Returns the rotation's columns applied to a vector of the last frame.
     pub fn rotate(&self, a: &Vector<S>) -> Vector<S> {
         let [x, y, z] = &self.axes;
         let xy = sum(&scaled(&a[0], x), &scaled(&a[1], y));
         sum(&xy, &scaled(&a[2], z))
     }
 
-    /// The rotation's inverse applied: components along the three columns.
+    /// Returns the rotation's inverse applied: components along the three columns.
     pub fn rotate_back(&self, a: &Vector<S>) -> Vector<S> {
         core::array::from_fn(|i| dot(&self.axes[i], a))
     }
 
-    /// The matrix times (a, s)ᵀ: s = 1 takes a point of the last frame along.
+    /// Returns the matrix times (a, s)ᵀ: s = 1 takes a point of the last frame along.
     pub fn apply(&self, a: &Vector<S>, s: &S) -> Vector<S> {
         sum(&self.rotate(a), &scaled(s, &self.origin))
     }
 
-    /// R T Rᵀ: a symmetric tensor of the last frame, in the axes of this one.
+    /// Returns R T Rᵀ: a symmetric tensor of the last frame, in the axes of this one.
     pub fn turn_tensor(&self, tensor: &Inertia<S>) -> Inertia<S> {
         let half = tensor.rows().each_ref().map(|column| self.rotate(column));
         // (R T) Rᵀ, row by row: T is symmetric, so its rows were its columns.
@@ -277,7 +277,7 @@ impl<S: Scalar> Columns<S> {
     }
 }
 
-/// Two columns times a plane rotation from the right:
+/// Returns two columns times a plane rotation from the right:
 /// (c x + s y, c y − s x).
 fn turn_columns<S: Scalar>(angle: &SinCosPair<S>, x: &Vector<S>, y: &Vector<S>) -> [Vector<S>; 2] {
     let [a, b, c] = [0, 1, 2].map(|row| angle.turn_back(&x[row], &y[row]));

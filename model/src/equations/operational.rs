@@ -39,18 +39,18 @@ pub struct TaskSpace<S> {
     mobility: Vec<Vec<S>>,
 }
 
-/// Σ a_k b_k
+/// Returns Σ a_k b_k
 pub(super) fn product<S: Scalar>(a: &[S], b: &[S]) -> S {
     total(a.iter().zip(b).map(|(a, b)| times(a, b)))
 }
 
-/// a x for each row a.
+/// Returns a x for each row a.
 pub fn products<S: Scalar>(rows: &[Vec<S>], x: &[S]) -> Vec<S> {
     rows.iter().map(|row| product(row, x)).collect()
 }
 
 impl<S: Divide> TaskSpace<S> {
-    /// From J and D⁻¹.
+    /// Makes it from J and D⁻¹.
     pub fn by_inverse(jacobian: Vec<Vec<S>>, inverse: &[Vec<S>]) -> TaskSpace<S> {
         // D⁻¹ is symmetric: its rows are its columns.
         let driven = jacobian.iter().map(|row| products(inverse, row));
@@ -63,8 +63,8 @@ impl<S: Divide> TaskSpace<S> {
         }
     }
 
-    /// From J and the factors of D over the joints that move: Λ⁻¹ = Xᵀ d⁻¹ X with
-    /// X = U⁻¹ Jᵀ, which keeps the zeros of J behind the joint that a column is of.
+    /// Makes it from J and the factors of D over the joints that move: Λ⁻¹ = Xᵀ d⁻¹ X with X =
+    /// U⁻¹ Jᵀ, which keeps the zeros of J behind the joint that a column is of.
     pub fn by_factor(jacobian: Vec<Vec<S>>, factor: &Factor<S>, moves: &[bool]) -> TaskSpace<S> {
         let halves = halves(&jacobian, factor, moves);
         let scaled: Vec<Vec<S>> = halves.iter().map(|half| factor.scaled(half)).collect();
@@ -81,22 +81,22 @@ impl<S: Divide> TaskSpace<S> {
         }
     }
 
-    /// Λ⁻¹
+    /// Returns Λ⁻¹
     pub fn mobility(&self) -> &[Vec<S>] {
         &self.mobility
     }
 
-    /// Λ⁻¹ + λ² 1
+    /// Returns Λ⁻¹ + λ² 1
     pub fn damped(&self, damping: &S) -> Vec<Vec<S>> {
         damped(&self.mobility, damping)
     }
 
-    /// Λ
+    /// Returns Λ
     pub fn inertia(&self, damping: &S) -> Vec<Vec<S>> {
         Factor::new(&self.damped(damping)).inverse()
     }
 
-    /// J̄, n×m.
+    /// Returns J̄, n×m.
     pub fn consistent_inverse(&self, damping: &S) -> Vec<Vec<S>> {
         let factor = Factor::new(&self.damped(damping));
         let joints = 0..self.driven.first().map_or(0, Vec::len);
@@ -107,7 +107,7 @@ impl<S: Divide> TaskSpace<S> {
             .collect()
     }
 
-    /// N, n×n, over the joints that move.
+    /// Returns N, n×n, over the joints that move.
     pub fn null_space(&self, damping: &S, moves: &[bool]) -> Vec<Vec<S>> {
         let inverse = self.consistent_inverse(damping);
         let entry = |i: usize, k: usize| {
@@ -124,7 +124,7 @@ impl<S: Divide> TaskSpace<S> {
         (0..moves.len()).map(row).collect()
     }
 
-    /// μ, from J D⁻¹ (h + c) and J̇ q̇.
+    /// Returns μ, from J D⁻¹ (h + c) and J̇ q̇.
     pub fn bias(&self, driven: &[S], rate: &[S], damping: &S) -> Vec<S> {
         let rest = driven.iter().zip(rate);
         let rest: Vec<S> = rest.map(|(driven, rate)| minus(driven, rate)).collect();
@@ -147,7 +147,7 @@ pub struct NormalEquations<S> {
 }
 
 impl<S: Divide> NormalEquations<S> {
-    /// `None` where more joints move than J has components: with λ² = 0 there are none.
+    /// Returns `None` where more joints move than J has components: with λ² = 0 there are none.
     pub fn new(
         jacobian: &[Vec<S>],
         inertia: &[Vec<S>],
@@ -175,19 +175,19 @@ impl<S: Divide> NormalEquations<S> {
         })
     }
 
-    /// J̄, n×m.
+    /// Returns J̄, n×m.
     pub fn consistent_inverse(&self) -> Vec<Vec<S>> {
         self.solved(&self.jacobian)
     }
 
-    /// N, n×n, over the joints that move.
+    /// Returns N, n×n, over the joints that move.
     pub fn null_space(&self) -> Vec<Vec<S>> {
         let rows = self.solved(&self.damping).into_iter();
         rows.map(|row| scatter(&row, &self.joints, self.n))
             .collect()
     }
 
-    /// (Jᵀ J + λ² D)⁻¹ x for each x, a column each.
+    /// Returns (Jᵀ J + λ² D)⁻¹ x for each x, a column each.
     fn solved(&self, right: &[Vec<S>]) -> Vec<Vec<S>> {
         let columns: Vec<Vec<S>> = right.iter().map(|x| self.factor.solve(x)).collect();
         let row = |joint: usize| columns.iter().map(|column| column[joint].clone()).collect();
@@ -199,7 +199,7 @@ impl<S: Divide> NormalEquations<S> {
     }
 }
 
-/// A symmetric matrix with λ² added to its diagonal.
+/// Returns a symmetric matrix with λ² added to its diagonal.
 pub fn damped<S: Scalar>(matrix: &[Vec<S>], damping: &S) -> Vec<Vec<S>> {
     symmetric(matrix.len(), |i, k| match i == k {
         true => plus(&matrix[i][i], damping),
@@ -207,7 +207,7 @@ pub fn damped<S: Scalar>(matrix: &[Vec<S>], damping: &S) -> Vec<Vec<S>> {
     })
 }
 
-/// U⁻¹ Jᵀ over the joints that move, a row for each of J's.
+/// Returns U⁻¹ Jᵀ over the joints that move, a row for each of J's.
 fn halves<S: Divide>(jacobian: &[Vec<S>], factor: &Factor<S>, moves: &[bool]) -> Vec<Vec<S>> {
     let joints = free(moves);
     let half = |row: &Vec<S>| {
@@ -217,7 +217,7 @@ fn halves<S: Divide>(jacobian: &[Vec<S>], factor: &Factor<S>, moves: &[bool]) ->
     jacobian.iter().map(half).collect()
 }
 
-/// J D⁻¹ b, from the factors of D over the joints that move.
+/// Returns J D⁻¹ b, from the factors of D over the joints that move.
 pub fn driven_by<S: Divide>(
     jacobian: &[Vec<S>],
     factor: &Factor<S>,
@@ -231,17 +231,17 @@ pub fn driven_by<S: Divide>(
 }
 
 impl Formulation {
-    /// J of the components that the arm is asked for, m×n.
+    /// Returns J of the components that the arm is asked for, m×n.
     pub fn task_jacobian<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
         arm.frames.rows.pick(&self.jacobian(arm, at))
     }
 
-    /// The same gathered at the leaders of joints that follow.
+    /// Returns the same gathered at the leaders of joints that follow.
     pub fn gathered_jacobian<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
         gathered_rows(&arm.following, self.task_jacobian(arm, at))
     }
 
-    /// What follows from J and D.
+    /// Returns what follows from J and D.
     pub fn task_space<S: Divide>(
         self,
         arm: &Arm<S>,
@@ -252,7 +252,7 @@ impl Formulation {
         TaskSpace::by_inverse(self.gathered_jacobian(arm, at), &inverse)
     }
 
-    /// μ
+    /// Returns μ
     pub fn operational_bias<S: Divide>(
         self,
         arm: &Arm<S>,

@@ -47,7 +47,7 @@ impl LinkParameter {
     /// The number of parameters of a link.
     pub const COUNT: usize = Self::ALL.len();
 
-    /// Its name without the link's number.
+    /// Returns its name without the link's number.
     pub fn name(self) -> &'static str {
         match self {
             LinkParameter::Mass => "m",
@@ -63,7 +63,7 @@ impl LinkParameter {
         }
     }
 
-    /// A body with a unit of it and nothing else.
+    /// Returns a body with a unit of it and nothing else.
     pub fn unit<S: Scalar>(self) -> Body<S> {
         let mut body = Body::zero();
         match self {
@@ -83,12 +83,12 @@ impl LinkParameter {
         body
     }
 
-    /// Its value for a link.
+    /// Returns its value for a link.
     pub fn of<S: Scalar>(self, link: &Link<S>) -> S {
         self.of_body(&Body::of(link))
     }
 
-    /// Its value for a body.
+    /// Returns its value for a body.
     pub fn of_body<S: Scalar>(self, body: &Body<S>) -> S {
         match self {
             LinkParameter::Mass => body.mass.clone(),
@@ -101,7 +101,7 @@ impl LinkParameter {
     }
 }
 
-/// The columns of a full regressor: every parameter of every link, link by link.
+/// Returns the columns of a full regressor: every parameter of every link, link by link.
 pub fn of_links<S: Scalar>(joints: usize) -> Vec<Column<S>> {
     let of = |joint| {
         let all = LinkParameter::ALL.into_iter();
@@ -113,7 +113,7 @@ pub fn of_links<S: Scalar>(joints: usize) -> Vec<Column<S>> {
     (0..joints).flat_map(of).collect()
 }
 
-/// The drives' columns of the parameters that a robot has: rotors' inertias,
+/// Returns the drives' columns of the parameters that a robot has: rotors' inertias,
 /// then viscous friction, where these are not zero.
 pub fn of_drives<S>(robot: &Robot) -> Vec<Column<S>> {
     use num_traits::Zero;
@@ -141,7 +141,7 @@ pub(super) fn drive<'a, S>(
 }
 
 impl Formulation {
-    /// The columns of a regressor, n rows of an entry a column, each as the
+    /// Returns the columns of a regressor, n rows of an entry a column, each as the
     /// difference of the torques of two arms.
     pub fn regressor<S: Scalar>(
         self,
@@ -171,7 +171,7 @@ impl Formulation {
     }
 }
 
-/// The columns of a regressor from the torques of arms at one motion.
+/// Returns the columns of a regressor from the torques of arms at one motion.
 ///
 /// An arm's link has a mass, a centre of mass and a tensor about that: a first
 /// moment without a mass is none. With (m, s, Σ) = (1, s, Σ) − (1 − m, 0, 0) a
@@ -217,7 +217,7 @@ fn without_bodies<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
     empty
 }
 
-/// The torques of a body by itself.
+/// Returns the torques of a body by itself.
 fn of_body<S: Scalar>(
     empty: &Arm<S>,
     joint: usize,

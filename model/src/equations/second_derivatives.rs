@@ -24,12 +24,12 @@ use crate::robot::JointKind;
 use crate::scalar::Scalar;
 use crate::scalar::dual::Dual;
 
-/// λᵀx
+/// Returns λᵀx
 fn weighed<'a, S: Scalar + 'a>(multiplier: &[S], values: impl Iterator<Item = &'a S>) -> S {
     total(multiplier.iter().zip(values).map(|(l, x)| times(l, x)))
 }
 
-/// The rates of λᵀM, column by column.
+/// Returns the rates of λᵀM, column by column.
 fn rates_of<S: Scalar>(multiplier: &[S], matrix: &[Vec<Dual<S>>]) -> Vec<S> {
     let column = |j: usize| weighed(multiplier, matrix.iter().map(|row| &row[j].rate));
     (0..matrix.len()).map(column).collect()
@@ -46,7 +46,7 @@ fn constants<S: Scalar>(values: &[S]) -> Vec<Dual<S>> {
     values.iter().cloned().map(Dual::constant).collect()
 }
 
-/// All four by the composite bodies of the arm's chain, in base parameters.
+/// Returns all four by the composite bodies of the arm's chain, in base parameters.
 fn by_composites<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
@@ -75,7 +75,7 @@ fn by_composites<S: Scalar>(
 }
 
 impl Formulation {
-    /// λᵀτ without friction. Lagrange–Euler takes the sums over joints before those over
+    /// Returns λᵀτ without friction. Lagrange–Euler takes the sums over joints before those over
     /// links: Σ_j Tr(A J_j Vᵀ), where A and V are the sums of U_jk q̈_k + U_jkm q̇_k q̇_m, and of
     /// U_ji λ_i, with what weight gives.
     fn virtual_power<S: Scalar>(
@@ -92,7 +92,7 @@ impl Formulation {
         weighed(multiplier, torques.iter())
     }
 
-    /// ∂²(λᵀτ)/∂q∂q, symmetric.
+    /// Returns ∂²(λᵀτ)/∂q∂q, symmetric.
     pub fn torque_by_positions<S: Scalar>(
         self,
         arm: &Arm<S>,
@@ -111,7 +111,7 @@ impl Formulation {
         })
     }
 
-    /// ∂²(λᵀτ)/∂q∂q̇: the slopes by velocity as one joint moves.
+    /// Returns ∂²(λᵀτ)/∂q∂q̇: the slopes by velocity as one joint moves.
     pub fn torque_by_position_and_velocity<S: Scalar>(
         self,
         arm: &Arm<S>,
@@ -130,8 +130,8 @@ impl Formulation {
         (0..n).map(row).collect()
     }
 
-    /// ∂²(λᵀτ)/∂q̇∂q̇, symmetric: Lagrange–Euler from the symbols, 2 Σ_i λ_i h_ikm; elsewhere
-    /// from the slopes as one velocity grows. Coulomb friction bends by itself.
+    /// Returns ∂²(λᵀτ)/∂q̇∂q̇, symmetric: Lagrange–Euler from the symbols, 2 Σ_i λ_i h_ikm;
+    /// elsewhere from the slopes as one velocity grows. Coulomb friction bends by itself.
     pub fn torque_by_velocities<S: Scalar>(
         self,
         arm: &Arm<S>,
@@ -164,7 +164,7 @@ impl Formulation {
         all
     }
 
-    /// ∂²(λᵀτ)/∂q̈∂q = ∂(D λ)/∂q: row i has the slopes of (D λ)_i.
+    /// Returns ∂²(λᵀτ)/∂q̈∂q = ∂(D λ)/∂q: row i has the slopes of (D λ)_i.
     pub fn torque_by_acceleration_and_position<S: Scalar>(
         self,
         arm: &Arm<S>,
@@ -192,7 +192,7 @@ pub struct OfAccelerations<'a, S> {
 }
 
 impl<'a, S: Scalar> OfAccelerations<'a, S> {
-    /// From ∂(D μ)/∂q and what multiplies by D⁻¹ over the joints that move.
+    /// Makes it from ∂(D μ)/∂q and what multiplies by D⁻¹ over the joints that move.
     pub fn new(driven: &[Vec<S>], by_inverse: impl Fn(&[S]) -> Vec<S>, moves: &'a [bool]) -> Self {
         let column = |k: usize| driven.iter().map(|row| row[k].clone()).collect::<Vec<S>>();
         let x = |k: usize| match moves[k] {
@@ -205,7 +205,7 @@ impl<'a, S: Scalar> OfAccelerations<'a, S> {
         }
     }
 
-    /// ∂²(λᵀq̈)/∂q∂q, from ∂²(μᵀτ)/∂q∂q and ∂τ/∂q.
+    /// Returns ∂²(λᵀq̈)/∂q∂q, from ∂²(μᵀτ)/∂q∂q and ∂τ/∂q.
     pub fn by_positions(&self, own: &[Vec<S>], slopes: &[Vec<S>]) -> Vec<Vec<S>> {
         self.entries(|k, m| {
             let both = plus(&self.along(k, slopes, m), &self.along(m, slopes, k));
@@ -213,22 +213,22 @@ impl<'a, S: Scalar> OfAccelerations<'a, S> {
         })
     }
 
-    /// ∂²(λᵀq̈)/∂q∂q̇, from ∂²(μᵀτ)/∂q∂q̇ and ∂τ/∂q̇.
+    /// Returns ∂²(λᵀq̈)/∂q∂q̇, from ∂²(μᵀτ)/∂q∂q̇ and ∂τ/∂q̇.
     pub fn by_position_and_velocity(&self, own: &[Vec<S>], slopes: &[Vec<S>]) -> Vec<Vec<S>> {
         self.entries(|k, m| minus(&self.along(k, slopes, m), &own[k][m]))
     }
 
-    /// ∂²(λᵀq̈)/∂q̇∂q̇, from ∂²(μᵀτ)/∂q̇∂q̇.
+    /// Returns ∂²(λᵀq̈)/∂q̇∂q̇, from ∂²(μᵀτ)/∂q̇∂q̇.
     pub fn by_velocities(&self, own: &[Vec<S>]) -> Vec<Vec<S>> {
         self.entries(|k, m| negative(&own[k][m]))
     }
 
-    /// ∂²(λᵀq̈)/∂τ∂q: row i has the slopes of (D⁻¹λ)_i.
+    /// Returns ∂²(λᵀq̈)/∂τ∂q: row i has the slopes of (D⁻¹λ)_i.
     pub fn by_torque_and_position(&self) -> Vec<Vec<S>> {
         self.entries(|i, k| negative(&self.x[k][i]))
     }
 
-    /// Σ_i X_ki times the slope of τ_i by joint m.
+    /// Returns Σ_i X_ki times the slope of τ_i by joint m.
     fn along(&self, k: usize, slopes: &[Vec<S>], m: usize) -> S {
         let moving = free(self.moves).into_iter();
         total(moving.map(|i| times(&self.x[k][i], &slopes[i][m])))

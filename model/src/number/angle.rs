@@ -48,7 +48,7 @@ impl Default for Angle {
 }
 
 impl Angle {
-    /// `n`·π/2, exactly.
+    /// Returns `n`·π/2, exactly.
     pub fn right_angles(n: i64) -> Self {
         Angle::PiTimes(Rational::new(n.into(), 2.into()))
     }
@@ -72,7 +72,7 @@ impl Angle {
         }
     }
 
-    /// The opposite angle.
+    /// Returns the opposite angle.
     #[must_use]
     pub fn negate(&self) -> Self {
         match self {
@@ -81,7 +81,7 @@ impl Angle {
         }
     }
 
-    /// n mod 4 if the angle is exactly n·π/2, so that its sine and cosine are
+    /// Returns n mod 4 if the angle is exactly n·π/2, so that its sine and cosine are
     /// 0, 1 or −1.
     pub fn quarter_turns(&self) -> Option<u8> {
         match self {
@@ -96,7 +96,7 @@ impl Angle {
         }
     }
 
-    /// Its value in radians to 120 digits; exact for [`Angle::Radians`].
+    /// Returns its value in radians to 120 digits; exact for [`Angle::Radians`].
     pub fn radians(&self) -> Rational {
         match self {
             Angle::PiTimes(value) => value * pi(),
@@ -104,7 +104,7 @@ impl Angle {
         }
     }
 
-    /// The nearest double.
+    /// Returns the nearest double.
     pub fn to_f64(&self) -> f64 {
         self.radians().to_f64().unwrap_or(f64::NAN)
     }
@@ -269,7 +269,7 @@ impl Snap {
     }
 }
 
-/// π to 120 digits: enough to round any angle of a robot file to a double and
+/// Returns π to 120 digits: enough to round any angle of a robot file to a double and
 /// to order any two that are not absurdly close.
 fn pi() -> Rational {
     const DIGITS: &[u8] = b"31415926535897932384626433832795028841971693993751058209749445923078164062862089986280348253421170679821480865132823066470";

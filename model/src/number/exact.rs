@@ -165,7 +165,7 @@ impl Exact {
         }
     }
 
-    /// The pair of a constant angle; multiples of π/2 give 0 and ±1.
+    /// Returns the pair of a constant angle; multiples of π/2 give 0 and ±1.
     pub fn sincos(angle: &Angle) -> SinCosPair<Exact> {
         let (turns, key) = reduce(angle);
         let (sin, cos) = match key {
@@ -195,7 +195,7 @@ impl Exact {
         }
     }
 
-    /// The rational value, if no angle occurs.
+    /// Returns the rational value, if no angle occurs.
     pub fn as_rational(&self) -> Option<&Rational> {
         match &self.0 {
             Form::Rational(value) => Some(value),
@@ -213,12 +213,12 @@ impl Exact {
         }
     }
 
-    /// The constant divided by a rational; `None` if that is zero.
+    /// Returns the constant divided by a rational; `None` if that is zero.
     pub fn divide(&self, divisor: &Rational) -> Option<Exact> {
         (!divisor.is_zero()).then(|| self.scale(&divisor.recip()))
     }
 
-    /// The number of monomials: 1 for a rational.
+    /// Returns the number of monomials: 1 for a rational.
     pub fn terms(&self) -> usize {
         match &self.0 {
             Form::Rational(_) => 1,
@@ -226,7 +226,7 @@ impl Exact {
         }
     }
 
-    /// The value in another ring, from the images of rationals and of the
+    /// Returns the value in another ring, from the images of rationals and of the
     /// pairs of constant angles; `None` if `rational` gives one.
     pub fn map<S: Scalar>(
         &self,
@@ -258,7 +258,7 @@ impl Exact {
         }
     }
 
-    /// The polynomial's terms, for evaluation with an error bound.
+    /// Returns the polynomial's terms, for evaluation with an error bound.
     pub(super) fn polynomial(&self) -> Option<&BTreeMap<Monomial, Rational>> {
         match &self.0 {
             Form::Rational(_) => None,
@@ -273,7 +273,7 @@ impl Exact {
         }
     }
 
-    /// Every coefficient made another one; none of them zero.
+    /// Returns every coefficient made another one; none of them zero.
     fn each(&self, change: impl Fn(&Rational) -> Rational) -> Exact {
         match &self.0 {
             Form::Rational(value) => Exact::from(change(value)),
@@ -377,7 +377,7 @@ fn generator(angle: &Arc<Angle>, sin: u32, cos: u32) -> Exact {
     )]))))
 }
 
-/// terms += c · m · n, each s² replaced by 1 − c².
+/// Adds c · m · n to the terms, each s² replaced by 1 − c².
 fn multiply_into(
     terms: &mut BTreeMap<Monomial, Rational>,
     m: &Monomial,
@@ -443,7 +443,7 @@ enum Reflection {
     Swapped,
 }
 
-/// Quarter turns (0 to 3) and what remains: angle = turns·π/2 + remainder.
+/// Returns quarter turns (0 to 3) and what remains: angle = turns·π/2 + remainder.
 ///
 /// Multiples of π are reduced to (0, π/4], so that π/3 and π/6 share their
 /// generators; radians only lose their sign, since they are no multiple.

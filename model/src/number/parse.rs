@@ -152,7 +152,7 @@ pub fn in_range(value: &Rational) -> bool {
     size <= power && size.recip() <= power
 }
 
-/// `size`·10^`scale`, refused before it is built if it would be out of range.
+/// Returns `size`·10^`scale`, refused before it is built if it would be out of range.
 fn scaled(size: BigInt, scale: i64) -> Result<Rational, NumberError> {
     if size.is_zero() {
         return Ok(Rational::zero());
@@ -179,7 +179,7 @@ fn split_sign(text: &str) -> (bool, &str) {
     }
 }
 
-/// The exponent's value; beyond ±10 000 it stays there, which is out of range
+/// Returns the exponent's value; beyond ±10 000 it stays there, which is out of range
 /// for every literal that is not zero.
 fn parse_exponent(text: &str) -> Result<i64, NumberError> {
     let (negative, rest) = split_sign(text);
@@ -191,7 +191,7 @@ fn parse_exponent(text: &str) -> Result<i64, NumberError> {
     Ok(if negative { -value } else { value })
 }
 
-/// A run of digits has underscores only between digits.
+/// Checks that a run of digits has underscores only between digits.
 fn check_run(run: &str) -> Result<(), NumberError> {
     let good = !run.is_empty()
         && run.split('_').all(|part| !part.is_empty())

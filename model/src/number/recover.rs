@@ -23,13 +23,13 @@ const SIMPLE: u64 = 90;
 /// The digits that everything else is rounded to.
 const DIGITS: i64 = 20;
 
-/// 2⁻²⁰⁰: what is closer to a number than this, in units of the size of what it was
+/// Returns 2⁻²⁰⁰: what is closer to a number than this, in units of the size of what it was
 /// computed from, is that number.
 pub fn near() -> Rational {
     Rational::new(BigInt::one(), BigInt::one() << NEAR)
 }
 
-/// The fraction that a number computed from others of this size was meant to
+/// Returns the fraction that a number computed from others of this size was meant to
 /// be, or the number rounded to 20 digits.
 pub fn recovered(value: &Wide, size: &Rational) -> Rational {
     let value = value.to_rational();
@@ -37,7 +37,7 @@ pub fn recovered(value: &Wide, size: &Rational) -> Rational {
 }
 
 impl Angle {
-    /// The angle whose sine and cosine are in this ratio, in (−π, π]: a multiple
+    /// Returns the angle whose sine and cosine are in this ratio, in (−π, π]: a multiple
     /// of π or a number of radians that was meant, or radians rounded to 20
     /// digits. Zero for two zeros.
     pub fn recovered(sin: &Wide, cos: &Wide) -> Angle {
@@ -53,7 +53,7 @@ impl Angle {
     }
 }
 
-/// The first convergent of the continued fraction that is this near, if its
+/// Returns the first convergent of the continued fraction that is this near, if its
 /// denominator is simple.
 fn simple(value: &Rational, near: &Rational) -> Option<Rational> {
     // Euclid's algorithm on integers: fractions would be cancelled at every step.
@@ -79,7 +79,7 @@ fn simple(value: &Rational, near: &Rational) -> Option<Rational> {
     None
 }
 
-/// To 20 digits, or 21: half away from zero.
+/// Rounds to 20 digits, or 21: half away from zero.
 pub fn rounded(value: &Rational) -> Rational {
     if value.is_zero() {
         return Rational::zero();
@@ -95,7 +95,7 @@ pub fn rounded(value: &Rational) -> Rational {
     (value * &power).round() / power
 }
 
-/// The angle of the point (cos, sin), in (−π, π], to 2⁻²⁴⁰ or so.
+/// Returns the angle of the point (cos, sin), in (−π, π], to 2⁻²⁴⁰ or so.
 fn arc(sin: &Wide, cos: &Wide) -> Rational {
     let size = sin.mul(sin).add(&cos.mul(cos)).sqrt();
     let (Some(sin), Some(cos)) = (sin.over(&size), cos.over(&size)) else {

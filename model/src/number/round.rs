@@ -18,9 +18,9 @@ pub trait Rounded: Copy + PartialEq {
     const LEAST: i64;
     /// Exponent e of the largest finite number: it is below 2^e.
     const MAX: i64;
-    /// From a double that the format holds exactly, or an infinity.
+    /// Makes it from a double that the format holds exactly, or an infinity.
     fn from_exact_f64(value: f64) -> Self;
-    /// The nearest value of an exact constant; an infinity beyond the range.
+    /// Returns the nearest value of an exact constant; an infinity beyond the range.
     fn nearest(value: &Exact) -> Self {
         match value.polynomial() {
             None => value
@@ -29,7 +29,7 @@ pub trait Rounded: Copy + PartialEq {
             Some(terms) => round_polynomial(terms),
         }
     }
-    /// The nearest value of a rational; an infinity beyond the range.
+    /// Returns the nearest value of a rational; an infinity beyond the range.
     fn nearest_rational(value: &Rational) -> Self {
         if Self::DIGITS == i64::from(f64::MANTISSA_DIGITS)
             && let Some(value) = nearest_double(value)
@@ -91,7 +91,7 @@ pub(super) fn round_magnitude(value: &Rational, digits: i64, least: i64, most: i
     scale(significand.to_f64().unwrap_or(f64::INFINITY), unit)
 }
 
-/// ⌊n/(d·2^unit)⌋ and how twice the remainder compares to the divisor.
+/// Returns ⌊n/(d·2^unit)⌋ and how twice the remainder compares to the divisor.
 fn divide(n: &BigInt, d: &BigInt, unit: i64) -> (BigInt, core::cmp::Ordering) {
     let (n, d) = if unit < 0 {
         (n << unit.unsigned_abs(), d.clone())
@@ -102,7 +102,7 @@ fn divide(n: &BigInt, d: &BigInt, unit: i64) -> (BigInt, core::cmp::Ordering) {
     (quotient, (rest << 1u32).cmp(&d))
 }
 
-/// x·2^e, exact where the result is representable.
+/// Returns x·2^e, exact where the result is representable.
 fn scale(mut x: f64, mut e: i64) -> f64 {
     let power = |e: i64| f64::from_bits(((e + 1023) as u64) << 52);
     while e < -1000 {
@@ -116,7 +116,7 @@ fn scale(mut x: f64, mut e: i64) -> f64 {
     x * power(e)
 }
 
-/// Ziv's strategy: more bits until both ends of the enclosure round alike.
+/// Returns Ziv's strategy: more bits until both ends of the enclosure round alike.
 fn round_polynomial<T: Rounded>(terms: &BTreeMap<Monomial, Rational>) -> T {
     let mut bits = 128;
     loop {

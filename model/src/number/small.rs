@@ -9,7 +9,7 @@ use num_traits::Zero;
 
 use super::Rational;
 
-/// a · b
+/// Returns a · b
 pub(super) fn product(a: &Rational, b: &Rational) -> Rational {
     let (Some((p, q)), Some((r, s))) = (words(a), words(b)) else {
         return a * b;
@@ -25,7 +25,7 @@ pub(super) fn product(a: &Rational, b: &Rational) -> Rational {
     Rational::new_raw(BigInt::from(numerator), BigInt::from(denominator))
 }
 
-/// a + b
+/// Returns a + b
 pub(super) fn sum(a: &Rational, b: &Rational) -> Rational {
     let (Some((p, q)), Some((r, s))) = (words(a), words(b)) else {
         return a + b;
@@ -42,7 +42,7 @@ pub(super) fn sum(a: &Rational, b: &Rational) -> Rational {
     )
 }
 
-/// a against b
+/// Returns a against b
 pub(super) fn compare(a: &Rational, b: &Rational) -> Ordering {
     match (words(a), words(b)) {
         // Denominators are above zero.
@@ -52,14 +52,14 @@ pub(super) fn compare(a: &Rational, b: &Rational) -> Ordering {
     }
 }
 
-/// The nearest double, if numerator and denominator are doubles: their quotient.
+/// Returns the nearest double, if numerator and denominator are doubles: their quotient.
 pub(super) fn nearest_double(a: &Rational) -> Option<f64> {
     const EXACT: i128 = 1 << f64::MANTISSA_DIGITS;
     let (p, q) = words(a)?;
     (p.abs() <= EXACT && q <= EXACT).then(|| p as f64 / q as f64)
 }
 
-/// Numerator and denominator, if both are below 2⁶³ in magnitude.
+/// Returns numerator and denominator, if both are below 2⁶³ in magnitude.
 fn words(x: &Rational) -> Option<(i128, i128)> {
     let word = |part: &BigInt| {
         let word = i64::try_from(part).ok()?;
@@ -68,7 +68,7 @@ fn words(x: &Rational) -> Option<(i128, i128)> {
     Some((word(x.numer())?, word(x.denom())?))
 }
 
-/// The greatest common divisor; where both fit, in half as wide words.
+/// Returns the greatest common divisor; where both fit, in half as wide words.
 fn common(a: i128, b: i128) -> i128 {
     match (i64::try_from(a), i64::try_from(b)) {
         (Ok(a), Ok(b)) => a.gcd(&b).into(),

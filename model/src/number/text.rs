@@ -12,7 +12,7 @@ use num_traits::Zero;
 use super::{Angle, Exact, Rational};
 
 impl fmt::Display for Exact {
-    /// No blanks; angles are in radians, or multiples of `pi`.
+    /// Writes it without blanks; angles are in radians, or multiples of `pi`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Some(terms) = self.polynomial() else {
             return match self.as_rational() {

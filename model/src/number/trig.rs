@@ -12,7 +12,7 @@ use super::{Angle, Rational};
 /// The errors of [`sin_cos`] are below 2^(`SLACK` − w).
 pub(super) const SLACK: usize = 8;
 
-/// (sin, cos) of an angle as integers scaled by 2^w, each within
+/// Returns (sin, cos) of an angle as integers scaled by 2^w, each within
 /// 2^`SLACK` units of the true value.
 pub(super) fn sin_cos(angle: &Angle, w: usize) -> (BigInt, BigInt) {
     // Bits to spare: for the reduction by π, and for the series' roundings.
@@ -48,7 +48,7 @@ pub(super) fn sin_cos(angle: &Angle, w: usize) -> (BigInt, BigInt) {
     }
 }
 
-/// Taylor series for |x| ≤ 0.8, scaled by 2^w.
+/// Computes Taylor series for |x| ≤ 0.8, scaled by 2^w.
 fn series(x: &BigInt, w: usize) -> (BigInt, BigInt) {
     let mut term = BigInt::one() << w;
     let (mut sin, mut cos) = (BigInt::zero(), term.clone());
@@ -96,7 +96,8 @@ const PI: [u32; 17] = [
     0x0000_0003,
 ];
 
-/// π·2^w. Series of some hundred bits are asked for thousands of times, so as many are kept.
+/// Returns π·2^w. Series of some hundred bits are asked for thousands of times, so as many
+/// are kept.
 fn pi(w: usize) -> BigInt {
     match KEPT.checked_sub(w) {
         Some(more) => BigInt::from_slice(Sign::Plus, &PI) >> more,
@@ -104,7 +105,7 @@ fn pi(w: usize) -> BigInt {
     }
 }
 
-/// By Machin's formula: π = 16 atan(1/5) − 4 atan(1/239).
+/// Computes π by Machin's formula: π = 16 atan(1/5) − 4 atan(1/239).
 fn machin(w: usize) -> BigInt {
     let guard = 32;
     let one = BigInt::one() << (w + guard);

@@ -218,7 +218,7 @@ impl Argument {
         Argument::Acceleration,
     ];
 
-    /// Its place in [`Argument::ALL`].
+    /// Returns its place in [`Argument::ALL`].
     pub fn index(self) -> usize {
         self as usize
     }
@@ -227,22 +227,22 @@ impl Argument {
         &TABLE[self.index()]
     }
 
-    /// Its name in generated code.
+    /// Returns its name in generated code.
     pub fn name(self) -> &'static str {
         self.facts().name
     }
 
-    /// The argument of a name in generated code.
+    /// Returns the argument of a name in generated code.
     pub fn from_name(name: &str) -> Option<Argument> {
         Argument::ALL.into_iter().find(|a| a.name() == name)
     }
 
-    /// Its letter in the equations.
+    /// Returns its letter in the equations.
     pub fn symbol(self) -> &'static str {
         self.facts().symbol
     }
 
-    /// Its key in files of given states; none if these do not give it.
+    /// Returns its key in files of given states; none if these do not give it.
     pub fn given(self) -> Option<&'static str> {
         self.facts().given
     }
@@ -252,7 +252,7 @@ impl Argument {
         self.facts().noun
     }
 
-    /// A line for its documentation.
+    /// Returns a line for its documentation.
     pub fn meaning(self) -> &'static str {
         self.facts().meaning
     }
@@ -271,7 +271,7 @@ impl Argument {
         self.facts().length == Length::Joints
     }
 
-    /// The limit of a joint that says how far its entries reach; none where
+    /// Returns the limit of a joint that says how far its entries reach; none where
     /// they are no joint's.
     pub fn limit(self) -> Option<Field> {
         self.facts().limit
@@ -283,7 +283,7 @@ impl Argument {
         self.facts().reach
     }
 
-    /// The least that an entry is taken to be where a joint has no such limit.
+    /// Returns the least that an entry is taken to be where a joint has no such limit.
     pub fn least(self) -> f64 {
         match self {
             Argument::Damping => 0.0,

@@ -45,12 +45,12 @@ impl QuantityAt {
         (self.0.quantity, self.0.view)
     }
 
-    /// The quantity of the hand.
+    /// Returns the quantity of the hand.
     pub fn quantity(self) -> Quantity {
         self.0.quantity
     }
 
-    /// The frame, and what is asked of it.
+    /// Returns the frame, and what is asked of it.
     pub fn view(self) -> View {
         self.0.view
     }
@@ -59,7 +59,7 @@ impl QuantityAt {
         &self.0.facts
     }
 
-    /// The arm whose hand is the frame; none where the robot has no such frame, which
+    /// Returns the arm whose hand is the frame; none where the robot has no such frame, which
     /// whoever generates refuses before.
     fn seen<S: Clone>(self, arm: &Arm<S>) -> Option<Arm<S>> {
         arm.seen(&self.0.view)
@@ -138,7 +138,7 @@ impl FunctionAt {
 }
 
 impl Function {
-    /// The same output at a frame, in these axes and components.
+    /// Returns the same output at a frame, in these axes and components.
     ///
     /// ```
     /// use dalembert_model::outputs::Function;
@@ -181,7 +181,7 @@ impl Function {
         })))))
     }
 
-    /// The output of a text with a frame.
+    /// Returns the output of a text with a frame.
     pub(super) fn parse_at(text: &str) -> Result<Function, BundleError> {
         let (name, rest) = text.split_once(AT).unwrap_or((text, ""));
         let name = name.trim();
@@ -214,7 +214,7 @@ impl Function {
         text.contains([AT, OF])
     }
 
-    /// The text of an output at a frame, without spaces.
+    /// Returns the text of an output at a frame, without spaces.
     pub(super) fn text_at(self) -> Option<String> {
         let Some(Quantity::At(at)) = self.quantities().first() else {
             return None;
@@ -224,7 +224,7 @@ impl Function {
         Some(format!("{name}{AT}{}{}", view.frame, suffix(view, OF)))
     }
 
-    /// The frames that it is at, each once.
+    /// Returns the frames that it is at, each once.
     pub fn frames(self) -> Vec<&'static str> {
         let mut frames: Vec<&'static str> = Vec::new();
         for quantity in self.quantities() {
@@ -238,7 +238,7 @@ impl Function {
     }
 }
 
-/// The words of a view, each with a sign before it.
+/// Returns the words of a view, each with a sign before it.
 fn suffix(view: View, sign: char) -> String {
     let mut text = String::new();
     let axes: Option<String> = (view.axes != Axes::Mixed).then(|| view.axes.word().to_string());
@@ -250,7 +250,7 @@ fn suffix(view: View, sign: char) -> String {
     text
 }
 
-/// A view in words.
+/// Returns a view in words.
 fn described(view: View) -> String {
     let axes = match view.axes {
         Axes::Mixed => "",
@@ -267,7 +267,7 @@ fn described(view: View) -> String {
     format!("At frame `{}`{axes}{rows}.", view.frame)
 }
 
-/// A quantity at a frame.
+/// Returns a quantity at a frame.
 fn seen(quantity: Quantity, view: View) -> Quantity {
     let of = quantity.facts();
     let at = format!("{}{}", view.frame, suffix(view, OF));

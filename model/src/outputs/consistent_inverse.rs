@@ -52,7 +52,7 @@ impl Formula for ConsistentInverse {
         damped_mobility(at).concat()
     }
 
-    /// D J̄ (Λ⁻¹ + λ² 1) − Jᵀ over the joints that move.
+    /// Returns D J̄ (Λ⁻¹ + λ² 1) − Jᵀ over the joints that move.
     fn residual<S: Divide>(at: &Written<'_, S>, inverse: &[S]) -> Vec<S> {
         let matrix = damped_mobility(at);
         let d = at.formulation.gathered_inertia(at.arm, at.at);

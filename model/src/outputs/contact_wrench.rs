@@ -55,7 +55,7 @@ impl Formula for ContactWrench {
         damped(&squared(&j), &motion.damping[0]).concat()
     }
 
-    /// (J Jᵀ + λ² 1) ŵ − J τ
+    /// Returns (J Jᵀ + λ² 1) ŵ − J τ
     fn residual<S: Divide>(at: &Written<'_, S>, wrench: &[S]) -> Vec<S> {
         let motion = at.motion;
         let j = at.formulation.moving_jacobian(at.arm, at.at, &motion.moves);

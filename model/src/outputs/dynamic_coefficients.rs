@@ -53,7 +53,7 @@ impl Formula for Christoffel {
     }
 }
 
-/// h_i = Σ_k Σ_m h_ikm q̇_k q̇_m.
+/// Returns h_i = Σ_k Σ_m h_ikm q̇_k q̇_m.
 fn contract(symbols: &[f64], qd: &[f64]) -> Vec<f64> {
     let n = qd.len();
     let row = |row: &[f64]| row.iter().zip(qd).map(|(h, v)| h * v).sum::<f64>();

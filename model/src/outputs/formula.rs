@@ -19,11 +19,11 @@ pub(super) trait Formula {
     /// The value itself.
     const FACTS: Facts;
 
-    /// By a textbook formulation: what everything else is proved against.
+    /// Computes it by a textbook formulation: what everything else is proved against.
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S>;
 
-    /// By the chain formulas with regrouped parameters; `None` if these do not
-    /// give it: then [`Formula::written`] is where a search starts.
+    /// Computes it by the chain formulas with regrouped parameters; `None` if these do not give
+    /// it: then [`Formula::written`] is where a search starts.
     fn regrouped<S: Divide>(_: &Regrouped<'_, S>) -> Option<Vec<S>> {
         None
     }
@@ -31,7 +31,7 @@ pub(super) trait Formula {
     /// True if it exists only where D has an inverse.
     const INVERTS_INERTIA: bool = false;
 
-    /// The symmetric matrix that it inverts beside D, row by row, of which the condition
+    /// Returns the symmetric matrix that it inverts beside D, row by row, of which the condition
     /// says how far rounding may move it; nothing if it inverts no other.
     fn divisor<S: Divide>(_: &Written<'_, S>) -> Vec<S> {
         Vec::new()
@@ -77,7 +77,7 @@ pub struct Motion<S> {
 }
 
 impl<S> Motion<S> {
-    /// At these positions, with the entries of all other arguments.
+    /// Makes the formula at these positions, with the entries of all other arguments.
     pub fn new(q: Vec<JointPosition<S>>, mut entries: impl FnMut(Argument) -> Vec<S>) -> Self {
         Motion {
             moves: alloc::vec![true; q.len()],
@@ -95,7 +95,7 @@ impl<S> Motion<S> {
         }
     }
 
-    /// The entries of an argument; of the positions none, and of what is no
+    /// Returns the entries of an argument; of the positions none, and of what is no
     /// joint vector.
     pub fn of_mut(&mut self, argument: Argument) -> Option<&mut Vec<S>> {
         match argument {
@@ -116,7 +116,7 @@ impl<S> Motion<S> {
 }
 
 impl<S: Clone> Motion<S> {
-    /// The motion of these joints alone.
+    /// Returns the motion of these joints alone.
     #[must_use]
     pub fn of_joints(&self, joints: &[usize]) -> Motion<S> {
         let pick = |values: &[S]| joints.iter().map(|&joint| values[joint].clone()).collect();
@@ -141,7 +141,7 @@ impl<S: Clone> Motion<S> {
 }
 
 impl<S: Scalar> Motion<S> {
-    /// The motion of all rows of an arm from that of the joints that move by themselves:
+    /// Returns the motion of all rows of an arm from that of the joints that move by themselves:
     /// those that follow move with their leaders, and no torque is theirs.
     #[must_use]
     pub fn of_rows(self, following: &[Following<S>]) -> Motion<S> {
@@ -176,7 +176,7 @@ impl<S: Scalar> Motion<S> {
         motion
     }
 
-    /// The motion of an arm with one more link, that does not move.
+    /// Returns the motion of an arm with one more link, that does not move.
     #[must_use]
     pub fn with_still_link(mut self) -> Motion<S> {
         self.q.push(JointPosition::Prismatic(S::zero()));
@@ -248,7 +248,7 @@ impl<S> Default for Shared<S> {
 }
 
 impl<S: Scalar> Regrouped<'_, S> {
-    /// D of the chain, gathered at the leaders of joints that follow.
+    /// Returns D of the chain, gathered at the leaders of joints that follow.
     pub(super) fn gathered_inertia(&self) -> Vec<Vec<S>> {
         gathered_square(self.following, self.composite.inertia(self.form.travel))
     }

@@ -26,7 +26,7 @@ pub(super) const FUNCTION: Definition = Definition {
 /// q̈_i
 pub(super) struct Acceleration;
 
-/// q̈ of a chain: a last joint that nothing depends on first, D of the others.
+/// Returns q̈ of a chain: a last joint that nothing depends on first, D of the others.
 pub(super) fn accelerations<S: Divide>(at: &Regrouped<'_, S>, unknowns: Unknowns) -> Vec<S> {
     let motion = at.motion;
     if !at.following.is_empty() {
@@ -49,7 +49,7 @@ pub(super) fn accelerations<S: Divide>(at: &Regrouped<'_, S>, unknowns: Unknowns
         .accelerations(&d, [&bias, &motion.tau], &motion.moves, unknowns)
 }
 
-/// Inverse dynamics of a motion less τ, of the joints that move by themselves.
+/// Returns inverse dynamics of a motion less τ, of the joints that move by themselves.
 pub(super) fn rest<S: Divide>(at: &Written<'_, S>, qdd: &[S], tau: &[S]) -> Vec<S> {
     let (form, motion) = (at.formulation, at.motion);
     let qdd = spread(&at.arm.following, qdd.to_vec());
@@ -91,7 +91,7 @@ impl Formula for Acceleration {
             .forward_dynamics(at.arm, at.at, &motion.qd, &motion.tau, &motion.moves)
     }
 
-    /// Inverse dynamics of the motion less τ, of the joints that move.
+    /// Returns inverse dynamics of the motion less τ, of the joints that move.
     fn residual<S: Divide>(at: &Written<'_, S>, qdd: &[S]) -> Vec<S> {
         rest(at, qdd, &at.motion.tau)
     }

@@ -46,7 +46,7 @@ pub(super) struct AccelerationByVelocity;
 /// ∂q̈_i/∂τ_k
 pub(super) struct AccelerationByTorque;
 
-/// By position and by velocity, of the joints that move.
+/// Computes them by position and by velocity, of the joints that move.
 fn slopes<S: Divide>(at: &Regrouped<'_, S>) -> [Vec<S>; 2] {
     let (motion, form) = (at.motion, at.form);
     let qdd = spread(at.following, accelerations(at, Unknowns::Joints));
@@ -68,7 +68,7 @@ fn written<S: Divide>(at: &Written<'_, S>) -> [Vec<S>; 2] {
     slopes.map(flat)
 }
 
-/// D X + S over the joints that move, for the slopes X of q̈ and S of τ.
+/// Returns D X + S over the joints that move, for the slopes X of q̈ and S of τ.
 pub(super) fn defect<S: Divide>(at: &Written<'_, S>, x: &[S], slopes: &[Vec<S>]) -> Vec<S> {
     let d = at.formulation.gathered_inertia(at.arm, at.at);
     let slopes = gathered_columns(&at.arm.following, slopes.to_vec());
@@ -110,7 +110,7 @@ impl Formula for AccelerationByPosition {
         position
     }
 
-    /// D ∂q̈/∂q + ∂τ/∂q at the motion that τ brings about.
+    /// Returns D ∂q̈/∂q + ∂τ/∂q at the motion that τ brings about.
     fn residual<S: Divide>(at: &Written<'_, S>, values: &[S]) -> Vec<S> {
         let (form, motion) = (at.formulation, at.motion);
         let qdd = form.forward_dynamics(at.arm, at.at, &motion.qd, &motion.tau, &motion.moves);
@@ -148,7 +148,7 @@ impl Formula for AccelerationByVelocity {
         velocity
     }
 
-    /// D ∂q̈/∂q̇ + ∂τ/∂q̇
+    /// Returns D ∂q̈/∂q̇ + ∂τ/∂q̇
     fn residual<S: Divide>(at: &Written<'_, S>, values: &[S]) -> Vec<S> {
         let form = at.formulation;
         let slopes = form.torque_by_velocity(at.arm, at.at, &at.motion.qd);

@@ -72,7 +72,7 @@ impl<S: Divide> Inverted<S> {
     }
 }
 
-/// All four of the chain.
+/// Returns all four of the chain.
 fn regrouped<'a, S: Divide>(at: &'a Regrouped<'_, S>) -> &'a SecondDerivatives<S> {
     let (motion, travel) = (at.motion, at.form.travel);
     let all = || {
@@ -222,7 +222,7 @@ impl Formula for AccelerationByTorqueAndPosition {
         all.by_torque_and_position().concat()
     }
 
-    /// D X + ∂(D μ)/∂q with D μ = λ, of the joints that move.
+    /// Returns D X + ∂(D μ)/∂q with D μ = λ, of the joints that move.
     fn residual<S: Divide>(at: &Written<'_, S>, values: &[S]) -> Vec<S> {
         let mut driven = Inverted::new(at).driven(at);
         for row in &mut driven {

@@ -27,7 +27,7 @@ pub(super) const FUNCTION: Definition = Definition {
 /// q̈_i
 pub(super) struct ContactAcceleration;
 
-/// a + b
+/// Returns a + b
 fn added<S: Scalar>(a: &[S], b: &[S]) -> Vec<S> {
     a.iter().zip(b).map(|(a, b)| plus(a, b)).collect()
 }
@@ -70,7 +70,7 @@ impl Formula for ContactAcceleration {
             .forward_dynamics(at.arm, at.at, &motion.qd, &tau, &motion.moves)
     }
 
-    /// Inverse dynamics of the motion less τ and Jᵀw, of the joints that move.
+    /// Returns inverse dynamics of the motion less τ and Jᵀw, of the joints that move.
     fn residual<S: Divide>(at: &Written<'_, S>, qdd: &[S]) -> Vec<S> {
         rest(at, qdd, &added(&at.motion.tau, &of_wrench(at)))
     }

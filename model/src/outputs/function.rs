@@ -41,23 +41,23 @@ pub enum Columns {
 }
 
 impl Function {
-    /// The functions that are generated where nobody says which are wanted.
+    /// Returns the functions that are generated where nobody says which are wanted.
     pub fn by_default() -> Vec<Function> {
         let wanted = |function: &Function| function.definition().by_default;
         Function::ALL.into_iter().filter(wanted).collect()
     }
 
-    /// Its name in generated code, on the command line and in the macro.
+    /// Returns its name in generated code, on the command line and in the macro.
     pub fn name(self) -> &'static str {
         self.definition().name
     }
 
-    /// The function of a name, of those that always are.
+    /// Returns the function of a name, of those that always are.
     pub fn from_name(name: &str) -> Option<Function> {
         Function::ALL.into_iter().find(|f| f.name() == name)
     }
 
-    /// One line for its documentation.
+    /// Returns one line for its documentation.
     pub fn summary(self) -> &'static str {
         self.definition().summary
     }
@@ -106,7 +106,7 @@ impl Function {
         self.definition().results
     }
 
-    /// The struct it returns, if it returns several quantities.
+    /// Returns the struct it returns, if it returns several quantities.
     pub fn structure(self) -> Option<&'static str> {
         self.definition().structure
     }
@@ -116,7 +116,7 @@ impl Function {
         self.quantities().iter().map(|q| q.len(sizes)).sum()
     }
 
-    /// The columns of a regressor that a result is over.
+    /// Returns the columns of a regressor that a result is over.
     pub fn columns(self) -> Columns {
         let over = |axis| {
             let mut results = self.quantities().iter();
@@ -129,7 +129,7 @@ impl Function {
         }
     }
 
-    /// Its results by one formulation, flat, in the order of its quantities;
+    /// Returns its results by one formulation, flat, in the order of its quantities;
     /// each array row by row. `columns` are those of [`Function::columns`].
     pub fn evaluate<S: Divide>(
         self,
@@ -183,7 +183,7 @@ impl Function {
         self.quantities().iter().any(|q| q.inverts_inertia())
     }
 
-    /// The associations of the chain formulas that differ for it, the usually
+    /// Returns the associations of the chain formulas that differ for it, the usually
     /// cheapest first.
     pub fn forms(self) -> Vec<Form> {
         let quantities = || self.quantities().iter();

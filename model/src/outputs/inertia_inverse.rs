@@ -22,7 +22,7 @@ pub(super) const FUNCTION: Definition = Definition {
 /// (D⁻¹)_ik
 pub(super) struct InertiaInverse;
 
-/// D⁻¹ of a chain: a last joint that nothing depends on first, D of the others.
+/// Returns D⁻¹ of a chain: a last joint that nothing depends on first, D of the others.
 pub(super) fn inverse<S: Divide>(at: &Regrouped<'_, S>) -> Vec<Vec<S>> {
     let (moves, travel) = (&at.motion.moves, at.form.travel);
     match EliminatedTip::new(&at.composite, moves).filter(|_| at.following.is_empty()) {
@@ -63,7 +63,7 @@ impl Formula for InertiaInverse {
         inverse.into_iter().flatten().collect()
     }
 
-    /// D D⁻¹ − 1 over the joints that move.
+    /// Returns D D⁻¹ − 1 over the joints that move.
     fn residual<S: Divide>(at: &Written<'_, S>, inverse: &[S]) -> Vec<S> {
         let d = at.formulation.gathered_inertia(at.arm, at.at);
         let (free, n) = (free(&at.motion.moves), d.len());

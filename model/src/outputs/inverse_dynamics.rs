@@ -21,7 +21,7 @@ pub(super) const FUNCTION: Definition = Definition {
 /// τ_i
 pub(super) struct Torque;
 
-/// τ of a chain at its velocities and these accelerations.
+/// Returns τ of a chain at its velocities and these accelerations.
 pub(super) fn torques<S: Scalar>(at: &Regrouped<'_, S>, qdd: &[S]) -> Vec<S> {
     let (chain, qd, form) = (at.chain, &at.motion.qd, at.form);
     if !form.composite_h {

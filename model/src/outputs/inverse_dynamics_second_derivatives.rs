@@ -36,7 +36,7 @@ pub(super) struct TorqueByVelocities;
 /// ∂(D λ)_i/∂q_k
 pub(super) struct TorqueByAccelerationAndPosition;
 
-/// All four of the chain.
+/// Returns all four of the chain.
 fn regrouped<'a, S: Divide>(at: &'a Regrouped<'_, S>) -> &'a SecondDerivatives<S> {
     let motion = at.motion;
     let given = [&motion.qd[..], &motion.qdd, &motion.multiplier];

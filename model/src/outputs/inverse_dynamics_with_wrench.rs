@@ -25,13 +25,13 @@ pub(super) const FUNCTION: Definition = Definition {
 /// τ_i
 pub(super) struct ContactTorque;
 
-/// Jᵀ w over all joints of the arm.
+/// Returns Jᵀ w over all joints of the arm.
 pub(super) fn of_wrench<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
     at.formulation
         .torques_of_wrench(at.arm, at.at, &at.motion.wrench)
 }
 
-/// a − b
+/// Returns a − b
 pub(super) fn less<S: Scalar>(a: &[S], b: &[S]) -> Vec<S> {
     a.iter().zip(b).map(|(a, b)| minus(a, b)).collect()
 }

@@ -24,7 +24,7 @@ pub(super) const FUNCTION: Definition = Definition {
 /// β_i
 pub(super) struct MomentumDrift;
 
-/// Cᵀq̇ − c less the torques of friction.
+/// Returns Cᵀq̇ − c less the torques of friction.
 fn drift<'a, S: Scalar + 'a>(
     slope: Vec<S>,
     gravity: Vec<S>,

@@ -21,7 +21,7 @@ pub(super) const FUNCTION: Definition = Definition {
 /// Λ_rs
 pub(super) struct OperationalInertia;
 
-/// Λ⁻¹ + λ² 1, which all that has Λ divides by.
+/// Returns Λ⁻¹ + λ² 1, which all that has Λ divides by.
 pub(super) fn damped_mobility<S: Divide>(at: &Written<'_, S>) -> Vec<Vec<S>> {
     written_space(at).damped(&at.motion.damping[0])
 }
@@ -53,7 +53,7 @@ impl Formula for OperationalInertia {
         damped_mobility(at).concat()
     }
 
-    /// (Λ⁻¹ + λ² 1) Λ − 1
+    /// Returns (Λ⁻¹ + λ² 1) Λ − 1
     fn residual<S: Divide>(at: &Written<'_, S>, inertia: &[S]) -> Vec<S> {
         let matrix = damped_mobility(at);
         let m = matrix.len();

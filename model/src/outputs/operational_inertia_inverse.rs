@@ -41,19 +41,19 @@ pub(super) const OF_HAND: Facts = Facts {
     ..Facts::PLAIN
 };
 
-/// What follows from J and D by the textbook.
+/// Returns what follows from J and D by the textbook.
 pub(super) fn written_space<S: Divide>(at: &Written<'_, S>) -> TaskSpace<S> {
     at.formulation.task_space(at.arm, at.at, &at.motion.moves)
 }
 
-/// The hand of the arm, seen as the form says.
+/// Returns the hand of the arm, seen as the form says.
 pub(super) fn hand<'a, S: Divide>(at: &Regrouped<'a, S>) -> Option<SeenHand<'a, S>> {
     let whole = at.textbook.as_ref()?;
     let arm = (whole.arm, whole.at);
     Some(SeenHand::new(whole.formulation, arm, at.form.hand.axes))
 }
 
-/// J′ over the joints of the chain, gathered at the leaders of those that follow.
+/// Returns J′ over the joints of the chain, gathered at the leaders of those that follow.
 pub(super) fn chain_jacobian<S: Divide>(
     at: &Regrouped<'_, S>,
     hand: &SeenHand<'_, S>,
@@ -63,18 +63,18 @@ pub(super) fn chain_jacobian<S: Divide>(
     gathered_rows(at.following, rows.collect())
 }
 
-/// The factors of D over the joints of the chain that move.
+/// Returns the factors of D over the joints of the chain that move.
 pub(super) fn factor<S: Divide>(at: &Regrouped<'_, S>) -> Factor<S> {
     let d = at.gathered_inertia();
     Factor::new(&submatrix(&d, &free(&at.motion.moves)))
 }
 
-/// What follows from J′ and D's factors.
+/// Returns what follows from J′ and D's factors.
 pub(super) fn space<S: Divide>(at: &Regrouped<'_, S>, hand: &SeenHand<'_, S>) -> TaskSpace<S> {
     TaskSpace::by_factor(chain_jacobian(at, hand), &factor(at), &at.motion.moves)
 }
 
-/// J̄ and N by normal equations, if the form says so and there are such.
+/// Returns J̄ and N by normal equations, if the form says so and there are such.
 pub(super) fn normal<S: Divide>(
     at: &Regrouped<'_, S>,
     hand: &SeenHand<'_, S>,
@@ -84,7 +84,7 @@ pub(super) fn normal<S: Divide>(
     NormalEquations::new(&jacobian, &inertia, &motion.damping[0], &motion.moves)
 }
 
-/// Of how many of two components are turns: of a unit in two powers of metres.
+/// Counts how many of two components are turns: of a unit in two powers of metres.
 pub(super) fn angular(at: &[Index]) -> usize {
     let turns = |at: &&Index| matches!(at, Index::Fixed(3..) | Index::Turning);
     at.iter().filter(turns).count()

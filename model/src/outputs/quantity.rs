@@ -150,8 +150,8 @@ impl Quantity {
         self.facts().shape
     }
 
-    /// If it is over base parameters: what it gives with their values, and the
-    /// constant of generated code that has these.
+    /// Returns, if it is over base parameters, what it gives with their values, and the constant
+    /// of generated code that has these.
     pub fn linear(self) -> Option<(&'static str, &'static str)> {
         self.facts().linear
     }
@@ -166,17 +166,17 @@ impl Quantity {
         self.facts().arguments
     }
 
-    /// Its field in the structs that generated functions return.
+    /// Returns its field in the structs that generated functions return.
     pub fn field(self) -> &'static str {
         self.facts().field
     }
 
-    /// A line of documentation for its field.
+    /// Returns a line of documentation for its field.
     pub fn summary(self) -> &'static str {
         self.facts().summary
     }
 
-    /// Its letter in the equations; `h_ikm` for the symbols that make up h.
+    /// Returns its letter in the equations; `h_ikm` for the symbols that make up h.
     pub fn symbol(self) -> &'static str {
         self.facts().symbol
     }
@@ -186,7 +186,7 @@ impl Quantity {
         self.facts().scale
     }
 
-    /// Its key in files of given states.
+    /// Returns its key in files of given states.
     pub fn given(self) -> Option<&'static str> {
         self.facts().given
     }
@@ -247,7 +247,7 @@ impl Quantity {
         self.facts().gravity
     }
 
-    /// The joints of an entry over these rows, one for each axis over joints.
+    /// Returns the joints of an entry over these rows, one for each axis over joints.
     pub fn joints(self, index: usize, rows: &[usize], sizes: Sizes) -> impl Iterator<Item = usize> {
         let places = self.shape().places(index, sizes.over(rows.len()));
         let axes = self.shape().0.iter().zip(places);
@@ -258,7 +258,7 @@ impl Quantity {
         axes.filter_map(of).collect::<Vec<_>>().into_iter()
     }
 
-    /// The unit of an entry over these rows of a robot.
+    /// Returns the unit of an entry over these rows of a robot.
     pub fn unit(self, index: usize, rows: &[usize], sizes: Sizes, robot: &Robot) -> &'static str {
         let places = self.shape().places(index, sizes.over(rows.len()));
         let turns = |place: usize| {
@@ -278,7 +278,7 @@ impl Quantity {
         (self.facts().unit)(&indices.collect::<Vec<_>>())
     }
 
-    /// The place among six of a component of a quantity at a frame, if some were chosen.
+    /// Returns the place among six of a component of a quantity at a frame, if some were chosen.
     fn component(self, place: usize) -> usize {
         let rows = match self {
             Quantity::At(at) if self.facts().frame >= FrameChoice::Rows => at.view().rows,
@@ -287,14 +287,14 @@ impl Quantity {
         rows.indices().nth(place).unwrap_or(place)
     }
 
-    /// The name of one entry, one-based: `D_12`, `h_123`, with separators
+    /// Returns the name of one entry, one-based: `D_12`, `h_123`, with separators
     /// where a robot has more than nine joints, or an axis more entries.
     pub fn entry(self, index: usize, sizes: Sizes) -> String {
         let rows: Vec<usize> = (0..sizes.rows).collect();
         self.entry_over(index, &rows, sizes)
     }
 
-    /// The name of one entry of a quantity that is over these joints.
+    /// Returns the name of one entry of a quantity that is over these joints.
     pub fn entry_over(self, index: usize, rows: &[usize], sizes: Sizes) -> String {
         let letter = self.facts().letter;
         let sizes = sizes.over(rows.len());
@@ -314,7 +314,7 @@ impl Quantity {
     }
 }
 
-/// A force along a joint's axis, or a torque about it.
+/// Returns a force along a joint's axis, or a torque about it.
 pub(super) fn load(at: &[Index]) -> &'static str {
     match turns(at) {
         0 => "N",

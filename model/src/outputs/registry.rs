@@ -63,7 +63,7 @@ macro_rules! registry {
                 }
             }
 
-            /// The function that defines it, of the hand, where others may return it too.
+            /// Returns the function that defines it, of the hand, where others may return it too.
             pub fn function(self) -> Function {
                 match self {
                     $($(Quantity::$quantity => Function::$function,)*)*
@@ -72,7 +72,7 @@ macro_rules! registry {
                 }
             }
 
-            /// Its entries by a textbook formulation, flat, row by row.
+            /// Returns its entries by a textbook formulation, flat, row by row.
             pub fn written<S: $crate::scalar::Divide>(self, at: &Written<'_, S>) -> ::alloc::vec::Vec<S> {
                 match self {
                     $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::written(at),)*)*
@@ -81,7 +81,7 @@ macro_rules! registry {
                 }
             }
 
-            /// Its entries by the chain formulas, over the chain's joints; `None`
+            /// Returns its entries by the chain formulas, over the chain's joints; `None`
             /// if these do not give it.
             pub fn regrouped<S: $crate::scalar::Divide>(
                 self,
@@ -117,7 +117,7 @@ macro_rules! registry {
                 }
             }
 
-            /// The symmetric matrix that it inverts beside D, row by row; nothing if it
+            /// Returns the symmetric matrix that it inverts beside D, row by row; nothing if it
             /// inverts no other.
             pub fn divisor<S: $crate::scalar::Divide>(self, at: &Written<'_, S>) -> ::alloc::vec::Vec<S> {
                 match self {
@@ -127,7 +127,7 @@ macro_rules! registry {
                 }
             }
 
-            /// Its place among all of them; none of one at a frame.
+            /// Returns its place among all of them; none of one at a frame.
             pub fn index(self) -> ::core::option::Option<usize> {
                 Quantity::ALL.iter().position(|quantity| *quantity == self)
             }

@@ -60,21 +60,21 @@ pub(super) const CHOICES: Option<Choices> = Some(Choices {
     flows: false,
 });
 
-/// The columns by a textbook formulation.
+/// Returns the columns by a textbook formulation.
 pub(super) fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
     let (motion, formulation) = (at.motion, at.formulation);
     let rows = formulation.regressor(at.arm, at.at, &motion.qd, &motion.qdd, at.columns);
     rows.into_iter().flatten().collect()
 }
 
-/// The columns by the chain formulas.
+/// Returns the columns by the chain formulas.
 pub(super) fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Vec<S> {
     let (motion, travel) = (at.motion, at.form.travel);
     let rows = at.chain.regressor(at.at, &motion.qd, &motion.qdd, travel);
     rows.into_iter().flatten().collect()
 }
 
-/// The unit of an entry: of a torque over that of its parameter.
+/// Returns the unit of an entry: of a torque over that of its parameter.
 pub(super) fn unit(at: &[Index]) -> &'static str {
     use crate::equations::regressor::LinkParameter;
     let metres = match at {

@@ -17,7 +17,7 @@ impl RuntimeParameter {
     /// All of them.
     pub const ALL: [RuntimeParameter; 2] = [RuntimeParameter::Payload, RuntimeParameter::Gravity];
 
-    /// Its name in the macro and on the command line.
+    /// Returns its name in the macro and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             RuntimeParameter::Payload => "payload",
@@ -25,7 +25,7 @@ impl RuntimeParameter {
         }
     }
 
-    /// The argument by which functions take it.
+    /// Returns the argument by which functions take it.
     pub fn argument(self) -> Argument {
         match self {
             RuntimeParameter::Payload => Argument::Load,

@@ -66,7 +66,7 @@ impl Shape {
     /// n×n×n
     pub const CUBE: Shape = Shape(&[Axis::Joints, Axis::Joints, Axis::Joints]);
 
-    /// The lengths of its axes.
+    /// Returns the lengths of its axes.
     pub fn lengths(self, sizes: Sizes) -> impl DoubleEndedIterator<Item = usize> {
         self.0.iter().map(move |axis| axis.length(sizes))
     }
@@ -76,7 +76,7 @@ impl Shape {
         self.lengths(sizes).product()
     }
 
-    /// The place of a number along each axis, the outermost first.
+    /// Returns the place of a number along each axis, the outermost first.
     pub fn places(self, mut index: usize, sizes: Sizes) -> Vec<usize> {
         let mut places: Vec<usize> = Vec::with_capacity(self.0.len());
         for length in self.lengths(sizes).rev() {
@@ -94,7 +94,7 @@ impl Shape {
 }
 
 impl Axis {
-    /// Its length.
+    /// Returns its length.
     pub fn length(self, sizes: Sizes) -> usize {
         match self {
             Axis::Joints => sizes.rows,

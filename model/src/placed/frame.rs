@@ -18,12 +18,12 @@ pub struct Body {
     pub inertia: Inertia<Rational>,
 }
 
-/// [R | p] of a placement.
+/// Returns [R | p] of a placement.
 pub fn pose(placement: &Placement) -> Columns<Wide> {
     pose_of(placement, Wide::sincos, Wide::from_rational)
 }
 
-/// Rows for columns, and the origin seen from itself.
+/// Inverts it: rows for columns, and the origin seen from itself.
 pub fn inverse(pose: &Columns<Wide>) -> Columns<Wide> {
     let axes = core::array::from_fn(|i| core::array::from_fn(|k| pose.axes[k][i]));
     Columns {
@@ -32,7 +32,7 @@ pub fn inverse(pose: &Columns<Wide>) -> Columns<Wide> {
     }
 }
 
-/// The placement that a pose is, lengths beside those of this size.
+/// Returns the placement that a pose is, lengths beside those of this size.
 pub fn placement(pose: &Columns<Wide>, size: &Rational) -> Placement {
     let [x, y, z] = &pose.axes;
     // R = Rz(yaw) Ry(pitch) Rx(roll): x is (cos pitch cos yaw, cos pitch sin yaw,
@@ -53,7 +53,7 @@ pub fn placement(pose: &Columns<Wide>, size: &Rational) -> Placement {
     }
 }
 
-/// A body given in a frame, seen from one in which that frame has this pose, which was
+/// Returns a body given in a frame, seen from one in which that frame has this pose, which was
 /// computed from lengths of this size: beside them what is left of a difference may be
 /// nothing.
 pub fn moved(body: &Body, pose: &Columns<Wide>, size: &Rational) -> Body {
@@ -70,7 +70,7 @@ pub fn moved(body: &Body, pose: &Columns<Wide>, size: &Rational) -> Body {
     }
 }
 
-/// The turn by an angle about a unit vector: v → c v + s u × v + (1 − c) u (u·v).
+/// Returns the turn by an angle about a unit vector: v → c v + s u × v + (1 − c) u (u·v).
 pub fn turned(about: &Vector<Wide>, angle: &Angle) -> Columns<Wide> {
     let SinCosPair { sin, cos } = Wide::sincos(angle);
     let rest = Wide::one().sub(&cos);
@@ -90,7 +90,7 @@ pub fn turned(about: &Vector<Wide>, angle: &Angle) -> Columns<Wide> {
     }
 }
 
-/// The unit vector along a direction, unless that is zero.
+/// Returns the unit vector along a direction, unless that is zero.
 pub fn direction(axis: &[Rational; 3]) -> Option<Vector<Wide>> {
     // Of ordinary size first: 1e-300 is a direction too.
     let largest = axis.iter().map(Signed::abs).max()?;
@@ -103,7 +103,7 @@ pub fn direction(axis: &[Rational; 3]) -> Option<Vector<Wide>> {
     unit(&axis)
 }
 
-/// A vector divided by its length, unless that is zero.
+/// Returns a vector divided by its length, unless that is zero.
 pub fn unit(vector: &Vector<Wide>) -> Option<Vector<Wide>> {
     let per_length = Wide::one().over(&length(vector))?;
     Some(scaled(&per_length, vector))

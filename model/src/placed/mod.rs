@@ -129,7 +129,7 @@ pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<(), NoDirection> {
     Ok(())
 }
 
-/// Where a frame is in another one, in which that which it is given in has this pose;
+/// Returns where a frame is in another one, in which that which it is given in has this pose;
 /// without a placement it is that.
 fn placed_in(back: &Columns<Wide>, own: Option<&Placement>, size: &Rational) -> Placement {
     let pose = match own {
@@ -159,7 +159,7 @@ fn is_nothing(value: &Wide, size: &Rational) -> bool {
     value <= size * crate::number::recover::near()
 }
 
-/// a + s b, for points along lines.
+/// Returns a + s b, for points along lines.
 fn along(a: &[Wide; 3], s: &Wide, b: &[Wide; 3]) -> [Wide; 3] {
     core::array::from_fn(|i| a[i].add(&s.mul(&b[i])))
 }

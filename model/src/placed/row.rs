@@ -36,8 +36,8 @@ pub(super) struct Row {
     pub(super) frame: Columns<Wide>,
 }
 
-/// Frame 0: on the first axis, next to the origin, its x as near to the base's
-/// as it can be, or to the base's y where the axis is along x.
+/// Returns frame 0: on the first axis, next to the origin, its x as near to the base's as it can
+/// be, or to the base's y where the axis is along x.
 pub(super) fn first_frame(first: &Axis) -> Columns<Wide> {
     let z = &first.along;
     let back = dot(&first.through, z).neg();
@@ -53,7 +53,7 @@ pub(super) fn first_frame(first: &Axis) -> Columns<Wide> {
     }
 }
 
-/// From a frame on its axis to one on the next axis.
+/// Returns the row from a frame on its axis to one on the next axis.
 pub(super) fn to_axis(here: &Columns<Wide>, next: &Axis, size: &Rational) -> Row {
     let u = &here.axes[2];
     // Beside the link's own origin, where nothing says how far along the axis.
@@ -76,7 +76,7 @@ pub(super) fn to_axis(here: &Columns<Wide>, next: &Axis, size: &Rational) -> Row
     }
 }
 
-/// To the last link: the row only turns and slides, to the link's own axes where
+/// Returns the row to the last link: the row only turns and slides, to the link's own axes where
 /// these are quarter turns away.
 pub(super) fn to_link(here: &Columns<Wide>) -> Row {
     let u = &here.axes[2];
@@ -104,7 +104,7 @@ pub(super) fn to_link(here: &Columns<Wide>) -> Row {
     }
 }
 
-/// One common normal.
+/// Returns one common normal.
 fn askew(here: &Columns<Wide>, next: &Axis, normal: &Vector<Wide>) -> Row {
     let (u, w) = (&here.axes[2], &next.along);
     let p = difference(&next.through, &here.origin);
@@ -128,7 +128,7 @@ fn askew(here: &Columns<Wide>, next: &Axis, normal: &Vector<Wide>) -> Row {
     }
 }
 
-/// Many common normals: the one beside the link's own origin.
+/// Chooses among many common normals the one beside the link's own origin.
 fn parallel(here: &Columns<Wide>, next: &Axis, d: Wide, size: &Rational) -> Row {
     let u = &here.axes[2];
     let origin = along(&here.origin, &d, u);
@@ -156,7 +156,7 @@ fn parallel(here: &Columns<Wide>, next: &Axis, d: Wide, size: &Rational) -> Row 
     }
 }
 
-/// A common normal that may be far away: the frame stays beside the link's own
+/// Returns a common normal that may be far away: the frame stays beside the link's own
 /// origin, and turns about y too. z = Rx(α) Ry(β) z_0 is
 /// (sin β, −sin α cos β, cos α cos β) in the axes turned by θ.
 fn nearly_parallel(here: &Columns<Wide>, next: &Axis, d: Wide, passes: &Vector<Wide>) -> Row {
@@ -196,7 +196,7 @@ fn near(here: &Columns<Wide>, x: Vector<Wide>) -> Vector<Wide> {
     if backward { opposite(&x) } else { x }
 }
 
-/// θ: how far a vector across the axis is turned from the frame's x.
+/// Returns θ: how far a vector across the axis is turned from the frame's x.
 fn turn(here: &Columns<Wide>, x: &Vector<Wide>) -> Angle {
     let SinCosPair { sin, cos } = components(here, x);
     Angle::recovered(&sin, &cos)

@@ -76,7 +76,7 @@ pub(super) fn read<'s>(
     Some((robot, outputs.unwrap_or_default(), scenes))
 }
 
-/// The robot, and what is wrong or odd about it beside what cannot be read.
+/// Returns the robot, and what is wrong or odd about it beside what cannot be read.
 fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<(Robot, Vec<Finding>)> {
     let keys = Keys {
         table: cx.table(root, "")?,
@@ -163,7 +163,7 @@ struct Read {
     span: Range<usize>,
 }
 
-/// A placement that a key may give.
+/// Returns a placement that a key may give.
 fn placement(
     cx: &mut Context,
     places: &mut Places,

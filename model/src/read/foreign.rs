@@ -16,7 +16,7 @@ const QUOTES: [char; 7] = [
 /// Characters that look like a space, or like nothing.
 const SPACES: [char; 5] = ['\u{00a0}', '\u{2007}', '\u{2009}', '\u{202f}', '\u{200b}'];
 
-/// The format of a text that is none of TOML's, with what to do about it.
+/// Returns the format of a text that is none of TOML's, with what to do about it.
 pub(super) fn format_of(source: &str) -> Option<(&'static str, &'static str)> {
     const TOML: &str =
         "a robot file is TOML: `name = \"arm\"` and a [[joint]] table for every joint";
@@ -73,7 +73,7 @@ pub(super) fn character(c: char) -> Option<(String, &'static str)> {
     })
 }
 
-/// The help for a text that would be a number or an angle but for one of these
+/// Returns the help for a text that would be a number or an angle but for one of these
 /// characters or a comma.
 pub(super) fn in_text(text: &str) -> Option<String> {
     if let Some(dash) = text.chars().find(|c| DASHES.contains(c)) {
@@ -83,7 +83,7 @@ pub(super) fn in_text(text: &str) -> Option<String> {
     decimal_comma(text.trim()).map(|meant| format!("decimals have a point: {meant}"))
 }
 
-/// `17.4` for `17,4`.
+/// Returns `17.4` for `17,4`.
 fn decimal_comma(text: &str) -> Option<String> {
     let (whole, part) = text.split_once(',')?;
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
@@ -112,7 +112,7 @@ pub(super) fn decimal_comma_in(array: &str) -> Option<String> {
     words.find_map(decimal_comma)
 }
 
-/// The number without the zeros that it begins with.
+/// Returns the number without the zeros that it begins with.
 pub(super) fn leading_zeros(word: &str) -> Option<String> {
     let (sign, digits) = match word.strip_prefix('-') {
         Some(digits) => ("-", digits),

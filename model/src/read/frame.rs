@@ -71,7 +71,7 @@ fn one(cx: &mut Context, keys: &Keys, joints: &[Joint]) -> Option<(Frame, Range<
     Some((frame, span))
 }
 
-/// The joint that moves a link, by its number, from one, or its name.
+/// Returns the joint that moves a link, by its number, from one, or its name.
 pub(super) fn joint(cx: &mut Context, joints: &[Joint], link: &Value, help: &str) -> Option<usize> {
     let text = match (link.as_str(), link.as_integer()) {
         (Some(name), _) => name.to_string(),

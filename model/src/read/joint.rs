@@ -183,7 +183,7 @@ impl Fields<'_, '_, '_, '_, '_> {
         self.cx.word(value, &JointKind::WORDS)
     }
 
-    /// The link's own frame, in that of its row or of its placement.
+    /// Reads the link's own frame, in that of its row or of its placement.
     fn frame(&mut self) -> Option<Placement> {
         let value = self.keys.get(Field::Frame.key())?;
         let read = self.cx.placement(value, Field::Frame.key());
@@ -191,7 +191,7 @@ impl Fields<'_, '_, '_, '_, '_> {
             .unless_identity()
     }
 
-    /// A number that is zero unless given.
+    /// Reads a number that is zero unless given.
     fn number(&mut self, field: Field) -> Rational {
         let Some(value) = self.keys.get(field.key()) else {
             return Rational::zero();
@@ -200,7 +200,7 @@ impl Fields<'_, '_, '_, '_, '_> {
         self.keep(field, value, read, Rational::zero)
     }
 
-    /// The width of Coulomb friction; of one that cannot be read nothing is said
+    /// Reads the width of Coulomb friction; of one that cannot be read nothing is said
     /// but that, and one that is missing is missing where the friction stands.
     fn coulomb_width(&mut self) -> Rational {
         let field = Field::CoulombWidth;
@@ -213,7 +213,7 @@ impl Fields<'_, '_, '_, '_, '_> {
         self.keep(field, value, read, Rational::one)
     }
 
-    /// An angle that is zero unless given.
+    /// Reads an angle that is zero unless given.
     fn angle(&mut self, field: Field) -> Angle {
         let Some(value) = self.keys.get(field.key()) else {
             return Angle::default();
@@ -222,7 +222,7 @@ impl Fields<'_, '_, '_, '_, '_> {
         self.keep(field, value, read, Angle::default)
     }
 
-    /// The constant parts of d and theta: one of them belongs to the joint's
+    /// Reads the constant parts of d and theta: one of them belongs to the joint's
     /// variable, and is called `offset`.
     fn variable(&mut self, kind: Option<JointKind>) -> (Rational, Angle) {
         match kind {
@@ -250,7 +250,7 @@ impl Fields<'_, '_, '_, '_, '_> {
         }
     }
 
-    /// The mass, and whether the file says that there is none.
+    /// Reads the mass, and whether the file says that there is none.
     fn mass(&mut self) -> (Rational, bool) {
         let help = "mass = 4.8, in kg; a link without mass has mass = 0";
         let value = self.keys.require("mass", help, self.cx.sink);
@@ -261,7 +261,7 @@ impl Fields<'_, '_, '_, '_, '_> {
         (mass, is_massless)
     }
 
-    /// The centre of mass; what has no mass has none.
+    /// Reads the centre of mass; what has no mass has none.
     fn com(&mut self, is_massless: bool) -> [Rational; 3] {
         let zeros = || [(); 3].map(|()| Rational::zero());
         const COM: &str = "com = [x, y, z]: the centre of mass in the link frame, in m; only a link with mass = 0 may leave it out";
@@ -276,7 +276,7 @@ impl Fields<'_, '_, '_, '_, '_> {
         }
     }
 
-    /// The inertia; what has no mass has none unless the file says so.
+    /// Reads the inertia; what has no mass has none unless the file says so.
     fn inertia(&mut self, is_massless: bool) -> Inertia<Rational> {
         const HELP: &str = "inertia = [Ixx, Iyy, Izz, Ixy, Iyz, Ixz] about the centre of mass, in kg·m²; only a link with mass = 0 may leave it out";
         let value = match self.keys.get("inertia") {
@@ -319,7 +319,7 @@ impl Fields<'_, '_, '_, '_, '_> {
         }
     }
 
-    /// A limit of velocity or acceleration: of a joint that turns in radians, as a
+    /// Reads a limit of velocity or acceleration: of a joint that turns in radians, as a
     /// number.
     fn rate(&mut self, field: Field, kind: Option<JointKind>) -> Option<Rational> {
         let value = self.keys.get(field.key())?;

@@ -12,7 +12,7 @@ use super::value::Context;
 use crate::placed::{Placed, derive};
 use crate::robot::{Convention, Field, Finding, Place, Placement, Robot, Severity};
 
-/// The convention where joints are placed: rows that are derived have one.
+/// Returns the convention where joints are placed: rows that are derived have one.
 pub(super) fn convention(cx: &mut Context, value: Option<&Value>) -> Convention {
     let given = value.and_then(|value| cx.word(value, &Convention::WORDS).zip(Some(value)));
     if let Some((Convention::Modified, value)) = given {

@@ -37,7 +37,7 @@ pub struct Diagnostic {
 }
 
 impl Diagnostic {
-    /// The message with its place, the line itself and the help:
+    /// Returns the message with its place, the line itself and the help:
     ///
     /// ```text
     /// error: unknown key `mas`
@@ -106,7 +106,7 @@ impl fmt::Display for Diagnostic {
 pub struct Diagnostics(pub Vec<Diagnostic>);
 
 impl Diagnostics {
-    /// All of them [rendered](Diagnostic::render), an empty line between two.
+    /// Returns all of them [rendered](Diagnostic::render), an empty line between two.
     pub fn render(&self, file_name: &str, source: &str) -> String {
         let parts: Vec<_> = self.0.iter().map(|d| d.render(file_name, source)).collect();
         parts.join("\n")
@@ -149,7 +149,7 @@ impl<'s> Sink<'s> {
         }
     }
 
-    /// Nothing is said of this, wherever in the file it is.
+    /// Says nothing of this, wherever in the file it is.
     pub(super) fn allow(&mut self, warning: RobotWarning) {
         self.allowed.insert(warning);
     }
@@ -162,7 +162,7 @@ impl<'s> Sink<'s> {
         self.push(Severity::Note, None, span, message, help);
     }
 
-    /// Its help ends with the way to silence it.
+    /// Adds a warning, whose help ends with the way to silence it.
     pub(super) fn warning(
         &mut self,
         warning: RobotWarning,
@@ -174,7 +174,7 @@ impl<'s> Sink<'s> {
         self.push(Severity::Warning, Some(warning), span, message, &help);
     }
 
-    /// A warning, or an error if there is no warning.
+    /// Adds a warning, or an error if there is no warning.
     pub(super) fn found(
         &mut self,
         warning: Option<RobotWarning>,
@@ -208,7 +208,7 @@ impl<'s> Sink<'s> {
         });
     }
 
-    /// Line and column of a byte, both from one.
+    /// Returns line and column of a byte, both from one.
     pub(super) fn position(&self, byte: usize) -> (usize, usize) {
         let line = self.line_starts.partition_point(|start| *start <= byte);
         let start = self.line_starts.get(line.wrapping_sub(1)).copied();
@@ -218,7 +218,7 @@ impl<'s> Sink<'s> {
         (line.max(1), column + 1)
     }
 
-    /// The robot with its notes, or the errors alone: with them, the rest is
+    /// Returns the robot with its notes, or the errors alone: with them, the rest is
     /// only in the way.
     pub(super) fn finish(
         mut self,
@@ -251,7 +251,7 @@ impl<'s> Sink<'s> {
     }
 }
 
-/// The error for bytes that are not UTF-8 from `at` on.
+/// Returns the error for bytes that are not UTF-8 from `at` on.
 pub(super) fn not_utf8(bytes: &[u8], at: usize) -> Diagnostics {
     let good = bytes.get(..at).unwrap_or_default();
     let good = core::str::from_utf8(good).unwrap_or_default();
@@ -261,7 +261,7 @@ pub(super) fn not_utf8(bytes: &[u8], at: usize) -> Diagnostics {
     Diagnostics(sink.found)
 }
 
-/// User text inside a message: short, and without control characters.
+/// Quotes user text inside a message: short, and without control characters.
 pub(super) fn quote(text: &str) -> String {
     let mut shown: String = text
         .chars()

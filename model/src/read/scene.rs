@@ -160,7 +160,7 @@ impl Reader<'_, '_, '_> {
         self.spans.insert(part, span);
     }
 
-    /// The items of a list; `None` after saying that it is none.
+    /// Reads the items of a list; `None` after saying that it is none.
     fn list<'v, 'de>(&mut self, value: &'v Value<'de>, help: &str) -> Option<&'v [Value<'de>]> {
         let items = value.as_array().map(Vec::as_slice);
         if items.is_none() {
@@ -222,7 +222,7 @@ impl Reader<'_, '_, '_> {
         Some(joints)
     }
 
-    /// A joint by its number, from one, or its name.
+    /// Reads a joint by its number, from one, or its name.
     fn joint(&mut self, text: &str, span: Range<usize>) -> Option<usize> {
         let found = find_joint(&self.robot.joints, text);
         let name = |follower: &&Follower| follower.joint.name.as_deref() == Some(text);
@@ -294,7 +294,7 @@ impl Reader<'_, '_, '_> {
         format!("lock = {{ {joint} = 0 }}: each joint, by its name or number, with its position")
     }
 
-    /// An angle or a length, as the joint has it.
+    /// Reads an angle or a length, as the joint has it.
     fn position(&mut self, joint: usize, value: &Value) -> Option<Position> {
         match self.robot.joints.get(joint).map(|joint| joint.kind) {
             Some(JointKind::Prismatic) => self.cx.length(value).map(Position::Length),
@@ -370,7 +370,7 @@ impl Reader<'_, '_, '_> {
         })
     }
 
-    /// An entry of the box's velocities or accelerations.
+    /// Reads an entry of the box's velocities or accelerations.
     fn rate(&mut self, joint: usize, item: &Value, what: &str) -> Option<Rational> {
         match self.robot.joints.get(joint).map(|joint| joint.kind) {
             Some(JointKind::Prismatic) => self.cx.number(item),
@@ -378,7 +378,7 @@ impl Reader<'_, '_, '_> {
         }
     }
 
-    /// A list of the box: an entry a joint.
+    /// Reads a list of the box: an entry a joint.
     fn each<T>(
         &mut self,
         keys: &Keys,

@@ -75,7 +75,7 @@ pub(super) fn for_key(word: &str, known: &[&str]) -> Option<String> {
 /// The longest word that is compared, with one place before its first letter.
 const N: usize = 64;
 
-/// The candidate that `word` is most likely a slip of, if one is near.
+/// Returns the candidate that `word` is most likely a slip of, if one is near.
 pub fn closest<'c>(word: &str, candidates: &[&'c str]) -> Option<&'c str> {
     // Nothing is near a longer word, and the work stays bounded.
     if word.len() >= N {

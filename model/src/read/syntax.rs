@@ -102,7 +102,7 @@ pub(super) fn report(source: &str, error: &Error, sink: &mut Sink) {
     sink.error(start..end.max(start + 1), message, &help);
 }
 
-/// The value that starts at a byte, up to what ends a value in TOML.
+/// Returns the value that starts at a byte, up to what ends a value in TOML.
 fn word_at(source: &str, start: usize) -> &str {
     let rest = source.get(start..).unwrap_or_default();
     let end = rest.find(|c: char| c.is_whitespace() || matches!(c, ',' | ']' | '}' | '#'));

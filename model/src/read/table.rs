@@ -23,12 +23,12 @@ pub(super) struct Keys<'v, 'de> {
 }
 
 impl<'v, 'de> Keys<'v, 'de> {
-    /// The value of an optional key.
+    /// Returns the value of an optional key.
     pub(super) fn get(&self, key: &str) -> Option<&'v Value<'de>> {
         self.table.get(key)
     }
 
-    /// The value of a key that must be there.
+    /// Returns the value of a key that must be there.
     pub(super) fn require(&self, key: &str, help: &str, sink: &mut Sink) -> Option<&'v Value<'de>> {
         let value = self.get(key);
         if value.is_none() {

@@ -26,13 +26,13 @@ pub(super) struct Context<'s, 'k> {
 }
 
 impl<'s> Context<'s, '_> {
-    /// The bytes of a value. The parser leaves the quotes of a string out,
+    /// Returns the bytes of a value. The parser leaves the quotes of a string out,
     /// and for an empty one points at the quote alone.
     pub(super) fn span(value: &Value) -> Range<usize> {
         value.span.start..value.span.end.max(value.span.start)
     }
 
-    /// The literal of a number as it stands in the source.
+    /// Returns the literal of a number as it stands in the source.
     fn literal(&self, value: &Value) -> &'s str {
         self.source.get(Self::span(value)).unwrap_or_default()
     }
@@ -53,7 +53,7 @@ impl<'s> Context<'s, '_> {
         self.sink.error(span, message, help);
     }
 
-    /// A number, exact; `"1/3"` too.
+    /// Reads a number, exact; `"1/3"` too.
     pub(super) fn number(&mut self, value: &Value) -> Option<Rational> {
         self.number_of(
             value,
@@ -61,7 +61,7 @@ impl<'s> Context<'s, '_> {
         )
     }
 
-    /// A length, m.
+    /// Reads a length, m.
     pub(super) fn length(&mut self, value: &Value) -> Option<Rational> {
         self.number_of(
             value,
@@ -69,7 +69,7 @@ impl<'s> Context<'s, '_> {
         )
     }
 
-    /// A velocity or an acceleration of a joint that turns, called so: a number, and
+    /// Reads a velocity or an acceleration of a joint that turns, called so: a number, and
     /// of an angle the help says which.
     pub(super) fn rate(&mut self, value: &Value, what: &str) -> Option<Rational> {
         let text = value.as_str().unwrap_or_default();
@@ -89,7 +89,7 @@ impl<'s> Context<'s, '_> {
         self.number(value)
     }
 
-    /// A part of something, without unit.
+    /// Reads a part of something, without unit.
     pub(super) fn part(&mut self, value: &Value) -> Option<Rational> {
         self.number_of(
             value,
@@ -97,7 +97,7 @@ impl<'s> Context<'s, '_> {
         )
     }
 
-    /// A number; `help` is for what is none.
+    /// Reads a number; `help` is for what is none.
     fn number_of(&mut self, value: &Value, help: &str) -> Option<Rational> {
         let parsed = match value.as_ref() {
             ValueInner::Integer(_) | ValueInner::Float(_) => parse_decimal(self.literal(value)),
@@ -131,7 +131,7 @@ impl<'s> Context<'s, '_> {
             .ok()
     }
 
-    /// An angle: radians as a number, or one of the text forms.
+    /// Reads an angle: radians as a number, or one of the text forms.
     pub(super) fn angle(&mut self, value: &Value) -> Option<Angle> {
         const FORMS: &str = "radians as a number, \"pi/2\", \"-3*pi/4\" or \"90deg\"";
         let snapped = match value.as_ref() {
@@ -192,7 +192,7 @@ impl<'s> Context<'s, '_> {
         }
     }
 
-    /// A text.
+    /// Reads a text.
     pub(super) fn string(&mut self, value: &Value) -> Option<String> {
         let text = value.as_str().map(ToString::to_string);
         if text.is_none() {
@@ -201,12 +201,12 @@ impl<'s> Context<'s, '_> {
         text
     }
 
-    /// One of a few words.
+    /// Reads one of a few words.
     pub(super) fn word<T: Copy>(&mut self, value: &Value, words: &[(&str, T)]) -> Option<T> {
         self.word_or(value, words, "")
     }
 
-    /// One of a few words; `which` says what they mean to whoever wrote none that is
+    /// Reads one of a few words; `which` says what they mean to whoever wrote none that is
     /// like them.
     pub(super) fn word_or<T: Copy>(
         &mut self,
@@ -235,7 +235,7 @@ impl<'s> Context<'s, '_> {
         None
     }
 
-    /// A table.
+    /// Reads a table.
     pub(super) fn table<'v, 'de>(
         &mut self,
         value: &'v Value<'de>,
@@ -273,7 +273,7 @@ impl<'s> Context<'s, '_> {
         read?.try_into().ok()
     }
 
-    /// A placement; `what` is the key that has it.
+    /// Reads a placement; `what` is the key that has it.
     pub(super) fn placement(&mut self, value: &Value, what: &str) -> Option<Placement> {
         let help = format!("{what} = {{ xyz = [0, 0, 0.1], rpy = [0, \"pi/2\", 0] }}");
         let keys = Keys {
@@ -285,7 +285,7 @@ impl<'s> Context<'s, '_> {
         self.placement_of(&keys)
     }
 
-    /// The placement that the keys of a table say, among others.
+    /// Reads the placement that the keys of a table say, among others.
     pub(super) fn placement_of(&mut self, keys: &Keys) -> Option<Placement> {
         const XYZ: &str = "xyz = [x, y, z], in m";
         const RPY: &str = "rpy = [roll, pitch, yaw], turns about the fixed axes x, y and z, e.g. [0, \"pi/2\", 0]";
@@ -302,7 +302,7 @@ impl<'s> Context<'s, '_> {
         Some(placement)
     }
 
-    /// An inertia tensor: six entries or three rows.
+    /// Reads an inertia tensor: six entries or three rows.
     pub(super) fn inertia(&mut self, value: &Value) -> Option<Inertia<Rational>> {
         const HELP: &str =
             "write [Ixx, Iyy, Izz, Ixy, Iyz, Ixz] or three rows of three, about the centre of mass";
@@ -361,7 +361,7 @@ impl<'s> Context<'s, '_> {
     }
 }
 
-/// The part of a span on its first line: what a message points at.
+/// Returns the part of a span on its first line: what a message points at.
 pub(super) fn first_line(source: &str, span: Range<usize>) -> Range<usize> {
     let line = source.get(span.clone()).and_then(|s| s.lines().next());
     span.start..span.start + line.map_or(1, |line| line.trim_end().len().max(1))

@@ -27,7 +27,7 @@ impl Follower {
     /// polynomials of so high a degree.
     pub const MAX_TURNS: i32 = 16;
 
-    /// The multiplier of a joint that turns.
+    /// Returns the multiplier of a joint that turns.
     pub fn turns(&self) -> i32 {
         self.multiplier.to_integer().to_i32().unwrap_or_default()
     }
@@ -66,7 +66,7 @@ impl Follower {
         Some(())
     }
 
-    /// Where the leader is where the joint is at a position.
+    /// Returns where the leader is where the joint is at a position.
     fn at_leader(&self, at: &Position) -> Position {
         let part = Rational::one() / &self.multiplier;
         let back = self.offset.scaled(&-Rational::one());
@@ -81,7 +81,7 @@ impl Follower {
 }
 
 impl Position {
-    /// The same times a number.
+    /// Returns the same times a number.
     #[must_use]
     pub fn scaled(&self, by: &Rational) -> Position {
         match self {
@@ -91,7 +91,7 @@ impl Position {
         }
     }
 
-    /// The sum; `None` of what is a part of π and what is not, and of angles and lengths.
+    /// Returns the sum; `None` of what is a part of π and what is not, and of angles and lengths.
     pub fn plus(&self, other: &Position) -> Option<Position> {
         use Position::{Angle as Turn, Length};
         match (self, other) {
@@ -108,7 +108,7 @@ impl Position {
         }
     }
 
-    /// The number of radians or metres.
+    /// Returns the number of radians or metres.
     fn number(&self) -> Rational {
         match self {
             Position::Angle(angle) => angle.radians(),

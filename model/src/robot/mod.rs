@@ -124,7 +124,7 @@ pub struct Frame {
 }
 
 impl Robot {
-    /// The placements that it may have, with the place and the key of each.
+    /// Returns the placements that it may have, with the place and the key of each.
     pub fn placements(&self) -> [(Place, &'static str, Option<&Placement>); 3] {
         [
             (Place::Base, "base", self.base.as_ref()),
@@ -225,7 +225,7 @@ pub struct Inertia<S> {
 }
 
 impl<S> Inertia<S> {
-    /// From the entries of row i and column k, zero-based, with i ≤ k.
+    /// Makes a tensor from the entries of row i and column k, zero-based, with i ≤ k.
     pub fn symmetric(entry: impl Fn(usize, usize) -> S) -> Self {
         Inertia {
             xx: entry(0, 0),
@@ -237,7 +237,7 @@ impl<S> Inertia<S> {
         }
     }
 
-    /// Every entry through `f`.
+    /// Returns every entry through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Inertia<T> {
         Inertia {
             xx: f(&self.xx),
@@ -251,7 +251,7 @@ impl<S> Inertia<S> {
 }
 
 impl<S: Clone> Inertia<S> {
-    /// The tensor as three rows of three.
+    /// Returns the tensor as three rows of three.
     pub fn rows(&self) -> [[S; 3]; 3] {
         let Inertia {
             xx,

@@ -77,7 +77,7 @@ pub enum Field {
 }
 
 impl Field {
-    /// The key of the robot file, e.g. `mass`; of `limits` for the last four.
+    /// Returns the key of the robot file, e.g. `mass`; of `limits` for the last four.
     pub fn key(self) -> &'static str {
         match self {
             Field::Name => "name",

@@ -28,7 +28,7 @@ impl Placement {
         self.xyz.iter().map(Signed::abs).sum()
     }
 
-    /// The placement, unless it moves nothing: one that is left out says the
+    /// Returns the placement, unless it moves nothing: one that is left out says the
     /// same.
     pub fn unless_identity(self) -> Option<Self> {
         (!self.is_identity()).then_some(self)

@@ -31,7 +31,7 @@ pub(super) fn whole(value: i64) -> Rational {
     Rational::from_integer(value.into())
 }
 
-/// A number as the file would have it.
+/// Returns a number as the file would have it.
 pub(super) fn shown(value: &Rational) -> String {
     write_decimal(value).unwrap_or_else(|| value.to_string())
 }
@@ -122,7 +122,7 @@ impl Findings {
         self.doubtful_width(index, joint);
     }
 
-    /// Coulomb friction that is smoothed over every speed that there is.
+    /// Warns of Coulomb friction that is smoothed over every speed that there is.
     fn doubtful_width(&mut self, index: usize, joint: &Joint) {
         let width = &joint.coulomb_width;
         let Some(limit) = &joint.limits.velocity else {

@@ -26,7 +26,7 @@ use crate::number::{Angle, Rational, Rounded};
 const WIDTHS: core::ops::RangeInclusive<f64> = 1e-9..=1e9;
 
 impl Robot {
-    /// Everything that is wrong or odd about the robot; without an error among
+    /// Returns everything that is wrong or odd about the robot; without an error among
     /// it, every later stage accepts the robot.
     pub fn validate(&self) -> Vec<Finding> {
         self.validate_placed(&[])
@@ -249,8 +249,8 @@ impl Findings {
         self.body(at(Field::Inertia), joint);
     }
 
-    /// Without a width the friction would jump where a joint stands still, and
-    /// have no slope there; the square of one is a number in f32, too.
+    /// Checks the width of Coulomb friction: without one it would jump where a joint stands
+    /// still, and have no slope there; the square of one is a number in f32, too.
     fn coulomb(&mut self, index: usize, joint: &Joint) {
         let at = |field| Place::Joint(index, field);
         let unit = match joint.kind {
@@ -375,7 +375,7 @@ fn is_snake(name: &str) -> bool {
             .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
 }
 
-/// The nearest name that a robot can have: `"UR-10 e"` gives `ur_10_e`; none
+/// Returns the nearest name that a robot can have: `"UR-10 e"` gives `ur_10_e`; none
 /// where there is no letter or digit.
 pub fn suggested_name(name: &str) -> Option<String> {
     let mut better = String::new();

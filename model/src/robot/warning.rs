@@ -55,7 +55,7 @@ impl RobotWarning {
         ("loose_tolerance", RobotWarning::LooseTolerance),
     ];
 
-    /// The name in robot files.
+    /// Returns the name in robot files.
     pub fn name(self) -> &'static str {
         let mut words = RobotWarning::WORDS.iter();
         let found = words.find(|(_, warning)| *warning == self);

@@ -61,7 +61,7 @@ impl Robot {
         hmac_sha256::Hash::hash(write(self).as_bytes())
     }
 
-    /// The first 16 hexadecimal digits of [`Robot::input_hash`], for headers.
+    /// Returns the first 16 hexadecimal digits of [`Robot::input_hash`], for headers.
     pub fn short_hash(&self) -> String {
         let mut text = String::new();
         for byte in &self.input_hash()[..8] {

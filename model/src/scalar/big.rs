@@ -24,7 +24,7 @@ impl Big {
     /// Bits of the significand.
     pub const PRECISION: usize = 448;
 
-    /// The value of a float, exactly; `None` for NaN and the infinities.
+    /// Returns the value of a float, exactly; `None` for NaN and the infinities.
     pub fn from_f64(x: f64) -> Option<Self> {
         if !x.is_finite() {
             return None;
@@ -32,7 +32,7 @@ impl Big {
         Float::try_from(x).ok().map(rounded)
     }
 
-    /// The value of an integer, rounded.
+    /// Returns the value of an integer, rounded.
     pub fn from_int(x: &BigInt) -> Self {
         rounded(
             Context::new(Self::PRECISION)
@@ -41,12 +41,12 @@ impl Big {
         )
     }
 
-    /// The value of a rational, rounded once.
+    /// Returns the value of a rational, rounded once.
     pub fn from_rational(x: &BigRational) -> Self {
         Big(quotient(x, Self::PRECISION))
     }
 
-    /// The value of a decimal literal such as `-1.25e-3`, rounded.
+    /// Returns the value of a decimal literal such as `-1.25e-3`, rounded.
     pub fn from_decimal(text: &str) -> Option<Self> {
         let decimal = FBig::<HalfAway, 10>::from_str(text).ok()?;
         let exact = decimal.with_rounding::<HalfEven>();
@@ -54,7 +54,7 @@ impl Big {
         Some(rounded(binary.value()))
     }
 
-    /// sin and cos of a float of radians, correctly rounded at every size.
+    /// Returns sin and cos of a float of radians, correctly rounded at every size.
     ///
     /// The reduction of the argument raises its working precision with the
     /// exponent, so that 1e8 loses nothing.
@@ -63,7 +63,7 @@ impl Big {
         (Big(sin), Big(cos))
     }
 
-    /// sin and cos of a rational number of radians.
+    /// Returns sin and cos of a rational number of radians.
     pub fn sin_cos_of(radians: &BigRational) -> (Self, Self) {
         // An error of the argument passes to the result undiminished, so the
         // argument gets the bits of its whole part on top.
@@ -72,7 +72,7 @@ impl Big {
         (rounded(sin), rounded(cos))
     }
 
-    /// sin and cos of a rational multiple of π, exact at multiples of π/2.
+    /// Returns sin and cos of a rational multiple of π, exact at multiples of π/2.
     pub fn sin_cos_pi(multiple: &BigRational) -> (Self, Self) {
         // The period goes first, exactly.
         let two = BigRational::from_integer(2.into());
@@ -82,30 +82,30 @@ impl Big {
         (rounded(sin), rounded(cos))
     }
 
-    /// The nearest f64.
+    /// Returns the nearest f64.
     pub fn to_f64(&self) -> f64 {
         self.0.to_f64().value()
     }
 
-    /// The nearest f32.
+    /// Returns the nearest f32.
     pub fn to_f32(&self) -> f32 {
         self.0.to_f32().value()
     }
 
-    /// The number with `digits` significant decimal digits, as `1.25e-3`.
+    /// Returns the number with `digits` significant decimal digits, as `1.25e-3`.
     pub fn to_decimal(&self, digits: usize) -> String {
         let decimal = self.0.clone().with_rounding::<HalfAway>();
         let decimal = decimal.with_base_and_precision::<10>(digits.max(1)).value();
         format!("{decimal:e}")
     }
 
-    /// `self / other`, rounded; `None` when `other` is zero.
+    /// Returns `self / other`, rounded; `None` when `other` is zero.
     pub fn div(&self, other: &Self) -> Option<Self> {
         let zero = *other == Self::zero();
         (!zero).then(|| Big(&self.0 / &other.0))
     }
 
-    /// The square root, rounded; zero of what is below zero.
+    /// Returns the square root, rounded; zero of what is below zero.
     pub fn sqrt(&self) -> Self {
         match *self > Self::zero() {
             true => Big(self.0.sqrt()),
@@ -126,13 +126,13 @@ impl Big {
 /// Bits beyond the precision for intermediate values.
 const GUARD: usize = 64;
 
-/// Rounded to the precision, which every [`Big`] carries: an operation takes
-/// the larger precision of its operands.
+/// Returns it rounded to the precision, which every [`Big`] carries: an operation takes the
+/// larger precision of its operands.
 fn rounded(x: Float) -> Big {
     Big(x.with_precision(Big::PRECISION).value())
 }
 
-/// A rational at a precision, rounded once.
+/// Returns a rational at a precision, rounded once.
 fn quotient(x: &BigRational, precision: usize) -> Float {
     // Both integers are taken whole: the only rounding is the division's.
     let [numer, denom] = [x.numer(), x.denom()].map(|part| {
@@ -178,8 +178,8 @@ impl Scalar for Big {
 }
 
 impl Divide for Big {
-    /// By zero: zero, for want of an infinity. Who divides by what may vanish
-    /// asks first ([`Big::div`]).
+    /// Divides; by zero: zero, for want of an infinity. Who divides by what may vanish asks first
+    /// ([`Big::div`]).
     fn div(&self, other: &Self) -> Self {
         Big::div(self, other).unwrap_or_else(Self::zero)
     }

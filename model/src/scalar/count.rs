@@ -13,12 +13,12 @@ pub struct Counter {
 }
 
 impl Counter {
-    /// Nothing counted yet.
+    /// Returns nothing counted yet.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// A value that nothing is known about, whose operations count here.
+    /// Returns a value that nothing is known about, whose operations count here.
     pub fn value(&self) -> Count<'_> {
         Count::Value(self)
     }

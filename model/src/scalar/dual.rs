@@ -14,7 +14,7 @@ pub struct Dual<S> {
 }
 
 impl<S: Scalar> Dual<S> {
-    /// A number that does not change.
+    /// Returns a number that does not change.
     pub fn constant(value: S) -> Self {
         Dual {
             value,
@@ -24,7 +24,7 @@ impl<S: Scalar> Dual<S> {
 }
 
 impl<S: Scalar> SinCosPair<S> {
-    /// The pair of an angle that changes at a rate.
+    /// Returns the pair of an angle that changes at a rate.
     pub fn turning(self, rate: &S) -> SinCosPair<Dual<S>> {
         let SinCosPair { sin, cos } = self;
         SinCosPair {
@@ -87,7 +87,7 @@ impl<S: Scalar> Scalar for Dual<S> {
 }
 
 impl<S: Divide> Divide for Dual<S> {
-    /// (x/y)˙ = (ẋ − (x/y) ẏ)/y
+    /// Returns (x/y)˙ = (ẋ − (x/y) ẏ)/y
     fn div(&self, other: &Self) -> Self {
         let value = self.value.div(&other.value);
         let moved = self.rate.sub(&value.mul(&other.rate));

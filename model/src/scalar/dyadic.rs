@@ -20,7 +20,7 @@ impl Dyadic {
         halvings: 0,
     };
 
-    /// The integer that is halved.
+    /// Returns the integer that is halved.
     pub fn units(self) -> i64 {
         self.units
     }
@@ -40,7 +40,7 @@ impl Dyadic {
         self.units == 1 && self.halvings == 0
     }
 
-    /// a + b; like everything here none beyond its range.
+    /// Returns a + b; like everything here none beyond its range.
     pub fn checked_add(self, other: Dyadic) -> Option<Dyadic> {
         let halvings = self.halvings.max(other.halvings);
         let scaled = |x: Dyadic| {
@@ -51,20 +51,20 @@ impl Dyadic {
         Some(Dyadic { units, halvings })
     }
 
-    /// a b
+    /// Returns a b
     pub fn checked_mul(self, other: Dyadic) -> Option<Dyadic> {
         let halvings = self.halvings + other.halvings;
         let units = self.units.checked_mul(other.units)?;
         (halvings < 63).then_some(Dyadic { units, halvings })
     }
 
-    /// −a
+    /// Returns −a
     pub fn checked_neg(self) -> Option<Dyadic> {
         let units = self.units.checked_neg()?;
         Some(Dyadic { units, ..self })
     }
 
-    /// a/2
+    /// Returns a/2
     pub fn half(self) -> Option<Dyadic> {
         let halvings = match self.units {
             0 => 0,

@@ -20,29 +20,29 @@ impl Field {
     /// 1
     pub const ONE: Field = Field(1);
 
-    /// The residue of a non-negative integer.
+    /// Returns the residue of a non-negative integer.
     pub const fn new(x: u64) -> Self {
         Field(x % Self::P)
     }
 
-    /// The residue of an integer.
+    /// Returns the residue of an integer.
     pub fn from_i64(x: i64) -> Self {
         let size = Self::new(x.unsigned_abs());
         if x < 0 { size.neg() } else { size }
     }
 
-    /// The residue of a rational, `None` if p divides its denominator.
+    /// Returns the residue of a rational, `None` if p divides its denominator.
     pub fn from_rational(x: &BigRational) -> Option<Self> {
         let inverse = residue(x.denom()).inverse()?;
         Some(residue(x.numer()).mul(&inverse))
     }
 
-    /// The residue as an integer in 0 … p − 1.
+    /// Returns the residue as an integer in 0 … p − 1.
     pub const fn value(self) -> u64 {
         self.0
     }
 
-    /// `self` to a power.
+    /// Returns `self` to a power.
     pub fn pow(self, mut exponent: u64) -> Self {
         let (mut base, mut power) = (self, Self::ONE);
         while exponent > 0 {
@@ -55,13 +55,13 @@ impl Field {
         power
     }
 
-    /// 1/x, `None` for 0.
+    /// Returns 1/x, `None` for 0.
     pub fn inverse(self) -> Option<Self> {
         // Fermat: x^(p−1) = 1.
         (self.0 != 0).then(|| self.pow(Self::P - 2))
     }
 
-    /// (sin, cos) = (2t, 1 − t²) / (1 + t²), a point of the circle.
+    /// Returns (sin, cos) = (2t, 1 − t²) / (1 + t²), a point of the circle.
     ///
     /// Every point but (0, −1) has its t. The denominator is never zero: −1 is
     /// no square modulo p ≡ 3 (mod 4).
@@ -123,7 +123,7 @@ impl Scalar for Field {
 }
 
 impl Divide for Field {
-    /// By zero: zero. What tells values apart here is never a proof.
+    /// Divides; by zero: zero. What tells values apart here is never a proof.
     fn div(&self, other: &Self) -> Self {
         other.inverse().map_or(Self::ZERO, |x| self.mul(&x))
     }
@@ -134,12 +134,12 @@ impl Divide for Field {
 pub struct Points(u64);
 
 impl Points {
-    /// The sequence of a seed.
+    /// Returns the sequence of a seed.
     pub const fn new(seed: u64) -> Self {
         Points(seed)
     }
 
-    /// The next 64 bits.
+    /// Returns the next 64 bits.
     pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -147,7 +147,7 @@ impl Points {
         z ^ (z >> 31)
     }
 
-    /// A residue, each equally likely.
+    /// Returns a residue, each equally likely.
     pub fn field(&mut self) -> Field {
         loop {
             // The one value that is no residue is drawn once in 2⁶¹ times.
@@ -158,12 +158,12 @@ impl Points {
         }
     }
 
-    /// A point of the circle: (sin, cos) of [`Field::circle_point`].
+    /// Returns a point of the circle: (sin, cos) of [`Field::circle_point`].
     pub fn circle(&mut self) -> (Field, Field) {
         Field::circle_point(self.field())
     }
 
-    /// A number in [−1, 1), for tests in floating point.
+    /// Returns a number in [−1, 1), for tests in floating point.
     pub fn unit(&mut self) -> f64 {
         // 53 bits: exact in f64.
         let x = (self.bits() >> 11) as f64;

@@ -34,19 +34,19 @@ pub use sincos_pair::SinCosPair;
 /// Named methods take references: a symbolic scalar is a shared handle and
 /// operators would hide its clones.
 pub trait Scalar: Clone {
-    /// The additive identity, known as such without context.
+    /// Returns the additive identity, known as such without context.
     fn zero() -> Self;
-    /// The multiplicative identity, known as such without context.
+    /// Returns the multiplicative identity, known as such without context.
     fn one() -> Self;
-    /// `self + other`
+    /// Returns `self + other`
     fn add(&self, other: &Self) -> Self;
-    /// `self − other`
+    /// Returns `self − other`
     fn sub(&self, other: &Self) -> Self;
-    /// `self · other`
+    /// Returns `self · other`
     fn mul(&self, other: &Self) -> Self;
-    /// `−self`
+    /// Returns `−self`
     fn neg(&self) -> Self;
-    /// `self / 2`, exact in every scalar (floats: but for underflow).
+    /// Returns `self / 2`, exact in every scalar (floats: but for underflow).
     fn half(&self) -> Self;
 
     /// Returns whether the value is zero *by structure*, whatever the state is.
@@ -60,11 +60,11 @@ pub trait Scalar: Clone {
     fn is_one(&self) -> bool {
         false
     }
-    /// `2 · self`, one addition.
+    /// Returns `2 · self`, one addition.
     fn double(&self) -> Self {
         self.add(self)
     }
-    /// `self · factor + addend`; floats round it once.
+    /// Returns `self · factor + addend`; floats round it once.
     fn mul_add(&self, factor: &Self, addend: &Self) -> Self {
         self.mul(factor).add(addend)
     }
@@ -77,7 +77,7 @@ pub trait Scalar: Clone {
 /// quotient, and no scalar panics: each says in its own way that there is
 /// none, floats by an infinity or NaN, residues by what equals nothing.
 pub trait Divide: Scalar {
-    /// `self / other`
+    /// Returns `self / other`
     fn div(&self, other: &Self) -> Self;
 }
 

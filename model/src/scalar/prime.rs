@@ -13,12 +13,12 @@ pub struct Prime {
 }
 
 impl Prime {
-    /// The prime; `None` for other numbers, for 2, and from 2⁶³.
+    /// Returns the prime; `None` for other numbers, for 2, and from 2⁶³.
     pub fn new(modulus: u64) -> Option<Prime> {
         (modulus < 1 << 63 && modulus > 2 && is_prime(modulus)).then(|| Prime::odd(modulus))
     }
 
-    /// For any odd modulus: Montgomery's product needs no prime.
+    /// Makes the arithmetic of any odd modulus: Montgomery's product needs no prime.
     fn odd(modulus: u64) -> Prime {
         // Newton: x·(2 − p·x) has twice the right bits, and p has three.
         let mut inverse = modulus;
@@ -31,22 +31,22 @@ impl Prime {
         }
     }
 
-    /// p
+    /// Returns p
     pub fn modulus(self) -> u64 {
         self.modulus
     }
 
-    /// x·R mod p of a number of any size.
+    /// Returns x·R mod p of a number of any size.
     pub(super) fn enter(self, x: u64) -> u64 {
         ((u128::from(x) << 64) % u128::from(self.modulus)) as u64
     }
 
-    /// x of x·R mod p.
+    /// Returns x of x·R mod p.
     pub(super) fn leave(self, x: u64) -> u64 {
         self.reduce(u128::from(x))
     }
 
-    /// x/R mod p, for x < p·R.
+    /// Returns x/R mod p, for x < p·R.
     fn reduce(self, x: u128) -> u64 {
         let multiple = (x as u64).wrapping_mul(self.inverse);
         // Below 2·p·R < 2¹²⁸, and divisible by R.
@@ -54,7 +54,7 @@ impl Prime {
         self.fold((sum >> 64) as u64)
     }
 
-    /// x mod p, for x < 2·p.
+    /// Returns x mod p, for x < 2·p.
     fn fold(self, x: u64) -> u64 {
         if x >= self.modulus {
             x - self.modulus

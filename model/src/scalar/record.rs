@@ -92,17 +92,17 @@ impl<I, C> Default for Recorder<I, C> {
 }
 
 impl<I, C: Scalar> Recorder<I, C> {
-    /// Nothing recorded yet.
+    /// Returns nothing recorded yet.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// An input.
+    /// Returns an input.
     pub fn input(&self, input: I) -> Recorded<I, C> {
         self.leaf(Leaf::Input(input))
     }
 
-    /// A constant. Zero is a number, and is zero by structure.
+    /// Returns a constant. Zero is a number, and is zero by structure.
     pub fn constant(&self, constant: &C) -> Recorded<I, C> {
         match constant.is_zero() {
             true => Recorded::zero(),
@@ -134,7 +134,7 @@ impl<I, C: Scalar> Recorder<I, C> {
     }
 }
 
-/// The number of the last of so many. A formula of 2³² operations would not end.
+/// Returns the number of the last of so many. A formula of 2³² operations would not end.
 fn place(length: usize) -> u32 {
     (length - 1) as u32
 }
@@ -225,7 +225,7 @@ impl<I, C> Recording<I, C> {
         }
     }
 
-    /// The results in a scalar, from the values of inputs and constants, asked for
+    /// Returns the results in a scalar, from the values of inputs and constants, asked for
     /// once each in the order of the formula; `None` if a constant has none.
     pub fn run<S: Divide>(
         &self,
@@ -260,7 +260,7 @@ impl<I, C> Recording<I, C> {
     }
 }
 
-/// The number, made of one as a formula would.
+/// Returns the number, made of one as a formula would.
 fn of_number<S: Scalar>(number: Dyadic) -> S {
     let size = number.units().unsigned_abs();
     if size == 0 {
@@ -295,7 +295,7 @@ impl<I, C> Recorded<I, C> {
         Recorded(x.map_or(Form::Lost, Form::Number))
     }
 
-    /// An operation of two values: on the tape if either is on one.
+    /// Returns an operation of two values: on the tape if either is on one.
     fn combine(
         &self,
         other: &Self,
@@ -389,7 +389,7 @@ impl<I, C: Scalar> Scalar for Recorded<I, C> {
 }
 
 impl<I, C: Scalar> Divide for Recorded<I, C> {
-    /// Divides; of two numbers the quotient is lost, unless it is by one.
+    /// Returns Divides; of two numbers the quotient is lost, unless it is by one.
     fn div(&self, other: &Self) -> Self {
         self.combine(other, |a, b| b.is_one().then_some(a), Call::Div)
     }
@@ -402,7 +402,7 @@ mod tests {
     use crate::scalar::count::Counter;
     use crate::scalar::field::{Field, Points};
 
-    /// A formula with every operation, values that are read again and again, and some
+    /// Returns a formula with every operation, values that are read again and again, and some
     /// that nobody reads.
     fn formula<S: Divide>(x: &[S]) -> Vec<S> {
         let mut sums = alloc::vec![x[0].clone()];

@@ -28,12 +28,12 @@ enum Form {
 }
 
 impl Residue {
-    /// The residue of an integer.
+    /// Returns the residue of an integer.
     pub fn new(prime: Prime, x: u64) -> Residue {
         Residue(Form::Of(prime, prime.enter(x)))
     }
 
-    /// The residue of a rational: `None` if the prime divides its denominator,
+    /// Returns the residue of a rational: `None` if the prime divides its denominator,
     /// or its numerator without its being zero. Zero needs no prime.
     pub fn of_rational(prime: Prime, x: &BigRational) -> Option<Residue> {
         if x.is_zero() {
@@ -48,7 +48,7 @@ impl Residue {
         Some(Residue(Form::Of(prime, value)))
     }
 
-    /// The residue as an integer in 0 … p − 1; `None` if it is of another
+    /// Returns the residue as an integer in 0 … p − 1; `None` if it is of another
     /// prime, or lost.
     pub fn value(&self, prime: Prime) -> Option<u64> {
         match self.0 {
@@ -58,7 +58,7 @@ impl Residue {
         }
     }
 
-    /// (sin, cos) = (2t, 1 − t²) / (1 + t²), a point of the circle.
+    /// Returns (sin, cos) = (2t, 1 − t²) / (1 + t²), a point of the circle.
     ///
     /// The denominator is never zero if p ≡ 3 (mod 4): −1 is no square then.
     pub fn circle_point(prime: Prime, t: u64) -> SinCosPair<Residue> {
@@ -92,7 +92,7 @@ impl Residue {
     }
 }
 
-/// The number as it is kept modulo p.
+/// Returns the number as it is kept modulo p.
 fn attached(prime: Prime, x: Dyadic) -> u64 {
     let size = match x.units() {
         0 => return 0,
@@ -102,7 +102,7 @@ fn attached(prime: Prime, x: Dyadic) -> u64 {
     (0..x.halvings()).fold(value, |value, _| prime.half(value))
 }
 
-/// An integer modulo a prime.
+/// Returns an integer modulo a prime.
 fn modulo(prime: Prime, x: &BigInt) -> u64 {
     let wide = u128::from(prime.modulus());
     let digits = x.magnitude().iter_u64_digits().rev();
@@ -155,7 +155,7 @@ impl Scalar for Residue {
 }
 
 impl Divide for Residue {
-    /// By zero, or of two numbers that have met no prime: lost.
+    /// Divides; by zero, or of two numbers that have met no prime: lost.
     fn div(&self, other: &Self) -> Self {
         let inverse = match other.0 {
             _ if other.is_one() => return *self,

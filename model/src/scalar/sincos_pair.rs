@@ -13,7 +13,7 @@ pub struct SinCosPair<S> {
 }
 
 impl<S: Scalar> SinCosPair<S> {
-    /// The pair of the sum of two angles.
+    /// Returns the pair of the sum of two angles.
     pub fn compose(&self, other: &Self) -> Self {
         SinCosPair {
             sin: plus(&times(&self.sin, &other.cos), &times(&self.cos, &other.sin)),
@@ -23,7 +23,7 @@ impl<S: Scalar> SinCosPair<S> {
 }
 
 impl<S> SinCosPair<S> {
-    /// Both entries through `f`.
+    /// Returns both entries through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> SinCosPair<T> {
         SinCosPair {
             sin: f(&self.sin),

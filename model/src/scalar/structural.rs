@@ -3,7 +3,7 @@
 
 use super::{Divide, Scalar};
 
-/// `a · b`, not made when a factor is zero or one by structure.
+/// Returns `a · b`, not made when a factor is zero or one by structure.
 pub fn times<S: Scalar>(a: &S, b: &S) -> S {
     if a.is_zero() || b.is_zero() {
         S::zero()
@@ -16,7 +16,7 @@ pub fn times<S: Scalar>(a: &S, b: &S) -> S {
     }
 }
 
-/// `a / b`, not made when the dividend is zero or the divisor one by structure.
+/// Returns `a / b`, not made when the dividend is zero or the divisor one by structure.
 pub fn over<S: Divide>(a: &S, b: &S) -> S {
     if a.is_zero() {
         S::zero()
@@ -27,7 +27,7 @@ pub fn over<S: Divide>(a: &S, b: &S) -> S {
     }
 }
 
-/// `a + b`, not made when a term is zero by structure.
+/// Returns `a + b`, not made when a term is zero by structure.
 pub fn plus<S: Scalar>(a: &S, b: &S) -> S {
     if a.is_zero() {
         b.clone()
@@ -38,7 +38,7 @@ pub fn plus<S: Scalar>(a: &S, b: &S) -> S {
     }
 }
 
-/// `a − b`, not made when a term is zero by structure.
+/// Returns `a − b`, not made when a term is zero by structure.
 pub fn minus<S: Scalar>(a: &S, b: &S) -> S {
     if b.is_zero() {
         a.clone()
@@ -49,17 +49,17 @@ pub fn minus<S: Scalar>(a: &S, b: &S) -> S {
     }
 }
 
-/// `−a`; a structural zero stays one.
+/// Returns `−a`; a structural zero stays one.
 pub fn negative<S: Scalar>(a: &S) -> S {
     if a.is_zero() { S::zero() } else { a.neg() }
 }
 
-/// `2 a`; a structural zero stays one.
+/// Returns `2 a`; a structural zero stays one.
 pub fn twice<S: Scalar>(a: &S) -> S {
     if a.is_zero() { S::zero() } else { a.double() }
 }
 
-/// `a / 2`; a structural zero stays one.
+/// Returns `a / 2`; a structural zero stays one.
 pub fn halved<S: Scalar>(a: &S) -> S {
     if a.is_zero() { S::zero() } else { a.half() }
 }

@@ -8,7 +8,7 @@ use crate::placed::{Body, frame};
 use crate::robot::{Inertia, Joint, Robot};
 
 impl Scene {
-    /// The robot with the scene's gravity and payload, and with the box as
+    /// Returns the robot with the scene's gravity and payload, and with the box as
     /// its limits. Locks change no parameter: they fix positions.
     ///
     /// The scene must be valid for the robot ([`Scene::validate`]).
@@ -43,8 +43,8 @@ impl Scene {
     }
 }
 
-/// A link and what is fixed to it, in the same frame, as one: with d between the centres of mass and
-/// μ = m₁m₂/(m₁ + m₂), I = I₁ + I₂ + μ (d·d 1 − d dᵀ).
+/// Makes a link and what is fixed to it, in the same frame, one: with d between the centres of
+/// mass and μ = m₁m₂/(m₁ + m₂), I = I₁ + I₂ + μ (d·d 1 − d dᵀ).
 fn carry(link: &mut Joint, mass: &Rational, payload: &Body) {
     let total = &link.mass + mass;
     let share = if total.is_zero() {

@@ -85,7 +85,7 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
-    /// The tolerance of a joint, zero-based.
+    /// Returns the tolerance of a joint, zero-based.
     pub fn of(&self, joint: usize) -> Option<&Rational> {
         match self.value.as_slice() {
             [all] => Some(all),
@@ -111,7 +111,7 @@ impl Scale {
     pub const WORDS: [(&'static str, Self); 2] =
         [("actuator", Scale::Actuator), ("range", Scale::Range)];
 
-    /// Its word.
+    /// Returns its word.
     pub fn word(self) -> &'static str {
         match self {
             Scale::Actuator => "actuator",
@@ -150,7 +150,7 @@ impl Scene {
         }
     }
 
-    /// The joints whose torques are wanted, of a robot of n joints.
+    /// Returns the joints whose torques are wanted, of a robot of n joints.
     pub fn rows(&self, n: usize) -> Vec<usize> {
         match &self.joints {
             Some(joints) => joints.clone(),

@@ -70,7 +70,7 @@ impl fmt::Display for SceneFinding {
 }
 
 impl Scene {
-    /// Everything that is wrong or odd about the scene; without an error among
+    /// Returns everything that is wrong or odd about the scene; without an error among
     /// it, every later stage accepts it with this robot.
     pub fn validate(&self, robot: &Robot) -> Vec<SceneFinding> {
         let mut check = Check {
@@ -129,7 +129,7 @@ impl<'a> Check<'a> {
         self.robot.joints.get(index)
     }
 
-    /// No such joint, or the joint twice.
+    /// Checks that there are such joints, and none twice.
     fn list(&mut self, part: fn(usize) -> Part, joints: &[usize], twice: &str) {
         for (place, &joint) in joints.iter().enumerate() {
             if self.joint(joint).is_none() {
@@ -143,7 +143,7 @@ impl<'a> Check<'a> {
         }
     }
 
-    /// `4`, or `4 (wrist)`.
+    /// Returns `4`, or `4 (wrist)`.
     fn called(&self, joint: usize) -> String {
         match self.joint(joint).and_then(|j| j.name.as_deref()) {
             Some(name) => format!("{} ({name})", joint + 1),

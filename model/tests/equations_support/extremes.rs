@@ -59,7 +59,7 @@ fn texts(json: &Value) -> Vec<String> {
 }
 
 impl Extreme {
-    /// The arm in any scalar, from its float parameters and the pair of a
+    /// Returns the arm in any scalar, from its float parameters and the pair of a
     /// float angle.
     pub fn arm<S: Scalar>(
         &self,

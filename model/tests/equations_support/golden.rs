@@ -24,7 +24,7 @@ pub const ROBOTS: [&str; 6] = [
     "puma560", "stanford", "ur10", "panda", "planar2r", "planar3r",
 ];
 
-/// A golden robot and its states.
+/// Returns a golden robot and its states.
 pub fn read(name: &str) -> (Arm<f64>, Vec<State>) {
     let file = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
         .join("tests/data/golden")
@@ -102,7 +102,7 @@ fn link(json: &Value) -> Link<f64> {
     }
 }
 
-/// The pair of an angle, exact when within 1e-14 of a multiple of π/2.
+/// Returns the pair of an angle, exact when within 1e-14 of a multiple of π/2.
 fn snapped(angle: f64) -> SinCosPair<f64> {
     let (sin, cos) = libm::sincos(angle);
     let snap = |x: f64| {

@@ -8,7 +8,7 @@ pub mod random;
 use dalembert_model::equations::{Arm, JointPosition, SinCosPair};
 use dalembert_model::robot::JointKind;
 
-/// max|a − b| / max|b|; the larger of the two when b is zero.
+/// Returns max|a − b| / max|b|; the larger of the two when b is zero.
 pub fn normwise(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);

@@ -17,7 +17,7 @@ pub struct Case {
     pub qdd: Vec<Field>,
 }
 
-/// The joint kinds of bit pattern `bits`, 1 for prismatic.
+/// Returns the joint kinds of bit pattern `bits`, 1 for prismatic.
 pub fn kinds(n: usize, bits: u32) -> Vec<JointKind> {
     let kind = |i| match bits >> i & 1 {
         0 => JointKind::Revolute,
@@ -26,7 +26,7 @@ pub fn kinds(n: usize, bits: u32) -> Vec<JointKind> {
     (0..n).map(kind).collect()
 }
 
-/// A general arm of the kinds given, at a general state.
+/// Returns a general arm of the kinds given, at a general state.
 pub fn case(convention: Convention, kinds: &[JointKind], points: &mut Points) -> Case {
     let arm = Arm {
         convention,
@@ -50,7 +50,7 @@ pub fn case(convention: Convention, kinds: &[JointKind], points: &mut Points) ->
     }
 }
 
-/// Somewhere, turned about all three axes.
+/// Draws a pose somewhere, turned about all three axes.
 pub fn pose(points: &mut Points) -> Columns<Field> {
     let turned = Columns::identity()
         .turn_z(&pair(points))

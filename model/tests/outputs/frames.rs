@@ -3,7 +3,7 @@
 use super::*;
 use dalembert_model::equations::frames::NamedFrame;
 
-/// An arm with frames on its links: `inner` on the first, `outer` on the last, and each
+/// Returns an arm with frames on its links: `inner` on the first, `outer` on the last, and each
 /// link's own.
 fn with_frames(case: &Case, points: &mut Points) -> Arm<Field> {
     let last = case.arm.links.len() - 1;

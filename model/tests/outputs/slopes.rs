@@ -24,7 +24,7 @@ type Accelerating = (
     Vec<Dual<Field>>,
 );
 
-/// The r of Coulomb friction changes by −q̇ r³ q̈, as 1/√(q̇² + w²) does.
+/// Returns the r of Coulomb friction changes by −q̇ r³ q̈, as 1/√(q̇² + w²) does.
 fn accelerating(case: &Case) -> Accelerating {
     let (mut arm, at) = moving(case);
     for (link, (qd, qdd)) in arm.links.iter_mut().zip(case.qd.iter().zip(&case.qdd)) {

@@ -48,7 +48,7 @@ impl Drawn {
         (self.next() >> 20) % n
     }
 
-    /// A decimal of three digits within ±most.
+    /// Returns a decimal of three digits within ±most.
     fn number(&mut self, most: f64) -> f64 {
         let steps = (most * 1000.0) as u64;
         (self.below(2 * steps + 1) as f64 - steps as f64) / 1000.0
@@ -58,7 +58,7 @@ impl Drawn {
         [self.number(most), self.number(most), self.number(most)]
     }
 
-    /// Zero, a right angle to the last digit of a double, or anything.
+    /// Draws zero, a right angle to the last digit of a double, or anything.
     fn angles(&mut self) -> [f64; 3] {
         std::array::from_fn(|_| match self.below(4) {
             0 | 1 => 0.0,
@@ -115,7 +115,7 @@ impl Drawn {
         }
     }
 
-    /// Every axis tilted from the one before by about this angle.
+    /// Returns every axis tilted from the one before by about this angle.
     pub fn nearly_parallel(&mut self, n: usize, angle: f64) -> Arm {
         let mut arm = self.arm(n);
         for joint in &mut arm.joints {
@@ -132,7 +132,7 @@ impl Drawn {
 }
 
 impl Arm {
-    /// A load on the last link: that of the tests.
+    /// Adds a load on the last link: that of the tests.
     pub fn payload(&mut self) {
         self.payload = Some(Body {
             mass: 2.5,
@@ -142,7 +142,7 @@ impl Arm {
     }
 }
 
-/// The robot file.
+/// Returns the robot file.
 pub fn file(arm: &Arm) -> String {
     let placement =
         |(xyz, rpy): &([f64; 3], [f64; 3])| format!("{{ xyz = {xyz:?}, rpy = {rpy:?} }}");
@@ -181,7 +181,7 @@ pub fn file(arm: &Arm) -> String {
     text
 }
 
-/// The turn about an axis: 1 + sin K + (1 − cos) K², K v = axis × v.
+/// Returns the turn about an axis: 1 + sin K + (1 − cos) K², K v = axis × v.
 fn about(axis: Vector3<f64>, angle: f64) -> Matrix3<f64> {
     let k = axis.cross_matrix();
     Matrix3::identity() + k * angle.sin() + k * k * (1.0 - angle.cos())
@@ -251,7 +251,7 @@ fn by_frames(arm: &Arm, q: &[f64], qd: &[f64], qdd: &[f64]) -> (Vec<f64>, Pose) 
     ((0..n).map(torque).collect(), then(&at, &tool))
 }
 
-/// The worst difference at some states, relative to the largest torque; of
+/// Returns the worst difference at some states, relative to the largest torque; of
 /// poses, in metres.
 pub fn compare(arm: &Arm, robot: &Robot, drawn: &mut Drawn) -> f64 {
     let runtime = Reference::<f64>::from_robot(robot);

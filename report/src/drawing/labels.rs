@@ -11,7 +11,7 @@ const NEAR: [f64; 2] = [14.0, 12.0];
 pub(super) struct Labels(Vec<([f64; 2], String)>);
 
 impl Labels {
-    /// A number at a point, or beside what stands there.
+    /// Adds a number at a point, or beside what stands there.
     pub(super) fn add(&mut self, at: [f64; 2], number: usize) {
         let is_near = |other: &[f64; 2]| (0..2).all(|k| (other[k] - at[k]).abs() < NEAR[k]);
         match self.0.iter_mut().find(|(other, _)| is_near(other)) {

@@ -120,7 +120,7 @@ impl Scene<'_> {
         points
     }
 
-    /// The corners of boxes around the bodies, for which the paper must have room.
+    /// Returns the corners of boxes around the bodies, for which the paper must have room.
     fn outlines(&self) -> Vec<Vector<f64>> {
         let solid = self.bodies.iter().filter(|body| body.mass > 0.0);
         let boxes = solid.filter_map(|body| {

@@ -3,7 +3,7 @@
 use super::page::Ellipse;
 use super::view::View;
 
-/// The outline of the solid ellipsoid of uniform density with this mass and
+/// Returns the outline of the solid ellipsoid of uniform density with this mass and
 /// inertia; none of a point or of what is no body.
 ///
 /// With Σ = ∫ x xᵀ dm = ½ tr(I) 1 − I the ellipsoid is xᵀ (5 Σ/m)⁻¹ x ≤ 1, since a
@@ -31,7 +31,7 @@ pub(super) fn reach(mass: f64, inertia: &[[f64; 3]; 3]) -> Option<[f64; 3]> {
     is_body.then(|| squares.map(|square| libm::sqrt(square.max(0.0))))
 }
 
-/// From the block [[a, b], [b, c]].
+/// Makes the ellipse of the block [[a, b], [b, c]].
 fn ellipse([a, b, c]: [f64; 3], scale: f64) -> Option<Ellipse> {
     let (mean, difference) = (0.5 * (a + c), 0.5 * (a - c));
     let spread = libm::sqrt(difference * difference + b * b);

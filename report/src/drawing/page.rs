@@ -45,7 +45,7 @@ pub(super) struct Page {
 }
 
 impl Page {
-    /// The paper with its title, and room for a table of this height.
+    /// Returns the paper with its title, and room for a table of this height.
     pub(super) fn new(title: &str, table: f64) -> Page {
         let (width, height) = (2.0 * SIDE, HEAD + SIDE + table);
         let head = "<!-- by dalembert show -->\n";
@@ -58,14 +58,14 @@ impl Page {
         page
     }
 
-    /// A line.
+    /// Draws a line.
     pub(super) fn line(&mut self, class: &str, [x, y]: [f64; 2], [to_x, to_y]: [f64; 2]) {
         self.svg.element(&format!(
             "<path class=\"{class}\" d=\"M{x:.1} {y:.1}L{to_x:.1} {to_y:.1}\"/>"
         ));
     }
 
-    /// A line with a point at its end; a ring where it is seen end on.
+    /// Draws a line with a point at its end; a ring where it is seen end on.
     pub(super) fn arrow(&mut self, class: &str, from: [f64; 2], to: [f64; 2]) {
         let [x, y] = [to[0] - from[0], to[1] - from[1]];
         let length = libm::sqrt(x * x + y * y);
@@ -84,12 +84,12 @@ impl Page {
         }
     }
 
-    /// The links, from origin to origin.
+    /// Draws the links, from origin to origin.
     pub(super) fn chain(&mut self, points: &[[f64; 2]]) {
         self.svg.polyline("class=\"l\"", points);
     }
 
-    /// A centre of mass: the dot's volume grows with the mass.
+    /// Draws a centre of mass: the dot's volume grows with the mass.
     pub(super) fn dot(&mut self, [x, y]: [f64; 2], mass: f64) {
         let radius = (2.5 * libm::cbrt(mass)).clamp(1.5, 9.0);
         self.svg.element(&format!(
@@ -97,7 +97,7 @@ impl Page {
         ));
     }
 
-    /// A body's outline.
+    /// Draws a body's outline.
     pub(super) fn ellipse(&mut self, [x, y]: [f64; 2], ellipse: Ellipse) {
         let Ellipse {
             half: [a, b],
@@ -111,12 +111,12 @@ impl Page {
         ));
     }
 
-    /// A name beside a point.
+    /// Draws a name beside a point.
     pub(super) fn label(&mut self, [x, y]: [f64; 2], text: &str) {
         self.text([x + 5.0, y - 4.0], text);
     }
 
-    /// A text that begins at a point.
+    /// Draws a text that begins at a point.
     pub(super) fn text(&mut self, at: [f64; 2], text: &str) {
         self.svg.text("i", at, "", text);
     }
@@ -131,7 +131,7 @@ impl Page {
         }
     }
 
-    /// The text of the file.
+    /// Returns the text of the file.
     pub(super) fn end(self) -> String {
         self.svg.end()
     }

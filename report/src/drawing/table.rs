@@ -6,7 +6,7 @@ use dalembert_model::robot::{Convention, Joint, JointKind, Placement, Robot};
 
 use super::page::{Page, ROW};
 
-/// The room that the table takes.
+/// Returns the room that the table takes.
 pub(super) fn height(robot: &Robot, q: &[f64]) -> f64 {
     ROW * (rows(robot, q).len() as f64 + 1.5)
 }
@@ -18,7 +18,7 @@ pub(super) fn write(robot: &Robot, q: &[f64], page: &mut Page) {
     }
 }
 
-/// The lines, each of cells that are so many characters from the left.
+/// Returns the lines, each of cells that are so many characters from the left.
 fn rows(robot: &Robot, q: &[f64]) -> Vec<Vec<(usize, String)>> {
     let convention = match robot.convention {
         Convention::Standard => "standard DH",
@@ -73,7 +73,7 @@ fn rows(robot: &Robot, q: &[f64]) -> Vec<Vec<(usize, String)>> {
     rows
 }
 
-/// A line of one text.
+/// Returns a line of one text.
 fn line(text: String) -> Vec<(usize, String)> {
     vec![(0, text)]
 }
@@ -109,7 +109,7 @@ fn placement(what: &str, placement: &Placement) -> String {
     format!("{what}: xyz ({xyz}), rpy ({rpy})")
 }
 
-/// As the file has it, if that is short; six digits otherwise.
+/// Writes a number as the file has it, if that is short; six digits otherwise.
 fn number(value: &Rational) -> String {
     match write_decimal(value) {
         Some(text) if text.len() <= 10 => text,
@@ -124,7 +124,7 @@ fn angle(value: &Angle) -> String {
     }
 }
 
-/// A position as it was given, if that is short; six digits otherwise.
+/// Returns a position as it was given, if that is short; six digits otherwise.
 fn short(value: f64) -> String {
     match format!("{value}") {
         text if text.len() <= 7 => text,
@@ -132,7 +132,7 @@ fn short(value: f64) -> String {
     }
 }
 
-/// Six digits, without zeros at the end.
+/// Returns six digits, without zeros at the end.
 fn six(value: f64) -> String {
     let text = format!("{value:.5e}");
     let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));

@@ -25,7 +25,7 @@ const MARGIN: f64 = 0.16;
 const EDGE: f64 = 0.02;
 
 impl View {
-    /// The view from the front, x to the right and z upward, and from above, x to
+    /// Returns the view from the front, x to the right and z upward, and from above, x to
     /// the right and y upward. Both have room for what is drawn at the points, and
     /// for the outlines of bodies.
     pub(super) fn both(points: &[Vector<f64>], outlines: &[Vector<f64>]) -> [View; 2] {
@@ -72,7 +72,7 @@ impl View {
         ]
     }
 
-    /// The size of the arm, m.
+    /// Returns the size of the arm, m.
     pub(super) fn reach(&self) -> f64 {
         self.reach
     }
@@ -91,7 +91,7 @@ impl View {
         ]
     }
 
-    /// The view's name, and a bar that says how long a length is.
+    /// Draws the view's name, and a bar that says how long a length is.
     pub(super) fn head(&self, page: &mut Page) {
         let [x, y] = [self.at[0] - 0.5 * SIDE + 16.0, HEAD + 10.0];
         page.text([x, y], self.name);
@@ -111,8 +111,8 @@ impl View {
         }
     }
 
-    /// Where gravity pulls; ⊙ and ⊗ along the line of sight, towards the eye and
-    /// away from it.
+    /// Draws where gravity pulls; ⊙ and ⊗ along the line of sight, towards the eye and away from
+    /// it.
     pub(super) fn gravity(&self, gravity: &Vector<f64>, page: &mut Page) {
         let square: f64 = gravity.iter().map(|g| g * g).sum();
         let size = libm::sqrt(square);
@@ -133,7 +133,7 @@ impl View {
         }
     }
 
-    /// The axes of a frame, x, y and z in their colours.
+    /// Draws the axes of a frame, x, y and z in their colours.
     pub(super) fn triad(&self, frame: &Columns<f64>, size: f64, page: &mut Page) {
         let from = self.place(&frame.origin);
         for (class, axis) in ["x", "y", "z"].into_iter().zip(&frame.axes) {
@@ -144,7 +144,7 @@ impl View {
     }
 }
 
-/// The largest of 1, 2 and 5 times a power of ten that is not above a length.
+/// Returns the largest of 1, 2 and 5 times a power of ten that is not above a length.
 fn decade(length: f64) -> f64 {
     let power = libm::pow(10.0, libm::floor(libm::log10(length)));
     let digit = [5.0, 2.0].into_iter().find(|digit| digit * power <= length);

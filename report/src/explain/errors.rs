@@ -27,7 +27,7 @@ pub struct Errors {
     pub per_joint: f64,
 }
 
-/// The errors of every row over the same states, inside the limits of the
+/// Returns the errors of every row over the same states, inside the limits of the
 /// robot, or of its scene; those of what is emitted in f32 are rounded to it
 /// first.
 pub fn measure(explanation: &Explanation, states: usize) -> Vec<Errors> {
@@ -66,7 +66,7 @@ pub fn measure(explanation: &Explanation, states: usize) -> Vec<Errors> {
         .collect()
 }
 
-/// The errors of a program in each scalar, inside the limits of the robot, or
+/// Returns the errors of a program in each scalar, inside the limits of the robot, or
 /// of its scene; states of f32 are rounded to it first. Programs of one robot and scene are
 /// compared at the same states: one reference for all is quickest.
 pub fn of_program(
@@ -105,7 +105,7 @@ pub fn affordable_states(joints: usize) -> usize {
     }
 }
 
-/// The states and the true values there, without those that are not finite.
+/// Returns the states and the true values there, without those that are not finite.
 fn at(
     reference: &Reference<'_>,
     function: Function,
@@ -121,7 +121,7 @@ fn at(
         .collect()
 }
 
-/// A formulation over f64, its constants rounded once.
+/// Returns a formulation over f64, its constants rounded once.
 fn formula(
     scene_robot: &SceneRobot,
     arm: &Arm<f64>,
@@ -184,7 +184,7 @@ fn worst(
     }
 }
 
-/// error / size; where the truth vanishes there is nothing to relate it to.
+/// Returns error / size; where the truth vanishes there is nothing to relate it to.
 fn ratio(error: f64, size: f64) -> f64 {
     if size > 0.0 { error / size } else { 0.0 }
 }

@@ -43,7 +43,7 @@ impl Merged {
     }
 }
 
-/// The fingerprint of every node.
+/// Returns the fingerprint of every node.
 fn prints(graph: &Graph) -> Option<Vec<Fingerprint>> {
     let points = Points::SEARCH;
     let mut prints: Vec<Fingerprint> = Vec::with_capacity(graph.nodes.len());
@@ -61,7 +61,7 @@ fn prints(graph: &Graph) -> Option<Vec<Fingerprint>> {
     Some(prints)
 }
 
-/// The fingerprints of a graph's results.
+/// Returns the fingerprints of a graph's results.
 pub(super) fn results(graph: &Graph) -> Option<Vec<Fingerprint>> {
     let prints = prints(graph)?;
     let of = |edge: &Edge| prints[edge.node().index()].negate_if(edge.is_negative());

@@ -103,7 +103,7 @@ pub fn explain_all(robot: &Robot, request: &Request) -> Result<Vec<Explanation>,
     Ok(explanations)
 }
 
-/// Everything but what a tolerance admits, and the program that it is applied
+/// Returns everything but what a tolerance admits, and the program that it is applied
 /// to.
 fn exact(task: &Task<'_>, function: Function) -> Result<(Explanation, Program), GenerateError> {
     let Task {

@@ -226,7 +226,7 @@ impl Parameters {
     }
 }
 
-/// The second moments that a slide gave to the link before.
+/// Returns the second moments that a slide gave to the link before.
 fn seconds_moved(
     arm: &Skeleton<Exact>,
     regrouping: &Regrouping<Exact>,

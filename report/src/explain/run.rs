@@ -22,7 +22,7 @@ impl<T: Machine> Runner<T> {
         }
     }
 
-    /// The results; of an angle both sine and cosine are always computed.
+    /// Returns the results; of an angle both sine and cosine are always computed.
     pub(super) fn run(&self, state: &JointState) -> Vec<f64> {
         let pair = |angle: AngleSum| {
             let mut sum = T::literal(0.0);

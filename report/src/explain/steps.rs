@@ -58,7 +58,7 @@ pub enum SearchStep {
 }
 
 impl SearchStep {
-    /// A name for programs.
+    /// Returns a name for programs.
     pub fn key(self) -> &'static str {
         match self {
             SearchStep::LagrangeWritten => "lagrange_euler_written",
@@ -79,7 +79,7 @@ impl SearchStep {
         }
     }
 
-    /// A name for readers.
+    /// Returns a name for readers.
     pub fn title(self) -> &'static str {
         match self {
             SearchStep::LagrangeWritten => "Lagrange–Euler, run with this robot's numbers",
@@ -137,7 +137,7 @@ impl Row {
     }
 }
 
-/// Lagrange–Euler: as written, traced, merged; then what the general machinery
+/// Returns Lagrange–Euler: as written, traced, merged; then what the general machinery
 /// makes of it alone.
 pub(super) fn lagrange_euler(
     scene_robot: &SceneRobot,
@@ -175,7 +175,7 @@ pub(super) fn lagrange_euler(
     rows
 }
 
-/// Newton–Euler in link axes.
+/// Returns Newton–Euler in link axes.
 pub(super) fn newton_euler(
     scene_robot: &SceneRobot,
     function: Function,
@@ -191,7 +191,7 @@ pub(super) fn newton_euler(
     ]
 }
 
-/// The chain form in one regrouping after the other, each in its cheapest form.
+/// Returns the chain form in one regrouping after the other, each in its cheapest form.
 pub(super) fn chain(scene_robot: &SceneRobot, function: Function, tuned: &Tuned) -> Vec<Row> {
     let arm = portfolio::skeleton(scene_robot);
     let mut metres = tuned.regrouping.clone();
@@ -214,7 +214,7 @@ pub(super) fn chain(scene_robot: &SceneRobot, function: Function, tuned: &Tuned)
     regroupings.into_iter().filter_map(row).collect()
 }
 
-/// The regrouping in which every link keeps what it has; origins as for base
+/// Returns the regrouping in which every link keeps what it has; origins as for base
 /// parameters.
 pub(super) fn kept(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
     let mut regrouping = Regrouping::base(arm);
@@ -231,7 +231,7 @@ pub(super) fn kept(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
     regrouping
 }
 
-/// The search over all forms, nothing replayed.
+/// Returns the search over all forms, nothing replayed.
 pub(super) fn search(task: &Task<'_>, function: Function) -> Result<Found, GenerateError> {
     let anew = Request {
         start: Start::Auto,

@@ -72,8 +72,8 @@ impl Flat {
         writer.flat
     }
 
-    /// For every value the items that read it, ascending; an item that reads it
-    /// twice is there once.
+    /// Returns, for every value, the items that read it, ascending; an item that reads it twice
+    /// is there once.
     pub fn uses(&self) -> Vec<Vec<usize>> {
         let mut uses = vec![Vec::new(); self.values.len()];
         for (place, item) in self.items.iter().enumerate() {
@@ -177,7 +177,7 @@ impl Writer {
         self.item(Deed::CallTogether, angles, writes);
     }
 
-    /// The values of an angle's sine and cosine, where they are wanted.
+    /// Returns the values of an angle's sine and cosine, where they are wanted.
     fn named(&mut self, trig: &LoweredTrig, home: Home) -> Vec<usize> {
         let sin = trig.sin.then_some(Input::Sin(trig.angle));
         let cos = trig.cos.then_some(Input::Cos(trig.angle));
@@ -190,7 +190,7 @@ impl Writer {
         named.collect()
     }
 
-    /// A sum of angles, term by term.
+    /// Returns a sum of angles, term by term.
     fn angle(&mut self, angle: AngleSum) -> usize {
         let mut sum = None;
         for (joint, negative) in angle.terms() {
@@ -205,7 +205,7 @@ impl Writer {
         sum.unwrap_or_default()
     }
 
-    /// One over the root of a velocity's square and a width's, for Coulomb friction.
+    /// Counts one over the root of a velocity's square and a width's, for Coulomb friction.
     fn speeds(&mut self, text: &Lowered) {
         for speed in &text.speeds {
             let qd = self.input(Input::Entry(Argument::Velocity, speed.joint));

@@ -110,7 +110,7 @@ impl HotPath {
         all.into_iter().flatten().collect()
     }
 
-    /// It has no f64.
+    /// Returns the reason that it has no f64.
     fn of_f64(&self, target: &Target) -> Option<String> {
         (!target.has(self.scalar)).then(|| {
             format!(
@@ -120,7 +120,7 @@ impl HotPath {
         })
     }
 
-    /// It has no instruction for `mul_add`.
+    /// Returns the reason that it has no instruction for `mul_add`.
     fn of_fused(&self, target: &Target) -> Option<String> {
         (self.fuses && !target.fma).then(|| {
             format!(
@@ -131,7 +131,7 @@ impl HotPath {
         })
     }
 
-    /// It has no f64, which libm's sines compute in.
+    /// Returns the reason that it has no f64, which libm's sines compute in.
     fn of_sines(&self, target: &Target) -> Option<String> {
         let software = !target.f64 && self.library == Some(Library::Libm);
         (software && self.scalar == ScalarType::F32).then(|| {

@@ -94,7 +94,7 @@ pub fn warnings(footprints: &[Footprint], targets: &[&Target]) -> Vec<String> {
 }
 
 impl Footprint {
-    /// All operations, with those of the sines' polynomials.
+    /// Returns all operations, with those of the sines' polynomials.
     pub fn operations(&self) -> usize {
         self.counts.operations() + self.counts.trig_mul + self.counts.trig_add
     }

@@ -4,7 +4,7 @@ use dalembert_codegen::workspace::program::Operation;
 
 use super::flat::{Deed, Flat, Home};
 
-/// The greatest number of values that are alive at once: computed, and read or
+/// Returns the greatest number of values that are alive at once: computed, and read or
 /// returned later. Entries of arguments and constants are none of them: they
 /// stay where they are. Results are alive until they are returned, all at the
 /// end.
@@ -26,9 +26,9 @@ pub fn most_alive(flat: &Flat) -> usize {
     most
 }
 
-/// For every item that is a sum or difference, the product that it alone reads, if
-/// one of its operands is such: together they are what a processor can do in one
-/// instruction. Of two products it is the left one.
+/// Finds, for every item that is a sum or difference, the product that it alone reads, if one of
+/// its operands is such: together they are what a processor can do in one instruction. Of two
+/// products it is the left one.
 pub fn merged_products(flat: &Flat) -> Vec<Option<usize>> {
     let uses = flat.uses();
     let mut product = vec![false; flat.values.len()];

@@ -27,7 +27,7 @@ pub(super) struct Load {
 }
 
 impl Case {
-    /// The largest error relative to a state's largest entry; no more states
+    /// Returns the largest error relative to a state's largest entry; no more states
     /// are looked at after one above `limit`.
     pub fn error(&self, limit: f64) -> f64 {
         let runtime = Runtime::new(&self.robot);
@@ -71,7 +71,7 @@ impl Case {
     }
 }
 
-/// A quantity as its own function returns it; nothing of those whose columns are the
+/// Returns a quantity as its own function returns it; nothing of those whose columns are the
 /// robot's.
 fn by_its_function(runtime: &Runtime, quantity: Quantity, state: &JointState) -> Option<Vec<f64>> {
     let function = quantity.function();

@@ -23,7 +23,7 @@ fn whole(number: i64) -> Rational {
     Rational::from_integer(number.into())
 }
 
-/// Every usual mistake that can be made with this robot.
+/// Returns every usual mistake that can be made with this robot.
 pub(super) fn causes(robot: &Robot) -> Vec<Cause> {
     let mut causes = Causes(Vec::new());
     causes.of_units(robot);
@@ -48,7 +48,7 @@ impl Causes {
         });
     }
 
-    /// A change of every joint.
+    /// Makes a change of every joint.
     fn joints(&mut self, text: impl Into<String>, change: impl Fn(&mut Joint) + 'static) {
         self.add(text, move |case| {
             case.robot.joints.iter_mut().for_each(&change);
@@ -302,7 +302,7 @@ impl Causes {
     }
 }
 
-/// Position, velocity and acceleration of the joints of a kind.
+/// Scales position, velocity and acceleration of the joints of a kind.
 fn scale_motion(case: &mut Case, kind: JointKind, factors: [f64; 3]) {
     for given in &mut case.states {
         let state = &mut given.state;
@@ -327,7 +327,7 @@ fn scale_known(case: &mut Case, quantity: Quantity, factor: f64) {
     }
 }
 
-/// The inertia moved between centre of mass and origin: ± m (r² 1 − r rᵀ).
+/// Moves the inertia between centre of mass and origin: ± m (r² 1 − r rᵀ).
 fn shift(joint: &mut Joint, sign: i64) {
     let mass = &joint.mass * whole(sign);
     let [x, y, z] = &joint.com;
@@ -347,7 +347,7 @@ fn shift(joint: &mut Joint, sign: i64) {
     *xz -= &mass * (x * z);
 }
 
-/// A joint that counts the other way.
+/// Makes a joint count the other way.
 fn reverse(case: &mut Case, joint: usize) {
     let joints: Vec<usize> = (0..case.robot.joints.len()).collect();
     for given in &mut case.states {

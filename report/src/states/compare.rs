@@ -46,7 +46,7 @@ impl Compared {
         self.disagreeing == 0
     }
 
-    /// The entry that is furthest off, in words.
+    /// Returns the entry that is furthest off, in words.
     pub fn describe(&self, robot: &Robot) -> String {
         let Difference {
             state,
@@ -74,7 +74,7 @@ impl Compared {
     }
 }
 
-/// The quantities that can be compared with given states, from what a function
+/// Returns the quantities that can be compared with given states, from what a function
 /// returns: the symbols h_ikm are compared as the load h that they give.
 pub fn quantities(function: Function) -> impl Iterator<Item = Quantity> {
     let all = function.quantities().iter();

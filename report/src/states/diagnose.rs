@@ -133,7 +133,7 @@ pub fn diagnose(robot: &Robot, states: &[GivenState]) -> Diagnosis {
     diagnosis
 }
 
-/// A few states, spread over all of them.
+/// Returns a few states, spread over all of them.
 fn trial(states: &[GivenState]) -> Vec<GivenState> {
     let step = states.len().div_ceil(TRIAL).max(1);
     states.iter().step_by(step).cloned().collect()

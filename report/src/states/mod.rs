@@ -32,17 +32,17 @@ pub struct GivenState {
     pub known: BTreeMap<Quantity, Vec<f64>>,
 }
 
-/// The nearest double.
+/// Returns the nearest double.
 fn float(value: &Rational) -> f64 {
     f64::nearest_rational(value)
 }
 
-/// The largest size of an entry.
+/// Returns the largest size of an entry.
 fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, x| most.max(x.abs()))
 }
 
-/// The entry with the largest error and that error, relative to the largest
+/// Returns the entry with the largest error and that error, relative to the largest
 /// expected entry; absolute where all of those vanish, infinite where a value
 /// is not a number.
 fn worst(actual: &[f64], expected: &[f64]) -> (usize, f64) {

@@ -30,7 +30,7 @@ impl Criterion {
         self.excess(deviation) <= 1.0
     }
 
-    /// The error in parts of what is allowed; NaN counts as infinite.
+    /// Returns the error in parts of what is allowed; NaN counts as infinite.
     pub fn excess(self, deviation: &Deviation) -> f64 {
         let part = |error: f64, bound: f64| match error / bound {
             part if part.is_nan() => f64::INFINITY,
@@ -68,7 +68,7 @@ pub struct Category {
 }
 
 impl Category {
-    /// The robot to test: its own program is needed where it is another.
+    /// Returns the robot to test: its own program is needed where it is another.
     pub fn robot(&self, robot: &Robot) -> Option<Robot> {
         match self.robot {
             Some(change) => change(robot),
@@ -91,7 +91,7 @@ impl Category {
         self.scales.unwrap_or(self.states)(robot, count, seed)
     }
 
-    /// Every category.
+    /// Returns every category.
     pub fn all() -> Vec<Category> {
         use Criterion::*;
         let here = |name, criterion, states| Category {

@@ -30,7 +30,7 @@ pub struct Measure {
 }
 
 impl Measure {
-    /// For the torques of a robot.
+    /// Begins a measurement for the torques of a robot.
     ///
     /// A product that underflows is off by half the least subnormal, whatever
     /// its size; the robot's parameters then multiply that. A function has
@@ -54,7 +54,7 @@ impl Measure {
         }
     }
 
-    /// The error of each entry; infinite if it is not finite.
+    /// Returns the error of each entry; infinite if it is not finite.
     fn errors(&self, found: &[f64], truth: &[Big]) -> Vec<f64> {
         let error = |(found, truth): (&f64, &Big)| match Big::from_f64(*found) {
             Some(found) => (found.sub(truth).abs().to_f64() - self.underflow).max(0.0),
@@ -63,13 +63,13 @@ impl Measure {
         found.iter().zip(truth).map(error).collect()
     }
 
-    /// The largest error of a result against a size, in u.
+    /// Returns the largest error of a result against a size, in u.
     pub fn against(&self, found: &[f64], truth: &[Big], size: f64) -> f64 {
         let errors = self.errors(found, truth).into_iter();
         ratio(errors.fold(0.0, f64::max), size) / self.scalar.unit_roundoff()
     }
 
-    /// The error of a result; infinite if it is not finite.
+    /// Returns the error of a result; infinite if it is not finite.
     pub fn of(&self, found: &[f64], truth: &[Big]) -> Deviation {
         let u = self.scalar.unit_roundoff();
         let errors = self.errors(found, truth);
@@ -90,7 +90,7 @@ impl Measure {
     }
 }
 
-/// error / size; nothing of nothing is nothing.
+/// Returns error / size; nothing of nothing is nothing.
 fn ratio(error: f64, size: f64) -> f64 {
     if error == 0.0 { 0.0 } else { error / size }
 }

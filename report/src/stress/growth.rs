@@ -70,7 +70,7 @@ pub fn measure(n: usize, request: &Request) -> Result<Growth, GenerateError> {
     })
 }
 
-/// A general chain: right twists every other joint as arms have them, all
+/// Returns a general chain: right twists every other joint as arms have them, all
 /// other parameters their own, with three decimals.
 pub fn chain(n: usize, seed: u64) -> Robot {
     let mut random = Random::new(seed);

@@ -4,7 +4,7 @@ use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Robot};
 use num_traits::Zero;
 
-/// 10^e
+/// Returns 10^e
 pub fn power(e: i32) -> Rational {
     let ten = Rational::from_integer(10.into());
     let size = num_traits::pow(ten, e.unsigned_abs() as usize);
@@ -21,7 +21,7 @@ pub fn mass_ratio(robot: &Robot, e: i32) -> Robot {
     })
 }
 
-/// All lengths times 10^e, inertias times its square.
+/// Returns all lengths times 10^e, inertias times its square.
 pub fn lengths(robot: &Robot, e: i32) -> Robot {
     each(robot, |_, joint| scale_length(joint, &power(e)))
 }
@@ -35,7 +35,7 @@ pub fn mixed_lengths(robot: &Robot, long_hand: bool) -> Robot {
     })
 }
 
-/// The last links without mass and inertia; rotors too, or nothing would be
+/// Returns the last links without mass and inertia; rotors too, or nothing would be
 /// singular.
 pub fn massless(robot: &Robot, links: usize) -> Robot {
     let first = robot.joints.len().saturating_sub(links);
@@ -47,7 +47,7 @@ pub fn massless(robot: &Robot, links: usize) -> Robot {
     })
 }
 
-/// All of the last link's mass in one point, at the origin of its frame.
+/// Returns all of the last link's mass in one point, at the origin of its frame.
 pub fn point_mass(robot: &Robot) -> Robot {
     let last = robot.joints.len().saturating_sub(1);
     each(robot, |index, joint| {
@@ -62,7 +62,7 @@ pub fn point_mass(robot: &Robot) -> Robot {
     })
 }
 
-/// A point mass of 10^e kg more in the hand, 0.1 m from its frame's origin
+/// Returns a point mass of 10^e kg more in the hand, 0.1 m from its frame's origin
 /// along x and z: the last link's body becomes the two together.
 pub fn payload(robot: &Robot, e: i32) -> Robot {
     let last = robot.joints.len().saturating_sub(1);
@@ -74,7 +74,7 @@ pub fn payload(robot: &Robot, e: i32) -> Robot {
     })
 }
 
-/// The base 10^e m away, along all that has no effect: d_1, and for modified
+/// Returns the base 10^e m away, along all that has no effect: d_1, and for modified
 /// DH a_1.
 pub fn base_offset(robot: &Robot, e: i32) -> Robot {
     let convention = robot.convention;
@@ -88,7 +88,7 @@ pub fn base_offset(robot: &Robot, e: i32) -> Robot {
     })
 }
 
-/// A million turns more on every offset, as a float of radians.
+/// Returns a million turns more on every offset, as a float of radians.
 pub fn huge_offset(robot: &Robot) -> Option<Robot> {
     let mut possible = true;
     let robot = each(robot, |_, joint| {
@@ -103,7 +103,7 @@ pub fn huge_offset(robot: &Robot) -> Option<Robot> {
     possible.then_some(robot)
 }
 
-/// Right angles typed with five digits; `None` if the robot has none.
+/// Returns the robot with right angles typed with five digits; `None` if the robot has none.
 pub fn typed_angles(robot: &Robot) -> Option<Robot> {
     let right = Rational::new(15708.into(), 10000.into());
     let mut any = false;
@@ -119,7 +119,7 @@ pub fn typed_angles(robot: &Robot) -> Option<Robot> {
     any.then_some(robot)
 }
 
-/// The robot's joints again and again, up to `n`.
+/// Returns the robot's joints again and again, up to `n`.
 pub fn repeated(robot: &Robot, n: usize) -> Robot {
     let unnamed = robot.joints.iter().map(|joint| Joint {
         name: None,
@@ -131,7 +131,7 @@ pub fn repeated(robot: &Robot, n: usize) -> Robot {
     }
 }
 
-/// The robot without gravity.
+/// Returns the robot without gravity.
 pub fn weightless(robot: &Robot) -> Robot {
     Robot {
         gravity: Default::default(),
@@ -165,8 +165,8 @@ fn scale_inertia(tensor: &mut Inertia<Rational>, factor: &Rational) {
     *tensor = tensor.map(|entry| entry * factor);
 }
 
-/// Two bodies as one: about their common centre of mass the reduced mass at
-/// their distance is added to the inertia.
+/// Makes two bodies one: about their common centre of mass the reduced mass at their distance is
+/// added to the inertia.
 fn add_point(joint: &mut Joint, mass: &Rational, at: &[Rational; 3]) {
     let total = &joint.mass + mass;
     let reduced = &joint.mass * mass / &total;

@@ -5,7 +5,7 @@ use dalembert_model::robot::{Frame, Inertia, Joint, Placement, Robot};
 
 use dalembert_codegen::workspace::program::ScalarType;
 
-/// The robot with every number rounded to the scalar, angles in radians too;
+/// Returns the robot with every number rounded to the scalar, angles in radians too;
 /// multiples of π stay what they are. `None` if a number is beyond its range.
 pub fn rounded(robot: &Robot, scalar: ScalarType) -> Option<Robot> {
     let number = |value: &Rational| -> Option<Rational> {

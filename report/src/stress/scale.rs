@@ -14,8 +14,8 @@ pub const STATES: usize = 1000;
 /// The seed of the torque scales.
 pub const SEED: u64 = 0x7a11;
 
-/// For each joint the bounds of |q|, |q̇| and |q̈|: the largest that occur in
-/// the state at a joint of its kind.
+/// Returns, for each joint, the bounds of |q|, |q̇| and |q̈|: the largest that occur in the state
+/// at a joint of its kind.
 pub fn magnitudes(robot: &Robot, state: &JointState) -> JointState {
     let of = |values: &[f64]| {
         let largest = |kind| {
@@ -46,7 +46,7 @@ pub fn draw(bounds: &JointState, count: usize, seed: u64) -> Vec<JointState> {
         .collect()
 }
 
-/// T_i: the largest |τ_i| over states, [`STATES`] of them as a rule.
+/// Returns T_i: the largest |τ_i| over states, [`STATES`] of them as a rule.
 ///
 /// An arm that stands still may load a joint with nothing at all, whatever its
 /// position: a vertical axis feels no gravity. What is computed there is the

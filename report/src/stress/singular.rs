@@ -81,7 +81,7 @@ pub struct Divided {
     pub refused: Option<GenerateError>,
 }
 
-/// The functions of one quantity or several that invert D, and nothing else: what is damped
+/// Returns the functions of one quantity or several that invert D, and nothing else: what is damped
 /// inverts other matrices, which are near singular at other states.
 pub fn functions() -> Vec<Function> {
     let inverts = |function: &Function| {
@@ -278,7 +278,7 @@ impl<'a> Cases<'a> {
         row
     }
 
-    /// The part of a function's results that each quantity has.
+    /// Returns the part of a function's results that each quantity has.
     fn parts(&self, function: Function) -> Vec<Range<usize>> {
         let mut start = 0;
         let quantities = function.quantities().iter();
@@ -301,7 +301,7 @@ impl<'a> Cases<'a> {
         self.parts(function).into_iter().map(most).collect()
     }
 
-    /// The worst of a function's quantities, in u.
+    /// Returns the worst of a function's quantities, in u.
     fn normwise(&self, function: Function, found: &[f64], truth: &[Big], least: &[f64]) -> f64 {
         let mut worst = 0.0f64;
         for (range, least) in self.parts(function).into_iter().zip(least) {

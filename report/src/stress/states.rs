@@ -34,7 +34,7 @@ pub fn times(robot: &Robot, count: usize, seed: u64, factors: [f64; 3]) -> Vec<J
     states
 }
 
-/// The last joint but one of the revolute ones where its neighbours' axes are
+/// Returns the last joint but one of the revolute ones where its neighbours' axes are
 /// parallel, θ = 0 or π: what a wrist calls singular.
 pub fn wrist(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
     let revolute = revolute(robot);
@@ -48,7 +48,7 @@ pub fn wrist(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
     states
 }
 
-/// Every revolute joint but the first at θ = 0 or a right angle, about half of
+/// Returns every revolute joint but the first at θ = 0 or a right angle, about half of
 /// them straight: arms stretched out, folded and squared.
 pub fn stretched(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
     let mut random = Random::new(seed);
@@ -63,14 +63,13 @@ pub fn stretched(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
     states
 }
 
-/// At rest.
+/// Draws a state at rest.
 pub fn still(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
     times(robot, count, seed, [1.0, 0.0, 0.0])
 }
 
-/// At rest, and as many joints as possible where gravity does not load them:
-/// each in turn, from the hand to the base, is brought to the zero of its own
-/// torque by bisection.
+/// Draws a state at rest, and as many joints as possible where gravity does not load them: each
+/// in turn, from the hand to the base, is brought to the zero of its own torque by bisection.
 pub fn balanced(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
     let runtime = Reference::<f64>::from_robot(robot);
     let load = |q: &[f64], joint: usize| {
@@ -116,7 +115,7 @@ fn revolute(robot: &Robot) -> Vec<usize> {
     (0..robot.joints.len()).filter(is).collect()
 }
 
-/// q for θ = half·π.
+/// Returns q for θ = half·π.
 fn aligned(robot: &Robot, joint: usize, half: usize) -> f64 {
     half as f64 * std::f64::consts::PI - robot.joints[joint].theta.to_f64()
 }

@@ -48,7 +48,7 @@ pub enum Code {
 }
 
 impl Code {
-    /// The generic runtime.
+    /// Returns the generic runtime.
     pub fn runtime(robot: &Robot, scalar: ScalarType) -> Code {
         match scalar {
             ScalarType::F64 => Code::Double(Box::new(Reference::from_robot(robot))),
@@ -70,7 +70,7 @@ impl Code {
         Ok(request.scalars.iter().map(of).collect())
     }
 
-    /// The results of a function at a state, flat, as doubles that hold them
+    /// Returns the results of a function at a state, flat, as doubles that hold them
     /// exactly; `None` if there is no such function here, or the state is of
     /// another robot.
     pub fn run(&self, function: Function, state: &JointState) -> Option<Vec<f64>> {

@@ -28,7 +28,7 @@ impl Axis {
     /// Every axis.
     pub const ALL: [Axis; 3] = [Axis::Angle, Axis::Velocity, Axis::MassRatio];
 
-    /// Its exponents of ten.
+    /// Returns its exponents of ten.
     fn exponents(self) -> Vec<i32> {
         match self {
             Axis::Angle => (0..=9).collect(),
@@ -127,7 +127,7 @@ impl Codes {
         })
     }
 
-    /// The worst error of each code over states; infinite where there is none.
+    /// Returns the worst error of each code over states; infinite where there is none.
     fn errors(&self, states: &[JointState]) -> Vec<f64> {
         let mut worst = vec![0.0f64; self.codes.len()];
         for (index, (scalar, code)) in self.codes.iter().enumerate() {

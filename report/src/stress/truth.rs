@@ -44,7 +44,7 @@ impl Truth {
         }
     }
 
-    /// Sine and cosine of a position.
+    /// Returns sine and cosine of a position.
     fn pair(&self, q: f64) -> (Big, Big) {
         let mut sines = self.sines.borrow_mut();
         if sines.len() >= MAX_SINES {
@@ -54,7 +54,7 @@ impl Truth {
         sines.entry(q.to_bits()).or_insert_with(made).clone()
     }
 
-    /// The results of a function over the scene's rows, flat; `None` at a
+    /// Returns the results of a function over the scene's rows, flat; `None` at a
     /// state that is not finite.
     pub fn run(&self, function: Function, state: &JointState) -> Option<Vec<Big>> {
         if !state.is_finite() {
@@ -79,7 +79,7 @@ impl Truth {
     }
 }
 
-/// An exact constant, rounded to 448 bits.
+/// Returns an exact constant, rounded to 448 bits.
 pub fn number(constant: &Exact) -> Big {
     let value = constant.map(&mut |x| Some(Big::from_rational(x)), &mut |angle| {
         let (sin, cos) = match angle {

@@ -29,9 +29,9 @@ pub struct Options {
 
 /// Who waits for a sweep.
 pub trait Waiting {
-    /// Something begins that takes long.
+    /// Tells that something begins that takes long.
     fn begin(&self, what: &str);
-    /// A rung is certified, or was kept by an earlier run.
+    /// Tells that a rung is certified, or was kept by an earlier run.
     fn done(&self, rung: &Rung, resumed: bool);
 }
 
@@ -50,7 +50,7 @@ pub struct Ladder<'a> {
 }
 
 impl<'a> Ladder<'a> {
-    /// For a function in its box.
+    /// Makes a ladder for a function in its box.
     pub fn new(
         options: Options,
         frame: &'a ErrorBudget<'a>,
@@ -66,7 +66,7 @@ impl<'a> Ladder<'a> {
         }
     }
 
-    /// The points of all tolerances, which ascend; the exact program's first.
+    /// Returns the points of all tolerances, which ascend; the exact program's first.
     ///
     /// # Errors
     /// A rung cannot be used or kept, or a variant cannot be run.
@@ -104,7 +104,7 @@ impl<'a> Ladder<'a> {
         Ok(points)
     }
 
-    /// The claim of a variant that a rung kept: proved to be one, as a plan's is.
+    /// Returns the claim of a variant that a rung kept: proved to be one, as a plan's is.
     fn certified(&self, tolerance: f64, kept: Kept<'_>) -> Option<Certificate> {
         match kept {
             Kept::Variant(entry) => {
@@ -122,7 +122,7 @@ impl<'a> Ladder<'a> {
         }
     }
 
-    /// A variant with polynomials for its sines, if the tolerance admits any.
+    /// Returns a variant with polynomials for its sines, if the tolerance admits any.
     fn polynomials(&self, tolerance: f64, certificate: &Certificate) -> Option<Certificate> {
         let tolerances = vec![tolerance; self.frame.scales.len()];
         let found = self
@@ -154,7 +154,7 @@ impl<'a> Ladder<'a> {
         Ok(Rung { tolerance, points })
     }
 
-    /// The cheapest variants that a tolerance admits, in each scalar that can
+    /// Returns the cheapest variants that a tolerance admits, in each scalar that can
     /// be that exact at all; `before` is one that a smaller tolerance admits.
     fn variants(&self, tolerance: f64, before: Option<&Point>) -> Vec<Admitted> {
         let tolerances = vec![tolerance; self.frame.scales.len()];
@@ -209,7 +209,7 @@ impl<'a> Ladder<'a> {
         })
     }
 
-    /// The largest error that is seen, and one above E.
+    /// Returns the largest error that is seen, and one above E.
     fn falsified(
         &self,
         certificate: &Certificate,

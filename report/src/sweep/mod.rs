@@ -53,7 +53,7 @@ pub struct Time {
 }
 
 impl Point {
-    /// A variant that was not run yet.
+    /// Returns a variant that was not run yet.
     pub fn new(tolerance: f64, certificate: Certificate) -> Point {
         let largest = |certificate: &Certificate| {
             let totals = certificate.bounds.iter().map(|bound| bound.total());

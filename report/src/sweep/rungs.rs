@@ -48,7 +48,7 @@ pub struct Rungs {
 }
 
 impl Rungs {
-    /// A folder, which need not be there, for a run that `identity` tells apart
+    /// Returns a folder, which need not be there, for a run that `identity` tells apart
     /// from every other: robot, scene, exact program, options.
     pub fn new(folder: &Path, identity: &str) -> Rungs {
         let version = env!("CARGO_PKG_VERSION");
@@ -149,7 +149,7 @@ impl Rungs {
     }
 }
 
-/// The plan that keeps a variant.
+/// Returns the plan that keeps a variant.
 fn plan(certificate: &Certificate) -> String {
     let stages = &certificate.stages;
     let exact = stages.first().map(|stage| &stage.program);

@@ -8,7 +8,7 @@ use dalembert_model::scalar::count::{Count, Counter};
 
 use super::Pair;
 
-/// For a robot: its numbers are known, zeros and ones cost nothing.
+/// Counts for a robot: its numbers are known, zeros and ones cost nothing.
 pub fn robot(formulation: Formulation, robot: &Robot) -> Pair {
     let counter = Counter::new();
     let arm = Arm::from_robot(robot, &mut |constant: &Exact| {

@@ -163,7 +163,7 @@ pub fn trace(
     Ok(traces)
 }
 
-/// What a search finds with another value of a number.
+/// Returns what a search finds with another value of a number.
 fn searched_with(
     anew: &Request,
     parameter: &Parameter,
@@ -175,7 +175,7 @@ fn searched_with(
     changed.map_or(Vec::new(), |changed| changed.functions)
 }
 
-/// Where the constants of two programs differ; `None` if they differ otherwise.
+/// Returns where the constants of two programs differ; `None` if they differ otherwise.
 fn differing(program: &Program, other: &Program) -> Option<Vec<Place>> {
     let mut shape = program.clone();
     let mut places = Vec::new();
@@ -197,7 +197,7 @@ fn differing(program: &Program, other: &Program) -> Option<Vec<Place>> {
     (shape == *other).then_some(places)
 }
 
-/// The steps and results that read a place, or read what reads it.
+/// Returns the steps and results that read a place, or read what reads it.
 fn flow(program: &Program, place: Place) -> (BTreeSet<usize>, BTreeSet<usize>) {
     let (mut steps, mut outputs) = (BTreeSet::new(), BTreeSet::new());
     match place {
@@ -233,7 +233,7 @@ fn literal(program: &Program, place: Place, scalar: ScalarType) -> String {
     }
 }
 
-/// The lines of a function with their numbers, in each scalar.
+/// Returns the lines of a function with their numbers, in each scalar.
 fn bodies(text: &str, function: Function) -> Vec<Vec<(usize, &str)>> {
     let lines: Vec<(usize, &str)> = text.lines().enumerate().map(|(i, l)| (i + 1, l)).collect();
     let head = format!("pub fn {function}(");
@@ -248,7 +248,7 @@ fn bodies(text: &str, function: Function) -> Vec<Vec<(usize, &str)>> {
     starts.map(body).collect()
 }
 
-/// The line in which a constant is.
+/// Returns the line in which a constant is.
 fn line<'t>(
     program: &Program,
     scalar: ScalarType,

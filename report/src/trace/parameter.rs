@@ -25,7 +25,7 @@ enum Cell<'r> {
 }
 
 impl Parameter {
-    /// The number of a name.
+    /// Returns the number of a name.
     ///
     /// # Errors
     /// What was expected.
@@ -67,8 +67,8 @@ impl Parameter {
         Ok(parameter)
     }
 
-    /// The robot with the number larger by so many thousandths of it, or of one if it is zero. An
-    /// angle has the same other value, whatever their number.
+    /// Returns the robot with the number larger by so many thousandths of it, or of one if it is
+    /// zero. An angle has the same other value, whatever their number.
     pub fn with(&self, robot: &Robot, thousandths: i64) -> Robot {
         let mut other = robot.clone();
         match self.cell(&mut other) {
@@ -126,7 +126,7 @@ impl Parameter {
     }
 }
 
-/// A joint by its name, or as `joint3`.
+/// Returns a joint by its name, or as `joint3`.
 fn joint(robot: &Robot, word: &str) -> Result<usize, String> {
     let named = robot.joints.iter();
     let named = named

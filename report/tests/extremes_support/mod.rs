@@ -45,7 +45,7 @@ fn extreme(json: &Value) -> Extreme {
     }
 }
 
-/// The doubles taken at their word: no angle is snapped.
+/// Returns the doubles taken at their word: no angle is snapped.
 fn robot(json: &Value) -> Robot {
     let column = |key: &str| numbers(&json[key]);
     let [alpha, a, d, offset, mass] = ["alpha", "a", "d", "off", "m"].map(column);

@@ -10,21 +10,21 @@
 #[derive(Clone, Copy, Debug)]
 pub struct Pair(pub f64, pub f64);
 
-/// a + b
+/// Returns a + b
 fn sum(a: f64, b: f64) -> Pair {
     let s = a + b;
     let of_b = s - a;
     Pair(s, (a - (s - of_b)) + (b - of_b))
 }
 
-/// a in halves of 26 bits.
+/// Returns a in halves of 26 bits.
 fn halves(a: f64) -> (f64, f64) {
     let shifted = a * 134217729.0;
     let high = shifted - (shifted - a);
     (high, a - high)
 }
 
-/// a·b
+/// Returns a·b
 fn product(a: f64, b: f64) -> Pair {
     let p = a * b;
     let ((a1, a2), (b1, b2)) = (halves(a), halves(b));
@@ -55,7 +55,7 @@ const QUARTER: [f64; 4] = [
     -2.7529965190440717e-37,
 ];
 
-/// The angle less quarter turns, and how many.
+/// Returns the angle less quarter turns, and how many.
 fn reduced(x: f64) -> (i64, Pair) {
     let k = (x * core::f64::consts::FRAC_2_PI).round();
     let first = sum(x - k * QUARTER[0], -(k * QUARTER[1]));
@@ -64,14 +64,14 @@ fn reduced(x: f64) -> (i64, Pair) {
     (k as i64, sum(second.0, low))
 }
 
-/// Σ c_k z^k, the terms after the first in doubles.
+/// Returns Σ c_k z^k, the terms after the first in doubles.
 fn series(z: Pair, first: [Pair; 3], others: [f64; 7]) -> Pair {
     let tail = others.iter().rev().fold(0.0, |sum, c| sum * z.0 + c);
     let terms = first.iter().rev();
     terms.fold(Pair(tail, 0.0), |sum, c| sum.mul(z).add(*c))
 }
 
-/// ±1/n! for every second n.
+/// Returns ±1/n! for every second n.
 fn inverse_factorials(from: u32, sign: f64) -> [f64; 7] {
     core::array::from_fn(|k| {
         let n = from + 2 * k as u32;
@@ -123,12 +123,12 @@ impl Reference {
     }
 }
 
-/// The distance between neighbours where the true value is.
+/// Returns the distance between neighbours where the true value is.
 pub fn ulp(x: f64) -> f64 {
     x.abs().next_up() - x.abs()
 }
 
-/// The error of a result in ulps of the true value.
+/// Returns the error of a result in ulps of the true value.
 pub fn ulps(found: f64, exact: Pair) -> f64 {
     // Just below a power of two an ulp is half as large as at it.
     let power = exact.0.to_bits().is_multiple_of(1 << 52);

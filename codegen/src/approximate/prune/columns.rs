@@ -74,7 +74,7 @@ impl Nodes {
         nodes
     }
 
-    /// The same program at other states.
+    /// Moves the same program to other states.
     pub(super) fn move_to(&mut self, states: &[JointState]) {
         let inputs = self.inputs.iter();
         let columns = inputs.flat_map(|&input| states.iter().map(move |state| at(input, state)));
@@ -82,7 +82,7 @@ impl Nodes {
         self.samples = states.len();
     }
 
-    /// The node that an operand reads, unless it is a constant.
+    /// Returns the node that an operand reads, unless it is a constant.
     pub(super) fn node_of(&self, operand: &Operand<f64, usize>) -> Option<usize> {
         match operand {
             Operand::Input(place) => Some(*place),
@@ -91,7 +91,7 @@ impl Nodes {
         }
     }
 
-    /// An operand, or its negative, as it would stand in a node's place.
+    /// Returns an operand, or its negative, as it would stand in a node's place.
     pub(super) fn value(&self, operand: &Operand<f64, usize>, negative: bool) -> Value {
         match operand {
             Operand::Input(place) => Value::Node(*place as u32, negative),
@@ -100,7 +100,7 @@ impl Nodes {
         }
     }
 
-    /// The outputs, output after output.
+    /// Returns the outputs, output after output.
     pub(super) fn values(&self, columns: &[f64]) -> Vec<f64> {
         let m = self.samples;
         let mut values = Vec::with_capacity(self.outputs.len() * m);
@@ -121,7 +121,7 @@ impl Nodes {
         self.inputs.len() + self.steps.len()
     }
 
-    /// The columns of every node under edits (one slot a node).
+    /// Returns the columns of every node under edits (one slot a node).
     pub(super) fn run(&self, edits: &[Option<Value>]) -> Vec<f64> {
         let m = self.samples;
         let mut columns = vec![0.0; self.len() * m];
@@ -132,7 +132,7 @@ impl Nodes {
         columns
     }
 
-    /// One node's column from those before it.
+    /// Computes one node's column from those before it.
     pub(super) fn node(&self, node: usize, edit: Option<Value>, before: &[f64], out: &mut [f64]) {
         let m = self.samples;
         match edit {
@@ -188,7 +188,7 @@ impl Nodes {
         }
     }
 
-    /// The edits as the program knows them; constants are those that differ
+    /// Returns the edits as the program knows them; constants are those that differ
     /// from the original.
     pub(super) fn edits(&self, original: &Nodes, edits: &[Option<Value>]) -> Vec<Edit> {
         let inputs = self.inputs.len();
@@ -232,7 +232,7 @@ impl Nodes {
     }
 }
 
-/// The number with seven digits.
+/// Returns the number with seven digits.
 pub(super) fn short(x: f64) -> f64 {
     f64::nearest_rational(&digits(x))
 }
@@ -241,7 +241,7 @@ fn digits(x: f64) -> Rational {
     parse_decimal(&format!("{x:.6e}")).unwrap_or_default()
 }
 
-/// The decimal with seven digits if it is the number, or the number.
+/// Returns the decimal with seven digits if it is the number, or the number.
 fn decimal(x: f64) -> Exact {
     let short = digits(x);
     Exact::from(if f64::nearest_rational(&short) == x {

@@ -145,7 +145,7 @@ impl PruneSettings {
         work: None,
     };
 
-    /// For the effort of a command that reports on variants.
+    /// Returns the settings for the effort of a command that reports on variants.
     pub fn of(effort: Effort) -> PruneSettings {
         match effort {
             Effort::Quick => PruneSettings::default(),
@@ -209,7 +209,7 @@ fn leaves(best: &Pruned, allowances: &[f64]) -> bool {
     has_edits(&best.stages) && pairs.all(|(error, allowance)| *error <= MUCH * allowance)
 }
 
-/// The cheapest variant found of which every output is certified to stay
+/// Returns the cheapest variant found of which every output is certified to stay
 /// within its allowance (in the output's unit) over the box.
 pub fn prune(
     program: &Program,
@@ -220,7 +220,7 @@ pub fn prune(
     watched(program, None, limits, allowances, settings, None)
 }
 
-/// [`prune`] under a watch: where it is over, the search ends with its best.
+/// Returns [`prune`] under a watch: where it is over, the search ends with its best.
 /// `start` is another program to edit in its place. If it is equal, the first stage has no
 /// edits and leads there; if not, the result is bounded against `program` directly, and
 /// has no stages but that one.
@@ -344,8 +344,8 @@ pub(crate) fn promising<'p>(
     all.into_iter().map(|(_, start)| start).collect()
 }
 
-/// About what [`prune`] would leave of a program: operations, sines and
-/// cosines weighed. Errors at so many samples decide, nothing is certified.
+/// Estimates what [`prune`] would leave of a program: operations, sines and cosines weighed.
+/// Errors at so many samples decide, nothing is certified.
 pub(crate) fn appraise(
     full: &Program,
     program: &Program,

@@ -117,7 +117,7 @@ enum Strength {
     Atom,
 }
 
-/// An operand in terms of inputs, `…` for what is too deep.
+/// Returns an operand in terms of inputs, `…` for what is too deep.
 fn expression(program: &Program, operand: &Operand, depth: usize) -> (String, Strength) {
     let step = match operand {
         Operand::Input(input) => return (input_name(*input), Strength::Atom),

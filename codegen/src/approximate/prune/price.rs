@@ -196,7 +196,7 @@ mod tests {
         }
     }
 
-    /// The price of a pattern whose constants come from edits.
+    /// Returns the price of a pattern whose constants come from edits.
     fn price_of(pattern: &str) -> u32 {
         let pattern = Pattern::parse(pattern);
         let mut unfolded = Unfolded {

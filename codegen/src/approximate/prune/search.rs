@@ -88,7 +88,7 @@ impl Search<'_> {
         greedy.price(&state)
     }
 
-    /// The cheapest variant found, if it is cheaper than what was there.
+    /// Returns the cheapest variant found, if it is cheaper than what was there.
     /// `share`: how much of the allowances sampled errors may use at first, and, of long
     /// programs, what was learned of that.
     pub(super) fn run(
@@ -263,7 +263,7 @@ impl Search<'_> {
         )
     }
 
-    /// The variant, and the certified error of each output against its
+    /// Returns the variant, and the certified error of each output against its
     /// allowance.
     fn certify(
         &self,
@@ -284,7 +284,7 @@ impl Search<'_> {
         (pruned, ratios)
     }
 
-    /// The variant, if every output is certified to be within its allowance.
+    /// Returns the variant, if every output is certified to be within its allowance.
     fn certified(
         &self,
         original: &Nodes,
@@ -297,7 +297,7 @@ impl Search<'_> {
         self.is_definite(&pruned.program).then_some(pruned)
     }
 
-    /// The variant, its errors still to be found, and the program of them.
+    /// Returns the variant, its errors still to be found, and the program of them.
     fn variant(&self, original: &Nodes, state: &State, greedy: &mut Greedy<'_>) -> (Pruned, Graph) {
         let mut stages = self.base.stages.clone();
         stages.push(Stage {
@@ -356,13 +356,13 @@ fn within(ratios: &[f64]) -> bool {
     ratios.iter().all(|ratio| *ratio <= 1.0)
 }
 
-/// A program's outputs at states, output after output.
+/// Returns a program's outputs at states, output after output.
 fn outputs(program: &Program, states: &[JointState]) -> Vec<f64> {
     let code = program.lower(ScalarType::F64, |_| None);
     code.run_columns(&Columns::<f64>::of(states)).concat()
 }
 
-/// The last stage's edited program, simplified if asked.
+/// Returns the last stage's edited program, simplified if asked.
 fn finish(stages: &[Stage], effort: Effort, search: bool) -> Program {
     let last = &stages[stages.len() - 1];
     let graph = last.edited(Folding::Semantic);

@@ -31,7 +31,7 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// A round begins; the best program so far.
+    /// Tells that a round begins, with the best program so far.
     pub(super) fn round(&self, best: &Program) {
         let done = self.done.get();
         if let Some(watch) = self.watch {

@@ -12,7 +12,7 @@ use crate::program::{AngleSum, Input};
 const MAX_PRODUCTS: usize = 400_000;
 
 impl Forms {
-    /// `None` if keeping the rates apart would be too much work.
+    /// Returns `None` if keeping the rates apart would be too much work.
     pub(super) fn compile(graph: &Graph, joints: usize, rates: bool) -> Option<Forms> {
         let mut forms = Forms::empty(joints);
         forms.rates = rates;
@@ -87,7 +87,7 @@ impl Forms {
         Some(forms)
     }
 
-    /// The monomial of an input.
+    /// Returns the monomial of an input.
     fn leaf(&self, input: Input) -> Monomial {
         let n = self.joints;
         match input {
@@ -108,7 +108,7 @@ fn position_joints(input: Input) -> impl Iterator<Item = usize> {
     turned.map(|(joint, _)| joint).chain(slide)
 }
 
-/// The product of two monomials: what is kept, and the variables that go into
+/// Returns the product of two monomials: what is kept, and the variables that go into
 /// the coefficient.
 fn multiply(left: &Monomial, right: &Monomial) -> (Monomial, Vec<u8>) {
     let mut rates: Vec<u8> = [*left, *right].concat();

@@ -55,7 +55,7 @@ impl Forms {
         }
     }
 
-    /// The range of a product of variables.
+    /// Returns the range of a product of variables.
     fn range(&self, variables: &[u8], sub: &InputBox) -> Interval {
         let mut product = Interval::ONE;
         let mut at = 0;
@@ -86,7 +86,7 @@ impl Forms {
         }
     }
 
-    /// The range of each output over the sub-box evaluated last.
+    /// Returns the range of each output over the sub-box evaluated last.
     pub(crate) fn outputs(&self, sub: &InputBox, scratch: &Scratch) -> Vec<Interval> {
         self.outputs
             .iter()
@@ -105,7 +105,7 @@ impl Forms {
     }
 }
 
-/// A sum that starts from zero stays exact.
+/// Adds to a sum; one that starts from zero stays exact.
 #[inline]
 fn accumulate(sum: &mut Interval, term: Interval) {
     *sum = if *sum == Interval::ZERO {

@@ -44,7 +44,7 @@ struct Cell {
 }
 
 impl<'a> Cells<'a> {
-    /// Over the whole circles, or, given F of these, over the box.
+    /// Makes the cells over the whole circles, or, given F of these, over the box.
     pub(super) fn new(
         layout: &'a Layout,
         limits: &InputBox,
@@ -66,13 +66,13 @@ impl<'a> Cells<'a> {
         }
     }
 
-    /// The joint's range, unless it goes round.
+    /// Returns the joint's range, unless it goes round.
     pub(super) fn part(&self, level: usize) -> Option<(Interval, f64)> {
         let whole = self.whole.filter(|_| self.layout.part[level])?;
         Some((self.ranges[level], whole))
     }
 
-    /// The values before a joint, those of the angles put in last.
+    /// Returns the values before a joint, those of the angles put in last.
     pub(super) fn values(&self, level: usize) -> &[f64] {
         let buffer = &self.buffers[level];
         &buffer[buffer.len() - self.layout.len(level)..]
@@ -92,7 +92,7 @@ impl<'a> Cells<'a> {
         self.layout.fold(level, angles, before, &mut after[0]);
     }
 
-    /// What takes about as long as a point counts as one.
+    /// Counts what takes about as long as a point as one.
     pub(super) fn charge(&mut self, level: usize) {
         let points = 1 + self.layout.len(level) / TERMS;
         work::count(points);

@@ -46,7 +46,7 @@ pub(in crate::bound) enum Wanted {
     AtLeast(f64),
 }
 
-/// A lower bound, above zero, of the least eigenvalue over a box of the matrix
+/// Returns a lower bound, above zero, of the least eigenvalue over a box of the matrix
 /// with these entries (row by row, lower triangle), each known up to `errors`;
 /// `None` if what is wanted was not shown within so many points.
 pub(in crate::bound) fn least_eigenvalue(
@@ -135,7 +135,7 @@ pub(in crate::bound) fn least_eigenvalue(
     }
 }
 
-/// About the least eigenvalue at sampled positions, by halving.
+/// Estimates the least eigenvalue at sampled positions, by halving.
 fn sampled(cells: &mut Cells<'_>, matrix: &dyn Fn(&[f64]) -> Vec<f64>, n: usize, most: f64) -> f64 {
     let mut random = Random::new(0xde7);
     let (last, mut least) = (cells.layout.joints.len(), most);

@@ -11,24 +11,24 @@
 use crate::bound::expand::{Key, Polynomial, powers, shift};
 use crate::interval::Interval;
 
-/// Of a key whose joints have multiples in place of powers: the multiple k of
-/// a joint's angle, and whether it is sin kθ.
+/// Reads of a key whose joints have multiples in place of powers the multiple k of a joint's
+/// angle, and whether it is sin kθ.
 pub(super) fn multiple(key: Key, joint: usize) -> (u32, bool) {
     let (k, sine) = powers(key, joint);
     (k, sine == 1)
 }
 
-/// The bits that tell sines from cosines.
+/// Returns the bits that tell sines from cosines.
 pub(super) fn phases(joints: usize) -> Key {
     (0..joints).fold(0, |bits, joint| bits | 16u128 << shift(joint))
 }
 
-/// The bits of a joint in a key.
+/// Returns the bits of a joint in a key.
 pub(super) fn bits(joint: usize) -> Key {
     31u128 << shift(joint)
 }
 
-/// The polynomial in multiples of its angles: in each key a joint's power of
+/// Returns the polynomial in multiples of its angles: in each key a joint's power of
 /// the cosine is replaced by the multiple. `None` if a multiple does not fit.
 pub(in crate::bound) fn harmonics(polynomial: &Polynomial, joints: usize) -> Option<Polynomial> {
     let mut terms = polynomial.clone();
@@ -60,7 +60,7 @@ pub(in crate::bound) fn harmonics(polynomial: &Polynomial, joints: usize) -> Opt
     Some(terms)
 }
 
-/// Equal keys' coefficients in one, added in the order that they come in.
+/// Adds equal keys' coefficients up, in the order that they come in.
 fn added_up(mut terms: Polynomial) -> Polynomial {
     // Stable: the sums are rounded as they were.
     terms.sort_by_key(|&(key, _)| key);
@@ -74,7 +74,7 @@ fn added_up(mut terms: Polynomial) -> Polynomial {
     terms
 }
 
-/// cos^c·sin^s, s at most 1, as Σ part·cos kθ, or Σ part·sin kθ if s is 1.
+/// Returns cos^c·sin^s, s at most 1, as Σ part·cos kθ, or Σ part·sin kθ if s is 1.
 fn of_power((c, s): (u32, u32)) -> Vec<(u32, f64)> {
     if (c, s) == (0, 0) {
         return vec![(0, 1.0)];

@@ -52,9 +52,9 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Of a polynomial in multiples; `range` of what is not an angle in a key.
-    /// Terms of at most `least` are left to the slack. The joint of the highest
-    /// degree is the last one: its sums are the shortest.
+    /// Lays out a polynomial in multiples; `range` of what is not an angle in a key. Terms of at
+    /// most `least` are left to the slack. The joint of the highest degree is the last one: its
+    /// sums are the shortest.
     pub(super) fn new(
         polynomial: &[(Key, Interval)],
         limits: &InputBox,
@@ -177,7 +177,7 @@ impl Layout {
         }
     }
 
-    /// A bound without looking at angles: each group's is the length of its
+    /// Returns a bound without looking at angles: each group's is the length of its
     /// coefficients.
     pub(super) fn crude(&self, level: usize, values: &[f64]) -> f64 {
         // After the last angle only rates are left.
@@ -206,8 +206,8 @@ impl Layout {
         }
     }
 
-    /// Up to W angles side by side: each sum is the one that an angle by itself
-    /// would have.
+    /// Evaluates up to W angles side by side: each sum is the one that an angle by itself would
+    /// have.
     fn columns<const W: usize>(
         &self,
         level: usize,
@@ -249,7 +249,7 @@ impl Layout {
         self.each_at_worst(values) <= bound || self.value(values) <= bound
     }
 
-    /// The value at a point, monomial by monomial at its worst.
+    /// Returns the value at a point, monomial by monomial at its worst.
     fn each_at_worst(&self, values: &[f64]) -> f64 {
         let (mut low, mut high) = (0.0, 0.0);
         for (x, &(least, greatest)) in values.iter().zip(&self.output) {
@@ -260,7 +260,7 @@ impl Layout {
         f64::max(high, -low) + self.slack
     }
 
-    /// The value at a point, rates at their worst.
+    /// Returns the value at a point, rates at their worst.
     pub(super) fn value(&self, values: &[f64]) -> f64 {
         let Some(mut corners) = self.corners.clone() else {
             return self.each_at_worst(values);

@@ -89,7 +89,7 @@ pub(super) struct GridEffort {
 }
 
 impl GridEffort {
-    /// For bounds that count by themselves.
+    /// Returns the effort for bounds that count by themselves.
     pub(super) fn fine(points: usize) -> GridEffort {
         GridEffort {
             points,
@@ -123,7 +123,7 @@ pub(super) enum Aim {
     Judged(f64, f64),
 }
 
-/// The largest magnitude over a box of a polynomial in multiples of its angles
+/// Returns the largest magnitude over a box of a polynomial in multiples of its angles
 /// ([`harmonics`]).
 pub(super) fn magnitude(
     polynomial: Polynomial,
@@ -162,7 +162,7 @@ pub(super) fn magnitude(
     whole.min(part)
 }
 
-/// The largest value over whole circles of a polynomial that is nowhere negative.
+/// Returns the largest value over whole circles of a polynomial that is nowhere negative.
 fn largest(
     polynomial: &Polynomial,
     limits: &InputBox,
@@ -195,7 +195,7 @@ fn largest(
     held
 }
 
-/// A bound over the whole circles, or, given that, over the box.
+/// Returns a bound over the whole circles, or, given that, over the box.
 fn bound(
     layout: &Layout,
     limits: &InputBox,
@@ -265,7 +265,7 @@ fn tries(taken: f64, slack: f64, crude: f64, close: f64) -> Vec<f64> {
     tries
 }
 
-/// The least of the bounds after one that was not shown: a larger one takes
+/// Returns the least of the bounds after one that was not shown: a larger one takes
 /// fewer points, so halving finds it.
 fn least_shown(tries: &[f64], not: usize, shown: &mut dyn FnMut(f64) -> bool) -> Option<f64> {
     let (mut failed, mut held) = (not, tries.len());
@@ -280,7 +280,7 @@ fn least_shown(tries: &[f64], not: usize, shown: &mut dyn FnMut(f64) -> bool) ->
     tries.get(held).copied()
 }
 
-/// The angles of about the largest value over whole circles, by joint.
+/// Returns the angles of about the largest value over whole circles, by joint.
 fn peak(
     polynomial: &Polynomial,
     limits: &InputBox,
@@ -298,12 +298,12 @@ fn peak(
     angles
 }
 
-/// A value that is taken: the largest of a coarse grid, climbed from.
+/// Returns a value that is taken: the largest of a coarse grid, climbed from.
 fn climb(cells: &mut Cells<'_>, starts: usize, value: &dyn Fn(&[f64]) -> f64) -> f64 {
     climbed(cells, starts, value).0
 }
 
-/// The same, and the angles, level by level.
+/// Returns the same, and the angles, level by level.
 fn climbed(cells: &mut Cells<'_>, starts: usize, value: &dyn Fn(&[f64]) -> f64) -> (f64, Vec<f64>) {
     let count = cells.layout.joints.len();
     let span = |level: usize, cells: &Cells<'_>| match cells.part(level) {
@@ -361,7 +361,7 @@ fn climbed(cells: &mut Cells<'_>, starts: usize, value: &dyn Fn(&[f64]) -> f64) 
     best
 }
 
-/// The range of a key's rates.
+/// Returns the range of a key's rates.
 fn range(key: Key, limits: &InputBox) -> Interval {
     let n = limits.joints();
     let variable = |rate: u8| match usize::from(rate) {

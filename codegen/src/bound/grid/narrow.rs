@@ -36,7 +36,7 @@ const MAX_MULTIPLE: usize = 15;
 /// Terms of a series below this are left to the rest.
 const REST: f64 = 1e-12;
 
-/// A polynomial in multiples of its angles, those of small ranges replaced, and
+/// Returns a polynomial in multiples of its angles, those of small ranges replaced, and
 /// the joints of these.
 pub(super) fn narrowed(
     polynomial: Polynomial,
@@ -58,7 +58,7 @@ pub(super) fn narrowed(
     (terms, narrow)
 }
 
-/// The polynomial without its highest multiples of angles that were replaced, as
+/// Returns the polynomial without its highest multiples of angles that were replaced, as
 /// far as they come to no more than an allowance: they are what a value may be
 /// off, and the grid need not be as fine as they would have it.
 pub(super) fn cut(
@@ -134,7 +134,7 @@ fn pruned(terms: Polynomial, limits: &InputBox) -> Polynomial {
     kept
 }
 
-/// cos kθ or sin kθ as Σ part·cos mψ, by m.
+/// Returns cos kθ or sin kθ as Σ part·cos mψ, by m.
 fn of_multiple((k, sine): (u32, bool), range: Interval) -> Vec<Interval> {
     let k = Interval::point(f64::from(k));
     let centre = k * Interval::point(range.mid());
@@ -160,12 +160,12 @@ fn of_multiple((k, sine): (u32, bool), range: Interval) -> Vec<Interval> {
     parts
 }
 
-/// A bound of |Jₘ(x)|: (x/2)^m/m!.
+/// Returns a bound of |Jₘ(x)|: (x/2)^m/m!.
 fn largest(m: usize, x: f64) -> f64 {
     (1..=m).fold(1.0, |product, i| product * x / (2.0 * i as f64)) * (1.0 + 1e-12)
 }
 
-/// Jₘ(x) = Σ (−1)^i·(x/2)^(2i+m)/(i!·(i+m)!) for x up to 2: the terms alternate
+/// Returns Jₘ(x) = Σ (−1)^i·(x/2)^(2i+m)/(i!·(i+m)!) for x up to 2: the terms alternate
 /// and shrink, so what is left out is at most the first term of it.
 fn bessel(m: usize, x: Interval) -> Interval {
     let half = x * Interval::point(0.5);

@@ -15,7 +15,7 @@ use crate::bound::form::{Forms, Scratch};
 use crate::bound::input_box::InputBox;
 use crate::graph::Graph;
 
-/// As [`magnitudes`](super::magnitudes), by sub-boxes alone.
+/// Bounds as [`magnitudes`](super::magnitudes), by sub-boxes alone.
 pub(super) fn branch_and_bound(
     graph: &Graph,
     whole: &InputBox,
@@ -109,7 +109,7 @@ impl Search<'_> {
         }
     }
 
-    /// The widest position that matters.
+    /// Returns the widest position that matters.
     fn axis(&self, sub: &InputBox) -> usize {
         let positions = self.forms.positions.iter().copied();
         positions
@@ -126,7 +126,7 @@ impl Search<'_> {
     }
 }
 
-/// The worst output against its scale. A scale of zero demands an exact
+/// Returns the worst output against its scale. A scale of zero demands an exact
 /// output.
 fn priority(magnitudes: &[f64], scales: &[f64]) -> f64 {
     let pairs = magnitudes.iter().zip(scales);

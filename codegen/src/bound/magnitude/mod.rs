@@ -48,7 +48,7 @@ pub fn magnitudes(graph: &Graph, whole: &InputBox, scales: &[f64], budget: BoxEf
     distinct.scatter(&most)
 }
 
-/// The same for who searches: an output is shown to be at most its limit, and need not be
+/// Returns the same for who searches: an output is shown to be at most its limit, and need not be
 /// shown to be below [`ENOUGH`] of it; or, where it cannot be, the number is larger, about as
 /// large as the output is, and no bound.
 pub(crate) fn judged(
@@ -66,8 +66,8 @@ pub(crate) fn judged(
     distinct.scatter(&most)
 }
 
-/// The same as [`magnitudes`], if every output is shown to be at most its limit; at a grid, the
-/// first for which it is not ends the search.
+/// Returns the same as [`magnitudes`], if every output is shown to be at most its limit; at a
+/// grid, the first for which it is not ends the search.
 pub(crate) fn magnitudes_within(
     graph: &Graph,
     whole: &InputBox,
@@ -83,8 +83,7 @@ pub(crate) fn magnitudes_within(
     within.then(|| distinct.scatter(&most))
 }
 
-/// Equal outputs once: a sign does not matter to a magnitude; a scale does to
-/// the search.
+/// Returns equal outputs once: a sign does not matter to a magnitude; a scale does to the search.
 fn distinct_outputs(graph: &Graph, scales: &[f64]) -> (Graph, Vec<f64>, Distinct) {
     let pairs = graph.outputs.iter().zip(scales);
     let keys = pairs.map(|(edge, scale)| Some((edge.node(), scale.to_bits())));

@@ -47,7 +47,7 @@ pub(super) struct Adjoints {
 }
 
 impl Extremes {
-    /// `points` of a grid at most for each; with none, no angle is looked at.
+    /// Returns `points` of a grid at most for each; with none, no angle is looked at.
     /// `together` for each output's sum. `None` if the polynomials are too large.
     pub(super) fn of(
         program: &Program,

@@ -78,7 +78,7 @@ impl Gradient {
 
 type Parts<T> = Vec<(T, Symbol)>;
 
-/// The derivatives of an output with respect to steps, last to first, and to
+/// Returns the derivatives of an output with respect to steps, last to first, and to
 /// sines and cosines.
 fn adjoints(
     program: &Program,

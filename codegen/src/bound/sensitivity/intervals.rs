@@ -77,7 +77,7 @@ impl Constants {
         }
     }
 
-    /// The same where the sines of these angles are called from `dalembert-sines`, in
+    /// Returns the same where the sines of these angles are called from `dalembert-sines`, in
     /// the range that it is proved in.
     pub(super) fn calling(self, scalar: ScalarType, proved: &[AngleSum]) -> Constants {
         Constants {
@@ -86,7 +86,7 @@ impl Constants {
         }
     }
 
-    /// Of each step, its operands that are constants.
+    /// Returns, of each step, its operands that are constants.
     pub(super) fn steps(&self) -> &[[Option<(Interval, f64)>; 2]] {
         &self.steps
     }
@@ -113,8 +113,8 @@ impl Constants {
     }
 }
 
-/// From zero, where the velocity has no end, to 1/w at rest, with the 3 u that rounding
-/// may add and more.
+/// Bounds 1/√(q̇² + w²) from zero, where the velocity has no end, to 1/w at rest, with the 3 u
+/// that rounding may add and more.
 fn speed(own: &Speed, scalar: ScalarType) -> (usize, Interval) {
     let most = 1.0 / Interval::exact(&own.square).low().sqrt();
     let most = most * (1.0 + 8.0 * scalar.unit_roundoff());
@@ -138,7 +138,7 @@ pub(super) fn is_exact(step: &Step, constants: &[Option<(Interval, f64)>; 2]) ->
     }
 }
 
-/// A constant with its literal, and how far they are apart.
+/// Returns a constant with its literal, and how far they are apart.
 fn rounded(constant: &Exact, scalar: ScalarType) -> (Interval, f64) {
     let exact = Interval::exact(constant);
     let rounded = Interval::point(scalar.round(constant));
@@ -179,7 +179,7 @@ pub(in crate::bound) fn forward(
     })
 }
 
-/// An operand's interval and its own error.
+/// Returns an operand's interval and its own error.
 pub(super) fn read(
     operand: &Operand,
     values: &[Interval],

@@ -100,9 +100,8 @@ impl Rounding {
     }
 }
 
-/// Quick bounds over a box, one an output, from at most `boxes` sub-boxes.
-/// Sines are libm's where there are no polynomials for them, whose errors are as
-/// they are claimed.
+/// Bounds the rounding over a box, one bound an output, from at most `boxes` sub-boxes. Sines are
+/// libm's where there are no polynomials for them, whose errors are as they are claimed.
 pub fn rounding(
     program: &Program,
     scalar: ScalarType,
@@ -128,7 +127,7 @@ pub struct Sensitivity {
 }
 
 impl Sensitivity {
-    /// Of a program over a box.
+    /// Makes it of a program over a box.
     pub fn of(program: &Program, limits: &InputBox, bound_effort: BoundEffort) -> Sensitivity {
         let steps = program.outputs.iter().map(|output| match &output.value {
             Operand::Step(index) => Some(*index),

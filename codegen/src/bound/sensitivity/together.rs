@@ -68,7 +68,7 @@ pub(super) struct Written<'a> {
 }
 
 impl<'a> Written<'a> {
-    /// Of so many nodes of a program's gradient, with so many points for each output.
+    /// Makes room for so many nodes of a program's gradient, with so many points for each output.
     pub(super) fn new(
         program: &Program,
         nodes: usize,
@@ -105,7 +105,7 @@ impl<'a> Written<'a> {
         self.squares.is_some()
     }
 
-    /// A node's value in multiples of its angles.
+    /// Keeps a node's value in multiples of its angles.
     pub(super) fn keep(&mut self, node: usize, harmonics: &Polynomial) {
         self.terms += harmonics.len();
         // What is too long for its points is not even kept.
@@ -117,7 +117,7 @@ impl<'a> Written<'a> {
         }
     }
 
-    /// The bounds of each output; `most` of each node over the box.
+    /// Returns the bounds of each output; `most` of each node over the box.
     pub(super) fn together(
         &self,
         program: &Program,
@@ -168,7 +168,7 @@ fn alone(weight: f64, edge: &Edge) -> Product {
 
 type Both = [(ScalarType, Constants); 2];
 
-/// The products of an output's operations and literals, and which of them are
+/// Returns the products of an output's operations and literals, and which of them are
 /// steps' own.
 fn arithmetic(
     program: &Program,

@@ -17,7 +17,7 @@ const VERSION: u32 = 2;
 /// A range: both ends are numbers.
 type Ends = [f64; 2];
 
-/// The text of certificates: one by itself, several as a list.
+/// Returns the text of certificates: one by itself, several as a list.
 pub fn write(certificates: &[&Certificate]) -> String {
     let documents: Vec<Document> = certificates.iter().map(|c| Document::of(c)).collect();
     // Strings and numbers only: nothing that JSON does not have.
@@ -54,7 +54,7 @@ fn compact(pretty: &str) -> String {
     text
 }
 
-/// The length of the string that a text begins with.
+/// Returns the length of the string that a text begins with.
 fn string_end(text: &str) -> usize {
     let mut escaped = false;
     for (index, byte) in text.bytes().enumerate().skip(1) {
@@ -68,7 +68,7 @@ fn string_end(text: &str) -> usize {
     text.len()
 }
 
-/// The length of the list that a text begins with, if all in it are numbers
+/// Returns the length of the list that a text begins with, if all in it are numbers
 /// and lists of them.
 fn numbers_end(text: &str) -> Option<usize> {
     let mut depth = 0;
@@ -85,7 +85,7 @@ fn numbers_end(text: &str) -> Option<usize> {
 }
 
 impl Certificate {
-    /// The certificate as JSON.
+    /// Returns the certificate as JSON.
     pub fn to_json(&self) -> String {
         write(&[self])
     }

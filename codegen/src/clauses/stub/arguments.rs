@@ -9,7 +9,7 @@ use crate::function::{Argument, Function, Sizes};
 use crate::language::function::{LOAD, PAYLOAD, own_type};
 use crate::program::ScalarType;
 
-/// The arguments of a function that takes these parameters.
+/// Returns the arguments of a function that takes these parameters.
 pub(super) fn of(function: Function, taken: &[RuntimeParameter]) -> Vec<Argument> {
     let mut arguments = function.arguments();
     let taken = taken
@@ -20,7 +20,7 @@ pub(super) fn of(function: Function, taken: &[RuntimeParameter]) -> Vec<Argument
     arguments
 }
 
-/// The type of an argument: an array of entries, `length` of them if they are joints'.
+/// Returns the type of an argument: an array of entries, `length` of them if they are joints'.
 pub(super) fn array(argument: Argument, entry: &str, length: &str) -> String {
     match own_type(argument) {
         Some(name) => format!("{name}<{entry}>"),
@@ -29,7 +29,7 @@ pub(super) fn array(argument: Argument, entry: &str, length: &str) -> String {
     }
 }
 
-/// The types of these parameters, and the function between a payload and its load.
+/// Returns the types of these parameters, and the function between a payload and its load.
 pub(super) fn types(taken: &[RuntimeParameter], scalar: ScalarType) -> String {
     let mut text = String::new();
     if taken.contains(&RuntimeParameter::Gravity) {

@@ -39,7 +39,7 @@ pub(super) fn write(
     text
 }
 
-/// The robot as a value, with the traits of these functions, each with its
+/// Returns the robot as a value, with the traits of these functions, each with its
 /// arguments.
 pub(super) fn robot(
     functions: &[(Function, Vec<Argument>)],
@@ -63,7 +63,7 @@ pub(super) fn robot(
     text
 }
 
-/// The angles, of which nobody knows how many they are.
+/// Returns the angles, of which nobody knows how many they are.
 pub(super) fn angles(joints: Option<usize>, scalar: ScalarType) -> String {
     let (generic, length) = match joints {
         Some(n) => ("<const A: usize>", n.to_string()),
@@ -83,7 +83,7 @@ struct Stub<'a> {
 }
 
 impl Stub<'_> {
-    /// The number of joints, or the name that stands for it.
+    /// Returns the number of joints, or the name that stands for it.
     fn length(&self) -> String {
         self.joints.map_or("J".to_owned(), |n| n.to_string())
     }
@@ -100,7 +100,7 @@ impl Stub<'_> {
         }
     }
 
-    /// The arguments, each an array of these.
+    /// Returns the arguments, each an array of these.
     fn arguments(&self, entry: &str) -> String {
         let argument = |&argument: &Argument| {
             let kind = arguments::array(argument, entry, &self.length());
@@ -109,7 +109,7 @@ impl Stub<'_> {
         self.given.iter().map(argument).collect()
     }
 
-    /// The arguments of many states, each of this type.
+    /// Returns the arguments of many states, each of this type.
     fn states(&self, kind: &str) -> String {
         let each = self.given.iter();
         each.map(|argument| format!("_{}: {kind}, ", argument.name()))

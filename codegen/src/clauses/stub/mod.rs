@@ -20,7 +20,7 @@ use crate::program::ScalarType;
 use crate::sincos::SinCos;
 use crate::task::Interface;
 
-/// The modules' text. Without a number of joints the functions take arrays
+/// Returns the modules' text. Without a number of joints the functions take arrays
 /// of any length.
 pub(super) fn write(invocation: &Invocation, joints: Option<usize>) -> String {
     let mut text = String::new();
@@ -72,7 +72,7 @@ pub(super) fn write(invocation: &Invocation, joints: Option<usize>) -> String {
     text
 }
 
-/// The arguments that `BOX` may bound: those of all functions in a scene, which
+/// Returns the arguments that `BOX` may bound: those of all functions in a scene, which
 /// may have a tolerance, and the positions of sines by polynomials alone.
 fn bounded(invocation: &Invocation, functions: &[Function]) -> Vec<Argument> {
     let taken = |argument: &Argument| match (&invocation.scene, invocation.request.sincos) {
@@ -84,7 +84,7 @@ fn bounded(invocation: &Invocation, functions: &[Function]) -> Vec<Argument> {
     all.filter(taken).collect()
 }
 
-/// `BOX` and `in_box`, if arguments are bounded.
+/// Returns `BOX` and `in_box`, if arguments are bounded.
 fn state_box(arguments: &[Argument], joints: Option<usize>, scalar: ScalarType) -> String {
     let mut text = String::new();
     if arguments.is_empty() {

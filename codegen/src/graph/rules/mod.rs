@@ -43,7 +43,7 @@ pub(crate) struct Rule {
 }
 
 impl Rule {
-    /// A rule of a table.
+    /// Returns a rule of a table.
     pub(crate) const fn new(
         name: &'static str,
         from: &'static str,

@@ -24,11 +24,11 @@ pub(crate) enum Pattern {
 pub(crate) trait Algebra {
     /// A value.
     type Value: Clone;
-    /// A number.
+    /// Returns a number.
     fn number(&mut self, number: u64) -> Self::Value;
-    /// −a
+    /// Returns −a
     fn neg(&mut self, a: &Self::Value) -> Self::Value;
-    /// a + b, a − b, a · b or a / b.
+    /// Returns a + b, a − b, a · b or a / b.
     fn operate(&mut self, symbol: &str, a: &Self::Value, b: &Self::Value) -> Self::Value;
 }
 
@@ -64,7 +64,7 @@ impl Pattern {
         Pattern::Operation(name, operands)
     }
 
-    /// The variables, each once, in alphabetical order.
+    /// Returns the variables, each once, in alphabetical order.
     pub(crate) fn variables(&self) -> Vec<char> {
         let mut found = Vec::new();
         self.collect(&mut found);
@@ -81,7 +81,7 @@ impl Pattern {
         }
     }
 
-    /// Its value.
+    /// Returns its value.
     pub(crate) fn evaluate<A: Algebra>(
         &self,
         algebra: &mut A,
@@ -130,7 +130,7 @@ impl Algebra for InBuilder<'_> {
     }
 }
 
-/// A graph with these outputs, folded by shape: `?a` is the first joint's
+/// Returns a graph with these outputs, folded by shape: `?a` is the first joint's
 /// velocity, `?b` the second's, and so on.
 pub(crate) fn graph(outputs: &[&str]) -> Graph {
     let mut builder = Builder::new(Folding::Syntactic);

@@ -23,7 +23,7 @@ pub struct Angles {
 }
 
 impl Angles {
-    /// Those of functions of one robot.
+    /// Returns those of functions of one robot.
     pub fn of<'a>(joints: usize, programs: impl IntoIterator<Item = &'a Program>) -> Angles {
         let trigs = programs.into_iter().flat_map(|program| &program.trig);
         let sums = trigs
@@ -50,7 +50,7 @@ impl Angles {
         Some(self.joints + place)
     }
 
-    /// The lines of the function that gives the angles, its head first.
+    /// Returns the lines of the function that gives the angles, its head first.
     pub fn lines(&self, scalar: ScalarType) -> Vec<String> {
         let (n, count) = (self.joints, self.count());
         let mut lines = vec![format!(
@@ -85,7 +85,7 @@ impl Angles {
         }
     }
 
-    /// An array with an entry for every angle; zero where none is taken.
+    /// Returns an array with an entry for every angle; zero where none is taken.
     pub(super) fn array(
         &self,
         trigs: &[LoweredTrig],

@@ -45,7 +45,7 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_
     );
 }
 
-/// The type of a function: `InverseDynamicsBatch`.
+/// Returns the type of a function: `InverseDynamicsBatch`.
 fn kind(printed: &Printed<'_>) -> String {
     format!("{}Batch", printed.function.camel())
 }

@@ -61,7 +61,7 @@ fn doc(text: &mut String, printed: &Printed<'_>) {
     );
 }
 
-/// The arguments and the two arrays; what is not read has a `_` before its name.
+/// Returns the arguments and the two arrays; what is not read has a `_` before its name.
 fn parameters(printed: &Printed<'_>, around: &Around<'_>) -> Vec<String> {
     let (scalar, count) = (printed.code.scalar, around.angles.count());
     let mark = |read: bool| if read { "" } else { "_" };

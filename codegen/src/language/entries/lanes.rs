@@ -153,7 +153,7 @@ fn write_sines(text: &mut String, printed: &Printed<'_>, around: &Around<'_>) {
     trig::together(text, code, around.path, "_lanes", angle);
 }
 
-/// Where the results go.
+/// Declares where the results go.
 fn zeros(text: &mut String, printed: &Printed<'_>) {
     let (function, sizes) = (printed.function, printed.sizes);
     let zeros = |quantity| result::array_of("[0.0; L]", quantity, sizes);

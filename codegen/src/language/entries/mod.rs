@@ -72,7 +72,7 @@ pub(crate) fn write(
     text
 }
 
-/// The names of the arguments that there are.
+/// Returns the names of the arguments that there are.
 fn arguments(printed: &Printed<'_>) -> Vec<&'static str> {
     let arguments = printed.arguments.iter();
     arguments.map(|argument| argument.name()).collect()

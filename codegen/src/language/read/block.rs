@@ -149,13 +149,13 @@ pub(super) fn trig(angle: AngleSum, sin: bool, cos: bool) -> LoweredTrig {
     }
 }
 
-/// The entries of `(a, b)`, or `a`.
+/// Returns the entries of `(a, b)`, or `a`.
 pub(super) fn list(words: &str) -> Vec<&str> {
     let inner = words.strip_prefix('(').and_then(|w| w.strip_suffix(')'));
     inner.map_or(vec![words], |inner| inner.split(", ").collect())
 }
 
-/// The sine, the cosine or both, by these names of an angle.
+/// Returns the sine, the cosine or both, by these names of an angle.
 pub(super) fn pair(names: &str, angle: AngleSum) -> Option<LoweredTrig> {
     let (sine, cosine) = (format!("s{angle}"), format!("c{angle}"));
     let all = [(true, true), (true, false), (false, true)];
@@ -163,7 +163,7 @@ pub(super) fn pair(names: &str, angle: AngleSum) -> Option<LoweredTrig> {
     all.find(|trig| names == shown(trig, &sine, &cosine))
 }
 
-/// The sine, the cosine or both, as they are written.
+/// Returns the sine, the cosine or both, as they are written.
 pub(super) fn shown(trig: &LoweredTrig, sine: &str, cosine: &str) -> String {
     match (trig.sin, trig.cos) {
         (true, false) => sine.to_owned(),

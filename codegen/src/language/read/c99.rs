@@ -155,8 +155,8 @@ impl CReader<'_> {
         Ok(true)
     }
 
-    /// The angles of the list in the first line of the call: joints, and sums that lines before
-    /// formed.
+    /// Reads the angles of the list in the first line of the call: joints, and sums that lines
+    /// before formed.
     fn listed(&mut self) -> Result<Vec<AngleSum>, String> {
         let list = self.call.first().and_then(|line| line.split_once(" = {"));
         let list = list.and_then(|(_, list)| list.strip_suffix("};"));
@@ -200,7 +200,7 @@ impl CReader<'_> {
         }
     }
 
-    /// An operation of an angle's polynomials.
+    /// Reads an operation of an angle's polynomials.
     fn step(&mut self, name: &str, value: &str) -> Result<(), String> {
         let word = name.split_once('_').map_or("", |(word, _)| word);
         let angle = angle(word, 'x')?;
@@ -225,7 +225,7 @@ impl CReader<'_> {
         }
     }
 
-    /// A sine or cosine: of polynomials, of a call for both, or a call of its own.
+    /// Reads a sine or cosine: of polynomials, of a call for both, or a call of its own.
     fn sine(&mut self, letter: char, name: &str, value: &str) -> Result<(), String> {
         let (angle, dialect) = (angle(name, letter)?, self.reader.dialect);
         let twice = || Err(format!("`{name}` a second time"));
@@ -319,7 +319,7 @@ impl CReader<'_> {
     }
 }
 
-/// The angle of `s1p2`.
+/// Returns the angle of `s1p2`.
 fn angle(word: &str, letter: char) -> Result<AngleSum, String> {
     let angle = word.strip_prefix(letter).and_then(|word| word.parse().ok());
     angle.ok_or_else(|| format!("`{word}` is of no angle"))

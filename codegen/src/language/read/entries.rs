@@ -76,7 +76,7 @@ pub(super) fn same(lines: &[&str], first: usize, expected: &str) -> Result<(), T
     Ok(())
 }
 
-/// The angles with what is taken of them.
+/// Returns the angles with what is taken of them.
 fn sorted(trigs: &[LoweredTrig]) -> Vec<(String, bool, bool)> {
     let taken = trigs.iter();
     let mut taken: Vec<_> = taken

@@ -80,7 +80,7 @@ impl Lowered {
     }
 }
 
-/// Places a reason on a line, counted from zero.
+/// Returns places a reason on a line, counted from zero.
 fn at(line: usize) -> impl Fn(String) -> TextError {
     move |reason| TextError {
         line: line + 1,
@@ -131,7 +131,7 @@ fn statements(
     Err(at(head)(format!("`{}` does not end", lines[head])))
 }
 
-/// i of `name[i]`.
+/// Returns i of `name[i]`.
 fn index_of(word: &str, name: &str) -> Option<usize> {
     word.strip_prefix(name)?
         .strip_prefix('[')?

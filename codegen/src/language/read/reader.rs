@@ -99,7 +99,7 @@ impl<'a> Reader<'a> {
         expect(name, &format!("t{}", self.program.steps.len() + after))
     }
 
-    /// A sum and the product that it takes: two steps.
+    /// Reads a sum and the product that it takes: two steps.
     fn fused(&mut self, name: &str, value: &str, words: [&str; 3]) -> Result<(), String> {
         let [left, right, addend] = words;
         self.next(name, 2)?;
@@ -175,7 +175,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// The name of a library's function, without its scalar, and what it is called with.
+    /// Returns the name of a library's function, without its scalar, and what it is called with.
     pub(super) fn called<'t>(&self, value: &'t str) -> Option<(&'t str, &'t str)> {
         let (path, arguments) = value.strip_suffix(')')?.split_once('(')?;
         let function = match self.dialect.separator {

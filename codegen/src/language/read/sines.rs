@@ -52,7 +52,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// One call for all angles: `let ([s1, _], [c1, c1p2]) = …::sincos(&[q[0], a1p2]);`
+    /// Reads one call for all angles: `let ([s1, _], [c1, c1p2]) = …::sincos(&[q[0], a1p2]);`
     fn together(&mut self, names: &str, function: &str, angles: &str) -> Result<(), String> {
         expect(function, "sincos")?;
         let [sines, cosines] = holes("([{}], [{}])", names)

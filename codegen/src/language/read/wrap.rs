@@ -59,7 +59,7 @@ impl Wrap {
     }
 }
 
-/// The call that passes every parameter of this head under its own name.
+/// Returns the call that passes every parameter of this head under its own name.
 fn call(head: &str) -> Result<String, String> {
     let read = || {
         let [parameters, _] = holes("fn part({}) -> {}", head)?;

@@ -86,7 +86,7 @@ fn by_textbook(problem: &Problem<'_>) -> Vec<Approach> {
     approaches
 }
 
-/// The chain formulas in all of their forms, and C by the h_ikm alone: that is cheapest
+/// Returns the chain formulas in all of their forms, and C by the h_ikm alone: that is cheapest
 /// in another regrouping, and a search that starts there may end lower.
 fn by_chain(problem: &Problem<'_>) -> Vec<Approach> {
     let Problem {

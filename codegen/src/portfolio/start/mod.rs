@@ -27,7 +27,7 @@ pub(super) use only::TEXTBOOK;
 
 /// What a start's file says.
 trait Beginning {
-    /// Its name on the command line, in the macro and in plans.
+    /// Returns its name on the command line, in the macro and in plans.
     fn name(&self) -> &'static str;
 
     /// Returns what to search from, each by itself: the cheapest that is found is taken.
@@ -63,7 +63,7 @@ macro_rules! starts {
         }
 
         impl Start {
-            /// The choices of the command line and the macro.
+            /// Returns the choices of the command line and the macro.
             pub fn all() -> impl Iterator<Item = Start> {
                 let textbook = TEXTBOOK.into_iter().map(Start::Only);
                 [$(Start::$start),*].into_iter().chain(textbook)
@@ -90,7 +90,7 @@ starts! {
 }
 
 impl Start {
-    /// Its name.
+    /// Returns its name.
     pub fn name(self) -> &'static str {
         self.beginning().name()
     }
@@ -136,7 +136,7 @@ pub(crate) struct Approach {
 }
 
 impl Approach {
-    /// A graph alone.
+    /// Returns a graph alone.
     fn of(variant: Variant) -> Self {
         Approach {
             tuned: None,

@@ -22,7 +22,7 @@ pub(crate) fn input_name(input: Input) -> String {
     }
 }
 
-/// An operand as text; [`read_operand`] reads it back.
+/// Returns an operand as text; [`read_operand`] reads it back.
 pub(crate) fn write_operand(operand: &Operand) -> String {
     match operand {
         Operand::Input(input) => input_name(*input),
@@ -31,7 +31,7 @@ pub(crate) fn write_operand(operand: &Operand) -> String {
     }
 }
 
-/// The steps, a line each, and the line of the results.
+/// Writes the steps, a line each, and the line of the results.
 pub(crate) fn write_steps(text: &mut String, program: &Program) {
     for step in &program.steps {
         let (left, right) = (write_operand(&step.left), write_operand(&step.right));
@@ -45,7 +45,7 @@ pub(crate) fn write_steps(text: &mut String, program: &Program) {
     text.push('\n');
 }
 
-/// The results that end a program.
+/// Reads the results that end a program.
 pub(crate) fn read_results(words: &[&str], program: &mut Program) -> Result<(), LineFault> {
     for word in words {
         let (negative, word) = match word.strip_prefix('~') {
@@ -64,7 +64,7 @@ pub(crate) fn read_results(words: &[&str], program: &mut Program) -> Result<(), 
     Ok(())
 }
 
-/// A step from its words.
+/// Returns a step from its words.
 pub(crate) fn read_step(words: &[&str], program: &Program) -> Result<Step, LineFault> {
     let &[left, symbol, right] = words else {
         return Err(LineFault::Step);
@@ -78,7 +78,7 @@ pub(crate) fn read_step(words: &[&str], program: &Program) -> Result<Step, LineF
     })
 }
 
-/// A step of a program whose errors are bounded.
+/// Returns a step of a program whose errors are bounded.
 ///
 /// # Errors
 /// Nothing is certified of a program that divides.
@@ -89,7 +89,7 @@ pub(crate) fn without_quotient(step: Step) -> Result<Step, LineFault> {
     }
 }
 
-/// An operand of a program's next step.
+/// Returns an operand of a program's next step.
 pub(crate) fn read_operand(word: &str, program: &Program) -> Result<Operand, LineFault> {
     if let Some(constant) = word.strip_prefix('#') {
         return constant

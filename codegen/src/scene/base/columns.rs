@@ -65,7 +65,7 @@ pub(super) fn values(
     Some(found)
 }
 
-/// Every entry of the regressor, row by row, as a formula; those of joints that follow
+/// Returns every entry of the regressor, row by row, as a formula; those of joints that follow
 /// gathered at their leaders.
 fn entries(
     scene_robot: &SceneRobot,

@@ -63,14 +63,14 @@ pub(super) fn reduced(columns: Vec<Vec<Field>>) -> Reduced {
     found
 }
 
-/// a − factor · b
+/// Computes a − factor · b
 fn subtract(a: &mut [Field], factor: &Field, b: &[Field]) {
     for (x, y) in a.iter_mut().zip(b) {
         *x = x.sub(&factor.mul(y));
     }
 }
 
-/// The short fraction of a residue, by Euclid's algorithm (Wang 1981); `None`
+/// Returns the short fraction of a residue, by Euclid's algorithm (Wang 1981); `None`
 /// if there is none.
 pub(super) fn fraction(x: Field) -> Option<Rational> {
     let [mut before, mut rest] = [i128::from(Field::P), i128::from(x.value())];

@@ -216,7 +216,7 @@ impl BaseParameters {
         }
     }
 
-    /// Every base parameter's value for a robot of exact numbers.
+    /// Returns every base parameter's value for a robot of exact numbers.
     pub fn values(&self, arm: &Arm<Exact>) -> Vec<Exact> {
         let value = |terms: &Vec<(Parameter, Exact)>| {
             let terms = terms.iter().map(|(parameter, factor)| {

@@ -20,7 +20,7 @@ pub(super) enum Moment {
 }
 
 impl Moment {
-    /// A body that has a unit of it and nothing else.
+    /// Returns a body that has a unit of it and nothing else.
     pub(super) fn unit(self) -> Body<Exact> {
         let mut body = Body::zero();
         match self {
@@ -90,7 +90,7 @@ pub(super) fn parts(
     Some(parts)
 }
 
-/// The most monomials of a number of a body.
+/// Returns the most monomials of a number of a body.
 fn terms(body: &Body<Exact>) -> usize {
     let mut most = 0;
     body.map(|x| most = most.max(x.terms()));

@@ -17,7 +17,7 @@ use dalembert_model::scalar::count::{Count, Counter};
 
 use super::moments::kept;
 
-/// The base regrouping with the origins that cost least, link after link from
+/// Returns the base regrouping with the origins that cost least, link after link from
 /// the hand.
 pub(super) fn chosen(skeleton: &Skeleton<Exact>) -> Regrouping<Exact> {
     let frames = without_bodies(skeleton);
@@ -36,7 +36,7 @@ pub(super) fn chosen(skeleton: &Skeleton<Exact>) -> Regrouping<Exact> {
     best
 }
 
-/// The frames alone.
+/// Returns the frames alone.
 pub(super) fn without_bodies(skeleton: &Skeleton<Exact>) -> Skeleton<Exact> {
     let mut empty = skeleton.clone();
     empty
@@ -64,7 +64,7 @@ fn candidates(skeleton: &Skeleton<Exact>, link: usize) -> Vec<Vector<Exact>> {
     candidates
 }
 
-/// The operations of all base columns, as they are written.
+/// Returns the operations of all base columns, as they are written.
 fn cost(frames: &Skeleton<Exact>, regrouping: &Regrouping<Exact>) -> u64 {
     let mut chain = Chain::new(frames, regrouping);
     for link in &mut chain.links {

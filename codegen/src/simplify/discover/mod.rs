@@ -53,7 +53,7 @@ fn for_pairs(classes: &Classes, pool: &[ClassId], mut call: impl FnMut(Field, EN
     }
 }
 
-/// The first point of a print up to sign: what agrees there is compared at all points
+/// Returns the first point of a print up to sign: what agrees there is compared at all points
 /// afterwards.
 fn key(print: &Fingerprint) -> Field {
     up_to_sign(print.0[0])

@@ -67,7 +67,7 @@ pub(crate) fn multiples(
     count
 }
 
-/// The leaf class of a constant.
+/// Returns the leaf class of a constant.
 fn intern_constant(classes: &mut Classes, constant: &Exact) -> Option<ClassId> {
     let print = crate::graph::Points::SEARCH.constant(constant)?;
     let signed = classes.intern(&print);
@@ -96,7 +96,7 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// The ordered pairs within each group, with their values, in an order
+    /// Returns the ordered pairs within each group, with their values, in an order
     /// that does not depend on the map's.
     fn pairs(
         &mut self,
@@ -117,7 +117,7 @@ impl<'a> Values<'a> {
         pairs
     }
 
-    /// The value that the class's canonical print stands for; `None` where a
+    /// Returns the value that the class's canonical print stands for; `None` where a
     /// constant is not rational or no way is chosen.
     fn of(&mut self, id: ClassId) -> Option<Rational> {
         let mut pending = vec![id];
@@ -158,7 +158,7 @@ impl<'a> Values<'a> {
     }
 }
 
-/// The value of a way; none of a quotient by zero.
+/// Returns the value of a way; none of a quotient by zero.
 fn operate(way: ENode, x: &Rational, y: &Rational) -> Option<Rational> {
     Some(match way {
         ENode::Sum(..) => x + y,
@@ -169,7 +169,7 @@ fn operate(way: ENode, x: &Rational, y: &Rational) -> Option<Rational> {
     })
 }
 
-/// A fixed rational state in general position. Sums of angles are composed
+/// Returns a fixed rational state in general position. Sums of angles are composed
 /// from their joints, so that identities between them hold.
 fn sample(input: Input) -> Rational {
     let ratio = |n: i64, d: i64| Rational::new(n.into(), d.into());

@@ -48,7 +48,7 @@ impl Extraction<'_> {
         }
     }
 
-    /// Annealing; ends with the best program seen.
+    /// Anneals; ends with the best program seen.
     pub(crate) fn anneal(&mut self, schedule: Schedule, random: &mut Random) {
         let mut best = (self.cost, self.chosen.clone());
         let ratio = schedule.cold / schedule.hot;

@@ -31,7 +31,7 @@ impl CostModel {
         sum_sincos: 300,
     };
 
-    /// The sine and cosine of an angle, apart from forming it.
+    /// Returns the sine and cosine of an angle, apart from forming it.
     pub(crate) fn angle(&self, angle: AngleSum) -> u64 {
         match angle.additions() {
             0 => self.sincos,
@@ -48,7 +48,7 @@ impl CostModel {
         mul * self.mul + add * self.add + div * self.div + angles
     }
 
-    /// The cheapest operation.
+    /// Returns the cheapest operation.
     pub(super) fn least(&self) -> u64 {
         self.mul.min(self.add).min(self.div)
     }

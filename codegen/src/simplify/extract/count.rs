@@ -8,7 +8,7 @@ use crate::simplify::classes::{ClassId, ENode};
 const MAX_ENODES: usize = 16;
 
 impl Extraction<'_> {
-    /// One more use; a class that comes to life takes the way that adds least.
+    /// Counts one more use; a class that comes to life takes the way that adds least.
     pub(super) fn acquire(&mut self, id: ClassId, depth: u32) {
         self.uses[id as usize] += 1;
         if self.uses[id as usize] > 1 {
@@ -34,7 +34,7 @@ impl Extraction<'_> {
         }
     }
 
-    /// One use less; an unused class frees its operands.
+    /// Counts one use less; an unused class frees its operands.
     pub(super) fn release(&mut self, id: ClassId) {
         self.uses[id as usize] -= 1;
         if self.uses[id as usize] > 0 {

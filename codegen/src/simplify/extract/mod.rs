@@ -100,8 +100,8 @@ impl<'a> Extraction<'a> {
         search
     }
 
-    /// The seed's ways, then, class by class until nothing changes, ways
-    /// whose operands are computable: acyclic, since each uses earlier ones.
+    /// Adds the seed's ways, then, class by class until nothing changes, ways whose operands are
+    /// computable: acyclic, since each uses earlier ones.
     fn seed(&mut self, seed: &[Option<ENode>]) {
         for (id, way) in seed.iter().enumerate() {
             if let Some(way) = way {
@@ -142,7 +142,7 @@ impl<'a> Extraction<'a> {
         self.cost
     }
 
-    /// The chosen ways.
+    /// Returns the chosen ways.
     pub(crate) fn choice(&self) -> Vec<Option<ENode>> {
         (0..self.classes.len() as ClassId)
             .map(|id| self.way(id))

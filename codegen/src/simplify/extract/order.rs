@@ -24,7 +24,7 @@ pub(super) struct Order {
 }
 
 impl Order {
-    /// Of so many classes, each after its operands. `operands` must be acyclic.
+    /// Makes an order of so many classes, each after its operands. `operands` must be acyclic.
     pub(super) fn new(classes: usize, operands: impl Fn(ClassId) -> Option<[ClassId; 2]>) -> Order {
         let mut order = Order {
             labels: vec![0; classes],

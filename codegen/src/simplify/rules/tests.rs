@@ -45,7 +45,7 @@ fn all_but_discovery() -> impl Iterator<Item = &'static Rule> {
     folding.chain(SATURATION.iter().map(|(_, rule)| rule))
 }
 
-/// An input for each variable, a random decimal for each constant.
+/// Returns an input for each variable, a random decimal for each constant.
 fn in_builder(
     builder: &mut Builder,
     names: &[char],

@@ -48,7 +48,7 @@ pub(crate) struct Called {
 }
 
 impl Called {
-    /// Of a scalar, found once; `None` if the text is not what can be bounded.
+    /// Returns the errors of a scalar, found once; `None` if the text is not what can be bounded.
     pub(crate) fn of(scalar: ScalarType) -> Option<&'static Called> {
         static FOUND: [OnceLock<Option<Called>>; 2] = [OnceLock::new(), OnceLock::new()];
         let place = match scalar {
@@ -94,7 +94,7 @@ impl Called {
         })
     }
 
-    /// Of a sine or cosine that is at most so large.
+    /// Bounds the error of a sine or cosine that is at most so large.
     pub(crate) fn error(&self, size: f64) -> f64 {
         let last = self.sines.last().map_or(f64::INFINITY, |(_, error)| *error);
         if size.is_nan() || size > SINE_ALONE {

@@ -59,7 +59,7 @@ pub(super) struct Reduced {
 const STEPS: usize = 11;
 const REST: usize = 6;
 
-/// The reduction that the routine begins with, and what follows; `None` if it is another.
+/// Returns the reduction that the routine begins with, and what follows; `None` if it is another.
 pub(super) fn split(kernel: &Kernel, scalar: ScalarType) -> Option<(Parts, Left)> {
     use Operand::Step as At;
     use Operation::{Add, Mul, Sub};
@@ -114,7 +114,7 @@ pub(super) fn split(kernel: &Kernel, scalar: ScalarType) -> Option<(Parts, Left)
     Some((Parts { inverse, quarter }, left))
 }
 
-/// Of angles up to a magnitude; `None` if some of the above does not hold.
+/// Bounds it of angles up to a magnitude; `None` if some of the above does not hold.
 pub(super) fn bound(parts: &Parts, scalar: ScalarType, largest: f64) -> Option<Reduced> {
     let point = Interval::point;
     let (u, eta) = (point(scalar.unit_roundoff()), point(underflow(scalar)));

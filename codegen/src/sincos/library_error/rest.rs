@@ -74,7 +74,7 @@ pub(super) fn bound(left: &Left, scalar: ScalarType, ends: [f64; 2], lacks: f64)
     })
 }
 
-/// Half an ulp of what is at most so large, up to an error: to a power of two nothing is
+/// Returns half an ulp of what is at most so large, up to an error: to a power of two nothing is
 /// further than the error by which it is above.
 fn last_rounding(size: f64, error: f64, u: f64) -> f64 {
     let below = binade(size);
@@ -148,7 +148,7 @@ fn is_exact(steps: &[Step<Literal, Part>], index: usize, [x, y]: [Interval; 2]) 
     }
 }
 
-/// The routine where ℓ is zero.
+/// Returns the routine where ℓ is zero.
 fn without(left: &Left) -> Kernel {
     let term = |operand: &Own| match operand {
         Operand::Input(Part::Rest) => ANGLE,

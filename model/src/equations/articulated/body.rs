@@ -41,7 +41,7 @@ impl<S: Divide> Motion<S> {
         }
     }
 
-    /// The spatial cross product of motions.
+    /// Returns the spatial cross product of motions.
     pub(super) fn cross(&self, other: &Self) -> Self {
         Motion {
             turn: cross(&self.turn, &other.turn),
@@ -63,7 +63,7 @@ impl<S: Divide> Articulated<S> {
         }
     }
 
-    /// A rigid link about its frame's origin, and V × (I V) at its velocity.
+    /// Returns a rigid link about its frame's origin, and V × (I V) at its velocity.
     pub(super) fn of(link: &Link<S>, velocity: &Motion<S>) -> (Self, Wrench<S>) {
         let (mass, com) = (&link.mass, &link.com);
         let first = scaled(mass, com);
@@ -107,7 +107,7 @@ impl<S: Divide> Articulated<S> {
         }
     }
 
-    /// I − w wᵀ/d
+    /// Returns I − w wᵀ/d
     pub(super) fn without(&self, push: &Wrench<S>, inverse: &S) -> Self {
         let (force, moment) = (scaled(inverse, &push.force), scaled(inverse, &push.moment));
         let less = |block: &Block<S>, left: &Vector<S>, right: &Vector<S>| -> Block<S> {
@@ -120,9 +120,8 @@ impl<S: Divide> Articulated<S> {
         }
     }
 
-    /// Seen from axes into which vectors turn like this, about an origin from
-    /// which this one is a lever away: with p the lever
-    /// B′ = B + [p]× M, A′ = A + [p]× Bᵀ − B′ [p]×.
+    /// Returns it as seen from axes into which vectors turn like this, about an origin from which
+    /// this one is a lever away: with p the lever B′ = B + [p]× M, A′ = A + [p]× Bᵀ − B′ [p]×.
     pub(super) fn carried(
         &self,
         turned: impl Fn(&Vector<S>) -> Vector<S>,
@@ -142,7 +141,7 @@ impl<S: Divide> Articulated<S> {
     }
 }
 
-/// Nothing.
+/// Returns nothing.
 pub(super) fn no_wrench<S: Divide>() -> Wrench<S> {
     Wrench {
         force: zero_vector(),
@@ -150,7 +149,7 @@ pub(super) fn no_wrench<S: Divide>() -> Wrench<S> {
     }
 }
 
-/// Both together.
+/// Returns both together.
 pub(super) fn add<S: Divide>(a: &Wrench<S>, b: &Wrench<S>) -> Wrench<S> {
     Wrench {
         force: sum(&a.force, &b.force),
@@ -158,7 +157,7 @@ pub(super) fn add<S: Divide>(a: &Wrench<S>, b: &Wrench<S>) -> Wrench<S> {
     }
 }
 
-/// A wrench times a factor.
+/// Returns a wrench times a factor.
 pub(super) fn by<S: Divide>(factor: &S, wrench: &Wrench<S>) -> Wrench<S> {
     Wrench {
         force: scaled(factor, &wrench.force),
@@ -166,7 +165,7 @@ pub(super) fn by<S: Divide>(factor: &S, wrench: &Wrench<S>) -> Wrench<S> {
     }
 }
 
-/// The power of a wrench on a motion.
+/// Returns the power of a wrench on a motion.
 pub(super) fn power<S: Divide>(wrench: &Wrench<S>, motion: &Motion<S>) -> S {
     plus(
         &dot(&wrench.moment, &motion.turn),
@@ -186,12 +185,12 @@ fn block_sum<S: Divide>(a: &Block<S>, b: &Block<S>) -> Block<S> {
     core::array::from_fn(|i| sum(&a[i], &b[i]))
 }
 
-/// [p]× M: p × each column.
+/// Returns [p]× M: p × each column.
 fn columns_crossed<S: Divide>(p: &Vector<S>, block: &Block<S>) -> Block<S> {
     transposed(&transposed(block).map(|column| cross(p, &column)))
 }
 
-/// M [p]×: each row r becomes (M [p]×) = (r × p), row by row.
+/// Returns M [p]×: each row r becomes (M [p]×) = (r × p), row by row.
 fn rows_crossed<S: Divide>(block: &Block<S>, p: &Vector<S>) -> Block<S> {
     block.each_ref().map(|row| cross(row, p))
 }

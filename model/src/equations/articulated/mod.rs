@@ -35,7 +35,7 @@ struct Joint<S> {
     drift: Motion<S>,
 }
 
-/// q̈ of the joints that move, zero of the others, which are held where they
+/// Returns q̈ of the joints that move, zero of the others, which are held where they
 /// are.
 pub fn forward_dynamics<S: Divide>(
     arm: &Arm<S>,

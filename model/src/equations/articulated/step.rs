@@ -28,7 +28,7 @@ impl<'a, S: Divide> Step<'a, S> {
         }
     }
 
-    /// z at a rate: both conventions move about or along the z axis of the
+    /// Returns z at a rate: both conventions move about or along the z axis of the
     /// joint's frame, which is i−1 in standard DH and i in modified.
     pub(super) fn along(&self, rate: &S) -> Motion<S> {
         let axis = [S::zero(), S::zero(), rate.clone()];
@@ -44,7 +44,7 @@ impl<'a, S: Divide> Step<'a, S> {
         }
     }
 
-    /// The part of a wrench in the joint's frame that the joint feels.
+    /// Returns the part of a wrench in the joint's frame that the joint feels.
     pub(super) fn depends_on(&self, wrench: &Wrench<S>) -> S {
         match self.link.kind {
             JointKind::Revolute => wrench.moment[2].clone(),
@@ -52,7 +52,7 @@ impl<'a, S: Divide> Step<'a, S> {
         }
     }
 
-    /// A motion of frame i−1 through the joint, then seen from frame i.
+    /// Returns a motion of frame i−1 through the joint, then seen from frame i.
     pub(super) fn outward<T>(
         &self,
         before: &Motion<S>,
@@ -67,7 +67,7 @@ impl<'a, S: Divide> Step<'a, S> {
         }
     }
 
-    /// A motion from frame i−1 to frame i.
+    /// Returns a motion from frame i−1 to frame i.
     fn seen(&self, motion: &Motion<S>) -> Motion<S> {
         let shift = sum(&motion.shift, &cross(&motion.turn, &self.lever));
         let turned = |v: &Vector<S>| self.link.to_link(self.arm.convention, self.at, v);
@@ -77,7 +77,7 @@ impl<'a, S: Divide> Step<'a, S> {
         }
     }
 
-    /// From frame i to the joint's frame.
+    /// Carries it from frame i to the joint's frame.
     pub(super) fn at_joint(
         &self,
         body: Articulated<S>,
@@ -89,7 +89,7 @@ impl<'a, S: Divide> Step<'a, S> {
         }
     }
 
-    /// From the joint's frame to frame i−1.
+    /// Carries it from the joint's frame to frame i−1.
     pub(super) fn before_joint(
         &self,
         body: Articulated<S>,
@@ -101,7 +101,7 @@ impl<'a, S: Divide> Step<'a, S> {
         }
     }
 
-    /// From frame i to frame i−1.
+    /// Carries it from frame i to frame i−1.
     fn back(&self, body: &Articulated<S>, bias: &Wrench<S>) -> (Articulated<S>, Wrench<S>) {
         let turned = |v: &Vector<S>| self.link.to_previous(self.arm.convention, self.at, v);
         let force = turned(&bias.force);

@@ -22,7 +22,7 @@ pub struct Body<S> {
 }
 
 impl<S> Body<S> {
-    /// Every number through `f`.
+    /// Returns every number through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Body<T> {
         Body {
             mass: f(&self.mass),
@@ -33,7 +33,7 @@ impl<S> Body<S> {
 }
 
 impl<S: Scalar> Body<S> {
-    /// Nothing.
+    /// Returns nothing.
     pub fn zero() -> Self {
         Body {
             mass: S::zero(),
@@ -42,7 +42,7 @@ impl<S: Scalar> Body<S> {
         }
     }
 
-    /// A link about the origin of its DH frame:
+    /// Returns a link about the origin of its DH frame:
     /// ∫ r rᵀ dm = ½ tr(I)·1 − I + m s̄ s̄ᵀ, I about the centre of mass.
     pub fn of(link: &Link<S>) -> Self {
         let tensor = &link.inertia;
@@ -63,7 +63,7 @@ impl<S: Scalar> Body<S> {
         }
     }
 
-    /// The tensor about the same origin: I = tr(Σ)·1 − Σ.
+    /// Returns the tensor about the same origin: I = tr(Σ)·1 − Σ.
     pub fn tensor(&self) -> Inertia<S> {
         let sigma = &self.second;
         Inertia {
@@ -91,7 +91,7 @@ impl<S: Scalar> Body<S> {
         .all(S::is_zero)
     }
 
-    /// Both together, about the same origin and in the same axes.
+    /// Returns both together, about the same origin and in the same axes.
     pub fn with(&self, other: &Body<S>) -> Self {
         Body {
             mass: plus(&self.mass, &other.mass),
@@ -111,12 +111,12 @@ impl<S: Scalar> Body<S> {
         }
     }
 
-    /// Seen from a frame in which this one is turned, then moved.
+    /// Returns it as seen from a frame in which this one is turned, then moved.
     pub fn carried(&self, rotation: &Rotation<S>, offset: &Vector<S>) -> Self {
         self.turned(rotation).moved(offset)
     }
 
-    /// In other axes: r → R r.
+    /// Returns it in other axes: r → R r.
     pub fn turned(&self, rotation: &Rotation<S>) -> Self {
         // R Σ, then (R Σ) Rᵀ.
         let half: Rotation<S> = core::array::from_fn(|i| {
@@ -134,7 +134,7 @@ impl<S: Scalar> Body<S> {
         }
     }
 
-    /// About another origin: r → r + p.
+    /// Returns it about another origin: r → r + p.
     pub fn moved(&self, offset: &Vector<S>) -> Self {
         let first = sum(&self.first, &scaled(&self.mass, offset));
         Body {
@@ -151,8 +151,8 @@ impl<S: Scalar> Body<S> {
         }
     }
 
-    /// Turned about z by a variable angle. With k = s·(Σxx − Σyy) + 2c·Σxy:
-    /// Σxx′ = Σxx − s·k, Σyy′ = Σyy + s·k, Σxy′ = c·k − Σxy.
+    /// Returns it turned about z by a variable angle. With k = s·(Σxx − Σyy) + 2c·Σxy: Σxx′ = Σxx
+    /// − s·k, Σyy′ = Σyy + s·k, Σxy′ = c·k − Σxy.
     pub fn turned_z(&self, theta: &SinCosPair<S>) -> Self {
         let (s, c, old) = (&theta.sin, &theta.cos, &self.second);
         let [x, y] = theta.turn(&self.first[0], &self.first[1]);
@@ -176,13 +176,13 @@ impl<S: Scalar> Body<S> {
         }
     }
 
-    /// Σ v
+    /// Returns Σ v
     pub fn second_times(&self, v: &Vector<S>) -> Vector<S> {
         crate::equations::matrix::tensor_times(&self.second, v)
     }
 
-    /// In another unit of length: torques keep their numbers, so a mass is
-    /// multiplied by the square of the unit and a first moment by the unit.
+    /// Returns it in another unit of length: torques keep their numbers, so a mass is multiplied
+    /// by the square of the unit and a first moment by the unit.
     pub fn in_unit(&self, unit: &S) -> Self {
         Body {
             mass: times(unit, &times(unit, &self.mass)),
@@ -192,7 +192,7 @@ impl<S: Scalar> Body<S> {
     }
 }
 
-/// The entry (i, j) of a symmetric tensor.
+/// Returns the entry (i, j) of a symmetric tensor.
 pub fn entry<S>(tensor: &Inertia<S>, i: usize, j: usize) -> &S {
     match (i.min(j), i.max(j)) {
         (0, 0) => &tensor.xx,

@@ -75,7 +75,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
         }
     }
 
-    /// Force and moment of a unit acceleration of joint k on its composite.
+    /// Computes force and moment of a unit acceleration of joint k on its composite.
     pub(super) fn momentum(&self, k: usize) -> (Vector<S>, Vector<S>) {
         let (link, body) = (&self.chain.links[k], &self.bodies[k]);
         match link.kind {
@@ -97,14 +97,14 @@ impl<'a, S: Scalar> Composite<'a, S> {
         }
     }
 
-    /// D, n×n, armature on the diagonal.
+    /// Returns D, n×n, armature on the diagonal.
     pub fn inertia(&self, travel: CompositeOrder) -> Vec<Vec<S>> {
         let n = self.chain.links.len();
         let columns: Vec<Vec<S>> = (0..n).map(|k| self.inertia_column(k, travel)).collect();
         symmetric(n, |i, k| columns[i][k].clone())
     }
 
-    /// D_0k … D_kk.
+    /// Returns D_0k … D_kk.
     fn inertia_column(&self, k: usize, travel: CompositeOrder) -> Vec<S> {
         let (mut force, mut moment) = self.momentum(k);
         let mut column = Vec::with_capacity(k + 1);
@@ -127,7 +127,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
         column
     }
 
-    /// `h[i][k][m]` = h_ikm, n×n×n.
+    /// Returns `h[i][k][m]` = h_ikm, n×n×n.
     pub fn christoffel(&self) -> Vec<Vec<Vec<S>>> {
         let n = self.chain.links.len();
         // [m][k][i] for i < m and k ≤ m.
@@ -146,7 +146,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
             .collect()
     }
 
-    /// h_ikm of all i < m.
+    /// Returns h_ikm of all i < m.
     fn christoffel_row(&self, k: usize, m: usize) -> Vec<S> {
         let (force, moment) = self.quadratic(m, &self.twist(k, m).turn);
         (0..m)
@@ -154,7 +154,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
             .collect()
     }
 
-    /// c, length n.
+    /// Returns c, length n.
     pub fn gravity(&self, travel: CompositeOrder) -> Vec<S> {
         let mut c = Vec::with_capacity(self.chain.links.len());
         match travel {
@@ -190,7 +190,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
         c
     }
 
-    /// τ, length n, without armature and damping: what a joint does to the
+    /// Returns τ, length n, without armature and damping: what a joint does to the
     /// joints before it and to its own composite, plus what the motion of the
     /// joints before, and gravity, do to that composite.
     pub fn torques(
@@ -244,8 +244,8 @@ impl<'a, S: Scalar> Composite<'a, S> {
         torques
     }
 
-    /// Force and moment of Δ_k Δ_m on the composite body m, `turn` being the
-    /// angular part of Δ_k.
+    /// Computes force and moment of Δ_k Δ_m on the composite body m, `turn` being the angular
+    /// part of Δ_k.
     fn quadratic(&self, m: usize, turn: &Vector<S>) -> (Vector<S>, Vector<S>) {
         let (link, body) = (&self.chain.links[m], &self.bodies[m]);
         match link.kind {
@@ -265,7 +265,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
         }
     }
 
-    /// The unit twist of joint i seen from frame m ≥ i.
+    /// Returns the unit twist of joint i seen from frame m ≥ i.
     pub(super) fn twist(&self, i: usize, m: usize) -> Twist<S> {
         if i == m {
             own_twist(self.chain, m)
@@ -279,7 +279,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
         self.in_metres(i, self.twist(i, m).power(force, moment))
     }
 
-    /// A load or rate of a slide, back from the chain's unit of length.
+    /// Returns a load or rate of a slide, back from the chain's unit of length.
     pub(super) fn in_metres(&self, joint: usize, value: S) -> S {
         match self.chain.links[joint].kind {
             JointKind::Revolute => value,
@@ -297,7 +297,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
         }
     }
 
-    /// A wrench about the origin of frame m, about that of the frame before.
+    /// Returns a wrench about the origin of frame m, about that of the frame before.
     pub(super) fn wrench_inward(&self, m: usize, wrench: &Wrench<S>) -> Wrench<S> {
         let (force, moment) = self
             .chain
@@ -305,14 +305,14 @@ impl<'a, S: Scalar> Composite<'a, S> {
         Wrench { force, moment }
     }
 
-    /// A twist in the axes of frame j, seen from frame i ≥ j.
+    /// Returns a twist in the axes of frame j, seen from frame i ≥ j.
     pub(super) fn twist_outward(&self, twist: &Twist<S>, j: usize, i: usize) -> Twist<S> {
         let out = |seen: Twist<S>, m: usize| seen.outward(&self.chain.links[m], &self.at[m]);
         (j + 1..=i).fold(twist.clone(), out)
     }
 }
 
-/// z × ∫ r dm
+/// Returns z × ∫ r dm
 fn mu<S: Scalar>(body: &Body<S>) -> Vector<S> {
     [negative(&body.first[1]), body.first[0].clone(), S::zero()]
 }

@@ -28,7 +28,7 @@ struct Joint<S> {
 }
 
 impl<S: Scalar> Composite<'_, S> {
-    /// C, n×n, by composite momenta.
+    /// Returns C, n×n, by composite momenta.
     pub fn coriolis_matrix(&self, qd: &[S], travel: CompositeOrder) -> Vec<Vec<S>> {
         let joints = self.velocity_parts(qd);
         let n = joints.len();

@@ -55,7 +55,7 @@ pub(super) struct Joint<S> {
 }
 
 impl<S: Scalar> Composite<'_, S> {
-    /// ∂τ/∂q and ∂τ/∂q̇, each n×n.
+    /// Returns ∂τ/∂q and ∂τ/∂q̇, each n×n.
     pub fn slopes(&self, qd: &[S], qdd: &[S], travel: CompositeOrder) -> Slopes<S> {
         let joints = self.own_slopes(qd, qdd);
         let n = joints.len();
@@ -169,7 +169,7 @@ impl<S: Scalar> Composite<'_, S> {
     }
 }
 
-/// V × Δ: how the twist of a joint changes.
+/// Returns V × Δ: how the twist of a joint changes.
 pub(super) fn rate<S: Scalar>(link: &ChainLink<S>, velocity: &Velocity<S>) -> Twist<S> {
     let across = |v: &Vector<S>| [v[1].clone(), negative(&v[0]), S::zero()];
     match link.kind {
@@ -184,7 +184,7 @@ pub(super) fn rate<S: Scalar>(link: &ChainLink<S>, velocity: &Velocity<S>) -> Tw
     }
 }
 
-/// V × Δ and what it becomes at the rate of V: for a joint that turns the
+/// Returns V × Δ and what it becomes at the rate of V: for a joint that turns the
 /// third column of U, with what the origin's motion adds.
 fn drift<S: Scalar>(
     link: &ChainLink<S>,
@@ -210,7 +210,7 @@ fn drift<S: Scalar>(
     [first, second]
 }
 
-/// The wrench of an acceleration t + α × r of a body: m t + α × s, and
+/// Returns the wrench of an acceleration t + α × r of a body: m t + α × s, and
 /// s × t + I α with I = tr(Σ)·1 − Σ.
 pub(super) fn inertial<S: Scalar>(body: &Body<S>, twist: &Twist<S>) -> Wrench<S> {
     let Twist { turn, shift } = twist;
@@ -231,7 +231,7 @@ impl<S: Scalar> Flow<S> {
         }
     }
 
-    /// V = v + ω × r over one body: ∫ V dm = m v + ω × s and
+    /// Returns V = v + ω × r over one body: ∫ V dm = m v + ω × s and
     /// ∫ V rᵀ dm = v sᵀ + [ω]× Σ.
     pub(super) fn of(body: &Body<S>, velocity: &Velocity<S>) -> Self {
         let Velocity { omega, origin } = velocity;
@@ -262,8 +262,8 @@ impl<S: Scalar> Flow<S> {
         }
     }
 
-    /// In the axes of the frame before, r from its origin:
-    /// R (∫ V rᵀ dm) Rᵀ + (R ∫ V dm) pᵀ.
+    /// Returns them in the axes of the frame before, r from its origin: R (∫ V rᵀ dm) Rᵀ + (R ∫ V
+    /// dm) pᵀ.
     pub(super) fn carried(&self, link: &ChainLink<S>, at: &Displacement<S>) -> Self {
         let momentum = link.outward(at, &self.momentum);
         // Rows turn as r, then columns as V.
@@ -279,13 +279,13 @@ impl<S: Scalar> Flow<S> {
         }
     }
 
-    /// Twice ∫ (α × V) dm, and its moment: 2 α × ∫ V dm, and with M = ∫ V rᵀ dm
+    /// Returns twice ∫ (α × V) dm, and its moment: 2 α × ∫ V dm, and with M = ∫ V rᵀ dm
     /// 2 (tr(M) α − M α).
     fn of_turn(&self, turn: &Vector<S>) -> Wrench<S> {
         self.half_of_turn(&turn.each_ref().map(twice))
     }
 
-    /// Half of [`Flow::of_turn`].
+    /// Returns half of [`Flow::of_turn`].
     pub(super) fn half_of_turn(&self, turn: &Vector<S>) -> Wrench<S> {
         let m = &self.moment;
         let component = |i: usize| {
@@ -300,7 +300,7 @@ impl<S: Scalar> Flow<S> {
         }
     }
 
-    /// ∫ V dm, and its moment ∫ r × V dm.
+    /// Returns ∫ V dm, and its moment ∫ r × V dm.
     pub(super) fn wrench(&self) -> Wrench<S> {
         let m = &self.moment;
         Wrench {
@@ -309,7 +309,7 @@ impl<S: Scalar> Flow<S> {
         }
     }
 
-    /// ∫ V × (t + α × r) dm = ∫ V dm × t + tr(M) α − Mᵀ α.
+    /// Returns ∫ V × (t + α × r) dm = ∫ V dm × t + tr(M) α − Mᵀ α.
     pub(super) fn across(&self, twist: &Twist<S>) -> Vector<S> {
         let (m, turn) = (&self.moment, &twist.turn);
         let component = |i: usize| {
@@ -330,7 +330,7 @@ impl<S: Scalar> Flow<S> {
         self.half_swing(link).each_ref().map(twice)
     }
 
-    /// Half of [`Flow::swing`].
+    /// Returns half of [`Flow::swing`].
     pub(super) fn half_swing(&self, link: &ChainLink<S>) -> Vector<S> {
         match link.kind {
             JointKind::Revolute => {

@@ -44,7 +44,7 @@ pub enum HandChoice {
 }
 
 impl HandForm {
-    /// The forms that differ.
+    /// Returns the forms that differ.
     fn all(choice: HandChoice) -> Vec<HandForm> {
         let axes = [HandAxes::Asked, HandAxes::FirstAndLast, HandAxes::Last];
         let axes = &axes[..if choice == HandChoice::None { 1 } else { 3 }];
@@ -55,7 +55,7 @@ impl HandForm {
 }
 
 impl Form {
-    /// The forms that differ where the recursion over velocities is read, or not, where
+    /// Returns the forms that differ where the recursion over velocities is read, or not, where
     /// something travels, or not, where C is wanted, or not, and by what is read of the hand;
     /// the usually cheapest first.
     pub fn all(recursion: bool, travels: bool, flows: bool, hand: HandChoice) -> Vec<Form> {

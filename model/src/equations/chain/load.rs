@@ -5,7 +5,7 @@ use crate::equations::matrix::times;
 use crate::scalar::Scalar;
 
 impl<S: Scalar> Skeleton<S> {
-    /// The skeleton whose bodies have its columns, each as often as its value says,
+    /// Returns the skeleton whose bodies have its columns, each as often as its value says,
     /// and which has columns no longer.
     #[must_use]
     pub fn with_values(mut self, values: &[S]) -> Skeleton<S> {

@@ -110,7 +110,7 @@ pub struct ChainLink<S> {
 }
 
 impl<S: Scalar> Chain<S> {
-    /// The chain of a skeleton in a regrouping.
+    /// Returns the chain of a skeleton in a regrouping.
     pub fn new(skeleton: &Skeleton<S>, regrouping: &Regrouping<S>) -> Chain<S> {
         let mut links: Vec<ChainLink<S>> = Vec::with_capacity(skeleton.links.len());
         // How far the regrouping moved the origin before.
@@ -169,7 +169,7 @@ impl<S: Scalar> Chain<S> {
         self
     }
 
-    /// A rate in the chain's unit: slides are scaled.
+    /// Returns a rate in the chain's unit: slides are scaled.
     fn rates(&self, rates: &[S]) -> Vec<S> {
         self.links
             .iter()
@@ -183,7 +183,7 @@ impl<S: Scalar> Chain<S> {
 }
 
 impl<S> Chain<S> {
-    /// Every parameter through `f`.
+    /// Returns every parameter through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Chain<T> {
         let gravity = self.gravity.each_ref().map(&mut f);
         let links = self.links.iter().map(|link| ChainLink {
@@ -249,12 +249,12 @@ impl<S: Scalar> ChainLink<S> {
         }
     }
 
-    /// The joint axis in the axes of frame i−1, a constant.
+    /// Returns the joint axis in the axes of frame i−1, a constant.
     fn axis_before(&self) -> Vector<S> {
         apply(&self.rotation, &self.axis)
     }
 
-    /// The origin of frame i in frame i−1.
+    /// Returns the origin of frame i in frame i−1.
     fn lever(&self, at: &Displacement<S>) -> Vector<S> {
         match at {
             Displacement::Turn(_) => self.offset.clone(),
@@ -303,12 +303,12 @@ fn product<S: Scalar>(a: &Rotation<S>, b: &Rotation<S>) -> Rotation<S> {
     core::array::from_fn(|i| core::array::from_fn(|j| dot(&a[i], &column(j))))
 }
 
-/// R v
+/// Returns R v
 fn apply<S: Scalar>(rotation: &Rotation<S>, v: &Vector<S>) -> Vector<S> {
     core::array::from_fn(|i| dot(&rotation[i], v))
 }
 
-/// Rᵀ v
+/// Returns Rᵀ v
 fn apply_transposed<S: Scalar>(rotation: &Rotation<S>, v: &Vector<S>) -> Vector<S> {
     core::array::from_fn(|j| {
         let xy = plus(

@@ -27,7 +27,7 @@ impl<S: Scalar> Velocity<S> {
         }
     }
 
-    /// The velocity of the next link.
+    /// Returns the velocity of the next link.
     fn next(&self, link: &ChainLink<S>, at: &Displacement<S>, rate: &S) -> Self {
         let carried = sum(&self.origin, &cross(&self.omega, &link.lever(at)));
         let own = scaled(rate, &link.axis);
@@ -57,7 +57,7 @@ impl<S: Scalar> Chain<S> {
         velocities
     }
 
-    /// T, link by link: ½ m v·v + v·(ω × ∫ r dm) + ½ ω·(I ω), and what the
+    /// Returns T, link by link: ½ m v·v + v·(ω × ∫ r dm) + ½ ω·(I ω), and what the
     /// rotors have.
     pub fn kinetic_energy(&self, at: &[Displacement<S>], qd: &[S]) -> S {
         let velocities = self.velocities(at, qd);
@@ -79,7 +79,7 @@ impl<S: Scalar> Chain<S> {
         energy
     }
 
-    /// D q̇ and ∂T/∂q, each of length n.
+    /// Returns D q̇ and ∂T/∂q, each of length n.
     ///
     /// Turning all that follows joint k by itself leaves it as it is but for
     /// what arrives from before: its velocity changes by V × Δ_k, V being that

@@ -28,7 +28,7 @@ struct Pair {
 }
 
 impl Pair {
-    /// x ∓ y: what is left where the later joint takes the turn back.
+    /// Returns x ∓ y: what is left where the later joint takes the turn back.
     fn left<S: Scalar>(&self, x: &S, y: &S) -> S {
         match self.opposite {
             false => minus(x, y),
@@ -37,7 +37,7 @@ impl Pair {
     }
 }
 
-/// q̈ of D q̈ = τ − bias over the joints that move, zero of the others.
+/// Returns q̈ of D q̈ = τ − bias over the joints that move, zero of the others.
 fn solved_in_pairs<S: Divide>(
     pairs: &[Pair],
     d: &[Vec<S>],
@@ -76,7 +76,7 @@ pub enum Unknowns {
 }
 
 impl<S: Divide> Chain<S> {
-    /// q̈ of D q̈ = τ − bias over the joints that move, zero of the others.
+    /// Returns q̈ of D q̈ = τ − bias over the joints that move, zero of the others.
     pub fn accelerations(
         &self,
         d: &[Vec<S>],
@@ -93,7 +93,7 @@ impl<S: Divide> Chain<S> {
 }
 
 impl<S: Divide> Chain<S> {
-    /// q̈ under τ, zero of joints that do not move, from the torques of the recursion at
+    /// Returns q̈ under τ, zero of joints that do not move, from the torques of the recursion at
     /// accelerations that shorten it.
     pub fn forward_dynamics(
         &self,
@@ -143,7 +143,7 @@ mod tests {
     use crate::read;
     use crate::scalar::field::{Field, Points};
 
-    /// Four parallel axes, one of them the other way, and one across.
+    /// Returns four parallel axes, one of them the other way, and one across.
     fn chain() -> Chain<Exact> {
         let joint =
             |alpha| format!("[[joint]]\nkind = \"revolute\"\na = 1\nalpha = {alpha}\nmass = 0\n");

@@ -37,7 +37,7 @@ impl<S: Scalar> Mixed<S> {
         }
     }
 
-    /// The motion of the next link; `half` is half its rate of v.
+    /// Returns the motion of the next link; `half` is half its rate of v.
     fn next(
         &self,
         link: &ChainLink<S>,
@@ -87,7 +87,7 @@ impl<S: Scalar> Mixed<S> {
 }
 
 impl<S: Scalar> Chain<S> {
-    /// D a + C v + c + (b + F∘r)∘v, length n.
+    /// Returns D a + C v + c + (b + F∘r)∘v, length n.
     pub fn passivity(&self, at: &[Displacement<S>], qd: &[S], v: &[S], a: &[S]) -> Vec<S> {
         let motions = self.mixed_motions(at, qd, [v, a]);
         let drive = |i: usize| {

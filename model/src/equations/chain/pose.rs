@@ -39,8 +39,7 @@ struct FramePlacement {
 }
 
 impl<S: Scalar> Chain<S> {
-    /// By how many joints the frame of each link may turn less, and more, than
-    /// its link.
+    /// Returns by how many joints the frame of each link may turn less, and more, than its link.
     pub fn freedoms(&self) -> Vec<[i32; 2]> {
         let bounds = |(i, place): (usize, &Option<FramePlacement>)| match place {
             Some(place) => self.bounds(i, place),
@@ -49,7 +48,7 @@ impl<S: Scalar> Chain<S> {
         self.places().iter().enumerate().map(bounds).collect()
     }
 
-    /// The links that turn about parallel axes, group by group, and whether
+    /// Returns the links that turn about parallel axes, group by group, and whether
     /// each turns against the first of its group.
     pub fn parallel(&self) -> Vec<Vec<(usize, bool)>> {
         let mut groups: Vec<Vec<(usize, bool)>> = Vec::new();
@@ -112,7 +111,7 @@ impl<S: Scalar> Chain<S> {
         places
     }
 
-    /// The chain at a position, every constant in the axes in which its link
+    /// Returns the chain at a position, every constant in the axes in which its link
     /// is seen, and how those turn: θ_i as pairs, and slides in its unit.
     pub fn posed(&self, position: &[JointPosition<S>]) -> (Chain<S>, Vec<Displacement<S>>) {
         let places = self.places();
@@ -196,7 +195,7 @@ impl<S: Scalar> Chain<S> {
 }
 
 impl<S: Scalar> ChainLink<S> {
-    /// All that is fixed to the link, turned about z.
+    /// Turns all that is fixed to the link about z.
     fn turn_bodies(&mut self, turn: &SinCosPair<S>) {
         self.body = self.body.turned_z(turn);
         self.probes = Probe::each(&self.probes, |body| body.turned_z(turn));

@@ -24,7 +24,7 @@ pub enum Column<S> {
 }
 
 impl<S> Column<S> {
-    /// Every number through `f`.
+    /// Returns every number through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Column<T> {
         match self {
             Column::Body { joint, body } => Column::Body {
@@ -62,7 +62,7 @@ impl<S> Probe<S> {
         matches!(self.of, Probed::Body(_))
     }
 
-    /// Every body through `f`.
+    /// Returns every body through `f`.
     pub(super) fn each<T>(
         probes: &[Probe<S>],
         mut f: impl FnMut(&Body<S>) -> Body<T>,
@@ -79,7 +79,7 @@ impl<S> Probe<S> {
     }
 }
 
-/// The columns of a joint, from its DH frame into a frame in which that is
+/// Returns the columns of a joint, from its DH frame into a frame in which that is
 /// turned and moved.
 pub(super) fn probes<S: Scalar>(
     columns: &[Column<S>],

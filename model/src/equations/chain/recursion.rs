@@ -44,7 +44,7 @@ pub(super) struct Motion<S> {
 }
 
 impl<S: Scalar> Motion<S> {
-    /// The base, accelerated upwards instead of being pulled down.
+    /// Returns the base, accelerated upwards instead of being pulled down.
     pub(super) fn base(gravity: &Vector<S>) -> Self {
         Motion {
             omega: zero_vector(),
@@ -54,13 +54,13 @@ impl<S: Scalar> Motion<S> {
         }
     }
 
-    /// U r
+    /// Returns U r
     pub(super) fn u_times(&self, r: &Vector<S>) -> Vector<S> {
         let xy = sum(&scaled(&r[0], &self.u[0]), &scaled(&r[1], &self.u[1]));
         sum(&xy, &scaled(&r[2], &self.u[2]))
     }
 
-    /// The motion of the next link.
+    /// Returns the motion of the next link.
     pub(super) fn next(
         &self,
         link: &ChainLink<S>,
@@ -86,7 +86,7 @@ impl<S: Scalar> Motion<S> {
         }
     }
 
-    /// The motion of the next link, which turns, where ω̇ is this along its axis.
+    /// Returns the motion of the next link, which turns, where ω̇ is this along its axis.
     pub(super) fn next_along(
         &self,
         link: &ChainLink<S>,
@@ -122,7 +122,7 @@ impl<S: Scalar> Motion<S> {
         }
     }
 
-    /// Force and moment of a body in this motion.
+    /// Computes force and moment of a body in this motion.
     pub(super) fn wrench(&self, body: &Body<S>, couple: MomentForm) -> (Vector<S>, Vector<S>) {
         let force = sum(
             &scaled(&body.mass, &self.acceleration),
@@ -135,7 +135,7 @@ impl<S: Scalar> Motion<S> {
         (force, moment)
     }
 
-    /// ∫ r × (U r) dm
+    /// Returns ∫ r × (U r) dm
     fn couple(&self, body: &Body<S>, form: MomentForm) -> Vector<S> {
         match form {
             MomentForm::SecondMoments => {
@@ -175,7 +175,7 @@ impl<S: Scalar> Motion<S> {
     }
 }
 
-/// ω̇ and U from ω, ω̇_z and the third column of U.
+/// Returns ω̇ and U from ω, ω̇_z and the third column of U.
 ///
 /// Nothing of ω is needed but its products, so those of two velocities do as
 /// well where U is to be bilinear in them.
@@ -210,7 +210,7 @@ pub(super) fn from_column<S: Scalar>(
     (omega_dot, u)
 }
 
-/// U r = ω̇ × r + ω × (ω × r)
+/// Returns U r = ω̇ × r + ω × (ω × r)
 fn from_rates<S: Scalar>(omega: &Vector<S>, omega_dot: &Vector<S>) -> [Vector<S>; 3] {
     let [x, y, z] = omega;
     let [dx, dy, dz] = omega_dot;
@@ -224,7 +224,7 @@ fn from_rates<S: Scalar>(omega: &Vector<S>, omega_dot: &Vector<S>) -> [Vector<S>
 }
 
 impl<S: Scalar> Chain<S> {
-    /// τ, length n.
+    /// Returns τ, length n.
     pub fn inverse_dynamics(
         &self,
         at: &[Displacement<S>],
@@ -244,7 +244,7 @@ impl<S: Scalar> Chain<S> {
         self.torques(at, &motions, couple, &zero_vector(), drive)
     }
 
-    /// τ of links in motion, with a moment that the last one exerts on something
+    /// Returns τ of links in motion, with a moment that the last one exerts on something
     /// else and with what the drive of each joint adds.
     pub(super) fn torques(
         &self,
@@ -269,7 +269,7 @@ impl<S: Scalar> Chain<S> {
         torques
     }
 
-    /// The motion of every link.
+    /// Returns the motion of every link.
     pub(super) fn motions(
         &self,
         at: &[Displacement<S>],
@@ -287,7 +287,7 @@ impl<S: Scalar> Chain<S> {
         motions
     }
 
-    /// The part of a wrench on link i that the joint feels.
+    /// Returns the part of a wrench on link i that the joint feels.
     pub(super) fn load(&self, i: usize, force: &Vector<S>, moment: &Vector<S>) -> S {
         match self.links[i].kind {
             JointKind::Revolute => moment[2].clone(),
@@ -295,7 +295,7 @@ impl<S: Scalar> Chain<S> {
         }
     }
 
-    /// A wrench about the origin of frame i, about that of frame i−1.
+    /// Returns a wrench about the origin of frame i, about that of frame i−1.
     pub(super) fn to_previous(
         &self,
         i: usize,

@@ -63,7 +63,7 @@ impl<S: Scalar> Chain<S> {
         motion
     }
 
-    /// What the drive of a joint takes at its velocity and at this acceleration.
+    /// Returns what the drive of a joint takes at its velocity and at this acceleration.
     pub(super) fn drive(&self, joint: usize, qd: &[S], accelerations: &[S]) -> S {
         let link = &self.links[joint];
         let inertial = times(&link.armature, &accelerations[joint]);

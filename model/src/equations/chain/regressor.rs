@@ -31,7 +31,7 @@ struct Centre<S> {
 }
 
 impl<S: Scalar> Chain<S> {
-    /// The columns that the probes are, a row a joint; by twists that travel
+    /// Returns the columns that the probes are, a row a joint; by twists that travel
     /// outward alone, or by wrenches about points where axes meet.
     pub fn regressor(
         &self,
@@ -56,7 +56,7 @@ impl<S: Scalar> Chain<S> {
         self.powers(at, &motions, [v, a], travel)
     }
 
-    /// The powers of the probes' wrenches, at the motions of the links and with
+    /// Returns the powers of the probes' wrenches, at the motions of the links and with
     /// what friction and rotors multiply.
     fn powers(
         &self,
@@ -126,7 +126,7 @@ fn own_twist<S: Scalar>(link: &ChainLink<S>) -> Twist<S> {
     }
 }
 
-/// The origin of a frame as a point where axes meet, if several do by structure.
+/// Returns the origin of a frame as a point where axes meet, if several do by structure.
 fn meeting<S: Scalar>(twists: &[Twist<S>]) -> Option<Centre<S>> {
     let passes = |twist: &Twist<S>| {
         let turns = twist.turn.iter().any(|x| !x.is_zero());
@@ -141,7 +141,7 @@ fn meeting<S: Scalar>(twists: &[Twist<S>]) -> Option<Centre<S>> {
     })
 }
 
-/// The point on a joint's axis that most others pass through, the first such.
+/// Returns the point on a joint's axis that most others pass through, the first such.
 fn widest<S>(centres: &[Centre<S>], joint: usize) -> Option<usize> {
     let on_axis = centres.iter().enumerate();
     let on_axis = on_axis.filter(|(_, centre)| centre.joints.contains(&joint));

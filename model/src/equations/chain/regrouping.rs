@@ -47,8 +47,8 @@ pub struct Regrouping<S> {
 }
 
 impl<S: Scalar> Regrouping<S> {
-    /// Base parameters in metres: a revolute link keeps nothing that can
-    /// move, and its origin lies after the constant step along the axis.
+    /// Makes base parameters in metres: a revolute link keeps nothing that can move, and its
+    /// origin lies after the constant step along the axis.
     pub fn base(skeleton: &Skeleton<S>) -> Self {
         let links = skeleton.links.iter().map(|link| LinkRegrouping {
             origin: match link.kind {

@@ -60,7 +60,7 @@ struct Later<S> {
 }
 
 impl<S: Scalar> Composite<'_, S> {
-    /// The second derivatives of λᵀτ; `driven` is ∂(D λ)/∂q, row i that of entry i.
+    /// Returns the second derivatives of λᵀτ; `driven` is ∂(D λ)/∂q, row i that of entry i.
     pub fn second_derivatives(
         &self,
         [qd, qdd, multiplier]: [&[S]; 3],
@@ -185,7 +185,7 @@ impl<S: Scalar> SecondDerivatives<S> {
     }
 }
 
-/// What follows from the flow of Λ and ∫ v × ℓ dm of the composite body.
+/// Returns what follows from the flow of Λ and ∫ v × ℓ dm of the composite body.
 fn later<S: Scalar>(
     body: &Body<S>,
     joint: &Joint<S>,
@@ -210,7 +210,7 @@ fn later<S: Scalar>(
     }
 }
 
-/// ∫ v × ℓ dm of a body, where points move by v = v₀ + ω × r and by ℓ = ℓ₀ + ν × r:
+/// Returns ∫ v × ℓ dm of a body, where points move by v = v₀ + ω × r and by ℓ = ℓ₀ + ν × r:
 /// (m v₀ + ω × s) × ℓ₀ + v₀ × (ν × s) + Σ (ω × ν), since (ω × r) × (ν × r) = r (r·(ω × ν)).
 fn crossed<S: Scalar>(body: &Body<S>, v: &Velocity<S>, l: &Velocity<S>) -> Vector<S> {
     let momentum = Flow::of(body, v).wrench().force;

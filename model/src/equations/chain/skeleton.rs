@@ -161,8 +161,8 @@ impl<S: Scalar> Skeleton<S> {
 }
 
 impl<S: Scalar> Segment<S> {
-    /// Parallel axes: what locked joints turn about them becomes part of θ,
-    /// composed once instead of turning every vector.
+    /// Makes what locked joints turn about parallel axes a part of θ, composed once instead of
+    /// turning every vector.
     ///
     /// R = Rz(β) is no rotation but an offset of θ; R = Rz(β) Rx(π) is
     /// Rx(π) Rz(−β).

@@ -101,7 +101,7 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         })
     }
 
-    /// The joints before the last.
+    /// Returns the joints before the last.
     fn at(&self) -> &[Displacement<S>] {
         &self.whole.at[..self.chain.links.len()]
     }
@@ -137,7 +137,7 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         (couple, own)
     }
 
-    /// q̈ under τ, zero of joints that do not move.
+    /// Returns q̈ under τ, zero of joints that do not move.
     pub fn forward_dynamics(
         &self,
         [qd, tau]: [&[S]; 2],
@@ -193,7 +193,7 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         qdd
     }
 
-    /// D⁻¹; zero in the rows and columns of joints that do not move.
+    /// Returns D⁻¹; zero in the rows and columns of joints that do not move.
     pub fn inertia_inverse(&self, moves: &[bool], travel: CompositeOrder) -> Vec<Vec<S>> {
         let last = self.chain.links.len();
         let d = Composite::new(&self.chain, self.at()).inertia(travel);

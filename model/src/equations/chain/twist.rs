@@ -15,7 +15,7 @@ pub(super) struct Twist<S> {
 }
 
 impl<S: Scalar> Twist<S> {
-    /// Seen from the frame after this one.
+    /// Returns it as seen from the frame after this one.
     pub(super) fn outward(&self, link: &ChainLink<S>, at: &Displacement<S>) -> Self {
         let lever = link.lever(at);
         Twist {
@@ -24,12 +24,12 @@ impl<S: Scalar> Twist<S> {
         }
     }
 
-    /// The power of a wrench about the frame's origin.
+    /// Returns the power of a wrench about the frame's origin.
     pub(super) fn power(&self, force: &Vector<S>, moment: &Vector<S>) -> S {
         plus(&dot(&self.turn, moment), &dot(&self.shift, force))
     }
 
-    /// Twice as fast.
+    /// Returns twice as fast.
     pub(super) fn doubled(&self) -> Self {
         Twist {
             turn: self.turn.each_ref().map(twice),
@@ -39,12 +39,12 @@ impl<S: Scalar> Twist<S> {
 }
 
 impl<S: Scalar> Wrench<S> {
-    /// Its power on a twist about the same point.
+    /// Returns its power on a twist about the same point.
     pub(super) fn along(&self, twist: &Twist<S>) -> S {
         twist.power(&self.force, &self.moment)
     }
 
-    /// Its rate as it moves along with a twist about the same point.
+    /// Returns its rate as it moves along with a twist about the same point.
     pub(super) fn turned(&self, twist: &Twist<S>) -> Self {
         Wrench {
             force: cross(&twist.turn, &self.force),
@@ -55,7 +55,7 @@ impl<S: Scalar> Wrench<S> {
         }
     }
 
-    /// Both together.
+    /// Returns both together.
     pub(super) fn with(&self, other: &Self) -> Self {
         Wrench {
             force: sum(&self.force, &other.force),

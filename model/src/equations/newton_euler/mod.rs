@@ -33,7 +33,7 @@ pub(super) struct Motion<S> {
 }
 
 impl<S: Scalar> Motion<S> {
-    /// The base, accelerated upwards instead of being pulled down.
+    /// Returns the base, accelerated upwards instead of being pulled down.
     pub(super) fn of_base(gravity: &Vector<S>) -> Self {
         Motion {
             omega: zero_vector(),
@@ -43,7 +43,7 @@ impl<S: Scalar> Motion<S> {
     }
 }
 
-/// F_i = m_i a_i, in any axes.
+/// Returns F_i = m_i a_i, in any axes.
 fn newton<S: Scalar>(link: &Link<S>, acceleration: &Vector<S>) -> Vector<S> {
     scaled(&link.mass, acceleration)
 }

@@ -26,7 +26,7 @@ struct Body<S> {
     acceleration: Vector<S>,
 }
 
-/// τ by the recursion of Table 1.
+/// Returns τ by the recursion of Table 1.
 ///
 /// `tip` is in base axes.
 pub fn inverse_dynamics<S: Scalar>(
@@ -50,7 +50,7 @@ pub fn inverse_dynamics<S: Scalar>(
         .collect()
 }
 
-/// f_i and n_i: what link i−1 exerts on link i, gravity included, the moment
+/// Returns f_i and n_i: what link i−1 exerts on link i, gravity included, the moment
 /// about the origin of frame i−1, or of frame i in modified DH.
 pub fn wrenches<S: Scalar>(
     arm: &Arm<S>,
@@ -62,7 +62,7 @@ pub fn wrenches<S: Scalar>(
     wrenches_on(arm, &bodies, None)
 }
 
-/// v̇ and ω̇ of the hand, in the axes of frame 0, of which this is the motion.
+/// Returns v̇ and ω̇ of the hand, in the axes of frame 0, of which this is the motion.
 pub(in crate::equations) fn tip_acceleration<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
@@ -118,7 +118,7 @@ fn wrenches_on<S: Scalar>(
     wrenches
 }
 
-/// Every link in base axes, from the base to the hand.
+/// Returns every link in base axes, from the base to the hand.
 fn bodies<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
@@ -164,7 +164,7 @@ fn bodies<S: Scalar>(
 }
 
 impl<S: Scalar> Body<S> {
-    /// v̇ of a tool's origin, or of the frame's own.
+    /// Returns v̇ of a tool's origin, or of the frame's own.
     fn acceleration_of(&self, tool: Option<&Columns<S>>) -> Vector<S> {
         let Some(tool) = tool else {
             return self.acceleration.clone();
@@ -179,7 +179,7 @@ impl<S: Scalar> Body<S> {
         sum(&self.acceleration, &of_lever)
     }
 
-    /// ω_i, ω̇_i and v̇_i from those of the link before.
+    /// Returns ω_i, ω̇_i and v̇_i from those of the link before.
     fn moved(
         mut self,
         convention: Convention,
@@ -212,7 +212,7 @@ impl<S: Scalar> Body<S> {
         self
     }
 
-    /// N_i = I ω̇_i + ω_i × (I ω_i) with I = ⁰R_i I_i ⁱR_0.
+    /// Returns N_i = I ω̇_i + ω_i × (I ω_i) with I = ⁰R_i I_i ⁱR_0.
     fn euler(&self, link: &Link<S>) -> Vector<S> {
         let frame = Columns {
             axes: self.rotation.clone(),

@@ -29,7 +29,7 @@ pub enum Moment {
 }
 
 impl<S: Scalar> Motion<S> {
-    /// N_i = I_i ω̇_i + ω_i × (I_i ω_i)
+    /// Returns N_i = I_i ω̇_i + ω_i × (I_i ω_i)
     fn euler(&self, link: &Link<S>, moment: Moment) -> Vector<S> {
         let spin = match moment {
             Moment::Differences => gyroscopic(&link.inertia, &self.omega),
@@ -39,7 +39,7 @@ impl<S: Scalar> Motion<S> {
     }
 }
 
-/// ω × (I ω): its x component is
+/// Returns ω × (I ω): its x component is
 /// (I_zz − I_yy) yz + I_yz (y + z)(y − z) + x (I_xz y − I_xy z), and so on.
 fn gyroscopic<S: Scalar>(tensor: &Inertia<S>, omega: &Vector<S>) -> Vector<S> {
     let rows = tensor.rows();
@@ -53,7 +53,7 @@ fn gyroscopic<S: Scalar>(tensor: &Inertia<S>, omega: &Vector<S>) -> Vector<S> {
     })
 }
 
-/// τ by the recursion of Table 2.
+/// Returns τ by the recursion of Table 2.
 ///
 /// `tip` is in the axes of frame n.
 pub fn inverse_dynamics<S: Scalar>(
@@ -136,7 +136,7 @@ pub fn inverse_dynamics<S: Scalar>(
     torques
 }
 
-/// ω_n, ω̇_n, v̇_n in the axes of frame n.
+/// Returns ω_n, ω̇_n, v̇_n in the axes of frame n.
 pub(in crate::equations) fn last_motion<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
@@ -147,7 +147,7 @@ pub(in crate::equations) fn last_motion<S: Scalar>(
     last.unwrap_or_else(|| Motion::of_base(&arm.gravity))
 }
 
-/// ω_i, ω̇_i, v̇_i from the base to the hand.
+/// Returns ω_i, ω̇_i, v̇_i from the base to the hand.
 fn motions<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S], qdd: &[S]) -> Vec<Motion<S>> {
     let mut motions: Vec<Motion<S>> = Vec::with_capacity(arm.links.len());
     let base = Motion::of_base(&arm.gravity);
@@ -163,7 +163,8 @@ fn motions<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S], qdd: &[S]) 
     motions
 }
 
-/// Table 2 as it stands: the joint moves along z_{i−1}, before the rotation X.
+/// Computes the rows of Table 2 as it stands: the joint moves along z_{i−1}, before the rotation
+/// X.
 fn standard<S: Scalar>(step: &LinkStep<S>, before: &Motion<S>, qd: &S, qdd: &S) -> Motion<S> {
     let lever = step.link.lever_here(&step.at.d);
     let of_lever = |omega: &Vector<S>, omega_dot: &Vector<S>| {
@@ -227,7 +228,7 @@ fn modified<S: Scalar>(step: &LinkStep<S>, before: &Motion<S>, qd: &S, qdd: &S) 
     }
 }
 
-/// v + s z_0
+/// Returns v + s z_0
 fn plus_z<S: Scalar>(v: &Vector<S>, s: &S) -> Vector<S> {
     [v[0].clone(), v[1].clone(), plus(&v[2], s)]
 }
@@ -248,17 +249,17 @@ impl<'a, S: Scalar> LinkStep<'a, S> {
         }
     }
 
-    /// X v = ⁱR_{i−1} v
+    /// Returns X v = ⁱR_{i−1} v
     fn to_link(&self, v: &Vector<S>) -> Vector<S> {
         self.link.to_link(self.convention, self.at, v)
     }
 
-    /// ⁱ⁻¹R_i v
+    /// Returns ⁱ⁻¹R_i v
     fn to_previous(&self, v: &Vector<S>) -> Vector<S> {
         self.link.to_previous(self.convention, self.at, v)
     }
 
-    /// P_i = (a_i, −d_i sin α_i, d_i cos α_i) in frame i−1 (modified DH).
+    /// Returns P_i = (a_i, −d_i sin α_i, d_i cos α_i) in frame i−1 (modified DH).
     fn lever_before(&self) -> Vector<S> {
         let alpha = &self.link.alpha;
         let sideways = negative(&times(&self.at.d, &alpha.sin));
@@ -267,7 +268,7 @@ impl<'a, S: Scalar> LinkStep<'a, S> {
 }
 
 impl<S: Scalar> Link<S> {
-    /// p_i* = (a_i, d_i sin α_i, d_i cos α_i) in frame i (standard DH; turned
+    /// Returns p_i* = (a_i, d_i sin α_i, d_i cos α_i) in frame i (standard DH; turned
     /// back by β where there is one).
     fn lever_here(&self, d: &S) -> Vector<S> {
         self.tilt_back([
@@ -277,7 +278,7 @@ impl<S: Scalar> Link<S> {
         ])
     }
 
-    /// X z_0 = (0, sin α_i, cos α_i), the joint's axis in frame i (standard DH).
+    /// Returns X z_0 = (0, sin α_i, cos α_i), the joint's axis in frame i (standard DH).
     fn axis_here(&self) -> Vector<S> {
         self.tilt_back([S::zero(), self.alpha.sin.clone(), self.alpha.cos.clone()])
     }

@@ -16,7 +16,7 @@ const BITS: u32 = u64::BITS;
 /// The limbs of a product, or of a significand with as many bits again below it.
 type Double = [u64; 2 * LIMBS];
 
-/// The top of a × b, the highest bit of both being one, and whether that of the product
+/// Returns the top of a × b, the highest bit of both being one, and whether that of the product
 /// is the last but one: then all is shifted by one.
 pub(super) fn product(a: &Limbs, b: &Limbs) -> (Limbs, bool) {
     let mut all: Double = [0; 2 * LIMBS];
@@ -33,7 +33,7 @@ pub(super) fn product(a: &Limbs, b: &Limbs) -> (Limbs, bool) {
     (top(&all, shift), shift > 0)
 }
 
-/// The top of a + b·2⁻ᵍ, the highest bit of both being one, and whether there is a bit
+/// Returns the top of a + b·2⁻ᵍ, the highest bit of both being one, and whether there is a bit
 /// more. The gap is at most as many bits as a significand has: nothing is lost before
 /// the sum is cut.
 pub(super) fn sum(a: &Limbs, b: &Limbs, gap: u32) -> (Limbs, bool) {
@@ -54,7 +54,7 @@ pub(super) fn sum(a: &Limbs, b: &Limbs, gap: u32) -> (Limbs, bool) {
     (kept, carry)
 }
 
-/// The top of |a − b·2⁻ᵍ|, the highest bit of both being one, by how many bits it is
+/// Returns the top of |a − b·2⁻ᵍ|, the highest bit of both being one, by how many bits it is
 /// shifted up, and which of the two is the larger one.
 pub(super) fn difference(a: &Limbs, b: &Limbs, gap: u32) -> (Limbs, u32, Ordering) {
     let (left, right) = (wide(a), lowered(b, gap));
@@ -77,7 +77,7 @@ pub(super) fn difference(a: &Limbs, b: &Limbs, gap: u32) -> (Limbs, u32, Orderin
     (top(&all, shift), shift, order)
 }
 
-/// A significand with as many zeros below it.
+/// Returns a significand with as many zeros below it.
 fn wide(a: &Limbs) -> Double {
     let mut all = [0; 2 * LIMBS];
     all[LIMBS..].copy_from_slice(a);
@@ -98,7 +98,7 @@ fn lowered(a: &Limbs, by: u32) -> Double {
     all
 }
 
-/// The highest limbs of what is shifted up.
+/// Returns the highest limbs of what is shifted up.
 fn top(all: &Double, shift: u32) -> Limbs {
     let (whole, part) = ((shift / BITS) as usize, shift % BITS);
     let limb = |place: usize| (place.checked_sub(whole)).map_or(0, |place| all[place]);
@@ -129,7 +129,7 @@ pub(super) fn cut(x: &BigInt) -> Option<(Limbs, i64)> {
     Some((limbs, bits as i64 - all as i64))
 }
 
-/// The whole number.
+/// Returns the whole number.
 pub(super) fn whole(limbs: &Limbs, negative: bool) -> BigInt {
     let mut bytes = [0; LIMBS * size_of::<u64>()];
     for (part, limb) in bytes.chunks_mut(size_of::<u64>()).zip(limbs) {

@@ -33,7 +33,7 @@ pub struct Wide {
 }
 
 impl Wide {
-    /// A double, exactly; `None` if it is not finite.
+    /// Returns a double, exactly; `None` if it is not finite.
     pub fn from_f64(value: f64) -> Option<Wide> {
         let (mantissa, exponent, sign) = FloatCore::integer_decode(value);
         let bits = u32::from(mantissa > 0) * (u64::BITS - mantissa.leading_zeros());
@@ -49,7 +49,7 @@ impl Wide {
         })
     }
 
-    /// A rational, cut to 256 bits.
+    /// Returns a rational, cut to 256 bits.
     pub fn from_rational(value: &Rational) -> Wide {
         let (numerator, denominator) = (value.numer(), value.denom());
         let missing = BITS + denominator.bits() + 1;
@@ -57,14 +57,14 @@ impl Wide {
         Wide::cut(&((numerator << shift) / denominator), -(shift as i64))
     }
 
-    /// An exact constant.
+    /// Returns an exact constant.
     pub fn from_exact(constant: &Exact) -> Wide {
         let rational = &mut |value: &Rational| Some(Wide::from_rational(value));
         let value = constant.map(rational, &mut Wide::sincos);
         value.unwrap_or_else(Wide::zero)
     }
 
-    /// Sine and cosine of an angle, each within 2⁻²⁵⁵ of the true value.
+    /// Returns sine and cosine of an angle, each within 2⁻²⁵⁵ of the true value.
     pub fn sincos(angle: &Angle) -> SinCosPair<Wide> {
         let bits = BITS as usize + 16;
         let (sin, cos) = sin_cos(angle, bits);
@@ -84,7 +84,7 @@ impl Wide {
         }
     }
 
-    /// The square root, zero of what is negative.
+    /// Returns the square root, zero of what is negative.
     #[must_use]
     pub fn sqrt(&self) -> Wide {
         let whole = self.whole();
@@ -97,7 +97,7 @@ impl Wide {
         Wide::cut(&(whole << shift).sqrt(), (self.exponent - shift) / 2)
     }
 
-    /// self / other; `None` if that is zero.
+    /// Returns self / other; `None` if that is zero.
     pub fn over(&self, other: &Wide) -> Option<Wide> {
         if other.is_zero() {
             return None;
@@ -129,7 +129,7 @@ impl Wide {
         self.above(u64::from(!self.is_zero()))
     }
 
-    /// The first bits of |self| and so many units in the last place of them.
+    /// Returns the first bits of |self| and so many units in the last place of them.
     fn above(&self, units: u64) -> f64 {
         const DROPPED: u32 = u64::BITS - f64::MANTISSA_DIGITS;
         let top = (self.significand[LIMBS - 1] >> DROPPED) + units;
@@ -257,7 +257,7 @@ impl Scalar for Wide {
 }
 
 impl Divide for Wide {
-    /// By zero: zero, for want of an infinity.
+    /// Divides; by zero: zero, for want of an infinity.
     fn div(&self, other: &Self) -> Self {
         self.over(other).unwrap_or_else(Self::zero)
     }

@@ -101,7 +101,7 @@ impl BundleError {
         }
     }
 
-    /// The likely fix.
+    /// Returns the likely fix.
     pub fn help(&self) -> String {
         match self {
             BundleError::Name(_) => {

@@ -44,7 +44,7 @@ const PLUS: char = '+';
 const IS: char = '=';
 
 impl Function {
-    /// A function of this name that returns what all of these return, in their
+    /// Returns a function of this name that returns what all of these return, in their
     /// order; a part that is a bundle stands for its parts.
     ///
     /// ```
@@ -100,12 +100,12 @@ impl Function {
         })))))
     }
 
-    /// Its name as that of a type: `InverseDynamics`.
+    /// Returns its name as that of a type: `InverseDynamics`.
     pub fn camel(self) -> String {
         name::camel(self.name())
     }
 
-    /// The functions that it bundles, in their order; a function that is none is
+    /// Returns the functions that it bundles, in their order; a function that is none is
     /// its only part.
     pub fn parts(self) -> Vec<Function> {
         match self {
@@ -114,7 +114,7 @@ impl Function {
         }
     }
 
-    /// Its name, and what it bundles if it is a bundle, without spaces:
+    /// Returns its name, and what it bundles if it is a bundle, without spaces:
     /// `servo=inverse_dynamics+jacobian`. [`Function::parse`] reads it.
     pub fn text(self) -> String {
         match self {
@@ -127,7 +127,7 @@ impl Function {
         }
     }
 
-    /// The function of a text: a name, one at a frame (`jacobian@camera`), or
+    /// Returns the function of a text: a name, one at a frame (`jacobian@camera`), or
     /// `NAME = PART + PART`.
     ///
     /// # Errors
@@ -150,7 +150,7 @@ impl Function {
         }
     }
 
-    /// These functions in the order of generated files, each once: those of
+    /// Returns these functions in the order of generated files, each once: those of
     /// [`Function::ALL`] in its order, then bundles as they come.
     pub fn in_order(wanted: &[Function]) -> Vec<Function> {
         let mut ordered: Vec<Function> = Function::ALL.to_vec();
@@ -171,7 +171,7 @@ impl Function {
     }
 }
 
-/// A line for its documentation.
+/// Returns a line for its documentation.
 fn summary(parts: &[Function]) -> String {
     let names: Vec<String> = parts.iter().map(|part| format!("`{part}`")).collect();
     let over = match parts.iter().find(|part| part.columns() != Columns::None) {
@@ -187,7 +187,7 @@ fn summary(parts: &[Function]) -> String {
     }
 }
 
-/// A text for as long as the process runs.
+/// Returns a text for as long as the process runs.
 pub(super) fn kept(text: String) -> &'static str {
     Box::leak(text.into_boxed_str())
 }

@@ -61,7 +61,7 @@ pub(in crate::outputs) fn check(name: &str) -> Result<(), BundleError> {
     }
 }
 
-/// The struct of a function: `servo_state` returns a `ServoState`.
+/// Returns the struct of a function: `servo_state` returns a `ServoState`.
 pub(super) fn camel(name: &str) -> String {
     let words = name.split('_').map(|word| {
         let (first, rest) = word.split_at(word.len().min(1));

@@ -114,7 +114,7 @@ fn plain(c: char) -> char {
     if c.is_control() { '\u{fffd}' } else { c }
 }
 
-/// A list of numbers, or a matrix as rows or row by row.
+/// Returns a list of numbers, or a matrix as rows or row by row.
 fn vector(
     keys: &Map<String, Value>,
     key: &'static str,

@@ -3,13 +3,13 @@
 use dalembert_codegen::workspace::function::{Argument, Function, Quantity};
 use dalembert_model::read::closest;
 
-/// The keys of quantities, in the order of the list of outputs.
+/// Returns the keys of quantities, in the order of the list of outputs.
 pub(super) fn given() -> impl Iterator<Item = (&'static str, Quantity)> {
     let all = Quantity::ALL.iter();
     all.filter_map(|&quantity| Some((quantity.given()?, quantity)))
 }
 
-/// The quantity of a key with a frame: `jacobian@camera:local`.
+/// Returns the quantity of a key with a frame: `jacobian@camera:local`.
 pub(super) fn at_frame(key: &str) -> Option<(&'static str, Quantity)> {
     let (name, view) = key.split_once('@')?;
     let (_, quantity) = given().find(|(own, _)| *own == name)?;
@@ -19,13 +19,13 @@ pub(super) fn at_frame(key: &str) -> Option<(&'static str, Quantity)> {
     Some((own, quantity))
 }
 
-/// Every key of a state.
+/// Returns every key of a state.
 pub(super) fn keys() -> Vec<&'static str> {
     let joints = Argument::ALL.into_iter().filter_map(Argument::given);
     joints.chain(given().map(|(key, _)| key)).collect()
 }
 
-/// The results that a state may have, as a message lists them.
+/// Returns the results that a state may have, as a message lists them.
 pub(super) fn results() -> String {
     let keys: Vec<String> = given().map(|(key, _)| format!("`{key}`")).collect();
     keys.join(", ")
@@ -71,7 +71,7 @@ const OTHER_WORDS: [(&str, &str); 33] = [
     ("samples", "states"),
 ];
 
-/// The key that was probably meant.
+/// Returns the key that was probably meant.
 pub(super) fn likely<'k>(word: &str, keys: &[&'k str]) -> Option<&'k str> {
     let small = word.to_ascii_lowercase();
     let same = keys.iter().find(|key| key.eq_ignore_ascii_case(&small));

@@ -8,7 +8,7 @@
 use crate::approximate::prune::columns::{Nodes, Value};
 use crate::program::Output;
 
-/// ∂output/∂node at every sample, node after node; `of` is where it is written: what
+/// Computes ∂output/∂node at every sample, node after node; `of` is where it is written: what
 /// many outputs share need not be had from the system for each.
 pub(super) fn adjoints(
     nodes: &Nodes,

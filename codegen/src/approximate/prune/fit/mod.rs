@@ -52,7 +52,7 @@ pub(super) struct Trial {
 }
 
 impl Fit {
-    /// From the columns of a program under edits; `weights` of rows.
+    /// Makes it from the columns of a program under edits; `weights` of rows.
     pub(super) fn new(
         nodes: &Nodes,
         edits: &[Option<Value>],
@@ -98,7 +98,7 @@ impl Fit {
         Fit::of(all)
     }
 
-    /// From J's columns and the inertia of each.
+    /// Makes it from J's columns and the inertia of each.
     fn of(all: Vec<((usize, bool), Vec<f64>, f64)>) -> Fit {
         let mut fit = Fit {
             places: Vec::new(),
@@ -137,7 +137,7 @@ impl Fit {
         fit
     }
 
-    /// The columns of the constants of some operations.
+    /// Returns the columns of the constants of some operations.
     pub(super) fn of_ops(&self, which: impl Fn(usize) -> bool) -> Vec<usize> {
         let places = self.places.iter().enumerate();
         let of = places.filter(|(_, (op, _))| which(*op));
@@ -172,7 +172,7 @@ impl Fit {
         }
     }
 
-    /// The changes of constants that do so; of those in `gone` none.
+    /// Returns the changes of constants that do so; of those in `gone` none.
     pub(super) fn changes(&self, errors: &[f64], gone: &[usize]) -> Vec<((usize, bool), f64)> {
         let products = self
             .columns
@@ -184,7 +184,7 @@ impl Fit {
         places.zip(least.iter().map(|x| -x)).collect()
     }
 
-    /// (JᵀJ + inertia)⁻¹ y.
+    /// Returns (JᵀJ + inertia)⁻¹ y.
     fn solve(&self, mut y: Vec<f64>) -> Vec<f64> {
         // Rᵀ z = y, then R x = z.
         for (k, column) in self.factor.iter().enumerate() {
@@ -198,7 +198,7 @@ impl Fit {
         y
     }
 
-    /// The least squares if some changes are zero, from those if none is: with S
+    /// Returns the least squares if some changes are zero, from those if none is: with S
     /// the inverse of JᵀJ + inertia and G what is gone, x − S_G (S_GG)⁻¹ x_G.
     fn without(&self, mut x: Vec<f64>, gone: &[usize]) -> Vec<f64> {
         // Gauss's elimination: a pivot is one at its own column, and zero at

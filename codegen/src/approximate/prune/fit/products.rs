@@ -38,7 +38,7 @@ impl Columns {
         }
     }
 
-    /// JᵀE. Two columns at a time: each sum is the one that it would be alone.
+    /// Returns JᵀE. Two columns at a time: each sum is the one that it would be alone.
     pub(super) fn transposed(&self, errors: &[Lanes]) -> Vec<Lanes> {
         let mut products = vec![[0.0; LANES]; self.columns.len()];
         let blocks = errors.chunks(ROWS).zip(&self.live);
@@ -74,7 +74,7 @@ impl Columns {
         products
     }
 
-    /// E − J·δ. Four columns at a time, one after the other in each row.
+    /// Computes E − J·δ. Four columns at a time, one after the other in each row.
     pub(super) fn subtract(&self, changes: &[Lanes], errors: &mut [Lanes]) {
         let blocks = errors.chunks_mut(ROWS).zip(&self.live);
         for (block, (errors, live)) in blocks.enumerate() {
@@ -111,7 +111,7 @@ fn is_live(part: &[f64]) -> bool {
     part.iter().any(|x| *x != 0.0)
 }
 
-/// JᵀJ, the lower triangle.
+/// Returns JᵀJ, the lower triangle.
 pub(super) fn gram(columns: &[&[f64]]) -> Vec<Vec<f64>> {
     let rows = columns.first().map_or(0, |column| column.len());
     let mut gram: Vec<Vec<f64>> = (0..columns.len()).map(|k| vec![0.0; k + 1]).collect();
@@ -141,7 +141,7 @@ pub(super) fn gram(columns: &[&[f64]]) -> Vec<Vec<f64>> {
     gram
 }
 
-/// a + x·b
+/// Computes a + x·b
 #[inline(always)]
 fn add(a: &mut Lanes, x: f64, b: &Lanes) {
     a[0] += x * b[0];
@@ -154,7 +154,7 @@ fn add(a: &mut Lanes, x: f64, b: &Lanes) {
     a[7] += x * b[7];
 }
 
-/// [`dot`] with two columns: each is the one that it would be alone, and what both read
+/// Returns [`dot`] with two columns: each is the one that it would be alone, and what both read
 /// is read once.
 fn dots(a: &[f64], [b, c]: [&[f64]; 2]) -> [f64; 2] {
     let len = a.len().min(b.len()).min(c.len());
@@ -187,7 +187,7 @@ fn dots(a: &[f64], [b, c]: [&[f64]; 2]) -> [f64; 2] {
     ]
 }
 
-/// Eight sums side by side, which is quick.
+/// Computes a product in eight sums side by side, which is quick.
 pub(in crate::approximate::prune) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let len = a.len().min(b.len());
     let (a, b) = (&a[..len], &b[..len]);

@@ -5,7 +5,7 @@ use crate::approximate::prune::columns::{Nodes, Value};
 use crate::approximate::prune::fit::{dot, sized};
 use crate::program::Operation;
 
-/// Zero, the middle of its values, and for a sum one of its operands.
+/// Returns zero, the middle of its values, and for a sum one of its operands.
 pub(super) fn candidates(nodes: &Nodes, node: usize, columns: &[f64]) -> Vec<Value> {
     let m = nodes.samples;
     let mut values = vec![Value::Known(0.0)];
@@ -66,7 +66,7 @@ impl Alike {
         }
     }
 
-    /// The values computed before a node that run most like it, the most
+    /// Returns the values computed before a node that run most like it, the most
     /// alike first.
     pub(super) fn of(&self, node: usize) -> Vec<Value> {
         let Some(mine) = &self.directions[node] else {

@@ -26,7 +26,7 @@ pub(super) struct Attempt {
 }
 
 impl Greedy<'_> {
-    /// The worst sampled error of each output against its allowance.
+    /// Returns the worst sampled error of each output against its allowance.
     pub(in crate::approximate::prune) fn relative(&self, state: &State) -> Vec<f64> {
         let errors = self.errors(&state.nodes, &state.nodes.run(&state.edits));
         let outputs = errors
@@ -84,7 +84,7 @@ impl Greedy<'_> {
         }
     }
 
-    /// Output after output, position after position: monomials.
+    /// Returns monomials, output after output, position after position.
     pub(super) fn errors(&self, nodes: &Nodes, columns: &[f64]) -> Vec<f64> {
         let mut errors = nodes.values(columns);
         for (error, truth) in errors.iter_mut().zip(self.truth) {

@@ -213,14 +213,14 @@ impl<'a> Greedy<'a> {
         }
     }
 
-    /// The last steps: idle edits go, constants are corrected and shortened.
+    /// Takes the last steps: idle edits go, constants are corrected and shortened.
     pub(super) fn settle(&mut self, state: &mut State, original: &Nodes, rounds: usize) {
         self.restore_idle(state);
         self.polish(state, rounds);
         state.nodes.shorten(original);
     }
 
-    /// The edits as the program knows them; constants that nothing reads any
+    /// Returns the edits as the program knows them; constants that nothing reads any
     /// more are not among them.
     pub(super) fn edits(&mut self, original: &Nodes, state: &State) -> Vec<Edit> {
         let mut state = state.clone();

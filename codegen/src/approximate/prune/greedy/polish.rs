@@ -27,7 +27,7 @@ impl Greedy<'_> {
         state.nodes.steps = best.1;
     }
 
-    /// Rows with large errors count more next time (Lawson).
+    /// Makes rows with large errors count more next time (Lawson).
     fn reweigh(&mut self, state: &State, errors: &[f64], worst: f64) {
         if worst <= 0.0 {
             return;
@@ -70,7 +70,7 @@ impl Greedy<'_> {
         })
     }
 
-    /// The columns under edits that came after a fit, constants corrected by it; `None`,
+    /// Returns the columns under edits that came after a fit, constants corrected by it; `None`,
     /// and constants as they were, if they cannot make up for the edits so.
     pub(super) fn corrected(&mut self, state: &mut State, fit: &Option<Fit>) -> Option<Vec<f64>> {
         self.price(state);

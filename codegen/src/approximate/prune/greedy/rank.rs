@@ -17,7 +17,7 @@ const HOPELESS: f64 = 5.0;
 const MARGIN: f64 = 2.0;
 
 impl Greedy<'_> {
-    /// Every admissible candidate.
+    /// Returns every admissible candidate.
     pub(super) fn rank_all(
         &mut self,
         state: &mut State,
@@ -62,7 +62,7 @@ impl Greedy<'_> {
         ranked.collect()
     }
 
-    /// The growth of the error an operation saved, of each candidate; `None` if
+    /// Returns the growth of the error an operation saved, of each candidate; `None` if
     /// it saves nothing or goes too far.
     pub(super) fn scores(
         &mut self,
@@ -110,7 +110,7 @@ impl Greedy<'_> {
         self.trial.extend_from_slice(columns);
     }
 
-    /// The program if a node's edit is new and the columns, which are
+    /// Returns the program if a node's edit is new and the columns, which are
     /// [mirrored](Self::mirror), are not.
     fn retry(&mut self, state: &State, columns: &[f64], fit: &Option<Fit>, node: usize) -> Attempt {
         let nodes = &state.nodes;

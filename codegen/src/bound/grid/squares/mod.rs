@@ -71,7 +71,7 @@ pub(in crate::bound) struct Squares {
 }
 
 impl Squares {
-    /// Of so many polynomials that are zero yet; `None` for too many joints.
+    /// Makes room for so many polynomials that are zero yet; `None` for too many joints.
     pub(in crate::bound) fn new(
         count: usize,
         limits: InputBox,
@@ -85,12 +85,12 @@ impl Squares {
         })
     }
 
-    /// A polynomial in multiples of its angles.
+    /// Sets a polynomial in multiples of its angles.
     pub(in crate::bound) fn set(&mut self, place: usize, harmonics: &Polynomial) {
         self.series[place] = Series::of(harmonics, &self.limits);
     }
 
-    /// A bound of a sum over the box; `None` if it cannot be written out.
+    /// Returns a bound of a sum over the box; `None` if it cannot be written out.
     pub(in crate::bound) fn sum(
         &self,
         products: &[Product],
@@ -129,7 +129,7 @@ impl Squares {
         })
     }
 
-    /// The series that have a weight, without the waves that cost least for the products
+    /// Returns the series that have a weight, without the waves that cost least for the products
     /// that they take: as many as may be, and more where more products than `most` are left.
     fn cut(&self, weights: &Weights, most: usize) -> BTreeMap<usize, Series> {
         let mut cut: BTreeMap<usize, Series> = BTreeMap::new();
@@ -174,7 +174,7 @@ struct Sides {
 }
 
 impl Sides {
-    /// `None` where numbers are too large or too small.
+    /// Returns `None` where numbers are too large or too small.
     fn of(products: &[Product], series: &BTreeMap<usize, Series>) -> Option<Sides> {
         let weights = Weights::of(products, |place| series[&place].mean);
         let side = |side: usize| {
@@ -194,7 +194,7 @@ impl Sides {
         })
     }
 
-    /// G, or a little more than it.
+    /// Returns G, or a little more than it.
     fn polynomial(&self, balance: f64, joints: usize) -> Option<Polynomial> {
         let sides = [(&self.left, 0.5 * balance), (&self.right, 0.5 / balance)];
         spectrum::polynomial(sides, joints)
@@ -242,7 +242,7 @@ mod tests {
 
     const PI: f64 = std::f64::consts::PI;
 
-    /// A polynomial in multiples of two angles and a rate.
+    /// Returns a polynomial in multiples of two angles and a rate.
     fn polynomial(random: &mut Random) -> Polynomial {
         let mut terms: Polynomial = Vec::new();
         for _ in 0..6 {

@@ -40,12 +40,12 @@ impl Wave {
         if self.key == 0 { 1.0 } else { 2.0 }
     }
 
-    /// The largest magnitude.
+    /// Returns the largest magnitude.
     pub(super) fn size(&self) -> f64 {
         self.times() * length(self.value)
     }
 
-    /// The value at angles.
+    /// Returns the value at angles.
     pub(super) fn at(&self, angles: &[f64]) -> f64 {
         let each = angles.iter().zip(multiples(self.key, angles.len()));
         let (sin, cos) = libm::sincos(each.map(|(angle, k)| angle * k as f64).sum());
@@ -53,12 +53,12 @@ impl Wave {
     }
 }
 
-/// The length of a complex number or more: what is too small to be squared counts.
+/// Returns the length of a complex number or more: what is too small to be squared counts.
 fn length([re, im]: [f64; 2]) -> f64 {
     (re * re + im * im).sqrt() + f64::MIN_POSITIVE.sqrt()
 }
 
-/// The multiples of a key, joint by joint.
+/// Returns the multiples of a key, joint by joint.
 pub(super) fn multiples(mut key: i128, joints: usize) -> impl Iterator<Item = i128> {
     let half = 1 << (DIGIT - 1);
     (0..joints).map(move |_| {
@@ -94,7 +94,7 @@ impl Part {
         }
     }
 
-    /// R²/(μ·M), times a weight; `None` where it, or a square of the waves, may underflow
+    /// Returns R²/(μ·M), times a weight; `None` where it, or a square of the waves, may underflow
     /// or overflow.
     pub(super) fn weighted(&self, weight: f64, mean: f64) -> Option<f64> {
         let factors = [weight, self.most / self.mean, self.most / mean];
@@ -119,7 +119,7 @@ pub(super) struct Series {
 }
 
 impl Series {
-    /// Of a polynomial in multiples of its angles.
+    /// Makes the series of a polynomial in multiples of its angles.
     pub(super) fn of(harmonics: &Polynomial, limits: &InputBox) -> Series {
         let all = (0..limits.joints()).fold(0, |all: Key, joint| all | bits(joint));
         // By what is no angle: the middle of its range is a part of p for ρ = 1.
@@ -175,7 +175,7 @@ impl Series {
         before - part.pairs()
     }
 
-    /// What was left out becomes a part of its own.
+    /// Makes what was left out a part of its own.
     pub(super) fn close(&mut self) {
         let mut parts = Vec::with_capacity(self.parts.len() + 1);
         for mut part in self.parts.drain(..) {

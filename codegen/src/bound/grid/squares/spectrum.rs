@@ -56,7 +56,7 @@ impl Spectrum {
         }
     }
 
-    /// With a constant added.
+    /// Returns it with a constant added.
     pub(super) fn plus(mut self, constant: f64) -> Spectrum {
         self.waves.entry(0).or_default()[0] += constant;
         self.sizes += constant;
@@ -64,13 +64,13 @@ impl Spectrum {
         self
     }
 
-    /// The value at angles.
+    /// Returns the value at angles.
     pub(super) fn value(&self, angles: &[f64]) -> f64 {
         let waves = self.sorted();
         waves.iter().map(|wave| wave.at(angles)).sum()
     }
 
-    /// The smallest first, so that sums do not depend on how they are stored.
+    /// Returns the smallest first, so that sums do not depend on how they are stored.
     fn sorted(&self) -> Vec<Wave> {
         let waves = self.waves.iter();
         let mut waves: Vec<Wave> = waves.map(|(&key, &value)| Wave { key, value }).collect();
@@ -80,7 +80,7 @@ impl Spectrum {
     }
 }
 
-/// A weighted sum of spectra in multiples of their angles, with what is left out of it
+/// Returns a weighted sum of spectra in multiples of their angles, with what is left out of it
 /// added at most, so that it is nowhere less; `None` if a multiple does not fit or a sum
 /// is no number.
 pub(super) fn polynomial(parts: [(&Spectrum, f64); 2], joints: usize) -> Option<Polynomial> {
@@ -138,7 +138,7 @@ pub(super) fn polynomial(parts: [(&Spectrum, f64); 2], joints: usize) -> Option<
     Some(terms.map(|(key, x)| (key, Interval::point(x))).collect())
 }
 
-/// Without the highest multiples of each angle, as far as they come to no more than a
+/// Returns it without the highest multiples of each angle, as far as they come to no more than a
 /// part of an allowance each.
 fn without_highest(
     mut waves: Vec<Wave>,
