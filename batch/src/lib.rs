@@ -47,7 +47,8 @@
 //!
 //! - `function`: what a generator says of a function
 //! - `unequal`: slices of different lengths
-//! - `vector`: floats side by side, `x86` and `portable`: those of a processor
+//! - `vector`: floats side by side, `x86` and `portable`: those of a processor; `float`: which
+//!   there are of a float
 //! - `slices`: from slices to vectors and back
 //! - `dispatch`: as wide as the processor's vectors are
 //! - `parallel`: on all cores
@@ -56,6 +57,7 @@
 #![cfg_attr(docsrs, feature(doc_cfg), doc(auto_cfg))]
 #![warn(missing_docs)]
 
+mod float;
 mod function;
 mod unequal;
 mod vector;
@@ -74,8 +76,9 @@ pub mod parallel;
 #[doc(no_inline)]
 pub use dalembert_sines::text::Floats;
 pub use dispatch::{Vectors, columns, columns_in, states, states_in};
+pub use float::Float;
 pub use function::Function;
 pub use unequal::{Slice, Unequal};
-pub use vector::{Float, Vector};
+pub use vector::Vector;
 #[doc(hidden)]
 pub use vector::{sqrt, sqrtf};

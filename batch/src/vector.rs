@@ -1,38 +1,10 @@
 //! Floats side by side, as a generated function computes with them.
 
-use dalembert_sines::text::{Angle, Floats};
+use dalembert_sines::text::Floats;
 
 /// The states that are computed before any other: first their sines, then all the rest, so that
 /// neither takes registers from the other.
 pub(crate) const BLOCK: usize = 64;
-
-/// A float that a function computes in.
-pub trait Float: Angle + 'static {
-    /// Its vector of the target as it is compiled for.
-    type Portable: Vector<Self, Token = ()>;
-    /// Its vector of 256 bits.
-    #[cfg(all(feature = "std", target_arch = "x86_64"))]
-    type Avx2: Vector<Self, Token = pulp::x86::V3>;
-    /// Its vector of 512 bits.
-    #[cfg(all(feature = "std", target_arch = "x86_64"))]
-    type Avx512: Vector<Self, Token = pulp::x86::V4>;
-}
-
-impl Float for f64 {
-    type Portable = dalembert_sines::text::Doubles;
-    #[cfg(all(feature = "std", target_arch = "x86_64"))]
-    type Avx2 = crate::x86::FourDoubles;
-    #[cfg(all(feature = "std", target_arch = "x86_64"))]
-    type Avx512 = crate::x86::EightDoubles;
-}
-
-impl Float for f32 {
-    type Portable = dalembert_sines::text::Singles;
-    #[cfg(all(feature = "std", target_arch = "x86_64"))]
-    type Avx2 = crate::x86::EightFloats;
-    #[cfg(all(feature = "std", target_arch = "x86_64"))]
-    type Avx512 = crate::x86::SixteenFloats;
-}
 
 /// A vector of floats, one for each state.
 pub trait Vector<T>: Floats<T> {

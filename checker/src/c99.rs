@@ -31,7 +31,7 @@ const BEFORE: &str = "#ifndef ARM_H
 #endif
 #if WHEN
 #pragma GCC push_options
-#pragma GCC optimize (\"fp-contract=off\"OPTIONS)
+#pragma GCC optimize (\"fp-contract=off\", \"no-tree-slp-vectorize\"OPTIONS)
 #endif";
 /// Behind that, in a header with batches, and before each.
 const LOOPS: &str = "
@@ -49,7 +49,7 @@ const BEHIND: &str = "#if WHEN\n#pragma GCC pop_options\n#endif\n#endif";
 /// Where gcc is, and where it fuses products and sums by itself.
 const GCC: &str = "defined(__GNUC__) && !defined(__clang__)";
 const FUSES: &str = "defined(__GNUC__) && !defined(__clang__) && (defined(__FP_FAST_FMA) || \
-     defined(__FP_FAST_FMAF)) && (defined(__cplusplus) || !defined(__STRICT_ANSI__))";
+     defined(__FP_FAST_FMAF))";
 
 /// Reads lines that have to be these; what a header does not call, it need not include, and clang
 /// need not be asked to make vectors of loops.

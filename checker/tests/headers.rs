@@ -182,7 +182,7 @@ fn headers_that_are_not_generated() {
             "#define PLANAR2R_UNFUSED",
         ),
         (
-            "#pragma GCC optimize (\"fp-contract=off\")",
+            "#pragma GCC optimize (\"fp-contract=off\", \"no-tree-slp-vectorize\")",
             "#pragma GCC optimize (\"fast-math\")",
         ),
         (

@@ -108,7 +108,15 @@ pub fn changes() -> Vec<(&'static str, Robot, Request)> {
             planar.clone(),
             of(&Function::ALL, SinCos::Together),
         ),
-        ("frames", framed, of(&at_frames, SinCos::Together)),
+        (
+            "frames",
+            framed,
+            Request {
+                // The names of frames are a user's, and these functions' long anyhow.
+                module: Some("p".to_owned()),
+                ..of(&at_frames, SinCos::Together)
+            },
+        ),
         (
             "scene",
             planar.clone(),
@@ -309,7 +317,7 @@ fn names_are_short_and_distinct() {
         assert_eq!(distinct.len(), names.len());
     }
     // Two bundles, the one called as what the other's batch calls.
-    let bundle = |name| Function::bundle(name, [Function::Gravity]).unwrap();
+    let bundle = |name| Function::bundle(name, [Function::Gravity, Function::Inertia]).unwrap();
     let mut request = request(SinCos::Together, Entries::Batch);
     request.functions = vec![bundle("servo"), bundle("servo_any")];
     let error = generate(&robot, &request).unwrap_err().to_string();

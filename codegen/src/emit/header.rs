@@ -12,10 +12,10 @@ use crate::language::{Entries, Language, Printed, columns, cuda};
 use crate::program::{Library, Lowered, ScalarType};
 use crate::task::Task;
 
-/// Where gcc fuses products and sums by itself.
+/// Where gcc may fuse products and sums by itself: in straight lines of alternating sums and
+/// differences (`tree-slp-vectorize`) it does whatever it is told of contraction.
 const FUSES: &str = "defined(__GNUC__) && !defined(__clang__) && \
-     (defined(__FP_FAST_FMA) || defined(__FP_FAST_FMAF)) && \
-     (defined(__cplusplus) || !defined(__STRICT_ANSI__))";
+     (defined(__FP_FAST_FMA) || defined(__FP_FAST_FMAF))";
 /// gcc. It inlines only functions that have the options of those that call them, and makes no
 /// vectors without masks where it first computes (`tree-pre`) what follows of an angle that is far.
 const GCC: &str = "defined(__GNUC__) && !defined(__clang__)";
@@ -93,8 +93,8 @@ pub(crate) fn write(
         .collect();
     let has_loops = request.entries == Entries::Batch && request.language == Language::C;
     let (when, options) = match has_loops {
-        true => (GCC, "\"fp-contract=off\", \"no-tree-pre\""),
-        false => (FUSES, "\"fp-contract=off\""),
+        true => (GCC, ", \"no-tree-pre\""),
+        false => (FUSES, ""),
     };
     // Writing to a string cannot fail.
     let _ = write!(
@@ -108,7 +108,7 @@ pub(crate) fn write(
          #else\n#define {unfused}\n#endif\n\
          #if {when}\n\
          #pragma GCC push_options\n\
-         #pragma GCC optimize ({options})\n\
+         #pragma GCC optimize (\"fp-contract=off\", \"no-tree-slp-vectorize\"{options})\n\
          #endif\n"
     );
     if request.language == Language::Cuda {

@@ -32,7 +32,7 @@ const SHORT: [(&str, &str); 19] = [
 
 /// What is shortened further where that is still too long: `id` and `fd` are the inverse and the
 /// forward dynamics.
-const SHORTER: [(&str, &str); 10] = [
+const SHORTER: [(&str, &str); 12] = [
     ("inv_dyn_", "id_"),
     ("fwd_dyn_", "fd_"),
     ("sec_deriv", "deriv2"),
@@ -43,6 +43,8 @@ const SHORTER: [(&str, &str); 10] = [
     ("oper_inertia", "oper_in"),
     ("consistent", "cons"),
     ("null_space", "null"),
+    ("linear", "lin"),
+    ("angular", "ang"),
 ];
 
 /// The names of one scalar's functions in a header of a language.

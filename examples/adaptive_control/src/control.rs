@@ -44,7 +44,7 @@ impl Wish {
 }
 
 impl Controller {
-    /// Returns one that learns; it begins with the empty arm.
+    /// One that learns; it begins with the empty arm.
     pub fn adaptive() -> Controller {
         Controller {
             estimate: arm::PASSIVITY_PARAMETERS,
@@ -60,7 +60,7 @@ impl Controller {
         }
     }
 
-    /// Returns τ = Y π̂ − K s; and for `period` seconds the estimate goes along −Γ Yᵀ s.
+    /// τ = Y π̂ − K s; and for `period` seconds the estimate goes along −Γ Yᵀ s.
     pub fn torques(&mut self, state: &State, target: &Target, period: f64) -> Joints {
         let Wish { v, a, s } = Wish::new(state, target);
         let y = arm::passivity_regressor(&state.q, &state.qd, &v, &a);
@@ -79,7 +79,7 @@ impl Controller {
     }
 }
 
-/// Returns Σ_k y_k π_k
+/// Σ_k y_k π_k
 pub fn product(row: &Parameters, parameters: &Parameters) -> f64 {
     row.iter().zip(parameters).map(|(y, pi)| y * pi).sum()
 }

@@ -31,7 +31,7 @@ pub struct Run {
 }
 
 impl Run {
-    /// Returns the largest of something in the last second.
+    /// The largest of something in the last second.
     pub fn at_last(&self, of: fn(&Sample) -> f64) -> f64 {
         let second = (1.0 / PERIOD) as usize;
         largest(self.samples.iter().rev().take(second).map(of))
@@ -60,7 +60,7 @@ pub fn run(mut controller: Controller, duration: f64) -> Run {
     Run { samples }
 }
 
-/// Returns the arm with its payload after `period` seconds of constant torques.
+/// The arm with its payload after `period` seconds of constant torques.
 pub fn moved(state: &State, tau: &Joints, period: f64) -> State {
     state.step(period, |state| {
         loaded::forward_dynamics(&state.q, &state.qd, tau)
@@ -74,7 +74,7 @@ fn torque_error(state: &State, target: &Target, controller: &Controller) -> f64 
     distance(&estimate, &loaded::passivity(&state.q, &state.qd, &v, &a))
 }
 
-/// Returns V = ½ sᵀD s + ½ (π̂ − π)ᵀ Γ⁻¹ (π̂ − π), with D and π of the arm with its payload.
+/// V = ½ sᵀD s + ½ (π̂ − π)ᵀ Γ⁻¹ (π̂ − π), with D and π of the arm with its payload.
 pub fn energy(state: &State, target: &Target, estimate: &Parameters) -> f64 {
     let s = Wish::new(state, target).s;
     let d = loaded::inertia(&state.q);

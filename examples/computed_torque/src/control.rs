@@ -7,7 +7,7 @@ use crate::{Joints, puma560};
 /// The closed loop's frequency, rad/s: each joint follows its target as a
 /// critically damped second-order system.
 const FREQUENCY: f64 = 20.0;
-/// Returns τ = c(q) + D(q)(ω² e − 2ω q̇): gravity is compensated, and springs and
+/// τ = c(q) + D(q)(ω² e − 2ω q̇): gravity is compensated, and springs and
 /// dampers hold the pose.
 ///
 /// They act through D, since what holds the shoulder is far too stiff for the
@@ -19,7 +19,7 @@ pub fn hold(state: &State, pose: &Joints) -> Joints {
     puma560::inverse_dynamics(&state.q, &[0.0; puma560::N], &acceleration)
 }
 
-/// Returns τ = D(q)(q̈_d + 2ω ė + ω² e) + h(q, q̇) + c(q), which is the inverse
+/// τ = D(q)(q̈_d + 2ω ė + ω² e) + h(q, q̇) + c(q), which is the inverse
 /// dynamics at a corrected acceleration.
 pub fn computed_torque(state: &State, target: &Target) -> Joints {
     let acceleration = core::array::from_fn(|i| {

@@ -86,7 +86,7 @@ impl<const N: usize> Cycle<N> {
     }
 }
 
-/// Returns x / (|x| + w): a sign that is no step, and takes no root.
+/// x / (|x| + w): a sign that is no step, and takes no root.
 fn smooth_sign(speed: f32) -> f32 {
     speed / (speed.abs() + SMOOTH)
 }

@@ -25,7 +25,7 @@ pub fn target(time: f64) -> Target {
     }
 }
 
-/// Returns τ = D(q)(q̈ + 2ω ė + ω² e) + h(q, q̇) + c(q) + b∘q̇.
+/// τ = D(q)(q̈ + 2ω ė + ω² e) + h(q, q̇) + c(q) + b∘q̇.
 pub fn torques(state: &State, target: &Target) -> Joints {
     let wanted = std::array::from_fn(|i| {
         let (error, rate) = (target.q[i] - state.q[i], target.qd[i] - state.qd[i]);
@@ -34,7 +34,7 @@ pub fn torques(state: &State, target: &Target) -> Joints {
     arm::inverse_dynamics(&state.q, &state.qd, &wanted)
 }
 
-/// Returns the arm and its controller for some seconds at 1 kHz: the largest error of a joint
+/// The arm and its controller for some seconds at 1 kHz: the largest error of a joint
 /// in the second half, when what it began with has died away.
 pub fn follow(seconds: u32) -> f64 {
     const PERIOD: f64 = 1e-3;

@@ -20,7 +20,7 @@
 #endif
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC push_options
-#pragma GCC optimize ("fp-contract=off", "no-tree-pre")
+#pragma GCC optimize ("fp-contract=off", "no-tree-slp-vectorize", "no-tree-pre")
 #endif
 
 /* States of a batch are independent of one another. */

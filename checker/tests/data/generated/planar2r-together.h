@@ -17,9 +17,9 @@
 #else
 #define PLANAR2R_UNFUSED
 #endif
-#if defined(__GNUC__) && !defined(__clang__) && (defined(__FP_FAST_FMA) || defined(__FP_FAST_FMAF)) && (defined(__cplusplus) || !defined(__STRICT_ANSI__))
+#if defined(__GNUC__) && !defined(__clang__) && (defined(__FP_FAST_FMA) || defined(__FP_FAST_FMAF))
 #pragma GCC push_options
-#pragma GCC optimize ("fp-contract=off")
+#pragma GCC optimize ("fp-contract=off", "no-tree-slp-vectorize")
 #endif
 
 /*
@@ -818,7 +818,7 @@ static inline void planar2r_f32_dynamic_coef(const float q[PLANAR2R_RESTRICT 2],
     c[1] = t8;
 }
 
-#if defined(__GNUC__) && !defined(__clang__) && (defined(__FP_FAST_FMA) || defined(__FP_FAST_FMAF)) && (defined(__cplusplus) || !defined(__STRICT_ANSI__))
+#if defined(__GNUC__) && !defined(__clang__) && (defined(__FP_FAST_FMA) || defined(__FP_FAST_FMAF))
 #pragma GCC pop_options
 #endif
 

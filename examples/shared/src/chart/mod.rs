@@ -55,7 +55,7 @@ const PANEL: f64 = 150.0;
 const POINTS: usize = 320;
 
 impl Chart {
-    /// Returns its text.
+    /// Its text.
     pub fn svg(&self) -> String {
         let lines = || self.panels.iter().flat_map(|panel| &panel.lines);
         let times = lines().flat_map(|line| line.points.iter().map(|[time, _]| *time));

@@ -20,7 +20,7 @@ pub struct Page {
 }
 
 impl Page {
-    /// Returns the paper with its title.
+    /// The paper with its title.
     pub fn new(title: &str, width: f64, height: f64) -> Page {
         let name = escaped(title);
         let mut page = Page {
@@ -51,7 +51,7 @@ impl Page {
         ));
     }
 
-    /// Returns the text of the file.
+    /// The text of the file.
     pub fn end(mut self) -> String {
         self.svg.push_str("</svg>\n");
         self.svg
