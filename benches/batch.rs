@@ -65,7 +65,7 @@ fn aligned<T>(column: &mut [T], states: usize) -> &mut [T] {
     &mut column[start..start + states]
 }
 
-/// What gcc made, for AVX-512 and for AVX2.
+/// The programs that gcc made, for AVX-512 and for AVX2.
 struct Compiled {
     wide: Option<Gcc>,
     narrow: Option<Gcc>,

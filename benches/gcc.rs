@@ -1,4 +1,4 @@
-//! The same functions in C, by `gcc -O3`: a program that runs one when it is told to, so that it
+//! Compiles the functions in C by `gcc -O3`: a program that runs one when it is told to, so that it
 //! takes turns with what is compared with it.
 
 use std::io::{BufRead, BufReader, Write};

@@ -12,7 +12,7 @@ use std::time::Instant;
 use dalembert::batch::{Floats, Function, Vector};
 use dalembert_sines::text::{Angle, Number, Pair, by_pairs};
 
-/// What is counted: sums and differences; products; fused ones; bits; sums of integers; shifts;
+/// Counts of operations: sums and differences; products; fused ones; bits; sums of integers; shifts;
 /// comparisons; quotients; roots.
 const KINDS: usize = 9;
 

@@ -27,11 +27,9 @@ impl Vectors {
     /// Returns the widest that the processor has.
     #[must_use]
     pub fn widest() -> Vectors {
-        let wider = [Vectors::Avx512, Vectors::Avx2].into_iter();
-        wider
-            .into_iter()
-            .find(|vectors| vectors.are_there())
-            .unwrap_or(Vectors::Portable)
+        let mut wider = [Vectors::Avx512, Vectors::Avx2].into_iter();
+        let found = wider.find(|vectors| vectors.are_there());
+        found.unwrap_or(Vectors::Portable)
     }
 
     /// Returns whether the processor has them; without the feature `std` nobody asks it.
@@ -113,7 +111,7 @@ where
     Ok(())
 }
 
-/// What is to be computed, in whatever vectors.
+/// A computation that may run in any vectors.
 trait Work {
     type Scalar: Float;
 

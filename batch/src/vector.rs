@@ -8,7 +8,7 @@ pub(crate) const BLOCK: usize = 64;
 
 /// A vector of floats, one for each state.
 pub trait Vector<T>: Floats<T> {
-    /// What shows that the processor has such vectors.
+    /// Proof that the processor has these vectors.
     type Token: Copy;
     /// The number of states.
     const LANES: usize;
@@ -53,7 +53,7 @@ pub fn sqrtf<V: Vector<f32>>(vector: V) -> V {
     vector.sqrt()
 }
 
-/// What vectors have in common that can be made of an array, and made one.
+/// Implements the methods of [`Vector`] that need only conversions from and to an array.
 macro_rules! lanes {
     ($float:ident, $lanes:literal, |$vector:ident| $array:expr, |$own:ident| $shown:expr,
      |$token:ident, $from:ident| $made:expr) => {

@@ -354,7 +354,7 @@ fn alone(source: &str, name: &str) -> (String, String, String) {
     parts.map(str::to_owned).into()
 }
 
-/// Of what calls a function, no line can go or say something else.
+/// Refuses a header if any line around the calls of a function is missing or different.
 #[test]
 fn batches_that_are_something_else() {
     let source = file("checker/tests/data/generated/planar2r-batch.h");

@@ -45,7 +45,7 @@ pub(crate) struct Linked {
     pub(crate) entry: *const u8,
 }
 
-/// How the states lie that a function is for.
+/// Layouts of the states that a function computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum States {
     /// One state: arrays of arguments and one of results.

@@ -144,7 +144,7 @@ pub struct Native {
 struct Many {
     /// Compiled when it is asked for.
     code: OnceLock<Result<Code, CompileError>>,
-    /// Whether it computes what the program does.
+    /// The result of its comparison with the program.
     checked: OnceLock<Result<(), CallError>>,
 }
 

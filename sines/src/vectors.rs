@@ -197,7 +197,7 @@ vector!(FourDoubles, f64x4, u64x4, f64, 4);
 vector!(FourFloats, f32x4, u32x4, f32, 4);
 vector!(EightFloats, f32x8, u32x8, f32, 8);
 
-/// What batches ask of their vectors besides.
+/// Further operations that batches need of vectors.
 macro_rules! batched {
     ($vector:ident, $wide:ident, $float:ident, $lanes:literal, $fma:ident) => {
         impl $vector {

@@ -30,7 +30,7 @@ const SHORT: [(&str, &str); 19] = [
     ("wrench", "wr"),
 ];
 
-/// What is shortened further where that is still too long: `id` and `fd` are the inverse and the
+/// Words that are shortened in names that are still too long: `id` and `fd` are the inverse and the
 /// forward dynamics.
 const SHORTER: [(&str, &str); 12] = [
     ("inv_dyn_", "id_"),

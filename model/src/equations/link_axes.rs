@@ -48,8 +48,8 @@ pub struct SeenHand<'a, S> {
 }
 
 impl<'a, S: Scalar> SeenHand<'a, S> {
-    /// Of components that are not three the axes are those asked for, and of all where
-    /// these are not the base's at the hand.
+    /// Returns the hand in the axes of links. The linear part, and the angular one, stays in the
+    /// axes asked for unless these are the base's and all three of its components are wanted.
     pub fn new(
         formulation: Formulation,
         (arm, at): (&'a Arm<S>, &'a [DhVariables<S>]),

@@ -8,7 +8,7 @@
 //! μ = Λ (J D⁻¹ (h + c) − J̇ q̇)        N = 1 − J̄ J
 //! ```
 //!
-//! Of no more joints than components, J̄ and N need no D⁻¹ (`NormalEquations`):
+//! Where no more joints move than there are components, J̄ and N need no D⁻¹ (`NormalEquations`):
 //!
 //! ```text
 //! J̄ = (Jᵀ J + λ² D)⁻¹ Jᵀ        N = (Jᵀ J + λ² D)⁻¹ λ² D

@@ -59,7 +59,7 @@ pub(super) struct Facts {
     /// True if recursions give it only by differences of torques, which costs
     /// digits and n² recursions.
     pub by_differences: bool,
-    /// What of the hand's forms it reads.
+    /// The parts of a hand's form that it reads.
     pub hand: HandChoice,
     /// True if it is a matrix that is positive definite.
     pub definite: bool,

@@ -19,11 +19,11 @@ pub struct Form {
     pub composite_h: bool,
     /// True if C comes from composite momenta, or from the h_ikm.
     pub flows: bool,
-    /// How the hand is seen.
+    /// The form of quantities of the hand.
     pub hand: HandForm,
 }
 
-/// How dynamics in the space of the hand are associated.
+/// One association of the dynamics in the space of the hand.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct HandForm {
     /// The axes in which its velocity is.
@@ -32,7 +32,7 @@ pub struct HandForm {
     pub normal: bool,
 }
 
-/// What of the hand's forms a quantity reads.
+/// The parts of a hand's form that a quantity reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum HandChoice {
     /// Nothing.
