@@ -116,24 +116,27 @@ fn false_alarms(logs: u64, seconds: f64) -> usize {
     let collisions = [push(0.41 * seconds, 1, 6.0), push(0.77 * seconds, 4, -1.0)];
     println!("level {level:.1}");
     let near = |one: &Collision, time: f64| time > one.start - 0.2 && time < one.start + 0.4;
-    let mut others = 0;
-    for seed in 0..logs {
+    let far = |time: &&f64| !collisions.iter().any(|one| near(one, **time));
+    let others_of = |seed: u64| -> usize {
         let log = scene.record(arms.clone(), &collisions, seconds, seed);
         let said = watched(&scene, &log, 2.0 * level);
-        let alarms: Vec<f64> = said
-            .iter()
-            .filter(|said| said.1.is_some())
-            .map(|x| x.0)
-            .collect();
+        let alarms = said.iter().filter(|said| said.1.is_some());
+        let alarms: Vec<f64> = alarms.map(|said| said.0).collect();
         for one in &collisions {
             assert!(
                 alarms.iter().any(|time| near(one, *time)),
                 "missed {one:?}: {alarms:?}"
             );
         }
-        let far = |time: &&f64| !collisions.iter().any(|one| near(one, **time));
-        others += alarms.iter().filter(far).count();
-    }
+        alarms.iter().filter(far).count()
+    };
+    let others: usize = std::thread::scope(|scope| {
+        let halves = [0, 1].map(|half| {
+            let own = (half..logs).step_by(2).map(&others_of);
+            scope.spawn(move || own.sum::<usize>())
+        });
+        halves.map(|half| half.join().unwrap()).iter().sum()
+    });
     println!("{} collisions found, {others} false alarms", 2 * logs);
     others
 }

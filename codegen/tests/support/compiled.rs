@@ -19,6 +19,8 @@ use dalembert_model::robot::Robot;
 const MOST: usize = 16;
 /// The states of a batch: more than there are threads of a kernel, and no multiple.
 const STATES: usize = 5;
+/// The states that a program is given in one run: batches, whole.
+const AT_ONCE: usize = 200 * STATES;
 
 /// What a CUDA compiler for the device knows, for a processor: no qualifiers, and threads
 /// that take turns.
@@ -148,17 +150,16 @@ fn main_of(base: &str, generated: &Generated, request: &Request) -> String {
     )
 }
 
-/// States whose entries are anywhere.
-fn states(count: usize) -> Vec<Vec<f64>> {
+/// Lists states whose entries are anywhere, without an end.
+fn states() -> impl Iterator<Item = Vec<f64>> {
     let mut seed = 1u64;
-    let mut next = || {
+    let mut next = move || {
         seed = seed
             .wrapping_mul(6364136223846793005)
             .wrapping_add(1442695040888963407);
         ((seed >> 11) as f64 / (1u64 << 53) as f64 - 0.5) * 6.0
     };
-    let state = |_| (0..Argument::COUNT * MOST).map(|_| next()).collect();
-    (0..count).map(state).collect()
+    std::iter::repeat_with(move || (0..Argument::COUNT * MOST).map(|_| next()).collect())
 }
 
 /// Returns what the proved programs give.
@@ -184,8 +185,40 @@ fn expected(generated: &Generated, state: &[f64]) -> Vec<u64> {
     all
 }
 
-/// Compiles and runs it on states, and compares bits with the proved programs. `what` names a
-/// folder.
+/// Compiles the program in a folder by every compiler that is there with each of these flags,
+/// and returns how, with where it is.
+fn compiled(folder: &Path, language: Language, flags: &[&[&str]]) -> Vec<(String, PathBuf)> {
+    let as_language = match language {
+        Language::Cuda => "-xc++",
+        Language::C | Language::Rust => "-xc",
+    };
+    let compilers = there(&["gcc", "clang"]).into_iter();
+    let ways = compilers.flat_map(|compiler| flags.iter().map(move |flags| (compiler, *flags)));
+    let compile = |(index, (compiler, flags)): (usize, (&str, &[&str]))| {
+        let (how, program) = (
+            format!("{compiler} {flags:?}"),
+            folder.join(format!("run{index}")),
+        );
+        let output = Command::new(compiler)
+            .args(flags)
+            .args(["-o".as_ref(), program.as_os_str(), as_language.as_ref()])
+            .arg(folder.join("main.c"))
+            .args(["-xnone", "-lm"])
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(
+            output.status.success(),
+            "{} by {how}: {said}",
+            folder.display()
+        );
+        (how, program)
+    };
+    ways.enumerate().map(compile).collect()
+}
+
+/// Compiles and runs it on so many states, and compares bits with the proved programs. `what`
+/// names a folder.
 pub fn same_bits(what: &str, robot: &Robot, request: &Request, count: usize, flags: &[&[&str]]) {
     let generated = generate(robot, request).unwrap_or_else(|error| panic!("{what}: {error}"));
     let language = request.language;
@@ -194,31 +227,16 @@ pub fn same_bits(what: &str, robot: &Robot, request: &Request, count: usize, fla
     let main = main_of(&request.module_name(robot), &generated, request);
     fs::write(folder.join("arm.h"), &generated.text).unwrap();
     fs::write(folder.join("main.c"), main).unwrap();
-    let states = states(count);
-    let input = states.iter().flatten().flat_map(|x| x.to_ne_bytes());
-    fs::write(folder.join("states"), input.collect::<Vec<u8>>()).unwrap();
-    let expected = states.iter().flat_map(|state| expected(&generated, state));
-    let expected: Vec<u64> = expected.collect();
-    let as_language = match language {
-        Language::Cuda => "-xc++",
-        Language::C | Language::Rust => "-xc",
-    };
-    for compiler in there(&["gcc", "clang"]) {
-        for flags in flags {
-            let program = folder.join("run");
-            let compiled = Command::new(compiler)
-                .args(*flags)
-                .args(["-o".as_ref(), program.as_os_str(), as_language.as_ref()])
-                .arg(folder.join("main.c"))
-                .args(["-xnone", "-lm"])
-                .output()
-                .unwrap();
-            let said = String::from_utf8_lossy(&compiled.stderr);
-            assert!(
-                compiled.status.success(),
-                "{what} by {compiler} {flags:?}: {said}"
-            );
-            let run = Command::new(&program)
+    let programs = compiled(&folder, language, flags);
+    let mut states = states();
+    for start in (0..count).step_by(AT_ONCE) {
+        let states: Vec<Vec<f64>> = states.by_ref().take(AT_ONCE.min(count - start)).collect();
+        let input = states.iter().flatten().flat_map(|x| x.to_ne_bytes());
+        fs::write(folder.join("states"), input.collect::<Vec<u8>>()).unwrap();
+        let expected = states.iter().flat_map(|state| expected(&generated, state));
+        let expected: Vec<u64> = expected.collect();
+        for (how, program) in &programs {
+            let run = Command::new(program)
                 .stdin(fs::File::open(folder.join("states")).unwrap())
                 .output()
                 .unwrap();
@@ -227,7 +245,7 @@ pub fn same_bits(what: &str, robot: &Robot, request: &Request, count: usize, fla
             let found: Vec<u64> = found.collect();
             assert_eq!(found.len(), expected.len(), "{what}");
             let differ = found.iter().zip(&expected).filter(|(a, b)| a != b).count();
-            assert_eq!(differ, 0, "{what} by {compiler} {flags:?}");
+            assert_eq!(differ, 0, "{what} by {how}, states from {start}");
         }
     }
 }
