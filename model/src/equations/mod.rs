@@ -51,6 +51,7 @@ pub mod frames;
 pub mod friction;
 mod from_robot;
 pub mod from_torques;
+mod joint_axes;
 pub mod kinematics;
 pub mod lagrange_euler;
 pub mod link_axes;

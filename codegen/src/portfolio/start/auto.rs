@@ -69,6 +69,7 @@ fn by_textbook(problem: &Problem<'_>) -> Vec<Approach> {
     let others = [
         Formulation::NewtonEulerLinkAsPrinted,
         Formulation::Dalembert,
+        Formulation::NewtonEulerBase,
     ];
     let others = others.map(textbook).into_iter();
     let others = others.filter(|variant| variant.graph != recursion.graph);

@@ -1,0 +1,122 @@
+//! The hand's place and the columns of J by levers in the joints' own axes.
+//!
+//! A joint's column is z × r, r being the lever from its axis to the hand. With r = (x, y, z) in axes of which
+//! the third is the joint's, that is x times their second less y times their first. Carried from the hand
+//! inward, r is constant in the last link, lies in a plane where the hand's does, and turns by one angle a
+//! joint: its components are less work than the lever in base axes, of which no product stays small.
+//!
+//! The axes may be those before the joint turns or those after: near the base the former have entries that
+//! are zero, near the hand the lever has.
+
+use alloc::vec::Vec;
+
+use super::kinematics::frames;
+use super::matrix::{Columns, Vector, difference, scaled, sum, zero_vector};
+use super::{Arm, DhVariables, Link, SinCosPair};
+use crate::robot::{Convention, JointKind};
+use crate::scalar::Scalar;
+
+/// The hand seen from the frames.
+struct Levers<S> {
+    /// From the origins of frames 0 … n, in the frames' axes.
+    of_frames: Vec<Vector<S>>,
+    /// From each joint's axis, in the axes before it turns and after.
+    of_joints: Vec<[Vector<S>; 2]>,
+}
+
+/// Returns the levers to the hand.
+fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Levers<S> {
+    let tool = arm.tool.as_ref();
+    let mut lever = tool.map_or_else(zero_vector, |tool| tool.origin.clone());
+    let mut of_frames = alloc::vec![lever.clone()];
+    let mut of_joints = Vec::with_capacity(at.len());
+    for (link, at) in arm.links.iter().zip(at).rev() {
+        let carried = |at: &DhVariables<S>| {
+            let step = link.append(arm.convention, at, &Columns::identity());
+            let turned = link.to_previous(arm.convention, at, &lever);
+            sum(&turned, &step.origin)
+        };
+        let before = carried(at);
+        of_joints.push(match arm.convention {
+            Convention::Standard => {
+                let still = DhVariables {
+                    theta: unturned(),
+                    d: at.d.clone(),
+                };
+                [before.clone(), carried(&still)]
+            }
+            Convention::Modified => {
+                let [x, y] = at.theta.turn(&lever[0], &lever[1]);
+                [[x, y, lever[2].clone()], lever.clone()]
+            }
+        });
+        of_frames.push(before.clone());
+        lever = before;
+    }
+    of_frames.reverse();
+    of_joints.reverse();
+    Levers {
+        of_frames,
+        of_joints,
+    }
+}
+
+/// Returns the hand's pose in base axes.
+pub(super) fn hand<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
+    let frames = frames(arm, at);
+    let mut hand = frames[at.len()].clone();
+    if let Some(tool) = &arm.tool {
+        hand = hand.then(tool);
+    }
+    let lever = frames[0].rotate(&levers(arm, at).of_frames[0]);
+    hand.origin = match &arm.base {
+        None => lever,
+        Some(base) => sum(&base.origin, &lever),
+    };
+    hand
+}
+
+/// Returns the columns of J in base axes at the hand, linear and angular.
+pub(super) fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Vector<S>; 2]> {
+    let levers = levers(arm, at).of_joints;
+    let frames = frames(arm, at).into_iter();
+    let joints = frames.zip(&arm.links).zip(at).zip(&levers);
+    let column = |(((frame, link), at), [own, turned]): (((Columns<S>, &Link<S>), _), &[_; 2])| {
+        let at: &DhVariables<S> = at;
+        let before = match arm.convention {
+            Convention::Standard => frame,
+            Convention::Modified => frame.turn_x(&link.alpha),
+        };
+        let axis = before.axes[2].clone();
+        if link.kind == JointKind::Prismatic {
+            return [axis, zero_vector()];
+        }
+        let after = before.clone().turn_z(&at.theta);
+        let linear = match zeros(&before, own) > zeros(&after, turned) {
+            true => across(&before, own),
+            false => across(&after, turned),
+        };
+        [linear, axis]
+    };
+    joints.map(column).collect()
+}
+
+/// Returns z × r, of a lever in axes of which z is the third.
+fn across<S: Scalar>(frame: &Columns<S>, lever: &Vector<S>) -> Vector<S> {
+    let [x, y, _] = &frame.axes;
+    difference(&scaled(&lever[0], y), &scaled(&lever[1], x))
+}
+
+/// Returns how many factors of [`across`] vanish by structure.
+fn zeros<S: Scalar>(frame: &Columns<S>, lever: &Vector<S>) -> usize {
+    let factors = frame.axes[..2].iter().flatten().chain(&lever[..2]);
+    factors.filter(|x| x.is_zero()).count()
+}
+
+/// Returns the pair of no turn.
+fn unturned<S: Scalar>() -> SinCosPair<S> {
+    SinCosPair {
+        sin: S::zero(),
+        cos: S::one(),
+    }
+}
