@@ -11,7 +11,7 @@
 use alloc::vec::Vec;
 
 use super::kinematics::frames;
-use super::matrix::{Columns, Vector, difference, scaled, sum, zero_vector};
+use super::matrix::{Columns, Vector, cross, difference, scaled, sum, zero_vector};
 use super::{Arm, DhVariables, Link, SinCosPair};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
@@ -98,6 +98,54 @@ pub(super) fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Ve
         };
         [linear, axis]
     };
+    joints.map(column).collect()
+}
+
+/// Returns the same by axes that are products: of each frame one axis is carried to the base, one seen from the
+/// frame two joints before, which saves the axes of the frame between, and the third is across both.
+pub(super) fn columns_across<S: Scalar>(
+    arm: &Arm<S>,
+    at: &[DhVariables<S>],
+) -> Vec<[Vector<S>; 2]> {
+    let links = || arm.links.iter().zip(at);
+    // An axis of frame i in the axes of an earlier one.
+    let carried = |axis: usize, i: usize, to: usize| {
+        let unit = core::array::from_fn(|k| if k == axis { S::one() } else { S::zero() });
+        let inner = links().take(i).skip(to).rev();
+        inner.fold(unit, |v, (link, at)| {
+            link.to_previous(arm.convention, at, &v)
+        })
+    };
+    // With a twist of a right angle one of them is the joint's axis, which the frame before has.
+    let [seen, from_base] = match arm.convention {
+        Convention::Standard => [2, 1],
+        Convention::Modified => [1, 2],
+    };
+    let mut frames = frames(arm, &at[..0]);
+    for i in 1..=at.len() {
+        let before = i.saturating_sub(2);
+        let mut axes: [Vector<S>; 3] = core::array::from_fn(|_| zero_vector());
+        axes[seen] = frames[before].rotate(&carried(seen, i, before));
+        axes[from_base] = frames[0].rotate(&carried(from_base, i, 0));
+        axes[0] = cross(&axes[1], &axes[2]);
+        frames.push(Columns {
+            axes,
+            origin: zero_vector(),
+        });
+    }
+    let levers = levers(arm, at).of_joints;
+    let column = |(j, (link, [before, after])): (usize, (&Link<S>, &[Vector<S>; 2]))| {
+        let (frame, lever) = match arm.convention {
+            Convention::Standard => (&frames[j], before),
+            Convention::Modified => (&frames[j + 1], after),
+        };
+        let axis = frame.axes[2].clone();
+        match link.kind {
+            JointKind::Prismatic => [axis, zero_vector()],
+            JointKind::Revolute => [across(frame, lever), axis],
+        }
+    };
+    let joints = arm.links.iter().zip(&levers).enumerate();
     joints.map(column).collect()
 }
 

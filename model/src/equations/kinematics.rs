@@ -118,6 +118,7 @@ impl Formulation {
         match self {
             Self::LagrangeEuler => (0..at.len()).map(|j| by_rates(arm, at, j)).collect(),
             Self::NewtonEulerBase => joint_axes::columns(arm, at),
+            Self::NewtonEulerLinkAsPrinted => joint_axes::columns_across(arm, at),
             _ => {
                 let levers = levers(arm, at);
                 (0..at.len()).map(|j| geometric(arm, &levers, j)).collect()

@@ -65,22 +65,20 @@ pub(super) fn approaches(problem: &Problem<'_>) -> Vec<Approach> {
 fn by_textbook(problem: &Problem<'_>) -> Vec<Approach> {
     let textbook = |form| textbook(problem.scene_robot, problem.function, form);
     let recursion = textbook(Formulation::NewtonEulerLink);
-    let products = textbook(Formulation::LagrangeEuler);
-    let others = [
-        Formulation::NewtonEulerLinkAsPrinted,
-        Formulation::Dalembert,
-        Formulation::NewtonEulerBase,
-    ];
-    let others = others.map(textbook).into_iter();
+    let products = textbook(Formulation::LagrangeEuler).graph;
+    let printed = textbook(Formulation::NewtonEulerLinkAsPrinted);
+    let others = [Formulation::Dalembert, Formulation::NewtonEulerBase].map(textbook);
+    let helpers = vec![products.clone(), printed.graph.clone()];
+    let others = [printed].into_iter().chain(others);
     let others = others.filter(|variant| variant.graph != recursion.graph);
     let others = others.map(|variant| Approach {
-        others: vec![products.graph.clone()],
+        others: helpers.clone(),
         ..Approach::of(variant)
     });
     let mut approaches: Vec<Approach> = others.collect();
     let both = Approach {
         tuned: None,
-        variants: vec![recursion, products],
+        variants: vec![recursion, textbook(Formulation::LagrangeEuler)],
         others: Vec::new(),
     };
     approaches.insert(0, both);
