@@ -8,6 +8,7 @@
 //! depend on how the last digits of its parameters happen to fall.
 
 use std::array::from_fn;
+use std::cell::Cell;
 use std::collections::BTreeMap;
 
 use dalembert_model::equations::friction::per_speed;
@@ -39,32 +40,58 @@ pub struct Rounding {
 impl Rounding {
     /// Estimates the rounding error of a program inside the limits of the scene's robot.
     pub fn estimate(scene_robot: &SceneRobot, program: &Program) -> Rounding {
+        Rounding::until(scene_robot, program, &Cell::default(), |_| false)
+    }
+
+    /// Estimates the same, until what the states so far say is enough; `first` are the states to
+    /// begin with, and then those that were enough.
+    pub(crate) fn until(
+        scene_robot: &SceneRobot,
+        program: &Program,
+        first: &Cell<usize>,
+        is_enough: impl Fn(&Rounding) -> bool,
+    ) -> Rounding {
         let network = Network::new(program);
         let states = scene_robot.states(STATES, SEED);
-        let runs = network.errors(&states);
+        let mut ranges = Vec::new();
+        let mut start = 0;
+        for quantity in program.function.quantities() {
+            ranges.push(start..start + quantity.len(program.sizes()));
+            start += quantity.len(program.sizes());
+        }
         let mut rounding = Rounding {
-            normwise: Vec::new(),
+            normwise: vec![0.0; ranges.len()],
             per_output: Vec::new(),
         };
         let ratio = |error: f64, size: f64| if size > 0.0 { error / size } else { 0.0 };
         let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-        let mut start = 0;
-        for quantity in program.function.quantities() {
-            let range = start..start + quantity.len(program.sizes());
-            start = range.end;
-            let normwise = largest(&mut runs.iter().map(|run| {
-                let size = largest(&mut run[range.clone()].iter().map(|(value, _)| value.abs()));
-                let error = largest(&mut run[range.clone()].iter().map(|(_, error)| *error));
-                ratio(error, size)
-            }));
-            let per_output = largest(&mut range.clone().map(|i| {
+        let mut runs = Vec::with_capacity(states.len());
+        let mut chunks: Vec<(usize, &[JointState])> = states.chunks(LANES).enumerate().collect();
+        chunks.sort_by_key(|(chunk, _)| *chunk != first.get());
+        for (chunk, states) in chunks {
+            let found = network.errors(states);
+            for (normwise, range) in rounding.normwise.iter_mut().zip(&ranges) {
+                let own = largest(&mut found.iter().map(|run| {
+                    let run = &run[range.clone()];
+                    let size = largest(&mut run.iter().map(|(value, _)| value.abs()));
+                    ratio(largest(&mut run.iter().map(|(_, error)| *error)), size)
+                }));
+                *normwise = normwise.max(own);
+            }
+            runs.extend(found);
+            if is_enough(&rounding) {
+                first.set(chunk);
+                return rounding;
+            }
+        }
+        let per_output = ranges.into_iter().map(|range| {
+            largest(&mut range.map(|i| {
                 let size = largest(&mut runs.iter().map(|run| run[i].0.abs()));
                 let error = largest(&mut runs.iter().map(|run| run[i].1));
                 ratio(error, size)
-            }));
-            rounding.normwise.push(normwise);
-            rounding.per_output.push(per_output);
-        }
+            }))
+        });
+        rounding.per_output = per_output.collect();
         rounding
     }
 
@@ -118,13 +145,9 @@ impl<'a> Network<'a> {
 
     /// Returns each output with its error, in units of u, a list a state.
     fn errors(&self, states: &[JointState]) -> Vec<Vec<(f64, f64)>> {
-        let mut runs = Vec::with_capacity(states.len());
-        for chunk in states.chunks(LANES) {
-            let found = self.side_by_side(chunk);
-            let of = |lane: usize| found.iter().map(move |(x, e)| (x.0[lane], e.0[lane]));
-            runs.extend((0..chunk.len()).map(|lane| of(lane).collect()));
-        }
-        runs
+        let found = self.side_by_side(states);
+        let of = |lane: usize| found.iter().map(move |(x, e)| (x.0[lane], e.0[lane]));
+        (0..states.len()).map(|lane| of(lane).collect()).collect()
     }
 
     /// Returns each output with its error for a few states; lanes beyond repeat the last of

@@ -38,13 +38,7 @@ fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Levers<S> {
         };
         let before = carried(at);
         of_joints.push(match arm.convention {
-            Convention::Standard => {
-                let still = DhVariables {
-                    theta: unturned(),
-                    d: at.d.clone(),
-                };
-                [before.clone(), carried(&still)]
-            }
+            Convention::Standard => [before.clone(), carried(&unturned(at))],
             Convention::Modified => {
                 let [x, y] = at.theta.turn(&lever[0], &lever[1]);
                 [[x, y, lever[2].clone()], lever.clone()]
@@ -102,31 +96,30 @@ pub(super) fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Ve
 }
 
 /// Returns the same by axes that are products: of each frame one axis is carried to the base, one seen from the
-/// frame two joints before, which saves the axes of the frame between, and the third is across both.
+/// frame two joints before, which saves the axes of the frame between, and the third is across both. Columns of
+/// the joints near the base are carried there, too.
 pub(super) fn columns_across<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
 ) -> Vec<[Vector<S>; 2]> {
     let links = || arm.links.iter().zip(at);
-    // An axis of frame i in the axes of an earlier one.
-    let carried = |axis: usize, i: usize, to: usize| {
-        let unit = core::array::from_fn(|k| if k == axis { S::one() } else { S::zero() });
+    // A vector of frame i in the axes of an earlier one.
+    let carried = |v: Vector<S>, i: usize, to: usize| {
         let inner = links().take(i).skip(to).rev();
-        inner.fold(unit, |v, (link, at)| {
-            link.to_previous(arm.convention, at, &v)
-        })
+        inner.fold(v, |v, (link, at)| link.to_previous(arm.convention, at, &v))
     };
+    let [_, y, z] = Columns::identity().axes;
     // With a twist of a right angle one of them is the joint's axis, which the frame before has.
     let [seen, from_base] = match arm.convention {
-        Convention::Standard => [2, 1],
-        Convention::Modified => [1, 2],
+        Convention::Standard => [(2, z), (1, y)],
+        Convention::Modified => [(1, y), (2, z)],
     };
     let mut frames = frames(arm, &at[..0]);
     for i in 1..=at.len() {
         let before = i.saturating_sub(2);
         let mut axes: [Vector<S>; 3] = core::array::from_fn(|_| zero_vector());
-        axes[seen] = frames[before].rotate(&carried(seen, i, before));
-        axes[from_base] = frames[0].rotate(&carried(from_base, i, 0));
+        axes[seen.0] = frames[before].rotate(&carried(seen.1.clone(), i, before));
+        axes[from_base.0] = frames[0].rotate(&carried(from_base.1.clone(), i, 0));
         axes[0] = cross(&axes[1], &axes[2]);
         frames.push(Columns {
             axes,
@@ -134,18 +127,26 @@ pub(super) fn columns_across<S: Scalar>(
         });
     }
     let levers = levers(arm, at).of_joints;
-    let column = |(j, (link, [before, after])): (usize, (&Link<S>, &[Vector<S>; 2]))| {
+    let column = |(j, ((link, at), [before, after])): (usize, ((&Link<S>, _), &[Vector<S>; 2]))| {
+        let at: &DhVariables<S> = at;
         let (frame, lever) = match arm.convention {
             Convention::Standard => (&frames[j], before),
             Convention::Modified => (&frames[j + 1], after),
         };
         let axis = frame.axes[2].clone();
-        match link.kind {
-            JointKind::Prismatic => [axis, zero_vector()],
-            JointKind::Revolute => [across(frame, lever), axis],
+        if link.kind == JointKind::Prismatic {
+            return [axis, zero_vector()];
         }
+        if 2 * j >= arm.links.len() {
+            return [across(frame, lever), axis];
+        }
+        let mut own = across(&Columns::identity(), before);
+        if arm.convention == Convention::Modified {
+            own = link.to_previous(arm.convention, &unturned(at), &own);
+        }
+        [frames[0].rotate(&carried(own, j, 0)), axis]
     };
-    let joints = arm.links.iter().zip(&levers).enumerate();
+    let joints = links().zip(&levers).enumerate();
     joints.map(column).collect()
 }
 
@@ -161,10 +162,13 @@ fn zeros<S: Scalar>(frame: &Columns<S>, lever: &Vector<S>) -> usize {
     factors.filter(|x| x.is_zero()).count()
 }
 
-/// Returns the pair of no turn.
-fn unturned<S: Scalar>() -> SinCosPair<S> {
-    SinCosPair {
-        sin: S::zero(),
-        cos: S::one(),
+/// Returns a joint's place without its turn.
+fn unturned<S: Scalar>(at: &DhVariables<S>) -> DhVariables<S> {
+    DhVariables {
+        theta: SinCosPair {
+            sin: S::zero(),
+            cos: S::one(),
+        },
+        d: at.d.clone(),
     }
 }
