@@ -1,12 +1,12 @@
 //! The hand's place and the columns of J by levers in the joints' own axes.
 //!
-//! A joint's column is z × r, r being the lever from its axis to the hand. With r = (x, y, z) in axes of which
-//! the third is the joint's, that is x times their second less y times their first. Carried from the hand
-//! inward, r is constant in the last link, lies in a plane where the hand's does, and turns by one angle a
-//! joint: its components are less work than the lever in base axes, of which no product stays small.
+//! A joint's column is z × r, r being the lever from its axis to the hand. With r = (x, y, z) in
+//! axes of which the third is the joint's, that is x times their second less y times their first.
+//! Carried from the hand inward, r is constant in the last link and turns by one angle a joint. Where
+//! it lies in a plane with the axis, as past a wrist, the column is one axis times a number.
 //!
-//! The axes may be those before the joint turns or those after: near the base the former have entries that
-//! are zero, near the hand the lever has.
+//! The axes may be those before the joint turns or those after: near the base the former have
+//! entries that are zero, near the hand the lever has.
 
 use alloc::vec::Vec;
 
@@ -95,9 +95,9 @@ pub(super) fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Ve
     joints.map(column).collect()
 }
 
-/// Returns the same by axes that are products: of each frame one axis is carried to the base, one seen from the
-/// frame two joints before, which saves the axes of the frame between, and the third is across both. Columns of
-/// the joints near the base are carried there, too.
+/// Returns the same by axes that are products: of each frame one axis is carried to the base, one
+/// seen from the frame two joints before, which saves the axes of the frame between, and the third
+/// is across both. Columns of the joints near the base are carried there, too.
 pub(super) fn columns_across<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],

@@ -76,7 +76,7 @@ impl Formulation {
     /// Returns the pose of the hand, ⁰A_n but for base and tool: the recursions in link
     /// axes go from the hand inward, which is less work alone, with three axes or with
     /// two; Lagrange–Euler multiplies from the base outward; the others add the levers
-    /// of a Jacobian.
+    /// of a Jacobian, in base axes or in the joints' own.
     pub fn hand<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
         let (arm, at) = arm.to_hand(at);
         let arm = &*arm;
@@ -343,7 +343,8 @@ fn inward<S: Scalar>(
     }
 }
 
-/// Returns the axes of frames 0 … n in base axes and, in the place of the origin, the step from the frame before.
+/// Returns the axes of frames 0 … n in base axes and, in the place of the origin, the step from
+/// the frame before.
 pub(super) fn frames<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
     let unmoved = |frame: &Columns<S>| Columns {
         axes: frame.axes.clone(),
