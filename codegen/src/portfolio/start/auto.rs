@@ -67,9 +67,12 @@ fn by_textbook(problem: &Problem<'_>) -> Vec<Approach> {
     let recursion = textbook(Formulation::NewtonEulerLink);
     let products = textbook(Formulation::LagrangeEuler);
     let printed = textbook(Formulation::NewtonEulerLinkAsPrinted);
-    let base = textbook(Formulation::NewtonEulerBase);
     let helpers = vec![products.graph.clone(), printed.graph.clone()];
-    let mut others = vec![base, printed];
+    let mut others = vec![
+        printed,
+        textbook(Formulation::Dalembert),
+        textbook(Formulation::NewtonEulerBase),
+    ];
     others.retain(|variant| variant.graph != recursion.graph);
     others.dedup_by(|second, first| second.graph == first.graph);
     let others = others.into_iter().map(|variant| Approach {
