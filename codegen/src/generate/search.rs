@@ -177,7 +177,7 @@ impl Search<'_> {
     ) -> Result<Found, GenerateError> {
         let (scene_robot, function) = (self.task.scene_robot, self.function);
         let start = self.task.request.start;
-        let excess = |graph: &Graph| self.judge.excess(graph);
+        let excess = |graph: &Graph, bound| self.judge.excess(graph, bound);
         let limit: Option<Limit<'_>> = limited.then_some(&excess);
         let approaches = start.approaches(&Problem {
             scene_robot,

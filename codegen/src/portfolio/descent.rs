@@ -20,8 +20,8 @@ use crate::watch::{FunctionWatch, Part};
 const MAX_TRIED: usize = 3;
 
 /// How far a program is above the error that is allowed: at most one where it
-/// is admitted.
-pub(crate) type Limit<'a> = &'a dyn Fn(&Graph) -> f64;
+/// is admitted. What reaches the bound need not be exact.
+pub(crate) type Limit<'a> = &'a dyn Fn(&Graph, f64) -> f64;
 
 /// Above every price of an admitted program. What is refused is compared by
 /// its error, so that a descent from there first goes where it is admitted.
@@ -33,7 +33,12 @@ fn price(graph: &Graph, limit: Option<Limit<'_>>, below: u64) -> u64 {
     let Some(limit) = limit.filter(|_| cost < below) else {
         return cost;
     };
-    match limit(graph) {
+    // What is refused loses to all that is admitted, and to what is refused for less.
+    let bound = match below.checked_sub(REFUSED) {
+        None => 1.0,
+        Some(refused) => (refused as f64 / 1e6).max(1.0),
+    };
+    match limit(graph, bound.next_up()) {
         admitted if admitted <= 1.0 => cost,
         refused => REFUSED + (refused * 1e6) as u64,
     }

@@ -1,5 +1,7 @@
 //! Accepts programs whose rounding error is at most a few times that of a textbook form.
 
+use std::cell::Cell;
+
 use dalembert_model::equations::Formulation;
 
 use super::rounding::Rounding;
@@ -40,6 +42,8 @@ pub(crate) struct AccuracyFilter<'a> {
     scene_robot: &'a SceneRobot,
     function: Function,
     reference_formulation: Option<Rounding>,
+    /// Where the last program that was refused erred most: the next may, too.
+    worst_states: Cell<usize>,
 }
 
 impl<'a> AccuracyFilter<'a> {
@@ -61,6 +65,7 @@ impl<'a> AccuracyFilter<'a> {
             scene_robot,
             function,
             reference_formulation,
+            worst_states: Cell::default(),
         }
     }
 
@@ -70,22 +75,30 @@ impl<'a> AccuracyFilter<'a> {
             scene_robot,
             function,
             reference_formulation: None,
+            worst_states: Cell::default(),
         }
     }
 
     /// Returns whether the program is accurate enough.
     pub(crate) fn accepts(&self, graph: &Graph) -> bool {
-        self.excess(graph) <= 1.0
+        self.excess(graph, 1.0_f64.next_up()) <= 1.0
     }
 
     /// Returns the program's error over the largest that is accepted; zero where
-    /// nothing is measured.
-    pub(crate) fn excess(&self, graph: &Graph) -> f64 {
+    /// nothing is measured. What reaches the bound need not be exact.
+    pub(crate) fn excess(&self, graph: &Graph, bound: f64) -> f64 {
         let Some(reference_formulation) = &self.reference_formulation else {
             return 0.0;
         };
-        let own = estimate(self.scene_robot, self.function, graph);
-        own.factor(reference_formulation, FLOOR) / WORSE
+        let excess = |own: &Rounding| own.factor(reference_formulation, FLOOR) / WORSE;
+        let program = Program::in_scene(self.scene_robot, self.function, graph);
+        let reaches = |own: &Rounding| excess(own) >= bound;
+        excess(&Rounding::until(
+            self.scene_robot,
+            &program,
+            &self.worst_states,
+            reaches,
+        ))
     }
 
     /// Returns the program's largest normwise error, in units of u.

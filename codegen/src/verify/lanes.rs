@@ -1,8 +1,6 @@
 //! Numbers of several states side by side: what a state's own arithmetic would give, in
 //! loops that a compiler makes vectors of.
 
-use std::array::from_fn;
-
 use dalembert_model::scalar::{Divide, Scalar};
 
 /// The number of states side by side.
@@ -19,57 +17,77 @@ impl Lanes {
         Lanes([value; LANES])
     }
 
+    #[inline]
     pub(super) fn vanishes(&self) -> bool {
         self.0.iter().all(|x| *x == 0.0)
     }
 
-    fn map(&self, f: impl Fn(f64) -> f64) -> Lanes {
-        Lanes(self.0.map(f))
+    // Plain loops, inlined: compilers make calls of arrays' own `map` and `from_fn` here.
+    #[inline(always)]
+    fn map(mut self, f: impl Fn(f64) -> f64) -> Lanes {
+        for x in &mut self.0 {
+            *x = f(*x);
+        }
+        self
     }
 
-    fn zip(&self, other: &Lanes, f: impl Fn(f64, f64) -> f64) -> Lanes {
-        Lanes(from_fn(|k| f(self.0[k], other.0[k])))
+    #[inline(always)]
+    fn zip(mut self, other: &Lanes, f: impl Fn(f64, f64) -> f64) -> Lanes {
+        for (x, y) in self.0.iter_mut().zip(&other.0) {
+            *x = f(*x, *y);
+        }
+        self
     }
 
     /// Returns x²
+    #[inline]
     pub(super) fn square(&self) -> Lanes {
         self.map(|x| x * x)
     }
 
     /// Returns √x
+    #[inline]
     pub(super) fn sqrt(&self) -> Lanes {
         self.map(libm::sqrt)
     }
 }
 
 impl Scalar for Lanes {
+    #[inline]
     fn zero() -> Self {
         Lanes::all(0.0)
     }
+    #[inline]
     fn one() -> Self {
         Lanes::all(1.0)
     }
+    #[inline]
     fn add(&self, other: &Self) -> Self {
         self.zip(other, |x, y| x + y)
     }
+    #[inline]
     fn sub(&self, other: &Self) -> Self {
         self.zip(other, |x, y| x - y)
     }
+    #[inline]
     fn mul(&self, other: &Self) -> Self {
         self.zip(other, |x, y| match x == 0.0 || y == 0.0 {
             true => 0.0,
             false => x * y,
         })
     }
+    #[inline]
     fn neg(&self) -> Self {
         self.map(|x| -x)
     }
+    #[inline]
     fn half(&self) -> Self {
         self.map(|x| 0.5 * x)
     }
 }
 
 impl Divide for Lanes {
+    #[inline]
     fn div(&self, other: &Self) -> Self {
         self.zip(other, |x, y| match x == 0.0 {
             true => 0.0,

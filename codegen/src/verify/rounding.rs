@@ -8,7 +8,9 @@
 //! depend on how the last digits of its parameters happen to fall.
 
 use std::array::from_fn;
+use std::cell::Cell;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use dalembert_model::equations::friction::per_speed;
 use dalembert_model::number::{Exact, Rounded};
@@ -39,31 +41,62 @@ pub struct Rounding {
 impl Rounding {
     /// Estimates the rounding error of a program inside the limits of the scene's robot.
     pub fn estimate(scene_robot: &SceneRobot, program: &Program) -> Rounding {
+        Rounding::until(scene_robot, program, &Cell::default(), |_| false)
+    }
+
+    /// Estimates the same, until what the states so far say is enough: it only ever grows. `first`
+    /// are the states to begin with, and then those that were enough.
+    pub(crate) fn until(
+        scene_robot: &SceneRobot,
+        program: &Program,
+        first: &Cell<usize>,
+        is_enough: impl Fn(&Rounding) -> bool,
+    ) -> Rounding {
         let network = Network::new(program);
         let states = scene_robot.states(STATES, SEED);
-        let runs = network.errors(&states);
+        let runs = states.chunks(LANES).map(|states| network.run(states));
+        let mut runs: Vec<(usize, Run)> = runs.enumerate().collect();
+        let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+        let size = |output: usize| {
+            let values = runs.iter().flat_map(|(_, run)| run.outputs[output].0);
+            largest(&mut values.map(f64::abs))
+        };
+        let sizes: Vec<f64> = (0..program.outputs.len()).map(size).collect();
+        let mut ranges = Vec::new();
+        for quantity in program.function.quantities() {
+            let start = ranges.last().map_or(0, |range: &Range<usize>| range.end);
+            ranges.push(start..start + quantity.len(program.sizes()));
+        }
         let mut rounding = Rounding {
-            normwise: Vec::new(),
-            per_output: Vec::new(),
+            normwise: vec![0.0; ranges.len()],
+            per_output: vec![0.0; ranges.len()],
         };
         let ratio = |error: f64, size: f64| if size > 0.0 { error / size } else { 0.0 };
-        let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-        let mut start = 0;
-        for quantity in program.function.quantities() {
-            let range = start..start + quantity.len(program.sizes());
-            start = range.end;
-            let normwise = largest(&mut runs.iter().map(|run| {
-                let size = largest(&mut run[range.clone()].iter().map(|(value, _)| value.abs()));
-                let error = largest(&mut run[range.clone()].iter().map(|(_, error)| *error));
-                ratio(error, size)
-            }));
-            let per_output = largest(&mut range.clone().map(|i| {
-                let size = largest(&mut runs.iter().map(|run| run[i].0.abs()));
-                let error = largest(&mut runs.iter().map(|run| run[i].1));
-                ratio(error, size)
-            }));
-            rounding.normwise.push(normwise);
-            rounding.per_output.push(per_output);
+        runs.sort_by_key(|(index, _)| *index != first.get());
+        for (index, run) in runs {
+            let errors = network.errors(&run);
+            for (quantity, range) in ranges.iter().enumerate() {
+                let (values, own) = (&run.outputs[range.clone()], &errors[range.clone()]);
+                let normwise = largest(&mut (0..LANES).map(|lane| {
+                    let size = largest(&mut values.iter().map(|value| value.0[lane].abs()));
+                    ratio(largest(&mut own.iter().map(|error| error.0[lane])), size)
+                }));
+                let each = own.iter().zip(&sizes[range.clone()]);
+                let per_output = largest(
+                    &mut each.flat_map(|(error, size)| error.0.map(|error| ratio(error, *size))),
+                );
+                let worst = [
+                    &mut rounding.normwise[quantity],
+                    &mut rounding.per_output[quantity],
+                ];
+                for (worst, own) in worst.into_iter().zip([normwise, per_output]) {
+                    *worst = worst.max(own);
+                }
+            }
+            if is_enough(&rounding) {
+                first.set(index);
+                break;
+            }
         }
         rounding
     }
@@ -96,6 +129,16 @@ struct Network<'a> {
     shared: Vec<[Option<usize>; 2]>,
 }
 
+/// A program's values at a few states.
+struct Run {
+    values: Vec<Lanes>,
+    /// What each step reads.
+    operands: Vec<[Lanes; 2]>,
+    /// The sine and the cosine of each angle, in the order of `trig`.
+    pairs: Vec<(Lanes, Lanes)>,
+    outputs: Vec<Lanes>,
+}
+
 impl<'a> Network<'a> {
     fn new(program: &'a Program) -> Self {
         let mut known: BTreeMap<&'a Exact, usize> = BTreeMap::new();
@@ -116,20 +159,8 @@ impl<'a> Network<'a> {
         }
     }
 
-    /// Returns each output with its error, in units of u, a list a state.
-    fn errors(&self, states: &[JointState]) -> Vec<Vec<(f64, f64)>> {
-        let mut runs = Vec::with_capacity(states.len());
-        for chunk in states.chunks(LANES) {
-            let found = self.side_by_side(chunk);
-            let of = |lane: usize| found.iter().map(move |(x, e)| (x.0[lane], e.0[lane]));
-            runs.extend((0..chunk.len()).map(|lane| of(lane).collect()));
-        }
-        runs
-    }
-
-    /// Returns each output with its error for a few states; lanes beyond repeat the last of
-    /// them.
-    fn side_by_side(&self, states: &[JointState]) -> Vec<(Lanes, Lanes)> {
+    /// Computes the values at a few states; lanes beyond repeat the last of them.
+    fn run(&self, states: &[JointState]) -> Run {
         let each = |of: &dyn Fn(&JointState) -> f64| {
             Lanes(from_fn(|lane| {
                 let state = states.get(lane).or(states.last());
@@ -178,21 +209,31 @@ impl<'a> Network<'a> {
             operands.push([x, y]);
             values.push(step.operation.apply(&x, &y));
         }
-        let outputs = self.program.outputs.iter().map(|output| {
-            let error = self.error(&output.value, &values, &operands, &pairs);
-            (value(&output.value, &values, input), error)
-        });
-        outputs.collect()
+        let outputs = self.program.outputs.iter();
+        let outputs = outputs.map(|output| value(&output.value, &values, input));
+        Run {
+            outputs: outputs.collect(),
+            values,
+            operands,
+            pairs,
+        }
+    }
+
+    /// Returns each output's error, in units of u.
+    fn errors(&self, run: &Run) -> Vec<Lanes> {
+        let outputs = self.program.outputs.iter();
+        let errors = outputs.map(|output| self.error(&output.value, run));
+        errors.collect()
     }
 
     /// Returns the root of the sum of squares of all errors, as they reach an output.
-    fn error(
-        &self,
-        output: &Operand,
-        values: &[Lanes],
-        operands: &[[Lanes; 2]],
-        pairs: &[(Lanes, Lanes)],
-    ) -> Lanes {
+    fn error(&self, output: &Operand, run: &Run) -> Lanes {
+        let Run {
+            values,
+            operands,
+            pairs,
+            ..
+        } = run;
         let mut squares = Lanes::zero();
         let mut constants = vec![Lanes::zero(); self.constants.len()];
         let mut slopes = vec![(Lanes::zero(), Lanes::zero()); pairs.len()];

@@ -14,7 +14,7 @@ use super::matrix::{
     zero_vector, zeros,
 };
 use super::newton_euler::{Motion, Wrench, table1};
-use super::{Arm, DhVariables, Formulation, Link, from_torques};
+use super::{Arm, DhVariables, Formulation, Link, from_torques, joint_axes};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
 use crate::scalar::dual::Dual;
@@ -76,13 +76,14 @@ impl Formulation {
     /// Returns the pose of the hand, ⁰A_n but for base and tool: the recursions in link
     /// axes go from the hand inward, which is less work alone, with three axes or with
     /// two; Lagrange–Euler multiplies from the base outward; the others add the levers
-    /// of a Jacobian.
+    /// of a Jacobian, in base axes or in the joints' own.
     pub fn hand<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
         let (arm, at) = arm.to_hand(at);
         let arm = &*arm;
         match self {
             Self::LagrangeEuler => hand_of(arm, &poses(arm, at)),
-            Self::Dalembert | Self::NewtonEulerBase => hand_by_levers(arm, at, &levers(arm, at)),
+            Self::Dalembert => hand_by_levers(arm, at, &levers(arm, at)),
+            Self::NewtonEulerBase => joint_axes::hand(arm, at),
             Self::NewtonEulerLink | Self::NewtonEulerLinkDifferences => hand_inward(arm, at),
             Self::NewtonEulerLinkAsPrinted => hand_by_two_axes(arm, at),
         }
@@ -116,6 +117,8 @@ impl Formulation {
     fn mixed_columns<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Vector<S>; 2]> {
         match self {
             Self::LagrangeEuler => (0..at.len()).map(|j| by_rates(arm, at, j)).collect(),
+            Self::NewtonEulerBase => joint_axes::columns(arm, at),
+            Self::NewtonEulerLinkAsPrinted => joint_axes::columns_across(arm, at),
             _ => {
                 let levers = levers(arm, at);
                 (0..at.len()).map(|j| geometric(arm, &levers, j)).collect()
@@ -340,9 +343,9 @@ fn inward<S: Scalar>(
     }
 }
 
-/// Returns the axes of frames 0 … n and, in the place of the origin, the lever from there to
-/// the hand, in base axes. Added up from the hand on, no lever is a difference.
-pub(super) fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
+/// Returns the axes of frames 0 … n in base axes and, in the place of the origin, the step from
+/// the frame before.
+pub(super) fn frames<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
     let unmoved = |frame: &Columns<S>| Columns {
         axes: frame.axes.clone(),
         origin: zero_vector(),
@@ -352,6 +355,13 @@ pub(super) fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Colu
         let before = frames.last().map_or_else(Columns::identity, unmoved);
         frames.push(link.append(arm.convention, at, &before));
     }
+    frames
+}
+
+/// Returns the axes of frames 0 … n and, in the place of the origin, the lever from there to
+/// the hand, in base axes. Added up from the hand on, no lever is a difference.
+pub(super) fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
+    let mut frames = frames(arm, at);
     let mut lever = match (frames.last(), &arm.tool) {
         (Some(last), Some(tool)) => last.rotate(&tool.origin),
         _ => zero_vector(),

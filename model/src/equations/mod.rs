@@ -16,6 +16,7 @@
 //! | [`articulated`] | q̈ by articulated bodies |
 //! | [`frames`] | frames that are fixed to links, in which axes they are asked for |
 //! | [`kinematics`] | poses, Jacobians and their rates, wrenches at the joints |
+//! | `joint_axes` | columns of a Jacobian in the axes of the joints |
 //! | [`link_axes`] | the hand's velocity in the axes of links |
 //! | [`operational`] | Λ, J̄, bias force and null space at the hand |
 //! | [`contact`] | Jᵀw of a wrench at the hand, and the wrench of torques |
@@ -51,6 +52,7 @@ pub mod frames;
 pub mod friction;
 mod from_robot;
 pub mod from_torques;
+mod joint_axes;
 pub mod kinematics;
 pub mod lagrange_euler;
 pub mod link_axes;

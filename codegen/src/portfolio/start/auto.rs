@@ -59,31 +59,32 @@ pub(super) fn approaches(problem: &Problem<'_>) -> Vec<Approach> {
 }
 
 /// Returns what the chain formulas do not give: from the recursion or Lagrange–Euler, whichever
-/// is cheaper, and from forms that turn fewer axes or share levers, each with
-/// Lagrange–Euler's values at hand. These are small, and what is dearer by itself often
-/// ends lower: all are searched from.
+/// is cheaper, and from forms that turn fewer axes or see levers in the joints' axes, each with
+/// Lagrange–Euler's values and those of products of axes at hand. These are small, and what is
+/// dearer by itself often ends lower: all are searched from.
 fn by_textbook(problem: &Problem<'_>) -> Vec<Approach> {
     let textbook = |form| textbook(problem.scene_robot, problem.function, form);
     let recursion = textbook(Formulation::NewtonEulerLink);
     let products = textbook(Formulation::LagrangeEuler);
-    let others = [
-        Formulation::NewtonEulerLinkAsPrinted,
-        Formulation::Dalembert,
+    let printed = textbook(Formulation::NewtonEulerLinkAsPrinted);
+    let helpers = vec![products.graph.clone(), printed.graph.clone()];
+    let mut others = vec![
+        printed,
+        textbook(Formulation::Dalembert),
+        textbook(Formulation::NewtonEulerBase),
     ];
-    let others = others.map(textbook).into_iter();
-    let others = others.filter(|variant| variant.graph != recursion.graph);
-    let others = others.map(|variant| Approach {
-        others: vec![products.graph.clone()],
+    others.retain(|variant| variant.graph != recursion.graph);
+    others.dedup_by(|second, first| second.graph == first.graph);
+    let others = others.into_iter().map(|variant| Approach {
+        others: helpers.clone(),
         ..Approach::of(variant)
     });
-    let mut approaches: Vec<Approach> = others.collect();
     let both = Approach {
         tuned: None,
         variants: vec![recursion, products],
         others: Vec::new(),
     };
-    approaches.insert(0, both);
-    approaches
+    [both].into_iter().chain(others).collect()
 }
 
 /// Returns the chain formulas in all of their forms, and C by the h_ikm alone: that is cheapest

@@ -1,0 +1,174 @@
+//! The hand's place and the columns of J by levers in the joints' own axes.
+//!
+//! A joint's column is z × r, r being the lever from its axis to the hand. With r = (x, y, z) in
+//! axes of which the third is the joint's, that is x times their second less y times their first.
+//! Carried from the hand inward, r is constant in the last link and turns by one angle a joint. Where
+//! it lies in a plane with the axis, as past a wrist, the column is one axis times a number.
+//!
+//! The axes may be those before the joint turns or those after: near the base the former have
+//! entries that are zero, near the hand the lever has.
+
+use alloc::vec::Vec;
+
+use super::kinematics::frames;
+use super::matrix::{Columns, Vector, cross, difference, scaled, sum, zero_vector};
+use super::{Arm, DhVariables, Link, SinCosPair};
+use crate::robot::{Convention, JointKind};
+use crate::scalar::Scalar;
+
+/// The hand seen from the frames.
+struct Levers<S> {
+    /// From the origins of frames 0 … n, in the frames' axes.
+    of_frames: Vec<Vector<S>>,
+    /// From each joint's axis, in the axes before it turns and after.
+    of_joints: Vec<[Vector<S>; 2]>,
+}
+
+/// Returns the levers to the hand.
+fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Levers<S> {
+    let tool = arm.tool.as_ref();
+    let mut lever = tool.map_or_else(zero_vector, |tool| tool.origin.clone());
+    let mut of_frames = alloc::vec![lever.clone()];
+    let mut of_joints = Vec::with_capacity(at.len());
+    for (link, at) in arm.links.iter().zip(at).rev() {
+        let carried = |at: &DhVariables<S>| {
+            let step = link.append(arm.convention, at, &Columns::identity());
+            let turned = link.to_previous(arm.convention, at, &lever);
+            sum(&turned, &step.origin)
+        };
+        let before = carried(at);
+        of_joints.push(match arm.convention {
+            Convention::Standard => [before.clone(), carried(&unturned(at))],
+            Convention::Modified => {
+                let [x, y] = at.theta.turn(&lever[0], &lever[1]);
+                [[x, y, lever[2].clone()], lever.clone()]
+            }
+        });
+        of_frames.push(before.clone());
+        lever = before;
+    }
+    of_frames.reverse();
+    of_joints.reverse();
+    Levers {
+        of_frames,
+        of_joints,
+    }
+}
+
+/// Returns the hand's pose in base axes.
+pub(super) fn hand<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
+    let frames = frames(arm, at);
+    let mut hand = frames[at.len()].clone();
+    if let Some(tool) = &arm.tool {
+        hand = hand.then(tool);
+    }
+    let lever = frames[0].rotate(&levers(arm, at).of_frames[0]);
+    hand.origin = match &arm.base {
+        None => lever,
+        Some(base) => sum(&base.origin, &lever),
+    };
+    hand
+}
+
+/// Returns the columns of J in base axes at the hand, linear and angular.
+pub(super) fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Vector<S>; 2]> {
+    let levers = levers(arm, at).of_joints;
+    let frames = frames(arm, at).into_iter();
+    let joints = frames.zip(&arm.links).zip(at).zip(&levers);
+    let column = |(((frame, link), at), [own, turned]): (((Columns<S>, &Link<S>), _), &[_; 2])| {
+        let at: &DhVariables<S> = at;
+        let before = match arm.convention {
+            Convention::Standard => frame,
+            Convention::Modified => frame.turn_x(&link.alpha),
+        };
+        let axis = before.axes[2].clone();
+        if link.kind == JointKind::Prismatic {
+            return [axis, zero_vector()];
+        }
+        let after = before.clone().turn_z(&at.theta);
+        let linear = match zeros(&before, own) > zeros(&after, turned) {
+            true => across(&before, own),
+            false => across(&after, turned),
+        };
+        [linear, axis]
+    };
+    joints.map(column).collect()
+}
+
+/// Returns the same by axes that are products: of each frame one axis is carried to the base, one
+/// seen from the frame two joints before, which saves the axes of the frame between, and the third
+/// is across both. Columns of the joints near the base are carried there, too.
+pub(super) fn columns_across<S: Scalar>(
+    arm: &Arm<S>,
+    at: &[DhVariables<S>],
+) -> Vec<[Vector<S>; 2]> {
+    let links = || arm.links.iter().zip(at);
+    // A vector of frame i in the axes of an earlier one.
+    let carried = |v: Vector<S>, i: usize, to: usize| {
+        let inner = links().take(i).skip(to).rev();
+        inner.fold(v, |v, (link, at)| link.to_previous(arm.convention, at, &v))
+    };
+    let [_, y, z] = Columns::identity().axes;
+    // With a twist of a right angle one of them is the joint's axis, which the frame before has.
+    let [seen, from_base] = match arm.convention {
+        Convention::Standard => [(2, z), (1, y)],
+        Convention::Modified => [(1, y), (2, z)],
+    };
+    let mut frames = frames(arm, &at[..0]);
+    for i in 1..=at.len() {
+        let before = i.saturating_sub(2);
+        let mut axes: [Vector<S>; 3] = core::array::from_fn(|_| zero_vector());
+        axes[seen.0] = frames[before].rotate(&carried(seen.1.clone(), i, before));
+        axes[from_base.0] = frames[0].rotate(&carried(from_base.1.clone(), i, 0));
+        axes[0] = cross(&axes[1], &axes[2]);
+        frames.push(Columns {
+            axes,
+            origin: zero_vector(),
+        });
+    }
+    let levers = levers(arm, at).of_joints;
+    let column = |(j, ((link, at), [before, after])): (usize, ((&Link<S>, _), &[Vector<S>; 2]))| {
+        let at: &DhVariables<S> = at;
+        let (frame, lever) = match arm.convention {
+            Convention::Standard => (&frames[j], before),
+            Convention::Modified => (&frames[j + 1], after),
+        };
+        let axis = frame.axes[2].clone();
+        if link.kind == JointKind::Prismatic {
+            return [axis, zero_vector()];
+        }
+        if 2 * j >= arm.links.len() {
+            return [across(frame, lever), axis];
+        }
+        let mut own = across(&Columns::identity(), before);
+        if arm.convention == Convention::Modified {
+            own = link.to_previous(arm.convention, &unturned(at), &own);
+        }
+        [frames[0].rotate(&carried(own, j, 0)), axis]
+    };
+    let joints = links().zip(&levers).enumerate();
+    joints.map(column).collect()
+}
+
+/// Returns z × r, of a lever in axes of which z is the third.
+fn across<S: Scalar>(frame: &Columns<S>, lever: &Vector<S>) -> Vector<S> {
+    let [x, y, _] = &frame.axes;
+    difference(&scaled(&lever[0], y), &scaled(&lever[1], x))
+}
+
+/// Returns how many factors of [`across`] vanish by structure.
+fn zeros<S: Scalar>(frame: &Columns<S>, lever: &Vector<S>) -> usize {
+    let factors = frame.axes[..2].iter().flatten().chain(&lever[..2]);
+    factors.filter(|x| x.is_zero()).count()
+}
+
+/// Returns a joint's place without its turn.
+fn unturned<S: Scalar>(at: &DhVariables<S>) -> DhVariables<S> {
+    DhVariables {
+        theta: SinCosPair {
+            sin: S::zero(),
+            cos: S::one(),
+        },
+        d: at.d.clone(),
+    }
+}
