@@ -293,7 +293,13 @@ impl<'a> ErrorBudget<'a> {
                 )
             });
             let start = start.as_ref();
-            let edited = prune::watched(exact, start, limits, &allowances, settings, watch);
+            // Where more start than go on, all are looked at first.
+            let scouts = settings.finalists <= settings.models;
+            let first = if scouts { settings.scout() } else { *settings };
+            let pruned = |start: Option<&Program>, settings: &PruneSettings| {
+                prune::watched(exact, start, limits, &allowances, settings, watch)
+            };
+            let edited = pruned(start, &first);
             spent()?;
             // Where nothing may go, no smaller model is near enough.
             if edited.stages.is_empty() && from.is_empty() {
@@ -308,10 +314,21 @@ impl<'a> ErrorBudget<'a> {
                 });
                 let mut starts = prune::promising(exact, models, limits, &allowances, settings);
                 starts.extend(from);
-                let pruned = |start: &&Program| {
-                    prune::watched(exact, Some(start), limits, &allowances, settings, watch)
-                };
-                found.extend(parallel::each(&starts, pruned));
+                found.extend(parallel::each(&starts, |other| pruned(Some(other), &first)));
+                if scouts {
+                    // The exact program's edits are known by their stages: they begin anew.
+                    let all = found.iter().enumerate();
+                    let some = all.filter(|(_, pruned)| !pruned.stages.is_empty());
+                    let mut ranked: Vec<_> =
+                        some.map(|(k, p)| (prune::cost(&p.program), k)).collect();
+                    ranked.sort_unstable();
+                    ranked.truncate(settings.finalists);
+                    let last = parallel::each(&ranked, |&(_, k)| match k {
+                        0 => pruned(start, settings),
+                        _ => pruned(Some(&found[k].program), settings),
+                    });
+                    found.extend(last);
+                }
                 found.retain(|pruned| !pruned.stages.is_empty());
                 // Of equals the edited exact program.
                 found.sort_by_key(|pruned| prune::cost(&pruned.program));
@@ -323,7 +340,7 @@ impl<'a> ErrorBudget<'a> {
                         // In turn the best so far and what others were edited from.
                         let other = starts.get(seed as usize / 2 % starts.len().max(1));
                         let start = other.filter(|_| seed % 2 == 0).unwrap_or(&best);
-                        prune::watched(exact, Some(start), limits, &allowances, &settings, watch)
+                        pruned(Some(start), &settings)
                     }));
                 }
                 found.retain(|pruned| !pruned.stages.is_empty());

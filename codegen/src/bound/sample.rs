@@ -74,9 +74,12 @@ pub fn climb(
             _ => *x + reach * range.width() * (random.unit() - 0.5),
         }
         .clamp(range.low(), range.high());
-        let value = error(&next);
-        if value > most {
-            (best, most) = (next, value);
+        // Where a range is a point nothing moves.
+        if next != best {
+            let value = error(&next);
+            if value > most {
+                (best, most) = (next, value);
+            }
         }
         if step % n.max(1) == 0 {
             reach *= 0.97;

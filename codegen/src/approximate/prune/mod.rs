@@ -28,7 +28,7 @@ mod tally;
 
 use super::motions::{self, Motions};
 use crate::bound::input_box::InputBox;
-use crate::bound::magnitude::{BoxEffort, magnitudes_within};
+use crate::bound::magnitude::{BoxEffort, shown_within};
 use crate::edits::{Stage, deviation, has_edits};
 use crate::parallel;
 use crate::program::Program;
@@ -54,6 +54,8 @@ pub struct PruneSettings {
     pub guesses: usize,
     /// Times that a part is taken back and chosen anew.
     pub retries: usize,
+    /// Stages in which multiples may stand in for values, once nothing else does.
+    pub spares: usize,
     /// Programs to edit one after the other: the first ones may use a part of
     /// the allowance, so that what goes in any case is gone, and the rest
     /// simplified, before it gets tight.
@@ -71,6 +73,9 @@ pub struct PruneSettings {
     /// Smaller models to start from as well; none where work is limited, of which a
     /// thread counts its own.
     pub models: usize,
+    /// Of more programs to start from, those that are edited to the end: of the others a first
+    /// stage is enough to see that they leave more.
+    pub finalists: usize,
     /// Times that the best programs are edited again, with other samples.
     pub restarts: u64,
     /// Added to the seed of the samples and of what is taken back.
@@ -85,6 +90,7 @@ impl Default for PruneSettings {
             samples: 40,
             guesses: 4,
             retries: 6,
+            spares: 2,
             stages: 3,
             alike: 4,
             sweeps: 0,
@@ -92,6 +98,7 @@ impl Default for PruneSettings {
             effort: Effort::Quick,
             refit: true,
             models: 2,
+            finalists: 2,
             restarts: 1,
             seed: 0,
             work: None,
@@ -106,8 +113,10 @@ pub struct Pruned {
     pub stages: Vec<Stage>,
     /// The program to emit: the last stage's edited program, simplified.
     pub program: Program,
-    /// The certified largest |pruned − full| of each output.
+    /// What |pruned − full| of each output is certified not to exceed.
     pub errors: Vec<f64>,
+    /// About the largest that is taken, against the allowance of its stage.
+    pub(crate) used: Vec<f64>,
 }
 
 impl PruneSettings {
@@ -116,6 +125,7 @@ impl PruneSettings {
         samples: 24,
         guesses: 4,
         retries: 0,
+        spares: 2,
         stages: 3,
         alike: 2,
         sweeps: 0,
@@ -123,6 +133,7 @@ impl PruneSettings {
         effort: Effort::Quick,
         refit: true,
         models: 0,
+        finalists: usize::MAX,
         restarts: 0,
         seed: 0,
         work: None,
@@ -133,6 +144,7 @@ impl PruneSettings {
         samples: 40,
         guesses: 4,
         retries: 6,
+        spares: 2,
         stages: 4,
         alike: 4,
         sweeps: 2,
@@ -140,6 +152,7 @@ impl PruneSettings {
         effort: Effort::Thorough,
         refit: true,
         models: 5,
+        finalists: usize::MAX,
         restarts: 8,
         seed: 0,
         work: None,
@@ -150,6 +163,17 @@ impl PruneSettings {
         match effort {
             Effort::Quick => PruneSettings::default(),
             Effort::Thorough => PruneSettings::THOROUGH,
+        }
+    }
+
+    /// Returns the settings for a first look at a program: one stage, no part taken back.
+    pub(crate) fn scout(&self) -> PruneSettings {
+        PruneSettings {
+            stages: 1,
+            guesses: SCOUTED.min(self.guesses),
+            retries: 0,
+            spares: 0,
+            ..*self
         }
     }
 
@@ -187,6 +211,9 @@ impl PruneSettings {
     }
 }
 
+/// Guesses of a first look.
+const SCOUTED: usize = 2;
+
 /// A program of more steps is long.
 const LONG: usize = 400;
 
@@ -197,16 +224,12 @@ const RAMP: [f64; 2] = [0.5, 0.8];
 /// much of the allowances.
 const MAX_MORE: usize = 3;
 
-/// Stages in which multiples may stand in for values, once nothing else does.
-const WITH_SPARES: usize = 2;
-
 /// An output that uses less of its allowance leaves much.
 const MUCH: f64 = 0.8;
 
 /// Returns whether no output uses up its allowance.
-fn leaves(best: &Pruned, allowances: &[f64]) -> bool {
-    let mut pairs = best.errors.iter().zip(allowances);
-    has_edits(&best.stages) && pairs.all(|(error, allowance)| *error <= MUCH * allowance)
+fn leaves(best: &Pruned) -> bool {
+    has_edits(&best.stages) && best.used.iter().all(|used| *used <= MUCH)
 }
 
 /// Returns the cheapest variant found of which every output is certified to stay
@@ -238,6 +261,7 @@ pub(crate) fn watched(
         stages: Vec::new(),
         program: program.clone(),
         errors: vec![0.0; program.outputs.len()],
+        used: Vec::new(),
     };
     let mut best = match start {
         None => nothing.clone(),
@@ -282,7 +306,7 @@ pub(crate) fn watched(
     };
     for stage in 0..settings.stages + MAX_MORE {
         // What is left of the allowances may do for one more.
-        if stage >= settings.stages && !leaves(&best, allowances) {
+        if stage >= settings.stages && !leaves(&best) {
             break;
         }
         match edited(&best, stage, false) {
@@ -292,7 +316,7 @@ pub(crate) fn watched(
         }
     }
     // Edits of the exact program are known by the places in it; others need not be.
-    for _ in 0..if is_direct { WITH_SPARES } else { 0 } {
+    for _ in 0..if is_direct { settings.spares } else { 0 } {
         match edited(&best, settings.stages, true) {
             (Some(found), _) => best = found,
             (None, _) => break,
@@ -321,7 +345,7 @@ fn direct(
     }
     if !has_edits(&best.stages) {
         let error = deviation(program, &best.program);
-        best.errors = magnitudes_within(&error, limits, allowances, settings.budget)?;
+        best.errors = shown_within(&error, limits, allowances, settings.budget).ok()?;
     }
     best.stages.truncate(1);
     Some(best)
@@ -362,6 +386,7 @@ pub(crate) fn appraise(
             stages: Vec::new(),
             program: program.clone(),
             errors: Vec::new(),
+            used: Vec::new(),
         },
         paid: 0,
         limits,

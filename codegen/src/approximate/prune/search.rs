@@ -8,7 +8,8 @@ use super::{PruneSettings, Pruned};
 use crate::approximate::motions::Motions;
 use crate::bound::definite::is_definite;
 use crate::bound::input_box::InputBox;
-use crate::bound::{magnitude, sample};
+use crate::bound::magnitude::{self, Seen};
+use crate::bound::sample;
 use crate::edits::{Stage, deviation, difference, has_edits};
 use crate::graph::{Folding, Graph};
 use crate::interval::Interval;
@@ -36,9 +37,12 @@ const USED_ENOUGH: f64 = 0.88;
 const MORE: usize = 4;
 const CAUTION: f64 = 0.8;
 
-/// Of long programs, the guesses whose worst positions stay among the samples: what one
+/// The guesses whose worst positions stay among the samples: what one
 /// goes through grows with them, and what was worst long ago no longer is.
 const ROUNDS: usize = 2;
+
+/// In place of the ratio of an error that is not seen, but cannot be shown not to be too large.
+const BEYOND: f64 = 1.02;
 
 /// In place of the ratio of errors where D may be singular.
 const SINGULAR: f64 = 4.0;
@@ -104,10 +108,7 @@ impl Search<'_> {
         let mut prices = vec![1.0; self.allowances.len()];
         let found = self.guess(positions, *share, &mut prices, random)?;
         if self.hurries() {
-            let used = found.pruned.errors.iter().zip(self.allowances);
-            let used = used.fold(0.0, |most, (&e, &a)| {
-                f64::max(most, magnitude::relative(e, a))
-            });
+            let used = found.pruned.used.iter().copied().fold(0.0, f64::max);
             let least = found.shares.iter().copied().fold(SHARE, f64::min);
             *share = (least / used.clamp(0.1, 1.0).sqrt()).min(SHARE);
         }
@@ -154,13 +155,13 @@ impl Search<'_> {
             for (price, used) in prices.iter_mut().zip(greedy.relative(&state)) {
                 *price *= 0.3 + used;
             }
-            let (pruned, ratios) = self.certify(&original, &state, &mut greedy);
-            self.adversaries(&pruned.stages, positions, random);
-            if self.hurries() {
-                let most = self.settings.samples + ROUNDS * self.allowances.len();
-                let old = positions.len().saturating_sub(most);
-                positions.drain(self.settings.samples..self.settings.samples + old);
-            }
+            let (mut pruned, error) = self.variant(&original, &state, &mut greedy);
+            let seen = self.certify(&mut pruned, &error);
+            self.adversaries(&pruned.stages, &seen.worst, positions, random);
+            let ratios = seen.used;
+            let most = self.settings.samples + ROUNDS * self.allowances.len();
+            let old = positions.len().saturating_sub(most);
+            positions.drain(self.settings.samples..self.settings.samples + old);
             let cheaper = best
                 .as_ref()
                 .is_none_or(|b| cost(&pruned.program) < cost(&b.pruned.program));
@@ -230,7 +231,10 @@ impl Search<'_> {
             greedy.drop_all(&mut trial, noise, random);
             greedy.settle(&mut trial, &original, POLISH / 3);
             let price = greedy.price(&trial);
-            if price <= paid && trial.edits != state.edits {
+            if price == paid {
+                // No cheaper, but a way to what is; samples are enough to go on from there.
+                state = trial;
+            } else if price < paid {
                 let certified = self.certified(&original, &trial, &mut greedy);
                 if let Some(certified) = certified {
                     (state, paid, pruned) = (trial, price, certified);
@@ -263,25 +267,25 @@ impl Search<'_> {
         )
     }
 
-    /// Returns the variant, and the certified error of each output against its
-    /// allowance.
-    fn certify(
-        &self,
-        original: &Nodes,
-        state: &State,
-        greedy: &mut Greedy<'_>,
-    ) -> (Pruned, Vec<f64>) {
-        let (mut pruned, error) = self.variant(original, state, greedy);
+    /// Bounds a variant's errors, unless they are seen to be too large, and returns how large
+    /// they are seen to be: beyond the allowance where the bound is. They are too large as well
+    /// if D may become singular: the next guess leaves out less.
+    fn certify(&self, pruned: &mut Pruned, error: &Graph) -> Seen {
         let budget = self.settings.budget;
-        pruned.errors = magnitude::judged(&error, self.limits, self.allowances, budget);
-        let pairs = pruned.errors.iter().zip(self.allowances);
-        let mut ratios: Vec<f64> = pairs.map(|(&e, &a)| magnitude::relative(e, a)).collect();
-        // Too much went as well if D may become singular: the next guess
-        // leaves out less.
-        if within(&ratios) && !self.is_definite(&pruned.program) {
-            ratios.fill(SINGULAR);
+        let mut seen = magnitude::seen(error, self.limits, self.allowances, budget);
+        if within(&seen.used) {
+            match magnitude::shown_within(error, self.limits, self.allowances, budget) {
+                Ok(errors) if self.is_definite(&pruned.program) => pruned.errors = errors,
+                Ok(_) => seen.used.fill(SINGULAR),
+                Err(beyond) => {
+                    let all = seen.used.iter_mut().zip(beyond);
+                    all.filter(|(_, beyond)| *beyond)
+                        .for_each(|(used, _)| *used = BEYOND);
+                }
+            }
         }
-        (pruned, ratios)
+        pruned.used.clone_from(&seen.used);
+        seen
     }
 
     /// Returns the variant, if every output is certified to be within its allowance.
@@ -292,9 +296,8 @@ impl Search<'_> {
         greedy: &mut Greedy<'_>,
     ) -> Option<Pruned> {
         let (mut pruned, error) = self.variant(original, state, greedy);
-        let budget = self.settings.budget;
-        pruned.errors = magnitude::magnitudes_within(&error, self.limits, self.allowances, budget)?;
-        self.is_definite(&pruned.program).then_some(pruned)
+        let seen = self.certify(&mut pruned, &error);
+        within(&seen.used).then_some(pruned)
     }
 
     /// Returns the variant, its errors still to be found, and the program of them.
@@ -313,6 +316,7 @@ impl Search<'_> {
             program,
             stages,
             errors: Vec::new(),
+            used: Vec::new(),
         };
         (pruned, error)
     }
@@ -322,9 +326,29 @@ impl Search<'_> {
         !has_inertia(program) || is_definite(program, ScalarType::F64, &[], self.limits)
     }
 
-    /// Positions where the error is large join the samples.
-    fn adversaries(&self, stages: &[Stage], positions: &mut Vec<Vec<f64>>, random: &mut Random) {
+    /// Positions where the error is large join the samples: those known, else climbed to.
+    fn adversaries(
+        &self,
+        stages: &[Stage],
+        known: &[Vec<Option<f64>>],
+        positions: &mut Vec<Vec<f64>>,
+        random: &mut Random,
+    ) {
         let Some(last) = stages.last() else { return };
+        for angles in known {
+            let mut q = sample::draw(self.limits, random).q;
+            let ranges = angles.iter().zip(&self.limits.position);
+            for (q, (angle, range)) in q.iter_mut().zip(ranges) {
+                if let Some(angle) = angle {
+                    let turned = (angle - range.low()).rem_euclid(std::f64::consts::TAU);
+                    *q = (range.low() + turned).min(range.high());
+                }
+            }
+            positions.push(q);
+        }
+        if !known.is_empty() {
+            return;
+        }
         let code = |program: &Program| program.lower(ScalarType::F64, |_| None);
         let full = code(self.full);
         let edited = code(&last.program(Folding::Syntactic));

@@ -116,11 +116,8 @@ pub(super) fn sliding(graph: &Graph, joints: usize) -> Vec<bool> {
 pub(super) enum Aim {
     /// As small as can be shown, but no smaller than this.
     Least(f64),
-    /// At most this, or it does not matter.
+    /// At most this, for which no smaller bound is looked for, or it does not matter.
     Within(f64),
-    /// At most the second, which need not be smaller than the first; or, where that cannot
-    /// be shown, about the largest value that is taken, as a number above the second.
-    Judged(f64, f64),
 }
 
 /// Returns the largest magnitude over a box of a polynomial in multiples of its angles
@@ -152,7 +149,7 @@ pub(super) fn magnitude(
         return bound(&layout, limits, None, aim, closeness);
     }
     // Of the circles only the size matters, for what lies between points.
-    let (Aim::Least(goal) | Aim::Within(goal) | Aim::Judged(goal, _)) = aim;
+    let (Aim::Least(goal) | Aim::Within(goal)) = aim;
     let rough = GridEffort {
         points: closeness.points / 16,
         ..closeness
@@ -160,6 +157,37 @@ pub(super) fn magnitude(
     let whole = bound(&layout, limits, None, Aim::Least(goal), rough);
     let part = bound(&layout, limits, Some(whole), aim, closeness);
     whole.min(part)
+}
+
+/// Returns about the largest value over a box that is taken, and the angles there, by joint:
+/// those of joints that it depends on; none at all where an angle of small range is one.
+pub(super) fn taken(
+    polynomial: Polynomial,
+    limits: &InputBox,
+    sliding: &[bool],
+    closeness: GridEffort,
+) -> (f64, Option<Vec<Option<f64>>>) {
+    let (polynomial, narrow) = narrowed(polynomial, limits, sliding);
+    let sliding: Vec<bool> = (0..sliding.len())
+        .map(|joint| sliding[joint] || narrow.contains(&joint))
+        .collect();
+    let layout = Layout::new(
+        &polynomial,
+        limits,
+        &sliding,
+        &|key| range(key, limits),
+        0.0,
+    );
+    // Only ends count here, not what lies between points.
+    let mut cells = Cells::new(&layout, limits, Some(0.0), &|_, _| false);
+    cells.points = closeness.points;
+    let value = |values: &[f64]| layout.value(values) - layout.slack;
+    let (most, found) = climbed(&mut cells, closeness.starts, &value);
+    let mut angles = vec![None; limits.joints()];
+    for (joint, angle) in layout.joints.iter().zip(found) {
+        angles[*joint] = Some(angle);
+    }
+    (most, narrow.is_empty().then_some(angles))
 }
 
 /// Returns the largest value over whole circles of a polynomial that is nowhere negative.
@@ -206,7 +234,7 @@ fn bound(
     let points = closeness.points;
     let crude = layout.crude(0, &layout.coefficients);
     let enough = match aim {
-        Aim::Least(goal) | Aim::Within(goal) | Aim::Judged(goal, _) => crude <= goal,
+        Aim::Least(goal) | Aim::Within(goal) => crude <= goal,
     };
     if points == 0 || enough {
         return crude;
@@ -218,34 +246,24 @@ fn bound(
     cells.points = points;
     let value = |values: &[f64]| layout.value(values) - layout.slack;
     let least = climb(&mut cells, closeness.starts, &value);
-    let tries = tries(least, 2.0 * layout.slack, crude, closeness.close);
-    let start = match aim {
-        Aim::Least(goal) | Aim::Judged(goal, _) => {
-            let enough = tries.iter().position(|&bound| bound >= goal);
-            enough.unwrap_or(tries.len().saturating_sub(1))
-        }
-        Aim::Within(most) => match tries.iter().rposition(|&bound| bound <= most) {
-            Some(last) => last,
-            None => return crude,
-        },
-    };
     let mut shown = |bound: f64| {
         cells.points = points;
         cells.below(0, bound)
     };
-    let first = tries.get(start).copied();
-    if let Aim::Judged(_, most) = aim {
-        let first = first.filter(|&bound| bound < most);
-        let found = first
-            .into_iter()
-            .chain([most])
-            .find(|&bound| least <= bound && bound < crude && shown(bound));
-        let above = f64::max(least * (1.0 + closeness.close), most.next_up());
-        return found.unwrap_or(above.min(crude));
-    }
-    match first.filter(|&bound| shown(bound)) {
+    let goal = match aim {
+        Aim::Within(most) => {
+            return match least <= most && shown(most) {
+                true => most,
+                false => crude,
+            };
+        }
+        Aim::Least(goal) => goal,
+    };
+    let tries = tries(least, 2.0 * layout.slack, crude, closeness.close);
+    let start = tries.iter().position(|&bound| bound >= goal);
+    let start = start.unwrap_or(tries.len().saturating_sub(1));
+    match tries.get(start).copied().filter(|&bound| shown(bound)) {
         Some(bound) => bound,
-        None if matches!(aim, Aim::Within(_)) => crude,
         None => least_shown(&tries, start, &mut shown).unwrap_or(crude),
     }
 }

@@ -35,9 +35,6 @@ impl BoxEffort {
     };
 }
 
-/// The part of a limit below which no bound need be.
-const ENOUGH: f64 = 0.85;
-
 /// Bounds of |output| over the box, one an output. `scales` say what a unit
 /// of each output is worth: the largest |output|/scale is tightened.
 pub fn magnitudes(graph: &Graph, whole: &InputBox, scales: &[f64], budget: BoxEffort) -> Vec<f64> {
@@ -48,39 +45,79 @@ pub fn magnitudes(graph: &Graph, whole: &InputBox, scales: &[f64], budget: BoxEf
     distinct.scatter(&most)
 }
 
-/// Returns the same for who searches: an output is shown to be at most its limit, and need not be
-/// shown to be below [`ENOUGH`] of it; or, where it cannot be, the number is larger, about as
-/// large as the output is, and no bound.
-pub(crate) fn judged(
-    graph: &Graph,
-    whole: &InputBox,
-    limits: &[f64],
-    budget: BoxEffort,
-) -> Vec<f64> {
-    let (graph, limits, distinct) = distinct_outputs(graph, limits);
-    let aims = limits
-        .iter()
-        .map(|&limit| Aim::Judged(ENOUGH * limit, limit));
-    let most = written_out(&graph, whole, aims, budget);
-    let most = most.unwrap_or_else(|| branch_and_bound(&graph, whole, &limits, 1.0, budget));
-    distinct.scatter(&most)
+/// What is seen of errors.
+pub(crate) struct Seen {
+    /// About the largest value of each output that is taken, against its limit; or, where such
+    /// values are not known, a bound.
+    pub used: Vec<f64>,
+    /// Angles at which outputs are large, of those joints that these depend on, where known.
+    pub worst: Vec<Vec<Option<f64>>>,
 }
 
-/// Returns the same as [`magnitudes`], if every output is shown to be at most its limit; at a
-/// grid, the first for which it is not ends the search.
-pub(crate) fn magnitudes_within(
+/// Returns how large outputs are seen to be, which shows nothing.
+pub(crate) fn seen(graph: &Graph, whole: &InputBox, limits: &[f64], budget: BoxEffort) -> Seen {
+    let (graph, limits, distinct) = distinct_outputs(graph, limits);
+    let taken = largest_taken(&graph, whole, budget);
+    let (most, worst) = taken.unwrap_or_else(|| {
+        let most = branch_and_bound(&graph, whole, &limits, 1.0, budget);
+        (most, Vec::new())
+    });
+    let used = most
+        .iter()
+        .zip(&limits)
+        .map(|(&x, &limit)| relative(x, limit));
+    Seen {
+        used: distinct.scatter(&used.collect::<Vec<_>>()),
+        worst,
+    }
+}
+
+/// Returns bounds, if every output is shown to be at most its limit.
+///
+/// # Errors
+/// Which outputs are not: at a grid, the first one ends the search.
+pub(crate) fn shown_within(
     graph: &Graph,
     whole: &InputBox,
     limits: &[f64],
     budget: BoxEffort,
-) -> Option<Vec<f64>> {
+) -> Result<Vec<f64>, Vec<bool>> {
     let (graph, limits, distinct) = distinct_outputs(graph, limits);
     let aims = limits.iter().map(|&limit| Aim::Within(limit));
     let most = written_out(&graph, whole, aims, budget);
-    let most = most.unwrap_or_else(|| branch_and_bound(&graph, whole, &limits, 1.0, budget));
-    let within =
-        most.len() == limits.len() && most.iter().zip(&limits).all(|(x, limit)| x <= limit);
-    within.then(|| distinct.scatter(&most))
+    let mut most = most.unwrap_or_else(|| branch_and_bound(&graph, whole, &limits, 1.0, budget));
+    most.resize(limits.len(), 0.0);
+    let beyond: Vec<bool> = most
+        .iter()
+        .zip(&limits)
+        .map(|(x, limit)| x > limit)
+        .collect();
+    match beyond.contains(&true) {
+        true => Err(distinct.scatter(&beyond)),
+        false => Ok(distinct.scatter(&most)),
+    }
+}
+
+/// Returns about the largest value of each output that is taken, and the angles there, where
+/// they are known; none if they cannot be written out.
+fn largest_taken(
+    graph: &Graph,
+    whole: &InputBox,
+    budget: BoxEffort,
+) -> Option<(Vec<f64>, Vec<Vec<Option<f64>>>)> {
+    if budget.points == 0 {
+        return None;
+    }
+    let sliding = grid::sliding(graph, whole.joints());
+    let closeness = GridEffort::fine(budget.points);
+    let (mut most, mut worst) = (Vec::new(), Vec::new());
+    for polynomial in expand(graph, whole)? {
+        let polynomial = grid::harmonics(&polynomial, whole.joints())?;
+        let (found, angles) = grid::taken(polynomial, whole, &sliding, closeness);
+        most.push(found);
+        worst.extend(angles);
+    }
+    Some((most, worst))
 }
 
 /// Returns equal outputs once: a sign does not matter to a magnitude; a scale does to the search.

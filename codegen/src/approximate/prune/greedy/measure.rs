@@ -87,7 +87,7 @@ impl Greedy<'_> {
     /// Returns monomials, output after output, position after position.
     pub(super) fn errors(&self, nodes: &Nodes, columns: &[f64]) -> Vec<f64> {
         let mut errors = nodes.values(columns);
-        for (error, truth) in errors.iter_mut().zip(self.truth) {
+        for (error, truth) in errors.iter_mut().zip(&self.truth) {
             *error -= truth;
         }
         self.motions.monomials(&mut errors);

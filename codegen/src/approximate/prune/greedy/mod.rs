@@ -28,7 +28,7 @@ pub(super) struct State {
 pub(super) struct Greedy<'a> {
     motions: &'a Motions,
     /// The full model's outputs, output after output.
-    truth: &'a [f64],
+    truth: Vec<f64>,
     /// The largest admissible error of each output.
     allowances: Vec<f64>,
     /// Of the least squares, row by row: 1/allowance, and more where errors
@@ -67,6 +67,9 @@ struct Ranked {
 /// are corrected side by side.
 const RANKED_AGAIN: usize = 24;
 
+/// One of so many positions serves to rank all candidates; all of them to choose among the first.
+const PART: usize = 4;
+
 /// In place of an allowance of zero, where nothing may go.
 const TINY: f64 = 1e-12;
 
@@ -84,7 +87,7 @@ impl<'a> Greedy<'a> {
     pub(super) fn new(
         nodes: &Nodes,
         motions: &'a Motions,
-        truth: &'a [f64],
+        truth: &[f64],
         allowances: Vec<f64>,
         prices: Vec<f64>,
         settings: &PruneSettings,
@@ -97,7 +100,7 @@ impl<'a> Greedy<'a> {
             .collect();
         Greedy {
             motions,
-            truth,
+            truth: truth.to_vec(),
             allowances,
             levels: vec![1.0; weights.len() / motions.len()],
             weights,
@@ -122,6 +125,60 @@ impl<'a> Greedy<'a> {
         self
     }
 
+    /// Returns the search at a part of the positions, with a state and its columns there.
+    fn coarse(&mut self, state: &State, columns: &[f64]) -> (Greedy<'a>, State, Vec<f64>) {
+        let (block, m) = (self.motions.len(), state.nodes.samples);
+        let few = |values: &[f64], block: usize, m: usize| -> Vec<f64> {
+            let columns = values.chunks_exact(m);
+            let blocks = columns.flat_map(|column| column.chunks_exact(block).step_by(PART));
+            blocks.flatten().copied().collect()
+        };
+        let nodes = Nodes {
+            samples: (m / block).div_ceil(PART) * block,
+            columns: few(&state.nodes.columns, block, m),
+            inputs: state.nodes.inputs.clone(),
+            steps: state.nodes.steps.clone(),
+            outputs: state.nodes.outputs.clone(),
+        };
+        let columns = few(columns, block, m);
+        let coarse = Greedy {
+            motions: self.motions,
+            truth: few(&self.truth, block, m),
+            allowances: self.allowances.clone(),
+            weights: few(&self.weights, block, m),
+            levels: few(&self.levels, 1, m / block),
+            scratch: Scratch::default(),
+            trial: Vec::new(),
+            dirty: Vec::new(),
+            hopeless: std::mem::take(&mut self.hopeless),
+            never: std::mem::take(&mut self.never),
+            prices: self.prices.clone(),
+            ..*self
+        };
+        let state = State {
+            nodes,
+            edits: state.edits.clone(),
+        };
+        (coarse, state, columns)
+    }
+
+    /// Returns every admissible candidate, ranked at a part of the positions.
+    fn rank_roughly(
+        &mut self,
+        state: &State,
+        columns: &[f64],
+        refused: &[bool],
+        noise: f64,
+        random: &mut Random,
+    ) -> Vec<Ranked> {
+        let (mut coarse, mut state, columns) = self.coarse(state, columns);
+        let fit = coarse.fit(&state, &columns);
+        let ranked = coarse.rank_all(&mut state, &columns, &fit, refused, noise, random);
+        self.hopeless = coarse.hopeless;
+        self.never = coarse.never;
+        ranked
+    }
+
     pub(super) fn price(&mut self, state: &State) -> u32 {
         price(&state.nodes, &state.edits, &mut self.scratch)
     }
@@ -135,7 +192,7 @@ impl<'a> Greedy<'a> {
         let fresh = FRESH.max(state.nodes.len() / FRESH_PART);
         let mut reused = 0;
         loop {
-            let mut ranked = self.rank_all(state, &columns, &fit, &refused, noise, random);
+            let mut ranked = self.rank_roughly(state, &columns, &refused, noise, random);
             if ranked.is_empty() {
                 return;
             }
