@@ -37,8 +37,8 @@ const USED_ENOUGH: f64 = 0.88;
 const MORE: usize = 4;
 const CAUTION: f64 = 0.8;
 
-/// The guesses whose worst positions stay among the samples: what one
-/// goes through grows with them, and what was worst long ago no longer is.
+/// The guesses whose worst positions stay among the samples: what one goes through grows
+/// with them, and what was worst long ago no longer is.
 const ROUNDS: usize = 2;
 
 /// In place of the ratio of an error that is not seen, but cannot be shown not to be too large.

@@ -58,16 +58,14 @@ pub(crate) struct Seen {
 pub(crate) fn seen(graph: &Graph, whole: &InputBox, limits: &[f64], budget: BoxEffort) -> Seen {
     let (graph, limits, distinct) = distinct_outputs(graph, limits);
     let taken = largest_taken(&graph, whole, budget);
-    let (most, worst) = taken.unwrap_or_else(|| {
-        let most = branch_and_bound(&graph, whole, &limits, 1.0, budget);
-        (most, Vec::new())
+    let Seen { used: most, worst } = taken.unwrap_or_else(|| Seen {
+        used: branch_and_bound(&graph, whole, &limits, 1.0, budget),
+        worst: Vec::new(),
     });
-    let used = most
-        .iter()
-        .zip(&limits)
-        .map(|(&x, &limit)| relative(x, limit));
+    let used = most.iter().zip(&limits);
+    let used: Vec<f64> = used.map(|(&x, &limit)| relative(x, limit)).collect();
     Seen {
-        used: distinct.scatter(&used.collect::<Vec<_>>()),
+        used: distinct.scatter(&used),
         worst,
     }
 }
@@ -98,26 +96,22 @@ pub(crate) fn shown_within(
     }
 }
 
-/// Returns about the largest value of each output that is taken, and the angles there, where
-/// they are known; none if they cannot be written out.
-fn largest_taken(
-    graph: &Graph,
-    whole: &InputBox,
-    budget: BoxEffort,
-) -> Option<(Vec<f64>, Vec<Vec<Option<f64>>>)> {
+/// Returns about the largest value of each output that is taken, in its unit; none if they
+/// cannot be written out.
+fn largest_taken(graph: &Graph, whole: &InputBox, budget: BoxEffort) -> Option<Seen> {
     if budget.points == 0 {
         return None;
     }
     let sliding = grid::sliding(graph, whole.joints());
     let closeness = GridEffort::fine(budget.points);
-    let (mut most, mut worst) = (Vec::new(), Vec::new());
+    let (mut used, mut worst) = (Vec::new(), Vec::new());
     for polynomial in expand(graph, whole)? {
         let polynomial = grid::harmonics(&polynomial, whole.joints())?;
-        let (found, angles) = grid::taken(polynomial, whole, &sliding, closeness);
-        most.push(found);
+        let (most, angles) = grid::taken(polynomial, whole, &sliding, closeness);
+        used.push(most);
         worst.extend(angles);
     }
-    Some((most, worst))
+    Some(Seen { used, worst })
 }
 
 /// Returns equal outputs once: a sign does not matter to a magnitude; a scale does to the search.
