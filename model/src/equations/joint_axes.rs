@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 
 use super::kinematics::frames;
 use super::matrix::{Columns, Vector, cross, difference, scaled, sum, zero_vector};
-use super::{Arm, DhVariables, Link, SinCosPair};
+use super::{Arm, DhVariables, SinCosPair};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
 
@@ -72,27 +72,25 @@ pub(super) fn hand<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S>
 
 /// Returns the columns of J in base axes at the hand, linear and angular.
 pub(super) fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Vector<S>; 2]> {
-    let levers = levers(arm, at).of_joints;
-    let frames = frames(arm, at).into_iter();
-    let joints = frames.zip(&arm.links).zip(at).zip(&levers);
-    let column = |(((frame, link), at), [own, turned]): (((Columns<S>, &Link<S>), _), &[_; 2])| {
-        let at: &DhVariables<S> = at;
+    let (frames, levers) = (frames(arm, at), levers(arm, at).of_joints);
+    let column = |j: usize| {
+        let (link, [own, turned]) = (&arm.links[j], &levers[j]);
         let before = match arm.convention {
-            Convention::Standard => frame,
-            Convention::Modified => frame.turn_x(&link.alpha),
+            Convention::Standard => frames[j].clone(),
+            Convention::Modified => frames[j].clone().turn_x(&link.alpha),
         };
         let axis = before.axes[2].clone();
         if link.kind == JointKind::Prismatic {
             return [axis, zero_vector()];
         }
-        let after = before.clone().turn_z(&at.theta);
+        let after = before.clone().turn_z(&at[j].theta);
         let linear = match zeros(&before, own) > zeros(&after, turned) {
             true => across(&before, own),
             false => across(&after, turned),
         };
         [linear, axis]
     };
-    joints.map(column).collect()
+    (0..at.len()).map(column).collect()
 }
 
 /// Returns the same by axes that are products: of each frame one axis is carried to the base, one
@@ -127,8 +125,8 @@ pub(super) fn columns_across<S: Scalar>(
         });
     }
     let levers = levers(arm, at).of_joints;
-    let column = |(j, ((link, at), [before, after])): (usize, ((&Link<S>, _), &[Vector<S>; 2]))| {
-        let at: &DhVariables<S> = at;
+    let column = |j: usize| {
+        let (link, [before, after]) = (&arm.links[j], &levers[j]);
         let (frame, lever) = match arm.convention {
             Convention::Standard => (&frames[j], before),
             Convention::Modified => (&frames[j + 1], after),
@@ -142,12 +140,11 @@ pub(super) fn columns_across<S: Scalar>(
         }
         let mut own = across(&Columns::identity(), before);
         if arm.convention == Convention::Modified {
-            own = link.to_previous(arm.convention, &unturned(at), &own);
+            own = link.to_previous(arm.convention, &unturned(&at[j]), &own);
         }
         [frames[0].rotate(&carried(own, j, 0)), axis]
     };
-    let joints = links().zip(&levers).enumerate();
-    joints.map(column).collect()
+    (0..at.len()).map(column).collect()
 }
 
 /// Returns z × r, of a lever in axes of which z is the third.
