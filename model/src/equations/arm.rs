@@ -118,6 +118,11 @@ impl<S: Scalar> Arm<S> {
 }
 
 impl<S: Scalar> Arm<S> {
+    /// Returns the pose of frame 0 in base axes.
+    pub(super) fn frame_0(&self) -> Columns<S> {
+        self.base.clone().unwrap_or_else(Columns::identity)
+    }
+
     /// Returns the same arm where gravity is this, in base axes.
     #[must_use]
     pub fn with_gravity(mut self, gravity: &Vector<S>) -> Arm<S> {

@@ -10,11 +10,25 @@
 
 use alloc::vec::Vec;
 
-use super::kinematics::frames;
 use super::matrix::{Columns, Vector, cross, difference, scaled, sum, zero_vector};
 use super::{Arm, DhVariables, SinCosPair};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
+
+/// Returns the axes of frames 0 … n in base axes and, in the place of the origin, the step from
+/// the frame before.
+pub(super) fn frames<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
+    let unmoved = |frame: &Columns<S>| Columns {
+        axes: frame.axes.clone(),
+        origin: zero_vector(),
+    };
+    let mut frames = alloc::vec![unmoved(&arm.frame_0())];
+    for (link, at) in arm.links.iter().zip(at) {
+        let before = frames.last().map_or_else(Columns::identity, unmoved);
+        frames.push(link.append(arm.convention, at, &before));
+    }
+    frames
+}
 
 /// The hand seen from the frames.
 struct Levers<S> {

@@ -3,7 +3,6 @@
 //! Lagrange–Euler takes rates of the poses themselves, by dual numbers; the
 //! other formulations use axes and levers. Nothing is shared but eq. 2.1.
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 use super::energy::moving;
@@ -21,7 +20,7 @@ use crate::scalar::dual::Dual;
 
 /// Returns ⁰A_i of every frame i = 1 … n, in base axes.
 pub fn poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
-    poses_from(&frame_0(arm), arm, at)
+    poses_from(&arm.frame_0(), arm, at)
 }
 
 /// Returns the pose of every link's own frame, in base axes.
@@ -34,11 +33,6 @@ pub fn link_poses<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns
         Some(own) => pose.then(own),
     });
     poses.collect()
-}
-
-/// Returns the pose of frame 0 in base axes.
-fn frame_0<S: Scalar>(arm: &Arm<S>) -> Columns<S> {
-    arm.base.clone().unwrap_or_else(Columns::identity)
 }
 
 /// Returns the poses of frames i = 1 … n where frame 0 has this one.
@@ -57,7 +51,7 @@ fn poses_from<S: Scalar>(
 
 /// Returns the pose of the hand, from those of the links.
 fn hand_of<S: Scalar>(arm: &Arm<S>, poses: &[Columns<S>]) -> Columns<S> {
-    let last = poses.last().cloned().unwrap_or_else(|| frame_0(arm));
+    let last = poses.last().cloned().unwrap_or_else(|| arm.frame_0());
     match &arm.tool {
         None => last,
         Some(tool) => last.then(tool),
@@ -343,25 +337,10 @@ fn inward<S: Scalar>(
     }
 }
 
-/// Returns the axes of frames 0 … n in base axes and, in the place of the origin, the step from
-/// the frame before.
-pub(super) fn frames<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
-    let unmoved = |frame: &Columns<S>| Columns {
-        axes: frame.axes.clone(),
-        origin: zero_vector(),
-    };
-    let mut frames = vec![unmoved(&frame_0(arm))];
-    for (link, at) in arm.links.iter().zip(at) {
-        let before = frames.last().map_or_else(Columns::identity, unmoved);
-        frames.push(link.append(arm.convention, at, &before));
-    }
-    frames
-}
-
 /// Returns the axes of frames 0 … n and, in the place of the origin, the lever from there to
 /// the hand, in base axes. Added up from the hand on, no lever is a difference.
 pub(super) fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
-    let mut frames = frames(arm, at);
+    let mut frames = joint_axes::frames(arm, at);
     let mut lever = match (frames.last(), &arm.tool) {
         (Some(last), Some(tool)) => last.rotate(&tool.origin),
         _ => zero_vector(),
@@ -420,7 +399,7 @@ fn hand_by_levers<S: Scalar>(
     at: &[DhVariables<S>],
     levers: &[Columns<S>],
 ) -> Columns<S> {
-    let mut hand = levers.last().cloned().unwrap_or_else(|| frame_0(arm));
+    let mut hand = levers.last().cloned().unwrap_or_else(|| arm.frame_0());
     if let Some(tool) = &arm.tool {
         hand = hand.then(tool);
     }
