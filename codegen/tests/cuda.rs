@@ -25,8 +25,7 @@ fn functions_and_kernels_have_the_bits_of_the_program() {
                 entries,
                 ..request.clone()
             };
-            let flags: [&[&str]; 2] = [&["-O1"], &["-O3", "-march=native"]];
-            same_bits(what, &robot, &request, 100, &flags);
+            same_bits(what, &robot, &request, 100, &[&["-O3", "-march=native"]]);
         }
     }
 }
