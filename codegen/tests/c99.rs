@@ -68,8 +68,8 @@ fn compiled_functions_have_the_bits_of_the_program() {
 
 #[test]
 #[ignore = "more than an hour in release mode"]
-fn every_output_of_four_robots_has_the_bits_of_the_program() {
-    for name in ["planar2r", "stanford", "puma560", "panda"] {
+fn every_output_of_five_robots_has_the_bits_of_the_program() {
+    for name in ["planar2r", "planar3r", "stanford", "puma560", "panda"] {
         compare(name, &Function::ALL, 100_000);
     }
 }
