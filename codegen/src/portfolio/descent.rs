@@ -20,7 +20,7 @@ use crate::watch::{FunctionWatch, Part};
 const MAX_TRIED: usize = 3;
 
 /// How far a program is above the error that is allowed: at most one where it
-/// is admitted. What reaches the bound need not be exact.
+/// is admitted. At or above the bound, which is the second argument, it need not be exact.
 pub(crate) type Limit<'a> = &'a dyn Fn(&Graph, f64) -> f64;
 
 /// Above every price of an admitted program. What is refused is compared by

@@ -42,7 +42,7 @@ pub(crate) struct AccuracyFilter<'a> {
     scene_robot: &'a SceneRobot,
     function: Function,
     reference_formulation: Option<Rounding>,
-    /// Where the last program that was refused erred most: the next may, too.
+    /// The chunk of states that refused the last program: it may refuse the next one, too.
     worst_states: Cell<usize>,
 }
 
@@ -85,7 +85,7 @@ impl<'a> AccuracyFilter<'a> {
     }
 
     /// Returns the program's error over the largest that is accepted; zero where
-    /// nothing is measured. What reaches the bound need not be exact.
+    /// nothing is measured. An error at or above the bound need not be exact.
     pub(crate) fn excess(&self, graph: &Graph, bound: f64) -> f64 {
         let Some(reference_formulation) = &self.reference_formulation else {
             return 0.0;

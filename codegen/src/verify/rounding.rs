@@ -44,8 +44,8 @@ impl Rounding {
         Rounding::until(scene_robot, program, &Cell::default(), |_| false)
     }
 
-    /// Estimates the same, until what the states so far say is enough: it only ever grows. `first`
-    /// are the states to begin with, and then those that were enough.
+    /// Estimates the rounding error until `is_enough` says so of the states so far: more states only
+    /// make it larger. It begins with the chunk of states `first`, which is then the last one.
     pub(crate) fn until(
         scene_robot: &SceneRobot,
         program: &Program,
@@ -132,7 +132,7 @@ struct Network<'a> {
 /// A program's values at a few states.
 struct Run {
     values: Vec<Lanes>,
-    /// What each step reads.
+    /// The operands of each step.
     operands: Vec<[Lanes; 2]>,
     /// The sine and the cosine of each angle, in the order of `trig`.
     pairs: Vec<(Lanes, Lanes)>,

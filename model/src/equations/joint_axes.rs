@@ -1,9 +1,9 @@
 //! The hand's place and the columns of J by levers in the joints' own axes.
 //!
 //! A joint's column is z × r, r being the lever from its axis to the hand. With r = (x, y, z) in
-//! axes of which the third is the joint's, that is x times their second less y times their first.
-//! Carried from the hand inward, r is constant in the last link and turns by one angle a joint. Where
-//! it lies in a plane with the axis, as past a wrist, the column is one axis times a number.
+//! axes X, Y, Z of which Z is the joint's, that is x·Y − y·X. Carried from the hand inward, r is
+//! constant in the last link and turns by one angle a joint. Where r lies in a plane with the joint's
+//! axis, as past a wrist, the column is one axis times a number.
 //!
 //! The axes may be those before the joint turns or those after: near the base the former have
 //! entries that are zero, near the hand the lever has.
@@ -30,19 +30,11 @@ pub(super) fn frames<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Colu
     frames
 }
 
-/// The hand seen from the frames.
-struct Levers<S> {
-    /// From the origins of frames 0 … n, in the frames' axes.
-    of_frames: Vec<Vector<S>>,
-    /// From each joint's axis, in the axes before it turns and after.
-    of_joints: Vec<[Vector<S>; 2]>,
-}
-
-/// Returns the levers to the hand.
-fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Levers<S> {
+/// Returns the levers to the hand: from the origin of frame 0 in its axes, and from each joint's
+/// axis in the axes before the joint turns and after.
+fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> (Vector<S>, Vec<[Vector<S>; 2]>) {
     let tool = arm.tool.as_ref();
     let mut lever = tool.map_or_else(zero_vector, |tool| tool.origin.clone());
-    let mut of_frames = alloc::vec![lever.clone()];
     let mut of_joints = Vec::with_capacity(at.len());
     for (link, at) in arm.links.iter().zip(at).rev() {
         let carried = |at: &DhVariables<S>| {
@@ -58,15 +50,10 @@ fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Levers<S> {
                 [[x, y, lever[2].clone()], lever.clone()]
             }
         });
-        of_frames.push(before.clone());
         lever = before;
     }
-    of_frames.reverse();
     of_joints.reverse();
-    Levers {
-        of_frames,
-        of_joints,
-    }
+    (lever, of_joints)
 }
 
 /// Returns the hand's pose in base axes.
@@ -76,7 +63,7 @@ pub(super) fn hand<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S>
     if let Some(tool) = &arm.tool {
         hand = hand.then(tool);
     }
-    let lever = frames[0].rotate(&levers(arm, at).of_frames[0]);
+    let lever = frames[0].rotate(&levers(arm, at).0);
     hand.origin = match &arm.base {
         None => lever,
         Some(base) => sum(&base.origin, &lever),
@@ -86,7 +73,7 @@ pub(super) fn hand<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S>
 
 /// Returns the columns of J in base axes at the hand, linear and angular.
 pub(super) fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Vector<S>; 2]> {
-    let (frames, levers) = (frames(arm, at), levers(arm, at).of_joints);
+    let (frames, levers) = (frames(arm, at), levers(arm, at).1);
     let column = |j: usize| {
         let (link, [own, turned]) = (&arm.links[j], &levers[j]);
         let before = match arm.convention {
@@ -107,9 +94,10 @@ pub(super) fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Ve
     (0..at.len()).map(column).collect()
 }
 
-/// Returns the same by axes that are products: of each frame one axis is carried to the base, one
-/// seen from the frame two joints before, which saves the axes of the frame between, and the third
-/// is across both. Columns of the joints near the base are carried there, too.
+/// Returns the columns of J in base axes at the hand from axes that are cross products: of each
+/// frame one axis is carried to the base, one is seen from the frame two joints before, which saves
+/// the axes of the frame between, and the third is the product of both. Columns of the joints near
+/// the base are carried there, too.
 pub(super) fn columns_across<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
@@ -138,7 +126,7 @@ pub(super) fn columns_across<S: Scalar>(
             origin: zero_vector(),
         });
     }
-    let levers = levers(arm, at).of_joints;
+    let levers = levers(arm, at).1;
     let column = |j: usize| {
         let (link, [before, after]) = (&arm.links[j], &levers[j]);
         let (frame, lever) = match arm.convention {
