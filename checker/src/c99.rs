@@ -8,7 +8,7 @@
 use crate::fault::Fault;
 use crate::file::{Found, Lines, between, fault, is_letter, item, whole};
 use crate::program::{Node, Source};
-use crate::quantity::FUNCTIONS;
+use crate::quantity::{ARGUMENTS, FUNCTIONS, entries};
 use crate::text::Parser;
 use crate::together;
 
@@ -143,11 +143,15 @@ fn word<'t>(header: &str, head: &'t str) -> Option<(&'t str, &'t str)> {
     Some((named.strip_suffix(word)?.trim_end_matches('_'), word))
 }
 
-/// Returns whether a name is another whose words are shortened.
+/// Returns whether a name is another whose words are shortened: to the first letter and some that follow.
 fn is_short(word: &str, long: &str) -> bool {
     let mut pairs = word.split('_').zip(long.split('_'));
-    let is_alike =
-        pairs.all(|(short, long)| short == long || short.len() > 1 && long.starts_with(short));
+    let is_part = |short: &str, long: &str| {
+        let mut letters = long.chars();
+        let has_all = short.chars().all(|own| letters.any(|c| c == own));
+        has_all && short.len() > 1 && long.starts_with(&short[..1])
+    };
+    let is_alike = pairs.all(|(short, long)| short == long || is_part(short, long));
     is_alike && word.split('_').count() == long.split('_').count()
 }
 
@@ -191,7 +195,7 @@ impl<'t> Parser<'t> {
         let is_told = text.contains("(const int far, ");
         let is_struct = text.starts_with("typedef ");
         let (fields, joints) = (self.function.fields.clone(), self.joints);
-        let is_number = !is_struct && fields.iter().all(|(_, own)| own.axes() == 0);
+        let is_number = !is_struct && fields.iter().all(|(_, own)| own.shape(1).is_empty());
         let array =
             |kind: &str, name: &str, length| format!("{kind} {name}[{header}_RESTRICT {length}]");
         let place = |index: usize| match index {
@@ -202,13 +206,14 @@ impl<'t> Parser<'t> {
         let mut columns = "const size_t n".to_owned();
         let (mut state, mut stored) = (String::new(), String::new());
         let (mut parameters, mut targets) = (Vec::new(), Vec::new());
-        for name in ["q", "qd", "qdd"] {
-            let parameter = array(&format!("const {float}"), name, joints);
+        for name in ARGUMENTS {
+            let length = entries(name, joints);
+            let parameter = array(&format!("const {float}"), name, length);
             if text.contains(&parameter) {
                 self.argument(name)?;
-                let entries = (0..joints).map(|index| format!("{name}[{}]", place(index)));
-                let entries = entries.collect::<Vec<String>>().join(", ");
-                state += &format!("const {float} {name}_s[{joints}] = {{{entries}}};\n");
+                let each = (0..length).map(|index| format!("{name}[{}]", place(index)));
+                let each = each.collect::<Vec<String>>().join(", ");
+                state += &format!("const {float} {name}_s[{length}] = {{{each}}};\n");
                 columns += &format!(", const {float} *{header}_RESTRICT {name}");
                 parameters.push((parameter, name));
             }
@@ -307,7 +312,7 @@ impl<'t> Parser<'t> {
                     Some((name, value)) => self.c_statement(name, value)?,
                     None => self.called(rest, float)?,
                 }
-            } else if !["(void)q;", "(void)qd;", "(void)qdd;"].contains(&line) {
+            } else if !between(line, "(void)", ";").is_some_and(|name| ARGUMENTS.contains(&name)) {
                 self.close()?;
                 return Some(line);
             }

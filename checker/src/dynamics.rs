@@ -9,7 +9,7 @@ use crate::number::{Number, Work};
 use crate::robot::{Body, Step, Z};
 use crate::scene::Setting;
 
-type Vector<N> = [N; 3];
+pub(crate) type Vector<N> = [N; 3];
 
 /// The state of one joint.
 #[derive(Clone, Debug, Default)]
@@ -26,7 +26,7 @@ pub struct State<N> {
     pub acceleration: N,
 }
 
-fn sum<N: Number>(a: &Vector<N>, b: &Vector<N>) -> Vector<N> {
+pub(crate) fn sum<N: Number>(a: &Vector<N>, b: &Vector<N>) -> Vector<N> {
     [0, 1, 2].map(|i| a[i].plus(&b[i]))
 }
 
@@ -35,7 +35,7 @@ fn each<N>(mut entry: impl FnMut(usize) -> Result<N, Fault>) -> Result<Vector<N>
 }
 
 /// Products, which are counted.
-struct Products<'w>(&'w mut Work);
+pub(crate) struct Products<'w>(pub(crate) &'w mut Work);
 
 impl Products<'_> {
     /// Returns a·b + c·d
@@ -43,12 +43,16 @@ impl Products<'_> {
         Ok(a.times(b, self.0)?.plus(&c.times(d, self.0)?))
     }
 
-    fn cross<N: Number>(&mut self, a: &Vector<N>, b: &Vector<N>) -> Result<Vector<N>, Fault> {
+    pub(crate) fn cross<N: Number>(
+        &mut self,
+        a: &Vector<N>,
+        b: &Vector<N>,
+    ) -> Result<Vector<N>, Fault> {
         let mut entry = |i: usize, k: usize| self.two(&a[i], &b[k], &a[k].negated(), &b[i]);
         Ok([entry(1, 2)?, entry(2, 0)?, entry(0, 1)?])
     }
 
-    fn dot<N: Number>(&mut self, a: &Vector<N>, b: &Vector<N>) -> Result<N, Fault> {
+    pub(crate) fn dot<N: Number>(&mut self, a: &Vector<N>, b: &Vector<N>) -> Result<N, Fault> {
         Ok(self
             .two(&a[0], &b[0], &a[1], &b[1])?
             .plus(&a[2].times(&b[2], self.0)?))
@@ -82,7 +86,7 @@ impl Products<'_> {
     }
 
     /// Returns a vector, or a point, of the last frame of a way in the axes of the first.
-    fn outward<N: Number>(
+    pub(crate) fn outward<N: Number>(
         &mut self,
         v: &Vector<N>,
         way: &[Step<N>],
@@ -112,7 +116,7 @@ impl Products<'_> {
 }
 
 /// Returns the numbers of a way.
-fn way<N: Number>(steps: &[Step]) -> Vec<Step<N>> {
+pub(crate) fn way<N: Number>(steps: &[Step]) -> Vec<Step<N>> {
     let step = |step: &Step| match step {
         Step::Turn(axes, pair) => Step::Turn(*axes, pair.map(N::constant)),
         Step::Shift(shift) => Step::Shift(shift.map(N::constant)),
@@ -182,25 +186,17 @@ struct Link<N> {
     moment: Vector<N>,
 }
 
-/// Returns the torques or forces τ = D q̈ + h + c + b∘q̇, one a joint, in N·m or N; `gravity` and
-/// `friction` say whether c and b∘q̇ are in them.
+/// Returns the ways from frame 0 to the first joint's frame, moved, and from each joint's to the next.
 ///
 /// # Errors
 /// As of [`Number::times`].
-pub fn torques<N: Number>(
+pub(crate) fn ways<N: Number>(
     setting: &Setting,
     states: &[State<N>],
-    (gravity, friction): (bool, bool),
     work: &mut Work,
-) -> Result<Vec<N>, Fault> {
+) -> Result<Vec<Vec<Step<N>>>, Fault> {
     let products = &mut Products(work);
-    let [mut w, mut wd, mut vd]: [Vector<N>; 3] = Default::default();
-    if gravity {
-        // A base that is accelerated upward feels what one in gravity does.
-        let up = setting.gravity.map(|g| N::constant(g).negated());
-        vd = products.inward(&up, &way(&setting.base))?;
-    }
-    let (mut behind, mut links): (&[Step], Vec<Link<N>>) = (&[], Vec::new());
+    let (mut behind, mut ways): (&[Step], _) = (&[], Vec::new());
     for (joint, state) in setting.joints.iter().zip(states) {
         let mut way: Vec<Step<N>> = way(&[behind, &joint.before].concat());
         behind = &joint.behind;
@@ -217,6 +213,32 @@ pub fn torques<N: Number>(
             Step::Turn(Z, turn),
             Step::Shift([N::default(), N::default(), d]),
         ]);
+        ways.push(way);
+    }
+    Ok(ways)
+}
+
+/// Returns the torques or forces τ = D q̈ + h + c + b∘q̇, one a joint, in N·m or N; `gravity` and
+/// `friction` say whether c and b∘q̇ are in them.
+///
+/// # Errors
+/// As of [`Number::times`].
+pub fn torques<N: Number>(
+    setting: &Setting,
+    states: &[State<N>],
+    [gravity, friction]: [bool; 2],
+    work: &mut Work,
+) -> Result<Vec<N>, Fault> {
+    let ways = ways(setting, states, work)?;
+    let products = &mut Products(work);
+    let [mut w, mut wd, mut vd]: [Vector<N>; 3] = Default::default();
+    if gravity {
+        // A base that is accelerated upward feels what one in gravity does.
+        let up = setting.gravity.map(|g| N::constant(g).negated());
+        vd = products.inward(&up, &way(&setting.base))?;
+    }
+    let mut links: Vec<Link<N>> = Vec::new();
+    for ((joint, state), way) in setting.joints.iter().zip(states).zip(ways) {
         let shift = products.outward(&Vector::default(), &way, true)?;
         let carried = products.swing(&shift, [&w, &wd])?;
         let mut inward = |v: &Vector<N>| products.inward(v, &way);
@@ -234,7 +256,7 @@ pub fn torques<N: Number>(
         }
         let mut body = Moments::default();
         for own in &joint.bodies {
-            body.add(own, behind, products)?;
+            body.add(own, &joint.behind, products)?;
         }
         let force = products.swing(&body.first, [&w, &wd])?;
         let force = sum(&force, &products.scaled(&body.mass, &vd)?);

@@ -7,6 +7,7 @@ use crate::fault::Fault;
 use crate::file::{self, Found};
 use crate::scene::{self, Setting};
 use crate::sines::Scalar;
+use crate::tried;
 use crate::verdict::measure;
 
 /// The largest rates where the robot file has no limit, per second and per second
@@ -15,6 +16,8 @@ pub const RATE: f64 = 10.0;
 /// What an exact program may be off, in units of half an ulp of the largest output: above
 /// this something was left out, or rounding can cost that much.
 const MOST_UNITS: f64 = 65_536.0;
+/// What may be left over in an equation that is tried, in the same units of its terms.
+const MOST_LEFT: f64 = 4096.0;
 
 /// The findings about one function.
 #[derive(Clone, Debug)]
@@ -41,17 +44,28 @@ pub struct Distance {
     pub seen: f64,
     /// Half an ulp, relative.
     pub unit: f64,
+    /// The number of states at which the equation that it solves was tried, where nothing is
+    /// bounded; else zero.
+    pub tried: usize,
 }
 
 impl Distance {
-    /// Returns the bound of both, in units of half an ulp.
+    /// Returns the bound of both, in units of half an ulp; of what was only tried, what was seen.
     pub fn units(&self) -> f64 {
-        (self.edits + self.rounding) / self.unit
+        match self.tried {
+            0 => (self.edits + self.rounding) / self.unit,
+            _ => self.seen / self.unit,
+        }
     }
 
     /// Returns whether that is no more than an exact program's rounding.
     pub fn is_shown(&self) -> bool {
-        self.units() <= MOST_UNITS
+        self.units()
+            <= if self.tried > 0 {
+                MOST_LEFT
+            } else {
+                MOST_UNITS
+            }
     }
 }
 
@@ -110,14 +124,29 @@ fn distance(found: &Found, setting: &Setting) -> Result<Distance, Fault> {
     let why = |fault: Fault| fault.to_string().replace("certificate: ", "");
     let unknown = |fault| Fault::Text(found.line, why(fault));
     let places = claim.function().map_err(unknown)?.places(claim.rows.len());
-    let all = measure(&claim, setting, |_| f64::INFINITY).map_err(|fault| match fault {
+    let in_file = |fault| match fault {
         Fault::Text(line, why) => Fault::Text(found.line + line - 1, why),
         other => other,
-    })?;
+    };
     let mut distance = Distance {
         unit: Scalar::of(&claim.scalar).unit,
         ..Distance::default()
     };
+    if claim.function()?.is_tried() {
+        distance.tried = tried::STATES;
+        for own in tried::worst(&claim, setting).map_err(in_file)? {
+            let off = if own.off == 0.0 {
+                0.0
+            } else {
+                own.off / own.size
+            };
+            if off > distance.seen || off.is_nan() {
+                distance.seen = off;
+            }
+        }
+        return Ok(distance);
+    }
+    let all = measure(&claim, setting, |_| f64::INFINITY).map_err(in_file)?;
     let pairs = || places.iter().map(|(quantity, _)| quantity).zip(&all);
     for (own, found) in pairs() {
         let same = pairs().filter(|(other, _)| *other == own);

@@ -6,6 +6,7 @@
 //! a function calls. So the function of a name and module is the one that is found here.
 
 use crate::fault::Fault;
+use crate::quantity::Extent;
 
 /// The longest file.
 pub const MOST_BYTES: usize = 32 << 20;
@@ -133,12 +134,12 @@ pub(crate) fn whole(word: &str) -> Option<usize> {
     (word == format!("{number}")).then_some(number)
 }
 
-/// Returns the fields of the struct that a text returns, and how many entries each has; none if it
+/// Returns the fields of the struct that a text returns, and how far each reaches; none if it
 /// returns no struct.
-pub(crate) fn results<'t>(name: &str, text: &'t str, rows: usize) -> Vec<(&'t str, usize)> {
+pub(crate) fn results<'t>(name: &str, text: &'t str) -> Vec<(&'t str, Extent)> {
     let declared = |line: &'t str| {
         let (name, length) = line.split_once(' ')?.1.split_once('[')?;
-        Some((name, whole(length.strip_suffix("];")?)?))
+        Some((name, Extent::Entries(whole(length.strip_suffix("];")?)?)))
     };
     if let Some(fields) = text.strip_prefix("typedef struct {\n") {
         let lines = fields.lines().filter(|line| !line.is_empty());
@@ -149,7 +150,7 @@ pub(crate) fn results<'t>(name: &str, text: &'t str, rows: usize) -> Vec<(&'t st
     let listed = |(place, _): (usize, &str)| {
         let name = tail[..place].rsplit(' ').next()?;
         let open = tail[place + 2..].split(|c| !"[ \n".contains(c)).next()?;
-        Some((name, rows.pow(open.matches('[').count() as u32)))
+        Some((name, Extent::Axes(open.matches('[').count())))
     };
     tail.match_indices(": ").filter_map(listed).collect()
 }

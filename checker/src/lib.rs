@@ -8,14 +8,15 @@
 //!
 //! 1. `literal`, `robot`, `scene`: the robot file, every number as an interval about a double
 //! 2. `file`, `c99`, `program`, `text`: the text, by a small strict grammar
-//! 3. `dynamics`, `quantity`: the recursion of Newton and Euler, and what follows from it
+//! 3. `dynamics`, `kinematics`, `quantity`: the recursion of Newton and Euler, and what follows
 //! 4. `polynomial`, `ring`, `values`, `sines`: text and recursion as polynomials in
 //!    sines, cosines and rates; all that was not edited cancels in their difference
 //! 5. `levels`, `maximum`: the largest magnitude of that difference over the box
 //! 6. `values`, again: what rounding costs, by one pass over the text
 //! 7. `sample`: the text run at some states, which must not contradict the bounds;
 //!    `witness`: states at which T is reached
-//! 8. `verdict`, `exact`: the parts in order, of a certificate and of a whole file
+//! 8. `tried`: functions that divide, by their equation at states, without a bound
+//! 9. `verdict`, `exact`: the parts in order, of a certificate and of a whole file
 //!
 //! What is believed: that every operation is rounded to nearest and none is contracted,
 //! that the library's sines are within one ulp, this crate, the compiler, and the parsers
@@ -30,6 +31,7 @@ pub mod exact;
 mod fault;
 pub mod file;
 pub mod interval;
+pub mod kinematics;
 mod levels;
 pub mod literal;
 mod maximum;
@@ -44,6 +46,7 @@ pub mod scene;
 mod sines;
 pub mod text;
 mod together;
+mod tried;
 mod values;
 mod verdict;
 mod witness;

@@ -74,3 +74,44 @@ impl Number for f64 {
         Ok(self * other)
     }
 }
+
+/// A number, and its slope where the state moves.
+#[derive(Clone, Debug, Default)]
+pub struct Dual<N> {
+    /// The number.
+    pub value: N,
+    /// Its slope.
+    pub slope: N,
+}
+
+impl<N: Number> Number for Dual<N> {
+    fn constant(real: Real) -> Dual<N> {
+        let (value, slope) = (N::constant(real), N::default());
+        Dual { value, slope }
+    }
+
+    fn plus(&self, other: &Dual<N>) -> Dual<N> {
+        Dual {
+            value: self.value.plus(&other.value),
+            slope: self.slope.plus(&other.slope),
+        }
+    }
+
+    fn negated(&self) -> Dual<N> {
+        Dual {
+            value: self.value.negated(),
+            slope: self.slope.negated(),
+        }
+    }
+
+    fn times(&self, other: &Dual<N>, work: &mut Work) -> Result<Dual<N>, Fault> {
+        let (own, others) = (
+            self.slope.times(&other.value, work)?,
+            self.value.times(&other.slope, work)?,
+        );
+        Ok(Dual {
+            value: self.value.times(&other.value, work)?,
+            slope: own.plus(&others),
+        })
+    }
+}

@@ -14,7 +14,7 @@ pub enum Source {
 pub enum Node {
     /// A literal as the scalar holds it.
     Constant(f64),
-    /// Of q, q̇ or q̈, counted from zero, the entry of a joint.
+    /// Of an argument, counted from zero, an entry.
     Input(usize, usize),
     /// A sum.
     Add(usize, usize),
@@ -22,6 +22,8 @@ pub enum Node {
     Sub(usize, usize),
     /// A product.
     Mul(usize, usize),
+    /// A quotient.
+    Div(usize, usize),
     /// A product and a sum, rounded once.
     Fused(usize, usize, usize),
     /// The opposite, which is exact.

@@ -1,14 +1,14 @@
 //! The results of functions, each by the recursion.
 //!
-//! The recursion is quadratic in q̇: h(v + w) − h(v) − h(w) is twice the load that two
-//! velocities give together, C(v) w. So the Christoffel symbols, the Coriolis matrix and
-//! what follows from them are loads at sums of velocities.
+//! Derivatives are slopes of the recursion on numbers that have one. Half the slope of h(v) along
+//! a velocity w is C(v) w, which gives the Coriolis matrix and the Christoffel symbols.
 
 use Quantity::*;
 
 use crate::dynamics::{State, torques};
 use crate::fault::Fault;
-use crate::number::{Number, Work};
+use crate::kinematics::Arm;
+use crate::number::{Dual, Number, Work};
 use crate::scene::Setting;
 
 /// A part of what a function returns.
@@ -32,30 +32,75 @@ pub enum Quantity {
     MomentumSlope,
     /// ½ q̇ᵀ D q̇
     KineticEnergy,
+    /// U
+    PotentialEnergy,
+    /// Cᵀq̇ − c − b∘q̇
+    MomentumDrift,
+    /// ∂τ/∂q, row by row
+    TorqueByPosition,
+    /// ∂τ/∂q̇, row by row
+    TorqueByVelocity,
+    /// [R | p] of the hand
+    Pose,
+    /// [R | p] of each link
+    LinkPoses,
+    /// J, linear over angular
+    Jacobian,
+    /// J̇ q̇
+    JacobianRate,
+    /// q̈, from torques
+    Acceleration,
+    /// D⁻¹
+    InertiaInverse,
+    /// ∂q̈/∂q, from torques
+    AccelerationByPosition,
+    /// ∂q̈/∂q̇
+    AccelerationByVelocity,
+    /// D a + C v + c + b∘v
+    Passivity,
+    /// τ beside a wrench on the hand
+    ContactTorque,
+    /// q̈ under a wrench on the hand
+    ContactAcceleration,
 }
 
 impl Quantity {
-    /// Returns the number of axes of its array, each over the rows.
-    pub fn axes(self) -> usize {
+    /// Returns the lengths of the axes of its array, over so many rows.
+    pub fn shape(self, rows: usize) -> Vec<usize> {
         match self {
-            Quantity::KineticEnergy => 0,
-            Quantity::Torque | Quantity::Gravity | Quantity::Coriolis => 1,
-            Quantity::Momentum | Quantity::MomentumSlope => 1,
-            Quantity::Inertia | Quantity::CoriolisMatrix => 2,
-            Quantity::Christoffel => 3,
+            KineticEnergy | PotentialEnergy => vec![],
+            Inertia | CoriolisMatrix | TorqueByPosition | TorqueByVelocity => vec![rows; 2],
+            InertiaInverse | AccelerationByPosition | AccelerationByVelocity => vec![rows; 2],
+            Christoffel => vec![rows; 3],
+            Pose => vec![3, 4],
+            LinkPoses => vec![rows, 3, 4],
+            Jacobian => vec![6, rows],
+            JacobianRate => vec![6],
+            _ => vec![rows],
         }
     }
 
     /// Returns the number of its entries over so many rows.
     pub(crate) fn length(self, rows: usize) -> usize {
-        rows.pow(self.axes() as u32)
+        self.shape(rows).iter().product()
+    }
+
+    /// Returns whether its axes are over joints, all of them.
+    fn is_over_joints(self) -> bool {
+        !matches!(self, Pose | LinkPoses | Jacobian | JacobianRate)
+    }
+
+    /// Returns whether it is only tried at states: it divides, or reads more than q, q̇ and q̈.
+    pub(crate) fn is_tried(self) -> bool {
+        self as usize >= Acceleration as usize
     }
 
     /// Returns the number of arguments among q, q̇ and q̈, in this order.
     fn arguments(self) -> usize {
         match self {
-            Quantity::Gravity | Quantity::Inertia | Quantity::Christoffel => 1,
-            Quantity::Torque => 3,
+            Gravity | Inertia | Christoffel | PotentialEnergy => 1,
+            Pose | LinkPoses | Jacobian => 1,
+            Torque | TorqueByPosition | TorqueByVelocity => 3,
             _ => 2,
         }
     }
@@ -64,6 +109,15 @@ impl Quantity {
 /// The name of a result, and what it is.
 pub type Field = (&'static str, Quantity);
 
+/// How far a result of a struct reaches, as its text tells.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Extent {
+    /// The number of axes of its array.
+    Axes(usize),
+    /// The number of its entries.
+    Entries(usize),
+}
+
 /// A generated function, or a bundle of what such return.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Function {
@@ -71,8 +125,8 @@ pub struct Function {
     pub fields: Vec<Field>,
 }
 
-/// The functions that are checked.
-pub const FUNCTIONS: [(&str, &[Field]); 9] = [
+/// The functions that are checked, those that are only tried behind the others.
+pub const FUNCTIONS: [(&str, &[Field]); 22] = [
     ("inverse_dynamics", &[("tau", Torque)]),
     ("gravity", &[("c", Gravity)]),
     ("inertia", &[("d", Inertia)]),
@@ -88,7 +142,48 @@ pub const FUNCTIONS: [(&str, &[Field]); 9] = [
     ("kinetic_energy", &[("kinetic", KineticEnergy)]),
     ("momentum", &[("p", Momentum), ("ct_qd", MomentumSlope)]),
     ("coriolis_matrix", &[("c_matrix", CoriolisMatrix)]),
+    ("potential_energy", &[("potential", PotentialEnergy)]),
+    (
+        "momentum_observer",
+        &[("p", Momentum), ("drift", MomentumDrift)],
+    ),
+    (
+        "inverse_dynamics_derivatives",
+        &[
+            ("dtau_dq", TorqueByPosition),
+            ("dtau_dqd", TorqueByVelocity),
+            ("d", Inertia),
+        ],
+    ),
+    ("forward_kinematics", &[("pose", Pose)]),
+    ("link_poses", &[("poses", LinkPoses)]),
+    ("jacobian", &[("jacobian", Jacobian)]),
+    ("jacobian_rate", &[("jacobian_rate", JacobianRate)]),
+    ("forward_dynamics", &[("qdd", Acceleration)]),
+    ("inertia_inverse", &[("d_inv", InertiaInverse)]),
+    (
+        "forward_dynamics_derivatives",
+        &[
+            ("dqdd_dq", AccelerationByPosition),
+            ("dqdd_dqd", AccelerationByVelocity),
+            ("dqdd_dtau", InertiaInverse),
+        ],
+    ),
+    ("passivity", &[("tau", Passivity)]),
+    ("inverse_dynamics_with_wrench", &[("tau", ContactTorque)]),
+    (
+        "forward_dynamics_with_wrench",
+        &[("qdd", ContactAcceleration)],
+    ),
 ];
+
+/// The arguments of functions, in the order in which they stand.
+pub(crate) const ARGUMENTS: [&str; 7] = ["q", "qd", "qdd", "tau", "v", "a", "wrench"];
+
+/// Returns the number of entries of an argument.
+pub(crate) fn entries(argument: &str, joints: usize) -> usize {
+    if argument == "wrench" { 6 } else { joints }
+}
 
 impl Function {
     /// Returns the function of a name.
@@ -99,15 +194,22 @@ impl Function {
         })
     }
 
-    /// The bundle of results that have these names and numbers of entries, over so many rows; or
+    /// The bundle of results that have these names and extents, over so many rows; or
     /// the name that no function's result has.
     pub(crate) fn bundle<'t>(
-        results: &[(&'t str, usize)],
+        results: &[(&'t str, Extent)],
         rows: usize,
     ) -> Result<Function, &'t str> {
-        let known = |&(name, length): &(&'t str, usize)| {
+        let known = |&(name, extent): &(&'t str, Extent)| {
             let mut all = FUNCTIONS.iter().flat_map(|(_, fields)| fields.iter());
-            let is_own = |field: &&Field| field.0 == name && field.1.length(rows) == length;
+            let is_own = |field: &&Field| {
+                let shape = field.1.shape(rows);
+                let has_extent = match extent {
+                    Extent::Axes(count) => shape.len() == count,
+                    Extent::Entries(count) => shape.iter().product::<usize>() == count,
+                };
+                field.0 == name && has_extent && !field.1.is_tried()
+            };
             all.find(is_own).copied().ok_or(name)
         };
         let fields = results.iter().map(known).collect::<Result<_, _>>()?;
@@ -120,11 +222,17 @@ impl Function {
         each.max().unwrap_or(0)
     }
 
+    /// Returns whether it is only tried at states.
+    pub(crate) fn is_tried(&self) -> bool {
+        self.fields.iter().any(|(_, field)| field.is_tried())
+    }
+
     /// Of each output its quantity and the places of its joints among so many rows.
     pub fn places(&self, rows: usize) -> Vec<(Quantity, Vec<usize>)> {
         let mut places = Vec::new();
         for &(_, quantity) in &self.fields {
-            let axes = quantity.axes() as u32;
+            let axes = quantity.shape(rows).len() as u32;
+            let axes = if quantity.is_over_joints() { axes } else { 0 };
             let digit = |index: usize, axis: u32| index / rows.pow(axes - 1 - axis) % rows;
             let place = |index: usize| (0..axes).map(|axis| digit(index, axis)).collect();
             places.extend((0..quantity.length(rows)).map(|index| (quantity, place(index))));
@@ -135,7 +243,7 @@ impl Function {
     /// Returns its outputs at a state, over these rows, from zero.
     ///
     /// # Errors
-    /// As of [`torques`].
+    /// As of [`torques`]; a function that is only tried has none.
     pub fn outputs<N: Number>(
         &self,
         setting: &Setting,
@@ -154,28 +262,61 @@ impl Function {
     }
 }
 
+type Dualities<N> = Vec<State<Dual<N>>>;
+
 /// A state, and what is asked of it.
-struct At<'a, N> {
-    setting: &'a Setting,
-    states: &'a [State<N>],
-    rows: &'a [usize],
-    work: &'a mut Work,
+pub(crate) struct At<'a, N> {
+    pub(crate) setting: &'a Setting,
+    pub(crate) states: &'a [State<N>],
+    pub(crate) rows: &'a [usize],
+    pub(crate) work: &'a mut Work,
 }
 
-impl<N: Number> At<'_, N> {
-    /// Returns the loads of all joints at other rates.
-    fn loads(&mut self, qd: &[N], qdd: &[N], with: (bool, bool)) -> Result<Vec<N>, Fault> {
+impl<'a, N: Number> At<'a, N> {
+    /// Returns the states with other rates.
+    fn rated(&self, qd: &[N], qdd: &[N]) -> Vec<State<N>> {
         let states = self.states.iter().zip(qd).zip(qdd);
         let states = states.map(|((state, qd), qdd)| State {
             velocity: qd.clone(),
             acceleration: qdd.clone(),
             ..state.clone()
         });
-        let states: Vec<State<N>> = states.collect();
-        torques(self.setting, &states, with, self.work)
+        states.collect()
     }
 
-    fn zeros(&self) -> Vec<N> {
+    /// Returns the loads of all joints at other rates, with gravity and friction or without.
+    pub(crate) fn loads(&mut self, qd: &[N], qdd: &[N], with: [bool; 2]) -> Result<Vec<N>, Fault> {
+        torques(self.setting, &self.rated(qd, qdd), with, self.work)
+    }
+
+    /// Returns states with their slopes where positions and velocities have these.
+    fn moved(&mut self, states: &[State<N>], slopes: [&[N]; 2]) -> Result<Dualities<N>, Fault> {
+        let mut all = Vec::new();
+        let [dq, dqd] = slopes.map(<[N]>::iter);
+        for ((state, dq), dqd) in states.iter().zip(dq).zip(dqd) {
+            let dual = |value: &N, slope: N| Dual {
+                value: value.clone(),
+                slope,
+            };
+            all.push(State {
+                sin: dual(&state.sin, state.cos.times(dq, self.work)?),
+                cos: dual(&state.cos, state.sin.times(dq, self.work)?.negated()),
+                position: dual(&state.position, dq.clone()),
+                velocity: dual(&state.velocity, dqd.clone()),
+                acceleration: dual(&state.acceleration, N::default()),
+            });
+        }
+        Ok(all)
+    }
+
+    /// Returns the slopes of all loads of the state by positions and velocities.
+    fn slope(&mut self, by: [&[N]; 2]) -> Result<Vec<N>, Fault> {
+        let states = self.moved(self.states, by)?;
+        let loads = torques(self.setting, &states, [true; 2], self.work)?;
+        Ok(loads.into_iter().map(|load| load.slope).collect())
+    }
+
+    pub(crate) fn zeros(&self) -> Vec<N> {
         vec![N::default(); self.states.len()]
     }
 
@@ -186,31 +327,35 @@ impl<N: Number> At<'_, N> {
         unit
     }
 
-    fn velocities(&self) -> Vec<N> {
+    pub(crate) fn velocities(&self) -> Vec<N> {
         self.states.iter().map(|s| s.velocity.clone()).collect()
     }
 
-    fn coriolis(&mut self, qd: &[N]) -> Result<Vec<N>, Fault> {
-        let zeros = self.zeros();
-        self.loads(qd, &zeros, (false, false))
+    pub(crate) fn accelerations(&self) -> Vec<N> {
+        let each = self.states.iter().map(|s| s.acceleration.clone());
+        each.collect()
     }
 
-    /// Returns C(v) e_k, the load that a velocity and a joint's give together.
-    fn together(&mut self, v: &[N], own: &[N], joint: usize) -> Result<Vec<N>, Fault> {
-        let unit = self.unit(joint);
-        let sum: Vec<N> = v.iter().zip(&unit).map(|(a, b)| a.plus(b)).collect();
-        let (both, alone) = (self.coriolis(&sum)?, self.coriolis(&unit)?);
+    fn arm(&mut self) -> Result<Arm<'a, N>, Fault> {
+        Arm::new(self.setting, self.states, self.work)
+    }
+
+    /// Returns C(v) w: h is quadratic, so its slope along w is twice that.
+    pub(crate) fn across(&mut self, v: &[N], w: &[N]) -> Result<Vec<N>, Fault> {
+        let zeros = self.zeros();
+        let states = self.moved(&self.rated(v, &zeros), [&zeros, w])?;
         let half = N::constant(0.5.into());
-        let each = both.iter().zip(own).zip(&alone);
-        let rests =
-            each.map(|((both, own), alone)| both.plus(&own.negated()).plus(&alone.negated()));
-        rests.map(|rest| rest.times(&half, self.work)).collect()
+        let loads = torques(self.setting, &states, [false; 2], self.work)?;
+        let halves = loads.iter().map(|load| load.slope.times(&half, self.work));
+        halves.collect()
     }
 
     /// Returns C(v), by columns over the rows.
     fn columns(&mut self, v: &[N]) -> Result<Vec<Vec<N>>, Fault> {
-        let (rows, own) = (self.rows, self.coriolis(v)?);
-        rows.iter().map(|&k| self.together(v, &own, k)).collect()
+        let rows = self.rows;
+        rows.iter()
+            .map(|&k| self.across(v, &self.unit(k)))
+            .collect()
     }
 
     fn dot(&mut self, a: &[N], b: &[N]) -> Result<N, Fault> {
@@ -227,19 +372,18 @@ impl<N: Number> At<'_, N> {
         self.rows.iter().flat_map(row).collect()
     }
 
-    fn quantity(&mut self, quantity: Quantity) -> Result<Vec<N>, Fault> {
+    pub(crate) fn quantity(&mut self, quantity: Quantity) -> Result<Vec<N>, Fault> {
         let (rows, zeros, v) = (self.rows, self.zeros(), self.velocities());
         let select = |all: Vec<N>| rows.iter().map(|&row| all[row].clone()).collect();
         Ok(match quantity {
             Quantity::Torque => {
-                let qdd = self.states.iter().map(|s| s.acceleration.clone());
-                let qdd: Vec<N> = qdd.collect();
-                select(self.loads(&v, &qdd, (true, true))?)
+                let qdd: Vec<N> = self.accelerations();
+                select(self.loads(&v, &qdd, [true; 2])?)
             }
-            Quantity::Gravity => select(self.loads(&zeros, &zeros, (true, false))?),
-            Quantity::Coriolis => select(self.coriolis(&v)?),
+            Quantity::Gravity => select(self.loads(&zeros, &zeros, [true, false])?),
+            Quantity::Coriolis => select(self.loads(&v, &zeros, [false; 2])?),
             Quantity::Inertia => {
-                let column = |&row| self.loads(&zeros, &self.unit(row), (false, false));
+                let column = |&row| self.loads(&zeros, &self.unit(row), [false; 2]);
                 let columns: Result<Vec<Vec<N>>, Fault> = rows.iter().map(column).collect();
                 self.matrix(&columns?)
             }
@@ -248,17 +392,64 @@ impl<N: Number> At<'_, N> {
                 let columns = self.columns(&v)?;
                 self.matrix(&columns)
             }
-            Quantity::Momentum => select(self.loads(&zeros, &v, (false, false))?),
+            Quantity::Momentum => select(self.loads(&zeros, &v, [false; 2])?),
             Quantity::MomentumSlope => {
                 let columns = self.columns(&v)?;
                 let slopes = columns.iter().map(|column| self.dot(&v, column));
                 slopes.collect::<Result<_, Fault>>()?
             }
+            Quantity::MomentumDrift => {
+                let slopes = self.quantity(MomentumSlope)?;
+                let minus = |v: &N| v.negated();
+                let opposite: Vec<N> = v.iter().map(minus).collect();
+                // Friction opposes q̇, and D of no acceleration is nothing.
+                let loads = self.loads(&zeros, &zeros, [true, false])?;
+                let mut drift: Vec<N> = Vec::new();
+                for (slope, &row) in slopes.iter().zip(rows) {
+                    let viscous = N::constant(self.setting.joints[row].viscous);
+                    let rubbing = viscous.times(&opposite[row], self.work)?;
+                    drift.push(slope.plus(&loads[row].negated()).plus(&rubbing));
+                }
+                drift
+            }
+            Quantity::PotentialEnergy => {
+                vec![Arm::new(self.setting, self.states, self.work)?.potential_energy(self.work)?]
+            }
+            Quantity::TorqueByPosition | Quantity::TorqueByVelocity => {
+                let columns = rows.iter().map(|&row| match (quantity, self.unit(row)) {
+                    (Quantity::TorqueByPosition, unit) => self.slope([&unit, &zeros]),
+                    (_, unit) => self.slope([&zeros, &unit]),
+                });
+                let columns: Result<Vec<Vec<N>>, Fault> = columns.collect();
+                self.matrix(&columns?)
+            }
+            Quantity::Pose => self.arm()?.hand(self.work)?.rows(),
+            Quantity::LinkPoses => {
+                let (arm, mut all) = (self.arm()?, Vec::new());
+                for &row in rows {
+                    all.extend(arm.link(row, self.work)?.rows());
+                }
+                all
+            }
+            Quantity::Jacobian => {
+                let columns = self.arm()?.jacobian(self.work)?;
+                let row = |r: usize| rows.iter().map(move |&k| (r, k));
+                let entry = |(r, k): (usize, usize)| columns[k][r].clone();
+                (0..6).flat_map(row).map(entry).collect()
+            }
+            Quantity::JacobianRate => {
+                let states = self.moved(self.states, [&v, &zeros])?;
+                let columns = Arm::new(self.setting, &states, self.work)?.jacobian(self.work)?;
+                let row = |r: usize| columns.iter().map(move |column| column[r].slope.clone());
+                let each = (0..6).map(|r| self.dot(&row(r).collect::<Vec<N>>(), &v));
+                each.collect::<Result<_, Fault>>()?
+            }
             Quantity::KineticEnergy => {
-                let p = self.loads(&zeros, &v, (false, false))?;
+                let p = self.loads(&zeros, &v, [false; 2])?;
                 let half = N::constant(0.5.into());
                 vec![self.dot(&v, &p)?.times(&half, self.work)?]
             }
+            _ => return Err(Fault::certificate("a function that divides is only tried")),
         })
     }
 
@@ -266,13 +457,8 @@ impl<N: Number> At<'_, N> {
         let (rows, count) = (self.rows, self.rows.len());
         let mut symbols = vec![N::default(); count.pow(3)];
         for k in 0..count {
-            let unit = self.unit(rows[k]);
-            let own = self.coriolis(&unit)?;
             for m in 0..=k {
-                let loads = match k == m {
-                    true => own.clone(),
-                    false => self.together(&unit, &own, rows[m])?,
-                };
+                let loads = self.across(&self.unit(rows[k]), &self.unit(rows[m]))?;
                 for (i, &row) in rows.iter().enumerate() {
                     symbols[(i * count + k) * count + m] = loads[row].clone();
                     symbols[(i * count + m) * count + k] = loads[row].clone();

@@ -21,11 +21,11 @@ pub(crate) struct File<S> {
     pub(crate) payload_frame: Option<Placement>,
     #[serde(default = "BTreeMap::new")]
     pub(crate) scene: BTreeMap<String, S>,
-    /// These, and the frames that are fixed to links, move nothing.
+    /// The hand's frame in the last link's.
+    pub(crate) tool: Option<Placement>,
     name: IgnoredAny,
     allow: Option<IgnoredAny>,
     outputs: Option<IgnoredAny>,
-    tool: Option<IgnoredAny>,
     frame: Option<IgnoredAny>,
 }
 
@@ -45,6 +45,10 @@ impl Placement {
         }
         Ok(steps)
     }
+}
+
+pub(crate) fn steps(placement: &Option<Placement>) -> Result<Vec<Step>, Fault> {
+    placement.as_ref().map_or(Ok(Vec::new()), Placement::steps)
 }
 
 /// The axes that follow x, y and z.
@@ -89,7 +93,7 @@ pub(crate) struct Row {
     coulomb: Literal,
     coulomb_width: IgnoredAny,
     armature: Literal,
-    frame: IgnoredAny,
+    frame: Option<Placement>,
     pub(crate) limits: Limits,
 }
 
@@ -139,6 +143,8 @@ pub struct Joint {
     pub before: Vec<Step>,
     /// The way from the joint's frame, moved, to that of its link.
     pub behind: Vec<Step>,
+    /// The way from the frame of its link to that which `link_poses` shows of it.
+    pub frame: Vec<Step>,
     /// What is constant of d, m: all of it if the joint turns.
     pub d: Real,
     /// What is constant of θ: all of it if the joint slides.
@@ -217,6 +223,7 @@ impl Row {
             turns,
             before,
             behind,
+            frame: steps(&self.frame)?,
             d: d.real("d")?,
             theta: theta.angle("theta")?,
             bodies: vec![Body::read(mass, &com, &inertia)?],

@@ -22,6 +22,13 @@ pub(crate) fn outputs<N: Number>(
     setting: &Setting,
     at: &At,
 ) -> Result<Vec<N>, Fault> {
+    let states = states(setting, at);
+    let (rows, work) = (claim.rows(), &mut Work::default());
+    claim.function()?.outputs(setting, &states, &rows, work)
+}
+
+/// Returns the state of each joint.
+pub(crate) fn states<N: Number>(setting: &Setting, at: &[Vec<f64>]) -> Vec<State<N>> {
     let number = |value: f64, radius: f64| N::constant(Real { value, radius });
     let state = |joint: usize| {
         let [q, velocity, acceleration] = [0, 1, 2].map(|which: usize| at[which][joint]);
@@ -38,9 +45,7 @@ pub(crate) fn outputs<N: Number>(
             acceleration: number(if moves(1) { acceleration } else { 0.0 }, 0.0),
         }
     };
-    let states: Vec<State<N>> = (0..setting.joints.len()).map(state).collect();
-    let (rows, work) = (claim.rows(), &mut Work::default());
-    claim.function()?.outputs(setting, &states, &rows, work)
+    (0..setting.joints.len()).map(state).collect()
 }
 
 /// The errors seen of an output.
@@ -137,7 +142,7 @@ impl Random {
     }
 }
 
-fn rounded(value: f64, is_single: bool) -> f64 {
+pub(crate) fn rounded(value: f64, is_single: bool) -> f64 {
     let single = f64::from(value as f32);
     if is_single { single } else { value }
 }
@@ -148,7 +153,7 @@ pub(crate) fn ends([low, high]: [f64; 2]) -> [f64; 2] {
 }
 
 /// Runs the text in its scalar and returns its results.
-pub(crate) fn run(program: &Program, state: &At, is_single: bool) -> Vec<f64> {
+pub(crate) fn run(program: &Program, state: &[Vec<f64>], is_single: bool) -> Vec<f64> {
     // A sum or product of two f32 in f64, rounded to f32, is rounded as in f32: f64 has
     // more than twice as many bits.
     let round = |value: f64| rounded(value, is_single);
@@ -178,13 +183,14 @@ pub(crate) fn run(program: &Program, state: &At, is_single: bool) -> Vec<f64> {
     outputs.map(|&output| values[output]).collect()
 }
 
-fn step(node: Node, values: &[f64], state: &At) -> f64 {
+fn step(node: Node, values: &[f64], state: &[Vec<f64>]) -> f64 {
     match node {
         Node::Constant(value) => value,
         Node::Input(argument, joint) => state[argument][joint],
         Node::Add(a, b) => values[a] + values[b],
         Node::Sub(a, b) => values[a] - values[b],
         Node::Mul(a, b) => values[a] * values[b],
+        Node::Div(a, b) => values[a] / values[b],
         Node::Neg(a) => -values[a],
         Node::Fused(a, b, c) => values[a].mul_add(values[b], values[c]),
         Node::Sine(..) => f64::NAN,

@@ -11,7 +11,7 @@ use crate::fault::Fault;
 use crate::literal::Literal;
 use crate::number::Real;
 use crate::polynomial::MAX_JOINTS;
-use crate::robot::{Body, File, Joint, Placement, Row, Step};
+use crate::robot::{Body, File, Joint, Row, Step, steps};
 
 /// The longest robot file.
 const MOST_BYTES: usize = 1 << 18;
@@ -73,6 +73,8 @@ enum OneOrEach {
 pub struct Setting {
     /// The way from the axes that gravity is in to frame 0.
     pub base: Vec<Step>,
+    /// The way from the last link's frame to the hand's.
+    pub tool: Vec<Step>,
     /// The acceleration of gravity in base axes, m/s².
     pub gravity: [Real; 3],
     /// From the base to the hand; the last one carries the payload.
@@ -160,6 +162,7 @@ fn setting(file: &File<Scene>, scene: &Scene) -> Result<Setting, Fault> {
     });
     Ok(Setting {
         base: steps(&file.base)?,
+        tool: steps(&file.tool)?,
         gravity: Literal::reals(gravity, "gravity")?,
         joints,
         rows: asked.transpose()?.unwrap_or(moving.collect()),
@@ -170,10 +173,6 @@ fn setting(file: &File<Scene>, scene: &Scene) -> Result<Setting, Fault> {
         tolerance: tolerance.transpose()?,
         relative_to: scene.tolerance.as_ref().map(|t| t.relative_to.clone()),
     })
-}
-
-fn steps(placement: &Option<Placement>) -> Result<Vec<Step>, Fault> {
-    placement.as_ref().map_or(Ok(Vec::new()), Placement::steps)
 }
 
 /// Returns a joint by its number, from one, or by its name.

@@ -128,7 +128,7 @@ fn evaluate(block: &[Node], angle: Interval, scalar: Scalar) -> Vec<Enclosed> {
                 let inherited = own + b.error * a.value.magnitude();
                 rounded(a.value * b.value, slope, inherited)
             }
-            Node::Input(..) | Node::Sine(..) | Node::Fused(..) => last(&[], 0),
+            Node::Input(..) | Node::Sine(..) | Node::Fused(..) | Node::Div(..) => last(&[], 0),
         };
         values.push(value);
     }

@@ -18,7 +18,7 @@ use crate::certificate::Claim;
 use crate::fault::Fault;
 use crate::file::{between, structure};
 use crate::program::{Node, Program, Source};
-use crate::quantity::Function;
+use crate::quantity::{ARGUMENTS, Function, entries};
 
 /// The most values of a function.
 const MOST_NODES: usize = 20_000;
@@ -36,7 +36,7 @@ pub(crate) struct Parser<'t> {
     line: usize,
     pub(crate) program: Program,
     names: HashMap<&'t str, usize>,
-    /// Which of q, qd and qdd the head names.
+    /// Which arguments the head names.
     pub(crate) arguments: HashMap<&'t str, usize>,
     /// Whether a block is read, and how it spells its angle, once it has.
     pub(crate) is_inside: bool,
@@ -100,27 +100,31 @@ impl<'t> Parser<'t> {
         if line == "#[must_use]" {
             line = self.next()?;
         }
-        let array =
-            |axes: usize| (0..axes).fold(scalar.to_owned(), |t, _| format!("[{t}; {rows}]"));
+        let array = |shape: Vec<usize>| {
+            let lengths = shape.iter().rev();
+            lengths.fold(scalar.to_owned(), |t, length| format!("[{t}; {length}]"))
+        };
         let is_struct = fields.len() > 1;
         let returned = match is_struct {
             true => structure(self.name),
-            false => array(fields.first()?.1.axes()),
+            false => array(fields.first()?.1.shape(rows)),
         };
         let head = format!("pub fn {}(", self.name);
         let list = between(line, &head, &format!(") -> {returned} {{"))?;
         for part in list.split(", ") {
-            let argument = part.strip_suffix(&format!(": &[{scalar}; {joints}]"))?;
+            let (argument, kind) = part.split_once(": ")?;
+            let length = entries(argument, joints);
+            (kind == format!("&[{scalar}; {length}]")).then_some(())?;
             self.argument(argument)?;
         }
         line = self.statements()?;
         match is_struct {
-            false => self.array(line, fields.first()?.1.axes(), "")?,
+            false => self.array(line, &fields.first()?.1.shape(rows), "")?,
             true => {
                 (line.strip_suffix(" {")? == returned).then_some(())?;
                 for (field, quantity) in fields {
                     let line = self.next()?.strip_prefix(field)?.strip_prefix(": ")?;
-                    self.array(line, quantity.axes(), ",")?;
+                    self.array(line, &quantity.shape(rows), ",")?;
                 }
                 (self.next()? == "}").then_some(())?;
             }
@@ -142,7 +146,7 @@ impl<'t> Parser<'t> {
     /// Adds an argument of the head.
     pub(crate) fn argument(&mut self, argument: &'t str) -> Option<()> {
         let known = argument.strip_prefix('_').unwrap_or(argument);
-        let place = ["q", "qd", "qdd"].iter().position(|word| *word == known)?;
+        let place = ARGUMENTS.iter().position(|word| *word == known)?;
         let is_next = self.arguments.values().all(|&before| before < place);
         self.arguments.insert(argument, place);
         is_next.then_some(())
@@ -156,19 +160,19 @@ impl<'t> Parser<'t> {
     }
 
     /// Adds the entries of an array that begins in a line and ends before some text.
-    fn array(&mut self, line: &'t str, axes: usize, end: &str) -> Option<()> {
-        match axes {
-            0 => self.output(line.strip_suffix(end)?)?,
-            1 => {
+    fn array(&mut self, line: &'t str, shape: &[usize], end: &str) -> Option<()> {
+        match shape {
+            [] => self.output(line.strip_suffix(end)?)?,
+            &[length] => {
                 let list = between(line.strip_suffix(end)?, "[", "]")?;
                 list.split(", ").try_for_each(|word| self.output(word))?;
-                (list.split(", ").count() == self.rows).then_some(())?;
+                (list.split(", ").count() == length).then_some(())?;
             }
-            _ => {
+            [length, inner @ ..] => {
                 (line == "[").then_some(())?;
-                for _ in 0..self.rows {
+                for _ in 0..*length {
                     let line = self.next()?;
-                    self.array(line, axes - 1, ",")?;
+                    self.array(line, inner, ",")?;
                 }
                 (self.next()?.strip_suffix(end)? == "]").then_some(())?;
             }
@@ -201,6 +205,7 @@ impl<'t> Parser<'t> {
                 "+" => Node::Add(left, right),
                 "-" => Node::Sub(left, right),
                 "*" => Node::Mul(left, right),
+                "/" => Node::Div(left, right),
                 _ => return None,
             };
             return self.name(names, node);
@@ -288,7 +293,8 @@ impl<'t> Parser<'t> {
         }
         let (argument, index) = word.strip_suffix(']')?.split_once('[')?;
         let (argument, joint) = (*self.arguments.get(argument)?, index.parse::<usize>().ok()?);
-        let is_entry = joint < self.joints && index == joint.to_string();
+        let length = entries(ARGUMENTS[argument], self.joints);
+        let is_entry = joint < length && index == joint.to_string();
         self.push(Node::Input(argument, joint)).filter(|_| is_entry)
     }
 

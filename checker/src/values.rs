@@ -139,6 +139,7 @@ impl Values<'_> {
                 let error = self.scalar.rounded(size, inherited * SLACK);
                 Value { exact, size, error }
             }
+            Node::Div(..) => return Err(Fault::certificate("the text divides")),
             Node::Sine(a, is_sine, source) => {
                 let Some(joints) = angle(a) else {
                     return Err(Fault::certificate("a sine of something that is no angle"));

@@ -87,6 +87,8 @@ pub fn audit(claim: &Claim, robot: &str, tolerance: Option<f64>) -> Result<Verdi
         setting.relative_to.clone_from(&claim.relative_to);
     }
     claim.whole()?;
+    let why = format!("`{}` is only tried, in a whole file", claim.function);
+    Fault::unless(!claim.function()?.is_tried(), &why)?;
     about(claim, &setting)?;
     let claimed = |index: usize| claim.total[index].unwrap_or(f64::NAN) * claim.scale[index];
     let found = measure(claim, &setting, claimed)?;

@@ -12,3 +12,4 @@ mod mutations;
 mod placements;
 mod refusals;
 mod support;
+mod tried;

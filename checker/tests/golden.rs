@@ -82,10 +82,7 @@ fn torques_are_those_of_another_library() {
             let run = |moves: f64, loads| {
                 torques(&setting, &states(moves), loads, &mut Work::default()).unwrap()
             };
-            for (key, found) in [
-                ("tau", run(1.0, (true, true))),
-                ("h", run(0.0, (false, false))),
-            ] {
+            for (key, found) in [("tau", run(1.0, [true; 2])), ("h", run(0.0, [false; 2]))] {
                 let expected = of(key);
                 let size = expected.iter().fold(1e-3f64, |a, b| a.max(b.abs()));
                 for (found, expected) in found.iter().zip(&expected) {

@@ -309,12 +309,12 @@ fn bundles() {
         }
     }
     // What none of the functions returns is named.
-    let other = file(&header).replace("kinetic", "jacobian");
+    let other = file(&header).replace("kinetic", "altitude");
     let found = report(&other).lines;
     let fault = found.iter().find_map(|line| line.result.as_ref().err());
     let fault = fault.unwrap().to_string();
     assert!(
-        fault.contains("`servo` is not checked: it returns `jacobian`"),
+        fault.contains("`servo` is not checked: it returns `altitude`"),
         "{fault}"
     );
 }

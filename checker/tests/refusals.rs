@@ -105,7 +105,7 @@ fn functions_that_are_not_audited() {
     assert!(
         fault
             .to_string()
-            .contains("expected one of inverse_dynamics, gravity"),
+            .contains("`forward_dynamics` is only tried"),
         "{fault}"
     );
 }

@@ -126,6 +126,7 @@ pub fn write(
         };
         let branches = if body.is_straight { "none" } else { "some" };
         let bound = match &line.result {
+            Ok(found) if found.tried > 0 => format!("tried | | {:.0} u seen", found.units()),
             Ok(found) => format!(
                 "{:.2e} | {:.2e} | {:.0} u",
                 found.edits,
@@ -169,6 +170,15 @@ pub fn write(
     for (line, _) in &functions {
         let title = title(line);
         match &line.result {
+            Ok(found) if found.tried > 0 => {
+                let (states, units, limit) = (found.tried, found.units(), found.is_shown());
+                let limit = if limit { "" } else { ", too much for rounding" };
+                let said = format!(
+                    "{title} solves its equation of motion to {units:.0} u of the terms at {states} states{limit}. \
+                     That is no bound: it rests on the generator's proof."
+                );
+                item(false, "", &said);
+            }
             Ok(found) if found.is_shown() => {
                 item(
                     true,

@@ -51,13 +51,15 @@ pub fn run(args: &CertifyArgs, source: &str, robot: &str) -> Outcome {
 
 fn of_line(line: &Line) -> Value {
     let found = line.result.as_ref().ok();
+    let is_tried = found.is_some_and(|found| found.tried > 0);
     let number = |of: fn(&Distance) -> f64| found.map(of);
     json!({
         "module": line.module,
         "function": line.name,
-        "real": number(|found| found.edits),
-        "rounding": number(|found| found.rounding),
+        "real": number(|found| found.edits).filter(|_| !is_tried),
+        "rounding": number(|found| found.rounding).filter(|_| !is_tried),
         "units": number(Distance::units),
+        "tried": found.map_or(0, |found| found.tried),
         "seen_units": number(|found| found.seen / found.unit),
         "why": line.result.as_ref().err().map(ToString::to_string),
         "passed": found.is_some_and(Distance::is_shown),
@@ -80,6 +82,12 @@ fn words(report: &Report) -> String {
         }
         let name = &line.name;
         text += &match &line.result {
+            Ok(found) if found.tried > 0 => format!(
+                "  {name:<22} no bound: of the equation that it solves {:.1} u of the terms are left at {} states  {}\n",
+                found.units(),
+                found.tried,
+                if found.is_shown() { "tried" } else { "wrong" },
+            ),
             Ok(found) => format!(
                 "  {name:<22} in real numbers {:>9.2e}  rounding {:>9.2e}  both {:>7.0} u  seen {:>7.1} u  {}\n",
                 found.edits,
