@@ -205,7 +205,7 @@ impl<'t> Parser<'t> {
                 "+" => Node::Add(left, right),
                 "-" => Node::Sub(left, right),
                 "*" => Node::Mul(left, right),
-                "/" => Node::Div(left, right),
+                "/" if self.function.is_tried() && !self.is_inside => Node::Div(left, right),
                 _ => return None,
             };
             return self.name(names, node);
