@@ -22,6 +22,7 @@ fn bare_metal() {
         // What this test was built with is none of theirs.
         .env_remove("RUSTFLAGS")
         .env_remove("CARGO_ENCODED_RUSTFLAGS")
+        .env_remove("RUSTC_WORKSPACE_WRAPPER")
         .output()
         .unwrap();
     let errors = String::from_utf8_lossy(&output.stderr);

@@ -30,6 +30,7 @@ fn it_builds_and_passes_at_once() {
             // What this test was built with is none of its.
             .env_remove("RUSTFLAGS")
             .env_remove("CARGO_ENCODED_RUSTFLAGS")
+            .env_remove("RUSTC_WORKSPACE_WRAPPER")
             .output()
             .unwrap();
         let errors = String::from_utf8_lossy(&output.stderr);
