@@ -155,7 +155,7 @@ fn is_short(word: &str, long: &str) -> bool {
     is_alike && word.split('_').count() == long.split('_').count()
 }
 
-/// The lines that are neither empty nor comments, with their numbers; or the first line that
+/// Returns the lines that are neither empty nor comments, with their numbers; or the first line that
 /// is not of the characters that these have.
 fn code(source: &str) -> Result<Vec<(usize, &str)>, (usize, &str)> {
     let (mut all, mut is_comment) = (Vec::new(), false);
@@ -319,7 +319,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// The lines of a call that gives sines, after the room for them: its angles are in a list, or in q.
+    /// Reads the lines of a call that gives sines, after the room for them: its angles are in a list, or in q.
     fn called(&mut self, sines: &str, float: &str) -> Option<()> {
         self.close()?;
         let count = whole(between(sines, "sines[", "]")?)?;
@@ -347,7 +347,7 @@ impl<'t> Parser<'t> {
             .extend([(sine, (angle, true)), (cosine, (angle, false))]);
     }
 
-    /// A value and its name. Those of an angle's polynomials follow one another, `x1_1` and so
+    /// Reads a value and its name. Those of an angle's polynomials follow one another, `x1_1` and so
     /// on, and then its sine and cosine.
     fn c_statement(&mut self, name: &'t str, value: &'t str) -> Option<()> {
         if self.is_inside && name.starts_with(['s', 'c']) && !value.contains(['(', ' ']) {

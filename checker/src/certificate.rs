@@ -60,7 +60,7 @@ impl Claim {
         }
     }
 
-    /// The function; where the text returns a struct of another name, the bundle of its fields.
+    /// Returns the function; where the text returns a struct of another name, the bundle of its fields.
     ///
     /// # Errors
     /// It is none of those that are checked, or returns what they do not.
@@ -84,7 +84,7 @@ impl Claim {
         self.rows.iter().map(|row| row - 1).collect()
     }
 
-    /// Whether the fields are of one claim.
+    /// Returns whether the fields are of one claim.
     ///
     /// # Errors
     /// The first that is not, with what was expected.

@@ -99,7 +99,7 @@ impl Polynomial {
         self.terms.first().map_or(0.0, |term| term.1)
     }
 
-    /// More than its magnitude anywhere in the box.
+    /// Returns more than its magnitude anywhere in the box.
     pub fn norm(&self) -> f64 {
         let sum: f64 = self.terms.iter().map(|(_, c)| c.abs()).sum();
         (sum + self.rest) * SLACK

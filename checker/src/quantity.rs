@@ -194,7 +194,7 @@ impl Function {
         })
     }
 
-    /// The bundle of results that have these names and extents, over so many rows; or
+    /// Returns the bundle of results that have these names and extents, over so many rows; or
     /// the name that no function's result has.
     pub(crate) fn bundle<'t>(
         results: &[(&'t str, Extent)],

@@ -151,7 +151,7 @@ impl Ring {
         (0.5 * low + 0.5 * high, 0.5 * high - 0.5 * low)
     }
 
-    /// At least the largest magnitude of a polynomial over the box.
+    /// Returns at least the largest magnitude of a polynomial over the box.
     pub fn size(&self, polynomial: &Polynomial) -> f64 {
         let size = |&(key, c): &(Key, f64)| {
             let (middle, radius) = self.factor(key);

@@ -57,7 +57,7 @@ pub struct Seen {
     pub size: f64,
 }
 
-/// What is seen of each output at `count` states, of every second one all rates at ends of their ranges.
+/// Returns what is seen of each output at `count` states, of every second one all rates at ends of their ranges.
 ///
 /// # Errors
 /// As of [`outputs`].
@@ -132,7 +132,7 @@ impl Random {
         low + (high - low) * if is_end { share.round() } else { share }
     }
 
-    /// A state of the box; positions, velocities or accelerations may be ends of their ranges.
+    /// Returns a state of the box; positions, velocities or accelerations may be ends of their ranges.
     pub(crate) fn state(&mut self, setting: &Setting, are_ends: [bool; 3]) -> At {
         [0, 1, 2].map(|which: usize| {
             let ranges = setting.ranges[which].iter();

@@ -72,7 +72,7 @@ pair.cos = cos^(angle);
 return pair;
 }";
 
-/// The lines of the functions that give sines, if this is the fourth of them: the head of what is
+/// Returns the lines of the functions that give sines, if this is the fourth of them: the head of what is
 /// called once, or the name of a struct.
 pub(crate) fn lines(header: &str, fourth: &str) -> Option<String> {
     let several = fourth.strip_prefix("static inline void ");

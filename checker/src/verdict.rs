@@ -185,7 +185,7 @@ pub fn measure(
     Ok(all)
 }
 
-/// Whether a claim is about this robot in its scene: the same rows, a box that has all
+/// Returns whether a claim is about this robot in its scene: the same rows, a box that has all
 /// states of the file's, a scale of the same kind.
 fn about(claim: &Claim, setting: &Setting) -> Result<(), Fault> {
     let has_rows = setting.rows == claim.rows();

@@ -75,7 +75,7 @@ impl<T: Element> Layout<T> {
         })
     }
 
-    /// The entries to be read.
+    /// Returns the entries to be read.
     pub(crate) fn slice(&self) -> &[T] {
         if self.length == 0 {
             return &[];

@@ -4,7 +4,7 @@ use example_shared::chart::{Chart, Line, Panel, Scale};
 
 use crate::{Run, Sample};
 
-/// The chart of a controller that learns and of one that does not.
+/// Returns the chart of a controller that learns and of one that does not.
 pub fn svg(adaptive: &Run, fixed: &Run) -> String {
     let panel = |title, of: fn(&Sample) -> f64| {
         let line = |name, run: &Run| Line {

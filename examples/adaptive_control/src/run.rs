@@ -31,7 +31,7 @@ pub struct Run {
 }
 
 impl Run {
-    /// The largest of something in the last second.
+    /// Returns the largest of something in the last second.
     pub fn at_last(&self, of: fn(&Sample) -> f64) -> f64 {
         let second = (1.0 / PERIOD) as usize;
         largest(self.samples.iter().rev().take(second).map(of))
@@ -60,7 +60,7 @@ pub fn run(mut controller: Controller, duration: f64) -> Run {
     Run { samples }
 }
 
-/// The arm with its payload after `period` seconds of constant torques.
+/// Returns the state of the arm with its payload after `period` seconds of constant torques.
 pub fn moved(state: &State, tau: &Joints, period: f64) -> State {
     state.step(period, |state| {
         loaded::forward_dynamics(&state.q, &state.qd, tau)

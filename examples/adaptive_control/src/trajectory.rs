@@ -13,7 +13,7 @@ const SWING: [Joints; 2] = [[0.6, 0.35, 0.5], [0.25, 0.15, 0.3]];
 /// Frequencies, rad/s.
 const FREQUENCY: [Joints; 2] = [[1.3, 1.7, 2.1], [3.7, 3.1, 4.3]];
 
-/// The target at a time, s. It starts at rest.
+/// Returns the target at a time, s. It starts at rest.
 pub fn at(time: f64) -> Target {
     let [slow, fast] = [0, 1].map(|i| (&SWING[i], &FREQUENCY[i]));
     Target::resting(CENTRE)

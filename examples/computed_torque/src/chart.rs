@@ -4,7 +4,7 @@ use example_shared::chart::{Chart, Line, Panel, Scale};
 
 use crate::Run;
 
-/// The chart of the arm that the controller knows, and of that with a payload.
+/// Returns the chart of the arm that the controller knows, and of that with a payload.
 pub fn svg(nominal: &Run, loaded: &Run) -> String {
     let line = |name, run: &Run| Line {
         name,

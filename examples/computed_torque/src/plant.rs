@@ -15,7 +15,7 @@ pub enum Plant {
 }
 
 impl Plant {
-    /// The state after `period` seconds of constant torques.
+    /// Returns the state after `period` seconds of constant torques.
     pub fn step(self, state: &State, tau: &Joints, period: f64) -> State {
         let acceleration = match self {
             Plant::Nominal => puma560::forward_dynamics,

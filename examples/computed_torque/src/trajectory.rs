@@ -12,7 +12,7 @@ const SWING: Joints = [0.6, 0.35, -0.4, 0.5, 0.3, -0.75];
 /// Frequencies, rad/s.
 const FREQUENCY: Joints = [1.1, 1.3, 0.9, 1.7, 1.9, 2.3];
 
-/// The target at a time, s. It starts at rest.
+/// Returns the target at a time, s. It starts at rest.
 pub fn at(time: f64) -> Target {
     Target::resting(START).swinging(&SWING, &FREQUENCY, time)
 }

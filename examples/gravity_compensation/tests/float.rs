@@ -66,13 +66,13 @@ impl<const N: usize> Bench<N> {
     }
 }
 
-/// The tick that a servo reads.
+/// Returns the tick that a servo reads.
 fn tick(servo: &Servo, q: f64) -> u16 {
     let turns = f64::from(servo.sign) * q / std::f64::consts::TAU;
     (turns * f64::from(servo.ticks) + f64::from(servo.zero)).round() as u16
 }
 
-/// The torque at the joint: of a command, less the motor's own voltage, less friction.
+/// Returns the torque at the joint: of a command, less the motor's own voltage, less friction.
 fn torque(servo: &Servo, command: i16, speed: f64) -> f64 {
     let [torque, voltage, sign, friction] = [
         servo.units_per_torque,

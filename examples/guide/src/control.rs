@@ -34,7 +34,7 @@ pub fn torques(state: &State, target: &Target) -> Joints {
     arm::inverse_dynamics(&state.q, &state.qd, &wanted)
 }
 
-/// The arm and its controller for some seconds at 1 kHz: the largest error of a joint
+/// Runs the arm and its controller for some seconds at 1 kHz: the largest error of a joint
 /// in the second half, when what it began with has died away.
 pub fn follow(seconds: u32) -> f64 {
     const PERIOD: f64 = 1e-3;

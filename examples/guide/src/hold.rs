@@ -6,12 +6,12 @@ use crate::{Joints, arm};
 const STIFFNESS: f64 = 80.0;
 const DAMPING: f64 = 6.0;
 
-/// The torques that let the arm float: it stays where a hand puts it.
+/// Returns the torques that let the arm float: it stays where a hand puts it.
 pub fn float(q: &Joints) -> Joints {
     arm::gravity(q)
 }
 
-/// The torques that bring it back to a pose, softly.
+/// Returns the torques that bring it back to a pose, softly.
 pub fn hold(q: &Joints, qd: &Joints, pose: &Joints) -> Joints {
     let load = arm::gravity(q);
     std::array::from_fn(|i| load[i] + STIFFNESS * (pose[i] - q[i]) - DAMPING * qd[i])

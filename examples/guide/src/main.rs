@@ -33,7 +33,7 @@ fn main() {
     );
 }
 
-/// The time of a call, the best of some rounds.
+/// Returns the time of a call, the best of some rounds.
 fn nanoseconds<T>(call: impl Fn(&Joints, &Joints, &Joints) -> T) -> f64 {
     const CALLS: u32 = 100_000;
     let mut best = f64::INFINITY;

@@ -2,7 +2,7 @@
 
 use crate::{Joints, arm, with_a_kilogram};
 
-/// The mass that explains the torques measured at poses, in kg, by least squares.
+/// Returns the mass that explains the torques measured at poses, in kg, by least squares.
 ///
 /// Torques are linear in a mass whose place in the hand is known, so a kilogram of it
 /// tells what any other mass does. `None` where no pose depends on the mass.

@@ -9,7 +9,7 @@ pub struct State {
     pub qd: Joints,
 }
 
-/// The state after `period` seconds of constant torques: a step of the classical
+/// Returns the state after `period` seconds of constant torques: a step of the classical
 /// Runge–Kutta method.
 pub fn step(state: &State, tau: &Joints, period: f64) -> State {
     let along = |rate: &State, time: f64| State {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use guide::simulate::{State, step};
 use guide::{Joints, arm, carrying, control, hold, payload, picking, tool, with_a_kilogram};
 
-/// The files below a folder with this ending.
+/// Returns the files below a folder with this ending.
 fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {

@@ -4,7 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// A file of the guide in `docs/src`.
+/// Returns a file of the guide in `docs/src`.
 pub fn guide(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../../docs/src")

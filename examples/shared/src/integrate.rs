@@ -10,7 +10,7 @@ pub struct State<const N: usize> {
 }
 
 impl<const N: usize> State<N> {
-    /// The state after `period` seconds, by one step of the classical Runge–Kutta
+    /// Returns the state after `period` seconds, by one step of the classical Runge–Kutta
     /// method; `acceleration` is the forward dynamics under torques that stay the same.
     pub fn step(&self, period: f64, acceleration: impl Fn(&State<N>) -> [f64; N]) -> State<N> {
         let rate = |state: &State<N>| State {
@@ -41,12 +41,12 @@ impl<const N: usize> State<N> {
     }
 }
 
-/// The largest distance of a joint.
+/// Returns the largest distance of a joint.
 pub fn distance<const N: usize>(left: &[f64; N], right: &[f64; N]) -> f64 {
     largest(left.iter().zip(right).map(|(l, r)| (l - r).abs()))
 }
 
-/// The largest of magnitudes; NaN if one is, so that a motion that blew up is not taken
+/// Returns the largest of magnitudes; NaN if one is, so that a motion that blew up is not taken
 /// for a good one.
 pub fn largest(magnitudes: impl Iterator<Item = f64>) -> f64 {
     magnitudes.fold(0.0, |most, x| if x > most || x.is_nan() { x } else { most })

@@ -5,7 +5,7 @@ use example_shared::chart::{Chart, Line, Panel, Scale};
 use crate::Run;
 use crate::model::State;
 
-/// The chart of a run.
+/// Returns the chart of a run.
 pub fn svg(run: &Run) -> String {
     let line = |name, of: fn(&State, f64) -> f64| Line {
         name,

@@ -26,7 +26,7 @@ dalembert::dynamics! {
 /// The most that the motor gives, N·m.
 pub const LIMIT: f64 = 6.0;
 
-/// The torque as the motor gives it.
+/// Returns the torque as the motor gives it.
 pub fn limited(torque: f64) -> f64 {
     torque.clamp(-LIMIT, LIMIT)
 }

@@ -16,7 +16,7 @@ pub const HANGING: State = State::new(-core::f64::consts::FRAC_PI_2, 0.0, 0.0, 0
 /// Upright at rest.
 pub const UPRIGHT: State = State::new(core::f64::consts::FRAC_PI_2, 0.0, 0.0, 0.0);
 
-/// The state after `period` seconds of a torque at the elbow, by one step of the
+/// Returns the state after `period` seconds of a torque at the elbow, by one step of the
 /// classical Runge–Kutta method.
 pub fn step(state: &State, torque: f64, period: f64) -> State {
     let k1 = rate(state, torque);
@@ -26,7 +26,7 @@ pub fn step(state: &State, torque: f64, period: f64) -> State {
     state + (k1 + (k2 + k3) * 2.0 + k4) * (period / 6.0)
 }
 
-/// The slopes of [`step`] by the state and by the torque: the chain rule through its
+/// Returns the slopes of [`step`] by the state and by the torque: the chain rule through its
 /// four stages.
 pub fn slopes(state: &State, torque: f64, period: f64) -> (Square, State) {
     let mut at = *state;
@@ -48,7 +48,7 @@ pub fn slopes(state: &State, torque: f64, period: f64) -> (Square, State) {
     (Square::identity() + sum_state * sixth, sum_torque * sixth)
 }
 
-/// The second derivatives of λᵀ[`step`] by state and torque. Backward through the four
+/// Returns the second derivatives of λᵀ[`step`] by state and torque. Backward through the four
 /// stages: of the rate of each the step counts λᵀ times its weight, and what the stage after
 /// makes of it.
 pub fn bends(state: &State, torque: f64, period: f64, multiplier: &State) -> Bend {
@@ -81,7 +81,7 @@ pub fn bends(state: &State, torque: f64, period: f64, multiplier: &State) -> Ben
     bends
 }
 
-/// The second derivatives of λᵀ(q̇, q̈), of which q̇ has none.
+/// Returns the second derivatives of λᵀ(q̇, q̈), of which q̇ has none.
 fn rate_bends(state: &State, torque: f64, multiplier: &State) -> Bend {
     let [q1, q2, qd1, qd2] = (*state).into();
     let own = planar2r::forward_dynamics_second_derivatives(
@@ -111,7 +111,7 @@ fn rate(state: &State, torque: f64) -> State {
     State::new(qd1, qd2, qdd1, qdd2)
 }
 
-/// The slopes of (q̇, q̈).
+/// Returns the slopes of (q̇, q̈).
 fn rate_slopes(state: &State, torque: f64) -> (Square, State) {
     let [q1, q2, qd1, qd2] = (*state).into();
     let slopes = planar2r::forward_dynamics_derivatives(&[q1, q2], &[qd1, qd2], &[0.0, torque]);

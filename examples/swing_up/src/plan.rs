@@ -52,7 +52,7 @@ pub enum Derivatives {
 /// Changes of the torques and gains on the states.
 type Changes = (Vec<f64>, Vec<State>);
 
-/// A plan from hanging at rest to upright at rest.
+/// Returns a plan from hanging at rest to upright at rest.
 pub fn plan(derivatives: Derivatives) -> Plan {
     let mut plan = Plan::of(vec![0.0; STEPS]);
     // What a change of the next state costs besides: where parabolas mislead, little is
@@ -84,7 +84,7 @@ pub fn plan(derivatives: Derivatives) -> Plan {
 }
 
 impl Plan {
-    /// The plan that second derivatives make better, where they are asked for. Far from the
+    /// Returns the plan that second derivatives make better, where they are asked for. Far from the
     /// best plan they may have no lowest point, or one that is of no use: then the first are
     /// the better guide.
     fn bent(&self, derivatives: Derivatives) -> Option<(Plan, f64)> {
@@ -93,7 +93,7 @@ impl Plan {
         found.filter(|(_, part)| *part > 0.1)
     }
 
-    /// A better plan, and which part of the changes that parabolas advise it has.
+    /// Returns a better plan, and which part of the changes that parabolas advise it has.
     fn better(&self, caution: f64, derivatives: Derivatives) -> Option<(Plan, f64)> {
         let (changes, gains) = self.backward(caution, derivatives)?;
         self.forward(&changes, &gains)
@@ -134,7 +134,7 @@ impl Plan {
             .map_or(State::zeros(), |end| end - UPRIGHT)
     }
 
-    /// The changes that parabolas advise; `None` where one has no lowest point.
+    /// Returns the changes that parabolas advise; `None` where one has no lowest point.
     fn backward(&self, caution: f64, derivatives: Derivatives) -> Option<Changes> {
         let mut slope = self.off().component_mul(&END);
         let mut bend = Square::from_diagonal(&END);
@@ -181,7 +181,7 @@ impl Plan {
         Some((changes, gains))
     }
 
-    /// The plan with as much of the changes as makes it better, and how much that is.
+    /// Returns the plan with as much of the changes as makes it better, and how much that is.
     fn forward(&self, changes: &[f64], gains: &[State]) -> Option<(Plan, f64)> {
         let cost = self.cost();
         let mut part = 1.0;
@@ -208,7 +208,7 @@ impl Plan {
     }
 }
 
-/// The gain that holds the arm upright: what the backward pass comes to, there, if it goes
+/// Returns the gain that holds the arm upright: what the backward pass comes to, there, if it goes
 /// on for long.
 pub fn holding(period: f64) -> State {
     let (by_state, by_torque) = slopes(&UPRIGHT, 0.0, period);

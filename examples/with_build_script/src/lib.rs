@@ -3,7 +3,7 @@
 
 include!(concat!(env!("OUT_DIR"), "/arm.rs"));
 
-/// The kinetic energy ½ q̇ᵀ D q̇.
+/// Returns the kinetic energy ½ q̇ᵀ D q̇.
 pub fn kinetic_energy(q: &[f64; arm::N], qd: &[f64; arm::N]) -> f64 {
     let d = arm::manipulator_equation(q, qd).d;
     let momentum = d.map(|row| row[0] * qd[0] + row[1] * qd[1]);

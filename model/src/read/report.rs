@@ -65,7 +65,7 @@ impl Diagnostic {
         text
     }
 
-    /// The line around the span, fit to print, with the carets' place.
+    /// Returns the line around the span, fit to print, with the carets' place.
     fn excerpt(&self, source: &str) -> Option<(String, usize, usize)> {
         let line = source.lines().nth(self.line.checked_sub(1)?)?;
         let column = self.column.saturating_sub(1);

@@ -55,7 +55,7 @@ impl Inertia<Rational> {
     }
 }
 
-/// A symmetric matrix is positive semidefinite iff no principal minor (not
+/// Returns a symmetric matrix is positive semidefinite iff no principal minor (not
 /// only the leading ones) is negative.
 fn is_semidefinite(m: &[[Rational; 3]; 3]) -> bool {
     let minor = |i: usize, k: usize| &m[i][i] * &m[k][k] - &m[i][k] * &m[k][i];

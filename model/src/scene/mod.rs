@@ -135,7 +135,7 @@ impl Float {
 }
 
 impl Scene {
-    /// The position a joint is locked at.
+    /// Returns the position a joint is locked at.
     pub fn locked(&self, joint: usize) -> Option<&Position> {
         let mut locks = self.lock.iter();
         locks.find(|(at, _)| *at == joint).map(|(_, q)| q)

@@ -90,7 +90,7 @@ pub fn write(scene: &Scene) -> String {
 }
 
 impl Scene {
-    /// The first 16 hexadecimal digits of the SHA-256 of the
+    /// Returns the first 16 hexadecimal digits of the SHA-256 of the
     /// [written](write()) scene.
     pub fn short_hash(&self) -> String {
         let mut text = String::new();

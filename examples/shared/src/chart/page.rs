@@ -20,7 +20,7 @@ pub struct Page {
 }
 
 impl Page {
-    /// The paper with its title.
+    /// Begins a page with its title.
     pub fn new(title: &str, width: f64, height: f64) -> Page {
         let name = escaped(title);
         let mut page = Page {
@@ -51,7 +51,7 @@ impl Page {
         ));
     }
 
-    /// The text of the file.
+    /// Returns the text of the file.
     pub fn end(mut self) -> String {
         self.svg.push_str("</svg>\n");
         self.svg

@@ -27,7 +27,7 @@ pub struct Axis {
 const STEPS: f64 = 6.0;
 
 impl Axis {
-    /// An axis with room for these values; of those that are no finite numbers, or that
+    /// Returns an axis with room for these values; of those that are no finite numbers, or that
     /// the scale does not have, it takes no notice.
     pub fn new(scale: Scale, values: impl Iterator<Item = f64>) -> Axis {
         let values = values.map(|value| along(scale, value));
@@ -69,7 +69,7 @@ impl Axis {
         self.from + (self.to - self.from) * at.clamp(0.0, 1.0)
     }
 
-    /// The ticks, and what is written at them.
+    /// Returns the ticks, and what is written at them.
     pub fn ticks(&self) -> impl Iterator<Item = (f64, String)> {
         (0..=self.steps).map(|step| {
             let value = (self.first + step as f64) * self.step;
@@ -92,7 +92,7 @@ fn along(scale: Scale, value: f64) -> f64 {
     }
 }
 
-/// The next larger of 1, 2 and 5 times a power of ten.
+/// Returns the next larger of 1, 2 and 5 times a power of ten.
 fn round(step: f64) -> f64 {
     let power = libm::pow(10.0, libm::floor(libm::log10(step)));
     let steps = [1.0, 2.0, 5.0].map(|factor| factor * power);
