@@ -172,12 +172,10 @@ impl Function {
         let results: Vec<Quantity> = results.map(|quantity| seen(*quantity, view)).collect();
         let of = function.definition();
         Ok(Function::At(FunctionAt(Box::leak(Box::new(Definition {
-            structure: None,
-            by_default: false,
             name: kept(name),
             summary: kept(format!("{} {}", of.summary, described(view))),
             results: Box::leak(results.into_boxed_slice()),
-            parts: &[],
+            ..Definition::PLAIN
         })))))
     }
 
