@@ -97,7 +97,7 @@ fn a_scene() {
     assert_eq!(rows.last().unwrap()["sincos"], 2);
     let ran = run(&["explain", arm, "--scene", "stil"]);
     assert_eq!(ran.code, 2);
-    assert!(ran.err.contains("did you mean `still`?"), "{}", ran.err);
+    ran.says(&["did you mean `still`?"]);
 }
 
 /// With a tolerance the last row is what `generate` writes and `count` counts:
@@ -276,5 +276,5 @@ fn what_reaches_nothing_and_what_gives_the_form() {
         "joint2.mass",
     ]);
     assert_eq!(ran.code, 2, "{}", ran.out);
-    assert!(ran.err.contains("for the scene's tolerance"), "{}", ran.err);
+    ran.says(&["for the scene's tolerance"]);
 }

@@ -70,14 +70,10 @@ fn at_a_position() {
     ] {
         let ran = drawn(at);
         assert_eq!(ran.code, 2);
-        assert!(ran.err.contains(part), "{}", ran.err);
+        ran.says(&[part]);
     }
     let ran = run(&["show", &puma, "-o", &puma]);
-    assert!(
-        ran.err.contains("would be written over the robot file"),
-        "{}",
-        ran.err
-    );
+    ran.says(&["would be written over the robot file"]);
 }
 
 /// The outlines of the bodies of both views, each within its half of the paper.

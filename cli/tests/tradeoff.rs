@@ -117,11 +117,7 @@ fn a_tradeoff_goes_on_where_it_was() {
         let ran = with(more);
         assert_eq!(ran.code, 2, "{words}: {}", ran.err);
         assert!(ran.err.contains(words), "{words}: {}", ran.err);
-        assert!(
-            ran.err.contains(rung) && ran.err.contains("delete it"),
-            "{}",
-            ran.err
-        );
+        ran.says(&[rung, "delete it"]);
     };
     let other = "is of another robot, scene, plan, version or options";
     refused(other, "1e-1.json", &["--samples", "99"]);
