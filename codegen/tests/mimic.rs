@@ -65,10 +65,7 @@ fn the_code_gives_what_pinocchio_gives() {
     let every = if cfg!(debug_assertions) { 2 } else { 1 };
     let mut compared = 0;
     for &function in all.iter().step_by(every) {
-        let request = Request {
-            functions: vec![function],
-            ..Request::default()
-        };
+        let request = Request::of(&[function]);
         let generated = generated(&robot, request);
         assert!(generated.text.contains("pub const N: usize = 4;"));
         assert_eq!(generated.functions[0].program.joints, 4);
@@ -76,10 +73,7 @@ fn the_code_gives_what_pinocchio_gives() {
         for emitted in &generated.emitted {
             let u = emitted.scalar.unit_roundoff();
             for state in scene_robot.states(30, 3) {
-                let state = match emitted.scalar {
-                    ScalarType::F64 => state,
-                    ScalarType::F32 => state.in_single(),
-                };
+                let state = state.in_scalar(emitted.scalar);
                 let (found, known) = (emitted.run(&state), truth.run(function, &state));
                 let granted = runtime.granted(function, &state);
                 let mut start = 0;
@@ -229,9 +223,8 @@ fn another_multiplier_is_no_proof() {
 fn other_languages_have_as_many_entries() {
     for language in [Language::C, Language::Cuda] {
         let request = Request {
-            functions: vec![Function::InverseDynamics],
             language,
-            ..Request::default()
+            ..Request::of(&[Function::InverseDynamics])
         };
         let text = generated(&robot(), request).text;
         assert!(
@@ -251,10 +244,7 @@ fn what_does_not_follow_is_refused_by_name() {
         Function::FullRegressor,
         Function::InverseDynamicsSecondDerivatives,
     ] {
-        let request = Request {
-            functions: vec![function],
-            ..Request::default()
-        };
+        let request = Request::of(&[function]);
         let error = refused(request, &robot());
         assert_eq!(error, GenerateError::Follows(function));
         assert!(error.to_string().starts_with(&format!("`{function}` ")));
@@ -263,9 +253,8 @@ fn what_does_not_follow_is_refused_by_name() {
         "\n[scene.coarse]\ntolerance = { value = 1e-3, relative_to = \"range\" }\nbox = { acceleration = [1, 1, 1, 1] }\n",
     );
     let request = Request {
-        functions: vec![Function::InverseDynamics],
         scene: Some(reading.scenes[0].clone()),
-        ..Request::default()
+        ..Request::of(&[Function::InverseDynamics])
     };
     let error = refused(request, &reading.robot).to_string();
     assert!(
