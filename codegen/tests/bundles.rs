@@ -25,9 +25,8 @@ fn bundle(text: &str) -> Function {
 
 fn of(robot: &Robot, functions: &[Function], entries: Entries) -> Generated {
     let request = Request {
-        functions: functions.to_vec(),
         entries,
-        ..Request::default()
+        ..Request::of(functions)
     };
     generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
 }
@@ -149,9 +148,8 @@ fn plans_keep_bundles_by_what_is_in_them() {
     let planar = support::robot("planar2r");
     let servo = bundle("servo=inverse_dynamics+jacobian");
     let request = Request {
-        functions: vec![Function::Gravity, servo],
         scalars: vec![ScalarType::F64],
-        ..Request::default()
+        ..Request::of(&[Function::Gravity, servo])
     };
     let generated = generate(&planar, &request).unwrap();
     let text = keep(&planar, &request, &generated, None).plan.write();
@@ -197,10 +195,7 @@ fn plans_keep_bundles_by_what_is_in_them() {
 fn one_module_has_each_name_once() {
     let planar = support::robot("planar2r");
     let functions = ["servo_2=gravity+inertia", "servo2=jacobian+inertia"].map(bundle);
-    let request = Request {
-        functions: functions.to_vec(),
-        ..Request::default()
-    };
+    let request = Request::of(&functions);
     let error = generate(&planar, &request).unwrap_err();
     let said = error.to_string();
     assert!(

@@ -65,10 +65,7 @@ fn without(robot: &Robot) -> Robot {
 }
 
 fn request(functions: &[Function]) -> Request {
-    Request {
-        functions: functions.to_vec(),
-        ..Request::default()
-    }
+    Request::of(functions)
 }
 
 fn of(robot: &Robot, request: &Request) -> Generated {

@@ -120,9 +120,8 @@ fn the_code_gives_what_pinocchio_gives() {
         let mine = asked.iter().skip(index % every).step_by(every);
         for (key, function, quantity) in mine {
             let request = Request {
-                functions: vec![*function],
                 scalars: vec![ScalarType::F64],
-                ..Request::default()
+                ..Request::of(&[*function])
             };
             let generated = generate(&robot, &request).unwrap_or_else(|error| panic!("{error}"));
             let emitted = &generated.emitted[0];
@@ -171,9 +170,8 @@ fn the_runtime_gives_what_pinocchio_gives() {
 
 fn operations(robot: &Robot, text: &str) -> usize {
     let request = Request {
-        functions: vec![of(text)],
         scalars: vec![ScalarType::F64],
-        ..Request::default()
+        ..Request::of(&[of(text)])
     };
     let generated = generate(robot, &request).unwrap_or_else(|error| panic!("{error}"));
     generated.functions[0].counts().operations()
@@ -288,12 +286,11 @@ fn every_language_has_them() {
         (Language::Cuda, Entries::Single),
     ] {
         let request = Request {
-            functions: functions.to_vec(),
             language,
             entries,
             module: Some("d".to_owned()),
             scalars: vec![ScalarType::F64],
-            ..Request::default()
+            ..Request::of(&functions)
         };
         let generated = generate(&robot, &request).unwrap_or_else(|error| panic!("{error}"));
         for function in functions {
@@ -332,10 +329,7 @@ fn plans_keep_the_frame() {
 fn frames_that_are_not_there_are_refused_by_name() {
     let robot = with_frames("planar2r");
     let said = |robot: &Robot, text: &str| {
-        let request = Request {
-            functions: vec![of(text)],
-            ..Request::default()
-        };
+        let request = Request::of(&[of(text)]);
         let error = generate(robot, &request).unwrap_err();
         assert!(matches!(error, GenerateError::Frame { .. }));
         error.to_string()

@@ -51,10 +51,7 @@ const FUNCTIONS: [Function; 7] = [
 ];
 
 fn generated(robot: &Robot, functions: &[Function]) -> Generated {
-    let request = Request {
-        functions: functions.to_vec(),
-        ..Request::default()
-    };
+    let request = Request::of(functions);
     // No proof, no code.
     generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
 }

@@ -95,10 +95,7 @@ fn an_arm_that_moves_no_inertia_is_refused_by_its_joint() {
     robot.joints[last].mass = zero.clone();
     robot.joints[last].inertia = robot.joints[last].inertia.map(|_| zero.clone());
     for function in INVERTING {
-        let request = Request {
-            functions: vec![function],
-            ..Request::default()
-        };
+        let request = Request::of(&[function]);
         let Err(error @ GenerateError::Singular { .. }) = generate(&robot, &request) else {
             panic!("{function} of a singular D");
         };
@@ -138,9 +135,8 @@ fn a_tolerance_is_refused_with_what_can_be_certified() {
             ..Scene::default()
         };
         let request = Request {
-            functions: vec![function],
             scene: Some(scene),
-            ..Request::default()
+            ..Request::of(&[function])
         };
         let Err(error) = generate(&robot, &request) else {
             panic!("{function} within a tolerance");
@@ -168,9 +164,8 @@ fn scenes_hold_what_is_locked() {
         ..Scene::default()
     };
     let request = Request {
-        functions: INVERTING.to_vec(),
         scene: Some(scene.clone()),
-        ..Request::default()
+        ..Request::of(&INVERTING)
     };
     let generated = generate(&robot, &request).unwrap_or_else(|error| panic!("{error}"));
     let runtime = Runtime::in_scene(SceneRobot::new(&robot, &scene).unwrap());

@@ -36,10 +36,7 @@ fn proved_and_accurate() {
         let n = robot.joints.len();
         let function = function(n, &mut draw);
         let what = format!("seed {seed}, {n} joints, {function}");
-        let request = Request {
-            functions: vec![function],
-            ..Request::default()
-        };
+        let request = Request::of(&[function]);
         // No proof, no code.
         let generated = match generate(&robot, &request) {
             Ok(generated) => generated,
@@ -70,9 +67,8 @@ fn every_start_leads_to_the_same_function() {
         for start in Start::all() {
             let name = start.name();
             let request = Request {
-                functions: vec![function],
                 start,
-                ..Request::default()
+                ..Request::of(&[function])
             };
             if let Err(error) = generate(&robot, &request) {
                 panic!("seed {seed}, {n} joints, {function} from {name}: {error}");
@@ -149,10 +145,9 @@ fn a_scene_at_rest_is_inertia_and_gravity() {
     for (seed, robot, _) in robots(10, 4_000).filter(|(_, robot, _)| robot.joints.len() <= 5) {
         let run = |function: Function, scene: Option<Scene>| {
             let request = Request {
-                functions: vec![function],
                 scalars: vec![ScalarType::F64],
                 scene,
-                ..Request::default()
+                ..Request::of(&[function])
             };
             generate(&robot, &request)
                 .unwrap_or_else(|error| panic!("seed {seed}: {error}"))

@@ -13,11 +13,10 @@ use crate::support;
 
 fn request(functions: &[Function], prefer: Prefer, fma: Fma) -> Request {
     Request {
-        functions: functions.to_vec(),
         scalars: vec![ScalarType::F64],
         prefer,
         fma,
-        ..Request::default()
+        ..Request::of(functions)
     }
 }
 

@@ -51,20 +51,16 @@ pub fn read_robot(source: &str) -> Robot {
 
 /// Returns one function in both scalars.
 pub fn one(robot: &Robot, function: Function) -> Generated {
-    let request = Request {
-        functions: vec![function],
-        ..Request::default()
-    };
+    let request = Request::of(&[function]);
     generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Returns one function in f64 from one formulation.
 pub fn from(robot: &Robot, function: Function, start: Start) -> Generated {
     let request = Request {
-        functions: vec![function],
         scalars: vec![ScalarType::F64],
         start,
-        ..Request::default()
+        ..Request::of(&[function])
     };
     generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
 }
