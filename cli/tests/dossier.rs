@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::{arm, robot, run};
+use crate::support::{arm, good, robot, run};
 
 /// Returns the list of boxes that have a cross, and of those that have none.
 fn boxes(text: &str) -> [Vec<&str>; 2] {
@@ -27,12 +27,13 @@ fn what_is_found_is_filled_in() {
             "c",
             "--sincos",
         ];
-        let ran = run(&[
-            &arguments[..],
-            &["polynomial", "-o", header.to_str().unwrap()],
-        ]
-        .concat());
-        assert_eq!(ran.code, 0, "{}", ran.err);
+        good(
+            &[
+                &arguments[..],
+                &["polynomial", "-o", header.to_str().unwrap()],
+            ]
+            .concat(),
+        );
     };
     let dossier = folder.join("arm.md");
     let certify = |more: &[&str]| {

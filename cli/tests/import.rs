@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::{run, temporary};
+use crate::support::{good, run, temporary};
 
 fn urdf(name: &str) -> String {
     format!(
@@ -16,8 +16,7 @@ fn a_chain_becomes_a_robot_file_that_counts() {
     let folder = temporary("import");
     let file = folder.join("ur5.toml");
     let name = file.to_str().unwrap();
-    let ran = run(&["import", &urdf("ur5"), "--tip", "tool0", "-o", name]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    let ran = good(&["import", &urdf("ur5"), "--tip", "tool0", "-o", name]);
     assert!(ran.out.is_empty());
     let text = fs::read_to_string(&file).unwrap();
     assert!(
@@ -38,8 +37,7 @@ fn a_chain_becomes_a_robot_file_that_counts() {
     let again = run(&["import", &urdf("ur5"), "--tip", "tool0"]);
     assert_eq!((again.code, again.out == text), (0, true));
     // Snapped, the structure is back: this arm is the UR10's size in operations.
-    let counted = run(&["count", name, "--outputs", "gravity"]);
-    assert_eq!(counted.code, 0, "{}", counted.err);
+    let counted = good(&["count", name, "--outputs", "gravity"]);
     assert!(counted.out.contains("gravity"), "{}", counted.out);
 }
 
@@ -63,8 +61,8 @@ fn what_changes_nothing_is_one_line() {
         link("upper")
     );
     fs::write(&file, text).unwrap();
-    let ran = run(&["import", file.to_str().unwrap()]);
-    ran.ends(0, &["torques change by: nothing"]);
+    let ran = good(&["import", file.to_str().unwrap()]);
+    ran.says(&["torques change by: nothing"]);
     assert!(!ran.err.contains("≤ 0"), "{}", ran.err);
 }
 
@@ -97,7 +95,7 @@ fn refusals_are_bad_input() {
     fs::write(over, b"\xff\xfe").unwrap();
     assert!(run(&["import", over]).err.contains("is not UTF-8 text"));
     // The way out that was named is one.
-    let ran = run(&[
+    good(&[
         "import",
         &panda,
         "--tip",
@@ -109,11 +107,10 @@ fn refusals_are_bad_input() {
         "-o",
         output,
     ]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
     assert!(fs::exists(output).unwrap());
     let file = |options: &[&str]| {
-        let ran = run(&[&["import", &panda, "--tip", "panda_hand"], options].concat());
-        ran.ends(0, &["is held: `panda_finger_joint1` at 0"]);
+        let ran = good(&[&["import", &panda, "--tip", "panda_hand"], options].concat());
+        ran.says(&["is held: `panda_finger_joint1` at 0"]);
         ran.out
     };
     assert_eq!(file(&["--lock-others", "0"]), file(&["--lock", "*=0"]));
@@ -126,12 +123,10 @@ fn all_arms_of_a_robot() {
     let arms = folder.join("arms");
     let name = arms.to_str().unwrap();
     let gallery = concat!(env!("CARGO_MANIFEST_DIR"), "/../gallery/urdf/baxter.urdf");
-    let ran = run(&["import", gallery, "--all", "-o", name]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    let ran = good(&["import", gallery, "--all", "-o", name]);
     for side in ["left", "right"] {
         let file = arms.join(format!("baxter_{side}_gripper_base_link.toml"));
-        let counted = run(&["count", file.to_str().unwrap(), "--outputs", "gravity"]);
-        assert_eq!(counted.code, 0, "{}", counted.err);
+        good(&["count", file.to_str().unwrap(), "--outputs", "gravity"]);
     }
     assert_eq!(fs::read_dir(&arms).unwrap().count(), 2);
     assert!(!ran.err.contains("move each other"), "{}", ran.err);
@@ -166,8 +161,7 @@ fn all_arms_of_a_robot() {
         "-o",
         both.to_str().unwrap(),
     ];
-    let ran = run(&arguments);
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    let ran = good(&arguments);
     let said = "two_l3 and two_r3 move each other through j_torso";
     ran.says(&[said]);
     let left = fs::read_to_string(both.join("two_l3.toml")).unwrap();
@@ -283,8 +277,8 @@ fn an_mjcf_with_its_includes() {
         "0",
         "-o",
     ];
-    let ran = run(&[&arguments[..], &[output.to_str().unwrap()]].concat());
-    ran.ends(0, &["features_defaults.xml:"]);
+    let ran = good(&[&arguments[..], &[output.to_str().unwrap()]].concat());
+    ran.says(&["features_defaults.xml:"]);
     let text = fs::read_to_string(&output).unwrap();
     assert!(
         text.contains("features_defaults.xml, line 12: joint to tool"),

@@ -50,6 +50,14 @@ pub fn run(arguments: &[&str]) -> Ran {
     }
 }
 
+/// Runs the command, which ends well.
+#[track_caller]
+pub fn good(arguments: &[&str]) -> Ran {
+    let ran = run(arguments);
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+    ran
+}
+
 /// Returns a checked-in robot file.
 pub fn robot(name: &str) -> String {
     let root = env!("CARGO_MANIFEST_DIR");
