@@ -13,6 +13,7 @@ use std::hint::black_box;
 
 use dalembert::batch::{Function, Vectors, columns_in, parallel, states_in};
 use dalembert_codegen::workspace::task::Fma;
+use dalembert_model::scalar::field::Points;
 
 #[rustfmt::skip] // As the generator writes it.
 #[path = "generated/puma560_batch.rs"]
@@ -46,14 +47,12 @@ const ROUNDS: usize = 401;
 
 /// Seeded numbers inside ±π in columns, for each argument.
 fn numbers(states: usize) -> [[Vec<f64>; 6]; 3] {
-    let mut bits = 0x9e37_79b9_7f4a_7c15_u64;
-    let mut unit = || {
-        bits = bits
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (bits >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    let mut points = Points::new(1);
+    let mut column = || {
+        (0..states)
+            .map(|_| std::f64::consts::PI * points.unit())
+            .collect()
     };
-    let mut column = || (0..states).map(|_| std::f64::consts::PI * unit()).collect();
     [(); 3].map(|()| [(); 6].map(|()| column()))
 }
 
