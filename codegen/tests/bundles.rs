@@ -226,11 +226,7 @@ velocity = "zero"
     let scene_robot = SceneRobot::new(&reading.robot, scene).unwrap();
     let runtime = Runtime::in_scene(scene_robot);
     let states = states::seeded(&reading.robot, 50, 3);
-    for emitted in &generated.emitted {
-        for measure in emitted.against_runtime(&runtime, &states) {
-            assert!(measure.in_units() <= BOUND, "{measure:?}");
-        }
-    }
+    support::rounds_well(&generated.emitted, &runtime, &states, "");
     // The text of the scene, of which its hash is made, has the parts.
     let written = dalembert_model::scene::write(scene);
     assert!(written.contains("\"reach=gravity+jacobian\""), "{written}");

@@ -8,7 +8,7 @@ use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::states::{SEED, seeded};
 use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::exact::prove;
-use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::workspace::verify::floating::Runtime;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Position, Robot};
 use dalembert_model::scene::{Scale, Scene, Tolerance};
@@ -171,9 +171,5 @@ fn scenes_hold_what_is_locked() {
     let runtime = Runtime::in_scene(SceneRobot::new(&robot, &scene).unwrap());
     let states = seeded(&robot, 100, SEED);
     assert_eq!(generated.emitted.len(), 2 * INVERTING.len());
-    for emitted in &generated.emitted {
-        for measure in emitted.against_runtime(&runtime, &states) {
-            assert!(measure.in_units() <= BOUND, "{measure:?}");
-        }
-    }
+    support::rounds_well(&generated.emitted, &runtime, &states, "");
 }

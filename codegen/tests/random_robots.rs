@@ -4,6 +4,7 @@
 //! What is generated for them is proved (or `generate` fails), the emitted text
 //! stays within the floating bound, and the formulations agree.
 
+use crate::support;
 use crate::support::draw::{Draw, robots};
 use dalembert_codegen::workspace::function::{Argument, Function};
 use dalembert_codegen::workspace::generate::generate;
@@ -14,7 +15,7 @@ use dalembert_codegen::workspace::program::run::State;
 use dalembert_codegen::workspace::scene::{self, SceneRobot};
 use dalembert_codegen::workspace::states::{SEED, seeded};
 use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::workspace::verify::floating::Runtime;
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::Exact;
 use dalembert_model::scene::Scene;
@@ -45,13 +46,7 @@ fn proved_and_accurate() {
         let runtime = Runtime::new(&robot);
         let states = seeded(&robot, 50, SEED ^ seed);
         assert_eq!(generated.emitted.len(), 2, "{what}");
-        for emitted in &generated.emitted {
-            for measure in emitted.against_runtime(&runtime, &states) {
-                let (quantity, error) = (measure.quantity.symbol(), measure.in_units());
-                let scalar = measure.scalar;
-                assert!(error <= BOUND, "{what}, {quantity} in {scalar}: {error} u");
-            }
-        }
+        support::rounds_well(&generated.emitted, &runtime, &states, &what);
     }
 }
 
