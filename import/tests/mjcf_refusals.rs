@@ -79,7 +79,7 @@ joint `reach` of the chain is tied by equality
 joint `finger` hangs on the chain and follows `reach`, which moves | --lock finger=0
 </mujoco> => <equality><joint joint1="rech"/></equality></mujoco>
 there is no joint `rech` | did you mean `reach`?
-</mujoco> => <equality><joint joint1="reach" polycoef="0 1 2 3 4 5"/></equality></mujoco>
+</muj => <equality><joint joint1="reach" joint2="turn" polycoef="0 1 2 3 4 5"/></equality></muj
 `polycoef` has more than 5 numbers
 </mujoco> => <equality><weld body1="hand"/></equality></mujoco>
 equality `weld` ties `hand` and `world`, which move apart | closed loops

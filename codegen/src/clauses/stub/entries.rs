@@ -207,9 +207,10 @@ impl Stub<'_> {
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "pub fn {}{end}{}({given}) -> {result} {{ ::core::unreachable!() }}",
+            "pub fn {}{end}{}({}) -> {result} {{ ::core::unreachable!() }}",
             self.function,
             self.generic(generic),
+            given.trim_end_matches(", "),
         );
     }
 }
