@@ -238,6 +238,22 @@ fn expanded(outputs: &str) -> String {
     expand(text.parse().unwrap(), &folder).to_string()
 }
 
+/// What is asked for, and words of what is said.
+const WRONG: &str = "
+servo = gravty + jacobian | unknown output `gravty` | did you mean `gravity`?
+servo = gravity + gravity | `gravity` is in it twice | leave one of them out
+servo = inertia + manipulator_equation | both return D
+servo = gravity | two parts at least | ask for `gravity` by itself
+servo = gravity + | expected the word for an output
+servo = gravity jacobian | expected `+`, `,` or `;`
+gravity + jacobian | `gravity+jacobian` has no name | write NAME = gravity+jacobian
+= gravity + jacobian | a bundle is NAME = OUTPUT + OUTPUT
+Servo = gravity + jacobian | no name of a function | small letters
+gravity = inertia + jacobian | is an output by itself
+a = gravity + jacobian, a = inertia + jacobian | is given twice
+a = gravty + jacobian, b = inertja + gravity | `gravty` | `inertja`
+";
+
 /// By the macro, with everything that is wrong at once, and the function is there
 /// all the same where it is known what it would be.
 #[test]
@@ -247,50 +263,12 @@ fn the_macro_reads_bundles() {
     assert!(!text.contains("compile_error"), "{text}");
     assert!(text.contains("pubfnservo(q:&[f64;2],qd:&[f64;2],qdd:&[f64;2])->Servo{"));
 
-    for (outputs, messages) in [
-        (
-            "servo = gravty + jacobian",
-            &["unknown output `gravty`", "did you mean `gravity`?"][..],
-        ),
-        (
-            "servo = gravity + gravity",
-            &["`gravity` is in it twice", "leave one of them out"],
-        ),
-        ("servo = inertia + manipulator_equation", &["both return D"]),
-        (
-            "servo = gravity",
-            &["two parts at least", "ask for `gravity` by itself"],
-        ),
-        ("servo = gravity +", &["expected the word for an output"]),
-        ("servo = gravity jacobian", &["expected `+`, `,` or `;`"]),
-        (
-            "gravity + jacobian",
-            &[
-                "`gravity+jacobian` has no name",
-                "write NAME = gravity+jacobian",
-            ],
-        ),
-        (
-            "= gravity + jacobian",
-            &["a bundle is NAME = OUTPUT + OUTPUT"],
-        ),
-        (
-            "Servo = gravity + jacobian",
-            &["no name of a function", "small letters"],
-        ),
-        ("gravity = inertia + jacobian", &["is an output by itself"]),
-        (
-            "a = gravity + jacobian, a = inertia + jacobian",
-            &["is given twice"],
-        ),
-        (
-            "a = gravty + jacobian, b = inertja + gravity",
-            &["`gravty`", "`inertja`"],
-        ),
-    ] {
+    for row in WRONG.lines().filter(|row| !row.is_empty()) {
+        let mut cells = row.split(" | ");
+        let outputs = cells.next().unwrap();
         let text = expanded(outputs);
         assert!(text.contains("compile_error"), "{outputs}");
-        for message in messages {
+        for message in cells {
             assert!(text.contains(message), "{outputs}: {text}");
         }
     }
