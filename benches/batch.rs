@@ -1,20 +1,19 @@
 //! One function by all its entries in one run, f64 and f32: a state a call, the
 //! same with sines given, and batches of 1024 states, in rows and in columns; in the vectors that
-//! the processor has, in those of AVX2 and in those of a plain build. Beside each stands how many
-//! times the limit of the processor's ports it takes (`ports.rs`), and what gcc -O3 makes of the
+//! the processor has, in those of AVX2 and in those of a plain build; and what gcc -O3 makes of the
 //! same functions in C, if there is a gcc.
 //!
 //! `cargo bench --bench batch`, or of some functions alone, by parts of their names:
 //! `cargo bench --bench batch -- torques`.
 
 mod gcc;
-mod ports;
 mod rounds;
 
 use std::hint::black_box;
 
 use dalembert::batch::{Function, Vectors, columns_in, parallel, states_in};
 use dalembert_codegen::workspace::task::Fma;
+use dalembert_model::scalar::field::Points;
 
 #[rustfmt::skip] // As the generator writes it.
 #[path = "generated/puma560_batch.rs"]
@@ -48,14 +47,12 @@ const ROUNDS: usize = 401;
 
 /// Seeded numbers inside ±π in columns, for each argument.
 fn numbers(states: usize) -> [[Vec<f64>; 6]; 3] {
-    let mut bits = 0x9e37_79b9_7f4a_7c15_u64;
-    let mut unit = || {
-        bits = bits
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (bits >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    let mut points = Points::new(1);
+    let mut column = || {
+        (0..states)
+            .map(|_| std::f64::consts::PI * points.unit())
+            .collect()
     };
-    let mut column = || (0..states).map(|_| std::f64::consts::PI * unit()).collect();
     [(); 3].map(|()| [(); 6].map(|()| column()))
 }
 
@@ -75,7 +72,7 @@ struct Compiled {
 /// the functions of gcc.
 macro_rules! bench {
     ($what:literal, $module:ident, $scalar:ty, $function:ident, $kind:ident, $results:literal,
-     $clock:ident, $compiled:ident, $place:expr, is_alone: $is_alone:expr) => {{
+     $compiled:ident, $place:expr, is_alone: $is_alone:expr) => {{
         type Kind = $module::$kind;
         const LINE: usize = 64 / size_of::<$scalar>();
         let own = |states: usize| {
@@ -161,15 +158,7 @@ macro_rules! bench {
                 }
             }
         }
-        let operations = ports::operations::<Kind, 3, 6, $results, 4>();
-        rounds.print_limits($what, |name| {
-            let width = match name {
-                name if name.ends_with("AVX-512") => 512,
-                name if name.ends_with("AVX2") => 256,
-                _ => return None,
-            };
-            ports::limit::<$scalar>(&operations, width, $clock).map(|(limit, _)| limit)
-        });
+        rounds.print($what);
         if $is_alone {
             let mut rounds = Rounds::of(MANY);
             let mut in_columns: [Vec<$scalar>; $results] =
@@ -203,8 +192,6 @@ fn main() {
         .collect();
     let is_chosen =
         |name: &str| chosen.is_empty() || chosen.iter().any(|part| name.contains(part.as_str()));
-    let clock = ports::clock();
-    println!("clock: {clock:.3} GHz");
     let compile = |name: &str, functions: &[Output], fma: Fma| {
         // Else gcc makes no vectors of 256 bits.
         let narrow = ["-march=x86-64-v3", "-fno-tree-pre"];
@@ -222,27 +209,27 @@ fn main() {
         let mut gcc = compile("batch", &dynamics, Fma::Off);
         if is_chosen("torques") {
             bench!("torques, f64", puma560, f64, inverse_dynamics,
-                InverseDynamicsBatch, 6, clock, gcc, 0, is_alone: true);
+                InverseDynamicsBatch, 6, gcc, 0, is_alone: true);
             bench!("torques, f32", puma560_f32, f32, inverse_dynamics,
-                InverseDynamicsBatch, 6, clock, gcc, 2, is_alone: true);
+                InverseDynamicsBatch, 6, gcc, 2, is_alone: true);
         }
         if is_chosen("accelerations") {
             bench!("accelerations, f64", puma560, f64, forward_dynamics,
-                ForwardDynamicsBatch, 6, clock, gcc, 1, is_alone: true);
+                ForwardDynamicsBatch, 6, gcc, 1, is_alone: true);
             bench!("accelerations, f32", puma560_f32, f32, forward_dynamics,
-                ForwardDynamicsBatch, 6, clock, gcc, 3, is_alone: true);
+                ForwardDynamicsBatch, 6, gcc, 3, is_alone: true);
         }
     }
     if is_chosen("fused") {
         let mut gcc = compile("fused", &dynamics, Fma::On);
         bench!("fused torques, f64", fused, f64, inverse_dynamics,
-            InverseDynamicsBatch, 6, clock, gcc, 0, is_alone: false);
+            InverseDynamicsBatch, 6, gcc, 0, is_alone: false);
         bench!("fused torques, f32", fused_f32, f32, inverse_dynamics,
-            InverseDynamicsBatch, 6, clock, gcc, 2, is_alone: false);
+            InverseDynamicsBatch, 6, gcc, 2, is_alone: false);
         bench!("fused accelerations, f64", fused, f64, forward_dynamics,
-            ForwardDynamicsBatch, 6, clock, gcc, 1, is_alone: false);
+            ForwardDynamicsBatch, 6, gcc, 1, is_alone: false);
         bench!("fused accelerations, f32", fused_f32, f32, forward_dynamics,
-            ForwardDynamicsBatch, 6, clock, gcc, 3, is_alone: false);
+            ForwardDynamicsBatch, 6, gcc, 3, is_alone: false);
     }
     if is_chosen("derivatives") {
         let functions = [
@@ -251,12 +238,12 @@ fn main() {
         ];
         let mut gcc = compile("derivatives", &functions, Fma::Off);
         bench!("derivatives of torques, f64", derivatives, f64, inverse_dynamics_derivatives,
-            InverseDynamicsDerivativesBatch, 108, clock, gcc, 0, is_alone: false);
+            InverseDynamicsDerivativesBatch, 108, gcc, 0, is_alone: false);
         bench!("derivatives of torques, f32", derivatives_f32, f32, inverse_dynamics_derivatives,
-            InverseDynamicsDerivativesBatch, 108, clock, gcc, 2, is_alone: false);
+            InverseDynamicsDerivativesBatch, 108, gcc, 2, is_alone: false);
         bench!("derivatives of accelerations, f64", derivatives, f64, forward_dynamics_derivatives,
-            ForwardDynamicsDerivativesBatch, 108, clock, gcc, 1, is_alone: false);
+            ForwardDynamicsDerivativesBatch, 108, gcc, 1, is_alone: false);
         bench!("derivatives of accelerations, f32", derivatives_f32, f32, forward_dynamics_derivatives,
-            ForwardDynamicsDerivativesBatch, 108, clock, gcc, 3, is_alone: false);
+            ForwardDynamicsDerivativesBatch, 108, gcc, 3, is_alone: false);
     }
 }

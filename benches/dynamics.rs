@@ -12,6 +12,7 @@ use std::path::Path;
 use dalembert_generated::{panda, puma560, puma560_f32, stanford, ur10};
 use dalembert_model::read;
 use dalembert_model::reference::Reference;
+use dalembert_model::scalar::field::Points;
 use nalgebra::DVector;
 use rounds::Rounds;
 
@@ -39,14 +40,8 @@ fn reference(name: &str) -> Reference<f64> {
 
 /// States that no constant folds and no branch of a sine is learnt from.
 fn states<const N: usize>(seed: u64) -> Vec<[f64; N]> {
-    let mut bits = seed;
-    let mut unit = || {
-        bits = bits
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (bits >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    };
-    let state = |_| [0.0; N].map(|_: f64| std::f64::consts::PI * unit());
+    let mut points = Points::new(seed);
+    let state = |_| [0.0; N].map(|_: f64| std::f64::consts::PI * points.unit());
     (0..CALLS).map(state).collect()
 }
 

@@ -28,14 +28,13 @@ impl Gcc {
         let source = std::fs::read_to_string(&robot).ok()?;
         let reading = read::parse(&source, &read::Options::default()).ok()?;
         let request = Request {
-            functions: functions.to_vec(),
             sincos: SinCos::Together,
             math: MathPath::of(Library::Together),
             entries: Entries::Batch,
             language: Language::C,
             plan: plan::file::beside(&robot).ok()?,
             fma,
-            ..Request::default()
+            ..Request::of(functions)
         };
         let text = generate(&reading.robot, &request).ok()?.text;
         // In the order of the functions, f64 and then f32.

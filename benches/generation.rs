@@ -37,10 +37,7 @@ fn searches(name: &str) {
         functions: Function::ALL[..6].to_vec(),
         ..Request::default()
     };
-    let torques = Request {
-        functions: vec![Function::InverseDynamics],
-        ..Request::default()
-    };
+    let torques = Request::of(&[Function::InverseDynamics]);
     let toml = file(&format!("generated/robots/{name}.toml"));
     let planned = Request {
         plan: plan::file::beside(&toml).expect("a readable plan"),

@@ -9,6 +9,7 @@ mod rounds;
 
 use std::hint::black_box;
 
+use dalembert_model::scalar::field::Points;
 use rounds::Rounds;
 
 #[rustfmt::skip] // As the generator writes it.
@@ -40,22 +41,16 @@ const STATES: usize = 1 << 15;
 
 type State = [[f64; 6]; 3];
 
-/// States all over the robot's limits, by a linear congruence.
+/// States all over the robot's limits.
 fn states() -> Vec<State> {
-    let mut bits = 0x9e37_79b9_7f4a_7c15_u64;
-    let mut unit = || {
-        bits = bits
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (bits >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    };
+    let mut points = Points::new(1);
     let reach = [
         [std::f64::consts::PI; 6],
         [2.0, 2.0, 2.0, 5.0, 5.0, 5.0],
         [10.0, 10.0, 10.0, 30.0, 30.0, 30.0],
     ];
     (0..STATES)
-        .map(|_| reach.map(|row| row.map(|most| most * unit())))
+        .map(|_| reach.map(|row| row.map(|most| most * points.unit())))
         .collect()
 }
 

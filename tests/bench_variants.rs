@@ -37,10 +37,9 @@ fn the_bench_of_sines_is_up_to_date() {
         .unwrap()
         .robot;
     let request = Request {
-        functions: vec![Function::InverseDynamics],
         scalars: vec![ScalarType::F64],
         plan: plan::file::beside(&file).unwrap(),
-        ..Request::default()
+        ..Request::of(&[Function::InverseDynamics])
     };
     let generated = generate(&robot, &request).unwrap();
     let program = &generated.functions[0].program;
@@ -86,12 +85,11 @@ fn the_bench_of_batches_is_up_to_date() {
     let source = fs::read_to_string(&file).unwrap();
     let reading = read::parse(&source, &read::Options::default()).unwrap();
     let request = Request {
-        functions: vec![Function::InverseDynamics, Function::ForwardDynamics],
         sincos: SinCos::Together,
         math: MathPath::of(Library::Together),
         entries: Entries::Batch,
         plan: plan::file::beside(&file).unwrap(),
-        ..Request::default()
+        ..Request::of(&[Function::InverseDynamics, Function::ForwardDynamics])
     };
     let generated = generate(&reading.robot, &request).unwrap();
     keep("benches/generated/puma560_batch.rs", &generated.text);

@@ -4,6 +4,7 @@
 use std::array::from_fn;
 
 use dalembert::batch::{self, Function, Slice};
+use dalembert_model::scalar::field::Points;
 
 #[rustfmt::skip] // As the generator writes it.
 #[path = "../benches/generated/puma560_batch.rs"]
@@ -128,16 +129,10 @@ fn numbers(count: usize, seed: u64) -> Vec<f64> {
         5e-324,
         1e-40,
     ];
-    let mut bits = seed;
-    let mut next = |index: usize| {
-        bits = bits
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        let unit = (bits >> 11) as f64 / (1u64 << 52) as f64 - 1.0;
-        match index % 9 {
-            8 => odd[(bits >> 32) as usize % odd.len()],
-            _ => 3.0 * unit,
-        }
+    let mut points = Points::new(seed);
+    let mut next = |index: usize| match index % 9 {
+        8 => odd[(points.bits() >> 32) as usize % odd.len()],
+        _ => 3.0 * points.unit(),
     };
     (0..count).map(&mut next).collect()
 }

@@ -50,9 +50,8 @@ fn writes_what_the_one_function_generates() {
     generator(&folder).write_to(&path).unwrap();
     let robot = RobotFile::read(&folder.join("arm.toml")).unwrap().robot;
     let request = Request {
-        functions: vec![Output::Gravity],
         scalars: vec![Scalar::F32],
-        ..Request::default()
+        ..Request::of(&[Output::Gravity])
     };
     let text = fs::read_to_string(&path).unwrap();
     let (header, text) = text.split_once('\n').unwrap();

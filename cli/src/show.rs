@@ -75,15 +75,11 @@ fn json(robot: &Robot, at: &[f64]) -> Result<Value, WrongLength> {
 /// number by itself is of radians, and was perhaps meant otherwise.
 fn doubtful(robot: &Robot, index: usize, text: &str, q: f64) -> Option<String> {
     let joint = robot.joints.get(index)?;
-    let end = |position: &Position| match position {
-        Position::Angle(angle) => angle.to_f64(),
-        Position::Length(length) => f64::nearest_rational(length),
-    };
     let limits = joint
         .limits
         .position
         .as_ref()
-        .map(|ends| ends.each_ref().map(end));
+        .map(|ends| ends.each_ref().map(Position::to_f64));
     let turns = joint.kind == JointKind::Revolute;
     let what = match limits {
         Some([low, high]) if q < low || q > high => {

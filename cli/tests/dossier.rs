@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::{arm, robot, run};
+use crate::support::{arm, good, robot, run};
 
 /// Returns the list of boxes that have a cross, and of those that have none.
 fn boxes(text: &str) -> [Vec<&str>; 2] {
@@ -27,12 +27,13 @@ fn what_is_found_is_filled_in() {
             "c",
             "--sincos",
         ];
-        let ran = run(&[
-            &arguments[..],
-            &["polynomial", "-o", header.to_str().unwrap()],
-        ]
-        .concat());
-        assert_eq!(ran.code, 0, "{}", ran.err);
+        good(
+            &[
+                &arguments[..],
+                &["polynomial", "-o", header.to_str().unwrap()],
+            ]
+            .concat(),
+        );
     };
     let dossier = folder.join("arm.md");
     let certify = |more: &[&str]| {
@@ -84,11 +85,7 @@ fn what_is_found_is_filled_in() {
     // What was filled in by hand is not lost.
     let ran = certify(&[]);
     assert_eq!(ran.code, 2);
-    assert!(
-        ran.err.contains("what was filled in would be lost"),
-        "{}",
-        ran.err
-    );
+    ran.says(&["what was filled in would be lost"]);
     // A file of another robot, with calls.
     let other = fs::read_to_string(&file)
         .unwrap()
@@ -131,11 +128,7 @@ fn dossiers_that_cannot_be() {
         "never.md",
     ]);
     assert_eq!(ran.code, 2);
-    assert!(
-        ran.err.contains("--dossier is of a generated file"),
-        "{}",
-        ran.err
-    );
+    ran.says(&["--dossier is of a generated file"]);
     let ran = run(&[
         "certify",
         &rust,

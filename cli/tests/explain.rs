@@ -1,12 +1,11 @@
 //! `dalembert explain` as a user runs it.
 
-use crate::support::{arm, robot, run, temporary};
+use crate::support::{arm, good, robot, run, temporary};
 use serde_json::Value;
 
 #[test]
 fn the_table_and_the_reasons() {
-    let ran = run(&["explain", &robot("planar2r"), "--states", "20"]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    let ran = good(&["explain", &robot("planar2r"), "--states", "20"]);
     for expected in [
         "inverse_dynamics",
         "Table 3, torques",
@@ -23,7 +22,7 @@ fn the_table_and_the_reasons() {
 
 #[test]
 fn as_json() {
-    let ran = run(&[
+    let ran = good(&[
         "explain",
         &robot("planar3r"),
         "--states",
@@ -32,7 +31,6 @@ fn as_json() {
         "gravity,inverse_dynamics",
         "--json",
     ]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
     let json: Value = serde_json::from_str(&ran.out).unwrap();
     let functions = json["functions"].as_object().unwrap();
     assert_eq!(functions.len(), 2);
@@ -56,8 +54,7 @@ fn every_coefficient_of_the_puma() {
         "2",
         "--coefficients",
     ];
-    let ran = run(&[&explain[..], &["--json"]].concat());
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    let ran = good(&[&explain[..], &["--json"]].concat());
     let json: Value = serde_json::from_str(&ran.out).unwrap();
     let h = &json["coefficients"]["h"];
     assert_eq!([&h["total"], &h["zero"], &h["distinct"]], [126, 42, 35]);
@@ -85,10 +82,9 @@ fn a_scene() {
     let source = std::fs::read_to_string(robot("planar3r")).unwrap() + scene;
     std::fs::write(&file, source).unwrap();
     let arm = file.to_str().unwrap();
-    let ran = run(&[
+    let ran = good(&[
         "explain", arm, "--scene", "still", "--states", "5", "--json",
     ]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
     let json: Value = serde_json::from_str(&ran.out).unwrap();
     assert_eq!(json["scene"], "still");
     assert!(json["coefficients"].is_null());
@@ -97,7 +93,7 @@ fn a_scene() {
     assert_eq!(rows.last().unwrap()["sincos"], 2);
     let ran = run(&["explain", arm, "--scene", "stil"]);
     assert_eq!(ran.code, 2);
-    assert!(ran.err.contains("did you mean `still`?"), "{}", ran.err);
+    ran.says(&["did you mean `still`?"]);
 }
 
 /// With a tolerance the last row is what `generate` writes and `count` counts:
@@ -112,17 +108,14 @@ fn a_tolerance() {
     std::fs::write(&file, source).unwrap();
     let arm = file.to_str().unwrap();
     let explain = ["explain", arm, "--scene", "rough", "--states", "5"];
-    let ran = run(&[&explain[..], &["--json"]].concat());
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    let ran = good(&[&explain[..], &["--json"]].concat());
     let json: Value = serde_json::from_str(&ran.out).unwrap();
     let rows = json["functions"]["gravity"]["rows"].as_array().unwrap();
     let last = rows.last().unwrap();
     assert_eq!(last["scalar"], "f32");
-    let count = run(&["count", arm, "--scene", "rough", "--json"]);
-    assert_eq!(count.code, 0, "{}", count.err);
+    let count = good(&["count", arm, "--scene", "rough", "--json"]);
     let count: Value = serde_json::from_str(&count.out).unwrap();
-    let generated = run(&["generate", arm, "--scene", "rough"]);
-    assert_eq!(generated.code, 0, "{}", generated.err);
+    let generated = good(&["generate", arm, "--scene", "rough"]);
     let counted = &count["functions"]["gravity"];
     let of = |key: &str| {
         assert_eq!(last[key], counted[key], "{key}");
@@ -159,8 +152,7 @@ fn states_have_bounds() {
 
 /// Returns the lines of generated code that begin with a name, by their numbers.
 fn constants(arm: &str) -> Vec<(usize, String)> {
-    let ran = run(&["generate", arm, "--outputs", "inverse_dynamics"]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    let ran = good(&["generate", arm, "--outputs", "inverse_dynamics"]);
     let lines = ran.out.lines().enumerate();
     let lines = lines.filter(|(_, line)| line.trim().starts_with("let t"));
     lines
@@ -179,8 +171,7 @@ fn traced_lines_are_those_that_change() {
         ("shoulder.com.x", "com = [-0.3638, ", "com = [-0.3639, ", 2),
         ("joint3.inertia.yy", "0.086, 0.0125", "0.087, 0.0125", 2),
     ] {
-        let ran = run(&["explain", &arm, "--trace", number, "--json"]);
-        assert_eq!(ran.code, 0, "{}", ran.err);
+        let ran = good(&["explain", &arm, "--trace", number, "--json"]);
         let json: Value = serde_json::from_str(&ran.out).unwrap();
         let function = &json["functions"][0];
         assert_eq!(
@@ -215,14 +206,13 @@ fn traced_lines_are_those_that_change() {
 /// the search finds other operations, and these constants are the fewest that could follow it.
 #[test]
 fn constants_of_the_planar_arm_by_hand() {
-    let ran = run(&[
+    let ran = good(&[
         "explain",
         &robot("planar2r"),
         "--trace",
         "elbow.com.x",
         "--json",
     ]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
     let json: Value = serde_json::from_str(&ran.out).unwrap();
     let function = &json["functions"][0];
     let constants = function["constants"].as_array().unwrap().iter();
@@ -276,5 +266,5 @@ fn what_reaches_nothing_and_what_gives_the_form() {
         "joint2.mass",
     ]);
     assert_eq!(ran.code, 2, "{}", ran.out);
-    assert!(ran.err.contains("for the scene's tolerance"), "{}", ran.err);
+    ran.says(&["for the scene's tolerance"]);
 }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::{run, temporary};
+use crate::support::{good, run, temporary};
 
 fn urdf(name: &str) -> String {
     format!(
@@ -16,8 +16,7 @@ fn a_chain_becomes_a_robot_file_that_counts() {
     let folder = temporary("import");
     let file = folder.join("ur5.toml");
     let name = file.to_str().unwrap();
-    let ran = run(&["import", &urdf("ur5"), "--tip", "tool0", "-o", name]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    let ran = good(&["import", &urdf("ur5"), "--tip", "tool0", "-o", name]);
     assert!(ran.out.is_empty());
     let text = fs::read_to_string(&file).unwrap();
     assert!(
@@ -38,8 +37,7 @@ fn a_chain_becomes_a_robot_file_that_counts() {
     let again = run(&["import", &urdf("ur5"), "--tip", "tool0"]);
     assert_eq!((again.code, again.out == text), (0, true));
     // Snapped, the structure is back: this arm is the UR10's size in operations.
-    let counted = run(&["count", name, "--outputs", "gravity"]);
-    assert_eq!(counted.code, 0, "{}", counted.err);
+    let counted = good(&["count", name, "--outputs", "gravity"]);
     assert!(counted.out.contains("gravity"), "{}", counted.out);
 }
 
@@ -63,13 +61,8 @@ fn what_changes_nothing_is_one_line() {
         link("upper")
     );
     fs::write(&file, text).unwrap();
-    let ran = run(&["import", file.to_str().unwrap()]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
-    assert!(
-        ran.err.contains("torques change by: nothing"),
-        "{}",
-        ran.err
-    );
+    let ran = good(&["import", file.to_str().unwrap()]);
+    ran.says(&["torques change by: nothing"]);
     assert!(!ran.err.contains("≤ 0"), "{}", ran.err);
 }
 
@@ -98,15 +91,11 @@ fn refusals_are_bad_input() {
     let over = over.to_str().unwrap();
     let ran = run(&["import", over, "-o", over, "--tip", "panda_link8"]);
     assert_eq!(ran.code, 2);
-    assert!(
-        ran.err.contains("would be written over the URDF"),
-        "{}",
-        ran.err
-    );
+    ran.says(&["would be written over the URDF"]);
     fs::write(over, b"\xff\xfe").unwrap();
     assert!(run(&["import", over]).err.contains("is not UTF-8 text"));
     // The way out that was named is one.
-    let ran = run(&[
+    good(&[
         "import",
         &panda,
         "--tip",
@@ -118,16 +107,10 @@ fn refusals_are_bad_input() {
         "-o",
         output,
     ]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
     assert!(fs::exists(output).unwrap());
     let file = |options: &[&str]| {
-        let ran = run(&[&["import", &panda, "--tip", "panda_hand"], options].concat());
-        assert_eq!(ran.code, 0, "{}", ran.err);
-        assert!(
-            ran.err.contains("is held: `panda_finger_joint1` at 0"),
-            "{}",
-            ran.err
-        );
+        let ran = good(&[&["import", &panda, "--tip", "panda_hand"], options].concat());
+        ran.says(&["is held: `panda_finger_joint1` at 0"]);
         ran.out
     };
     assert_eq!(file(&["--lock-others", "0"]), file(&["--lock", "*=0"]));
@@ -140,12 +123,10 @@ fn all_arms_of_a_robot() {
     let arms = folder.join("arms");
     let name = arms.to_str().unwrap();
     let gallery = concat!(env!("CARGO_MANIFEST_DIR"), "/../gallery/urdf/baxter.urdf");
-    let ran = run(&["import", gallery, "--all", "-o", name]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    let ran = good(&["import", gallery, "--all", "-o", name]);
     for side in ["left", "right"] {
         let file = arms.join(format!("baxter_{side}_gripper_base_link.toml"));
-        let counted = run(&["count", file.to_str().unwrap(), "--outputs", "gravity"]);
-        assert_eq!(counted.code, 0, "{}", counted.err);
+        good(&["count", file.to_str().unwrap(), "--outputs", "gravity"]);
     }
     assert_eq!(fs::read_dir(&arms).unwrap().count(), 2);
     assert!(!ran.err.contains("move each other"), "{}", ran.err);
@@ -180,10 +161,9 @@ fn all_arms_of_a_robot() {
         "-o",
         both.to_str().unwrap(),
     ];
-    let ran = run(&arguments);
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    let ran = good(&arguments);
     let said = "two_l3 and two_r3 move each other through j_torso";
-    assert!(ran.err.contains(said), "{}", ran.err);
+    ran.says(&[said]);
     let left = fs::read_to_string(both.join("two_l3.toml")).unwrap();
     assert!(
         left.contains("name = \"two_l3\"") && left.contains("# Held: j_r1 = 0"),
@@ -195,11 +175,7 @@ fn all_arms_of_a_robot() {
     fs::remove_file(both.join("two_r3.toml")).unwrap();
     fs::write(both.join("two_l3.toml"), "mine").unwrap();
     let ran = run(&arguments);
-    assert!(
-        ran.err.contains("dalembert did not write it"),
-        "{}",
-        ran.err
-    );
+    ran.says(&["dalembert did not write it"]);
     assert!(!both.join("two_r3.toml").exists());
     // An arm that cannot be read leaves none.
     fs::write(
@@ -282,11 +258,7 @@ fn xacros_are_expanded_by_xacro() {
         "{err}"
     );
     let ran = run(&["import", &urdf("ur5"), "--", "a:=1"]);
-    assert!(
-        ran.err.contains("is an argument for a xacro"),
-        "{}",
-        ran.err
-    );
+    ran.says(&["is an argument for a xacro"]);
 }
 
 /// An MJCF with what it includes; what is wrong there is said of that file.
@@ -305,9 +277,8 @@ fn an_mjcf_with_its_includes() {
         "0",
         "-o",
     ];
-    let ran = run(&[&arguments[..], &[output.to_str().unwrap()]].concat());
-    assert_eq!(ran.code, 0, "{}", ran.err);
-    assert!(ran.err.contains("features_defaults.xml:"), "{}", ran.err);
+    let ran = good(&[&arguments[..], &[output.to_str().unwrap()]].concat());
+    ran.says(&["features_defaults.xml:"]);
     let text = fs::read_to_string(&output).unwrap();
     assert!(
         text.contains("features_defaults.xml, line 12: joint to tool"),
@@ -318,9 +289,5 @@ fn an_mjcf_with_its_includes() {
     fs::copy(&model, &alone).unwrap();
     let ran = run(&["import", alone.to_str().unwrap()]);
     assert_eq!(ran.code, 2);
-    assert!(
-        ran.err.contains("`features_defaults.xml` cannot be read"),
-        "{}",
-        ran.err
-    );
+    ran.says(&["`features_defaults.xml` cannot be read"]);
 }

@@ -2,13 +2,12 @@
 
 use std::fs;
 
-use crate::support::{robot, run, temporary};
+use crate::support::{good, robot, run, temporary};
 use serde_json::Value;
 
 /// Runs with `--json` and reads what comes out.
 fn json(arguments: &[&str]) -> Value {
-    let ran = run(&[arguments, &["--json"]].concat());
-    assert_eq!(ran.code, 0, "{arguments:?}: {}", ran.err);
+    let ran = good(&[arguments, &["--json"]].concat());
     serde_json::from_str(&ran.out).unwrap_or_else(|e| panic!("{arguments:?}: {e}\n{}", ran.out))
 }
 

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::support::{robot, run, temporary};
+use crate::support::{good, robot, run, temporary};
 
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 
@@ -14,8 +14,7 @@ const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 fn it_builds_and_passes_at_once() {
     let folder = temporary("new").join("my_arm");
     let name = folder.to_str().unwrap();
-    let ran = run(&["new", name]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    good(&["new", name]);
     // The versions that everything else here is tested with.
     fs::copy(format!("{ROOT}/Cargo.lock"), folder.join("Cargo.lock")).unwrap();
     // One for all crates that tests build: the generator is compiled once for them.
@@ -55,8 +54,7 @@ fn from_robot_files_and_urdfs() {
     let folder = temporary("new_from");
     let made = |name: &str| folder.join(name);
     let text = |name: &str| made(name).to_str().unwrap().to_owned();
-    let ran = run(&["new", &text("puma"), "--from", &robot("puma560")]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    good(&["new", &text("puma"), "--from", &robot("puma560")]);
     let source = fs::read_to_string(made("puma").join("src/main.rs")).unwrap();
     assert!(source.contains("pub mod puma560 = \"robots/puma560.toml\";"));
     assert!(source.contains("[0.1; 6]") && !source.contains("JOINTS"));
@@ -77,8 +75,7 @@ fn from_robot_files_and_urdfs() {
     assert!(named.contains(&own), "{named}");
 
     let urdf = format!("{ROOT}/import/tests/data/twodofs.urdf");
-    let ran = run(&["new", &text("two"), "--from", &urdf]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    good(&["new", &text("two"), "--from", &urdf]);
     let robots = fs::read_dir(made("two").join("robots")).unwrap().count();
     assert_eq!(robots, 1);
 
@@ -130,7 +127,7 @@ fn from_robot_files_and_urdfs() {
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 3);
     // What the errors say works.
     let hand = text("hand");
-    let ran = run(&[
+    good(&[
         "new",
         &hand,
         "--from",
@@ -140,7 +137,6 @@ fn from_robot_files_and_urdfs() {
         "--lock-others",
         "0",
     ]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
     let source = fs::read_to_string(made("hand").join("src/main.rs")).unwrap();
     assert!(source.contains("[0.1; 7]"), "{source}");
 }

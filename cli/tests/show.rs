@@ -2,15 +2,14 @@
 
 use std::fs;
 
-use crate::support::{robot, run, temporary};
+use crate::support::{good, robot, run, temporary};
 
 #[test]
 fn the_same_drawing_twice() {
     let folder = temporary("show");
     for name in ["puma560", "stanford", "panda", "planar2r"] {
         let file = folder.join(format!("{name}.svg"));
-        let ran = run(&["show", &robot(name), "-o", file.to_str().unwrap()]);
-        assert_eq!(ran.code, 0, "{}", ran.err);
+        good(&["show", &robot(name), "-o", file.to_str().unwrap()]);
         let svg = fs::read_to_string(&file).unwrap();
         assert_eq!(run(&["show", &robot(name)]).out, svg);
         assert!(svg.starts_with("<svg xmlns=") && svg.ends_with("</svg>\n"));
@@ -70,14 +69,10 @@ fn at_a_position() {
     ] {
         let ran = drawn(at);
         assert_eq!(ran.code, 2);
-        assert!(ran.err.contains(part), "{}", ran.err);
+        ran.says(&[part]);
     }
     let ran = run(&["show", &puma, "-o", &puma]);
-    assert!(
-        ran.err.contains("would be written over the robot file"),
-        "{}",
-        ran.err
-    );
+    ran.says(&["would be written over the robot file"]);
 }
 
 /// The outlines of the bodies of both views, each within its half of the paper.
@@ -89,8 +84,7 @@ fn bodies_stay_on_the_paper() {
     let large = planar.replace("[0, 0.08333333333333333, 0.08333333333333333,", "[1, 3, 3,");
     assert_ne!(large, planar);
     fs::write(&file, large).unwrap();
-    let ran = run(&["show", file.to_str().unwrap(), "--at", "0.6,0.7"]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    let ran = good(&["show", file.to_str().unwrap(), "--at", "0.6,0.7"]);
     let number = |text: &str, before: &str, after: char| -> f64 {
         let start = text.find(before).unwrap() + before.len();
         let rest = &text[start..];

@@ -5,7 +5,7 @@ use std::fs;
 use serde_json::Value;
 
 use crate::support::planar::{arm, json, path};
-use crate::support::{robot, run, temporary};
+use crate::support::{good, robot, run, temporary};
 
 /// The scene's code, its certificate beside it, and both again from a plan.
 #[test]
@@ -13,8 +13,7 @@ fn a_scene_with_a_tolerance() {
     let (folder, arm) = arm("scene_tolerance");
     let output = path(&folder, "pick.rs");
     let generate = ["generate", &arm, "--scene", "pick", "-o", &output];
-    let ran = run(&generate);
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    let ran = good(&generate);
     for part in [
         "left out, and what putting it back costs",
         "certified",
@@ -40,31 +39,27 @@ fn a_scene_with_a_tolerance() {
     assert!(total.iter().all(|e| e.as_f64().unwrap() <= 0.1));
     assert!(certificate["model"][0].as_f64().unwrap() > 1e-6);
 
-    let ran = run(&["certify", &file, "--robot", &arm]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
-    assert!(ran.out.contains("in scene pick"), "{}", ran.out);
+    let ran = good(&["certify", &file, "--robot", &arm]);
+    ran.prints(&["in scene pick"]);
     assert_eq!(ran.out.matches("  E holds\n").count(), 2, "{}", ran.out);
-    let verified = run(&["verify", &arm, "--scene", "pick", "--json"]);
-    assert_eq!(verified.code, 0, "{}", verified.err);
+    let verified = good(&["verify", &arm, "--scene", "pick", "--json"]);
     let verified: Value = serde_json::from_str(&verified.out).unwrap();
     assert_eq!(verified["certificates"][0]["passed"], true);
 
     // The plan has the variant and its bounds: the same bytes, nothing searched.
-    let ran = run(&[&generate[..], &["--save-plan"]].concat());
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    good(&[&generate[..], &["--save-plan"]].concat());
     let plan = fs::read_to_string(folder.join("arm.plan")).unwrap();
     assert!(
         plan.contains("\nedited\nedit ") && plan.contains("\nbound "),
         "{plan}"
     );
-    let ran = run(&[&generate[..], &["--check"]].concat());
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    good(&[&generate[..], &["--check"]].concat());
     // Bounds are found anew.
     let low = plan.replacen("\nbound ", "\nbound 1e-9 0 0\n# ", 1);
     fs::write(folder.join("arm.plan"), low).unwrap();
     let ran = run(&generate);
     assert_ne!(ran.code, 0, "{}", ran.err);
-    assert!(ran.err.contains("what can be shown is"), "{}", ran.err);
+    ran.says(&["what can be shown is"]);
 }
 
 /// The first torque of an arm that stands upright needs nothing against gravity:
@@ -82,8 +77,7 @@ tolerance = { value = 0.1, relative_to = "range" }
     fs::write(&file, format!("{puma}{scene}")).unwrap();
     let certificate = path(&folder, "hold.json");
     let generate = ["generate", &file, "--scene", "hold", "--certificate"];
-    let ran = run(&[&generate[..], &[&certificate]].concat());
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    good(&[&generate[..], &[&certificate]].concat());
     let claimed = json(&certificate);
     assert_eq!(
         (&claimed["scale"][0], &claimed["total"][0]),
@@ -91,8 +85,7 @@ tolerance = { value = 0.1, relative_to = "range" }
     );
     // Nor does it keep the others from giving way.
     assert!(claimed["model"][1].as_f64().unwrap() > 1e-6);
-    let ran = run(&["certify", &certificate, "--robot", &file]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    good(&["certify", &certificate, "--robot", &file]);
 }
 
 #[test]
@@ -109,8 +102,7 @@ fn what_cannot_be_met_or_certified_is_said() {
     assert!(ran.out.is_empty());
 
     // Nobody chose a scalar: the narrow one is exact enough.
-    let ran = run(&["generate", &arm, "--scene", "any"]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    let ran = good(&["generate", &arm, "--scene", "any"]);
     assert!(
         ran.out.contains("3 joints, in `f32`") && !ran.out.contains("f64"),
         "{}",

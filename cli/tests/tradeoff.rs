@@ -3,7 +3,7 @@
 use std::fs;
 
 use crate::support::planar::{arm, path};
-use crate::support::{robot, run, temporary};
+use crate::support::{good, robot, run, temporary};
 
 #[test]
 fn a_tradeoff_with_table_chart_and_certificates() {
@@ -21,8 +21,7 @@ fn a_tradeoff_with_table_chart_and_certificates() {
         "-o",
         &output,
     ];
-    let ran = run(&arguments);
-    assert_eq!(ran.code, 0, "{}", ran.err);
+    let ran = good(&arguments);
     let csv = fs::read_to_string(path(&folder, "out/tradeoff.csv")).unwrap();
     let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(rows[0][..3], ["tolerance", "scalar", "sincos_by"]);
@@ -58,8 +57,7 @@ fn a_tradeoff_with_table_chart_and_certificates() {
     }
     let certificate = path(&folder, "out/certificates/2e-1-f64.json");
     let certify = ["certify", &certificate, "--robot", &arm];
-    let again = run(&[&certify[..], &["--tolerance", "2e-1"]].concat());
-    assert_eq!(again.code, 0, "{}", again.err);
+    good(&[&certify[..], &["--tolerance", "2e-1"]].concat());
     let again = run(&[&certify[..], &["--tolerance", "1e-6"]].concat());
     assert_eq!(again.code, 1, "{}", again.err);
     assert!(again.out.contains("above the tolerance"), "{}", again.out);
@@ -117,11 +115,7 @@ fn a_tradeoff_goes_on_where_it_was() {
         let ran = with(more);
         assert_eq!(ran.code, 2, "{words}: {}", ran.err);
         assert!(ran.err.contains(words), "{words}: {}", ran.err);
-        assert!(
-            ran.err.contains(rung) && ran.err.contains("delete it"),
-            "{}",
-            ran.err
-        );
+        ran.says(&[rung, "delete it"]);
     };
     let other = "is of another robot, scene, plan, version or options";
     refused(other, "1e-1.json", &["--samples", "99"]);
@@ -155,7 +149,7 @@ fn a_tradeoff_goes_on_where_it_was() {
 fn nothing_is_observed_at_no_states() {
     let (folder, arm) = arm("unobserved");
     let output = path(&folder, "out");
-    let ran = run(&[
+    let ran = good(&[
         "tradeoff",
         &arm,
         "--scene",
@@ -167,7 +161,6 @@ fn nothing_is_observed_at_no_states() {
         "-o",
         &output,
     ]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
     let csv = fs::read_to_string(path(&folder, "out/tradeoff.csv")).unwrap();
     let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
     for (column, head) in rows[0].iter().enumerate() {
@@ -188,7 +181,7 @@ fn nothing_is_observed_at_no_states() {
 fn variants_are_measured() {
     let folder = temporary("measured");
     let output = path(&folder, "out");
-    let ran = run(&[
+    let ran = good(&[
         "tradeoff",
         &robot("planar2r"),
         "--function",
@@ -203,7 +196,6 @@ fn variants_are_measured() {
         "-o",
         &output,
     ]);
-    assert_eq!(ran.code, 0, "{}", ran.err);
     let csv = fs::read_to_string(path(&folder, "out/tradeoff.csv")).unwrap();
     let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
     let column = |name: &str| rows[0].iter().position(|head| *head == name).unwrap();

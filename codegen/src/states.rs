@@ -139,12 +139,6 @@ pub fn seeded(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
 }
 
 impl JointState {
-    /// Returns the nearest f32 state, held in doubles. A load follows from the payload, and
-    /// code rounds it to its own scalar.
-    pub fn in_single(&self) -> JointState {
-        self.each(|x| f64::from(x as f32))
-    }
-
     /// Returns the nearest state of finite f32 numbers: what is beyond the largest of them is
     /// that, and what is no number is zero.
     pub fn in_finite_single(&self) -> JointState {
@@ -156,7 +150,7 @@ impl JointState {
     }
 
     /// Returns the state with each of its entries changed, but for a load.
-    fn each(&self, change: impl Fn(f64) -> f64) -> JointState {
+    pub(crate) fn each(&self, change: impl Fn(f64) -> f64) -> JointState {
         let mut state = self.clone();
         for argument in Argument::ALL {
             if argument == Argument::Load {
@@ -189,12 +183,8 @@ fn range(joint: &Joint, argument: Argument) -> [f64; 2] {
 }
 
 fn position(joint: &Joint) -> [f64; 2] {
-    let value = |position: &Position| match position {
-        Position::Angle(angle) => angle.to_f64(),
-        Position::Length(length) => f64::nearest_rational(length),
-    };
     match (&joint.limits.position, joint.kind) {
-        (Some(limits), _) => limits.each_ref().map(value),
+        (Some(limits), _) => limits.each_ref().map(Position::to_f64),
         (None, JointKind::Revolute) => [-core::f64::consts::PI, core::f64::consts::PI],
         (None, JointKind::Prismatic) => [-1.0, 1.0],
     }

@@ -19,10 +19,9 @@ fn torques(source: &str, prefer: Prefer) -> GeneratedFunction {
 /// Returns a function by a quick search.
 fn found(source: &str, function: Function, prefer: Prefer) -> GeneratedFunction {
     let request = Request {
-        functions: vec![function],
         scalars: vec![ScalarType::F64],
         prefer,
-        ..Request::default()
+        ..Request::of(&[function])
     };
     let mut generated = generate(&read_robot(source), &request).unwrap();
     generated.functions.pop().unwrap()
@@ -94,9 +93,8 @@ fn the_estimate_is_what_is_observed() {
     for name in ["gen3", "scara", "gantry", "rprpr", "general6r"] {
         let robot = read_robot(&arm_file(name));
         let request = Request {
-            functions: vec![Function::InverseDynamics],
             scalars: vec![ScalarType::F32],
-            ..Request::default()
+            ..Request::of(&[Function::InverseDynamics])
         };
         let generated = generate(&robot, &request).unwrap();
         let program = &generated.functions[0].program;
@@ -105,7 +103,7 @@ fn the_estimate_is_what_is_observed() {
         let largest = |values: &[f64]| values.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
         let mut observed = 0.0f64;
         for state in seeded(&robot, 300, 7) {
-            let state = state.in_single();
+            let state = state.in_scalar(ScalarType::F32);
             let truth = runtime.run(Function::InverseDynamics, &state);
             let found = generated.emitted[0].run(&state);
             let errors: Vec<f64> = found.iter().zip(&truth).map(|(x, y)| x - y).collect();

@@ -25,9 +25,8 @@ fn contracts(reading: &mut Reading, functions: &[Function]) -> (Request, Generat
     let request = Request {
         language: Language::C,
         acsl: true,
-        functions: functions.to_vec(),
         scene: Some(reading.scenes.remove(0)),
-        ..Request::default()
+        ..Request::of(functions)
     };
     let generated = generate(&reading.robot, &request).unwrap();
     (request, generated)
@@ -86,8 +85,7 @@ fn an_exact_function_asks_for_numbers() {
     let request = Request {
         language: Language::C,
         acsl: true,
-        functions: vec![Function::Gravity],
-        ..Request::default()
+        ..Request::of(&[Function::Gravity])
     };
     let generated = generate(&support::robot("planar2r"), &request).unwrap();
     assert!(generated.text.contains("    requires \\is_finite(q[1]);\n"));

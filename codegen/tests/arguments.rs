@@ -46,9 +46,8 @@ const LOADED: [Function; 13] = [
 
 fn request(functions: &[Function], parameters: &[RuntimeParameter]) -> Request {
     Request {
-        functions: functions.to_vec(),
         parameters: parameters.to_vec(),
-        ..Request::default()
+        ..Request::of(functions)
     }
 }
 
@@ -68,21 +67,11 @@ fn in_the_file(robot: &Robot, state: &JointState) -> Robot {
         ..Scene::default()
     };
     if let [mass, x, y, z, inertia @ ..] = state.payload.as_slice() {
-        let &[xx, yy, zz, xy, yz, xz] = inertia else {
-            panic!("a payload has ten numbers");
-        };
-        let [xx, yy, zz, xy, yz, xz] = [xx, yy, zz, xy, yz, xz].map(number);
+        let inertia = <[f64; 6]>::try_from(inertia).expect("a payload has ten numbers");
         scene.payload = Some(Payload {
             mass: number(*mass),
             com: [*x, *y, *z].map(number),
-            inertia: Inertia {
-                xx,
-                yy,
-                zz,
-                xy,
-                yz,
-                xz,
-            },
+            inertia: Inertia::of(inertia.map(number)),
         });
     }
     if let &[x, y, z] = state.g.as_slice() {
@@ -119,10 +108,7 @@ fn check(robot: &Robot, request: &Request, states: usize) {
             continue;
         }
         let cases = states.iter().map(|state| {
-            let state = match emitted.scalar {
-                ScalarType::F64 => state.clone(),
-                ScalarType::F32 => state.in_single(),
-            };
+            let state = state.in_scalar(emitted.scalar);
             let runtime = Runtime::new(&in_the_file(robot, &state));
             let granted = runtime.granted(emitted.function, &state);
             let expected = runtime.run(emitted.function, &state);

@@ -25,9 +25,8 @@ fn bundle(text: &str) -> Function {
 
 fn of(robot: &Robot, functions: &[Function], entries: Entries) -> Generated {
     let request = Request {
-        functions: functions.to_vec(),
         entries,
-        ..Request::default()
+        ..Request::of(functions)
     };
     generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
 }
@@ -149,9 +148,8 @@ fn plans_keep_bundles_by_what_is_in_them() {
     let planar = support::robot("planar2r");
     let servo = bundle("servo=inverse_dynamics+jacobian");
     let request = Request {
-        functions: vec![Function::Gravity, servo],
         scalars: vec![ScalarType::F64],
-        ..Request::default()
+        ..Request::of(&[Function::Gravity, servo])
     };
     let generated = generate(&planar, &request).unwrap();
     let text = keep(&planar, &request, &generated, None).plan.write();
@@ -197,10 +195,7 @@ fn plans_keep_bundles_by_what_is_in_them() {
 fn one_module_has_each_name_once() {
     let planar = support::robot("planar2r");
     let functions = ["servo_2=gravity+inertia", "servo2=jacobian+inertia"].map(bundle);
-    let request = Request {
-        functions: functions.to_vec(),
-        ..Request::default()
-    };
+    let request = Request::of(&functions);
     let error = generate(&planar, &request).unwrap_err();
     let said = error.to_string();
     assert!(
@@ -231,11 +226,7 @@ velocity = "zero"
     let scene_robot = SceneRobot::new(&reading.robot, scene).unwrap();
     let runtime = Runtime::in_scene(scene_robot);
     let states = states::seeded(&reading.robot, 50, 3);
-    for emitted in &generated.emitted {
-        for measure in emitted.against_runtime(&runtime, &states) {
-            assert!(measure.in_units() <= BOUND, "{measure:?}");
-        }
-    }
+    support::rounds_well(&generated.emitted, &runtime, &states, "");
     // The text of the scene, of which its hash is made, has the parts.
     let written = dalembert_model::scene::write(scene);
     assert!(written.contains("\"reach=gravity+jacobian\""), "{written}");
@@ -247,6 +238,22 @@ fn expanded(outputs: &str) -> String {
     expand(text.parse().unwrap(), &folder).to_string()
 }
 
+/// What is asked for, and words of what is said.
+const WRONG: &str = "
+servo = gravty + jacobian | unknown output `gravty` | did you mean `gravity`?
+servo = gravity + gravity | `gravity` is in it twice | leave one of them out
+servo = inertia + manipulator_equation | both return D
+servo = gravity | two parts at least | ask for `gravity` by itself
+servo = gravity + | expected the word for an output
+servo = gravity jacobian | expected `+`, `,` or `;`
+gravity + jacobian | `gravity+jacobian` has no name | write NAME = gravity+jacobian
+= gravity + jacobian | a bundle is NAME = OUTPUT + OUTPUT
+Servo = gravity + jacobian | no name of a function | small letters
+gravity = inertia + jacobian | is an output by itself
+a = gravity + jacobian, a = inertia + jacobian | is given twice
+a = gravty + jacobian, b = inertja + gravity | `gravty` | `inertja`
+";
+
 /// By the macro, with everything that is wrong at once, and the function is there
 /// all the same where it is known what it would be.
 #[test]
@@ -256,50 +263,12 @@ fn the_macro_reads_bundles() {
     assert!(!text.contains("compile_error"), "{text}");
     assert!(text.contains("pubfnservo(q:&[f64;2],qd:&[f64;2],qdd:&[f64;2])->Servo{"));
 
-    for (outputs, messages) in [
-        (
-            "servo = gravty + jacobian",
-            &["unknown output `gravty`", "did you mean `gravity`?"][..],
-        ),
-        (
-            "servo = gravity + gravity",
-            &["`gravity` is in it twice", "leave one of them out"],
-        ),
-        ("servo = inertia + manipulator_equation", &["both return D"]),
-        (
-            "servo = gravity",
-            &["two parts at least", "ask for `gravity` by itself"],
-        ),
-        ("servo = gravity +", &["expected the word for an output"]),
-        ("servo = gravity jacobian", &["expected `+`, `,` or `;`"]),
-        (
-            "gravity + jacobian",
-            &[
-                "`gravity+jacobian` has no name",
-                "write NAME = gravity+jacobian",
-            ],
-        ),
-        (
-            "= gravity + jacobian",
-            &["a bundle is NAME = OUTPUT + OUTPUT"],
-        ),
-        (
-            "Servo = gravity + jacobian",
-            &["no name of a function", "small letters"],
-        ),
-        ("gravity = inertia + jacobian", &["is an output by itself"]),
-        (
-            "a = gravity + jacobian, a = inertia + jacobian",
-            &["is given twice"],
-        ),
-        (
-            "a = gravty + jacobian, b = inertja + gravity",
-            &["`gravty`", "`inertja`"],
-        ),
-    ] {
+    for row in WRONG.lines().filter(|row| !row.is_empty()) {
+        let mut cells = row.split(" | ");
+        let outputs = cells.next().unwrap();
         let text = expanded(outputs);
         assert!(text.contains("compile_error"), "{outputs}");
-        for message in messages {
+        for message in cells {
             assert!(text.contains(message), "{outputs}: {text}");
         }
     }

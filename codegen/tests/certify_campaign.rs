@@ -51,10 +51,9 @@ fn campaign(name: &str, tolerance: f64, scalars: &[ScalarType], guesses: usize) 
     let reading = support::reading(name);
     let bare = reading.scenes.first().map(Scene::without_tolerance);
     let request = Request {
-        functions: vec![Function::InverseDynamics],
         scalars: vec![ScalarType::F64],
         scene: bare.clone(),
-        ..Request::default()
+        ..Request::of(&[Function::InverseDynamics])
     };
     let exact = generate(&reading.robot, &request)
         .unwrap()

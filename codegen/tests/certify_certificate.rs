@@ -26,9 +26,8 @@ fn an_energy_is_within_the_tolerance() {
         box = { velocity = [1, 3], acceleration = [3, 3] }\n";
     let mut planar = support::reading_with("planar2r", scene);
     let request = Request {
-        functions: vec![Function::KineticEnergy],
         scene: Some(planar.scenes.remove(0)),
-        ..Request::default()
+        ..Request::of(&[Function::KineticEnergy])
     };
     let generated = generate(&planar.robot, &request).unwrap();
     let admitted = generated.functions[0].admitted.as_ref().unwrap();

@@ -223,10 +223,7 @@ fn is_true(claim: &Claim, verdict: &Verdict, scene_robot: &SceneRobot) -> bool {
             qdd: draw(&claim.acceleration),
             ..JointState::default()
         };
-        let state = match scalar {
-            ScalarType::F64 => state,
-            ScalarType::F32 => state.in_single(),
-        };
+        let state = state.in_scalar(scalar);
         let Some(results) = execute(&claim.text, &state, scalar) else {
             return false;
         };

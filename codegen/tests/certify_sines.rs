@@ -173,9 +173,8 @@ fn a_joint_without_limits_turns_on() {
     reading.robot.joints[0].limits.position = None;
     let (robot, scene) = (reading.robot, reading.scenes.pop().unwrap());
     let request = Request {
-        functions: vec![Function::Gravity],
         scene: Some(scene.clone()),
-        ..Request::default()
+        ..Request::of(&[Function::Gravity])
     };
     for start in [Start::Auto, Start::AngleSums] {
         let request = Request {

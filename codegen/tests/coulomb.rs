@@ -2,6 +2,7 @@
 //! its torque by hand, scenes that drop it, texts that say something else, and what is
 //! refused.
 
+use crate::support;
 use crate::support::draw::Draw;
 use dalembert_codegen::Entries;
 use dalembert_codegen::workspace::function::{Function, RuntimeParameter};
@@ -65,10 +66,7 @@ fn without(robot: &Robot) -> Robot {
 }
 
 fn request(functions: &[Function]) -> Request {
-    Request {
-        functions: functions.to_vec(),
-        ..Request::default()
-    }
+    Request::of(functions)
 }
 
 fn of(robot: &Robot, request: &Request) -> Generated {
@@ -101,11 +99,7 @@ fn code_is_as_accurate_as_without() {
     let scene_robot = SceneRobot::whole(&robot);
     let (states, runtime) = (states(&scene_robot, 200), Runtime::new(&robot));
     assert_eq!(generated.emitted.len(), 2 * functions.len());
-    for emitted in &generated.emitted {
-        for measure in emitted.against_runtime(&runtime, &states) {
-            assert!(measure.in_units() < BOUND, "{measure:?}");
-        }
-    }
+    support::rounds_well(&generated.emitted, &runtime, &states, "");
     for function in &generated.functions {
         let rubbed = RUBBED.contains(&function.function);
         assert_eq!(function.counts().sqrt > 0, rubbed, "{}", function.function);
@@ -159,11 +153,8 @@ fn every_formulation_has_it() {
             start: Start::Only(formulation),
             ..request(&RUBBED)
         };
-        for emitted in of(&robot, &request).emitted {
-            for measure in emitted.against_runtime(&runtime, &states) {
-                assert!(measure.in_units() < BOUND, "{formulation:?}: {measure:?}");
-            }
-        }
+        let own = of(&robot, &request).emitted;
+        support::rounds_well(&own, &runtime, &states, formulation);
     }
 }
 
@@ -182,11 +173,8 @@ fn random_robots_are_proved() {
         }
         let (states, runtime) = (states(&SceneRobot::whole(&robot), 40), Runtime::new(&robot));
         let functions = [&RUBBED[..3], &PLAIN[..1]].concat();
-        for emitted in of(&robot, &request(&functions)).emitted {
-            for measure in emitted.against_runtime(&runtime, &states) {
-                assert!(measure.in_units() < BOUND, "{robot:?}: {measure:?}");
-            }
-        }
+        let own = of(&robot, &request(&functions)).emitted;
+        support::rounds_well(&own, &runtime, &states, &robot);
     }
 }
 
@@ -212,11 +200,7 @@ fn scenes_drop_what_does_not_move() {
         let scene_robot = request.scene_robot(&robot).unwrap();
         let states = states(&scene_robot, 40);
         let runtime = Runtime::in_scene(scene_robot);
-        for emitted in &generated.emitted {
-            for measure in emitted.against_runtime(&runtime, &states) {
-                assert!(measure.in_units() < BOUND, "{}: {measure:?}", scene.name);
-            }
-        }
+        support::rounds_well(&generated.emitted, &runtime, &states, &scene.name);
         let text = &generated.text;
         match scene.name.as_str() {
             "still" => {

@@ -38,10 +38,9 @@ fn the_device_rounds_every_operation() {
     for nvcc in there(&["nvcc"]) {
         let request = Request {
             language: Language::Cuda,
-            functions: vec![Function::InverseDynamics, Function::Inertia],
             sincos: SinCos::Polynomial { error: None },
             entries: Entries::Batch,
-            ..Request::default()
+            ..Request::of(&[Function::InverseDynamics, Function::Inertia])
         };
         let generated = generate(&robot, &request).unwrap();
         let source = folder.join("arm.cu");

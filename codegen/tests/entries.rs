@@ -24,20 +24,19 @@ use crate::support;
 
 fn request(entries: Entries, sincos: SinCos, start: Start) -> Request {
     Request {
-        functions: vec![
-            Function::InverseDynamics,
-            Function::ManipulatorEquation,
-            Function::KineticEnergy,
-            Function::ForwardKinematics,
-            Function::ForwardDynamics,
-        ],
         scalars: vec![ScalarType::F64],
         start,
         sincos,
         math: MathPath::of(sincos.library(Library::Libm)),
         entries,
         layout: Layout::Contents,
-        ..Request::default()
+        ..Request::of(&[
+            Function::InverseDynamics,
+            Function::ManipulatorEquation,
+            Function::KineticEnergy,
+            Function::ForwardKinematics,
+            Function::ForwardDynamics,
+        ])
     }
 }
 

@@ -105,9 +105,8 @@ fn exact_programs_are_not_contradicted() {
         let reading = reading(seed, "");
         for scalars in support::each_scalar() {
             let request = Request {
-                functions: vec![OUTPUTS[seed % OUTPUTS.len()]],
                 scalars,
-                ..Request::default()
+                ..Request::of(&[OUTPUTS[seed % OUTPUTS.len()]])
             };
             done += usize::from(never_contradicted(&reading, &request, seed));
         }

@@ -13,7 +13,7 @@ use dalembert_codegen::workspace::plan::Plan;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::states::{JointState, seeded};
 use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::floating::{BOUND, Emitted, Runtime};
+use dalembert_codegen::workspace::verify::floating::{Emitted, Runtime};
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 use serde_json::Value;
@@ -49,9 +49,14 @@ fn tables(frames: &Value) -> String {
 
 /// Returns a checked-in robot with the frames of its file. Scenes end a robot file.
 fn with_frames(name: &str) -> Robot {
+    support::read_robot(&with_frames_and(name, ""))
+}
+
+/// Returns the file of such a robot, with more at its end.
+fn with_frames_and(name: &str, more: &str) -> String {
     let source = support::source(name, "");
     let rows = source.split("\n[scene").next().unwrap();
-    support::read_robot(&(rows.to_owned() + &tables(&file(name)["frames"])))
+    rows.to_owned() + &tables(&file(name)["frames"]) + more
 }
 
 fn numbers(value: &Value) -> Vec<f64> {
@@ -120,9 +125,8 @@ fn the_code_gives_what_pinocchio_gives() {
         let mine = asked.iter().skip(index % every).step_by(every);
         for (key, function, quantity) in mine {
             let request = Request {
-                functions: vec![*function],
                 scalars: vec![ScalarType::F64],
-                ..Request::default()
+                ..Request::of(&[*function])
             };
             let generated = generate(&robot, &request).unwrap_or_else(|error| panic!("{error}"));
             let emitted = &generated.emitted[0];
@@ -171,9 +175,8 @@ fn the_runtime_gives_what_pinocchio_gives() {
 
 fn operations(robot: &Robot, text: &str) -> usize {
     let request = Request {
-        functions: vec![of(text)],
         scalars: vec![ScalarType::F64],
-        ..Request::default()
+        ..Request::of(&[of(text)])
     };
     let generated = generate(robot, &request).unwrap_or_else(|error| panic!("{error}"));
     generated.functions[0].counts().operations()
@@ -234,17 +237,12 @@ fn generated(robot: &Robot, request: Request) -> Generated {
 #[test]
 fn rounding_stays_within_the_bound() {
     let robot = with_frames("planar3r");
-    let scene = "\n[scene.held]\nlock = { 2 = 0.4 }\n";
-    let source = support::source("planar3r", "");
-    let rows = source.split("\n[scene").next().unwrap().to_owned();
-    let scene = dalembert_model::read::parse(
-        &(rows + &tables(&file("planar3r")["frames"]) + scene),
-        &dalembert_model::read::Options::default(),
-    );
-    let scene = scene
+    let held = with_frames_and("planar3r", "\n[scene.held]\nlock = { 2 = 0.4 }\n");
+    let held = dalembert_model::read::parse(&held, &Default::default());
+    let scene = held
         .unwrap_or_else(|errors| panic!("{errors}"))
         .scenes
-        .remove(0);
+        .pop();
     for request in [
         Request::default(),
         Request {
@@ -252,7 +250,7 @@ fn rounding_stays_within_the_bound() {
             ..Request::default()
         },
         Request {
-            scene: Some(scene),
+            scene,
             ..Request::default()
         },
     ] {
@@ -260,11 +258,7 @@ fn rounding_stays_within_the_bound() {
         let own = generated(&robot, request);
         let states = scene_robot.states(60, 11);
         let runtime = Runtime::in_scene(scene_robot);
-        for emitted in own.emitted.iter().filter(|e| e.function != Function::Load) {
-            for measure in emitted.against_runtime(&runtime, &states) {
-                assert!(measure.in_units() <= BOUND, "{measure:?}");
-            }
-        }
+        support::rounds_well(&own.emitted, &runtime, &states, "");
     }
 }
 
@@ -288,12 +282,11 @@ fn every_language_has_them() {
         (Language::Cuda, Entries::Single),
     ] {
         let request = Request {
-            functions: functions.to_vec(),
             language,
             entries,
             module: Some("d".to_owned()),
             scalars: vec![ScalarType::F64],
-            ..Request::default()
+            ..Request::of(&functions)
         };
         let generated = generate(&robot, &request).unwrap_or_else(|error| panic!("{error}"));
         for function in functions {
@@ -332,10 +325,7 @@ fn plans_keep_the_frame() {
 fn frames_that_are_not_there_are_refused_by_name() {
     let robot = with_frames("planar2r");
     let said = |robot: &Robot, text: &str| {
-        let request = Request {
-            functions: vec![of(text)],
-            ..Request::default()
-        };
+        let request = Request::of(&[of(text)]);
         let error = generate(robot, &request).unwrap_err();
         assert!(matches!(error, GenerateError::Frame { .. }));
         error.to_string()

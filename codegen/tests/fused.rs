@@ -11,7 +11,7 @@ use dalembert_codegen::workspace::program::{Lowered, ScalarType};
 use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::states::{JointState, SEED, STATES, seeded};
 use dalembert_codegen::workspace::task::{Fma, Request};
-use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::workspace::verify::floating::Runtime;
 use dalembert_codegen::workspace::verify::rounding::Rounding;
 use dalembert_model::read::Reading;
 use dalembert_model::robot::Robot;
@@ -73,12 +73,7 @@ fn six_robots_are_right() {
         let runtime = Runtime::new(&robot);
         let states = seeded(&robot, STATES, SEED);
         assert_eq!(generated.emitted.len(), 12);
-        for emitted in &generated.emitted {
-            for measure in emitted.against_runtime(&runtime, &states) {
-                let (function, error) = (measure.function, measure.in_units());
-                assert!(error <= BOUND, "{name} {function}: {error} u");
-            }
-        }
+        support::rounds_well(&generated.emitted, &runtime, &states, name);
         let torques = |emitted: &&_| is_torques(emitted);
         let emitted = generated.emitted.iter().find(torques).unwrap();
         assert!(emitted.text.counts().fma > 0, "{name}");

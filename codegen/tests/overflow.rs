@@ -16,9 +16,8 @@ fn warnings(velocity: &str, scalar: ScalarType) -> Vec<String> {
         .unwrap()
         .robot;
     let request = Request {
-        functions: vec![Function::InverseDynamics],
         scalars: vec![scalar],
-        ..Request::default()
+        ..Request::of(&[Function::InverseDynamics])
     };
     generate(&robot, &request).unwrap().warnings
 }

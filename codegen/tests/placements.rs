@@ -3,13 +3,13 @@
 
 use std::path::Path;
 
-use crate::support::{read_robot, reading_with};
+use crate::support::{self, read_robot, reading_with};
 use dalembert_codegen::workspace::clauses::expand;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::{Generated, generate};
 use dalembert_codegen::workspace::states::{SEED, seeded};
 use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::workspace::verify::floating::Runtime;
 use dalembert_model::robot::Robot;
 
 const ARM: &str = "\
@@ -51,10 +51,7 @@ const FUNCTIONS: [Function; 7] = [
 ];
 
 fn generated(robot: &Robot, functions: &[Function]) -> Generated {
-    let request = Request {
-        functions: functions.to_vec(),
-        ..Request::default()
-    };
+    let request = Request::of(functions);
     // No proof, no code.
     generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
 }
@@ -65,12 +62,7 @@ fn proved_and_accurate() {
         let robot = read_robot(&ARM.replace("standard", convention));
         let generated = generated(&robot, &FUNCTIONS);
         let (runtime, states) = (Runtime::new(&robot), seeded(&robot, 50, SEED));
-        for emitted in &generated.emitted {
-            for measure in emitted.against_runtime(&runtime, &states) {
-                let (quantity, error) = (measure.quantity.symbol(), measure.in_units());
-                assert!(error <= BOUND, "{convention}, {quantity}: {error} u");
-            }
-        }
+        support::rounds_well(&generated.emitted, &runtime, &states, convention);
         for line in [
             "gravity (0.1, 0, -9.81) m/s² in base axes",
             "frame 0 is at xyz (0.2, -0.3, 1.1) m, rpy (0.4, pi/2, pi/6)",
@@ -111,12 +103,7 @@ fn joints_that_are_placed() {
     ];
     let generated = generated(&robot, &functions);
     let (runtime, states) = (Runtime::new(&robot), seeded(&robot, 50, SEED));
-    for emitted in &generated.emitted {
-        for measure in emitted.against_runtime(&runtime, &states) {
-            let (quantity, error) = (measure.quantity.symbol(), measure.in_units());
-            assert!(error <= BOUND, "{quantity}: {error} u");
-        }
-    }
+    support::rounds_well(&generated.emitted, &runtime, &states, "");
     let line = "After its twist each of these turns about y: joint 1 by 0.00";
     assert!(generated.text.contains(line));
 }

@@ -32,13 +32,12 @@ fn robot() -> Robot {
 /// Arrays, structs and blocks of polynomials.
 fn text(layout: Layout, scalars: &[ScalarType], entries: Entries) -> String {
     let request = Request {
-        functions: vec![Function::InverseDynamics, Function::DynamicCoefficients],
         scalars: scalars.to_vec(),
         sincos: SinCos::Polynomial { error: Some(1e-4) },
         module: Some("arm".into()),
         layout,
         entries,
-        ..Request::default()
+        ..Request::of(&[Function::InverseDynamics, Function::DynamicCoefficients])
     };
     generate(&robot(), &request).unwrap().text
 }

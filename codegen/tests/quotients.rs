@@ -8,7 +8,7 @@ use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::states::{SEED, seeded};
 use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::exact::prove;
-use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::workspace::verify::floating::Runtime;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Position, Robot};
 use dalembert_model::scene::{Scale, Scene, Tolerance};
@@ -95,10 +95,7 @@ fn an_arm_that_moves_no_inertia_is_refused_by_its_joint() {
     robot.joints[last].mass = zero.clone();
     robot.joints[last].inertia = robot.joints[last].inertia.map(|_| zero.clone());
     for function in INVERTING {
-        let request = Request {
-            functions: vec![function],
-            ..Request::default()
-        };
+        let request = Request::of(&[function]);
         let Err(error @ GenerateError::Singular { .. }) = generate(&robot, &request) else {
             panic!("{function} of a singular D");
         };
@@ -138,9 +135,8 @@ fn a_tolerance_is_refused_with_what_can_be_certified() {
             ..Scene::default()
         };
         let request = Request {
-            functions: vec![function],
             scene: Some(scene),
-            ..Request::default()
+            ..Request::of(&[function])
         };
         let Err(error) = generate(&robot, &request) else {
             panic!("{function} within a tolerance");
@@ -168,17 +164,12 @@ fn scenes_hold_what_is_locked() {
         ..Scene::default()
     };
     let request = Request {
-        functions: INVERTING.to_vec(),
         scene: Some(scene.clone()),
-        ..Request::default()
+        ..Request::of(&INVERTING)
     };
     let generated = generate(&robot, &request).unwrap_or_else(|error| panic!("{error}"));
     let runtime = Runtime::in_scene(SceneRobot::new(&robot, &scene).unwrap());
     let states = seeded(&robot, 100, SEED);
     assert_eq!(generated.emitted.len(), 2 * INVERTING.len());
-    for emitted in &generated.emitted {
-        for measure in emitted.against_runtime(&runtime, &states) {
-            assert!(measure.in_units() <= BOUND, "{measure:?}");
-        }
-    }
+    support::rounds_well(&generated.emitted, &runtime, &states, "");
 }

@@ -4,6 +4,7 @@
 //! What is generated for them is proved (or `generate` fails), the emitted text
 //! stays within the floating bound, and the formulations agree.
 
+use crate::support;
 use crate::support::draw::{Draw, robots};
 use dalembert_codegen::workspace::function::{Argument, Function};
 use dalembert_codegen::workspace::generate::generate;
@@ -14,7 +15,7 @@ use dalembert_codegen::workspace::program::run::State;
 use dalembert_codegen::workspace::scene::{self, SceneRobot};
 use dalembert_codegen::workspace::states::{SEED, seeded};
 use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::workspace::verify::floating::Runtime;
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::Exact;
 use dalembert_model::scene::Scene;
@@ -36,10 +37,7 @@ fn proved_and_accurate() {
         let n = robot.joints.len();
         let function = function(n, &mut draw);
         let what = format!("seed {seed}, {n} joints, {function}");
-        let request = Request {
-            functions: vec![function],
-            ..Request::default()
-        };
+        let request = Request::of(&[function]);
         // No proof, no code.
         let generated = match generate(&robot, &request) {
             Ok(generated) => generated,
@@ -48,13 +46,7 @@ fn proved_and_accurate() {
         let runtime = Runtime::new(&robot);
         let states = seeded(&robot, 50, SEED ^ seed);
         assert_eq!(generated.emitted.len(), 2, "{what}");
-        for emitted in &generated.emitted {
-            for measure in emitted.against_runtime(&runtime, &states) {
-                let (quantity, error) = (measure.quantity.symbol(), measure.in_units());
-                let scalar = measure.scalar;
-                assert!(error <= BOUND, "{what}, {quantity} in {scalar}: {error} u");
-            }
-        }
+        support::rounds_well(&generated.emitted, &runtime, &states, &what);
     }
 }
 
@@ -70,9 +62,8 @@ fn every_start_leads_to_the_same_function() {
         for start in Start::all() {
             let name = start.name();
             let request = Request {
-                functions: vec![function],
                 start,
-                ..Request::default()
+                ..Request::of(&[function])
             };
             if let Err(error) = generate(&robot, &request) {
                 panic!("seed {seed}, {n} joints, {function} from {name}: {error}");
@@ -149,10 +140,9 @@ fn a_scene_at_rest_is_inertia_and_gravity() {
     for (seed, robot, _) in robots(10, 4_000).filter(|(_, robot, _)| robot.joints.len() <= 5) {
         let run = |function: Function, scene: Option<Scene>| {
             let request = Request {
-                functions: vec![function],
                 scalars: vec![ScalarType::F64],
                 scene,
-                ..Request::default()
+                ..Request::of(&[function])
             };
             generate(&robot, &request)
                 .unwrap_or_else(|error| panic!("seed {seed}: {error}"))

@@ -7,7 +7,6 @@ use dalembert_codegen::workspace::clauses::expand;
 use dalembert_codegen::workspace::function::{Function, Quantity};
 use dalembert_codegen::workspace::generate::{GenerateError, Generated, ToleranceError, Unbounded};
 use dalembert_codegen::workspace::language::Language;
-use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::scene::base::{BaseParameters, Parameter};
 use dalembert_codegen::workspace::states::seeded;
@@ -54,9 +53,8 @@ const PASSIVITY: Linear = Linear {
 
 fn generate(linear: Linear, robot: &Robot, scene: Option<&Scene>) -> Generated {
     let request = Request {
-        functions: vec![linear.regressor],
         scene: scene.cloned(),
-        ..Request::default()
+        ..Request::of(&[linear.regressor])
     };
     dalembert_codegen::generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
 }
@@ -105,9 +103,8 @@ fn headers_have_the_same_parameters() {
             assert_eq!(expected.len(), 2);
             for language in [Language::C, Language::Cuda] {
                 let request = Request {
-                    functions: vec![linear.regressor],
                     language,
-                    ..Request::default()
+                    ..Request::of(&[linear.regressor])
                 };
                 let text = dalembert_codegen::generate(&robot, &request).unwrap().text;
                 assert_eq!(printed_in_c(&text), expected, "{name}");
@@ -189,10 +186,7 @@ fn with_columns(linear: Linear, robot: &Robot, scene: Option<&Scene>, base: usiz
         assert_eq!(pi.len(), base, "{}", robot.name);
         assert_eq!(emitted.sizes.base, base);
         for state in seeded(scene_robot.robot(), 50, 0x7275) {
-            let state = match emitted.scalar {
-                ScalarType::F64 => state,
-                ScalarType::F32 => state.in_single(),
-            };
+            let state = state.in_scalar(emitted.scalar);
             let tau = runtime.run(linear.sum, &state);
             let y = emitted.run(&state);
             let u = emitted.scalar.unit_roundoff();
@@ -360,9 +354,8 @@ fn tolerances_are_refused() {
     ];
     for function in regressors {
         let request = Request {
-            functions: vec![function],
             scene: reading.scenes.first().cloned(),
-            ..Request::default()
+            ..Request::of(&[function])
         };
         let error = dalembert_codegen::generate(&reading.robot, &request).unwrap_err();
         let why = ToleranceError::Function(Unbounded::Parameters);

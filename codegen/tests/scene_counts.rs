@@ -25,10 +25,9 @@ fn puma(scene: Scene, function: Function) -> GeneratedFunction {
         ..scene
     };
     let request = Request {
-        functions: vec![function],
         scalars: vec![ScalarType::F64],
         scene: Some(scene),
-        ..Request::default()
+        ..Request::of(&[function])
     };
     let robot = support::robot("puma560");
     let generated = generate(&robot, &request).unwrap_or_else(|error| panic!("{error}"));
@@ -95,11 +94,10 @@ fn a_box_alone_takes_the_plan_of_the_whole_robot() {
             ..Scene::default()
         };
         let request = Request {
-            functions: vec![Function::InverseDynamics],
             scalars: vec![ScalarType::F64],
             scene: Some(scene),
             plan: Some(plan.clone()),
-            ..Request::default()
+            ..Request::of(&[Function::InverseDynamics])
         };
         generate(&support::robot("puma560"), &request)
             .unwrap_or_else(|error| panic!("{error}"))

@@ -9,7 +9,7 @@ use dalembert_codegen::workspace::states::seeded;
 use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::exact::{Disproof, prove};
 use dalembert_codegen::workspace::verify::floating::Runtime;
-use dalembert_model::number::{Angle, Rational, Rounded};
+use dalembert_model::number::{Angle, Rational};
 use dalembert_model::outputs::Axis;
 use dalembert_model::robot::{Position, Robot};
 use dalembert_model::scene::{Payload, Scene};
@@ -37,10 +37,9 @@ fn named(scene: Scene) -> Scene {
 
 fn request(scene: &Scene, functions: &[Function]) -> Request {
     Request {
-        functions: functions.to_vec(),
         scalars: vec![ScalarType::F64],
         scene: Some(scene.clone()),
-        ..Request::default()
+        ..Request::of(functions)
     }
 }
 
@@ -56,10 +55,7 @@ fn check_floats(robot: &Robot, scene: &Scene, generated: &Generated) {
     let n = robot.joints.len();
     for mut state in seeded(robot, 20, 7) {
         for (joint, at) in &scene.lock {
-            state.q[*joint] = match at {
-                Position::Angle(angle) => angle.to_f64(),
-                Position::Length(length) => f64::nearest_rational(length),
-            };
+            state.q[*joint] = at.to_f64();
             (state.qd[*joint], state.qdd[*joint]) = (0.0, 0.0);
         }
         if scene.velocity_zero {

@@ -8,7 +8,7 @@ use dalembert_codegen::workspace::generate::{Generated, generate};
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::states::{JointState, seeded};
 use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::workspace::verify::floating::Runtime;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 use serde_json::Value;
@@ -96,21 +96,14 @@ fn they_are_what_others_give() {
 #[test]
 fn rounding_stays_within_the_bound() {
     let robot = support::robot("planar3r");
-    let source = support::source("planar3r", "");
-    let rows = source.split("\n[scene").next().unwrap();
-    let scene = "\n[scene.held]\nlock = { 2 = 0.4 }\n";
-    let options = dalembert_model::read::Options::default();
-    let read = dalembert_model::read::parse(&(rows.to_owned() + scene), &options);
-    let scene = read
-        .unwrap_or_else(|errors| panic!("{errors}"))
-        .scenes
-        .remove(0);
+    let held = "\n[scene.held]\nlock = { 2 = 0.4 }\n";
+    let scene = support::reading_with("planar3r", held).scenes.pop();
     let loaded = Request {
         parameters: RuntimeParameter::ALL.to_vec(),
         ..Request::default()
     };
     let held = Request {
-        scene: Some(scene),
+        scene,
         ..Request::default()
     };
     for request in [Request::default(), loaded, held] {
@@ -118,11 +111,7 @@ fn rounding_stays_within_the_bound() {
         let own = of(&robot, &BOTH, request);
         let states = scene_robot.states(60, 11);
         let runtime = Runtime::in_scene(scene_robot);
-        for emitted in own.emitted.iter().filter(|e| e.function != Function::Load) {
-            for measure in emitted.against_runtime(&runtime, &states) {
-                assert!(measure.in_units() <= BOUND, "{measure:?}");
-            }
-        }
+        support::rounds_well(&own.emitted, &runtime, &states, "");
     }
 }
 

@@ -6,18 +6,17 @@ use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::program::shallow::Cycles;
 use dalembert_codegen::workspace::states::{SEED, STATES, seeded};
 use dalembert_codegen::workspace::task::{Fma, Prefer, Request};
-use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::workspace::verify::floating::Runtime;
 
 use crate::shown::shown;
 use crate::support;
 
 fn request(functions: &[Function], prefer: Prefer, fma: Fma) -> Request {
     Request {
-        functions: functions.to_vec(),
         scalars: vec![ScalarType::F64],
         prefer,
         fma,
-        ..Request::default()
+        ..Request::of(functions)
     }
 }
 
@@ -54,12 +53,7 @@ fn six_robots_are_right_and_less_deep() {
                     assert_eq!(own.found.is_some(), own.program != other.program);
                 }
             }
-            for emitted in &found.emitted {
-                for measure in emitted.against_runtime(&runtime, &states) {
-                    let (function, error) = (measure.function, measure.in_units());
-                    assert!(error <= BOUND, "{name} {function}: {error} u");
-                }
-            }
+            support::rounds_well(&found.emitted, &runtime, &states, name);
         }
     }
 }

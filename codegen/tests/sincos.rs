@@ -1,7 +1,7 @@
 //! Generated functions whose sines are polynomials: printed, counted, read
 //! back, and as near to libm's as was proved.
 
-use dalembert_codegen::workspace::function::{Argument, Function};
+use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::{GenerateError, Generated, generate};
 use dalembert_codegen::workspace::interval::Interval;
 use dalembert_codegen::workspace::language::{Printed, function};
@@ -25,9 +25,8 @@ const FUNCTION: Function = Function::InverseDynamics;
 
 fn with(robot: &Robot, error: f64) -> Result<Generated, GenerateError> {
     let request = Request {
-        functions: vec![FUNCTION],
         sincos: SinCos::Polynomial { error: Some(error) },
-        ..Request::default()
+        ..Request::of(&[FUNCTION])
     };
     generate(robot, &request)
 }
@@ -82,17 +81,11 @@ fn pair(sin: bool, cos: bool) -> Program {
         _ => [sine, cosine],
     };
     Program {
-        function: Function::Gravity,
-        joints: 2,
-        rows: vec![0, 1],
-        arguments: vec![Argument::Position],
-        load: 0,
         trig: vec![Trig { angle, sin, cos }],
-        speeds: Vec::new(),
-        steps: Vec::new(),
         outputs: outputs
             .map(|input| Output::of(Operand::Input(input)))
             .to_vec(),
+        ..Program::empty(Function::Gravity, 2)
     }
 }
 
@@ -218,10 +211,9 @@ fn whole_turns_are_taken_off_where_limits_are_missing() {
         joint.limits.position = None;
     }
     let request = Request {
-        functions: vec![FUNCTION],
         scalars: vec![ScalarType::F64],
         sincos: SinCos::Polynomial { error: Some(1e-9) },
-        ..Request::default()
+        ..Request::of(&[FUNCTION])
     };
     let generated = generate(&robot, &request).unwrap();
     assert!(generated.text.contains("less whole turns"));
@@ -263,9 +255,8 @@ fn sines_too_rough_for_the_inertia_matrix_are_refused() {
     let robot = read::parse(&text, &read::Options::default()).unwrap().robot;
     let inertia = |error: f64| {
         let request = Request {
-            functions: vec![Function::Inertia],
             sincos: SinCos::Polynomial { error: Some(error) },
-            ..Request::default()
+            ..Request::of(&[Function::Inertia])
         };
         generate(&robot, &request)
     };

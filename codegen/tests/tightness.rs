@@ -80,9 +80,8 @@ fn limited(name: &str) -> Robot {
 
 fn exact(robot: &Robot, function: Function) -> Program {
     let request = Request {
-        functions: vec![function],
         scalars: vec![ScalarType::F64],
-        ..Request::default()
+        ..Request::of(&[function])
     };
     let mut generated = generate(robot, &request).unwrap_or_else(|error| panic!("{error}"));
     generated.functions.remove(0).program

@@ -18,10 +18,9 @@ use crate::support;
 
 fn with(robot: &Robot, library: Library, sincos: SinCos) -> Generated {
     let request = Request {
-        functions: vec![Function::InverseDynamics, Function::Inertia],
         sincos,
         math: MathPath::of(library),
-        ..Request::default()
+        ..Request::of(&[Function::InverseDynamics, Function::Inertia])
     };
     generate(robot, &request).unwrap()
 }

@@ -36,11 +36,10 @@ fn watched(effort: Effort, until: Option<Part>) -> (Generated, Vec<Progress>) {
         seen: Mutex::default(),
     });
     let request = Request {
-        functions: vec![Function::InverseDynamics, Function::Gravity],
         scalars: vec![ScalarType::F64],
         effort,
         watch: Watch::by(clerk.clone()),
-        ..Request::default()
+        ..Request::of(&[Function::InverseDynamics, Function::Gravity])
     };
     let generated = generate(&support::robot("planar3r"), &request).unwrap();
     let seen = clerk.seen.lock().unwrap().clone();
@@ -51,9 +50,8 @@ fn watched(effort: Effort, until: Option<Part>) -> (Generated, Vec<Progress>) {
 fn watching_changes_nothing() {
     let (generated, seen) = watched(Effort::Quick, None);
     let alone = Request {
-        functions: vec![Function::InverseDynamics, Function::Gravity],
         scalars: vec![ScalarType::F64],
-        ..Request::default()
+        ..Request::of(&[Function::InverseDynamics, Function::Gravity])
     };
     let alone = generate(&support::robot("planar3r"), &alone).unwrap();
     assert!(generated.text == alone.text);

@@ -24,13 +24,9 @@ impl Limits {
                 JointKind::Prismatic => [0.5, 0.5, 2.0],
             };
             let own = &joint.limits;
-            let position = |position: &Position| match position {
-                Position::Angle(angle) => angle.to_f64(),
-                Position::Length(length) => f64::nearest_rational(length),
-            };
             Limits {
                 position: match &own.position {
-                    Some(ends) => ends.each_ref().map(position),
+                    Some(ends) => ends.each_ref().map(Position::to_f64),
                     None => [-reach, reach],
                 },
                 velocity: own

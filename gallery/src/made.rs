@@ -117,9 +117,8 @@ fn head(arm: &Arm) -> String {
 /// Nothing can be generated for the robot.
 pub fn counts(robot: &Robot) -> Result<Vec<Counts>, String> {
     let request = Request {
-        functions: FUNCTIONS.to_vec(),
         scalars: vec![ScalarType::F64],
-        ..Request::default()
+        ..Request::of(&FUNCTIONS)
     };
     let generated =
         generate(robot, &request).map_err(|error| format!("{}: {error}", robot.name))?;

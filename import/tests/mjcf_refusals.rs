@@ -45,10 +45,6 @@ fn with(what: &str, by: &str) -> String {
     ARM.replacen(what, by, 1)
 }
 
-fn beside(part: &str) -> String {
-    with("</mujoco>", &format!("{part}</mujoco>"))
-}
-
 #[test]
 fn the_arm_itself_is_taken() {
     let imported = import(ARM, &at_the_hand()).unwrap();
@@ -71,196 +67,90 @@ fn the_arm_itself_is_taken() {
     );
 }
 
+/// What of the arm is replaced by what, and below it words of what is said.
+const REFUSED: &str = r#"
+</mujoco> => <tendon><fixed name="pull"><joint joint="reach" coef="1"/></fixed></tendon></mujoco>
+joint `reach` of the chain is tied by fixed tendon `pull` | --lock reach=0
+</mujoco> => <equality><joint joint1="reach" joint2="turn" polycoef="0 0.5"/></equality></mujoco>
+arm.urdf:22:11 | joint `reach` of the chain mimics `turn` | --lock reach=0
+</mujoco> => <equality><joint joint1="reach"/></equality></mujoco>
+joint `reach` of the chain is tied by equality
+</mujoco> => <equality><joint joint1="finger" joint2="reach"/></equality></mujoco>
+joint `finger` hangs on the chain and follows `reach`, which moves | --lock finger=0
+</mujoco> => <equality><joint joint1="rech"/></equality></mujoco>
+there is no joint `rech` | did you mean `reach`?
+</muj => <equality><joint joint1="reach" joint2="turn" polycoef="0 1 2 3 4 5"/></equality></muj
+`polycoef` has more than 5 numbers
+</mujoco> => <equality><weld body1="hand"/></equality></mujoco>
+equality `weld` ties `hand` and `world`, which move apart | closed loops
+</mujoco> => <equality><connect body1="upper" body2="hand" anchor="0 0 0"/></equality></mujoco>
+ties `upper` and `hand`
+type="slide" axis="1 0 0" => type="ball"
+arm.urdf:10 | joint `reach` of the chain is a ball | --base lower
+type="slide" axis="1 0 0" => type="screw"
+`screw` is no type of joint | known: hinge
+<body name="lower" => <body name="lower" euler="0 0 0"
+an orientation by `quat` and by `euler` | one of them
+quat="1 0 0 0" => quat="0 0 0 0"
+arm.urdf:8: | `quat` has no direction
+quat="1 0 0 0" => quat="1 0 0"
+`quat` has 3 numbers, not 4
+quat="1 0 0 0" => xyaxes="1 0 0 2 0 0"
+`xyaxes` has no direction | parallel
+mass="2" => mass="two"
+arm.urdf:6: | `two` is not a decimal number
+mass="2" =>
+<inertial> has no `mass`
+mass="2" => mass="-2"
+the mass of body `upper` is negative
+0.02 0.03 0.04 => 0.02 -0.03 0.04
+a moment of inertia of body `upper` is negative
+diaginertia="0.02 0.03 0.04" => diaginertia="1 1 1" fullinertia="1 1 1 0 0 0"
+body `upper` has two inertias
+range="-1 2" => range="2 -1"
+the limits of joint `turn` are reversed
+axis="0 0 1" => axis="0 0 0"
+the axis of joint `turn` has no direction
+<joint name="turn" class="drive" => <joint name="turn" class="drve"
+arm.urdf:7: | there is no class `drve` | did you mean `drive`?
+<default class="drive"> => <default class="drive"/> <default class="drive">
+there is a class `drive` already
+<joint name="turn" class="drive" => <joint name="turn" damping="-1"
+the damping of joint `turn` is negative
+<joint name="finger" => <joint name="turn"
+there is a joint `turn` already
+<body name="thumb" => <body name="hand"
+there is a body `hand` already
+angle="radian" => angle="grad"
+`angle` is `grad` | radian or degree
+angle="radian" => eulerseq="xyw"
+`eulerseq` is `xyw`
+angle="radian" => coordinate="global"
+`coordinate` is `global`
+angle="radian" => settotalmass="3"
+`settotalmass` changes every mass
+angle="radian" => boundmass="0.5"
+`boundmass` of the compiler is more than body `hand` has
+<site name="grip"/> => <attach model="m" body="b"/>
+<attach> on body `hand` is not read
+<inertial pos="0 0 0" mass="1" diaginertia="0.02 0.02 0.02"/> => <geom type="mesh" mesh="m"/>
+the mass of body `lower` is that of its geoms | mj_saveLastXML
+<compiler angle="radian"/> => <include file="other.xml"/>
+<include> in a text without a place
+"#;
+
 #[test]
 fn refusals_name_the_element_and_the_way_out() {
-    let tendon =
-        "<tendon><fixed name=\"pull\"><joint joint=\"reach\" coef=\"1\"/></fixed></tendon>";
-    let tie = |inside: &str| beside(&format!("<equality>{inside}</equality>"));
-    let drive = "<joint name=\"turn\" class=\"drive\"";
-    let cases: Vec<(String, &[&str])> = vec![
-        (
-            beside(tendon),
-            &[
-                "joint `reach` of the chain is tied by fixed tendon `pull`",
-                "--lock reach=0",
-            ],
-        ),
-        (
-            tie("<joint joint1=\"reach\" joint2=\"turn\" polycoef=\"0 0.5\"/>"),
-            &[
-                "arm.urdf:22:11",
-                "joint `reach` of the chain mimics `turn`",
-                "--lock reach=0",
-            ],
-        ),
-        (
-            tie("<joint joint1=\"reach\"/>"),
-            &["joint `reach` of the chain is tied by equality"],
-        ),
-        (
-            tie("<joint joint1=\"finger\" joint2=\"reach\"/>"),
-            &[
-                "joint `finger` hangs on the chain and follows `reach`, which moves",
-                "--lock finger=0",
-            ],
-        ),
-        (
-            tie("<joint joint1=\"rech\"/>"),
-            &["there is no joint `rech`", "did you mean `reach`?"],
-        ),
-        (
-            tie("<joint joint1=\"reach\" joint2=\"turn\" polycoef=\"0 1 2 3 4 5\"/>"),
-            &["`polycoef` has more than 5 numbers"],
-        ),
-        (
-            tie("<weld body1=\"hand\"/>"),
-            &[
-                "equality `weld` ties `hand` and `world`, which move apart",
-                "closed loops",
-            ],
-        ),
-        (
-            tie("<connect body1=\"upper\" body2=\"hand\" anchor=\"0 0 0\"/>"),
-            &["ties `upper` and `hand`"],
-        ),
-        (
-            with("type=\"slide\" axis=\"1 0 0\"", "type=\"ball\""),
-            &[
-                "arm.urdf:10",
-                "joint `reach` of the chain is a ball",
-                "--base lower",
-            ],
-        ),
-        (
-            with("type=\"slide\" axis=\"1 0 0\"", "type=\"screw\""),
-            &["`screw` is no type of joint", "known: hinge"],
-        ),
-        (
-            with(
-                "<body name=\"lower\"",
-                "<body name=\"lower\" euler=\"0 0 0\"",
-            ),
-            &["an orientation by `quat` and by `euler`", "one of them"],
-        ),
-        (
-            with("quat=\"1 0 0 0\"", "quat=\"0 0 0 0\""),
-            &["arm.urdf:8:", "`quat` has no direction"],
-        ),
-        (
-            with("quat=\"1 0 0 0\"", "quat=\"1 0 0\""),
-            &["`quat` has 3 numbers, not 4"],
-        ),
-        (
-            with("quat=\"1 0 0 0\"", "xyaxes=\"1 0 0 2 0 0\""),
-            &["`xyaxes` has no direction", "parallel"],
-        ),
-        (
-            with("mass=\"2\"", "mass=\"two\""),
-            &["arm.urdf:6:", "`two` is not a decimal number"],
-        ),
-        (with("mass=\"2\"", ""), &["<inertial> has no `mass`"]),
-        (
-            with("mass=\"2\"", "mass=\"-2\""),
-            &["the mass of body `upper` is negative"],
-        ),
-        (
-            with("0.02 0.03 0.04", "0.02 -0.03 0.04"),
-            &["a moment of inertia of body `upper` is negative"],
-        ),
-        (
-            with(
-                "diaginertia=\"0.02 0.03 0.04\"",
-                "diaginertia=\"1 1 1\" fullinertia=\"1 1 1 0 0 0\"",
-            ),
-            &["body `upper` has two inertias"],
-        ),
-        (
-            with("range=\"-1 2\"", "range=\"2 -1\""),
-            &["the limits of joint `turn` are reversed"],
-        ),
-        (
-            with("axis=\"0 0 1\"", "axis=\"0 0 0\""),
-            &["the axis of joint `turn` has no direction"],
-        ),
-        (
-            with(drive, "<joint name=\"turn\" class=\"drve\""),
-            &[
-                "arm.urdf:7:",
-                "there is no class `drve`",
-                "did you mean `drive`?",
-            ],
-        ),
-        (
-            with(
-                "<default class=\"drive\">",
-                "<default class=\"drive\"/> <default class=\"drive\">",
-            ),
-            &["there is a class `drive` already"],
-        ),
-        (
-            with(drive, "<joint name=\"turn\" damping=\"-1\""),
-            &["the damping of joint `turn` is negative"],
-        ),
-        (
-            with("<joint name=\"finger\"", "<joint name=\"turn\""),
-            &["there is a joint `turn` already"],
-        ),
-        (
-            with("<body name=\"thumb\"", "<body name=\"hand\""),
-            &["there is a body `hand` already"],
-        ),
-        (
-            with("angle=\"radian\"", "angle=\"grad\""),
-            &["`angle` is `grad`", "radian or degree"],
-        ),
-        (
-            with("angle=\"radian\"", "eulerseq=\"xyw\""),
-            &["`eulerseq` is `xyw`"],
-        ),
-        (
-            with("angle=\"radian\"", "coordinate=\"global\""),
-            &["`coordinate` is `global`"],
-        ),
-        (
-            with("angle=\"radian\"", "settotalmass=\"3\""),
-            &["`settotalmass` changes every mass"],
-        ),
-        (
-            with("angle=\"radian\"", "boundmass=\"0.5\""),
-            &["`boundmass` of the compiler is more than body `hand` has"],
-        ),
-        (
-            with("<site name=\"grip\"/>", "<attach model=\"m\" body=\"b\"/>"),
-            &["<attach> on body `hand` is not read"],
-        ),
-        (
-            with(
-                "<inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"0.02 0.02 0.02\"/>",
-                "<geom type=\"mesh\" mesh=\"m\"/>",
-            ),
-            &[
-                "the mass of body `lower` is that of its geoms",
-                "mj_saveLastXML",
-            ],
-        ),
-        (
-            with(
-                "<compiler angle=\"radian\"/>",
-                "<include file=\"other.xml\"/>",
-            ),
-            &["<include> in a text without a place"],
-        ),
-        (
-            "<mujocoinclude/>".to_owned(),
-            &["this is a part of an MJCF"],
-        ),
-    ];
-    for (source, parts) in cases {
-        let text = refused(&source, &at_the_hand());
-        for part in parts {
+    let lines: Vec<&str> = REFUSED.trim().lines().collect();
+    for [change, words] in lines.as_chunks::<2>().0 {
+        let (what, by) = change.split_once(" =>").unwrap();
+        let text = refused(&with(what, by.trim_start()), &at_the_hand());
+        for part in words.split(" | ") {
             assert!(text.contains(part), "{part} is missing:\n{text}");
         }
     }
+    let part = refused("<mujocoinclude/>", &at_the_hand());
+    assert!(part.contains("this is a part of an MJCF"), "{part}");
     // At once, each at its place.
     let several = with("mass=\"2\"", "mass=\"two\"").replace("quat=\"1 0 0 0\"", "quat=\"1 0 0\"");
     let text = refused(&several, &at_the_hand());

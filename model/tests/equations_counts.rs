@@ -27,14 +27,7 @@ fn generic(formulation: Formulation, n: usize) -> (u64, u64) {
         d: value(),
         mass: value(),
         com: [value(), value(), value()],
-        inertia: Inertia {
-            xx: value(),
-            yy: value(),
-            zz: value(),
-            xy: value(),
-            yz: value(),
-            xz: value(),
-        },
+        inertia: Inertia::of([(); 6].map(|()| value())),
         friction: Friction::none(),
         armature: Count::Zero,
     };

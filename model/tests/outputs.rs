@@ -179,14 +179,7 @@ fn columns(case: &Case, points: &mut Points) -> Vec<Column<Field>> {
             body: Body {
                 mass: any(),
                 first: [any(), any(), any()],
-                second: Inertia {
-                    xx: any(),
-                    yy: any(),
-                    zz: any(),
-                    xy: any(),
-                    yz: any(),
-                    xz: any(),
-                },
+                second: Inertia::of([(); 6].map(|()| any())),
             },
         };
     }

@@ -2,6 +2,7 @@
 //! and the same torques and poses as a recursion that knows nothing of DH.
 
 use crate::placed_support::{Drawn, compare, file};
+use crate::read_errors::rows;
 use dalembert_model::number::Angle;
 use dalembert_model::read::{Options, Reading, parse};
 use dalembert_model::robot::{Robot, write};
@@ -145,75 +146,40 @@ fn nearly_parallel_axes_have_the_torques_of_the_frames() {
     }
 }
 
+/// What of a file is replaced by what; below it the line, and words of message and help.
+const MISTAKES: &str = r#"
+axis = [0, 0, 1] =>
+6 | has no `axis` | axis = [0, 0, 1]
+axis = [0, 0, 1] => axis = [0, 0, 0]
+9 | no direction | axis = [0, 0, 1]
+axis = [0, 0, 1] => axis = [0, 0, 1]\nalpha = 1
+10 | `alpha` of a joint that is placed | the one or the other
+axis = [0, 0, 1] => axis = [0, 0, 1]\noffset = 0
+10 | `offset` of a joint that is placed | leave
+placement = { xyz = [0, 0, 0.387], rpy = [0, 0, "pi/2"] }\naxis = [0, 0, 1] => a = 1
+6 | joint 1 is not placed | give all joints
+gravity => convention = "modified"\ngravity
+4 | rows of the standard convention | leave `convention` out
+xyz = [0, 0, 0.387] => xyz = [0, 0, 387]
+8 | xyz is 387 m | millimetres, write 0.387
+rpy = [0, 0, "pi/2"] => rpy = [0, 0, 90]
+8 | rpy is 90 rad | "90deg"
+xyz = [0, 0, 0.387] => xzy = [0, 0, 0.387]
+8 | unknown key `xzy` | did you mean `xyz`?
+"#;
+
 #[test]
 fn errors_say_where_and_what() {
     let placed = data("scara_placed");
-    for (from, to, line, message, help) in [
-        (
-            "axis = [0, 0, 1]",
-            "",
-            6,
-            "has no `axis`",
-            "axis = [0, 0, 1]",
-        ),
-        (
-            "axis = [0, 0, 1]",
-            "axis = [0, 0, 0]",
-            9,
-            "no direction",
-            "axis = [0, 0, 1]",
-        ),
-        (
-            "axis = [0, 0, 1]",
-            "axis = [0, 0, 1]\nalpha = 1",
-            10,
-            "`alpha` of a joint that is placed",
-            "the one or the other",
-        ),
-        (
-            "axis = [0, 0, 1]",
-            "axis = [0, 0, 1]\noffset = 0",
-            10,
-            "`offset` of a joint that is placed",
-            "leave",
-        ),
-        (
-            "placement = { xyz = [0, 0, 0.387], rpy = [0, 0, \"pi/2\"] }\naxis = [0, 0, 1]",
-            "a = 1",
-            6,
-            "joint 1 is not placed",
-            "give all joints",
-        ),
-        (
-            "gravity",
-            "convention = \"modified\"\ngravity",
-            4,
-            "rows of the standard convention",
-            "leave `convention` out",
-        ),
-        (
-            "xyz = [0, 0, 0.387]",
-            "xyz = [0, 0, 387]",
-            8,
-            "xyz is 387 m",
-            "millimetres, write 0.387",
-        ),
-        (
-            "rpy = [0, 0, \"pi/2\"]",
-            "rpy = [0, 0, 90]",
-            8,
-            "rpy is 90 rad",
-            "\"90deg\"",
-        ),
-        (
-            "xyz = [0, 0, 0.387]",
-            "xzy = [0, 0, 0.387]",
-            8,
-            "unknown key `xzy`",
-            "did you mean `xyz`?",
-        ),
-    ] {
-        let text = placed.replacen(from, to, 1);
+    let lines: Vec<&str> = MISTAKES.trim().lines().collect();
+    for [change, said] in lines.as_chunks::<2>().0 {
+        let (from, to) = change.split_once(" =>").unwrap();
+        let [line, message, help] = rows(said).next().unwrap();
+        let text = placed.replacen(
+            &from.replace("\\n", "\n"),
+            &to.trim_start().replace("\\n", "\n"),
+            1,
+        );
         assert_ne!(text, placed, "{from}");
         let found = match parse(&text, &Options::default()) {
             Ok(reading) => reading.notes,
@@ -221,7 +187,7 @@ fn errors_say_where_and_what() {
         };
         let found = found.iter().find(|d| d.message.contains(message));
         let found = found.unwrap_or_else(|| panic!("{to}: nothing says {message}"));
-        assert_eq!(found.line, line, "{to}");
+        assert_eq!(found.line.to_string(), line, "{to}");
         let said = found.help.as_deref().unwrap_or_default();
         assert!(said.contains(help), "{to}: {said}");
     }

@@ -152,6 +152,17 @@ const ROWS: &[Row] = &[
     ("velocity = 2", "velocity = 2,5", "", "decimals have a point: 2.5"),
 ];
 
+/// Returns the cells of a table: a row a line, bars between cells.
+pub fn rows<const N: usize>(table: &str) -> impl Iterator<Item = [&str; N]> {
+    let rows = table.lines().filter(|row| !row.is_empty());
+    rows.map(|row| {
+        row.split(" | ")
+            .collect::<Vec<_>>()
+            .try_into()
+            .expect("so many cells")
+    })
+}
+
 pub fn errors(source: &str) -> Vec<Diagnostic> {
     match parse(source, &Options::default()) {
         Ok(_) => Vec::new(),

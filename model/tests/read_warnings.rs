@@ -3,175 +3,74 @@
 
 use dalembert_model::read::{Options, RobotWarning, Severity, parse};
 
-use crate::read_errors::{GOOD, errors};
+use crate::read_errors::{GOOD, errors, rows};
+
+/// What is replaced in a good file, by what, the line, and words of what is said.
+const ODD: &str = r#"
+inertia = [1, 1, 1, | inertia = [1, 1, 3, | 14 | exceeds the sum
+gravity = [0, 0, -9.81] | gravity = [0, 3, 9.81] | 3 | gravity points upwards, along the base's z
+velocity = 2 | velocity = 0 | 17 | the limit of velocity is 0: the joint never moves
+acceleration = 3 | acceleration = 0.0 | 17 | the limit of acceleration is 0: the joint never moves
+mass = 2 | mass = 0 | 14 | the mass is zero
+alpha = "pi/2" | alpha = 3.1416 | 7 | from pi
+position = [-1, 1] | position = [-1, 1.5708] | 17 | from pi/2
+"#;
 
 /// Odd but not wrong: read, with a warning or a note on the right line.
 #[test]
 fn warnings_and_notes() {
-    for (what, by, severity, line, message) in [
-        (
-            "inertia = [1, 1, 1,",
-            "inertia = [1, 1, 3,",
-            Severity::Warning,
-            14,
-            "exceeds the sum",
-        ),
-        (
-            "gravity = [0, 0, -9.81]",
-            "gravity = [0, 3, 9.81]",
-            Severity::Warning,
-            3,
-            "gravity points upwards, along the base's z",
-        ),
-        (
-            "velocity = 2",
-            "velocity = 0",
-            Severity::Warning,
-            17,
-            "the limit of velocity is 0: the joint never moves",
-        ),
-        (
-            "acceleration = 3",
-            "acceleration = 0.0",
-            Severity::Warning,
-            17,
-            "the limit of acceleration is 0: the joint never moves",
-        ),
-        (
-            "mass = 2",
-            "mass = 0",
-            Severity::Warning,
-            14,
-            "the mass is zero",
-        ),
-        (
-            "alpha = \"pi/2\"",
-            "alpha = 3.1416",
-            Severity::Warning,
-            7,
-            "from pi",
-        ),
-        (
-            "alpha = \"pi/2\"",
-            "alpha = 4.71238898038469",
-            Severity::Note,
-            7,
-            "3*pi/2",
-        ),
-        (
-            "position = [-1, 1]",
-            "position = [-1, 1.5708]",
-            Severity::Warning,
-            17,
-            "from pi/2",
-        ),
-    ] {
+    let note = r#"alpha = "pi/2" | alpha = 4.71238898038469 | 7 | 3*pi/2"#;
+    let odd = rows(ODD).map(|row| (row, Severity::Warning));
+    for ([what, by, line, message], severity) in
+        odd.chain(rows(note).map(|row| (row, Severity::Note)))
+    {
         let source = GOOD.replacen(what, by, 1);
         let notes = parse(&source, &Options::default()).expect("reads").notes;
         assert_eq!(notes.len(), 1, "{by}: {notes:?}");
-        assert_eq!((notes[0].severity, notes[0].line), (severity, line));
+        assert_eq!(
+            (notes[0].severity, notes[0].line.to_string()),
+            (severity, line.to_owned())
+        );
         assert!(notes[0].message.contains(message), "{:?}", notes[0]);
     }
 }
+
+/// The same, and words of the help.
+const OTHER_UNITS: &str = r#"
+[0, 0, -9.81] | [0, 0, -9810] | 3 | is 9810.0000 m/s² | mm/s²
+[0, 0, -9.81] | [0, 981, 0] | 3 | far from | cm/s²
+[0, 0, -9.81] | [0, 32.174, 0] | 3 | far from | ft/s²
+[0, 0, -9.81] | [0, 0, -1] | 3 | far from | a direction
+"pi/2" | 90 | 7 | alpha is 90 rad: more than a turn | "90deg"
+"pi/2" | -7.5 | 7 | more than a turn | "-7.5deg"
+offset = 0.1 | offset = 45 | 11 | offset is 45 rad | "45deg"
+a = 0.5 | a = 431.8 | 8 | a is 431.8 m: longer than 10 m | write 0.4318
+d = 0.25 | d = -149.09 | 9 | d is -149.09 m | write -0.14909
+[0, 0.1, 0] | [0, 68.1, -70] | 13 | com is -70 m | write -0.07
+mass = 2 | mass = 17400 | 12 | 17400 kg | of grams, write 17.4
+[-1, 1] | [-170, 170] | 17 | a limit of -170 rad | "-170deg"
+velocity = 2 | velocity = 110 | 17 | 110 rad/s is fast | write 1.9199
+[1, 1, 1, 0, 0, 0] | [12300, 12300, 1, 0, 0, 0] | 14 | a mass of 2 kg with a moment of | of kg·mm², write
+[1, 1, 1, 0, 0, 0] | [12300, 12300, 1, 0, 0, 0] | 14 | 12300 kg·m² is 78.422 m from its axis | 0.0123 for
+[1, 1, 1, 0, 0, 0] | [12300, 12300, 1, 0, 0, 0] | 14 | axis, and the arm reaches 0.850 m | for 12300
+viscous = 0.1 | coulomb = 1\ncoulomb_width = 2 | 16 | smoothed over 2 rad/s | a tenth
+viscous = 0.1 | coulomb = 1\ncoulomb_width = 2 | 16 | and the joint reaches 2 | of the slowest speed
+"#;
 
 /// Numbers that look like another unit's: taken as they stand, and the help says
 /// what was probably meant.
 #[test]
 fn sizes_of_other_units() {
     const SLIDES: &str = "kind = \"prismatic\"\ntheta = 0\nd = 0";
-    for (what, by, line, message, help) in [
-        (
-            "[0, 0, -9.81]",
-            "[0, 0, -9810]",
-            3,
-            "is 9810.0000 m/s²",
-            "mm/s²",
-        ),
-        ("[0, 0, -9.81]", "[0, 981, 0]", 3, "far from", "cm/s²"),
-        ("[0, 0, -9.81]", "[0, 32.174, 0]", 3, "far from", "ft/s²"),
-        ("[0, 0, -9.81]", "[0, 0, -1]", 3, "far from", "a direction"),
-        (
-            "\"pi/2\"",
-            "90",
-            7,
-            "alpha is 90 rad: more than a turn",
-            "\"90deg\"",
-        ),
-        ("\"pi/2\"", "-7.5", 7, "more than a turn", "\"-7.5deg\""),
-        (
-            "offset = 0.1",
-            "offset = 45",
-            11,
-            "offset is 45 rad",
-            "\"45deg\"",
-        ),
-        (
-            "a = 0.5",
-            "a = 431.8",
-            8,
-            "a is 431.8 m: longer than 10 m",
-            "write 0.4318",
-        ),
-        (
-            "d = 0.25",
-            "d = -149.09",
-            9,
-            "d is -149.09 m",
-            "write -0.14909",
-        ),
-        (
-            "[0, 0.1, 0]",
-            "[0, 68.1, -70]",
-            13,
-            "com is -70 m",
-            "write -0.07",
-        ),
-        (
-            "mass = 2",
-            "mass = 17400",
-            12,
-            "17400 kg",
-            "of grams, write 17.4",
-        ),
-        (
-            "[-1, 1]",
-            "[-170, 170]",
-            17,
-            "a limit of -170 rad",
-            "\"-170deg\"",
-        ),
-        (
-            "velocity = 2",
-            "velocity = 110",
-            17,
-            "110 rad/s is fast",
-            "write 1.9199",
-        ),
-        (
-            "[1, 1, 1, 0, 0, 0]",
-            "[12300, 12300, 1, 0, 0, 0]",
-            14,
-            "a mass of 2 kg with a moment of 12300 kg·m² is 78.422 m from its axis, and the arm reaches 0.850 m",
-            "of kg·mm², write 0.0123 for 12300",
-        ),
-        (
-            "viscous = 0.1",
-            "coulomb = 1\ncoulomb_width = 2",
-            16,
-            "smoothed over 2 rad/s, and the joint reaches 2",
-            "a tenth of the slowest speed",
-        ),
-    ] {
-        let source = GOOD.replacen(what, by, 1);
+    for [what, by, line, message, help] in rows(OTHER_UNITS) {
+        let by = by.replace("\\n", "\n");
+        let source = GOOD.replacen(what, &by, 1);
         let notes = parse(&source, &Options::default()).expect("reads").notes;
         let [note] = notes.as_slice() else {
             panic!("{by}: {notes:?}");
         };
-        assert_eq!(
-            (note.severity, note.line),
-            (Severity::Warning, line),
-            "{by}"
-        );
+        assert_eq!(note.severity, Severity::Warning, "{by}");
+        assert_eq!(note.line.to_string(), line, "{by}");
         assert!(note.message.contains(message), "{note:?}");
         let said = note.help.as_deref().unwrap_or_default();
         assert!(

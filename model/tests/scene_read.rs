@@ -6,6 +6,8 @@ use dalembert_model::read::{Options, RobotWarning, parse};
 use dalembert_model::robot::{Position, Severity};
 use dalembert_model::scene::{Float, Scale, Scene, write};
 
+use crate::read_errors::rows;
+
 const ROBOT: &str = r#"
 name = "arm"
 convention = "standard"
@@ -141,152 +143,68 @@ fn a_payload_is_part_of_the_last_link() {
     assert_eq!((own.0 + load.0, own.1 + load.1), all);
 }
 
-/// One mistake each: its line within the scene's text, from one, and words of
-/// the message or the help.
+/// One mistake each, and words of the message or the help.
+const MISTAKES: &str = r#"
+joints = [1, 4] | counted from 1 to 3
+joints = ["wirst"] | did you mean `wrist`?
+joints = [0] | there is no joint `0`
+joints = [1, "waist"] | in the list already
+joints = [] | one joint at least
+lock = { 1 = 0 }\nbox = { position = [[1, 2], [0, 0.1], [0, 1]] } | is locked outside its
+lock = { 9 = 0 } | there is no joint `9`
+lock = { tree = 0 } | joints are counted from 1 to 3: waist, boom, wrist
+lock = { 3 = 0, wrist = 0 } | joint 3 (wrist) is locked already
+lock = { 3 = 2.5 } | locked outside its limits, -2 to 2
+lock = { boom = "pi/2" } | expected a number
+lock = { 1 = 0, 2 = 0, 3 = 0 } | every joint is locked
+box = { position = [[1, 1], [0, 0.1], [0, 1]] } | the range is empty
+box = { velocity = [1, -1, 1] } | the range is empty
+box = { position = [[-1, 1], [0, 0.1], [5, 6]] } | joint 3 (wrist) is never in
+box = { position = [[-1, 1], [0, 0.1], [5, 6]] } | is never in this range: its limits are -2 to 2
+box = { position = [[-1, 1], [-2, -0.6], [0, 1]] } | joint 2 (boom) is never in
+box = { position = [[-1, 1], [-2, -0.6], [0, 1]] } | this range: its limits are -0.5 to 0.5
+box = { velocity = [1, 1] } | 2 entries, but the robot has 3 joints
+box = { speed = [1, 1, 1] } | unknown key `speed`
+tolerance = { value = 0, relative_to = "range" } | above zero
+tolerance = { value = [1, 1], relative_to = "range" } | 2 tolerances
+tolerance = { value = 1e-3 } | has no `relative_to`
+tolerance = { value = 1, relative_to = "actuators" } | did you mean "actuator"?
+outputs = ["gravty"] | did you mean "gravity"?
+outputs = ["gravity", "gravity"] | in the list already
+outputs = ["hold = gravty + jacobian"] | did you mean `gravity`?
+outputs = ["gravity + jacobian"] | has no name
+outputs = ["a=gravity+inertia", "a=gravity+jacobian"] | `a` is in the list already
+velocity = 0 | velocity = "zero" for an arm without any
+acceleration = [1, 1, 1] | box = { acceleration = [1, …] }
+lock = "wrist" | lock = { wrist = 0 }
+lock = 3 | lock = { wrist = 0 }
+box = { velocity = ["120deg", 1, 1] } | in rad/s, as a number: write 2.0944
+outputs = ["hold = inertia + gravity", "servo = hold + jacobian"] | `hold` is a bundle itself (
+outputs = ["hold = inertia + gravity", "servo = hold + jacobian"] | itself (bundles do not nest:
+outputs = ["hold = inertia + gravity", "servo = hold + jacobian"] | nest: write its parts, inertia
+outputs = ["hold = inertia + gravity", "servo = hold + jacobian"] | inertia + gravity)
+payload = { mass = -1, com = [0, 0, 0] } | mass is negative
+payload = { mass = 1 } | has no `com`
+scalar = "f46" | did you mean "f64"?
+locks = { 1 = 0 } | did you mean `lock`?
+gravity = [0, 0] | an array of 3
+tolerance = { value = "1%", relative_to = "range" } | 0.01 for 1%
+tolerance = { value = [0.1, "a", 0.1], relative_to = "range" } | 0.01 for 1%
+lock = { boom = "0.1m" } | write metres as a number
+lock = { wrist = "0.1rad" } | write radians
+payload = { mass = "1kg", com = [0, 0, 0] } | in SI units
+"#;
+
 #[test]
 fn mistakes() {
-    for (line, text, words) in [
-        (2, "joints = [1, 4]", "counted from 1 to 3"),
-        (2, "joints = [\"wirst\"]", "did you mean `wrist`?"),
-        (2, "joints = [0]", "there is no joint `0`"),
-        (2, "joints = [1, \"waist\"]", "in the list already"),
-        (2, "joints = []", "one joint at least"),
-        (2, "lock = { 9 = 0 }", "there is no joint `9`"),
-        (
-            2,
-            "lock = { tree = 0 }",
-            "joints are counted from 1 to 3: waist, boom, wrist",
-        ),
-        (
-            2,
-            "lock = { 3 = 0, wrist = 0 }",
-            "joint 3 (wrist) is locked already",
-        ),
-        (
-            2,
-            "lock = { 3 = 2.5 }",
-            "locked outside its limits, -2 to 2",
-        ),
-        (2, "lock = { boom = \"pi/2\" }", "expected a number"),
-        (2, "lock = { 1 = 0, 2 = 0, 3 = 0 }", "every joint is locked"),
-        (
-            3,
-            "lock = { 1 = 0 }\nbox = { position = [[1, 2], [0, 0.1], [0, 1]] }",
-            "",
-        ),
-        (
-            2,
-            "box = { position = [[1, 1], [0, 0.1], [0, 1]] }",
-            "the range is empty",
-        ),
-        (2, "box = { velocity = [1, -1, 1] }", "the range is empty"),
-        (
-            2,
-            "box = { position = [[-1, 1], [0, 0.1], [5, 6]] }",
-            "joint 3 (wrist) is never in this range: its limits are -2 to 2",
-        ),
-        (
-            2,
-            "box = { position = [[-1, 1], [-2, -0.6], [0, 1]] }",
-            "joint 2 (boom) is never in this range: its limits are -0.5 to 0.5",
-        ),
-        (
-            2,
-            "box = { velocity = [1, 1] }",
-            "2 entries, but the robot has 3 joints",
-        ),
-        (2, "box = { speed = [1, 1, 1] }", "unknown key `speed`"),
-        (
-            2,
-            "tolerance = { value = 0, relative_to = \"range\" }",
-            "above zero",
-        ),
-        (
-            2,
-            "tolerance = { value = [1, 1], relative_to = \"range\" }",
-            "2 tolerances",
-        ),
-        (2, "tolerance = { value = 1e-3 }", "has no `relative_to`"),
-        (
-            2,
-            "tolerance = { value = 1, relative_to = \"actuators\" }",
-            "did you mean \"actuator\"?",
-        ),
-        (2, "outputs = [\"gravty\"]", "did you mean \"gravity\"?"),
-        (
-            2,
-            "outputs = [\"gravity\", \"gravity\"]",
-            "in the list already",
-        ),
-        (
-            2,
-            "outputs = [\"hold = gravty + jacobian\"]",
-            "did you mean `gravity`?",
-        ),
-        (2, "outputs = [\"gravity + jacobian\"]", "has no name"),
-        (
-            2,
-            "outputs = [\"a=gravity+inertia\", \"a=gravity+jacobian\"]",
-            "`a` is in the list already",
-        ),
-        (
-            2,
-            "velocity = 0",
-            "velocity = \"zero\" for an arm without any",
-        ),
-        (
-            2,
-            "acceleration = [1, 1, 1]",
-            "box = { acceleration = [1, …] }",
-        ),
-        (2, "lock = \"wrist\"", "lock = { wrist = 0 }"),
-        (2, "lock = 3", "lock = { wrist = 0 }"),
-        (
-            2,
-            "box = { velocity = [\"120deg\", 1, 1] }",
-            "in rad/s, as a number: write 2.0944",
-        ),
-        (
-            2,
-            "outputs = [\"hold = inertia + gravity\", \"servo = hold + jacobian\"]",
-            "`hold` is a bundle itself (bundles do not nest: write its parts, inertia + gravity)",
-        ),
-        (
-            2,
-            "payload = { mass = -1, com = [0, 0, 0] }",
-            "mass is negative",
-        ),
-        (2, "payload = { mass = 1 }", "has no `com`"),
-        (2, "scalar = \"f46\"", "did you mean \"f64\"?"),
-        (2, "locks = { 1 = 0 }", "did you mean `lock`?"),
-        (2, "gravity = [0, 0]", "an array of 3"),
-        (
-            2,
-            "tolerance = { value = \"1%\", relative_to = \"range\" }",
-            "0.01 for 1%",
-        ),
-        (
-            2,
-            "tolerance = { value = [0.1, \"a\", 0.1], relative_to = \"range\" }",
-            "0.01 for 1%",
-        ),
-        (2, "lock = { boom = \"0.1m\" }", "write metres as a number"),
-        (2, "lock = { wrist = \"0.1rad\" }", "write radians"),
-        (
-            2,
-            "payload = { mass = \"1kg\", com = [0, 0, 0] }",
-            "in SI units",
-        ),
-    ] {
+    for [text, words] in rows(MISTAKES) {
+        let text = text.replace("\\n", "\n");
         let source = format!("{ROBOT}[scene.bad]\n{text}\n");
-        let before = ROBOT.lines().count();
-        let errors = parse(&source, &Options::default()).expect_err(text).0;
-        // The lock of joint 1 at 0 is outside [1, 2], said where it is locked.
-        let line = if words.is_empty() { 2 } else { line };
+        let errors = parse(&source, &Options::default()).expect_err(&text).0;
         assert_eq!(errors.len(), 1, "{text}: {errors:?}");
         let shown = errors[0].to_string();
         assert!(shown.contains(words), "{text}: {shown}");
-        assert_eq!(errors[0].line, before + line, "{text}: {shown}");
+        assert_eq!(errors[0].line, ROBOT.lines().count() + 2, "{text}: {shown}");
     }
 }
 

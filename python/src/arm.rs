@@ -51,17 +51,13 @@ impl Arm {
     /// an infinity where there is none.
     #[getter]
     fn limits(&self) -> Vec<[f64; 5]> {
-        let value = |position: &Position| match position {
-            Position::Angle(angle) => angle.to_f64(),
-            Position::Length(length) => f64::nearest_rational(length),
-        };
         let joints = self.0.robot().joints.iter().map(|joint| {
             let limits = &joint.limits;
             let all = [f64::NEG_INFINITY, f64::INFINITY];
             let [low, high] = limits
                 .position
                 .as_ref()
-                .map_or(all, |l| l.each_ref().map(value));
+                .map_or(all, |l| l.each_ref().map(Position::to_f64));
             let [velocity, acceleration, torque] =
                 [&limits.velocity, &limits.acceleration, &limits.torque]
                     .map(|most| most.as_ref().map_or(f64::INFINITY, f64::nearest_rational));

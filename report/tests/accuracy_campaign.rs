@@ -44,10 +44,7 @@ fn campaign(count: usize, each: usize, longest: usize) -> Worst {
         for _ in 0..each {
             let function = outputs[next % outputs.len()];
             next += 1;
-            let request = Request {
-                functions: vec![function],
-                ..Request::default()
-            };
+            let request = Request::of(&[function]);
             let what = format!("seed {seed}, {n} joints, {function}");
             let generated = match generate(&robot, &request) {
                 Ok(generated) => generated,
@@ -59,10 +56,7 @@ fn campaign(count: usize, each: usize, longest: usize) -> Worst {
             for emitted in &generated.emitted {
                 let scalar = emitted.scalar;
                 let states = seeded(&robot, STATES, SEED ^ seed);
-                let states = states.into_iter().map(|state| match scalar {
-                    ScalarType::F64 => state,
-                    ScalarType::F32 => state.in_single(),
-                });
+                let states = states.into_iter().map(|state| state.in_scalar(scalar));
                 let cases = states.map(|state| Case {
                     found: emitted.run(&state),
                     truth: exactly(emitted, truth.run(function, &state)),

@@ -53,10 +53,9 @@ impl Robots {
             let mut emitted = Vec::new();
             for &function in functions(robot, scalar) {
                 let request = Request {
-                    functions: vec![function],
                     scalars: vec![scalar],
                     start: start(robot, scalar, function, first),
-                    ..Request::default()
+                    ..Request::of(&[function])
                 };
                 let generated = generate(robot, &request).unwrap_or_else(|e| panic!("{e}"));
                 emitted.extend(generated.emitted);
@@ -133,7 +132,7 @@ fn categories_meet_their_criteria(scalar: ScalarType, range: Range<usize>) {
             ScalarType::F64 => (case.robot.clone(), case.state.clone()),
             ScalarType::F32 => {
                 let robot = rounded(&case.robot, scalar).expect("parameters within f32");
-                (robot, case.state.in_single())
+                (robot, case.state.in_scalar(scalar))
             }
         };
         let bounds = scale::magnitudes(&robot, &state);

@@ -13,10 +13,9 @@ use dalembert_report::stress::truth::Truth;
 
 fn request(function: Function, start: &str) -> Request {
     Request {
-        functions: vec![function],
         scalars: vec![ScalarType::F64],
         start: parse(start).unwrap(),
-        ..Request::default()
+        ..Request::of(&[function])
     }
 }
 

@@ -33,9 +33,8 @@ struct Symbols(Emitted);
 impl Symbols {
     fn new(robot: &Robot) -> Symbols {
         let request = Request {
-            functions: vec![Function::DynamicCoefficients],
             scalars: vec![ScalarType::F64],
-            ..Request::default()
+            ..Request::of(&[Function::DynamicCoefficients])
         };
         Symbols(generate(robot, &request).unwrap().emitted.remove(0))
     }

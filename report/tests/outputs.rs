@@ -62,10 +62,7 @@ fn by_name_alone() -> Vec<Function> {
 /// Proofs are part of generation; here is what rounding costs, and the values.
 fn check(name: &str, functions: &[Function]) {
     let robot = support::robot(name);
-    let request = Request {
-        functions: functions.to_vec(),
-        ..Request::default()
-    };
+    let request = Request::of(functions);
     let generated = generate(&robot, &request).unwrap_or_else(|error| panic!("{name}: {error}"));
     for function in &generated.functions {
         println!("{name} {} {:?}", function.function, function.counts());

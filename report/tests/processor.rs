@@ -186,11 +186,10 @@ fn generated(name: &str, sines: SinCos, library: Library) -> Vec<Footprint> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
     let file = folder.join(format!("{name}.toml"));
     let request = Request {
-        functions: vec![Function::InverseDynamics, Function::Gravity],
         plan: plan::file::beside(&file).unwrap(),
         sincos: sines,
         math: MathPath::of(library),
-        ..Request::default()
+        ..Request::of(&[Function::InverseDynamics, Function::Gravity])
     };
     let generated = generate(&support::robot(name), &request).unwrap();
     footprints(&generated)

@@ -115,7 +115,7 @@ impl Picture {
     }
 
     /// Draws a line from a mark to where its end is marked, not shorter than a mark: that could
-    /// not be seen. Not shorter than a mark: that could not be seen.
+    /// not be seen.
     pub fn whisker(&mut self, class: &str, [x, y]: [f64; 2], end: f64) {
         if (x - end).abs() > 6.0 {
             let top = y - 3.0;

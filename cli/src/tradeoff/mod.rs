@@ -257,12 +257,11 @@ fn exact(
         }
     }
     let mut request = Request {
-        functions: vec![args.function.unwrap_or(first)],
         scalars: vec![ScalarType::F64],
         effort: args.effort,
         plan,
         scene: bare.cloned(),
-        ..Request::default()
+        ..Request::of(&[args.function.unwrap_or(first)])
     };
     let session = progress::watch(&mut request);
     let mut functions = generate(&reading.robot, &request)?.functions.into_iter();

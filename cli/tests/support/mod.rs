@@ -14,6 +14,29 @@ pub struct Ran {
     pub err: String,
 }
 
+impl Ran {
+    /// Expects these words on standard error.
+    #[track_caller]
+    pub fn says(&self, words: &[&str]) {
+        let missing = words.iter().find(|word| !self.err.contains(**word));
+        assert_eq!(missing, None, "{}", self.err);
+    }
+
+    /// Expects these words on standard output.
+    #[track_caller]
+    pub fn prints(&self, words: &[&str]) {
+        let missing = words.iter().find(|word| !self.out.contains(**word));
+        assert_eq!(missing, None, "{}", self.out);
+    }
+
+    /// Expects an exit code, and these words on standard error.
+    #[track_caller]
+    pub fn ends(&self, code: i32, words: &[&str]) {
+        assert_eq!(self.code, code, "{}", self.err);
+        self.says(words);
+    }
+}
+
 pub fn run(arguments: &[&str]) -> Ran {
     let output = Command::new(env!("CARGO_BIN_EXE_dalembert"))
         .args(arguments)
@@ -27,6 +50,14 @@ pub fn run(arguments: &[&str]) -> Ran {
         out: String::from_utf8(output.stdout).unwrap(),
         err: String::from_utf8(output.stderr).unwrap(),
     }
+}
+
+/// Runs the command, which ends well.
+#[track_caller]
+pub fn good(arguments: &[&str]) -> Ran {
+    let ran = run(arguments);
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+    ran
 }
 
 /// Returns a checked-in robot file.

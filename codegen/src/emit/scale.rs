@@ -76,18 +76,7 @@ mod tests {
         let head = "name = \"arm\"\nconvention = \"standard\"\ngravity = [0, 0, -9.81]\n";
         let source = [head, &joint("revolute"), &joint("prismatic")].concat();
         let robot = parse(&source, &Options::default()).unwrap().robot;
-        let program = |function: Function| Program {
-            function,
-            joints: 2,
-            rows: vec![0, 1],
-            arguments: function.arguments(),
-            load: 0,
-            trig: Vec::new(),
-            speeds: Vec::new(),
-            steps: Vec::new(),
-            outputs: Vec::new(),
-        };
-        let of = |function| units(&program(function), &robot).join(" ");
+        let of = |function| units(&Program::empty(function, 2), &robot).join(" ");
         assert_eq!(of(Function::InverseDynamics), "N·m N");
         assert_eq!(
             of(Function::ManipulatorEquation),

@@ -113,10 +113,7 @@ mod tests {
     fn an_early_end_takes_nothing_better_away() {
         let robot = read::parse(PENDULUM, &read::Options::default());
         let robot = robot.unwrap().robot;
-        let request = Request {
-            functions: vec![Function::Gravity],
-            ..Request::default()
-        };
+        let request = Request::of(&[Function::Gravity]);
         let good = generate(&robot, &request).unwrap();
         // The same function with a step that nobody needs.
         let mut dear = good.clone();

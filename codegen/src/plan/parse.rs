@@ -142,18 +142,8 @@ fn program(words: &[&str]) -> Result<Entry, PlanFault> {
         scalar: ScalarType::from_name(scalar).ok_or_else(|| unknown("scalar", scalar))?,
         source: Source::from_name(source).ok_or_else(|| unknown("source", source))?,
         passes: Vec::new(),
-        program: Program {
-            function,
-            joints,
-            rows: (0..joints).collect(),
-            arguments: function.arguments(),
-            load: 0,
-            trig: Vec::new(),
-            // Those of the robot, which the plan's text does not have.
-            speeds: Vec::new(),
-            steps: Vec::new(),
-            outputs: Vec::new(),
-        },
+        // Speeds are the robot's, which the plan's text does not have.
+        program: Program::empty(function, joints),
     })
 }
 

@@ -4,6 +4,7 @@ use std::fmt;
 
 use dalembert_model::number::{Exact, Rounded};
 
+use crate::states::JointState;
 use crate::words::words;
 
 words! {
@@ -81,6 +82,14 @@ impl ScalarType {
 impl fmt::Display for ScalarType {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
+    }
+}
+
+impl JointState {
+    /// Returns the nearest state of a scalar's numbers, held in doubles. A load follows from the
+    /// payload, and code rounds it to its own scalar.
+    pub fn in_scalar(&self, scalar: ScalarType) -> JointState {
+        self.each(|x| scalar.nearest(x))
     }
 }
 

@@ -9,7 +9,12 @@ use crate::scene::SceneRobot;
 impl Program {
     /// Returns Straight-line code for the graph of a function of a whole robot.
     pub fn new(function: Function, joints: usize, graph: &Graph) -> Program {
-        let empty = Program {
+        Program::empty(function, joints).with_graph(graph)
+    }
+
+    /// Returns what a function of a whole robot begins with: no step, no result.
+    pub fn empty(function: Function, joints: usize) -> Program {
+        Program {
             function,
             joints,
             rows: (0..joints).collect(),
@@ -19,22 +24,17 @@ impl Program {
             speeds: Vec::new(),
             steps: Vec::new(),
             outputs: Vec::new(),
-        };
-        empty.with_graph(graph)
+        }
     }
 
     /// Returns Straight-line code for the graph of a function in a scene.
     pub fn in_scene(scene_robot: &SceneRobot, function: Function, graph: &Graph) -> Program {
         let empty = Program {
-            function,
-            joints: scene_robot.joints().len(),
             rows: scene_robot.rows().to_vec(),
             arguments: scene_robot.arguments(function),
             load: scene_robot.sizes(function).load,
-            trig: Vec::new(),
             speeds: scene_robot.speeds(),
-            steps: Vec::new(),
-            outputs: Vec::new(),
+            ..Program::empty(function, scene_robot.joints().len())
         };
         empty.with_graph(graph)
     }

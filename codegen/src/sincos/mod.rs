@@ -28,8 +28,7 @@ use crate::program::kernel::Kernel;
 use crate::program::{AngleSum, Library, Lowered, Program, ScalarType, Trig};
 use crate::words::Word;
 use choose::Candidates;
-use dalembert_model::number::Rounded;
-use dalembert_model::robot::{JointKind, Position, Robot};
+use dalembert_model::robot::{JointKind, Robot};
 use forms::Need;
 use proof::Errors;
 
@@ -161,13 +160,9 @@ pub fn stated(scalar: ScalarType) -> f64 {
 /// Returns the positions of a robot's joints: their limits, or what is
 /// [`stated`] where there are none. Joints that slide have no angle.
 pub(crate) fn positions(robot: &Robot, scalar: ScalarType) -> Vec<Interval> {
-    let value = |position: &Position| match position {
-        Position::Angle(angle) => angle.to_f64(),
-        Position::Length(length) => f64::nearest_rational(length),
-    };
     let joints = robot.joints.iter();
     let ranges = joints.map(|joint| match (&joint.limits.position, joint.kind) {
-        (Some([low, high]), JointKind::Revolute) => Interval::new(value(low), value(high)),
+        (Some([low, high]), JointKind::Revolute) => Interval::new(low.to_f64(), high.to_f64()),
         _ => None,
     });
     ranges

@@ -78,6 +78,14 @@ macro_rules! request {
 each_option!(request);
 
 impl Request {
+    /// Asks for these functions, and for the rest as nobody says otherwise.
+    pub fn of(functions: &[Function]) -> Request {
+        Request {
+            functions: functions.to_vec(),
+            ..Request::default()
+        }
+    }
+
     /// Returns the units of [`work`](Request::work) of the ways in that keep a compiler
     /// waiting, `dynamics!` and build scripts; no limit for who asks for a
     /// thorough search there.

@@ -178,7 +178,8 @@ pub fn prove(scene_robot: &SceneRobot, program: &Program) -> Result<Proof, Dispr
     };
     let formula = Formula::new(scene_robot, program.function, reference_formulation);
     let own = |point: &Point| inputs.run(point);
-    compare(transcript, program, own, |point| formula.at(point))?;
+    let differs = |index| differs(program, index);
+    compare(transcript, own, |point| formula.at(point), differs)?;
     let denominators = RefCell::default();
     let formula = formula.degrees(&denominators);
     let own = inputs.degrees(&denominators);
@@ -207,9 +208,9 @@ pub fn prove_same(a: &Program, b: &Program) -> Result<(), Disproof> {
     transcript.program(b);
     compare(
         transcript,
-        b,
         |point| run(b, point),
         |point| Ok(run(a, point)),
+        |index| differs(b, index),
     )?;
     let mut denominators = Denominators::default();
     let [a, b] = [a, b].map(|program| program.degrees(&mut denominators));
@@ -291,12 +292,12 @@ impl Formula {
     }
 }
 
-/// Compares a program's outputs with what is expected at [`PRIMES`] primes.
-fn compare(
+/// Compares values with what is expected at [`PRIMES`] primes; `differs` names one by its place.
+pub(super) fn compare(
     transcript: Transcript,
-    program: &Program,
     run: impl Fn(&Point) -> Option<Vec<Residue>>,
     expected: impl Fn(&Point) -> Result<Option<Vec<Residue>>, Disproof>,
+    differs: impl Fn(usize) -> Disproof,
 ) -> Result<(), Disproof> {
     let challenge = transcript.seal();
     let points = (0..MAX_DRAWS).filter_map(|index| challenge.draw(index));
@@ -318,8 +319,7 @@ fn compare(
         };
         let mut pairs = actual.iter().zip(&expected);
         if let Some(index) = pairs.position(|(a, b)| a != b) {
-            let entry = program.entry(index);
-            return Err(Disproof::Output { index, entry });
+            return Err(differs(index));
         }
         good += 1;
         if good == PRIMES {
@@ -329,8 +329,13 @@ fn compare(
     Err(Disproof::Unfit)
 }
 
+fn differs(program: &Program, index: usize) -> Disproof {
+    let entry = program.entry(index);
+    Disproof::Output { index, entry }
+}
+
 /// Bounds the degree and height of the differences between outputs, if a miss is unlikely.
-fn bounded(
+pub(super) fn bounded(
     own: &[Ratio],
     others: &[Ratio],
     denominators: &Denominators,

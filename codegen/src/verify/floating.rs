@@ -248,10 +248,7 @@ impl Emitted {
         let own = self.with_libm();
         let mut cases = Vec::with_capacity(states.len());
         for state in states {
-            let state = match self.scalar {
-                ScalarType::F64 => state.clone(),
-                ScalarType::F32 => state.in_single(),
-            };
+            let state = state.in_scalar(self.scalar);
             let mut reference = runtime.run(self.function, &state);
             for (value, vanishes) in reference.iter_mut().zip(self.vanishing()) {
                 if vanishes {
@@ -284,7 +281,7 @@ impl Emitted {
         own.map(|(trig, kernel)| {
             let error = |state: &JointState| match self.scalar {
                 ScalarType::F64 => off::<f64>(trig, kernel, state),
-                ScalarType::F32 => off::<f32>(trig, kernel, &state.in_single()),
+                ScalarType::F32 => off::<f32>(trig, kernel, state),
             };
             let worst = states.iter().map(error).fold(0.0, f64::max);
             (trig.angle, worst)

@@ -19,10 +19,10 @@ use dalembert_model::equations::regressor::{Column, of_drives, of_links};
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::record::Recording;
+use dalembert_model::scalar::residue::Residue;
 
-use super::challenge::{Point, Transcript};
-use super::exact::{Disproof, MAX_DRAWS, PRIMES, WRITTEN_LIMIT};
-use super::miss;
+use super::challenge::Transcript;
+use super::exact::{Disproof, WRITTEN_LIMIT, bounded, compare};
 use super::ratio::Ratio;
 use super::size::Denominators;
 use crate::function::Function;
@@ -49,27 +49,22 @@ pub fn prove_base(
         base,
         formulation,
     };
-    let Some(differences) = statement.differences() else {
-        return Err(Disproof::Unfit);
-    };
-    let challenge = statement.transcript().seal();
-    let points = (0..MAX_DRAWS).filter_map(|index| challenge.draw(index));
-    let mut good = 0;
-    for point in points {
-        let Some(values) = at(&differences, &point) else {
-            continue;
-        };
-        if let Some(wrong) = values.iter().position(|x| *x != 0) {
-            let parameters = statement.parameters();
-            let parameter = parameters[wrong % parameters.len()].to_string();
-            return Err(Disproof::Dependence { parameter });
-        }
-        good += 1;
-        if good == PRIMES {
-            return is_sure(&differences);
-        }
-    }
-    Err(Disproof::Unfit)
+    let differences = statement.differences().ok_or(Disproof::Unfit)?;
+    let parameters = statement.parameters();
+    let length = scene_robot.rows().len() * parameters.len();
+    compare(
+        statement.transcript(),
+        |point| differences.run(|input| point.input(*input), |x| point.constant(x)),
+        |_| Ok(Some(vec![Residue::zero(); length])),
+        |wrong| Disproof::Dependence {
+            parameter: parameters[wrong % parameters.len()].to_string(),
+        },
+    )?;
+    let mut denominators = Denominators::default();
+    let constant = |constant: &Exact| Some(Ratio::constant(constant, &mut denominators));
+    let degrees = differences.run(|input| Ratio::input(*input), constant);
+    let degrees = degrees.unwrap_or_default();
+    bounded(&degrees, &vec![Ratio::zero(); length], &denominators).map(drop)
 }
 
 struct Statement<'a> {
@@ -170,30 +165,5 @@ impl Statement<'_> {
             found
         });
         Some(recording)
-    }
-}
-
-/// Values at a point; `None` if a constant or a value has none.
-fn at(differences: &Recording<Input, Exact>, point: &Point) -> Option<Vec<u64>> {
-    let input = |input: &Input| point.input(*input);
-    let values = differences.run(input, |constant| point.constant(constant))?;
-    values.iter().map(|x| x.value(point.prime())).collect()
-}
-
-/// Refuses differences for which a miss is not unlikely.
-fn is_sure(differences: &Recording<Input, Exact>) -> Result<(), Disproof> {
-    let mut denominators = Denominators::default();
-    let constant = |constant: &Exact| Some(Ratio::constant(constant, &mut denominators));
-    let differences = differences.run(|input| Ratio::input(*input), constant);
-    let differences = differences.unwrap_or_default();
-    let tops = || differences.iter().map(Ratio::top);
-    let degree = tops()
-        .map(|top| top.map_or(u64::MAX, |top| top.bound()))
-        .max();
-    let height = tops().map(|top| top.map_or(u64::MAX, |top| top.height(&denominators)));
-    let (degree, height) = (degree.unwrap_or(0), height.max().unwrap_or(0));
-    match miss::is_small(degree, height, PRIMES) {
-        true => Ok(()),
-        false => Err(Disproof::Large { degree, height }),
     }
 }

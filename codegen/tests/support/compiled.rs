@@ -11,6 +11,7 @@ use dalembert_codegen::workspace::language::c99::Names;
 use dalembert_codegen::workspace::language::{Entries, Language};
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::program::run::State;
+use dalembert_codegen::workspace::random::Random;
 use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::floating::Emitted;
 use dalembert_model::robot::Robot;
@@ -152,13 +153,8 @@ fn main_of(base: &str, generated: &Generated, request: &Request) -> String {
 
 /// Lists states whose entries are anywhere, without an end.
 fn states() -> impl Iterator<Item = Vec<f64>> {
-    let mut seed = 1u64;
-    let mut next = move || {
-        seed = seed
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        ((seed >> 11) as f64 / (1u64 << 53) as f64 - 0.5) * 6.0
-    };
+    let mut random = Random::new(1);
+    let mut next = move || (random.unit() - 0.5) * 6.0;
     std::iter::repeat_with(move || (0..Argument::COUNT * MOST).map(|_| next()).collect())
 }
 

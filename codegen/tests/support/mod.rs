@@ -4,13 +4,16 @@
 pub mod compiled;
 pub mod draw;
 
+use std::fmt::Debug;
 use std::path::Path;
 
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::{Generated, generate};
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::states::JointState;
 use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::verify::floating::{BOUND, Emitted, Runtime};
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
 
@@ -51,22 +54,35 @@ pub fn read_robot(source: &str) -> Robot {
 
 /// Returns one function in both scalars.
 pub fn one(robot: &Robot, function: Function) -> Generated {
-    let request = Request {
-        functions: vec![function],
-        ..Request::default()
-    };
+    let request = Request::of(&[function]);
     generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Returns one function in f64 from one formulation.
 pub fn from(robot: &Robot, function: Function, start: Start) -> Generated {
     let request = Request {
-        functions: vec![function],
         scalars: vec![ScalarType::F64],
         start,
-        ..Request::default()
+        ..Request::of(&[function])
     };
     generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Holds these against the runtime; of what errs more it says of what it is.
+#[track_caller]
+pub fn rounds_well<'e>(
+    emitted: impl IntoIterator<Item = &'e Emitted>,
+    runtime: &Runtime,
+    states: &[JointState],
+    what: impl Debug,
+) {
+    for measure in emitted
+        .into_iter()
+        .flat_map(|own| own.against_runtime(runtime, states))
+    {
+        let error = measure.in_units();
+        assert!(error <= BOUND, "{what:?}: {error} u, {measure:?}");
+    }
 }
 
 /// Returns each scalar by itself.

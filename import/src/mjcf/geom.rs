@@ -106,14 +106,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         Some(Inertial {
             origin: frame.then(&at).origin(),
             mass: number(mass),
-            inertia: Inertia {
-                xx,
-                yy,
-                zz,
-                xy: zero.clone(),
-                yz: zero.clone(),
-                xz: zero,
-            },
+            inertia: Inertia::of([xx, yy, zz, zero.clone(), zero.clone(), zero]),
         })
     }
 

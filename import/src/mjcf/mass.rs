@@ -92,14 +92,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
                 Some([xx, yy, zz, xy, xz, yz])
             }
         };
-        let inertia = moments.map(|[xx, yy, zz, xy, xz, yz]| Inertia {
-            xx,
-            yy,
-            zz,
-            xy,
-            yz,
-            xz,
-        });
+        let inertia = moments.map(|[xx, yy, zz, xy, xz, yz]| Inertia::of([xx, yy, zz, xy, yz, xz]));
         let (at, mass, inertia) = (at?, mass?, inertia?);
         if mass.value.is_negative() {
             let message = format!("the mass of body `{body}` is negative");

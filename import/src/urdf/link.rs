@@ -79,14 +79,7 @@ impl Reader<'_, '_, '_> {
         let tensor = inertia.and_then(|node| {
             let keys = ["ixx", "iyy", "izz", "ixy", "iyz", "ixz"];
             let [xx, yy, zz, xy, yz, xz] = keys.map(|key| self.required(node, key));
-            Some(Inertia {
-                xx: xx?,
-                yy: yy?,
-                zz: zz?,
-                xy: xy?,
-                yz: yz?,
-                xz: xz?,
-            })
+            Some(Inertia::of([xx?, yy?, zz?, xy?, yz?, xz?]))
         });
         let (origin, mass, inertia) = (origin?, mass?, tensor?);
         if mass.value.is_negative() {

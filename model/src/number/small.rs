@@ -80,17 +80,16 @@ fn common(a: i128, b: i128) -> i128 {
 mod tests {
     use super::super::round::round_magnitude;
     use super::*;
+    use crate::scalar::field::Points;
     use alloc::vec::Vec;
 
     /// What words compute is what big integers do, in the same form, up to the
     /// largest.
     #[test]
     fn words_and_big_integers_agree() {
-        let mut bits = 0x9e37_79b9_7f4a_7c15_u64;
+        let mut points = Points::new(1);
         let mut draw = |most: u32| {
-            bits = bits
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
+            let bits = points.bits();
             let shift = 64 - (bits >> 40) as u32 % most - 1;
             ((bits ^ (bits << 23)) as i64) >> shift.min(63)
         };

@@ -172,12 +172,10 @@ impl Function {
         let results: Vec<Quantity> = results.map(|quantity| seen(*quantity, view)).collect();
         let of = function.definition();
         Ok(Function::At(FunctionAt(Box::leak(Box::new(Definition {
-            structure: None,
-            by_default: false,
             name: kept(name),
             summary: kept(format!("{} {}", of.summary, described(view))),
             results: Box::leak(results.into_boxed_slice()),
-            parts: &[],
+            ..Definition::PLAIN
         })))))
     }
 
@@ -327,44 +325,31 @@ mod tests {
         assert_eq!(fields, ["jacobian_camera", "jacobian_hand", "c"]);
     }
 
+    /// Texts, and below each what is said of it.
+    const REFUSED: &str = "\
+gravity@camera
+`gravity` is of no frame: leave `@` and what follows out
+forward_kinematics@camera:local
+`forward_kinematics` has no choice of `:local`: it takes a frame alone
+jacobian@Camera
+`Camera` cannot name a frame: small letters, digits and single `_` between them, such as `camera_2`
+jacobian@
+`` cannot name a frame: small letters, digits and single `_` between them, such as `camera_2`
+jacobian@camera_batch
+`camera_batch` cannot name a frame: small letters, digits and single `_` between them, such as `camera_2`
+jacobian@camera:lokal
+`lokal` is no choice of axes or components: `mixed`, `local` or `world`; `linear`, `angular`, or some of x, y, z, rx, ry and rz, such as `x_y_rz`
+jacobian@camera:local:world
+`world` is no choice of axes or components: `mixed`, `local` or `world`; `linear`, `angular`, or some of x, y, z, rx, ry and rz, such as `x_y_rz`
+see=jacobian@camera+jacobian@camera
+`jacobian_camera` is in it twice: leave one of them out";
+
     #[test]
     fn what_is_no_frame_is_refused_by_name() {
-        for (text, expected) in [
-            (
-                "gravity@camera",
-                "`gravity` is of no frame: leave `@` and what follows out",
-            ),
-            (
-                "forward_kinematics@camera:local",
-                "`forward_kinematics` has no choice of `:local`: it takes a frame alone",
-            ),
-            (
-                "jacobian@Camera",
-                "`Camera` cannot name a frame: small letters, digits and single `_` between them, such as `camera_2`",
-            ),
-            (
-                "jacobian@",
-                "`` cannot name a frame: small letters, digits and single `_` between them, such as `camera_2`",
-            ),
-            (
-                "jacobian@camera_batch",
-                "`camera_batch` cannot name a frame: small letters, digits and single `_` between them, such as `camera_2`",
-            ),
-            (
-                "jacobian@camera:lokal",
-                "`lokal` is no choice of axes or components: `mixed`, `local` or `world`; `linear`, `angular`, or some of x, y, z, rx, ry and rz, such as `x_y_rz`",
-            ),
-            (
-                "jacobian@camera:local:world",
-                "`world` is no choice of axes or components: `mixed`, `local` or `world`; `linear`, `angular`, or some of x, y, z, rx, ry and rz, such as `x_y_rz`",
-            ),
-            (
-                "see=jacobian@camera+jacobian@camera",
-                "`jacobian_camera` is in it twice: leave one of them out",
-            ),
-        ] {
+        let lines: Vec<&str> = REFUSED.lines().collect();
+        for [text, expected] in lines.as_chunks::<2>().0 {
             let error = Function::parse(text).unwrap_err();
-            assert_eq!(error.to_string(), expected, "{text}");
+            assert_eq!(error.to_string(), *expected, "{text}");
         }
     }
 }

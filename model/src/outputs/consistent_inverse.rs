@@ -15,9 +15,7 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "consistent_inverse",
     summary: "Dynamically consistent inverse of the Jacobian: J̄ = D⁻¹ Jᵀ Λ, n×6.",
     results: &[Quantity::ConsistentInverse],
-    structure: None,
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// J̄_ir

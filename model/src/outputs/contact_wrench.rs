@@ -16,9 +16,7 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "contact_wrench",
     summary: "The wrench on the hand that the torques τ come from: ŵ = (J Jᵀ + λ² 1)⁻¹ J τ.",
     results: &[Quantity::ContactWrench],
-    structure: None,
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// ŵ_r

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Choices, Facts, load};
+use super::quantity::{Choice, Facts, load};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::matrix::{zero_vector, zeros};
 use crate::scalar::Divide;
@@ -13,9 +13,8 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "coriolis",
     summary: "Coriolis and centripetal load h(q, q̇), damping not included.",
     results: &[Quantity::Coriolis],
-    structure: None,
     by_default: true,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// h_i
@@ -32,11 +31,7 @@ impl Formula for Coriolis {
         unit: load,
         scale: ErrorScale::Load,
         given: Some("h"),
-        choices: Some(Choices {
-            recursion: true,
-            travel: false,
-            flows: false,
-        }),
+        choices: Some(&[Choice::Recursion]),
         payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN
     };

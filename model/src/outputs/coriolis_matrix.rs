@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Choices, Facts, turns};
+use super::quantity::{Choice, Facts, turns};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::energy::contracted;
 use crate::scalar::Divide;
@@ -13,9 +13,7 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "coriolis_matrix",
     summary: "Coriolis matrix C(q, q̇) of the Christoffel symbols: C q̇ = h, and Ḋ - 2C is skew.",
     results: &[Quantity::CoriolisMatrix],
-    structure: None,
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// C_ik = Σ_m h_ikm q̇_m
@@ -34,11 +32,7 @@ impl Formula for CoriolisMatrix {
             1 => "N·s",
             _ => "N·m·s",
         },
-        choices: Some(Choices {
-            recursion: false,
-            travel: false,
-            flows: true,
-        }),
+        choices: Some(&[Choice::Flows]),
         by_differences: true,
         payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN

@@ -20,8 +20,7 @@ pub(super) const FUNCTION: Definition = Definition {
         Quantity::Gravity,
     ],
     structure: Some("DalembertTerms"),
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// D^rot_ik

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Choices, Facts, kilograms, turns};
+use super::quantity::{Facts, kilograms, turns};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 
@@ -13,8 +13,7 @@ pub(super) const FUNCTION: Definition = Definition {
     summary: "D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.",
     results: &[Quantity::Inertia, Quantity::Christoffel, Quantity::Gravity],
     structure: Some("DynamicCoefficients"),
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// h_ikm
@@ -32,11 +31,7 @@ impl Formula for Christoffel {
         unit: |at| kilograms(turns(at) - 1),
         scale: ErrorScale::Coefficient,
         given_as: Some((Quantity::Coriolis, contract)),
-        choices: Some(Choices {
-            recursion: false,
-            travel: false,
-            flows: false,
-        }),
+        choices: Some(&[]),
         by_differences: true,
         payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN

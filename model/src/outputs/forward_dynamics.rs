@@ -6,7 +6,7 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::inverse_dynamics::torques;
 use super::inverse_dynamics_with_wrench::less;
-use super::quantity::{Choices, Facts, turns};
+use super::quantity::{Choice, Facts, turns};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::{EliminatedTip, Unknowns};
 use crate::equations::following::{gathered, spread};
@@ -18,9 +18,8 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "forward_dynamics",
     summary: "Forward dynamics: the accelerations q̈ = D⁻¹ (τ - h - c - b∘q̇).",
     results: &[Quantity::Acceleration],
-    structure: None,
     by_default: true,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// q̈_i
@@ -73,11 +72,7 @@ impl Formula for Acceleration {
             _ => "rad/s²",
         },
         given: Some("forward_dynamics"),
-        choices: Some(Choices {
-            recursion: true,
-            travel: true,
-            flows: false,
-        }),
+        choices: Some(&[Choice::Recursion, Choice::Travel]),
         payload_dependence: PayloadDependence::Torque,
         gravity: true,
         ..Facts::PLAIN

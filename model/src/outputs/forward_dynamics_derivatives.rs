@@ -9,7 +9,7 @@ use super::formula::Formula;
 use super::forward_dynamics::accelerations;
 use super::function::Definition;
 use super::inertia_inverse::{InertiaInverse, inverse};
-use super::quantity::{Choices, Facts, Index};
+use super::quantity::{Choice, Facts, Index};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::Unknowns;
 use crate::equations::following::{gathered_columns, spread};
@@ -25,17 +25,10 @@ pub(super) const FUNCTION: Definition = Definition {
         Quantity::AccelerationByTorque,
     ],
     structure: Some("ForwardDynamicsDerivatives"),
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 const STATE: &[Argument] = &[Argument::Position, Argument::Velocity, Argument::Torque];
-
-const CHOICES: Option<Choices> = Some(Choices {
-    recursion: false,
-    travel: true,
-    flows: false,
-});
 
 /// ∂q̈_i/∂q_k
 pub(super) struct AccelerationByPosition;
@@ -97,7 +90,7 @@ impl Formula for AccelerationByPosition {
             _ => "1/s²",
         },
         given: Some("dqdd_dq"),
-        choices: CHOICES,
+        choices: Some(&[Choice::Travel]),
         payload_dependence: PayloadDependence::Torque,
         gravity: true,
         ..Facts::PLAIN

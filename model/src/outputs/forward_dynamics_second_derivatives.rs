@@ -30,8 +30,7 @@ pub(super) const FUNCTION: Definition = Definition {
         Quantity::AccelerationByTorqueAndPosition,
     ],
     structure: Some("ForwardDynamicsSecondDerivatives"),
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// ∂²(λᵀq̈)/∂q_i∂q_k

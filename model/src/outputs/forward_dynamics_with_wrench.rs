@@ -7,8 +7,7 @@ use super::forward_dynamics::{accelerations, rest};
 use super::function::Definition;
 use super::inverse_dynamics_with_wrench::of_wrench;
 use super::operational_inertia_inverse::OF_HAND;
-use super::quantity::FrameChoice;
-use super::quantity::{Choices, Facts, turns};
+use super::quantity::{Choice, Facts, FrameChoice, turns};
 use super::{Argument, Motion, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::HandChoice;
 use crate::equations::chain::Unknowns;
@@ -19,9 +18,7 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "forward_dynamics_with_wrench",
     summary: "Forward dynamics while a wrench w acts on the hand: q̈ = D⁻¹ (τ + Jᵀw - h - c - b∘q̇).",
     results: &[Quantity::ContactAcceleration],
-    structure: None,
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// q̈_i
@@ -50,11 +47,7 @@ impl Formula for ContactAcceleration {
             _ => "rad/s²",
         },
         given: Some("qdd_with_wrench"),
-        choices: Some(Choices {
-            recursion: true,
-            travel: true,
-            flows: false,
-        }),
+        choices: Some(&[Choice::Recursion, Choice::Travel]),
         gravity: true,
         frame: FrameChoice::Axes,
         hand: HandChoice::None,

@@ -13,9 +13,8 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "forward_kinematics",
     summary: "Forward kinematics: the pose [R | p] of the last frame in base axes, 3×4, lengths in metres.",
     results: &[Quantity::Pose],
-    structure: None,
     by_default: true,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// [R | p]

@@ -4,18 +4,16 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::Facts;
-use super::regressor::{CHOICES, MOTION, regrouped, unit, written};
-use super::{Axis, Quantity, Regrouped, Shape, Written};
+use super::quantity::{Choice, Facts};
+use super::regressor::{regrouped, unit, written};
+use super::{Argument, Axis, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
     name: "full_regressor",
     summary: "Regressor Y(q, q̇, q̈) over all links' parameters, n×10n: the links' part of the joint torques is Y π. A link has m, m x, m y, m z, Ixx, Iyy, Izz, Ixy, Iyz, Ixz, about the origin of its DH frame.",
     results: &[Quantity::LinkRegressor],
-    structure: None,
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// Y_ik
@@ -27,11 +25,11 @@ impl Formula for LinkRegressor {
         letter: "Y",
         symbol: "Y over all links' parameters",
         summary: "Regressor Y over all links' parameters.",
-        arguments: &MOTION,
+        arguments: &Argument::STATE,
         shape: Shape(&[Axis::Joints, Axis::LinkParameters]),
         unit,
         given: Some("regressor"),
-        choices: CHOICES,
+        choices: Some(&[Choice::Travel]),
         // What it shares with what the chain formulas give saves a few.
         starts_from_recursion: true,
         gravity: true,

@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 use core::fmt;
 
+use super::quantity::Choice;
 use super::{
     Argument, Axis, Function, Motion, PayloadDependence, Quantity, RuntimeParameter, Sizes, Written,
 };
@@ -27,6 +28,18 @@ pub(super) struct Definition {
     pub by_default: bool,
     /// The functions whose results these are; none if it is no bundle of others.
     pub parts: &'static [Function],
+}
+
+impl Definition {
+    /// What most functions are; a file states the rest, and what differs.
+    pub(super) const PLAIN: Definition = Definition {
+        name: "",
+        summary: "",
+        results: &[],
+        structure: None,
+        by_default: false,
+        parts: &[],
+    };
 }
 
 /// Which columns of a regressor a function's results are over.
@@ -187,12 +200,15 @@ impl Function {
     /// cheapest first.
     pub fn forms(self) -> Vec<Form> {
         let quantities = || self.quantities().iter();
-        let choices = || quantities().filter_map(|q| q.facts().choices);
+        let matters = |choice| {
+            let mut choices = quantities().filter_map(|q| q.facts().choices).flatten();
+            choices.any(|own| *own == choice)
+        };
         let hand = quantities().map(|q| q.facts().hand).max();
         Form::all(
-            choices().any(|c| c.recursion),
-            choices().any(|c| c.travel),
-            choices().any(|c| c.flows),
+            matters(Choice::Recursion),
+            matters(Choice::Travel),
+            matters(Choice::Flows),
             hand.unwrap_or(HandChoice::None),
         )
     }

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Choices, Facts, load};
+use super::quantity::{Choice, Facts, load};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 
@@ -12,9 +12,8 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "gravity",
     summary: "Gravity load c(q): the torques that hold the arm still.",
     results: &[Quantity::Gravity],
-    structure: None,
     by_default: true,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// c_i
@@ -31,11 +30,7 @@ impl Formula for Gravity {
         unit: load,
         scale: ErrorScale::Load,
         given: Some("c"),
-        choices: Some(Choices {
-            recursion: false,
-            travel: true,
-            flows: false,
-        }),
+        choices: Some(&[Choice::Travel]),
         payload_dependence: PayloadDependence::Torque,
         gravity: true,
         ..Facts::PLAIN

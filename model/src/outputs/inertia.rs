@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Choices, Facts, kilograms, turns};
+use super::quantity::{Choice, Facts, kilograms, turns};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 
@@ -12,9 +12,8 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "inertia",
     summary: "Inertia matrix D(q), symmetric; armature is on its diagonal.",
     results: &[Quantity::Inertia],
-    structure: None,
     by_default: true,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// D_ik
@@ -31,11 +30,7 @@ impl Formula for Inertia {
         unit: |at| kilograms(turns(at)),
         scale: ErrorScale::Inertia,
         given: Some("D"),
-        choices: Some(Choices {
-            recursion: false,
-            travel: true,
-            flows: false,
-        }),
+        choices: Some(&[Choice::Travel]),
         definite: true,
         payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Choices, Facts, turns};
+use super::quantity::{Choice, Facts, turns};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::EliminatedTip;
 use crate::equations::forward::{free, inverted};
@@ -14,9 +14,7 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "inertia_inverse",
     summary: "Inverse D⁻¹(q) of the inertia matrix, symmetric.",
     results: &[Quantity::InertiaInverse],
-    structure: None,
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// (D⁻¹)_ik
@@ -45,11 +43,7 @@ impl Formula for InertiaInverse {
             _ => "1/(kg·m²)",
         },
         given: Some("inertia_inverse"),
-        choices: Some(Choices {
-            recursion: false,
-            travel: true,
-            flows: false,
-        }),
+        choices: Some(&[Choice::Travel]),
         payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN
     };

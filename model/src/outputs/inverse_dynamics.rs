@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Choices, Facts, load};
+use super::quantity::{Choice, Facts, load};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::matrix::{plus, times, zero_vector};
 use crate::scalar::{Divide, Scalar};
@@ -13,9 +13,8 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "inverse_dynamics",
     summary: "Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.",
     results: &[Quantity::Torque],
-    structure: None,
     by_default: true,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// τ_i
@@ -46,20 +45,12 @@ impl Formula for Torque {
         letter: "τ",
         symbol: "τ",
         summary: "Torques τ.",
-        arguments: &[
-            Argument::Position,
-            Argument::Velocity,
-            Argument::Acceleration,
-        ],
+        arguments: &Argument::STATE,
         shape: Shape::VECTOR,
         unit: load,
         scale: ErrorScale::Load,
         given: Some("tau"),
-        choices: Some(Choices {
-            recursion: true,
-            travel: false,
-            flows: false,
-        }),
+        choices: Some(&[Choice::Recursion]),
         starts_from_recursion: true,
         payload_dependence: PayloadDependence::Torque,
         gravity: true,

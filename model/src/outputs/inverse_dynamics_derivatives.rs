@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Choices, Facts, turns};
+use super::quantity::{Choice, Facts, turns};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 
@@ -17,8 +17,7 @@ pub(super) const FUNCTION: Definition = Definition {
         Quantity::Inertia,
     ],
     structure: Some("InverseDynamicsDerivatives"),
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// ∂τ_i/∂q_k
@@ -30,11 +29,7 @@ impl Formula for TorqueByPosition {
         letter: "τq",
         symbol: "∂τ/∂q",
         summary: "∂τ/∂q: row i has the slopes of τ_i.",
-        arguments: &[
-            Argument::Position,
-            Argument::Velocity,
-            Argument::Acceleration,
-        ],
+        arguments: &Argument::STATE,
         shape: Shape::MATRIX,
         unit: |at| match turns(at) {
             0 => "N/m",
@@ -42,11 +37,7 @@ impl Formula for TorqueByPosition {
             _ => "N·m",
         },
         given: Some("dtau_dq"),
-        choices: Some(Choices {
-            recursion: false,
-            travel: true,
-            flows: false,
-        }),
+        choices: Some(&[Choice::Travel]),
         payload_dependence: PayloadDependence::Torque,
         gravity: true,
         ..Facts::PLAIN
@@ -84,11 +75,7 @@ impl Formula for TorqueByVelocity {
             _ => "N·m·s",
         },
         given: Some("dtau_dqd"),
-        choices: Some(Choices {
-            recursion: false,
-            travel: true,
-            flows: false,
-        }),
+        choices: Some(&[Choice::Travel]),
         payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN
     };

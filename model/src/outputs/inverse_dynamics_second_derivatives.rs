@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Choices, Facts, kilograms, turns};
+use super::quantity::{Choice, Facts, kilograms, turns};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::second_derivatives::SecondDerivatives;
 use crate::scalar::Divide;
@@ -20,8 +20,7 @@ pub(super) const FUNCTION: Definition = Definition {
         Quantity::TorqueByAccelerationAndPosition,
     ],
     structure: Some("InverseDynamicsSecondDerivatives"),
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// ∂²(λᵀτ)/∂q_i∂q_k
@@ -47,11 +46,7 @@ fn regrouped<'a, S: Divide>(at: &'a Regrouped<'_, S>) -> &'a SecondDerivatives<S
 /// The facts of all second derivatives, as far as they are the same.
 pub(super) const SHARED: Facts = Facts {
     shape: Shape::MATRIX,
-    choices: Some(Choices {
-        recursion: false,
-        travel: true,
-        flows: false,
-    }),
+    choices: Some(&[Choice::Travel]),
     payload_dependence: PayloadDependence::Torque,
     ..Facts::PLAIN
 };

@@ -6,8 +6,7 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::inverse_dynamics::torques;
 use super::operational_inertia_inverse::OF_HAND;
-use super::quantity::FrameChoice;
-use super::quantity::{Choices, Facts, load};
+use super::quantity::{Choice, Facts, FrameChoice, load};
 use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::HandChoice;
 use crate::equations::matrix::minus;
@@ -17,9 +16,7 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "inverse_dynamics_with_wrench",
     summary: "Inverse dynamics while a wrench w acts on the hand: τ = D q̈ + h + c + b∘q̇ - Jᵀw.",
     results: &[Quantity::ContactTorque],
-    structure: None,
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// τ_i
@@ -52,11 +49,7 @@ impl Formula for ContactTorque {
         unit: load,
         scale: ErrorScale::Load,
         given: Some("tau_with_wrench"),
-        choices: Some(Choices {
-            recursion: true,
-            travel: false,
-            flows: false,
-        }),
+        choices: Some(&[Choice::Recursion]),
         gravity: true,
         frame: FrameChoice::Axes,
         hand: HandChoice::None,

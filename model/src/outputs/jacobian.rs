@@ -13,9 +13,8 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "jacobian",
     summary: "Jacobian J(q) of the last frame in base axes, 6×n: linear over angular velocity, at its origin.",
     results: &[Quantity::Jacobian],
-    structure: None,
     by_default: true,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// J_rk

@@ -13,9 +13,7 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "jacobian_rate",
     summary: "J̇q̇, the acceleration of the last frame that its velocities alone give, linear over angular.",
     results: &[Quantity::JacobianRate],
-    structure: None,
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// (J̇ q̇)_r

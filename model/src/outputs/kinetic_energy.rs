@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Choices, Facts};
+use super::quantity::{Choice, Facts};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::composite::CompositeOrder;
 use crate::equations::matrix::{halved, times, total};
@@ -15,9 +15,7 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "kinetic_energy",
     summary: "Kinetic energy T = ½ q̇ᵀ D q̇ in joules, the rotors' part included.",
     results: &[Quantity::KineticEnergy],
-    structure: None,
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// T
@@ -33,11 +31,7 @@ impl Formula for KineticEnergy {
         shape: Shape::SCALAR,
         unit: |_| "J",
         given: Some("kinetic"),
-        choices: Some(Choices {
-            recursion: false,
-            travel: true,
-            flows: false,
-        }),
+        choices: Some(&[Choice::Travel]),
         payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN
     };

@@ -14,9 +14,7 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "link_poses",
     summary: "Poses [R | p] of every link's frame in base axes, n×3×4, lengths in metres.",
     results: &[Quantity::LinkPoses],
-    structure: None,
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// [R_i | p_i]

@@ -18,9 +18,7 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "load",
     summary: "Load: the regrouped parameters of the arm with a payload, once for each tool.",
     results: &[Quantity::Load],
-    structure: None,
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// The base parameters that a payload changes.

@@ -8,6 +8,6 @@ pub(super) const FUNCTION: Definition = Definition {
     summary: "D(q), h(q, q̇) and c(q), with shared work.",
     results: &[Quantity::Inertia, Quantity::Coriolis, Quantity::Gravity],
     structure: Some("ManipulatorEquation"),
-    by_default: false,
     parts: &[Function::Inertia, Function::Coriolis, Function::Gravity],
+    ..Definition::PLAIN
 };

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Choices, Facts, load, turns};
+use super::quantity::{Facts, load, turns};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 
@@ -14,8 +14,7 @@ pub(super) const FUNCTION: Definition = Definition {
     summary: "Momentum p = D q̇ and its slope Cᵀq̇ = ∂T/∂q: ṗ = τ + Cᵀq̇ - c - b∘q̇.",
     results: &[Quantity::Momentum, Quantity::MomentumSlope],
     structure: Some("Momentum"),
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// p_i
@@ -33,11 +32,7 @@ impl Formula for Momentum {
             0 => "kg·m/s",
             _ => "kg·m²/s",
         },
-        choices: Some(Choices {
-            recursion: false,
-            travel: false,
-            flows: false,
-        }),
+        choices: Some(&[]),
         payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN
     };
@@ -64,11 +59,7 @@ impl Formula for MomentumSlope {
         arguments: &[Argument::Position, Argument::Velocity],
         shape: Shape::VECTOR,
         unit: load,
-        choices: Some(Choices {
-            recursion: false,
-            travel: false,
-            flows: false,
-        }),
+        choices: Some(&[]),
         payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN
     };

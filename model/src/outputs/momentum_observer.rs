@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Choices, Facts, load};
+use super::quantity::{Choice, Facts, load};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::friction::Friction;
 use crate::equations::matrix::minus;
@@ -17,8 +17,7 @@ pub(super) const FUNCTION: Definition = Definition {
     summary: "Momentum p = D q̇ and its drift β = Cᵀq̇ - c - b∘q̇: ṗ = τ + β but for outside forces.",
     results: &[Quantity::Momentum, Quantity::MomentumDrift],
     structure: Some("MomentumObserver"),
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// β_i
@@ -47,11 +46,7 @@ impl Formula for MomentumDrift {
         shape: Shape::VECTOR,
         unit: load,
         given: Some("momentum_drift"),
-        choices: Some(Choices {
-            recursion: false,
-            travel: true,
-            flows: false,
-        }),
+        choices: Some(&[Choice::Travel]),
         payload_dependence: PayloadDependence::Torque,
         gravity: true,
         ..Facts::PLAIN

@@ -16,9 +16,7 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "null_space_projector",
     summary: "Null-space projector N = 1 - J̄ J of velocities; Nᵀ is that of torques.",
     results: &[Quantity::NullSpace],
-    structure: None,
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// N_ik

@@ -8,7 +8,7 @@ use super::function::Definition;
 use super::inverse_dynamics::torques;
 use super::operational_inertia::damped_mobility;
 use super::operational_inertia_inverse::{OF_HAND, chain_jacobian, factor, hand};
-use super::quantity::{Choices, Facts};
+use super::quantity::{Choice, Facts};
 use super::{Argument, Axis, Index, Quantity, Regrouped, Shape, Written};
 use crate::equations::following::gathered;
 use crate::equations::matrix::zeros;
@@ -19,9 +19,7 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "operational_bias",
     summary: "Bias force of the hand: μ = Λ (J D⁻¹ (h + c) - J̇q̇), without friction.",
     results: &[Quantity::OperationalBias],
-    structure: None,
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// μ_r
@@ -40,11 +38,7 @@ impl Formula for OperationalBias {
             _ => "N·m",
         },
         given: Some("operational_bias"),
-        choices: Some(Choices {
-            recursion: true,
-            travel: true,
-            flows: false,
-        }),
+        choices: Some(&[Choice::Recursion, Choice::Travel]),
         gravity: true,
         ..OF_HAND
     };

@@ -13,9 +13,7 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "operational_inertia",
     summary: "Inertia of the hand, damped where the arm is singular: Λ = (J D⁻¹ Jᵀ + λ² 1)⁻¹, symmetric.",
     results: &[Quantity::OperationalInertia],
-    structure: None,
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// Λ_rs

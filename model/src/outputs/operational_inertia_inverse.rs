@@ -4,8 +4,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::FrameChoice;
-use super::quantity::{Choices, Facts};
+use super::quantity::{Choice, Facts, FrameChoice};
 use super::{Argument, Axis, Index, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::HandChoice;
 use crate::equations::factor::{Factor, submatrix};
@@ -19,9 +18,7 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "operational_inertia_inverse",
     summary: "Mobility of the hand, the inverse of its inertia: Λ⁻¹ = J D⁻¹ Jᵀ, symmetric.",
     results: &[Quantity::OperationalInertiaInverse],
-    structure: None,
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// (Λ⁻¹)_rs
@@ -29,11 +26,7 @@ pub(super) struct OperationalInertiaInverse;
 
 /// The facts of most quantities of the hand.
 pub(super) const OF_HAND: Facts = Facts {
-    choices: Some(Choices {
-        recursion: false,
-        travel: true,
-        flows: false,
-    }),
+    choices: Some(&[Choice::Travel]),
     hand: HandChoice::Axes,
     depends_on_base: true,
     payload_dependence: PayloadDependence::Torque,

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Choices, Facts, load};
+use super::quantity::{Facts, load};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 
@@ -13,9 +13,7 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "passivity",
     summary: "Passivity-based control: D a + C v + c + b∘v, with C of the Christoffel symbols.",
     results: &[Quantity::Passivity],
-    structure: None,
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// The arguments of it and of its regressor.
@@ -39,11 +37,7 @@ impl Formula for Passivity {
         shape: Shape::VECTOR,
         unit: load,
         scale: ErrorScale::Load,
-        choices: Some(Choices {
-            recursion: false,
-            travel: false,
-            flows: false,
-        }),
+        choices: Some(&[]),
         by_differences: true,
         payload_dependence: PayloadDependence::Torque,
         gravity: true,

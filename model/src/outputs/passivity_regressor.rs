@@ -11,8 +11,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::passivity::ARGUMENTS;
-use super::quantity::Facts;
-use super::regressor::CHOICES;
+use super::quantity::{Choice, Facts};
 use super::{Axis, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 
@@ -20,9 +19,7 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "passivity_regressor",
     summary: "Regressor Y(q, q̇, v, a) of passivity-based control over the base parameters, n×k: D a + C v + c + b∘v = Y π, with C of the Christoffel symbols.",
     results: &[Quantity::PassivityRegressor],
-    structure: None,
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// Y_ik
@@ -37,7 +34,7 @@ impl Formula for PassivityRegressor {
         arguments: ARGUMENTS,
         shape: Shape(&[Axis::Joints, Axis::BaseParameters]),
         linear: Some(("D a + C v + c + b∘v", "PASSIVITY_PARAMETERS")),
-        choices: CHOICES,
+        choices: Some(&[Choice::Travel]),
         by_differences: true,
         gravity: true,
         ..Facts::PLAIN

@@ -13,9 +13,7 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "potential_energy",
     summary: "Potential energy U = -Σ m g·r in joules, r from the base's origin.",
     results: &[Quantity::PotentialEnergy],
-    structure: None,
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// U

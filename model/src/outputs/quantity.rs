@@ -53,7 +53,7 @@ pub(super) struct Facts {
     /// entries and q̇.
     pub given_as: Option<(Quantity, FromEntries)>,
     /// The choices that the chain formulas leave; `None` if they do not give it.
-    pub choices: Option<Choices>,
+    pub choices: Option<&'static [Choice]>,
     /// True if the textbook recursion is a start that may be the cheapest.
     pub starts_from_recursion: bool,
     /// True if recursions give it only by differences of torques, which costs
@@ -104,15 +104,15 @@ impl Facts {
     };
 }
 
-/// Which associations of the chain formulas matter to a quantity.
+/// An association of the chain formulas that matters to a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Choices {
-    /// True if it comes out of the recursion over velocities.
-    pub recursion: bool,
-    /// True if it may travel outward or inward.
-    pub travel: bool,
-    /// True if it may come from composite momenta, which then travel.
-    pub flows: bool,
+pub(super) enum Choice {
+    /// It comes out of the recursion over velocities.
+    Recursion,
+    /// It may travel outward or inward.
+    Travel,
+    /// It may come from composite momenta, which then travel.
+    Flows,
 }
 
 /// The place of an entry along one axis.

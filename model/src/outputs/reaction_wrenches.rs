@@ -13,9 +13,7 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "reaction_wrenches",
     summary: "Force and moment that link i-1 exerts on link i in base axes, gravity included, n×6: for bearings and links.",
     results: &[Quantity::Wrench],
-    structure: None,
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// (f_i, n_i)
@@ -27,11 +25,7 @@ impl Formula for Wrench {
         letter: "w",
         symbol: "w",
         summary: "Force over moment at every joint, about the origin of the frame whose z is its axis.",
-        arguments: &[
-            Argument::Position,
-            Argument::Velocity,
-            Argument::Acceleration,
-        ],
+        arguments: &Argument::STATE,
         shape: Shape(&[Axis::Joints, Axis::Fixed(6)]),
         unit: |at| match at {
             [_, Index::Fixed(..3)] => "N",

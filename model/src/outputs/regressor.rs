@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Choices, Facts};
+use super::quantity::{Choice, Facts};
 use super::{Argument, Axis, Index, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 
@@ -12,9 +12,7 @@ pub(super) const FUNCTION: Definition = Definition {
     name: "regressor",
     summary: "Regressor Y(q, q̇, q̈) over the base parameters, n×k: the joint torques (forces) are τ = Y π.",
     results: &[Quantity::BaseRegressor],
-    structure: None,
-    by_default: false,
-    parts: &[],
+    ..Definition::PLAIN
 };
 
 /// Y_ik
@@ -26,11 +24,11 @@ impl Formula for BaseRegressor {
         letter: "Y",
         symbol: "Y",
         summary: "Regressor Y over the base parameters.",
-        arguments: &MOTION,
+        arguments: &Argument::STATE,
         shape: Shape(&[Axis::Joints, Axis::BaseParameters]),
         linear: Some(("τ", "BASE_PARAMETERS")),
         unit: |_| "",
-        choices: CHOICES,
+        choices: Some(&[Choice::Travel]),
         // What it shares with what the chain formulas give saves a few.
         starts_from_recursion: true,
         gravity: true,
@@ -45,20 +43,6 @@ impl Formula for BaseRegressor {
         Some(regrouped(at))
     }
 }
-
-/// The arguments of both regressors.
-pub(super) const MOTION: [Argument; 3] = [
-    Argument::Position,
-    Argument::Velocity,
-    Argument::Acceleration,
-];
-
-/// The chain formulas give both.
-pub(super) const CHOICES: Option<Choices> = Some(Choices {
-    recursion: false,
-    travel: true,
-    flows: false,
-});
 
 /// Returns the columns by a textbook formulation.
 pub(super) fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

@@ -90,7 +90,6 @@ pub(super) fn read(cx: &mut Context, robot: &Robot, places: &Places, scenes: &Va
     read
 }
 
-/// Returns whether a finding here may come from what could not be read.
 /// Returns the joint of a number, from one, or of a name.
 pub(super) fn find_joint(joints: &[Joint], text: &str) -> Option<usize> {
     match text.parse::<i64>() {
@@ -119,6 +118,7 @@ pub(super) fn for_joint(joints: &[Joint], text: &str) -> String {
     }
 }
 
+/// Returns whether a finding here may come from what could not be read.
 fn is_of_absence(part: Part) -> bool {
     matches!(
         part,

@@ -322,15 +322,7 @@ impl<'s> Context<'s, '_> {
             self.wanted(value, "6 numbers or 3 rows of 3", help);
             return None;
         }
-        let [xx, yy, zz, xy, yz, xz] = self.array(value, HELP, Self::number)?;
-        Some(Inertia {
-            xx,
-            yy,
-            zz,
-            xy,
-            yz,
-            xz,
-        })
+        self.array(value, HELP, Self::number).map(Inertia::of)
     }
 
     fn symmetric(&mut self, value: &Value, rows: [[Rational; 3]; 3]) -> Option<Inertia<Rational>> {
@@ -350,14 +342,7 @@ impl<'s> Context<'s, '_> {
             }
         }
         let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = rows;
-        Some(Inertia {
-            xx,
-            yy,
-            zz,
-            xy,
-            yz,
-            xz,
-        })
+        Some(Inertia::of([xx, yy, zz, xy, yz, xz]))
     }
 }
 

@@ -73,15 +73,7 @@ mod tests {
     use super::*;
 
     fn defect(entries: [i64; 6], mass: i64) -> Option<Defect> {
-        let [xx, yy, zz, xy, yz, xz] = entries.map(|e| Rational::from_integer(e.into()));
-        let tensor = Inertia {
-            xx,
-            yy,
-            zz,
-            xy,
-            yz,
-            xz,
-        };
+        let tensor = Inertia::of(entries.map(|e| Rational::from_integer(e.into())));
         tensor.defect(&Rational::from_integer(mass.into()))
     }
 

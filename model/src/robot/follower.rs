@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::{Joint, JointKind, Position, Robot};
-use crate::number::{Angle, Rational};
+use crate::number::{Angle, Rational, Rounded};
 
 /// A row of the table whose joint follows another: q = multiplier · q_leader + offset.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -81,6 +81,14 @@ impl Follower {
 }
 
 impl Position {
+    /// Returns the nearest double of the number of radians or metres.
+    pub fn to_f64(&self) -> f64 {
+        match self {
+            Position::Angle(angle) => angle.to_f64(),
+            Position::Length(length) => f64::nearest_rational(length),
+        }
+    }
+
     /// Returns the same times a number.
     #[must_use]
     pub fn scaled(&self, by: &Rational) -> Position {

@@ -225,42 +225,39 @@ pub struct Inertia<S> {
 }
 
 impl<S> Inertia<S> {
-    /// Makes a tensor from the entries of row i and column k, zero-based, with i ≤ k.
-    pub fn symmetric(entry: impl Fn(usize, usize) -> S) -> Self {
+    /// Makes a tensor from its entries xx, yy, zz, xy, yz and xz.
+    pub fn of([xx, yy, zz, xy, yz, xz]: [S; 6]) -> Self {
         Inertia {
-            xx: entry(0, 0),
-            yy: entry(1, 1),
-            zz: entry(2, 2),
-            xy: entry(0, 1),
-            yz: entry(1, 2),
-            xz: entry(0, 2),
-        }
-    }
-
-    /// Returns every entry through `f`.
-    pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Inertia<T> {
-        Inertia {
-            xx: f(&self.xx),
-            yy: f(&self.yy),
-            zz: f(&self.zz),
-            xy: f(&self.xy),
-            yz: f(&self.yz),
-            xz: f(&self.xz),
-        }
-    }
-}
-
-impl<S: Clone> Inertia<S> {
-    /// Returns the tensor as three rows of three.
-    pub fn rows(&self) -> [[S; 3]; 3] {
-        let Inertia {
             xx,
             yy,
             zz,
             xy,
             yz,
             xz,
-        } = self.clone();
+        }
+    }
+
+    /// Returns its entries xx, yy, zz, xy, yz and xz.
+    pub fn entries(&self) -> [&S; 6] {
+        [&self.xx, &self.yy, &self.zz, &self.xy, &self.yz, &self.xz]
+    }
+
+    /// Makes a tensor from the entries of row i and column k, zero-based, with i ≤ k.
+    pub fn symmetric(entry: impl Fn(usize, usize) -> S) -> Self {
+        let places = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
+        Inertia::of(places.map(|(i, k)| entry(i, k)))
+    }
+
+    /// Returns every entry through `f`.
+    pub fn map<T>(&self, f: impl FnMut(&S) -> T) -> Inertia<T> {
+        Inertia::of(self.entries().map(f))
+    }
+}
+
+impl<S: Clone> Inertia<S> {
+    /// Returns the tensor as three rows of three.
+    pub fn rows(&self) -> [[S; 3]; 3] {
+        let [xx, yy, zz, xy, yz, xz] = self.entries().map(Clone::clone);
         [
             [xx, xy.clone(), xz.clone()],
             [xy, yy, yz.clone()],

@@ -91,14 +91,7 @@ impl Extreme {
                 d: number(d[i]),
                 mass: number(mass[i]),
                 com: triple(&robot["r"][i]).map(&number),
-                inertia: Inertia {
-                    xx: inertia(0),
-                    yy: inertia(1),
-                    zz: inertia(2),
-                    xy: inertia(3),
-                    yz: inertia(4),
-                    xz: inertia(5),
-                },
+                inertia: Inertia::of([0, 1, 2, 3, 4, 5].map(inertia)),
                 friction: Friction::none(),
                 armature: number(0.0),
             }

@@ -89,14 +89,7 @@ fn link(json: &Value) -> Link<f64> {
         d,
         mass: number("m"),
         com: triple(&json["r"]),
-        inertia: Inertia {
-            xx: rows[0][0],
-            yy: rows[1][1],
-            zz: rows[2][2],
-            xy: rows[0][1],
-            yz: rows[1][2],
-            xz: rows[0][2],
-        },
+        inertia: Inertia::symmetric(|i, k| rows[i][k]),
         friction: Friction::none(),
         armature: 0.0,
     }

@@ -72,14 +72,7 @@ fn link(kind: JointKind, points: &mut Points) -> Link<Field> {
         d: points.field(),
         mass: points.field(),
         com: triple(points),
-        inertia: Inertia {
-            xx: points.field(),
-            yy: points.field(),
-            zz: points.field(),
-            xy: points.field(),
-            yz: points.field(),
-            xz: points.field(),
-        },
+        inertia: Inertia::of([(); 6].map(|()| points.field())),
         friction: Friction {
             viscous: points.field(),
             // Any three numbers: what formulations agree on rests on no relation of them.

@@ -4,7 +4,6 @@ use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Exact, Rounded};
 
 use super::Explanation;
-use super::run::Runner;
 use super::steps::Code;
 use dalembert_codegen::workspace::function::{Argument, Function, Sizes};
 use dalembert_codegen::workspace::program::{Input, Program, ScalarType};
@@ -35,7 +34,7 @@ pub fn measure(explanation: &Explanation, states: usize) -> Vec<Errors> {
     let robot = scene_robot.robot();
     let drawn = scene_robot.states(states.min(MAX_STATES), SEED);
     let reference = Reference::new(scene_robot);
-    let runs = at(&reference, function, drawn.iter().cloned());
+    let runs = at(&reference, function, &drawn, ScalarType::F64);
     let exact: Arm<Exact> = Arm::from_robot(robot, &mut Exact::clone);
     let arm = exact.map(f64::nearest);
     let sizes = scene_robot.sizes(function);
@@ -44,16 +43,15 @@ pub fn measure(explanation: &Explanation, states: usize) -> Vec<Errors> {
             formula(scene_robot, &arm, *formulation, function, state)
         }),
         Code::Program(program) => {
-            let runner = Runner::<f64>::new(program, ScalarType::F64);
+            let text = program.lower(ScalarType::F64, |_| None);
             worst(function, sizes, &runs, ScalarType::F64, |state| {
-                runner.run(state)
+                text.run_at(state)
             })
         }
         Code::Emitted(text, scalar) => {
-            let single = drawn.iter().map(JointState::in_single);
             let own = match scalar {
                 ScalarType::F64 => None,
-                ScalarType::F32 => Some(at(&reference, function, single)),
+                ScalarType::F32 => Some(at(&reference, function, &drawn, *scalar)),
             };
             let runs = own.as_ref().unwrap_or(&runs);
             worst(function, sizes, runs, *scalar, |state| text.run_at(state))
@@ -79,17 +77,10 @@ pub fn of_program(
     let scene_robot = reference.scene_robot();
     let drawn = scene_robot.states(states.min(MAX_STATES), SEED);
     let sizes = scene_robot.sizes(function);
-    let errors = |&scalar: &ScalarType| match scalar {
-        ScalarType::F64 => {
-            let runner = Runner::<f64>::new(program, scalar);
-            let runs = at(reference, function, drawn.iter().cloned());
-            worst(function, sizes, &runs, scalar, |state| runner.run(state))
-        }
-        ScalarType::F32 => {
-            let runner = Runner::<f32>::new(program, scalar);
-            let runs = at(reference, function, drawn.iter().map(JointState::in_single));
-            worst(function, sizes, &runs, scalar, |state| runner.run(state))
-        }
+    let errors = |&scalar: &ScalarType| {
+        let text = program.lower(scalar, |_| None);
+        let runs = at(reference, function, &drawn, scalar);
+        worst(function, sizes, &runs, scalar, |state| text.run_at(state))
     };
     scalars.iter().map(errors).collect()
 }
@@ -105,12 +96,14 @@ pub fn affordable_states(joints: usize) -> usize {
     }
 }
 
-/// Returns the states and the true values there, without those that are not finite.
+/// Returns the states in a scalar and the true values there, without those that are not finite.
 fn at(
     reference: &Reference<'_>,
     function: Function,
-    states: impl Iterator<Item = JointState>,
+    states: &[JointState],
+    scalar: ScalarType,
 ) -> Vec<(JointState, Vec<TrueValue>)> {
+    let states = states.iter().map(|state| state.in_scalar(scalar));
     let with_truth = |state: JointState| {
         let truth = reference.run(function, &state);
         (state, truth)

@@ -8,7 +8,6 @@
 pub mod errors;
 pub mod merged;
 pub mod parameters;
-mod run;
 pub mod steps;
 
 use dalembert_model::equations::Formulation;

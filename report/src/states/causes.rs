@@ -214,35 +214,19 @@ impl Causes {
                 [xy, yz, xz].into_iter().for_each(|x| *x = -&*x);
             },
         );
-        type Order = fn(Inertia<Rational>) -> Inertia<Rational>;
-        let orders: [(&str, Order); 3] = [
-            ("xx, yy, zz, xy, xz, yz", |i| Inertia {
-                yz: i.xz,
-                xz: i.yz,
-                ..i
-            }),
-            // Each field holds what stands at its place in [xx, yy, zz, xy, yz, xz].
-            ("xx, xy, xz, yy, yz, zz", |i| Inertia {
-                xx: i.xx,
-                xy: i.yy,
-                xz: i.zz,
-                yy: i.xy,
-                yz: i.yz,
-                zz: i.xz,
-            }),
-            ("xx, xy, yy, xz, yz, zz", |i| Inertia {
-                xx: i.xx,
-                xy: i.yy,
-                yy: i.zz,
-                xz: i.xy,
-                yz: i.yz,
-                zz: i.xz,
-            }),
+        // Each entry is what stands at its place of [xx, yy, zz, xy, yz, xz].
+        let orders = [
+            ("xx, yy, zz, xy, xz, yz", [0, 1, 2, 3, 5, 4]),
+            ("xx, xy, xz, yy, yz, zz", [0, 3, 5, 1, 4, 2]),
+            ("xx, xy, yy, xz, yz, zz", [0, 2, 5, 1, 4, 3]),
         ];
-        for (order, change) in orders {
+        for (order, places) in orders {
             self.joints(
                 format!("the robot file's `inertia` is in the order {order}"),
-                move |joint| joint.inertia = change(joint.inertia.clone()),
+                move |joint| {
+                    let given = joint.inertia.entries();
+                    joint.inertia = Inertia::of(places.map(|place| given[place].clone()));
+                },
             );
         }
         self.joints("the sign of the robot file's `com` is changed", |joint| {

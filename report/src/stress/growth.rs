@@ -96,13 +96,9 @@ pub fn chain(n: usize, seed: u64) -> Robot {
             theta: Angle::default(),
             mass,
             com: [0; 3].map(|_| decimal(-100, 100)),
-            inertia: Inertia {
-                xx,
-                yy,
-                zz,
-                xy: decimal(-1, 1),
-                yz: decimal(-1, 1),
-                xz: decimal(-1, 1),
+            inertia: {
+                let [xy, yz, xz] = [0; 3].map(|_| decimal(-1, 1));
+                Inertia::of([xx, yy, zz, xy, yz, xz])
             },
             viscous: Rational::default(),
             coulomb: Rational::default(),

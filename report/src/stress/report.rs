@@ -102,16 +102,8 @@ impl Programs {
     fn new(robot: Robot, options: &Options) -> Result<Programs, GenerateError> {
         let mut codes = Vec::new();
         for scalar in ScalarType::ALL {
-            let request = Request {
-                functions: vec![Function::InverseDynamics],
-                scalars: vec![scalar],
-                ..options.request.clone()
-            };
-            let emitted = match Code::emitted(&robot, &request) {
-                Ok(mut codes) => codes.pop().ok_or(GenerateError::Empty),
-                Err(error @ GenerateError::Constant { .. }) => Err(error),
-                Err(error) => return Err(error),
-            };
+            let functions = [Function::InverseDynamics];
+            let emitted = Code::emitted(&robot, &options.request, &functions, scalar)?;
             codes.push((scalar, [Ok(Code::runtime(&robot, scalar)), emitted]));
         }
         Ok(Programs {
@@ -151,10 +143,8 @@ fn one(category: &Category, programs: &Programs, options: &Options, rows: &mut V
     let scale_states = category.scale_states(robot, scale::STATES, scale::SEED);
     let scales = scale::torques(robot, &scale_states);
     for (scalar, codes) in &programs.codes {
-        let states: Vec<JointState> = match scalar {
-            ScalarType::F64 => states.clone(),
-            ScalarType::F32 => states.iter().map(JointState::in_single).collect(),
-        };
+        let states = states.iter().map(|state| state.in_scalar(*scalar));
+        let states: Vec<JointState> = states.collect();
         let truth = |state| programs.truth.run(Function::InverseDynamics, state);
         let truths: Vec<_> = states.iter().map(truth).collect();
         let measure = Measure::new(robot, *scalar, scales.clone());

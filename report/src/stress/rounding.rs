@@ -23,14 +23,7 @@ pub fn rounded(robot: &Robot, scalar: ScalarType) -> Option<Robot> {
     };
     let triple = |[x, y, z]: &[Rational; 3]| Some([number(x)?, number(y)?, number(z)?]);
     let joint = |joint: &Joint| -> Option<Joint> {
-        let Inertia {
-            xx,
-            yy,
-            zz,
-            xy,
-            yz,
-            xz,
-        } = &joint.inertia;
+        let [xx, yy, zz, xy, yz, xz] = joint.inertia.entries().map(number);
         Some(Joint {
             alpha: angle(&joint.alpha)?,
             beta: angle(&joint.beta)?,
@@ -39,14 +32,7 @@ pub fn rounded(robot: &Robot, scalar: ScalarType) -> Option<Robot> {
             theta: angle(&joint.theta)?,
             mass: number(&joint.mass)?,
             com: triple(&joint.com)?,
-            inertia: Inertia {
-                xx: number(xx)?,
-                yy: number(yy)?,
-                zz: number(zz)?,
-                xy: number(xy)?,
-                yz: number(yz)?,
-                xz: number(xz)?,
-            },
+            inertia: Inertia::of([xx?, yy?, zz?, xy?, yz?, xz?]),
             viscous: number(&joint.viscous)?,
             coulomb: number(&joint.coulomb)?,
             coulomb_width: number(&joint.coulomb_width)?,

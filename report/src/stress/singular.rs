@@ -14,7 +14,6 @@ use dalembert_codegen::workspace::function::{Argument, Function, Quantity, Sizes
 use dalembert_codegen::workspace::generate::GenerateError;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::states::{JointState, positions, seeded};
-use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::condition::Condition;
 use dalembert_codegen::workspace::verify::floating::LEAST_PART;
 use dalembert_model::reference::Reference;
@@ -105,19 +104,12 @@ pub fn run(robot: &Robot, options: &Options) -> Result<Divided, GenerateError> {
     };
     let states = states(robot, &divided.nearest, options);
     for scalar in ScalarType::ALL {
-        let request = Request {
-            functions: functions(),
-            scalars: vec![scalar],
-            ..options.request.clone()
-        };
-        let emitted = match Code::emitted(robot, &request) {
-            Ok(mut codes) => codes.pop().ok_or(GenerateError::Empty),
-            Err(error @ GenerateError::Constant { .. }) => Err(error),
+        let emitted = match Code::emitted(robot, &options.request, &functions(), scalar) {
             Err(error @ GenerateError::Singular { .. }) => {
                 divided.refused = Some(error);
                 return Ok(divided);
             }
-            Err(error) => return Err(error),
+            emitted => emitted?,
         };
         let codes = [Ok(Code::runtime(robot, scalar)), emitted];
         let cases = Cases::new(robot, &truth, &states, scalar);
@@ -203,12 +195,8 @@ struct Cases<'a> {
 
 impl<'a> Cases<'a> {
     fn new(robot: &Robot, truth: &'a Truth, states: &[JointState], scalar: ScalarType) -> Self {
-        let of_scalar = |state: &JointState| match scalar {
-            ScalarType::F64 => state.clone(),
-            ScalarType::F32 => state.in_single(),
-        };
         let states = states.iter().map(|state| {
-            let state = of_scalar(state);
+            let state = state.in_scalar(scalar);
             let condition = condition(truth, &state.q, scalar);
             (state, condition)
         });

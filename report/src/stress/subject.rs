@@ -56,18 +56,27 @@ impl Code {
         }
     }
 
-    /// Generates the functions of a request, read back from the text, in the order of the
-    /// request's scalars.
+    /// Generates functions in a scalar, read back from the text; the reason where the scalar
+    /// cannot hold a constant.
     ///
     /// # Errors
-    /// Those of generating.
-    pub fn emitted(robot: &Robot, request: &Request) -> Result<Vec<Code>, GenerateError> {
-        let generated = generate(robot, request)?;
-        let of = |scalar: &ScalarType| {
-            let functions = generated.emitted.iter().filter(|f| f.scalar == *scalar);
-            Code::Emitted(functions.cloned().collect())
+    /// Others of generating.
+    pub fn emitted(
+        robot: &Robot,
+        request: &Request,
+        functions: &[Function],
+        scalar: ScalarType,
+    ) -> Result<Result<Code, GenerateError>, GenerateError> {
+        let request = Request {
+            functions: functions.to_vec(),
+            scalars: vec![scalar],
+            ..request.clone()
         };
-        Ok(request.scalars.iter().map(of).collect())
+        match generate(robot, &request) {
+            Ok(generated) => Ok(Ok(Code::Emitted(generated.emitted))),
+            Err(error @ GenerateError::Constant { .. }) => Ok(Err(error)),
+            Err(error) => Err(error),
+        }
     }
 
     /// Returns the results of a function at a state, flat, as doubles that hold them

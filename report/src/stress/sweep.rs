@@ -11,7 +11,6 @@ use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::GenerateError;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::states::{JointState, seeded};
-use dalembert_codegen::workspace::task::Request;
 
 /// The quantity that is varied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -105,20 +104,10 @@ impl Codes {
     fn new(robot: &Robot, options: &Options) -> Result<Codes, GenerateError> {
         let mut codes = Vec::new();
         for scalar in ScalarType::ALL {
-            let request = Request {
-                functions: vec![Function::InverseDynamics],
-                scalars: vec![scalar],
-                ..options.request.clone()
-            };
+            let functions = [Function::InverseDynamics];
+            let emitted = Code::emitted(robot, &options.request, &functions, scalar)?;
             codes.push((scalar, Some(Code::runtime(robot, scalar))));
-            codes.push((
-                scalar,
-                match Code::emitted(robot, &request) {
-                    Ok(mut emitted) => emitted.pop(),
-                    Err(GenerateError::Constant { .. }) => None,
-                    Err(error) => return Err(error),
-                },
-            ));
+            codes.push((scalar, emitted.ok()));
         }
         Ok(Codes {
             truth: Truth::new(robot),
@@ -133,10 +122,7 @@ impl Codes {
         for (index, (scalar, code)) in self.codes.iter().enumerate() {
             let measure = Measure::new(&self.robot, *scalar, Vec::new());
             for state in states {
-                let state = match scalar {
-                    ScalarType::F64 => state.clone(),
-                    ScalarType::F32 => state.in_single(),
-                };
+                let state = state.in_scalar(*scalar);
                 let run = Function::InverseDynamics;
                 let found = code.as_ref().and_then(|code| code.run(run, &state));
                 let error = match (found, self.truth.run(run, &state)) {

@@ -1,4 +1,4 @@
-//! The other ways to call a function, without bodies.
+//! A function and the other ways to call it, without bodies.
 
 use std::fmt::Write;
 
@@ -11,7 +11,7 @@ use crate::function::{Argument, Columns, Function, Quantity};
 use crate::language::Entries;
 use crate::program::ScalarType;
 
-/// Returns what a module has of a function beside itself. Lengths that are not known are
+/// Returns a function, and the other ways to call it. Lengths that are not known are
 /// whatever the caller has.
 pub(super) fn write(
     function: Function,
@@ -26,15 +26,28 @@ pub(super) fn write(
         joints,
         scalar,
     };
-    let mut text = String::new();
+    let (mut text, one) = (String::new(), scalar.name());
+    let (arguments, result) = (own.arguments(one), own.result(one, "", &[]));
+    own.structure(&mut text, one, "", &[]);
+    own.declare(&mut text, "", &[], &arguments, &result);
     if entries >= Entries::WithSincos {
-        own.with_sincos(&mut text);
+        let arguments = format!("{arguments}_sin: &[{one}; A], _cos: &[{one}; A]");
+        own.declare(&mut text, "_with_sincos", &["A"], &arguments, &result);
     }
     if entries >= Entries::Lanes {
-        own.lanes(&mut text);
+        let lanes = format!("[{one}; L]");
+        own.structure(&mut text, &lanes, "Lanes", &["L"]);
+        let (arguments, result) = (own.arguments(&lanes), own.result(&lanes, "Lanes", &["L"]));
+        own.declare(&mut text, "_lanes", &["L"], &arguments, &result);
     }
     if entries >= Entries::Batch {
-        own.batch(&mut text);
+        let (length, done) = (own.length(), format!("Result<(), {BATCH}::Unequal>"));
+        let rows = own.states(&format!("&[[{one}; {length}]]"));
+        let rows = format!("{rows}_results: &mut [{result}]");
+        own.declare(&mut text, "_batch", &[], &rows, &done);
+        let columns = own.states(&format!("&[&[{one}]; {length}]"));
+        let columns = format!("{columns}_results: &mut [&mut [{one}]; M]");
+        own.declare(&mut text, "_columns", &["M"], &columns, &done);
     }
     text
 }
@@ -171,57 +184,33 @@ impl Stub<'_> {
         );
     }
 
-    fn with_sincos(&self, text: &mut String) {
-        let (name, scalar) = (self.function.name(), self.scalar);
+    /// Writes the struct that it returns with such entries, if it returns one.
+    fn structure(&self, text: &mut String, entry: &str, lanes: &str, parameters: &[&str]) {
+        let Some(name) = self.function.structure() else {
+            return;
+        };
+        let quantities = self.function.quantities().iter();
+        let fields: Vec<String> = quantities
+            .map(|&quantity| format!("pub {}: {}", quantity.field(), self.array(entry, quantity)))
+            .collect();
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "pub fn {name}_with_sincos{}({}_sin: &[{scalar}; A], _cos: &[{scalar}; A]) -> {} \
-             {{ ::core::unreachable!() }}",
-            self.generic(&["A"]),
-            self.arguments(scalar.name()),
-            self.result(scalar.name(), "", &[])
+            "#[derive(Clone, Copy, Debug, PartialEq)]\npub struct {name}{lanes}{} {{ {} }}",
+            self.generic(parameters),
+            fields.join(", ")
         );
     }
 
-    fn lanes(&self, text: &mut String) {
-        let name = self.function.name();
-        let entry = format!("[{}; L]", self.scalar);
-        if let Some(structure) = self.function.structure() {
-            let quantities = self.function.quantities().iter();
-            let fields = quantities.map(|&quantity| {
-                format!("pub {}: {}", quantity.field(), self.array(&entry, quantity))
-            });
-            let fields: Vec<String> = fields.collect();
-            let _ = writeln!(
-                text,
-                "#[derive(Clone, Copy, Debug, PartialEq)]\npub struct {structure}Lanes{} {{ {} }}",
-                self.generic(&["L"]),
-                fields.join(", ")
-            );
-        }
+    /// Writes a function whose name ends so.
+    fn declare(&self, text: &mut String, end: &str, generic: &[&str], given: &str, result: &str) {
+        // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "pub fn {name}_lanes{}({}) -> {} {{ ::core::unreachable!() }}",
-            self.generic(&["L"]),
-            self.arguments(&entry),
-            self.result(&entry, "Lanes", &["L"])
-        );
-    }
-
-    fn batch(&self, text: &mut String) {
-        let (name, scalar, length) = (self.function.name(), self.scalar, self.length());
-        let _ = writeln!(
-            text,
-            "pub fn {name}_batch{}({}_results: &mut [{}]) -> Result<(), {BATCH}::Unequal> \
-             {{ ::core::unreachable!() }}\n\
-             pub fn {name}_columns{}({}_results: &mut [&mut [{scalar}]; M]) -> \
-             Result<(), {BATCH}::Unequal> {{ ::core::unreachable!() }}",
-            self.generic(&[]),
-            self.states(&format!("&[[{scalar}; {length}]]")),
-            self.result(scalar.name(), "", &[]),
-            self.generic(&["M"]),
-            self.states(&format!("&[&[{scalar}]; {length}]")),
+            "pub fn {}{end}{}({}) -> {result} {{ ::core::unreachable!() }}",
+            self.function,
+            self.generic(generic),
+            given.trim_end_matches(", "),
         );
     }
 }

@@ -2,19 +2,19 @@
 //! bodies, so that only the error is reported and not every call as well.
 //!
 //! - `arguments`: those that are no joint vectors
-//! - `entries`: more ways to call them
+//! - `entries`: a function, and more ways to call it
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use dalembert_model::outputs::{Axis, RuntimeParameter};
+use dalembert_model::outputs::RuntimeParameter;
 
 mod arguments;
 mod entries;
 
 use crate::clauses::invocation::Invocation;
 use crate::emit::module;
-use crate::function::{Argument, Function, Quantity};
+use crate::function::{Argument, Function};
 use crate::language::Entries;
 use crate::program::ScalarType;
 use crate::sincos::SinCos;
@@ -51,7 +51,6 @@ pub(super) fn write(invocation: &Invocation, joints: Option<usize>) -> String {
         text += &arguments::types(&taken, scalar);
         for &function in functions {
             let given = arguments::of(function, &taken);
-            text += &self::function(function, &given, joints, scalar);
             text += &entries::write(function, &given, joints, scalar, invocation.request.entries);
         }
         if invocation.request.interface == Interface::Traits {
@@ -111,57 +110,6 @@ fn state_box(arguments: &[Argument], joints: Option<usize>, scalar: ScalarType) 
         fields.join(", "),
         values.join(", "),
         parameters.join(", ")
-    );
-    text
-}
-
-fn function(
-    function: Function,
-    given: &[Argument],
-    joints: Option<usize>,
-    scalar: ScalarType,
-) -> String {
-    let (length, generic, argument) = match joints {
-        Some(n) => (n.to_string(), "", ""),
-        None => ("L".to_owned(), "<const L: usize>", "<L>"),
-    };
-    let array = |quantity: Quantity| {
-        let axes = quantity.shape().0.iter().rev();
-        axes.fold(scalar.to_string(), |inner, axis| match axis {
-            Axis::Joints => format!("[{inner}; {length}]"),
-            Axis::Fixed(length) => format!("[{inner}; {length}]"),
-            // As many as the robot would have said.
-            Axis::LinkParameters | Axis::BaseParameters | Axis::Load => {
-                format!("&'static [{inner}]")
-            }
-        })
-    };
-    let arguments = given.iter().map(|&argument| {
-        let kind = arguments::array(argument, scalar.name(), &length);
-        format!("_{}: &{kind}", argument.name())
-    });
-    let arguments: Vec<String> = arguments.collect();
-    let mut text = String::new();
-    let result = match function.structure() {
-        None => array(function.quantities()[0]),
-        Some(name) => {
-            let fields = function.quantities().iter();
-            let fields: Vec<String> = fields
-                .map(|&quantity| format!("pub {}: {}", quantity.field(), array(quantity)))
-                .collect();
-            let _ = writeln!(
-                text,
-                "#[derive(Clone, Copy, Debug, PartialEq)]\npub struct {name}{generic} {{ {} }}",
-                fields.join(", ")
-            );
-            format!("{name}{argument}")
-        }
-    };
-    let _ = writeln!(
-        text,
-        "pub fn {}{generic}({}) -> {result} {{ ::core::unreachable!() }}",
-        function.name(),
-        arguments.join(", ")
     );
     text
 }

@@ -266,6 +266,7 @@ impl Divide for Wide {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scalar::field::Points;
 
     fn ratio(n: i64, d: i64) -> Wide {
         Wide::from_rational(&Rational::new(n.into(), d.into()))
@@ -324,13 +325,8 @@ mod tests {
     /// with many, is within 2⁻²⁵⁵ of what the rationals say.
     #[test]
     fn operations_are_those_of_rationals() {
-        let mut bits = 0x9e37_79b9_7f4a_7c15u64;
-        let mut draw = || {
-            bits = bits
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            bits >> 33
-        };
+        let mut points = Points::new(1);
+        let mut draw = || points.bits() >> 33;
         let least = Rational::new(BigInt::one(), BigInt::one() << 255u32);
         let mut number = || {
             let mut whole = BigInt::from(draw() % 5) - BigInt::from(2);

@@ -237,72 +237,45 @@ mod tests {
         assert_ne!(Function::parse("x=inertia+gravity"), Ok(found));
     }
 
+    /// Texts, and below each what is said of it.
+    const REFUSED: &str = "\
+a=inertia+manipulator_equation
+`inertia` and `manipulator_equation` both return D: leave one of them out
+a=gravity+gravity
+`gravity` is in it twice: leave one of them out
+a=coriolis+dynamic_coefficients
+`coriolis` and `dynamic_coefficients` would both be the field `h`: ask for one of them by itself
+a=regressor+full_regressor
+`regressor` and `full_regressor` would both be the field `y`: ask for one of them by itself
+a=gravity
+a bundle has two parts at least: ask for `gravity` by itself
+a=gravty+jacobian
+unknown output `gravty`: a bundle is NAME = OUTPUT + OUTPUT
+gravity+jacobian
+`gravity+jacobian` has no name: write NAME = gravity+jacobian
+gravity=inertia+jacobian
+`gravity` is an output by itself: call the bundle otherwise
+angles=inertia+jacobian
+`angles` has a meaning of its own in generated modules: call the bundle otherwise
+robot=inertia+jacobian
+`robot` has a meaning of its own in generated modules: call the bundle otherwise
+match=inertia+jacobian
+`match` is a word of Rust: call the bundle otherwise
+my_lanes=inertia+jacobian
+`my_lanes` would end as the other ways to call `my` do, `_lanes`: call the bundle otherwise
+Servo=inertia+jacobian
+`Servo` is no name of a function: small letters, digits and single `_` between them, such as `servo_2`
+=inertia+jacobian
+`` is no name of a function: small letters, digits and single `_` between them, such as `servo_2`
+a__b=inertia+jacobian
+`a__b` is no name of a function: small letters, digits and single `_` between them, such as `servo_2`";
+
     #[test]
     fn what_cannot_be_in_one_is_refused_by_name() {
-        for (text, expected) in [
-            (
-                "a=inertia+manipulator_equation",
-                "`inertia` and `manipulator_equation` both return D: leave one of them out",
-            ),
-            (
-                "a=gravity+gravity",
-                "`gravity` is in it twice: leave one of them out",
-            ),
-            (
-                "a=coriolis+dynamic_coefficients",
-                "`coriolis` and `dynamic_coefficients` would both be the field `h`: ask for one of them by itself",
-            ),
-            (
-                "a=regressor+full_regressor",
-                "`regressor` and `full_regressor` would both be the field `y`: ask for one of them by itself",
-            ),
-            (
-                "a=gravity",
-                "a bundle has two parts at least: ask for `gravity` by itself",
-            ),
-            (
-                "a=gravty+jacobian",
-                "unknown output `gravty`: a bundle is NAME = OUTPUT + OUTPUT",
-            ),
-            (
-                "gravity+jacobian",
-                "`gravity+jacobian` has no name: write NAME = gravity+jacobian",
-            ),
-            (
-                "gravity=inertia+jacobian",
-                "`gravity` is an output by itself: call the bundle otherwise",
-            ),
-            (
-                "angles=inertia+jacobian",
-                "`angles` has a meaning of its own in generated modules: call the bundle otherwise",
-            ),
-            (
-                "robot=inertia+jacobian",
-                "`robot` has a meaning of its own in generated modules: call the bundle otherwise",
-            ),
-            (
-                "match=inertia+jacobian",
-                "`match` is a word of Rust: call the bundle otherwise",
-            ),
-            (
-                "my_lanes=inertia+jacobian",
-                "`my_lanes` would end as the other ways to call `my` do, `_lanes`: call the bundle otherwise",
-            ),
-            (
-                "Servo=inertia+jacobian",
-                "`Servo` is no name of a function: small letters, digits and single `_` between them, such as `servo_2`",
-            ),
-            (
-                "=inertia+jacobian",
-                "`` is no name of a function: small letters, digits and single `_` between them, such as `servo_2`",
-            ),
-            (
-                "a__b=inertia+jacobian",
-                "`a__b` is no name of a function: small letters, digits and single `_` between them, such as `servo_2`",
-            ),
-        ] {
+        let lines: Vec<&str> = REFUSED.lines().collect();
+        for [text, expected] in lines.as_chunks::<2>().0 {
             let error = Function::parse(text).unwrap_err();
-            assert_eq!(error.to_string(), expected, "{text}");
+            assert_eq!(error.to_string(), *expected, "{text}");
         }
     }
 
