@@ -1,12 +1,14 @@
 //! One function by all its entries in one run, f64 and f32: a state a call, the
 //! same with sines given, and batches of 1024 states, in rows and in columns; in the vectors that
-//! the processor has, in those of AVX2 and in those of a plain build; and what gcc -O3 makes of the
+//! the processor has, in those of AVX2 and in those of a plain build. Beside each stands how many
+//! times the limit of the processor's ports it takes (`ports.rs`), and what gcc -O3 makes of the
 //! same functions in C, if there is a gcc.
 //!
 //! `cargo bench --bench batch`, or of some functions alone, by parts of their names:
 //! `cargo bench --bench batch -- torques`.
 
 mod gcc;
+mod ports;
 mod rounds;
 
 use std::hint::black_box;
@@ -72,7 +74,7 @@ struct Compiled {
 /// the functions of gcc.
 macro_rules! bench {
     ($what:literal, $module:ident, $scalar:ty, $function:ident, $kind:ident, $results:literal,
-     $compiled:ident, $place:expr, is_alone: $is_alone:expr) => {{
+     $clock:ident, $compiled:ident, $place:expr, is_alone: $is_alone:expr) => {{
         type Kind = $module::$kind;
         const LINE: usize = 64 / size_of::<$scalar>();
         let own = |states: usize| {
@@ -158,7 +160,15 @@ macro_rules! bench {
                 }
             }
         }
-        rounds.print($what);
+        let operations = ports::operations::<Kind, 3, 6, $results, 4>();
+        rounds.print_limits($what, |name| {
+            let width = match name {
+                name if name.ends_with("AVX-512") => 512,
+                name if name.ends_with("AVX2") => 256,
+                _ => return None,
+            };
+            ports::limit::<$scalar>(&operations, width, $clock).map(|(limit, _)| limit)
+        });
         if $is_alone {
             let mut rounds = Rounds::of(MANY);
             let mut in_columns: [Vec<$scalar>; $results] =
@@ -192,6 +202,8 @@ fn main() {
         .collect();
     let is_chosen =
         |name: &str| chosen.is_empty() || chosen.iter().any(|part| name.contains(part.as_str()));
+    let clock = ports::clock();
+    println!("clock: {clock:.3} GHz");
     let compile = |name: &str, functions: &[Output], fma: Fma| {
         // Else gcc makes no vectors of 256 bits.
         let narrow = ["-march=x86-64-v3", "-fno-tree-pre"];
@@ -209,27 +221,27 @@ fn main() {
         let mut gcc = compile("batch", &dynamics, Fma::Off);
         if is_chosen("torques") {
             bench!("torques, f64", puma560, f64, inverse_dynamics,
-                InverseDynamicsBatch, 6, gcc, 0, is_alone: true);
+                InverseDynamicsBatch, 6, clock, gcc, 0, is_alone: true);
             bench!("torques, f32", puma560_f32, f32, inverse_dynamics,
-                InverseDynamicsBatch, 6, gcc, 2, is_alone: true);
+                InverseDynamicsBatch, 6, clock, gcc, 2, is_alone: true);
         }
         if is_chosen("accelerations") {
             bench!("accelerations, f64", puma560, f64, forward_dynamics,
-                ForwardDynamicsBatch, 6, gcc, 1, is_alone: true);
+                ForwardDynamicsBatch, 6, clock, gcc, 1, is_alone: true);
             bench!("accelerations, f32", puma560_f32, f32, forward_dynamics,
-                ForwardDynamicsBatch, 6, gcc, 3, is_alone: true);
+                ForwardDynamicsBatch, 6, clock, gcc, 3, is_alone: true);
         }
     }
     if is_chosen("fused") {
         let mut gcc = compile("fused", &dynamics, Fma::On);
         bench!("fused torques, f64", fused, f64, inverse_dynamics,
-            InverseDynamicsBatch, 6, gcc, 0, is_alone: false);
+            InverseDynamicsBatch, 6, clock, gcc, 0, is_alone: false);
         bench!("fused torques, f32", fused_f32, f32, inverse_dynamics,
-            InverseDynamicsBatch, 6, gcc, 2, is_alone: false);
+            InverseDynamicsBatch, 6, clock, gcc, 2, is_alone: false);
         bench!("fused accelerations, f64", fused, f64, forward_dynamics,
-            ForwardDynamicsBatch, 6, gcc, 1, is_alone: false);
+            ForwardDynamicsBatch, 6, clock, gcc, 1, is_alone: false);
         bench!("fused accelerations, f32", fused_f32, f32, forward_dynamics,
-            ForwardDynamicsBatch, 6, gcc, 3, is_alone: false);
+            ForwardDynamicsBatch, 6, clock, gcc, 3, is_alone: false);
     }
     if is_chosen("derivatives") {
         let functions = [
@@ -238,12 +250,12 @@ fn main() {
         ];
         let mut gcc = compile("derivatives", &functions, Fma::Off);
         bench!("derivatives of torques, f64", derivatives, f64, inverse_dynamics_derivatives,
-            InverseDynamicsDerivativesBatch, 108, gcc, 0, is_alone: false);
+            InverseDynamicsDerivativesBatch, 108, clock, gcc, 0, is_alone: false);
         bench!("derivatives of torques, f32", derivatives_f32, f32, inverse_dynamics_derivatives,
-            InverseDynamicsDerivativesBatch, 108, gcc, 2, is_alone: false);
+            InverseDynamicsDerivativesBatch, 108, clock, gcc, 2, is_alone: false);
         bench!("derivatives of accelerations, f64", derivatives, f64, forward_dynamics_derivatives,
-            ForwardDynamicsDerivativesBatch, 108, gcc, 1, is_alone: false);
+            ForwardDynamicsDerivativesBatch, 108, clock, gcc, 1, is_alone: false);
         bench!("derivatives of accelerations, f32", derivatives_f32, f32, forward_dynamics_derivatives,
-            ForwardDynamicsDerivativesBatch, 108, gcc, 3, is_alone: false);
+            ForwardDynamicsDerivativesBatch, 108, clock, gcc, 3, is_alone: false);
     }
 }

@@ -41,6 +41,7 @@ impl Rounds {
 
     /// Prints medians: of the times, and of how many times as fast as the first variant in the
     /// same round each was.
+    #[allow(dead_code)] // Every bench compiles this file for itself.
     pub fn print(&self, what: &str) {
         println!("\n{what}: ns each, times as fast as the first");
         for (name, times) in self.names.iter().zip(&self.times) {
@@ -51,6 +52,21 @@ impl Rounds {
                 median(times.clone()),
                 median(ratios.collect())
             );
+        }
+    }
+
+    /// Medians and least times, and these as multiples of the least that is possible, where
+    /// somebody knows it. Short runs are least where nobody disturbed them.
+    #[allow(dead_code)]
+    pub fn print_limits(&self, what: &str, limit: impl Fn(&str) -> Option<f64>) {
+        println!("\n{what}: ns each, median and least; port limit, times that");
+        for (name, times) in self.names.iter().zip(&self.times) {
+            let least = times.iter().copied().fold(f64::MAX, f64::min);
+            print!("{name:32} {:10.2} {least:10.2}", median(times.clone()));
+            match limit(name) {
+                Some(limit) => println!(" {limit:10.2} {:8.2}", least / limit),
+                None => println!(),
+            }
         }
     }
 }

@@ -1,0 +1,393 @@
+//! The least time that a processor's ports can take for a program: its operations are counted by
+//! running it, and each kind of them can go to some ports only.
+//!
+//! Whatever set of ports one looks at, what can go nowhere else keeps them busy for its sum over
+//! their number; the largest of these is the limit. Loads, stores and moves are free here.
+
+use std::cell::Cell;
+use std::fs;
+use std::ops::{Add, BitAnd, BitXor, Div, Mul, Neg, Sub};
+use std::time::Instant;
+
+use dalembert::batch::{Floats, Function, Vector};
+use dalembert_sines::text::{Angle, Number, Pair, by_pairs};
+
+/// Counts of operations: sums and differences; products; fused ones; bits; sums of integers; shifts;
+/// comparisons; quotients; roots.
+const KINDS: usize = 9;
+
+/// A processor's ports for vectors of one width.
+struct Row {
+    /// Its cores, by vendor, family and models as `/proc/cpuinfo` has them.
+    name: &'static str,
+    vendor: &'static str,
+    family: u32,
+    models: &'static [(u32, u32)],
+    /// The bits of its vectors.
+    width: u32,
+    /// For each kind the ports, a bit each, and the cycles for which one of them is taken: those of
+    /// f64 and of f32. The divider is the last port.
+    kinds: [(u8, [f64; 2]); KINDS],
+}
+
+const ONE: [f64; 2] = [1.0; 2];
+const TWO: [f64; 2] = [2.0; 2];
+const DIVIDER: u8 = 1 << 7;
+
+/// Sources: uops.info and A. Fog's instruction tables; of Zen 4, sums, products, fused products,
+/// bits and shifts were measured, too. AMD's ports are FP0 to FP3, Intel's 0, 1 and 5 (the bits
+/// 1, 2 and 4).
+const ROWS: &[Row] = &[
+    Row {
+        name: "Zen 3",
+        vendor: "AuthenticAMD",
+        family: 25,
+        models: &[(0, 15), (32, 95)],
+        width: 256,
+        kinds: [
+            (0b1100, ONE),
+            (0b0011, ONE),
+            (0b0011, ONE),
+            (0b1111, ONE),
+            (0b1111, ONE),
+            (0b0110, ONE),
+            (0b0011, ONE),
+            (DIVIDER, [5.0, 3.0]),
+            (DIVIDER, [9.0, 5.0]),
+        ],
+    },
+    Row {
+        name: "Zen 4",
+        vendor: "AuthenticAMD",
+        family: 25,
+        models: &[(16, 31), (96, 255)],
+        width: 256,
+        kinds: [
+            (0b1100, ONE),
+            (0b0011, ONE),
+            (0b0011, ONE),
+            (0b1111, ONE),
+            (0b1111, ONE),
+            (0b0110, ONE),
+            (0b0011, ONE),
+            (DIVIDER, [5.0, 3.0]),
+            (DIVIDER, [9.0, 5.0]),
+        ],
+    },
+    Row {
+        name: "Zen 4",
+        vendor: "AuthenticAMD",
+        family: 25,
+        models: &[(16, 31), (96, 255)],
+        width: 512,
+        kinds: [
+            (0b1100, TWO),
+            (0b0011, TWO),
+            (0b0011, TWO),
+            (0b1111, TWO),
+            (0b1111, TWO),
+            (0b0110, TWO),
+            (0b0011, TWO),
+            (DIVIDER, [10.0, 6.0]),
+            (DIVIDER, [18.0, 10.0]),
+        ],
+    },
+    Row {
+        name: "Zen 5",
+        vendor: "AuthenticAMD",
+        family: 26,
+        models: &[(0, 255)],
+        width: 256,
+        kinds: [
+            (0b1100, ONE),
+            (0b0011, ONE),
+            (0b0011, ONE),
+            (0b1111, ONE),
+            (0b1111, ONE),
+            (0b0110, ONE),
+            (0b0011, ONE),
+            (DIVIDER, [5.0, 3.0]),
+            (DIVIDER, [9.0, 5.0]),
+        ],
+    },
+    Row {
+        name: "Zen 5",
+        vendor: "AuthenticAMD",
+        family: 26,
+        models: &[(0, 31), (64, 255)],
+        width: 512,
+        kinds: [
+            (0b1100, ONE),
+            (0b0011, ONE),
+            (0b0011, ONE),
+            (0b1111, ONE),
+            (0b1111, ONE),
+            (0b0110, ONE),
+            (0b0011, ONE),
+            (DIVIDER, [9.0, 6.0]),
+            (DIVIDER, [16.0, 10.0]),
+        ],
+    },
+    Row {
+        name: "Skylake to Ice Lake",
+        vendor: "GenuineIntel",
+        family: 6,
+        models: &[
+            (78, 78),
+            (85, 85),
+            (94, 94),
+            (106, 108),
+            (125, 126),
+            (140, 142),
+            (158, 158),
+            (167, 167),
+        ],
+        width: 256,
+        kinds: [
+            (0b011, ONE),
+            (0b011, ONE),
+            (0b011, ONE),
+            (0b111, ONE),
+            (0b111, ONE),
+            (0b011, ONE),
+            (0b011, ONE),
+            (DIVIDER, [8.0, 5.0]),
+            (DIVIDER, [9.0, 6.0]),
+        ],
+    },
+    Row {
+        name: "Skylake-SP, Ice Lake-SP",
+        vendor: "GenuineIntel",
+        family: 6,
+        models: &[(85, 85), (106, 108)],
+        width: 512,
+        kinds: [
+            (0b101, ONE),
+            (0b101, ONE),
+            (0b101, ONE),
+            (0b101, ONE),
+            (0b101, ONE),
+            (0b001, ONE),
+            (0b100, ONE),
+            (DIVIDER, [16.0, 10.0]),
+            (DIVIDER, [18.0, 12.0]),
+        ],
+    },
+    Row {
+        name: "Golden Cove",
+        vendor: "GenuineIntel",
+        family: 6,
+        models: &[(143, 143), (151, 151), (154, 154), (183, 183), (207, 207)],
+        width: 256,
+        kinds: [
+            (0b110, ONE),
+            (0b011, ONE),
+            (0b011, ONE),
+            (0b111, ONE),
+            (0b111, ONE),
+            (0b011, ONE),
+            (0b011, ONE),
+            (DIVIDER, [8.0, 5.0]),
+            (DIVIDER, [9.0, 6.0]),
+        ],
+    },
+    Row {
+        name: "Golden Cove (Sapphire Rapids, Emerald Rapids)",
+        vendor: "GenuineIntel",
+        family: 6,
+        models: &[(143, 143), (207, 207)],
+        width: 512,
+        kinds: [
+            (0b101, ONE),
+            (0b101, ONE),
+            (0b101, ONE),
+            (0b101, ONE),
+            (0b101, ONE),
+            (0b001, ONE),
+            (0b100, ONE),
+            (DIVIDER, [16.0, 10.0]),
+            (DIVIDER, [18.0, 12.0]),
+        ],
+    },
+];
+
+/// The operations of one vector, by their kinds.
+pub type Operations = [usize; KINDS];
+
+thread_local! {
+    static COUNTED: Cell<Operations> = const { Cell::new([0; KINDS]) };
+}
+
+/// A number that counts what is done with it.
+#[derive(Clone, Copy)]
+pub struct Counted;
+
+/// Its bits.
+#[derive(Clone, Copy)]
+pub struct CountedBits;
+
+fn count(kind: usize) {
+    COUNTED.with(|counted| {
+        let mut all = counted.get();
+        all[kind] += 1;
+        counted.set(all);
+    });
+}
+
+macro_rules! counted {
+    ($($operation:ident, $method:ident, $own:ident, $other:ty, $kind:literal;)*) => {$(
+        impl $operation<$other> for $own {
+            type Output = $own;
+            fn $method(self, _: $other) -> $own {
+                count($kind);
+                $own
+            }
+        }
+    )*};
+}
+counted! {
+    Add, add, Counted, Counted, 0; Add, add, Counted, f64, 0; Add, add, Counted, f32, 0;
+    Sub, sub, Counted, Counted, 0; Sub, sub, Counted, f64, 0; Sub, sub, Counted, f32, 0;
+    Mul, mul, Counted, Counted, 1; Mul, mul, Counted, f64, 1; Mul, mul, Counted, f32, 1;
+    Div, div, Counted, Counted, 7;
+    BitXor, bitxor, CountedBits, CountedBits, 3; BitAnd, bitand, CountedBits, CountedBits, 3;
+    Add, add, CountedBits, CountedBits, 4; Sub, sub, CountedBits, CountedBits, 4;
+}
+
+impl Neg for Counted {
+    type Output = Counted;
+    fn neg(self) -> Counted {
+        count(3);
+        Counted
+    }
+}
+
+macro_rules! number {
+    ($($float:ty),*) => {$(
+        impl Number<$float> for Counted {
+            fn all(self, _: $float) -> Counted {
+                Counted
+            }
+        }
+
+        impl Floats<$float> for Counted {
+            type Bits = CountedBits;
+            fn bits(self) -> CountedBits {
+                CountedBits
+            }
+            fn of_bits(_: CountedBits) -> Counted {
+                Counted
+            }
+            fn power(self, _: usize) -> CountedBits {
+                CountedBits
+            }
+            fn raised(_: CountedBits) -> CountedBits {
+                count(5);
+                CountedBits
+            }
+            fn are_within(self, _: $float) -> bool {
+                count(3);
+                count(6);
+                true
+            }
+        }
+
+        impl Vector<$float> for Counted {
+            type Token = ();
+            const LANES: usize = 1;
+            fn load((): (), _: &[$float; 64], _: usize) -> Counted {
+                Counted
+            }
+            fn store(self, _: &mut [$float; 64], _: usize) {}
+            fn sqrt(self) -> Counted {
+                count(8);
+                Counted
+            }
+            fn mul_add(self, _: Counted, _: Counted) -> Counted {
+                count(2);
+                Counted
+            }
+            fn each(self, _: impl Fn($float) -> $float) -> Counted {
+                Counted
+            }
+            fn both(self, _: impl Fn($float) -> ($float, $float)) -> (Counted, Counted) {
+                (Counted, Counted)
+            }
+            fn sincos<const K: usize>(angles: &[Counted; K]) -> ([Counted; K], [Counted; K], bool) {
+                by_pairs::<$float, Counted, K>(angles)
+            }
+        }
+    )*};
+}
+number!(f64, f32);
+
+/// Counts what the printed function does, its sines with it.
+pub fn operations<F, const A: usize, const N: usize, const M: usize, const K: usize>() -> Operations
+where
+    F: Function<A, N, M, K>,
+    Counted: Vector<F::Scalar>,
+    Pair<Counted>: Number<F::Scalar>,
+{
+    COUNTED.set([0; KINDS]);
+    let arguments = [[Counted; N]; A];
+    let angles: [Counted; K] = F::angles(&arguments);
+    let (sin, cos, _) = by_pairs::<F::Scalar, Counted, K>(&angles);
+    let _ = F::vectors(&arguments, &sin, &cos);
+    COUNTED.get()
+}
+
+/// Returns the limit in ns a state, and the name of the core; `None` where the table has no row
+/// for this processor, or nobody says which it is.
+pub fn limit<T: Angle>(
+    operations: &Operations,
+    width: u32,
+    clock: f64,
+) -> Option<(f64, &'static str)> {
+    let about = fs::read_to_string("/proc/cpuinfo").ok()?;
+    let field = |name: &str| {
+        let line = about
+            .lines()
+            .find(|line| line.split(':').next().map(str::trim) == Some(name));
+        line.and_then(|line| line.split(':').nth(1)).map(str::trim)
+    };
+    let (vendor, family, model) = (field("vendor_id")?, field("cpu family")?, field("model")?);
+    let (family, model): (u32, u32) = (family.parse().ok()?, model.parse().ok()?);
+    let row = ROWS.iter().find(|row| {
+        row.vendor == vendor
+            && (row.family, row.width) == (family, width)
+            && row
+                .models
+                .iter()
+                .any(|(first, last)| (*first..=*last).contains(&model))
+    })?;
+    let scalar = usize::from(size_of::<T>() == 4);
+    let busy = |ports: u8| {
+        let own = row
+            .kinds
+            .iter()
+            .zip(operations)
+            .filter(|((own, _), _)| own & !ports == 0);
+        let cycles: f64 = own
+            .map(|((_, cycles), count)| cycles[scalar] * *count as f64)
+            .sum();
+        cycles / f64::from(ports.count_ones())
+    };
+    let cycles = (1..=u8::MAX).map(busy).fold(0.0, f64::max);
+    let lanes = row.width as usize / (8 * size_of::<T>());
+    Some((cycles / lanes as f64 / clock, row.name))
+}
+
+/// Returns the cycles a nanosecond: of a chain of products and exclusive ors, of 3 cycles and one
+/// on all of these processors.
+pub fn clock() -> f64 {
+    let run = || {
+        let start = Instant::now();
+        let mut x = std::hint::black_box(3u64);
+        for _ in 0..20_000 {
+            x = x.wrapping_mul(x ^ 5);
+        }
+        std::hint::black_box(x);
+        start.elapsed().as_secs_f64() * 1e9
+    };
+    80_000.0 / (0..500).map(|_| run()).fold(f64::MAX, f64::min)
+}
