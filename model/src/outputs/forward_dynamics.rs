@@ -38,12 +38,11 @@ pub(super) fn accelerations<S: Divide>(at: &Regrouped<'_, S>, unknowns: Unknowns
         let given = [motion.qd.as_slice(), &motion.tau];
         return unspun.forward_dynamics(given, &motion.moves, at.form, unknowns);
     }
-    let d = at.composite.inertia(at.form.travel);
     if !at.form.composite_h {
         let given = [motion.qd.as_slice(), &motion.tau];
-        let chain = (at.at, d.as_slice());
-        return (at.chain).forward_dynamics(chain, given, &motion.moves, at.form, unknowns);
+        return (at.composite).forward_dynamics(given, &motion.moves, at.form, unknowns);
     }
+    let d = at.composite.inertia(at.form.travel);
     let bias = torques(at, &zeros(motion.qd.len()));
     at.chain
         .accelerations(&d, [&bias, &motion.tau], &motion.moves, unknowns)
@@ -80,6 +79,7 @@ impl Formula for Acceleration {
         }),
         payload_dependence: PayloadDependence::Torque,
         gravity: true,
+        has_shoulder: true,
         ..Facts::PLAIN
     };
 

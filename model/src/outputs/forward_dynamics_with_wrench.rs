@@ -56,6 +56,7 @@ impl Formula for ContactAcceleration {
             flows: false,
         }),
         gravity: true,
+        has_shoulder: true,
         frame: FrameChoice::Axes,
         hand: HandChoice::None,
         ..OF_HAND

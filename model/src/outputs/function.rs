@@ -189,12 +189,16 @@ impl Function {
         let quantities = || self.quantities().iter();
         let choices = || quantities().filter_map(|q| q.facts().choices);
         let hand = quantities().map(|q| q.facts().hand).max();
-        Form::all(
+        let mut forms = Form::all(
             choices().any(|c| c.recursion),
             choices().any(|c| c.travel),
             choices().any(|c| c.flows),
             hand.unwrap_or(HandChoice::None),
-        )
+        );
+        if quantities().any(|q| q.facts().has_shoulder) {
+            forms.extend(Form::with_shoulder(&forms));
+        }
+        forms
     }
 }
 

@@ -16,6 +16,7 @@
 //! - [`probe`]: what is fixed to links beside their bodies; `regressor`: what
 //!   of torque it takes
 //! - `parallel`: D q̈ = τ − h − c in rates against the base, where axes are parallel
+//! - `shoulder`: forward dynamics where the first axes meet in one point
 //! - `spin`: forward dynamics where the last joint turns about a principal axis
 //! - `load`: bodies that links carry beside their own
 //! - `passivity`: D a + C v + c + b∘v by a recursion over two velocities
@@ -39,6 +40,7 @@ mod reference;
 mod regressor;
 pub mod regrouping;
 pub mod second_derivatives;
+mod shoulder;
 pub mod skeleton;
 mod spin;
 mod twist;

@@ -1,0 +1,301 @@
+//! Forward dynamics of a chain whose first three joints or more turn about axes that meet.
+//!
+//! The point C where they meet stays where it is, so of all that the links beyond do to these
+//! joints, only the moment about C is felt: three components, whatever the number of joints.
+//! With ω̇ of the last link of the shoulder and ÿ of the joints beyond it
+//!
+//! ```text
+//! ( I   N ) ( ω̇ )   ( μ − p )        I   inertia about C of all links beyond
+//! ( Nᵀ  D ) ( ÿ ) = ( τ − b )        N   moments about C of their unit accelerations
+//! ```
+//!
+//! in the axes of the first link beyond. The joints beyond are eliminated from that, and what is
+//! left, I′ and p′ with μ = p′ + I′ ω̇, is that of an articulated body which turns about C: three by
+//! three entries where another articulated body has six by six, and two by two once a joint is
+//! eliminated. So entries of D between the shoulder and what is beyond are never formed, and no
+//! axis of the shoulder is turned into a frame beyond it.
+
+use alloc::vec::Vec;
+
+use super::composite::Composite;
+use super::recursion::MomentForm;
+use super::reference::ReferenceMotion;
+use super::{Body, Chain, ChainLink, Displacement, apply, apply_transposed};
+use crate::equations::factor::Partial;
+use crate::equations::forward::free;
+use crate::equations::matrix::{
+    Vector, cross, minus, negative, over, plus, sum, symmetric, times, zero_vector, zeros,
+};
+use crate::robot::{Inertia, JointKind};
+use crate::scalar::{Divide, Scalar};
+
+/// The fewest axes that have to meet: of two, as much work is left as without.
+const FEWEST: usize = 3;
+
+/// The joints at the base whose axes meet in one point.
+pub(super) struct Shoulder<S> {
+    /// The origin of each of their frames along its axis, seen from the point.
+    heights: Vec<S>,
+}
+
+impl<S: Scalar> Chain<S> {
+    /// Returns whether three axes or more meet at the base, by structure.
+    pub fn has_shoulder(&self) -> bool {
+        self.shoulder().is_some()
+    }
+
+    /// Returns the joints at the base whose axes meet, if these are three or more and not all.
+    fn shoulder(&self) -> Option<Shoulder<S>> {
+        let all = (0..FEWEST).filter_map(|origin| self.through(origin));
+        let wide = all.filter(|all| (FEWEST..self.links.len()).contains(&all.heights.len()));
+        // The last of the widest in reverse is the first.
+        let mut wide: Vec<Shoulder<S>> = wide.collect();
+        wide.reverse();
+        wide.into_iter().max_by_key(|all| all.heights.len())
+    }
+
+    /// Returns the joints at the base whose axes pass through the origin of this frame. Turning
+    /// about an axis leaves what is on it where it is.
+    fn through(&self, origin: usize) -> Option<Shoulder<S>> {
+        let turns = |link: &ChainLink<S>| link.kind == JointKind::Revolute;
+        let height = |point: &Vector<S>| {
+            let is_on_axis = point[0].is_zero() && point[1].is_zero();
+            is_on_axis.then(|| point[2].clone())
+        };
+        let mut heights = alloc::vec![S::zero()];
+        for link in self.links.get(1..=origin)?.iter().rev() {
+            // The point seen from the origin before.
+            let along = [S::zero(), S::zero(), negative(&heights[0])];
+            let seen = sum(&apply(&link.rotation, &along), &link.offset);
+            heights.insert(0, negative(&height(&seen)?));
+        }
+        let (inner, outer) = self.links.split_at(origin + 1);
+        if !inner.iter().all(turns) {
+            return None;
+        }
+        for link in outer.iter().take_while(|link| turns(link)) {
+            let along = [S::zero(), S::zero(), heights[heights.len() - 1].clone()];
+            let seen = apply_transposed(&link.rotation, &sum(&along, &link.offset));
+            match height(&seen) {
+                Some(height) => heights.push(height),
+                None => break,
+            }
+        }
+        Some(Shoulder { heights })
+    }
+
+    /// Returns the origin of the first frame beyond, seen from the point in the axes of that
+    /// frame.
+    fn lever_beyond(&self, shoulder: &Shoulder<S>, at: &[Displacement<S>]) -> Vector<S> {
+        let first = shoulder.heights.len();
+        let along = [S::zero(), S::zero(), shoulder.heights[first - 1].clone()];
+        let (link, at) = (&self.links[first], &at[first]);
+        link.inward(at, &sum(&along, &link.lever(at)))
+    }
+}
+
+/// A moment p + I ω̇ about the point, in the axes of a frame.
+struct Hinged<S> {
+    inertia: Inertia<S>,
+    moment: Vector<S>,
+}
+
+/// What a joint of the shoulder leaves of ω̇ of the frame before.
+struct Solved<S> {
+    /// (τ − p_z) / D
+    own: S,
+    /// I_xz / D, I_yz / D, I_zz / D
+    shares: Vector<S>,
+}
+
+impl<S: Scalar> Hinged<S> {
+    /// Returns it in the axes of the frame before.
+    fn carried(&self, link: &ChainLink<S>, at: &Displacement<S>) -> Self {
+        // A tensor turns as second moments do.
+        let body = Body {
+            second: self.inertia.clone(),
+            ..Body::zero()
+        };
+        let inertia = match at {
+            Displacement::Turn(theta) => body.turned_z(theta).turned(&link.rotation).second,
+            Displacement::Slide(_) => body.second,
+        };
+        Hinged {
+            inertia,
+            moment: link.outward(at, &self.moment),
+        }
+    }
+
+    /// Returns it with a body whose origin is this high above the point, and its own wrench.
+    fn with(&self, body: &Body<S>, height: &S, (force, moment): (Vector<S>, Vector<S>)) -> Self {
+        let lever = [S::zero(), S::zero(), height.clone()];
+        let own = body.moved(&lever).tensor();
+        let (a, b) = (&self.inertia, &own);
+        Hinged {
+            inertia: Inertia {
+                xx: plus(&a.xx, &b.xx),
+                yy: plus(&a.yy, &b.yy),
+                zz: plus(&a.zz, &b.zz),
+                xy: plus(&a.xy, &b.xy),
+                yz: plus(&a.yz, &b.yz),
+                xz: plus(&a.xz, &b.xz),
+            },
+            moment: sum(&self.moment, &sum(&moment, &cross(&lever, &force))),
+        }
+    }
+}
+
+impl<S: Divide> Hinged<S> {
+    /// Eliminates a joint about z with this rotor, that is given this torque; of the first that
+    /// moves nothing else is divided.
+    fn eliminated(self, rotor: &S, given: &S, is_first: bool) -> (Self, Solved<S>) {
+        let Hinged { inertia, moment } = self;
+        let pivot = plus(&inertia.zz, rotor);
+        let inverse = over(&S::one(), &pivot);
+        let left = minus(given, &moment[2]);
+        let [x, y] = [&inertia.xz, &inertia.yz].map(|entry| times(entry, &inverse));
+        // Without a rotor nothing is left about the axis, and no rounding of it either.
+        let z = match rotor.is_zero() {
+            true => S::one(),
+            false => times(&inertia.zz, &inverse),
+        };
+        let moment = [
+            plus(&moment[0], &times(&x, &left)),
+            plus(&moment[1], &times(&y, &left)),
+            match rotor.is_zero() {
+                true => given.clone(),
+                false => plus(&moment[2], &times(&z, &left)),
+            },
+        ];
+        let inertia = Inertia {
+            xx: minus(&inertia.xx, &times(&x, &inertia.xz)),
+            yy: minus(&inertia.yy, &times(&y, &inertia.yz)),
+            xy: minus(&inertia.xy, &times(&x, &inertia.yz)),
+            xz: times(&x, rotor),
+            yz: times(&y, rotor),
+            zz: times(&z, rotor),
+        };
+        let own = match is_first {
+            true => over(&left, &pivot),
+            false => times(&left, &inverse),
+        };
+        let shares = [x, y, z];
+        (Hinged { inertia, moment }, Solved { own, shares })
+    }
+}
+
+impl<S: Divide> Composite<'_, S> {
+    /// Returns q̈ beyond a reference under τ, zero of joints that do not move, if there is a
+    /// shoulder; `exerted` is the moment that the last link exerts on something else.
+    pub(super) fn accelerations_by_shoulder(
+        &self,
+        reference: &ReferenceMotion<S>,
+        (couple, exerted): (MomentForm, &Vector<S>),
+        [qd, tau]: [&[S]; 2],
+        moves: &[bool],
+    ) -> Option<Vec<S>> {
+        let chain = self.chain;
+        let shoulder = chain.shoulder()?;
+        let (first, n) = (shoulder.heights.len(), chain.links.len());
+        let lever = chain.lever_beyond(&shoulder, self.at);
+        let drive = |i: usize| chain.drive(i, qd, &reference.accelerations);
+        let wrench = |i: usize| reference.links[i].wrench(&chain.links[i].body, couple);
+
+        // What τ leaves of the joints beyond, and the moment about the point.
+        let (mut force, mut moment) = (zero_vector(), exerted.clone());
+        let mut left = zeros(n);
+        for i in (first..n).rev() {
+            let (own, own_moment) = wrench(i);
+            (force, moment) = (sum(&force, &own), sum(&moment, &own_moment));
+            let load = chain.load(i, &force, &moment);
+            left[i] = minus(&tau[i], &plus(&load, &drive(i)));
+            if i > first {
+                (force, moment) = chain.to_previous(i, &self.at[i], &force, &moment);
+            }
+        }
+        let moment = sum(&moment, &cross(&lever, &force));
+        let beyond = self.beyond(first, &lever, moves);
+        let joints: Vec<usize> = free(moves).into_iter().filter(|&i| i >= first).collect();
+        let right = moment.iter().map(negative);
+        let right = right.chain(joints.iter().map(|&i| left[i].clone()));
+        let right = beyond.eliminated(&right.collect::<Vec<S>>());
+        let (about, rest) = right.split_at(3);
+        let entry = |i: usize, k: usize| beyond.left(k, i).clone();
+        let mut hinged = Hinged {
+            inertia: Inertia::symmetric(entry),
+            moment: core::array::from_fn(|axis| negative(&about[axis])),
+        };
+        hinged = hinged.carried(&chain.links[first], &self.at[first]);
+
+        // The joints of the shoulder, inward and back.
+        let mut solved: Vec<Option<Solved<S>>> = Vec::with_capacity(first);
+        for (i, link) in chain.links[..first].iter().enumerate().rev() {
+            hinged = hinged.with(&link.body, &shoulder.heights[i], wrench(i));
+            let mut own = None;
+            if moves[i] {
+                let given = minus(&tau[i], &drive(i));
+                let is_first = !moves[..i].contains(&true);
+                let (rest, joint) = hinged.eliminated(&link.armature, &given, is_first);
+                (hinged, own) = (rest, Some(joint));
+            }
+            hinged = hinged.carried(link, &self.at[i]);
+            solved.push(own);
+        }
+        solved.reverse();
+        let mut found = zeros(n);
+        let mut omega = zero_vector();
+        for (i, joint) in solved.iter().enumerate() {
+            omega = chain.links[i].inward(&self.at[i], &omega);
+            if let Some(Solved { own, shares }) = joint {
+                let [x, y] = [0, 1].map(|axis| times(&shares[axis], &omega[axis]));
+                let own = minus(&minus(own, &x), &y);
+                found[i] = minus(&own, &times(&shares[2], &omega[2]));
+                omega[2] = match chain.links[i].armature.is_zero() {
+                    true => own,
+                    false => plus(&omega[2], &found[i]),
+                };
+            }
+        }
+        let omega = chain.links[first].inward(&self.at[first], &omega);
+        let known = omega.into_iter().chain(rest.iter().cloned()).collect();
+        let all = beyond.substituted(known);
+        for (&joint, value) in joints.iter().zip(&all[3..]) {
+            found[joint] = value.clone();
+        }
+        Some(found)
+    }
+
+    /// Returns I, N and D of the joints from the first beyond a shoulder that move, these
+    /// eliminated; the lever is that of the first frame's origin.
+    fn beyond(&self, first: usize, lever: &Vector<S>, moves: &[bool]) -> Partial<S> {
+        let chain = self.chain;
+        let joints: Vec<usize> = free(moves).into_iter().filter(|&i| i >= first).collect();
+        let tensor = self.bodies[first].moved(lever).tensor();
+        let mut upper: Vec<Vec<S>> = alloc::vec![
+            alloc::vec![tensor.xx.clone()],
+            alloc::vec![tensor.xy.clone(), tensor.yy.clone()],
+            alloc::vec![tensor.xz.clone(), tensor.yz.clone(), tensor.zz.clone()],
+        ];
+        for &k in &joints {
+            let (mut force, mut moment) = self.momentum(k);
+            let mut column = Vec::new();
+            for i in (first..=k).rev() {
+                let load = self.in_metres(k, chain.load(i, &force, &moment));
+                if i == k {
+                    column.push(plus(&load, &chain.links[k].armature));
+                } else if moves[i] {
+                    column.push(load);
+                }
+                if i > first {
+                    (force, moment) = chain.to_previous(i, &self.at[i], &force, &moment);
+                }
+            }
+            let moment = sum(&moment, &cross(lever, &force));
+            column.extend(moment.iter().rev().map(|x| self.in_metres(k, x.clone())));
+            column.reverse();
+            upper.push(column);
+        }
+        let matrix = symmetric(upper.len(), |i, k| upper[i.max(k)][i.min(k)].clone());
+        Partial::new(&matrix, 3)
+    }
+}
