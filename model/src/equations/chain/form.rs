@@ -69,14 +69,12 @@ impl Form {
         hands.flat_map(of).collect()
     }
 
-    /// Returns the same where joints whose axes meet at the base are solved for as one: from
-    /// torques of the recursion and wrenches that come in.
+    /// Returns the same where joints whose axes meet at the base are solved for as one, from
+    /// torques of the recursion.
     pub fn with_shoulder(forms: &[Form]) -> Vec<Form> {
-        let inward = forms.iter().filter(|form| {
-            !form.composite_h && !form.flows && form.travel == CompositeOrder::Inward
-        });
+        let forms = forms.iter().filter(|form| !form.composite_h && !form.flows);
         let shoulder = true;
-        inward.map(|&form| Form { shoulder, ..form }).collect()
+        forms.map(|&form| Form { shoulder, ..form }).collect()
     }
 
     fn of_joints(recursion: bool, travels: bool, flows: bool) -> Vec<Form> {

@@ -107,9 +107,9 @@ impl<S: Divide> Composite<'_, S> {
         let motion = chain.reference_motion(self.at, qd, moves, form.spin);
         let reference = &motion.accelerations;
         let exerted = zero_vector();
-        let by_shoulder = form.shoulder.then(|| {
-            self.accelerations_by_shoulder(&motion, (form.couple, &exerted), [qd, tau], moves)
-        });
+        let by_shoulder = form
+            .shoulder
+            .then(|| self.accelerations_by_shoulder(&motion, (form, &exerted), [qd, tau], moves));
         let rest = by_shoulder.flatten().unwrap_or_else(|| {
             let drive = |i: usize| chain.drive(i, qd, reference);
             let taken = chain.torques(self.at, &motion.links, form.couple, &exerted, drive);

@@ -17,10 +17,9 @@
 
 use alloc::vec::Vec;
 
-use super::composite::Composite;
-use super::recursion::MomentForm;
+use super::composite::{Composite, CompositeOrder};
 use super::reference::ReferenceMotion;
-use super::{Body, Chain, ChainLink, Displacement, apply, apply_transposed};
+use super::{Body, Chain, ChainLink, Displacement, Form, apply, apply_transposed};
 use crate::equations::factor::Partial;
 use crate::equations::forward::free;
 use crate::equations::matrix::{
@@ -190,7 +189,7 @@ impl<S: Divide> Composite<'_, S> {
     pub(super) fn accelerations_by_shoulder(
         &self,
         reference: &ReferenceMotion<S>,
-        (couple, exerted): (MomentForm, &Vector<S>),
+        (form, exerted): (Form, &Vector<S>),
         [qd, tau]: [&[S]; 2],
         moves: &[bool],
     ) -> Option<Vec<S>> {
@@ -199,7 +198,7 @@ impl<S: Divide> Composite<'_, S> {
         let (first, n) = (shoulder.heights.len(), chain.links.len());
         let lever = chain.lever_beyond(&shoulder, self.at);
         let drive = |i: usize| chain.drive(i, qd, &reference.accelerations);
-        let wrench = |i: usize| reference.links[i].wrench(&chain.links[i].body, couple);
+        let wrench = |i: usize| reference.links[i].wrench(&chain.links[i].body, form.couple);
 
         // What τ leaves of the joints beyond, and the moment about the point.
         let (mut force, mut moment) = (zero_vector(), exerted.clone());
@@ -213,8 +212,18 @@ impl<S: Divide> Composite<'_, S> {
                 (force, moment) = chain.to_previous(i, &self.at[i], &force, &moment);
             }
         }
-        let moment = sum(&moment, &cross(&lever, &force));
-        let beyond = self.beyond(first, &lever, moves);
+        let lifted = cross(&lever, &force);
+        let mut moment = sum(&moment, &lifted);
+        let is_taken_back = chain.links[first].kind == JointKind::Revolute && moves[first];
+        if is_taken_back {
+            // Along its axis the joint passes on what it is given.
+            moment[2] = plus(&lifted[2], &minus(&tau[first], &drive(first)));
+        }
+        let matrix = self.beyond(first, &lever, moves, form.travel);
+        let beyond = match is_taken_back {
+            true => Partial::new(&taken_back(matrix), 3),
+            false => Partial::new(&matrix, 3),
+        };
         let joints: Vec<usize> = free(moves).into_iter().filter(|&i| i >= first).collect();
         let right = moment.iter().map(negative);
         let right = right.chain(joints.iter().map(|&i| left[i].clone()));
@@ -262,40 +271,63 @@ impl<S: Divide> Composite<'_, S> {
         for (&joint, value) in joints.iter().zip(&all[3..]) {
             found[joint] = value.clone();
         }
+        if is_taken_back {
+            found[first] = minus(&found[first], &all[2]);
+        }
         Some(found)
     }
 
-    /// Returns I, N and D of the joints from the first beyond a shoulder that move, these
-    /// eliminated; the lever is that of the first frame's origin.
-    fn beyond(&self, first: usize, lever: &Vector<S>, moves: &[bool]) -> Partial<S> {
+    /// Returns I, N and D of the joints from the first beyond a shoulder that move; the lever is
+    /// that of the first frame's origin.
+    fn beyond(
+        &self,
+        first: usize,
+        lever: &Vector<S>,
+        moves: &[bool],
+        travel: CompositeOrder,
+    ) -> Vec<Vec<S>> {
         let chain = self.chain;
-        let joints: Vec<usize> = free(moves).into_iter().filter(|&i| i >= first).collect();
         let tensor = self.bodies[first].moved(lever).tensor();
-        let mut upper: Vec<Vec<S>> = alloc::vec![
+        let mut lower: Vec<Vec<S>> = alloc::vec![
             alloc::vec![tensor.xx.clone()],
             alloc::vec![tensor.xy.clone(), tensor.yy.clone()],
             alloc::vec![tensor.xz.clone(), tensor.yz.clone(), tensor.zz.clone()],
         ];
-        for &k in &joints {
-            let (mut force, mut moment) = self.momentum(k);
-            let mut column = Vec::new();
+        for k in (first..chain.links.len()).filter(|&k| moves[k]) {
+            let own = self.momentum(k);
+            let (mut force, mut moment) = own.clone();
+            let mut row = Vec::new();
             for i in (first..=k).rev() {
-                let load = self.in_metres(k, chain.load(i, &force, &moment));
+                let load = match travel {
+                    CompositeOrder::Inward => chain.load(i, &force, &moment),
+                    CompositeOrder::Outward => self.project(i, k, &own.0, &own.1),
+                };
+                let load = self.in_metres(k, load);
                 if i == k {
-                    column.push(plus(&load, &chain.links[k].armature));
+                    row.push(plus(&load, &chain.links[k].armature));
                 } else if moves[i] {
-                    column.push(load);
+                    row.push(load);
                 }
                 if i > first {
                     (force, moment) = chain.to_previous(i, &self.at[i], &force, &moment);
                 }
             }
             let moment = sum(&moment, &cross(lever, &force));
-            column.extend(moment.iter().rev().map(|x| self.in_metres(k, x.clone())));
-            column.reverse();
-            upper.push(column);
+            row.extend(moment.iter().rev().map(|x| self.in_metres(k, x.clone())));
+            row.reverse();
+            lower.push(row);
         }
-        let matrix = symmetric(upper.len(), |i, k| upper[i.max(k)][i.min(k)].clone());
-        Partial::new(&matrix, 3)
+        symmetric(lower.len(), |i, k| lower[i.max(k)][i.min(k)].clone())
     }
+}
+
+/// Returns it where the first joint beyond takes back what ω̇ has along its axis, as in
+/// `parallel`: then all beyond moves without a turn, and that is forces on a lever.
+fn taken_back<S: Scalar>(mut matrix: Vec<Vec<S>>) -> Vec<Vec<S>> {
+    let rows = matrix[2].iter().zip(&matrix[3]);
+    matrix[2] = rows.map(|(x, y)| minus(x, y)).collect();
+    for row in &mut matrix {
+        row[2] = minus(&row[2], &row[3]);
+    }
+    matrix
 }

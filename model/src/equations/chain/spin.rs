@@ -170,7 +170,7 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         let drive = |i: usize| chain.drive(i, qd, reference);
         let loads = [before, &tau[..last]];
         let by_shoulder = form.shoulder.then(|| {
-            let exerted = (form.couple, &couple);
+            let exerted = (form, &couple);
             composite.accelerations_by_shoulder(&motion, exerted, loads, &moves[..last])
         });
         // What is beyond the reference.
