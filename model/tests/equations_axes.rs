@@ -9,6 +9,7 @@ use dalembert_model::equations::chain::recursion::{AccelerationForm, MomentForm}
 use dalembert_model::equations::chain::{Chain, Regrouping, Skeleton};
 use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};
 use dalembert_model::robot::{Convention, JointKind};
+use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
 
 /// The twists of a chain: along, against and across the axis before.

@@ -81,9 +81,9 @@ fn compare(arm: &Arm<Known>, moves: &[bool], by_tip: bool, points: &mut Points) 
 fn torques_are_those_that_were_given() {
     let mut points = Points::new(0x5401);
     for (n, slides, four) in [
-        (4, 0, false),
-        (4, 0b1000, false),
-        (5, 0, true),
+        (5, 0, false),
+        (5, 0b0_1000, false),
+        (6, 0, true),
         (6, 0b10_0000, false),
         (7, 0, false),
         (7, 0b101_0000, true),
@@ -110,6 +110,16 @@ fn so_they_are_where_the_tip_is_eliminated_before() {
         (last.com[0], last.com[1], last.armature) = (zero, zero, armature);
         (last.inertia.xz, last.inertia.yz) = (zero, zero);
         compare(&arm, &[true; 7], true, &mut points);
+    }
+}
+
+#[test]
+fn one_joint_beyond_is_too_few() {
+    let mut points = Points::new(0x5404);
+    for (n, four) in [(4, false), (5, true)] {
+        let arm = arm(n, 0, four, &mut points);
+        let skeleton = Skeleton::new(&arm, &[]);
+        assert!(!Chain::new(&skeleton, &Regrouping::base(&skeleton)).has_shoulder());
     }
 }
 

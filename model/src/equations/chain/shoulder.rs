@@ -18,12 +18,13 @@
 use alloc::vec::Vec;
 
 use super::composite::{Composite, CompositeOrder};
+use super::hinged::{Hinged, Solved};
 use super::reference::ReferenceMotion;
-use super::{Body, Chain, ChainLink, Displacement, Form, apply, apply_transposed};
+use super::{Chain, ChainLink, Displacement, Form, apply, apply_transposed};
 use crate::equations::factor::Partial;
 use crate::equations::forward::free;
 use crate::equations::matrix::{
-    Vector, cross, minus, negative, over, plus, sum, symmetric, times, zero_vector, zeros,
+    Vector, cross, minus, negative, plus, sum, symmetric, times, zero_vector, zeros,
 };
 use crate::robot::{Inertia, JointKind};
 use crate::scalar::{Divide, Scalar};
@@ -31,31 +32,28 @@ use crate::scalar::{Divide, Scalar};
 /// The fewest axes that have to meet: of two, as much work is left as without.
 const FEWEST: usize = 3;
 
-/// The joints at the base whose axes meet in one point.
-pub(super) struct Shoulder<S> {
-    /// The origin of each of their frames along its axis, seen from the point.
-    heights: Vec<S>,
-}
+/// The fewest joints beyond: of one, as much work is left as without.
+const BEYOND: usize = 2;
 
 impl<S: Scalar> Chain<S> {
-    /// Returns whether three axes or more meet at the base, by structure.
+    /// Returns whether three axes or more meet at the base, by structure, with two joints beyond.
     pub fn has_shoulder(&self) -> bool {
         self.shoulder().is_some()
     }
 
-    /// Returns the joints at the base whose axes meet, if these are three or more and not all.
-    fn shoulder(&self) -> Option<Shoulder<S>> {
+    /// Returns the heights of the joints at the base whose axes meet, if there are as many as it
+    /// takes: of each frame's origin along its axis, seen from the point.
+    fn shoulder(&self) -> Option<Vec<S>> {
+        let most = self.links.len().checked_sub(BEYOND)?;
         let all = (0..FEWEST).filter_map(|origin| self.through(origin));
-        let wide = all.filter(|all| (FEWEST..self.links.len()).contains(&all.heights.len()));
-        // The last of the widest in reverse is the first.
-        let mut wide: Vec<Shoulder<S>> = wide.collect();
-        wide.reverse();
-        wide.into_iter().max_by_key(|all| all.heights.len())
+        let mut wide = all.filter(|heights| (FEWEST..=most).contains(&heights.len()));
+        // Through two points that are not one there is one axis at most.
+        wide.next()
     }
 
-    /// Returns the joints at the base whose axes pass through the origin of this frame. Turning
-    /// about an axis leaves what is on it where it is.
-    fn through(&self, origin: usize) -> Option<Shoulder<S>> {
+    /// Returns the heights of the joints at the base whose axes pass through the origin of this
+    /// frame. Turning about an axis leaves what is on it where it is.
+    fn through(&self, origin: usize) -> Option<Vec<S>> {
         let turns = |link: &ChainLink<S>| link.kind == JointKind::Revolute;
         let height = |point: &Vector<S>| {
             let is_on_axis = point[0].is_zero() && point[1].is_zero();
@@ -80,106 +78,16 @@ impl<S: Scalar> Chain<S> {
                 None => break,
             }
         }
-        Some(Shoulder { heights })
+        Some(heights)
     }
 
     /// Returns the origin of the first frame beyond, seen from the point in the axes of that
     /// frame.
-    fn lever_beyond(&self, shoulder: &Shoulder<S>, at: &[Displacement<S>]) -> Vector<S> {
-        let first = shoulder.heights.len();
-        let along = [S::zero(), S::zero(), shoulder.heights[first - 1].clone()];
+    fn lever_beyond(&self, heights: &[S], at: &[Displacement<S>]) -> Vector<S> {
+        let first = heights.len();
+        let along = [S::zero(), S::zero(), heights[first - 1].clone()];
         let (link, at) = (&self.links[first], &at[first]);
         link.inward(at, &sum(&along, &link.lever(at)))
-    }
-}
-
-/// A moment p + I ω̇ about the point, in the axes of a frame.
-struct Hinged<S> {
-    inertia: Inertia<S>,
-    moment: Vector<S>,
-}
-
-/// What a joint of the shoulder leaves of ω̇ of the frame before.
-struct Solved<S> {
-    /// (τ − p_z) / D
-    own: S,
-    /// I_xz / D, I_yz / D, I_zz / D
-    shares: Vector<S>,
-}
-
-impl<S: Scalar> Hinged<S> {
-    /// Returns it in the axes of the frame before.
-    fn carried(&self, link: &ChainLink<S>, at: &Displacement<S>) -> Self {
-        // A tensor turns as second moments do.
-        let body = Body {
-            second: self.inertia.clone(),
-            ..Body::zero()
-        };
-        let inertia = match at {
-            Displacement::Turn(theta) => body.turned_z(theta).turned(&link.rotation).second,
-            Displacement::Slide(_) => body.second,
-        };
-        Hinged {
-            inertia,
-            moment: link.outward(at, &self.moment),
-        }
-    }
-
-    /// Returns it with a body whose origin is this high above the point, and its own wrench.
-    fn with(&self, body: &Body<S>, height: &S, (force, moment): (Vector<S>, Vector<S>)) -> Self {
-        let lever = [S::zero(), S::zero(), height.clone()];
-        let own = body.moved(&lever).tensor();
-        let (a, b) = (&self.inertia, &own);
-        Hinged {
-            inertia: Inertia {
-                xx: plus(&a.xx, &b.xx),
-                yy: plus(&a.yy, &b.yy),
-                zz: plus(&a.zz, &b.zz),
-                xy: plus(&a.xy, &b.xy),
-                yz: plus(&a.yz, &b.yz),
-                xz: plus(&a.xz, &b.xz),
-            },
-            moment: sum(&self.moment, &sum(&moment, &cross(&lever, &force))),
-        }
-    }
-}
-
-impl<S: Divide> Hinged<S> {
-    /// Eliminates a joint about z with this rotor, that is given this torque; of the first that
-    /// moves nothing else is divided.
-    fn eliminated(self, rotor: &S, given: &S, is_first: bool) -> (Self, Solved<S>) {
-        let Hinged { inertia, moment } = self;
-        let pivot = plus(&inertia.zz, rotor);
-        let inverse = over(&S::one(), &pivot);
-        let left = minus(given, &moment[2]);
-        let [x, y] = [&inertia.xz, &inertia.yz].map(|entry| times(entry, &inverse));
-        // Without a rotor nothing is left about the axis, and no rounding of it either.
-        let z = match rotor.is_zero() {
-            true => S::one(),
-            false => times(&inertia.zz, &inverse),
-        };
-        let moment = [
-            plus(&moment[0], &times(&x, &left)),
-            plus(&moment[1], &times(&y, &left)),
-            match rotor.is_zero() {
-                true => given.clone(),
-                false => plus(&moment[2], &times(&z, &left)),
-            },
-        ];
-        let inertia = Inertia {
-            xx: minus(&inertia.xx, &times(&x, &inertia.xz)),
-            yy: minus(&inertia.yy, &times(&y, &inertia.yz)),
-            xy: minus(&inertia.xy, &times(&x, &inertia.yz)),
-            xz: times(&x, rotor),
-            yz: times(&y, rotor),
-            zz: times(&z, rotor),
-        };
-        let own = match is_first {
-            true => over(&left, &pivot),
-            false => times(&left, &inverse),
-        };
-        let shares = [x, y, z];
-        (Hinged { inertia, moment }, Solved { own, shares })
     }
 }
 
@@ -194,9 +102,9 @@ impl<S: Divide> Composite<'_, S> {
         moves: &[bool],
     ) -> Option<Vec<S>> {
         let chain = self.chain;
-        let shoulder = chain.shoulder()?;
-        let (first, n) = (shoulder.heights.len(), chain.links.len());
-        let lever = chain.lever_beyond(&shoulder, self.at);
+        let heights = chain.shoulder()?;
+        let (first, n) = (heights.len(), chain.links.len());
+        let lever = chain.lever_beyond(&heights, self.at);
         let drive = |i: usize| chain.drive(i, qd, &reference.accelerations);
         let wrench = |i: usize| reference.links[i].wrench(&chain.links[i].body, form.couple);
 
@@ -239,7 +147,7 @@ impl<S: Divide> Composite<'_, S> {
         // The joints of the shoulder, inward and back.
         let mut solved: Vec<Option<Solved<S>>> = Vec::with_capacity(first);
         for (i, link) in chain.links[..first].iter().enumerate().rev() {
-            hinged = hinged.with(&link.body, &shoulder.heights[i], wrench(i));
+            hinged = hinged.with(&link.body, &heights[i], wrench(i));
             let mut own = None;
             if moves[i] {
                 let given = minus(&tau[i], &drive(i));
