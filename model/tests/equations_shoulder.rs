@@ -58,14 +58,12 @@ fn compare(arm: &Arm<Known>, moves: &[bool], by_tip: bool, points: &mut Points) 
     let composite = Composite::new(&posed, &at);
     for form in forms() {
         let given = [&qd[..], &tau];
-        let unknowns = Unknowns::Joints;
         let found = match by_tip {
-            false => composite.forward_dynamics(given, moves, form, unknowns),
-            true => {
-                let tip = EliminatedTip::new(&composite, moves).unwrap();
-                tip.forward_dynamics(given, moves, form, unknowns)
-            }
+            false => composite.forward_dynamics_by_shoulder(given, moves, form),
+            true => EliminatedTip::new(&composite, moves)
+                .map(|tip| tip.forward_dynamics(given, moves, form, Unknowns::Joints)),
         };
+        let found = found.unwrap();
         let textbook = Formulation::LagrangeEuler;
         let torques = textbook.inverse_dynamics(arm, &arm.at(&position), &qd, &found);
         for (i, moves) in moves.iter().enumerate() {

@@ -14,8 +14,7 @@
 
 use alloc::vec::Vec;
 
-use super::composite::Composite;
-use super::{Chain, Form};
+use super::{Chain, Displacement, Form};
 use crate::equations::forward::solved;
 use crate::equations::matrix::{minus, plus, zero_vector};
 use crate::scalar::{Divide, Scalar};
@@ -93,29 +92,22 @@ impl<S: Divide> Chain<S> {
     }
 }
 
-impl<S: Divide> Composite<'_, S> {
+impl<S: Divide> Chain<S> {
     /// Returns q̈ under τ, zero of joints that do not move, from the torques of the recursion at
     /// accelerations that shorten it.
     pub fn forward_dynamics(
         &self,
+        (at, d): (&[Displacement<S>], &[Vec<S>]),
         [qd, tau]: [&[S]; 2],
         moves: &[bool],
         form: Form,
         unknowns: Unknowns,
     ) -> Vec<S> {
-        let chain = self.chain;
-        let motion = chain.reference_motion(self.at, qd, moves, form.spin);
+        let motion = self.reference_motion(at, qd, moves, form.spin);
         let reference = &motion.accelerations;
-        let exerted = zero_vector();
-        let by_shoulder = form
-            .shoulder
-            .then(|| self.accelerations_by_shoulder(&motion, (form, &exerted), [qd, tau], moves));
-        let rest = by_shoulder.flatten().unwrap_or_else(|| {
-            let drive = |i: usize| chain.drive(i, qd, reference);
-            let taken = chain.torques(self.at, &motion.links, form.couple, &exerted, drive);
-            let d = self.inertia(form.travel);
-            chain.accelerations(&d, [&taken, tau], moves, unknowns)
-        });
+        let drive = |i: usize| self.drive(i, qd, reference);
+        let taken = self.torques(at, &motion.links, form.couple, &zero_vector(), drive);
+        let rest = self.accelerations(d, [&taken, tau], moves, unknowns);
         let sums = rest.iter().zip(reference);
         sums.map(|(rest, reference)| plus(rest, reference))
             .collect()

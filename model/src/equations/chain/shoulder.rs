@@ -43,7 +43,7 @@ impl<S: Scalar> Chain<S> {
 
     /// Returns the heights of the joints at the base whose axes meet, if there are as many as it
     /// takes: of each frame's origin along its axis, seen from the point.
-    fn shoulder(&self) -> Option<Vec<S>> {
+    pub(super) fn shoulder(&self) -> Option<Vec<S>> {
         let most = self.links.len().checked_sub(BEYOND)?;
         let all = (0..FEWEST).filter_map(|origin| self.through(origin));
         let mut wide = all.filter(|heights| (FEWEST..=most).contains(&heights.len()));
@@ -92,19 +92,36 @@ impl<S: Scalar> Chain<S> {
 }
 
 impl<S: Divide> Composite<'_, S> {
-    /// Returns q̈ beyond a reference under τ, zero of joints that do not move, if there is a
-    /// shoulder; `exerted` is the moment that the last link exerts on something else.
+    /// Returns q̈ under τ, zero of joints that do not move, if the form asks for it and the chain
+    /// has a shoulder.
+    pub fn forward_dynamics_by_shoulder(
+        &self,
+        [qd, tau]: [&[S]; 2],
+        moves: &[bool],
+        form: Form,
+    ) -> Option<Vec<S>> {
+        let heights = form.shoulder.then(|| self.chain.shoulder()).flatten()?;
+        let motion = (self.chain).reference_motion(self.at, qd, moves, form.spin);
+        let exerted = (form, &zero_vector());
+        let rest = self.accelerations_by_shoulder(&heights, &motion, exerted, [qd, tau], moves);
+        let sums = rest.iter().zip(&motion.accelerations);
+        Some(sums.map(|(rest, own)| plus(rest, own)).collect())
+    }
+
+    /// Returns q̈ beyond a reference under τ, zero of joints that do not move, of a chain with a
+    /// shoulder of these heights; `exerted` is the moment that the last link exerts on something
+    /// else.
     pub(super) fn accelerations_by_shoulder(
         &self,
+        heights: &[S],
         reference: &ReferenceMotion<S>,
         (form, exerted): (Form, &Vector<S>),
         [qd, tau]: [&[S]; 2],
         moves: &[bool],
-    ) -> Option<Vec<S>> {
+    ) -> Vec<S> {
         let chain = self.chain;
-        let heights = chain.shoulder()?;
         let (first, n) = (heights.len(), chain.links.len());
-        let lever = chain.lever_beyond(&heights, self.at);
+        let lever = chain.lever_beyond(heights, self.at);
         let drive = |i: usize| chain.drive(i, qd, &reference.accelerations);
         let wrench = |i: usize| reference.links[i].wrench(&chain.links[i].body, form.couple);
 
@@ -182,7 +199,7 @@ impl<S: Divide> Composite<'_, S> {
         if is_taken_back {
             found[first] = minus(&found[first], &all[2]);
         }
-        Some(found)
+        found
     }
 
     /// Returns I, N and D of the joints from the first beyond a shoulder that move; the lever is

@@ -168,26 +168,28 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         let left = minus(&left, &own);
         let composite = Composite::new(chain, at);
         let drive = |i: usize| chain.drive(i, qd, reference);
-        let loads = [before, &tau[..last]];
-        let by_shoulder = form.shoulder.then(|| {
-            let exerted = (form, &couple);
-            composite.accelerations_by_shoulder(&motion, exerted, loads, &moves[..last])
-        });
         // What is beyond the reference.
-        let rest = by_shoulder.flatten().unwrap_or_else(|| {
-            let bias = match form.composite_h {
-                false => chain.torques(at, motions, form.couple, &couple, drive),
-                true => {
-                    let rest = zeros(last);
-                    let torques =
-                        composite.torques(&chain.gravity, before, &rest, form.spin, &couple);
-                    let torques = torques.iter().enumerate();
-                    torques.map(|(i, torque)| plus(torque, &drive(i))).collect()
-                }
-            };
-            let d = composite.inertia(form.travel);
-            chain.accelerations(&d, [&bias, &tau[..last]], &moves[..last], unknowns)
-        });
+        let rest = match form.shoulder.then(|| chain.shoulder()).flatten() {
+            None => {
+                let bias = match form.composite_h {
+                    false => chain.torques(at, motions, form.couple, &couple, drive),
+                    true => {
+                        let rest = zeros(last);
+                        let torques =
+                            composite.torques(&chain.gravity, before, &rest, form.spin, &couple);
+                        let torques = torques.iter().enumerate();
+                        torques.map(|(i, torque)| plus(torque, &drive(i))).collect()
+                    }
+                };
+                let d = composite.inertia(form.travel);
+                chain.accelerations(&d, [&bias, &tau[..last]], &moves[..last], unknowns)
+            }
+            Some(heights) => {
+                let (exerted, loads) = ((form, &couple), [before, &tau[..last]]);
+                let moves = &moves[..last];
+                composite.accelerations_by_shoulder(&heights, &motion, exerted, loads, moves)
+            }
+        };
         let products = self.brought();
         let products = products.iter().zip(&rest).map(|(x, rest)| times(x, rest));
         let still = dot(&link.axis_before(), &tip.omega_dot);
