@@ -37,6 +37,7 @@ fn forward_dynamics_and_derivatives() {
         ("planar3r", 68, 87),
         ("stanford", 387, 923),
         ("puma560", 422, 1100),
+        ("panda", 914, 2547),
     ] {
         for (function, most) in [
             (Function::ForwardDynamics, forward),

@@ -7,6 +7,7 @@ mod equations_counts;
 mod equations_extremes;
 mod equations_golden;
 mod equations_identities;
+mod equations_shoulder;
 mod equations_slips;
 mod equations_structure;
 mod equations_support;

@@ -2,6 +2,7 @@
 //! and antiparallel axes, slides between them, both conventions, seen in every
 //! choice of axes, against Lagrange–Euler in the prime field.
 
+use crate::equations_support::known::Known;
 use crate::equations_support::random;
 use dalembert_model::equations::chain::composite::{Composite, CompositeOrder};
 use dalembert_model::equations::chain::recursion::{AccelerationForm, MomentForm};
@@ -10,41 +11,6 @@ use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};
 use dalembert_model::robot::{Convention, JointKind};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
-
-/// A residue that knows when it is zero or one: parallel axes are a matter of
-/// structure.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Known(Field);
-
-impl Scalar for Known {
-    fn zero() -> Self {
-        Known(Field::ZERO)
-    }
-    fn one() -> Self {
-        Known(Field::ONE)
-    }
-    fn add(&self, other: &Self) -> Self {
-        Known(self.0.add(&other.0))
-    }
-    fn sub(&self, other: &Self) -> Self {
-        Known(self.0.sub(&other.0))
-    }
-    fn mul(&self, other: &Self) -> Self {
-        Known(self.0.mul(&other.0))
-    }
-    fn neg(&self) -> Self {
-        Known(self.0.neg())
-    }
-    fn half(&self) -> Self {
-        Known(self.0.half())
-    }
-    fn is_zero(&self) -> bool {
-        self.0 == Field::ZERO
-    }
-    fn is_one(&self) -> bool {
-        self.0 == Field::ONE
-    }
-}
 
 /// The twists of a chain: along, against and across the axis before.
 #[derive(Clone, Copy)]

@@ -197,6 +197,12 @@ pub(crate) fn regrouped(
     variants
 }
 
+/// Returns whether axes meet at the base, so that the forms that need it differ from the others.
+pub(crate) fn has_shoulder(scene_robot: &SceneRobot, function: Function) -> bool {
+    let arm = skeleton_for(scene_robot, function);
+    Chain::new(&arm, &Regrouping::base(&arm)).has_shoulder()
+}
+
 /// Returns a function in the regroupings that differ from a tuned one in one link, in its
 /// form.
 pub(crate) fn neighbours(

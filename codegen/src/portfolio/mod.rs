@@ -23,7 +23,7 @@ use dalembert_model::equations::Formulation;
 
 use crate::graph::Graph;
 use crate::program::Counts;
-pub(crate) use chain::{in_regrouping, neighbours, regrouped, regroupings};
+pub(crate) use chain::{has_shoulder, in_regrouping, neighbours, regrouped, regroupings};
 pub use chain::{skeleton, skeleton_for, trace_chain};
 pub(crate) use descent::{Limit, tuned};
 pub use start::Start;

@@ -23,15 +23,26 @@ pub struct Factor<S> {
     inverses: Vec<S>,
 }
 
-impl<S: Divide> Factor<S> {
-    /// Factors a symmetric matrix, whose upper half is not read. A division for
-    /// each pivot that an entry above it is divided by; n − 1 at most.
-    pub fn new(matrix: &[Vec<S>]) -> Factor<S> {
-        let n = matrix.len();
+/// A symmetric matrix of which all unknowns but the first few are eliminated.
+#[derive(Clone, Debug)]
+pub struct Partial<S> {
+    /// What is left of the matrix; of the first unknowns, the lower half.
+    rest: Vec<Vec<S>>,
+    /// `upper[k][i]` = U_ik, i < k, of those that are eliminated.
+    upper: Vec<Vec<S>>,
+    /// 1/d_k of those.
+    inverses: Vec<S>,
+    /// How many are left.
+    kept: usize,
+}
+
+impl<S: Divide> Partial<S> {
+    /// Eliminates from a symmetric matrix, whose upper half is not read, all unknowns but the
+    /// first. A division for each pivot that an entry above it is divided by.
+    pub fn new(matrix: &[Vec<S>], kept: usize) -> Partial<S> {
         let mut rest: Vec<Vec<S>> = matrix.to_vec();
-        let mut upper: Vec<Vec<S>> = Vec::with_capacity(n);
-        let mut inverses = Vec::with_capacity(n);
-        for k in (0..n).rev() {
+        let (mut upper, mut inverses) = (Vec::new(), Vec::new());
+        for k in (kept..matrix.len()).rev() {
             let row: Vec<S> = rest[k][..k].to_vec();
             let inverse = over(&S::one(), &rest[k][k]);
             let factors: Vec<S> = row.iter().map(|x| times(x, &inverse)).collect();
@@ -45,9 +56,58 @@ impl<S: Divide> Factor<S> {
         }
         upper.reverse();
         inverses.reverse();
+        Partial {
+            rest,
+            upper,
+            inverses,
+            kept,
+        }
+    }
+
+    /// Returns entry (i, k) of the matrix that is left of the first unknowns, k ≤ i.
+    pub fn left(&self, i: usize, k: usize) -> &S {
+        &self.rest[i][k]
+    }
+
+    /// Returns the right side b of the first unknowns once the others are eliminated, then what
+    /// these are if the first vanish.
+    pub fn eliminated(&self, b: &[S]) -> Vec<S> {
+        let mut x = b.to_vec();
+        for (k, factors) in self.upper.iter().enumerate().rev() {
+            let (before, own) = x.split_at_mut(self.kept + k);
+            for (x, factor) in before.iter_mut().zip(factors) {
+                *x = minus(x, &times(factor, &own[0]));
+            }
+            own[0] = times(&own[0], &self.inverses[k]);
+        }
+        x
+    }
+
+    /// Returns all unknowns, of which the first are given.
+    pub fn substituted(&self, mut x: Vec<S>) -> Vec<S> {
+        for (k, factors) in self.upper.iter().enumerate() {
+            let (before, own) = x.split_at_mut(self.kept + k);
+            for (x, factor) in before.iter().zip(factors) {
+                own[0] = minus(&own[0], &times(factor, x));
+            }
+        }
+        x
+    }
+}
+
+impl<S: Divide> Factor<S> {
+    /// Factors a symmetric matrix, whose upper half is not read. A division for
+    /// each pivot that an entry above it is divided by; n − 1 at most.
+    pub fn new(matrix: &[Vec<S>]) -> Factor<S> {
+        let Partial {
+            rest,
+            upper,
+            inverses,
+            ..
+        } = Partial::new(matrix, 0);
         Factor {
             upper,
-            pivots: (0..n).map(|k| rest[k][k].clone()).collect(),
+            pivots: (0..rest.len()).map(|k| rest[k][k].clone()).collect(),
             inverses,
         }
     }

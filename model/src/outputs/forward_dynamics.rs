@@ -37,9 +37,13 @@ pub(super) fn accelerations<S: Divide>(at: &Regrouped<'_, S>, unknowns: Unknowns
         let given = [motion.qd.as_slice(), &motion.tau];
         return unspun.forward_dynamics(given, &motion.moves, at.form, unknowns);
     }
+    let given = [motion.qd.as_slice(), &motion.tau];
+    let by_shoulder = (at.composite).forward_dynamics_by_shoulder(given, &motion.moves, at.form);
+    if let Some(accelerations) = by_shoulder {
+        return accelerations;
+    }
     let d = at.composite.inertia(at.form.travel);
     if !at.form.composite_h {
-        let given = [motion.qd.as_slice(), &motion.tau];
         let chain = (at.at, d.as_slice());
         return (at.chain).forward_dynamics(chain, given, &motion.moves, at.form, unknowns);
     }
@@ -75,6 +79,7 @@ impl Formula for Acceleration {
         choices: Some(&[Choice::Recursion, Choice::Travel]),
         payload_dependence: PayloadDependence::Torque,
         gravity: true,
+        has_shoulder: true,
         ..Facts::PLAIN
     };
 

@@ -49,6 +49,7 @@ impl Formula for ContactAcceleration {
         given: Some("qdd_with_wrench"),
         choices: Some(&[Choice::Recursion, Choice::Travel]),
         gravity: true,
+        has_shoulder: true,
         frame: FrameChoice::Axes,
         hand: HandChoice::None,
         ..OF_HAND

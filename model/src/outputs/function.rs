@@ -205,12 +205,16 @@ impl Function {
             choices.any(|own| *own == choice)
         };
         let hand = quantities().map(|q| q.facts().hand).max();
-        Form::all(
+        let mut forms = Form::all(
             matters(Choice::Recursion),
             matters(Choice::Travel),
             matters(Choice::Flows),
             hand.unwrap_or(HandChoice::None),
-        )
+        );
+        if quantities().any(|q| q.facts().has_shoulder) {
+            forms.extend(Form::with_shoulder(&forms));
+        }
+        forms
     }
 }
 

@@ -70,6 +70,8 @@ pub(super) struct Facts {
     pub payload_dependence: PayloadDependence,
     /// True if it depends on gravity.
     pub gravity: bool,
+    /// True if joints whose axes meet at the base may be solved for as one.
+    pub has_shoulder: bool,
     /// What may be chosen of the frame that it is of.
     pub frame: FrameChoice,
     /// True if an entry a joint is of the link by itself: where joints follow others there
@@ -99,6 +101,7 @@ impl Facts {
         depends_on_base: false,
         payload_dependence: PayloadDependence::None,
         gravity: false,
+        has_shoulder: false,
         frame: FrameChoice::None,
         of_links: false,
     };

@@ -3,6 +3,7 @@
 
 pub mod extremes;
 pub mod golden;
+pub mod known;
 pub mod random;
 
 use dalembert_model::equations::{Arm, JointPosition, SinCosPair};

@@ -8,7 +8,7 @@ use super::{Approach, Beginning, Problem};
 use crate::function::Function;
 use crate::graph::Graph;
 use crate::portfolio::tune::Tuned;
-use crate::portfolio::{Form, Source, Sums, angle_sums, regrouped, textbook, tuned};
+use crate::portfolio::{Form, Source, Sums, angle_sums, has_shoulder, regrouped, textbook, tuned};
 use crate::scene::SceneRobot;
 
 /// The start `auto`.
@@ -98,7 +98,12 @@ fn by_chain(problem: &Problem<'_>) -> Vec<Approach> {
         from,
         watch,
     } = *problem;
-    let mut families = vec![function.forms()];
+    let has_shoulder = has_shoulder(scene_robot, function);
+    let all = function.forms().into_iter();
+    let mut families = vec![
+        all.filter(|form| has_shoulder || !form.shoulder)
+            .collect::<Vec<Form>>(),
+    ];
     let symbols = families[0].iter().copied().filter(|form| !form.flows);
     let symbols: Vec<Form> = symbols.collect();
     if symbols.len() < families[0].len() {

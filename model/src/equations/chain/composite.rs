@@ -275,7 +275,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
     }
 
     /// Returns what joint i feels of a wrench about the origin of frame m.
-    fn project(&self, i: usize, m: usize, force: &Vector<S>, moment: &Vector<S>) -> S {
+    pub(super) fn project(&self, i: usize, m: usize, force: &Vector<S>, moment: &Vector<S>) -> S {
         self.in_metres(i, self.twist(i, m).power(force, moment))
     }
 

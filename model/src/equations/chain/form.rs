@@ -19,6 +19,8 @@ pub struct Form {
     pub composite_h: bool,
     /// True if C comes from composite momenta, or from the h_ikm.
     pub flows: bool,
+    /// True if joints whose axes meet at the base are solved for as one.
+    pub shoulder: bool,
     /// The form of quantities of the hand.
     pub hand: HandForm,
 }
@@ -67,6 +69,14 @@ impl Form {
         hands.flat_map(of).collect()
     }
 
+    /// Returns the same where joints whose axes meet at the base are solved for as one, from
+    /// torques of the recursion.
+    pub fn with_shoulder(forms: &[Form]) -> Vec<Form> {
+        let forms = forms.iter().filter(|form| !form.composite_h && !form.flows);
+        let shoulder = true;
+        forms.map(|&form| Form { shoulder, ..form }).collect()
+    }
+
     fn of_joints(recursion: bool, travels: bool, flows: bool) -> Vec<Form> {
         let mut forms = Vec::new();
         for flows in [false, true].into_iter().take(1 + usize::from(flows)) {
@@ -80,6 +90,7 @@ impl Form {
                                 travel,
                                 composite_h,
                                 flows,
+                                shoulder: false,
                                 hand: HandForm::default(),
                             });
                         }

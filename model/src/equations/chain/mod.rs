@@ -16,6 +16,8 @@
 //! - [`probe`]: what is fixed to links beside their bodies; `regressor`: what
 //!   of torque it takes
 //! - `parallel`: D q̈ = τ − h − c in rates against the base, where axes are parallel
+//! - `shoulder`: forward dynamics where the first axes meet in one point; `hinged`: what is
+//!   beyond, as these feel it
 //! - `spin`: forward dynamics where the last joint turns about a principal axis
 //! - `load`: bodies that links carry beside their own
 //! - `passivity`: D a + C v + c + b∘v by a recursion over two velocities
@@ -28,6 +30,7 @@ pub mod composite;
 mod coriolis;
 pub mod derivatives;
 mod form;
+mod hinged;
 mod load;
 mod momentum;
 mod parallel;
@@ -39,6 +42,7 @@ mod reference;
 mod regressor;
 pub mod regrouping;
 pub mod second_derivatives;
+mod shoulder;
 pub mod skeleton;
 mod spin;
 mod twist;

@@ -155,36 +155,46 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
                 links: chain.motions(at, before, &zeros(last), form.spin),
             },
         };
-        let (motions, reference) = (motion.links, motion.accelerations);
-        let motion = &motions[last - 1];
+        let (motions, reference) = (&motion.links, &motion.accelerations);
+        let tip = &motions[last - 1];
         let unturned = Displacement::Turn(SinCosPair {
             sin: S::zero(),
             cos: S::one(),
         });
-        let omega = link.inward(&unturned, &motion.omega);
+        let omega = link.inward(&unturned, &tip.omega);
         let left = minus(&tau[last], &link.friction.torque(&qd[last]));
         let (couple, own) = self.couple(&omega, &qd[last], &left);
         let couple = link.outward(&unturned, &couple);
         let left = minus(&left, &own);
         let composite = Composite::new(chain, at);
-        let drive = |i: usize| chain.drive(i, qd, &reference);
-        let bias = match form.composite_h {
-            false => chain.torques(at, &motions, form.couple, &couple, drive),
-            true => {
-                let rest = zeros(last);
-                let torques = composite.torques(&chain.gravity, before, &rest, form.spin, &couple);
-                let torques = torques.iter().enumerate();
-                torques.map(|(i, torque)| plus(torque, &drive(i))).collect()
+        let drive = |i: usize| chain.drive(i, qd, reference);
+        // What is beyond the reference.
+        let rest = match form.shoulder.then(|| chain.shoulder()).flatten() {
+            None => {
+                let bias = match form.composite_h {
+                    false => chain.torques(at, motions, form.couple, &couple, drive),
+                    true => {
+                        let rest = zeros(last);
+                        let torques =
+                            composite.torques(&chain.gravity, before, &rest, form.spin, &couple);
+                        let torques = torques.iter().enumerate();
+                        torques.map(|(i, torque)| plus(torque, &drive(i))).collect()
+                    }
+                };
+                let d = composite.inertia(form.travel);
+                chain.accelerations(&d, [&bias, &tau[..last]], &moves[..last], unknowns)
+            }
+            Some(heights) => {
+                let (exerted, loads) = ((form, &couple), [before, &tau[..last]]);
+                let moves = &moves[..last];
+                composite.accelerations_by_shoulder(&heights, &motion, exerted, loads, moves)
             }
         };
-        let d = composite.inertia(form.travel);
-        // What is beyond the reference.
-        let rest = chain.accelerations(&d, [&bias, &tau[..last]], &moves[..last], unknowns);
         let products = self.brought();
         let products = products.iter().zip(&rest).map(|(x, rest)| times(x, rest));
-        let still = dot(&link.axis_before(), &motion.omega_dot);
+        let still = dot(&link.axis_before(), &tip.omega_dot);
         let brought = plus(&still, &total(products));
-        let sums = rest.iter().zip(&reference);
+        let sums = rest.iter().zip(reference);
         let mut qdd: Vec<S> = sums.map(|(rest, own)| plus(rest, own)).collect();
         qdd.push(minus(
             &times(&left, &self.inverse),

@@ -1,0 +1,258 @@
+//! Forward dynamics of a chain whose first three joints or more turn about axes that meet.
+//!
+//! The point C where they meet stays where it is, so of all that the links beyond do to these
+//! joints, only the moment about C is felt: three components, whatever the number of joints.
+//! With ω̇ of the last link of the shoulder and ÿ of the joints beyond it
+//!
+//! ```text
+//! ( I   N ) ( ω̇ )   ( μ − p )        I   inertia about C of all links beyond
+//! ( Nᵀ  D ) ( ÿ ) = ( τ − b )        N   moments about C of their unit accelerations
+//! ```
+//!
+//! in the axes of the first link beyond. The joints beyond are eliminated from that, and what is
+//! left, I′ and p′ with μ = p′ + I′ ω̇, is that of an articulated body which turns about C: three by
+//! three entries where another articulated body has six by six, and two by two once a joint is
+//! eliminated. So entries of D between the shoulder and what is beyond are never formed, and no
+//! axis of the shoulder is turned into a frame beyond it.
+
+use alloc::vec::Vec;
+
+use super::composite::{Composite, CompositeOrder};
+use super::hinged::{Hinged, Solved};
+use super::reference::ReferenceMotion;
+use super::{Chain, ChainLink, Displacement, Form, apply, apply_transposed};
+use crate::equations::factor::Partial;
+use crate::equations::forward::free;
+use crate::equations::matrix::{
+    Vector, cross, minus, negative, plus, sum, symmetric, times, zero_vector, zeros,
+};
+use crate::robot::{Inertia, JointKind};
+use crate::scalar::{Divide, Scalar};
+
+/// The fewest axes that have to meet: of two, as much work is left as without.
+const FEWEST: usize = 3;
+
+/// The fewest joints beyond: of one, as much work is left as without.
+const BEYOND: usize = 2;
+
+impl<S: Scalar> Chain<S> {
+    /// Returns whether three axes or more meet at the base, by structure, with two joints beyond.
+    pub fn has_shoulder(&self) -> bool {
+        self.shoulder().is_some()
+    }
+
+    /// Returns the heights of the joints at the base whose axes meet, if there are as many as it
+    /// takes: of each frame's origin along its axis, seen from the point.
+    pub(super) fn shoulder(&self) -> Option<Vec<S>> {
+        let most = self.links.len().checked_sub(BEYOND)?;
+        let all = (0..FEWEST).filter_map(|origin| self.through(origin));
+        let mut wide = all.filter(|heights| (FEWEST..=most).contains(&heights.len()));
+        // Through two points that are not one there is one axis at most.
+        wide.next()
+    }
+
+    /// Returns the heights of the joints at the base whose axes pass through the origin of this
+    /// frame. Turning about an axis leaves what is on it where it is.
+    fn through(&self, origin: usize) -> Option<Vec<S>> {
+        let turns = |link: &ChainLink<S>| link.kind == JointKind::Revolute;
+        let height = |point: &Vector<S>| {
+            let is_on_axis = point[0].is_zero() && point[1].is_zero();
+            is_on_axis.then(|| point[2].clone())
+        };
+        let mut heights = alloc::vec![S::zero()];
+        for link in self.links.get(1..=origin)?.iter().rev() {
+            // The point seen from the origin before.
+            let along = [S::zero(), S::zero(), negative(&heights[0])];
+            let seen = sum(&apply(&link.rotation, &along), &link.offset);
+            heights.insert(0, negative(&height(&seen)?));
+        }
+        let (inner, outer) = self.links.split_at(origin + 1);
+        if !inner.iter().all(turns) {
+            return None;
+        }
+        for link in outer.iter().take_while(|link| turns(link)) {
+            let along = [S::zero(), S::zero(), heights[heights.len() - 1].clone()];
+            let seen = apply_transposed(&link.rotation, &sum(&along, &link.offset));
+            match height(&seen) {
+                Some(height) => heights.push(height),
+                None => break,
+            }
+        }
+        Some(heights)
+    }
+
+    /// Returns the origin of the first frame beyond, seen from the point in the axes of that
+    /// frame.
+    fn lever_beyond(&self, heights: &[S], at: &[Displacement<S>]) -> Vector<S> {
+        let first = heights.len();
+        let along = [S::zero(), S::zero(), heights[first - 1].clone()];
+        let (link, at) = (&self.links[first], &at[first]);
+        link.inward(at, &sum(&along, &link.lever(at)))
+    }
+}
+
+impl<S: Divide> Composite<'_, S> {
+    /// Returns q̈ under τ, zero of joints that do not move, if the form asks for it and the chain
+    /// has a shoulder.
+    pub fn forward_dynamics_by_shoulder(
+        &self,
+        [qd, tau]: [&[S]; 2],
+        moves: &[bool],
+        form: Form,
+    ) -> Option<Vec<S>> {
+        let heights = form.shoulder.then(|| self.chain.shoulder()).flatten()?;
+        let motion = (self.chain).reference_motion(self.at, qd, moves, form.spin);
+        let exerted = (form, &zero_vector());
+        let rest = self.accelerations_by_shoulder(&heights, &motion, exerted, [qd, tau], moves);
+        let sums = rest.iter().zip(&motion.accelerations);
+        Some(sums.map(|(rest, own)| plus(rest, own)).collect())
+    }
+
+    /// Returns q̈ beyond a reference under τ, zero of joints that do not move, of a chain with a
+    /// shoulder of these heights; `exerted` is the moment that the last link exerts on something
+    /// else.
+    pub(super) fn accelerations_by_shoulder(
+        &self,
+        heights: &[S],
+        reference: &ReferenceMotion<S>,
+        (form, exerted): (Form, &Vector<S>),
+        [qd, tau]: [&[S]; 2],
+        moves: &[bool],
+    ) -> Vec<S> {
+        let chain = self.chain;
+        let (first, n) = (heights.len(), chain.links.len());
+        let lever = chain.lever_beyond(heights, self.at);
+        let drive = |i: usize| chain.drive(i, qd, &reference.accelerations);
+        let wrench = |i: usize| reference.links[i].wrench(&chain.links[i].body, form.couple);
+
+        // What τ leaves of the joints beyond, and the moment about the point.
+        let (mut force, mut moment) = (zero_vector(), exerted.clone());
+        let mut left = zeros(n);
+        for i in (first..n).rev() {
+            let (own, own_moment) = wrench(i);
+            (force, moment) = (sum(&force, &own), sum(&moment, &own_moment));
+            let load = chain.load(i, &force, &moment);
+            left[i] = minus(&tau[i], &plus(&load, &drive(i)));
+            if i > first {
+                (force, moment) = chain.to_previous(i, &self.at[i], &force, &moment);
+            }
+        }
+        let lifted = cross(&lever, &force);
+        let mut moment = sum(&moment, &lifted);
+        let is_taken_back = chain.links[first].kind == JointKind::Revolute && moves[first];
+        if is_taken_back {
+            // Along its axis the joint passes on what it is given.
+            moment[2] = plus(&lifted[2], &minus(&tau[first], &drive(first)));
+        }
+        let matrix = self.beyond(first, &lever, moves, form.travel);
+        let beyond = match is_taken_back {
+            true => Partial::new(&taken_back(matrix), 3),
+            false => Partial::new(&matrix, 3),
+        };
+        let joints: Vec<usize> = free(moves).into_iter().filter(|&i| i >= first).collect();
+        let right = moment.iter().map(negative);
+        let right = right.chain(joints.iter().map(|&i| left[i].clone()));
+        let right = beyond.eliminated(&right.collect::<Vec<S>>());
+        let (about, rest) = right.split_at(3);
+        let entry = |i: usize, k: usize| beyond.left(k, i).clone();
+        let mut hinged = Hinged {
+            inertia: Inertia::symmetric(entry),
+            moment: core::array::from_fn(|axis| negative(&about[axis])),
+        };
+        hinged = hinged.carried(&chain.links[first], &self.at[first]);
+
+        // The joints of the shoulder, inward and back.
+        let mut solved: Vec<Option<Solved<S>>> = Vec::with_capacity(first);
+        for (i, link) in chain.links[..first].iter().enumerate().rev() {
+            hinged = hinged.with(&link.body, &heights[i], wrench(i));
+            let mut own = None;
+            if moves[i] {
+                let given = minus(&tau[i], &drive(i));
+                let is_first = !moves[..i].contains(&true);
+                let (rest, joint) = hinged.eliminated(&link.armature, &given, is_first);
+                (hinged, own) = (rest, Some(joint));
+            }
+            hinged = hinged.carried(link, &self.at[i]);
+            solved.push(own);
+        }
+        solved.reverse();
+        let mut found = zeros(n);
+        let mut omega = zero_vector();
+        for (i, joint) in solved.iter().enumerate() {
+            omega = chain.links[i].inward(&self.at[i], &omega);
+            if let Some(Solved { own, shares }) = joint {
+                let [x, y] = [0, 1].map(|axis| times(&shares[axis], &omega[axis]));
+                let own = minus(&minus(own, &x), &y);
+                found[i] = minus(&own, &times(&shares[2], &omega[2]));
+                omega[2] = match chain.links[i].armature.is_zero() {
+                    true => own,
+                    false => plus(&omega[2], &found[i]),
+                };
+            }
+        }
+        let omega = chain.links[first].inward(&self.at[first], &omega);
+        let known = omega.into_iter().chain(rest.iter().cloned()).collect();
+        let all = beyond.substituted(known);
+        for (&joint, value) in joints.iter().zip(&all[3..]) {
+            found[joint] = value.clone();
+        }
+        if is_taken_back {
+            found[first] = minus(&found[first], &all[2]);
+        }
+        found
+    }
+
+    /// Returns I, N and D of the joints from the first beyond a shoulder that move; the lever is
+    /// that of the first frame's origin.
+    fn beyond(
+        &self,
+        first: usize,
+        lever: &Vector<S>,
+        moves: &[bool],
+        travel: CompositeOrder,
+    ) -> Vec<Vec<S>> {
+        let chain = self.chain;
+        let tensor = self.bodies[first].moved(lever).tensor();
+        let mut lower: Vec<Vec<S>> = alloc::vec![
+            alloc::vec![tensor.xx.clone()],
+            alloc::vec![tensor.xy.clone(), tensor.yy.clone()],
+            alloc::vec![tensor.xz.clone(), tensor.yz.clone(), tensor.zz.clone()],
+        ];
+        for k in (first..chain.links.len()).filter(|&k| moves[k]) {
+            let own = self.momentum(k);
+            let (mut force, mut moment) = own.clone();
+            let mut row = Vec::new();
+            for i in (first..=k).rev() {
+                let load = match travel {
+                    CompositeOrder::Inward => chain.load(i, &force, &moment),
+                    CompositeOrder::Outward => self.project(i, k, &own.0, &own.1),
+                };
+                let load = self.in_metres(k, load);
+                if i == k {
+                    row.push(plus(&load, &chain.links[k].armature));
+                } else if moves[i] {
+                    row.push(load);
+                }
+                if i > first {
+                    (force, moment) = chain.to_previous(i, &self.at[i], &force, &moment);
+                }
+            }
+            let moment = sum(&moment, &cross(lever, &force));
+            row.extend(moment.iter().rev().map(|x| self.in_metres(k, x.clone())));
+            row.reverse();
+            lower.push(row);
+        }
+        symmetric(lower.len(), |i, k| lower[i.max(k)][i.min(k)].clone())
+    }
+}
+
+/// Returns it where the first joint beyond takes back what ω̇ has along its axis, as in
+/// `parallel`: then all beyond moves without a turn, and that is forces on a lever.
+fn taken_back<S: Scalar>(mut matrix: Vec<Vec<S>>) -> Vec<Vec<S>> {
+    let rows = matrix[2].iter().zip(&matrix[3]);
+    matrix[2] = rows.map(|(x, y)| minus(x, y)).collect();
+    for row in &mut matrix {
+        row[2] = minus(&row[2], &row[3]);
+    }
+    matrix
+}

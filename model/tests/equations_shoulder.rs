@@ -1,0 +1,133 @@
+//! Forward dynamics of arms whose first axes meet: the torques of what is found are
+//! those that were given, in the prime field.
+
+use crate::equations_support::known::Known;
+use crate::equations_support::random;
+use dalembert_model::equations::chain::composite::Composite;
+use dalembert_model::equations::chain::{
+    Chain, EliminatedTip, Form, HandChoice, Regrouping, Skeleton, Unknowns,
+};
+use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};
+use dalembert_model::robot::{Convention, JointKind};
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::field::{Field, Points};
+
+/// Returns an arm whose first three axes meet, four if `four`.
+fn arm(n: usize, slides: u32, four: bool, points: &mut Points) -> Arm<Known> {
+    let kinds = random::kinds(n, slides);
+    let mut arm = random::case(Convention::Modified, &kinds, points).arm;
+    let meeting = if four { 4 } else { 3 };
+    for (i, link) in arm.links.iter_mut().enumerate().take(meeting) {
+        if i > 0 {
+            link.a = Field::ZERO;
+        }
+        // Along the first axis and the last there is nothing that it could miss.
+        if i > 0 && i + 1 < meeting {
+            link.d = Field::ZERO;
+        }
+        link.alpha = SinCosPair {
+            sin: Field::ONE,
+            cos: Field::ZERO,
+        };
+    }
+    arm.map(|x| Known(*x))
+}
+
+/// The forms that solve for a shoulder as one.
+fn forms() -> Vec<Form> {
+    Form::with_shoulder(&Form::all(true, true, false, HandChoice::None))
+}
+
+/// Finds q̈ in each form, by itself or with the tip eliminated before, and compares torques.
+fn compare(arm: &Arm<Known>, moves: &[bool], by_tip: bool, points: &mut Points) {
+    let position: Vec<_> = arm
+        .links
+        .iter()
+        .map(|link| match link.kind {
+            JointKind::Revolute => JointPosition::Revolute(random::pair(points).map(|x| Known(*x))),
+            JointKind::Prismatic => JointPosition::Prismatic(Known(points.field())),
+        })
+        .collect();
+    let n = arm.links.len();
+    let mut draw = || (0..n).map(|_| Known(points.field())).collect::<Vec<_>>();
+    let (qd, tau) = (draw(), draw());
+    let skeleton = Skeleton::new(arm, &[]);
+    let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
+    assert!(chain.has_shoulder());
+    let (posed, at) = chain.posed(&position);
+    let composite = Composite::new(&posed, &at);
+    for form in forms() {
+        let given = [&qd[..], &tau];
+        let found = match by_tip {
+            false => composite.forward_dynamics_by_shoulder(given, moves, form),
+            true => EliminatedTip::new(&composite, moves)
+                .map(|tip| tip.forward_dynamics(given, moves, form, Unknowns::Joints)),
+        };
+        let found = found.unwrap();
+        let textbook = Formulation::LagrangeEuler;
+        let torques = textbook.inverse_dynamics(arm, &arm.at(&position), &qd, &found);
+        for (i, moves) in moves.iter().enumerate() {
+            match moves {
+                true => assert_eq!(torques[i], tau[i], "{form:?} {i}"),
+                false => assert_eq!(found[i], Known::zero(), "{form:?} {i}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn torques_are_those_that_were_given() {
+    let mut points = Points::new(0x5401);
+    for (n, slides, four) in [
+        (5, 0, false),
+        (5, 0b0_1000, false),
+        (6, 0, true),
+        (6, 0b10_0000, false),
+        (7, 0, false),
+        (7, 0b101_0000, true),
+    ] {
+        let mut arm = arm(n, slides, four, &mut points);
+        for still in [None, Some(0), Some(1), Some(3), Some(n - 1)] {
+            let moves: Vec<bool> = (0..n).map(|i| Some(i) != still).collect();
+            compare(&arm, &moves, false, &mut points);
+        }
+        for link in &mut arm.links {
+            link.armature = Known::zero();
+        }
+        compare(&arm, &vec![true; n], false, &mut points);
+    }
+}
+
+#[test]
+fn so_they_are_where_the_tip_is_eliminated_before() {
+    let mut points = Points::new(0x5402);
+    for armature in [Known(Field::ZERO), Known(points.field())] {
+        let mut arm = arm(7, 0, false, &mut points);
+        let last = arm.links.last_mut().unwrap();
+        let zero = Known::zero();
+        (last.com[0], last.com[1], last.armature) = (zero, zero, armature);
+        (last.inertia.xz, last.inertia.yz) = (zero, zero);
+        compare(&arm, &[true; 7], true, &mut points);
+    }
+}
+
+#[test]
+fn one_joint_beyond_is_too_few() {
+    let mut points = Points::new(0x5404);
+    for (n, four) in [(4, false), (5, true)] {
+        let arm = arm(n, 0, four, &mut points);
+        let skeleton = Skeleton::new(&arm, &[]);
+        assert!(!Chain::new(&skeleton, &Regrouping::base(&skeleton)).has_shoulder());
+    }
+}
+
+#[test]
+fn axes_that_miss_each_other_have_no_shoulder() {
+    let mut points = Points::new(0x5403);
+    for missed in [1, 2] {
+        let mut arm = arm(7, 0, false, &mut points);
+        arm.links[missed].a = Known(points.field());
+        let skeleton = Skeleton::new(&arm, &[]);
+        assert!(!Chain::new(&skeleton, &Regrouping::base(&skeleton)).has_shoulder());
+    }
+}
