@@ -142,6 +142,17 @@ impl Search {
         let [low, high] = corners(&products, 1, products[0][0], products[0]);
         radius + high.max(-low)
     }
+
+    /// Returns a bound of the second derivative of F by a level's angle, which is not put in.
+    pub(crate) fn bend(&self, level: usize) -> f64 {
+        let Level { powers, moves, .. } = &self.levels[level];
+        let pairs = self.values[level].iter().zip(moves);
+        let each = pairs.map(|(value, &(power, _))| {
+            let [sin, cos] = powers[power as usize];
+            f64::from(sin + cos) * value.abs()
+        });
+        each.sum::<f64>() * (1.0 + 1e-9)
+    }
 }
 
 /// Returns the least and the largest sum of products of factors from −1 to 1, factor 0 being 1. It

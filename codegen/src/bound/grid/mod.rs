@@ -3,18 +3,21 @@
 //!
 //! **Soundness.** Let |T| be largest, M, at x₀ and some rates; hold these
 //! rates. Of the first angle's cells one contains x₀'s; c is its middle, δ its
-//! half width, d the degree of T in that angle.
+//! half width, d the degree of T in that angle. The angle is at x₀ where T's
+//! derivative by it is 0, unless that is an end of its range.
 //!
 //! - *Whole circle.* M. Riesz: |T(c, x₀₂, …)| ≥ M·cos(d·δ) for d·δ ≤ π/2. So
 //!   M ≤ m(c)/cos(d·δ), m(c) being the maximum over the other angles at c.
 //!   Of a T that is nowhere negative M ≤ m(c)/cos²(d·δ/2): T − M/2 is nowhere
 //!   larger than at x₀, where it is M/2.
-//! - *Part of it.* The ends are points of their own. If x₀ is at an end,
-//!   nothing is lost; if not, ∂T(x₀) = 0, |∂²T| ≤ d²·F with F the largest
-//!   value over whole circles (Bernstein), and M ≤ m(c) + ½(d·δ)²·F.
+//! - *Anywhere.* M ≤ m(c) + ½δ²·K with K ≥ |∂²T|: each multiple k of the
+//!   angle by itself, k² times what it is without looking at the angles that are
+//!   left. Most multiples are small, and of those angles that were put in K
+//!   knows the values, so that it is mostly far below M·d².
+//! - *Ends* of a part of the circle are points of their own.
 //!
-//! So M ≤ B is shown by showing m(c) ≤ B·cos(d·δ) for every cell, angle after
-//! angle; a cell for which that fails is cut in three. Every B that is tried is a
+//! So M ≤ B is shown by showing m(c) ≤ max(B·cos(d·δ), B − ½δ²·K) for every
+//! cell, angle after angle; a cell for which that fails is cut in three. Every B that is tried is a
 //! value that T takes and a little more. For each point the rates are at their
 //! worst: accelerations and squares one by one, products of velocities together
 //! ([`corners`](super::corners)).
@@ -70,12 +73,9 @@ const LEAST: f64 = 1e-15;
 /// The largest relative step from a bound that could not be shown to the next.
 const MAX_STEP: f64 = 0.15;
 
-/// d·δ of the first cells is π over this. Coarser ones are cut sooner or later.
-const FIRST: usize = 8;
-
-/// Cells whose d·δ is below this are not cut: with four angles their cosines
-/// take 1.6 of the two hundredths.
-const FINEST: f64 = 0.09;
+/// Cells that cost less than this part of a bound are not cut: with four angles they take
+/// 1.6 of the two hundredths.
+const FINEST: f64 = 0.004;
 
 /// How much work a bound may take.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -148,18 +148,7 @@ pub(super) fn magnitude(
         narrow::cut(&mut polynomial, &narrow, allowance, &size);
         layout = Layout::new(&polynomial, limits, &sliding, &range, least);
     }
-    if !layout.part.contains(&true) {
-        return bound(&layout, limits, None, aim, closeness);
-    }
-    // Of the circles only the size matters, for what lies between points.
-    let (Aim::Least(goal) | Aim::Within(goal) | Aim::Judged(goal, _)) = aim;
-    let rough = GridEffort {
-        points: closeness.points / 16,
-        ..closeness
-    };
-    let whole = bound(&layout, limits, None, Aim::Least(goal), rough);
-    let part = bound(&layout, limits, Some(whole), aim, closeness);
-    whole.min(part)
+    bound(&layout, limits, aim, closeness)
 }
 
 /// Returns the largest value over whole circles of a polynomial that is nowhere negative.
@@ -172,13 +161,12 @@ fn largest(
     let layout = Layout::new(polynomial, limits, sliding, &|key| range(key, limits), 0.0);
     let value = |values: &[f64]| layout.value(values);
     let accept = |values: &[f64], bound| layout.is_below(values, bound);
-    let without = |level: usize, values: &[f64]| layout.crude(level, values);
     let mut cells = Cells::new(&layout, limits, None, &accept);
     cells.is_positive = true;
-    cells.crude = Some(&without);
+    cells.is_sum = true;
     cells.points = closeness.points;
     let taken = climb(&mut cells, closeness.starts, &value);
-    let crude = layout.crude(0, &layout.coefficients);
+    let crude = layout.crude(0, &layout.coefficients).most;
     let mut shown = |bound: f64| {
         cells.points = closeness.points;
         cells.below(0, bound)
@@ -195,16 +183,15 @@ fn largest(
     held
 }
 
-/// Returns a bound over the whole circles, or, given that, over the box.
+/// Returns a bound over the box.
 fn bound(
     layout: &Layout,
     limits: &InputBox,
-    whole: Option<f64>,
     aim: Aim,
     closeness: GridEffort,
 ) -> f64 {
     let points = closeness.points;
-    let crude = layout.crude(0, &layout.coefficients);
+    let crude = layout.crude(0, &layout.coefficients).most;
     let enough = match aim {
         Aim::Least(goal) | Aim::Within(goal) | Aim::Judged(goal, _) => crude <= goal,
     };
@@ -212,9 +199,8 @@ fn bound(
         return crude;
     }
     let accept = |values: &[f64], bound| layout.is_below(values, bound);
-    let without = |level: usize, values: &[f64]| layout.crude(level, values);
-    let mut cells = Cells::new(layout, limits, whole, &accept);
-    cells.crude = Some(&without);
+    let mut cells = Cells::new(layout, limits, Some(crude), &accept);
+    cells.is_sum = true;
     cells.points = points;
     let value = |values: &[f64]| layout.value(values) - layout.slack;
     let least = climb(&mut cells, closeness.starts, &value);
