@@ -184,12 +184,7 @@ fn largest(
 }
 
 /// Returns a bound over the box.
-fn bound(
-    layout: &Layout,
-    limits: &InputBox,
-    aim: Aim,
-    closeness: GridEffort,
-) -> f64 {
+fn bound(layout: &Layout, limits: &InputBox, aim: Aim, closeness: GridEffort) -> f64 {
     let points = closeness.points;
     let crude = layout.crude(0, &layout.coefficients).most;
     let enough = match aim {
@@ -360,5 +355,75 @@ fn range(key: Key, limits: &InputBox) -> Interval {
         [0, 0] => Interval::ONE,
         [0, b] => variable(b),
         [a, b] => variable(a) * variable(b),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::harmonics::multiple;
+    use super::*;
+    use crate::bound::expand::shift;
+
+    /// Σ of products of cosines and sines of multiples up to the fourth, which are the smaller
+    /// the higher: over whole circles and parts of them, no value at a dense grid is above
+    /// the bound, and one is just below.
+    #[test]
+    fn bounds_of_small_high_multiples_are_tight() {
+        let mut random = Random::new(11);
+        for round in 0..12 {
+            let reach = if round % 2 == 0 { PI } else { 1.9 };
+            let limits = InputBox {
+                position: vec![Interval::symmetric(reach); 2],
+                velocity: vec![Interval::symmetric(2.0); 2],
+                acceleration: vec![Interval::symmetric(3.0); 2],
+            };
+            let mut terms = Polynomial::new();
+            // Of q̇₁·q̇₂, of q̇₂ and of q̈₁.
+            for rates in [1 << 8 | 2, 2, 3] {
+                for first in 0..=4u32 {
+                    for second in 0..=4u32 {
+                        for phase in 0..4u32 {
+                            let key = (first | (phase & 1) << 4, second | (phase >> 1) << 4);
+                            if (first == 0 && key.0 != 0) || (second == 0 && key.1 != 0) {
+                                continue;
+                            }
+                            let size = 0.2f64.powi((first + second) as i32);
+                            let x = Interval::point(size * (random.unit() - 0.5));
+                            let angles =
+                                Key::from(key.0) << shift(0) | Key::from(key.1) << shift(1);
+                            terms.push((angles | rates, x));
+                        }
+                    }
+                }
+            }
+            terms.sort_by_key(|&(key, _)| key);
+            let value = |angles: [f64; 2]| {
+                let mut parts = [0.0; 3];
+                for &(key, x) in &terms {
+                    let factors = angles.iter().enumerate().map(|(joint, angle)| {
+                        let (k, sine) = multiple(key, joint);
+                        let angle = f64::from(k) * angle;
+                        if sine {
+                            libm::sin(angle)
+                        } else {
+                            libm::cos(angle)
+                        }
+                    });
+                    let place = match key & 0xffff {
+                        0x102 => 0,
+                        2 => 1,
+                        _ => 2,
+                    };
+                    parts[place] += x.mid() * factors.product::<f64>();
+                }
+                4.0 * parts[0].abs() + 2.0 * parts[1].abs() + 3.0 * parts[2].abs()
+            };
+            let at = |k: i32| reach * f64::from(k) / 60.0;
+            let grid = (-60..=60).flat_map(|a| (-60..=60).map(move |b| [at(a), at(b)]));
+            let most = grid.map(value).fold(0.0, f64::max);
+            let effort = GridEffort::fine(1 << 20);
+            let found = magnitude(terms.clone(), &limits, &[false; 2], Aim::Least(0.0), effort);
+            assert!((most..1.05 * most).contains(&found), "{most} {found}");
+        }
     }
 }
