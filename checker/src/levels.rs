@@ -146,12 +146,12 @@ impl Search {
     /// Returns a bound of the second derivative of F by a level's angle, which is not put in.
     pub(crate) fn bend(&self, level: usize) -> f64 {
         let Level { powers, moves, .. } = &self.levels[level];
-        let pairs = self.values[level].iter().zip(moves);
-        let each = pairs.map(|(value, &(power, _))| {
-            let [sin, cos] = powers[power as usize];
-            f64::from(sin + cos) * value.abs()
-        });
-        each.sum::<f64>() * (1.0 + 1e-9)
+        let factors =
+            |&(power, _): &(u32, u32)| f64::from(powers[power as usize].iter().sum::<u32>());
+        let each = self.values[level].iter().zip(moves);
+        each.map(|(value, of)| factors(of) * value.abs())
+            .sum::<f64>()
+            * (1.0 + 1e-9)
     }
 }
 

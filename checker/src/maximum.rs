@@ -10,13 +10,9 @@
 //!
 //! - if the angle goes all the way round, M. Riesz: its value at c is at least
 //!   M·cos(d·δ), for d·δ ≤ π/2. So M ≤ B if F(c) ≤ B·cos(d·δ).
-//! - if it has ends, either x is one of them, and they are looked at; or its slope at x is
-//!   0, and M ≤ F(c) + ½δ²·W, W being at least the second derivative anywhere. That holds of
-//!   whole turns, too, and is the better bound where the high powers have small coefficients.
-//!
-//! W is Σ n·|v| over the coefficients v of products of n sines and cosines of the angle: such
-//! a product is the mean of cos(Σ ±(θ − φ)) over all signs, φ being 0 or π/2, and the mean of
-//! (Σ ±1)² is n.
+//! - either x is an end of the range, and ends are looked at; or its slope at x is 0, and M ≤
+//!   F(c) + ½δ²·W. W = Σ n·|v| is at least the second derivative: a product of n sines and
+//!   cosines is the mean of cos(Σ ±(θ − φ)) over all signs, and the mean of (Σ ±1)² is n.
 //!
 //! F(c) is shown to be small by the same means over the other angles. Cells where that
 //! fails are cut in three; what is found above B itself is an answer: F is not below B.
@@ -36,8 +32,6 @@ const NARROWEST: f64 = 1e-3;
 /// The part of B that is lost in one of the first cells. Larger ones fail, and what was shown of
 /// the other angles was in vain.
 const FIRST_LOSS: f64 = 0.087;
-/// The most first cells.
-const MOST_FIRST: f64 = 256.0;
 /// By how much B grows where it was not shown.
 const GROWTH: [f64; 7] = [1.002, 1.01, 1.05, 1.2, 1.5, 2.0, 4.0];
 
@@ -64,8 +58,7 @@ pub fn bound(polynomial: &Polynomial, ring: &Ring, wanted: f64) -> f64 {
     }
     let slack = search.mass * (1e-12 + 16.0 * UNIT * first.len() as f64);
     let rest = (polynomial.rest + slack) * (1.0 + 1e-9);
-    let mut least = (wanted - rest).next_down();
-    let mut shown = wanted;
+    let (mut least, mut shown) = ((wanted - rest).next_down(), wanted);
     if !(least > 0.0) {
         (least, shown) = (norm * 1e-12, f64::INFINITY);
     }
@@ -98,18 +91,12 @@ impl Search {
         let Some(Level { degree, range, .. }) = self.levels.get(level) else {
             return Err(Unshown::Larger(norm));
         };
-        if most <= 0.0 {
-            return Err(Unshown::Larger(most));
-        }
         let (degree, range) = (*degree, *range);
         let [low, high] = range.unwrap_or([-PI, PI]);
         let bend = self.bend(level);
-        let steepest = match range {
-            None => bend.min(degree * degree * most),
-            Some(_) => bend,
-        };
-        let widest = (2.0 * FIRST_LOSS * most / steepest).sqrt();
-        let count = (0.5 * (high - low) / widest).ceil().clamp(1.0, MOST_FIRST);
+        let widest = (2.0 * FIRST_LOSS * most / bend.min(degree * degree * most)).sqrt();
+        // Of what is no number, with B below zero, one.
+        let count = (0.5 * (high - low) / widest).ceil().max(1.0);
         let half = (0.5 * (high - low) / count).next_up();
         let cell = |k: usize| (low + half * (2.0 * k as f64 + 1.0), half);
         let mut cells: Vec<(f64, f64)> = (0..count as usize).map(cell).collect();
