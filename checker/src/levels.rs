@@ -142,6 +142,17 @@ impl Search {
         let [low, high] = corners(&products, 1, products[0][0], products[0]);
         radius + high.max(-low)
     }
+
+    /// Returns a bound of the second derivative of F by a level's angle, which is not put in.
+    pub(crate) fn bend(&self, level: usize) -> f64 {
+        let Level { powers, moves, .. } = &self.levels[level];
+        let factors =
+            |&(power, _): &(u32, u32)| f64::from(powers[power as usize].iter().sum::<u32>());
+        let each = self.values[level].iter().zip(moves);
+        each.map(|(value, of)| factors(of) * value.abs())
+            .sum::<f64>()
+            * (1.0 + 1e-9)
+    }
 }
 
 /// Returns the least and the largest sum of products of factors from −1 to 1, factor 0 being 1. It

@@ -10,8 +10,9 @@
 //!
 //! - if the angle goes all the way round, M. Riesz: its value at c is at least
 //!   M·cos(d·δ), for d·δ ≤ π/2. So M ≤ B if F(c) ≤ B·cos(d·δ).
-//! - if it has ends, either x is one of them, and they are looked at; or its slope at x is
-//!   0, and by Bernstein M ≤ F(c) + ½(d·δ)²·W, W being at least F over whole turns.
+//! - either x is an end of the range, and ends are looked at; or its slope at x is 0, and M ≤
+//!   F(c) + ½δ²·W. W = Σ n·|v| is at least the second derivative: a product of n sines and
+//!   cosines is the mean of cos(Σ ±(θ − φ)) over all signs, and the mean of (Σ ±1)² is n.
 //!
 //! F(c) is shown to be small by the same means over the other angles. Cells where that
 //! fails are cut in three; what is found above B itself is an answer: F is not below B.
@@ -28,9 +29,9 @@ const MOST_STEPS: u64 = 2_500_000_000;
 const MOST_STEPS_MORE: u64 = 400_000_000;
 /// Cells narrower than this are not cut: what they would show is shown by a larger B.
 const NARROWEST: f64 = 1e-3;
-/// The largest d·δ of the first cells. Larger ones fail, and what was shown of the other
-/// angles was in vain: the UR10 takes 0.8 s so, 7 s with 0.7 and 0.9 s with 0.25.
-const FIRST_TURN: f64 = 0.42;
+/// The part of B that is lost in one of the first cells. Larger ones fail, and what was shown of
+/// the other angles was in vain.
+const FIRST_LOSS: f64 = 0.087;
 /// By how much B grows where it was not shown.
 const GROWTH: [f64; 7] = [1.002, 1.01, 1.05, 1.2, 1.5, 2.0, 4.0];
 
@@ -57,8 +58,7 @@ pub fn bound(polynomial: &Polynomial, ring: &Ring, wanted: f64) -> f64 {
     }
     let slack = search.mass * (1e-12 + 16.0 * UNIT * first.len() as f64);
     let rest = (polynomial.rest + slack) * (1.0 + 1e-9);
-    let mut least = (wanted - rest).next_down();
-    let mut shown = wanted;
+    let (mut least, mut shown) = ((wanted - rest).next_down(), wanted);
     if !(least > 0.0) {
         (least, shown) = (norm * 1e-12, f64::INFINITY);
     }
@@ -93,7 +93,10 @@ impl Search {
         };
         let (degree, range) = (*degree, *range);
         let [low, high] = range.unwrap_or([-PI, PI]);
-        let count = (degree * 0.5 * (high - low) / FIRST_TURN).ceil().max(1.0);
+        let bend = self.bend(level);
+        let widest = (2.0 * FIRST_LOSS * most / bend.min(degree * degree * most)).sqrt();
+        // Of what is no number, with B below zero, one.
+        let count = (0.5 * (high - low) / widest).ceil().max(1.0);
         let half = (0.5 * (high - low) / count).next_up();
         let cell = |k: usize| (low + half * (2.0 * k as f64 + 1.0), half);
         let mut cells: Vec<(f64, f64)> = (0..count as usize).map(cell).collect();
@@ -106,9 +109,10 @@ impl Search {
             }
             // One part in 10¹² for the roundings of all this.
             let turn = degree * half * (1.0 + 1e-12);
+            let bent = most - 0.5 * half * half * bend * (1.0 + 1e-12);
             let below = match range {
-                None => most * sin_cos(turn).1,
-                Some(_) => most - 0.5 * turn * turn * norm,
+                None if turn < 1.5 => bent.max(most * sin_cos(turn).1),
+                _ => bent,
             };
             self.fix(level, middle);
             match self.shows(level + 1, below - 1e-12 * most) {

@@ -315,19 +315,22 @@ impl<'a> ErrorBudget<'a> {
                 found.retain(|pruned| !pruned.stages.is_empty());
                 // Of equals the edited exact program.
                 found.sort_by_key(|pruned| prune::cost(&pruned.program));
-                if let Some(best) = found.first().map(|pruned| pruned.program.clone()) {
-                    let best = &best;
-                    let seeds: Vec<u64> = (1..=settings.restarts).collect();
-                    found.extend(parallel::each(&seeds, |&seed| {
+                let rounds = found
+                    .first()
+                    .map_or(0, |best| settings.rounds(&best.program));
+                for round in 0..rounds {
+                    let best = found[0].program.clone();
+                    let seeds = [2 * round + 1, 2 * round + 2];
+                    let again = parallel::each(&seeds, |&seed| {
                         let settings = PruneSettings { seed, ..*settings };
-                        // In turn the best so far and what others were edited from.
-                        let other = starts.get(seed as usize / 2 % starts.len().max(1));
-                        let start = other.filter(|_| seed % 2 == 0).unwrap_or(&best);
+                        // The best so far, and in turn what others were edited from.
+                        let other = starts.get(round as usize % starts.len().max(1));
+                        let start = other.filter(|_| seed % 2 == 0).copied().unwrap_or(&best);
                         prune::watched(exact, Some(start), limits, &allowances, &settings, watch)
-                    }));
+                    });
+                    found.extend(again.into_iter().filter(|again| !again.stages.is_empty()));
+                    found.sort_by_key(|pruned| prune::cost(&pruned.program));
                 }
-                found.retain(|pruned| !pruned.stages.is_empty());
-                found.sort_by_key(|pruned| prune::cost(&pruned.program));
             }
             for Pruned {
                 stages, program, ..

@@ -71,7 +71,8 @@ pub struct PruneSettings {
     /// Smaller models to start from as well; none where work is limited, of which a
     /// thread counts its own.
     pub models: usize,
-    /// Times that the best programs are edited again, with other samples.
+    /// Times that the best program and another one are edited again, with other samples, if the
+    /// best has a hundred operations: of a shorter one that is quicker, and is done more often.
     pub restarts: u64,
     /// Added to the seed of the samples and of what is taken back.
     pub seed: u64,
@@ -92,7 +93,7 @@ impl Default for PruneSettings {
             effort: Effort::Quick,
             refit: true,
             models: 2,
-            restarts: 1,
+            restarts: 3,
             seed: 0,
             work: None,
         }
@@ -140,7 +141,7 @@ impl PruneSettings {
         effort: Effort::Thorough,
         refit: true,
         models: 5,
-        restarts: 8,
+        restarts: 10,
         seed: 0,
         work: None,
     };
@@ -150,6 +151,14 @@ impl PruneSettings {
         match effort {
             Effort::Quick => PruneSettings::default(),
             Effort::Thorough => PruneSettings::THOROUGH,
+        }
+    }
+
+    /// Returns how often a program is edited again.
+    pub(crate) fn rounds(&self, best: &Program) -> u64 {
+        match self.restarts {
+            0 => 0,
+            restarts => (100 * restarts / cost(best).max(1) as u64).max(1),
         }
     }
 

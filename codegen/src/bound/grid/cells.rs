@@ -1,9 +1,9 @@
 //! A bound shown cell by cell, angle after angle.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
+use super::FINEST;
 use super::layout::{LANES, Layout};
-use super::{FINEST, FIRST};
 use crate::bound::input_box::InputBox;
 use crate::bound::work;
 use crate::interval::Interval;
@@ -11,8 +11,12 @@ use crate::interval::Interval;
 /// Terms that are put together in about the time of a point.
 const TERMS: usize = 64;
 
-/// A bound where so many angles are put in, from the values there.
-pub(super) type Crude<'a> = dyn Fn(usize, &[f64]) -> f64 + 'a;
+/// The part of a bound that one of the first cells may cost. Smaller cells are more of them; of
+/// larger ones what was shown of the other angles is more often in vain.
+const FIRST: f64 = 0.077;
+
+/// The most first cells.
+const MOST_FIRST: f64 = 64.0;
 
 /// A bound to show.
 pub(super) struct Cells<'a> {
@@ -22,9 +26,9 @@ pub(super) struct Cells<'a> {
     buffers: Vec<Vec<f64>>,
     /// Whether the value at a point is at most a bound.
     accept: &'a dyn Fn(&[f64], f64) -> bool,
-    /// What the maximum over the joints from a level on is at most, no angle
-    /// looked at.
-    pub crude: Option<&'a Crude<'a>>,
+    /// Whether the values are terms of one polynomial: something is known of it before all
+    /// of its angles are put in.
+    pub is_sum: bool,
     /// Whether what is bounded is nowhere negative.
     pub is_positive: bool,
     /// F, if the box is a part of the circles.
@@ -35,6 +39,9 @@ pub(super) struct Cells<'a> {
     /// Of the first angle's range, the part that was shown before the cell that was
     /// looked at last.
     pub reached: f64,
+    /// The angles put in, and those where the value was above its bound last.
+    angles: Vec<f64>,
+    above: Vec<f64>,
 }
 
 /// The part of a joint's range around an angle.
@@ -57,12 +64,14 @@ impl<'a> Cells<'a> {
             layout,
             buffers,
             accept,
-            crude: None,
+            is_sum: false,
             is_positive: false,
             whole,
             ranges: layout.joints.iter().map(|&j| limits.position[j]).collect(),
             points: 0,
             reached: 0.0,
+            angles: vec![0.0; layout.joints.len()],
+            above: Vec::new(),
         }
     }
 
@@ -103,12 +112,19 @@ impl<'a> Cells<'a> {
     /// `true` is a proof.
     pub(super) fn below(&mut self, level: usize, bound: f64) -> bool {
         if level == self.layout.joints.len() {
-            return (self.accept)(self.values(level), bound);
+            let below = (self.accept)(self.values(level), bound);
+            if !below {
+                self.above.clone_from(&self.angles);
+            }
+            return below;
         }
-        if let Some(crude) = self.crude
-            && crude(level, self.values(level)) <= bound
-        {
-            return true;
+        let mut bend = f64::INFINITY;
+        if self.is_sum {
+            let crude = self.layout.crude(level, self.values(level));
+            if crude.most <= bound {
+                return true;
+            }
+            bend = crude.bend;
         }
         if bound <= 0.0 || self.points == 0 {
             return false;
@@ -129,7 +145,21 @@ impl<'a> Cells<'a> {
             None => (0.0, 2.0 * PI),
         };
         let rounded = 4.0 * f64::EPSILON * (from.abs() + width);
-        let count = FIRST * self.layout.degrees[level] as usize;
+        let is_positive = self.is_positive;
+        let lost = |half: f64| {
+            // Half widths and middles are rounded; a little more covers that.
+            let half = half * (1.0 + 1e-12) + rounded;
+            let (bent, reach) = (0.5 * half * half * bend, degree * half);
+            let known = match part {
+                Some((_, whole)) => 0.5 * reach * reach * whole,
+                None if reach > FRAC_PI_2 => f64::INFINITY,
+                None if is_positive => bound * (libm::sin(0.5 * reach).powi(2) + 1e-15),
+                None => bound * (1.0 - libm::cos(reach) + 1e-15),
+            };
+            bent.min(known) * (1.0 + 1e-12)
+        };
+        let finest = FINEST * bound;
+        let count = self.first(level, width, bound, bend);
         let mut first = (0..count).map(|k| Cell {
             middle: from + width * (k as f64 + 0.5) / count as f64,
             half: 0.5 * width / count as f64,
@@ -149,24 +179,15 @@ impl<'a> Cells<'a> {
             if level == 0 {
                 self.reached = (middle - half - from) / width;
             }
-            // Half widths and middles are rounded; a little more covers that.
-            let reach = degree * (half * (1.0 + 1e-12) + rounded);
-            let enough = match part {
-                Some((_, whole)) => {
-                    (bound - 0.5 * reach * reach * whole * (1.0 + 1e-12)).next_down()
-                }
-                None if self.is_positive => {
-                    let cos = libm::cos(0.5 * reach);
-                    (bound * (cos * cos - 1e-15)).next_down()
-                }
-                None => (bound * (libm::cos(reach) - 1e-15)).next_down(),
-            };
+            let lost = lost(half);
+            let enough = (bound - lost).next_down();
             self.charge(level);
-            let below = self.below(level + 1, enough);
+            self.angles[level] = middle;
+            let below = !self.is_above(level + 1, enough) && self.below(level + 1, enough);
             let rest = self.buffers[level + 1].len() - self.layout.len(level + 1);
             self.buffers[level + 1].truncate(rest);
             if !below {
-                if reach <= FINEST || self.points == 0 {
+                if lost <= finest || self.points == 0 {
                     return false;
                 }
                 let half = half / 3.0;
@@ -178,6 +199,29 @@ impl<'a> Cells<'a> {
                 cells.extend(thirds);
             }
         }
+    }
+
+    /// Returns whether the value is above a bound at the angles where one was last, those
+    /// before a level being put in already: what is refuted there need not be looked at.
+    fn is_above(&mut self, level: usize, bound: f64) -> bool {
+        let last = self.layout.joints.len();
+        if level == last || self.above.is_empty() {
+            return false;
+        }
+        for next in level..last {
+            self.charge(next);
+            self.place(next, self.above[next]);
+        }
+        !(self.accept)(self.values(last), bound)
+    }
+
+    /// Returns how many cells are looked at first.
+    fn first(&self, level: usize, width: f64, bound: f64, bend: f64) -> usize {
+        // By the degree or by the second derivative, whichever is wider.
+        let degree = f64::from(self.layout.degrees[level]);
+        let most = self.part(level).map_or(bound, |(_, whole)| whole);
+        let widest = (2.0 * FIRST * bound / bend.min(degree * degree * most)).sqrt();
+        (0.5 * width / widest).ceil().clamp(1.0, MOST_FIRST) as usize
     }
 
     fn fold_all(&mut self, level: usize, cells: &[Cell]) {

@@ -20,6 +20,17 @@ pub(super) struct Group {
     pub end: u32,
     /// How large its rates are.
     pub size: f64,
+    /// The square of the multiple of the joint's angle.
+    pub square: f64,
+}
+
+/// What is known of a polynomial without looking at its angles.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Crude {
+    /// At least its magnitude.
+    pub most: f64,
+    /// At least the magnitude of its second derivative by the next angle.
+    pub bend: f64,
 }
 
 /// Trigonometric polynomials in multiples of their angles, angle after angle.
@@ -113,6 +124,7 @@ impl Layout {
                         Group {
                             end,
                             size: range(group[0]).magnitude(),
+                            square: f64::from(multiple(group[0], joint).0.pow(2)),
                         }
                     })
                     .collect(),
@@ -177,21 +189,30 @@ impl Layout {
         }
     }
 
-    /// Returns a bound without looking at angles: each group's is the length of its
-    /// coefficients.
-    pub(super) fn crude(&self, level: usize, values: &[f64]) -> f64 {
+    /// Returns bounds without looking at angles, of the magnitude and of that of the second
+    /// derivative by the joint's angle: each group's is the length of its coefficients.
+    pub(super) fn crude(&self, level: usize, values: &[f64]) -> Crude {
         // After the last angle only rates are left.
         let Some(groups) = self.groups.get(level) else {
-            return self.each_at_worst(values) * (1.0 + 1e-9);
+            return Crude {
+                most: self.each_at_worst(values) * (1.0 + 1e-9),
+                bend: 0.0,
+            };
         };
-        let (mut sum, mut from) = (self.slack, 0);
+        let degree = f64::from(self.degrees[level]);
+        let (mut most, mut bend, mut from) = (self.slack, degree * degree * self.slack, 0);
         for group in groups {
             let end = group.end as usize;
             let squares: f64 = values[from..end].iter().map(|x| x * x).sum();
-            sum += squares.sqrt() * group.size;
+            let length = squares.sqrt() * group.size;
+            most += length;
+            bend += length * group.square;
             from = end;
         }
-        sum * (1.0 + 1e-9)
+        Crude {
+            most: most * (1.0 + 1e-9),
+            bend: bend * (1.0 + 1e-9),
+        }
     }
 
     /// Puts angles into the values before a joint: a column of values each joins
