@@ -71,11 +71,11 @@ pub enum Node {
     Constant(u32),
     /// An input of the program.
     Input(Input),
-    /// Returns a + b
+    /// a + b
     Sum(NodeId, NodeId),
-    /// Returns a − b
+    /// a − b
     Difference(NodeId, NodeId),
-    /// Returns a · b
+    /// a · b
     Product(NodeId, NodeId),
     /// a / b
     Quotient(NodeId, NodeId),

@@ -12,7 +12,7 @@ use crate::program::Input;
 /// A pattern.
 #[derive(Clone, Debug)]
 pub(crate) enum Pattern {
-    /// Returns a number.
+    /// A number.
     Number(u64),
     /// `?a`: any value; `?k` and `?m`: a constant.
     Variable(char),

@@ -9,6 +9,8 @@
 //! nobody else can. Distribution, a·(b ± c) → a·b ± a·c, is no row: every product of sums
 //! would double the e-graph, and formulations bring the expanded forms along.
 
+use std::sync::LazyLock;
+
 use egg::{ENodeOrVar, Id, Language, Pattern, PatternAst, Subst, Var};
 
 use super::classes::{ClassId, Classes, ENode, Operator, Way};
@@ -33,6 +35,9 @@ pub(crate) const RULES: &[(&str, &str, &str)] = &[
     ("mul-quotient", "(* ?a (/ ?b ?c))", "(/ (* ?a ?b) ?c)"),
 ];
 
+/// The rows, read once.
+static READ: LazyLock<Vec<Rule>> = LazyLock::new(|| RULES.iter().flat_map(Rule::read).collect());
+
 /// How far the rules are applied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct RuleLimits {
@@ -48,16 +53,21 @@ impl RuleLimits {
         growth: 20,
         iterations: 1,
     };
+
+    /// None are applied.
+    pub(super) const NONE: RuleLimits = RuleLimits {
+        growth: 0,
+        iterations: 0,
+    };
 }
 
 /// Applies all rules to all that is there.
 pub(crate) fn saturate(classes: &mut Classes, limits: RuleLimits) {
     let before = classes.size();
-    let rules: Vec<Rule> = RULES.iter().flat_map(|row| Rule::read(row)).collect();
     for _ in 0..limits.iterations {
-        let found = classes.matches(rules.iter().map(|rule| &rule.left));
+        let found = classes.matches(READ.iter().map(|rule| &rule.left));
         let size = classes.size();
-        for (rule, found) in rules.iter().zip(found) {
+        for (rule, found) in READ.iter().zip(found) {
             for found in found {
                 for substitution in &found.substs {
                     if classes.size() < limits.growth * before {

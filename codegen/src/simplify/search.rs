@@ -79,7 +79,7 @@ pub(crate) fn quick_round(program: &Graph, helpers: &[Graph]) -> Graph {
         patience: 0,
         pairs: 500,
         substitutes: 1_000,
-        rules: RuleLimits::ROUND,
+        rules: RuleLimits::NONE,
         schedule: Schedule::COOLING,
         without: None,
     };
