@@ -36,7 +36,7 @@ pub(crate) struct Way {
 }
 
 impl Way {
-    /// An operation on two classes. Discovery makes one for each pair that it looks at.
+    /// Makes an operation on two classes. Discovery makes one for each pair that it looks at.
     #[inline]
     pub(crate) fn new(operator: Operator, [a, b]: [ClassId; 2]) -> Way {
         let operands = match operator != Operator::Quotient && b < a {

@@ -90,7 +90,7 @@ impl Analysis<ENode> for Fingerprints {
     }
 }
 
-/// The print of a leaf. One that has none is zero, as are the values that it is read for:
+/// Returns the print of a leaf. One that has none is zero, as are the values that it is read for:
 /// the proof refuses what comes of it.
 fn leaf_print(leaf: &Leaf) -> Fingerprint {
     match leaf {
@@ -122,7 +122,7 @@ pub(crate) struct Classes {
 }
 
 impl Classes {
-    /// The classes, first made first.
+    /// Returns the classes, first made first.
     pub(crate) fn ids(&self) -> &[ClassId] {
         &self.egraph.analysis.roots
     }
