@@ -179,7 +179,7 @@ pub mod scene {
 }
 
 pub mod simplify {
-    pub use crate::simplify::{Effort, Pass, cost, watched};
+    pub use crate::simplify::{Effort, Pass, WaySource, cost, watched};
 }
 
 pub mod sincos {

@@ -95,7 +95,7 @@ fn the_last_row_is_what_is_generated() {
     ] {
         let scene = Some(&reading.scenes[0]);
         let request = Request::default().choose(Some(functions.to_vec()), None, scene);
-        let explained = explain_all(&reading.robot, &request).unwrap();
+        let explained = explain_all(&reading.robot, &request, &[]).unwrap();
         let generated = generate(&reading.robot, &request).unwrap();
         assert_eq!(explained.len(), functions.len());
         for explanation in explained {

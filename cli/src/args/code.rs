@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::ArgGroup;
 use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::simplify::Effort;
+use dalembert_codegen::workspace::simplify::{Effort, WaySource};
 use dalembert_report::processor::target::Target;
 
 use super::options::Options;
@@ -101,6 +101,9 @@ pub struct ExplainArgs {
     /// such as joint3.mass, elbow.com.x or gravity.z
     #[arg(long, value_name = "NUMBER", conflicts_with_all = ["coefficients", "states"])]
     pub trace: Option<String>,
+    /// Show also what the search finds without each of these sources of ways
+    #[arg(long, hide = true, value_name = "SOURCES", value_delimiter = ',', value_parser = word_parser::<WaySource>())]
+    pub without: Vec<WaySource>,
     /// Print JSON
     #[arg(long)]
     pub json: bool,

@@ -47,13 +47,13 @@ pub fn run(args: &ExplainArgs) -> Outcome {
     }
     let session = progress::watch(&mut request);
     let robot = &reading.robot;
-    let explained = match explain_all(robot, &request) {
+    let explained = match explain_all(robot, &request, &args.without) {
         Err(GenerateError::StalePlan { .. }) => {
             output::note(
                 "warning: the plan beside the robot file no longer fits it: a search takes its place",
             );
             request.plan = None;
-            explain_all(robot, &request)
+            explain_all(robot, &request, &args.without)
         }
         explained => explained,
     };

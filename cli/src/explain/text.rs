@@ -105,7 +105,7 @@ fn rows(explanation: &Explanation, errors: &[Errors]) -> Vec<Vec<String>> {
     let mut rows = vec![head.map(String::from).collect::<Vec<_>>()];
     for (index, (row, errors)) in steps.iter().zip(errors).enumerate() {
         let counts = row.counts;
-        let mut title = row.step.title().to_owned();
+        let mut title = row.step.title();
         if let Code::Emitted(_, scalar) = &row.code {
             title += &format!(", in {scalar}");
         }

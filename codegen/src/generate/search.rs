@@ -183,6 +183,7 @@ impl Search<'_> {
             scene_robot,
             function,
             effort,
+            without: self.task.request.without,
             limit,
             from,
             watch,
@@ -219,8 +220,9 @@ impl Search<'_> {
         {
             helpers.extend(portfolio::neighbours(scene_robot, function, tuned));
         }
+        let without = self.task.request.without;
         let accept = |graph: &Graph| !limited || self.judge.accepts(graph);
-        let simplified = simplify::watched(&graphs, &helpers, effort, &accept, watch);
+        let simplified = simplify::watched(&graphs, &helpers, effort, without, &accept, watch);
         Some(Found {
             tuned,
             variants,

@@ -4,7 +4,6 @@
 //! - [`fingerprint`]: semantic fingerprints: values at random points of a prime field
 //! - [`builder`]: the smart constructors: folding and sharing
 //! - [`symbol`]: the scalar that traces the equations into a builder
-//! - [`rules`]: what the constructors fold, as data
 //! - `counts`: operation counts
 //!
 //! A graph is a directed acyclic graph in topological order: operands come
@@ -13,7 +12,8 @@
 pub(crate) mod builder;
 mod counts;
 pub(crate) mod fingerprint;
-pub(crate) mod rules;
+#[cfg(test)]
+pub(crate) mod pattern;
 pub(crate) mod symbol;
 
 use dalembert_model::number::Exact;

@@ -141,6 +141,15 @@ pub(crate) fn tuned(
     tuned
 }
 
+/// Returns the regrouping that a descent starts from, in the cheapest of these forms.
+pub(crate) fn unmoved(scene_robot: &SceneRobot, function: Function, forms: &[Form]) -> Tuned {
+    let arm = skeleton_for(scene_robot, function);
+    let start = tune::start(&arm);
+    tune::form(&arm, start, forms, |chain, form, below| {
+        price(&merged(scene_robot, function, chain, form), None, below)
+    })
+}
+
 /// Axes that a descent starts from: each link's own; the last link's before
 /// it turns; those before each group.
 fn starts(chain: &Chain<Exact>) -> Vec<Vec<i32>> {

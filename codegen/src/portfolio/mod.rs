@@ -25,7 +25,7 @@ use crate::graph::Graph;
 use crate::program::Counts;
 pub(crate) use chain::{has_shoulder, in_regrouping, neighbours, regrouped, regroupings};
 pub use chain::{skeleton, skeleton_for, trace_chain};
-pub(crate) use descent::{Limit, tuned};
+pub(crate) use descent::{Limit, tuned, unmoved};
 pub use start::Start;
 pub(crate) use sums::{Sums, angle_sums};
 pub(crate) use textbook::textbook;

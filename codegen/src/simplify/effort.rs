@@ -1,8 +1,8 @@
 //! How much work a search may do: counted in e-nodes, pairs and moves, never
 //! in time, so the result is the same on every machine.
 
-use super::egraph::SaturationLimits;
 use super::extract::Schedule;
+use super::rules::RuleLimits;
 use super::search::SearchLimits;
 use crate::words::words;
 
@@ -30,17 +30,13 @@ impl Effort {
         }
     }
 
-    pub(super) fn budget(self) -> SaturationLimits {
-        match self {
-            Effort::Quick => SaturationLimits {
-                nodes: 5_000,
-                iterations: 1,
-                rounds: 1,
-            },
-            Effort::Thorough => SaturationLimits {
-                nodes: 100_000,
-                iterations: 3,
-                rounds: 2,
+    /// How far rules are applied.
+    pub(super) fn rules(self) -> RuleLimits {
+        RuleLimits {
+            growth: 20,
+            iterations: match self {
+                Effort::Quick => 2,
+                Effort::Thorough => 4,
             },
         }
     }
@@ -66,6 +62,8 @@ impl Effort {
                 patience: 8,
                 pairs: 500,
                 substitutes: 700,
+                rules: RuleLimits::ROUND,
+                without: None,
                 schedule: Schedule {
                     moves: 10_000,
                     ..Schedule::COOLING
@@ -76,6 +74,8 @@ impl Effort {
                 patience: 1,
                 pairs: 500,
                 substitutes: 700,
+                rules: RuleLimits::ROUND,
+                without: None,
                 schedule: Schedule {
                     moves: 40_000,
                     ..Schedule::COOLING
@@ -86,6 +86,8 @@ impl Effort {
                 patience: 8,
                 pairs: 2_500,
                 substitutes: 3_000,
+                rules: RuleLimits::ROUND,
+                without: None,
                 schedule: Schedule {
                     moves: 150_000,
                     ..Schedule::COOLING

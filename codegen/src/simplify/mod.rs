@@ -1,21 +1,22 @@
 //! Fewer operations, same function.
 //!
 //! - [`effort`]: how much work a search may do, in moves and nodes
-//! - [`classes`]: values up to sign by fingerprint, and the ways to compute each
-//! - [`rules`], [`egraph`]: equality saturation with rules as data
+//! - [`classes`]: the e-graph: values up to sign by fingerprint, and the ways to compute each
+//! - [`rules`]: identities of algebra, applied by pattern
 //! - [`discover`]: ways that only the fingerprints show; `sieve`: whether a value may be
 //!   among others
+//! - [`source`]: the names of all that adds ways
 //! - [`extract`]: the cheapest program that the ways allow
 //! - [`search`]: discovery and extraction in turns, to a plateau
 
 pub(crate) mod classes;
 pub(crate) mod discover;
 pub(crate) mod effort;
-pub(crate) mod egraph;
 pub(crate) mod extract;
 pub(crate) mod rules;
 pub(crate) mod search;
 mod sieve;
+pub(crate) mod source;
 
 use std::fmt;
 
@@ -26,6 +27,8 @@ use crate::watch::{FunctionWatch, Part};
 use classes::Classes;
 pub use effort::Effort;
 pub(crate) use extract::CostModel;
+use search::SearchLimits;
+pub use source::WaySource;
 
 /// What one step left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,15 +91,16 @@ pub(crate) fn simplify(
     effort: Effort,
     accept: &dyn Fn(&Graph) -> bool,
 ) -> Option<Simplified> {
-    watched(variants, helpers, effort, accept, None)
+    watched(variants, helpers, effort, None, accept, None)
 }
 
 /// Returns `simplify` under a watch: where it is over, the search ends with its
-/// round.
+/// round. A source of ways may be left out, to see what it earns.
 pub fn watched(
     variants: &[Graph],
     helpers: &[Graph],
     effort: Effort,
+    without: Option<WaySource>,
     accept: &dyn Fn(&Graph) -> bool,
     watch: Option<FunctionWatch<'_>>,
 ) -> Option<Simplified> {
@@ -126,15 +130,20 @@ pub fn watched(
     let mut random = Random::new(1);
     tell(Part::EGraph, [0, 1], start);
 
-    let mut classes = Classes::new(start);
-    let program = classes.program();
-    egraph::saturate(&mut classes, &program, effort.budget());
+    let mut classes = Classes::default();
+    let (_, program) = classes.begin(start);
+    if without != Some(WaySource::Rules) {
+        rules::saturate(&mut classes, effort.rules());
+    }
     let found = search::extract(&classes, &program, effort.first_schedule(), &mut random);
     let mut best = take(found, start);
     passes.push(Pass::of("e-graph", &best));
     let saturated = best.clone();
 
-    let settings = effort.search(best.counts().operations());
+    let settings = SearchLimits {
+        without,
+        ..effort.search(best.counts().operations())
+    };
     let mut idle = 0;
     for round in 0..settings.rounds {
         if watch.is_some_and(|watch| watch.is_over()) {

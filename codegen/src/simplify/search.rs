@@ -1,9 +1,11 @@
 //! Discovery and extraction in turns.
 
-use super::classes::{ClassId, Classes, ENode};
+use super::classes::{ClassId, Classes, Way};
 use super::cost;
 use super::discover;
 use super::extract::{CostModel, Extraction, Schedule};
+use super::rules::{self, RuleLimits};
+use super::source::WaySource;
 use crate::graph::Graph;
 use crate::random::Random;
 
@@ -19,14 +21,18 @@ pub(crate) struct SearchLimits {
     pub pairs: usize,
     /// The most classes among which two-operation substitutes are tried.
     pub substitutes: usize,
+    /// How far rules are applied to the program.
+    pub rules: RuleLimits,
     /// Annealing of a round.
     pub schedule: Schedule,
+    /// What is left out, to see what it earns.
+    pub without: Option<WaySource>,
 }
 
 /// A program with more values than this is not paired whole in any search.
 const MAX_OWN: usize = 1_500;
 
-/// Returns one round from a program: what other graphs and the fingerprints offer,
+/// Returns one round from a program: what rules, other graphs and the fingerprints offer,
 /// then extraction. Never returns a dearer program.
 pub(crate) fn round(
     program: &Graph,
@@ -35,18 +41,27 @@ pub(crate) fn round(
     limits: &SearchLimits,
     random: &mut Random,
 ) -> Graph {
-    let mut classes = Classes::new(program);
-    let choice = classes.program();
-    let own: Vec<ClassId> = (0..classes.len() as ClassId).collect();
-    for graph in variants.iter().chain(helpers) {
-        classes.absorb(graph);
+    let has = |source| limits.without != Some(source);
+    let mut classes = Classes::default();
+    let (own, choice) = classes.begin(program);
+    if has(WaySource::Rules) {
+        rules::saturate(&mut classes, limits.rules);
     }
-    discover::multiples(&mut classes, &own, &choice);
-    // The program's own classes come first, then the other graphs' in turn.
+    if has(WaySource::Formulations) {
+        for graph in variants.iter().chain(helpers) {
+            classes.absorb(graph);
+        }
+    }
+    if has(WaySource::Multiples) {
+        discover::multiples(&mut classes, &own, &choice);
+    }
+    // The program's own classes come first, then those of the rules, then the other graphs'.
     let most = limits.pairs.max(own.len().min(MAX_OWN));
-    let pool: Vec<ClassId> = (0..classes.len().min(most) as ClassId).collect();
-    discover::pairs(&mut classes, &pool);
-    if own.len() <= limits.substitutes {
+    let pool: Vec<ClassId> = classes.ids().iter().take(most).copied().collect();
+    if has(WaySource::Pairs) {
+        discover::pairs(&mut classes, &pool);
+    }
+    if has(WaySource::Resubstitution) && own.len() <= limits.substitutes {
         discover::resubstitute(&mut classes, &own);
     }
     let found = extract(&classes, &choice, limits.schedule, random);
@@ -64,7 +79,9 @@ pub(crate) fn quick_round(program: &Graph, helpers: &[Graph]) -> Graph {
         patience: 0,
         pairs: 500,
         substitutes: 1_000,
+        rules: RuleLimits::NONE,
         schedule: Schedule::COOLING,
+        without: None,
     };
     round(program, &[], helpers, &limits, &mut Random::new(1))
 }
@@ -72,7 +89,7 @@ pub(crate) fn quick_round(program: &Graph, helpers: &[Graph]) -> Graph {
 /// Climbs, anneals and climbs again from a choice.
 pub(crate) fn extract(
     classes: &Classes,
-    choice: &[Option<ENode>],
+    choice: &[Option<Way>],
     schedule: Schedule,
     random: &mut Random,
 ) -> Graph {

@@ -11,7 +11,7 @@ use crate::plan::Plan;
 use crate::portfolio::load;
 use crate::program::ScalarType;
 use crate::scene::{SceneError, SceneRobot};
-use crate::simplify::Effort;
+use crate::simplify::{Effort, WaySource};
 use crate::watch::Watch;
 
 /// Some minutes where nothing is optimised.
@@ -52,6 +52,9 @@ macro_rules! request {
             /// is refused where that is not enough. They are counted, never timed: the
             /// same everywhere. No limit if `None`.
             pub work: Option<u64>,
+            /// What a search leaves out, to see what it earns.
+            #[doc(hidden)]
+            pub without: Option<WaySource>,
         }
 
         impl Default for Request {
@@ -70,6 +73,7 @@ macro_rules! request {
                     scene: None,
                     cheapest_scalar: false,
                     work: None,
+                    without: None,
                 }
             }
         }

@@ -21,6 +21,7 @@ use dalembert_codegen::workspace::graph::Graph;
 use dalembert_codegen::workspace::portfolio;
 use dalembert_codegen::workspace::program::Program;
 use dalembert_codegen::workspace::scene::{SceneRobot, input_hash};
+use dalembert_codegen::workspace::simplify::WaySource;
 use dalembert_codegen::workspace::task::{Request, Task};
 use dalembert_codegen::workspace::trace::trace;
 use merged::Merged;
@@ -62,18 +63,23 @@ pub fn explain(
         functions: vec![function],
         ..request.clone()
     };
-    let mut all = explain_all(robot, &alone)?;
+    let mut all = explain_all(robot, &alone, &[])?;
     all.pop().ok_or(GenerateError::Empty)
 }
 
 /// Explains the functions of a request, in their order; of the rest, effort,
 /// preference, plan, scene, scalars, source of sines and watch count. With a
 /// tolerance the last rows are what it admits, a row a scalar: all functions
-/// together, since they are emitted in the same one.
+/// together, since they are emitted in the same one. A row each shows the search without one
+/// of its sources.
 ///
 /// # Errors
 /// Those of [`generate`](dalembert_codegen::workspace::generate::generate).
-pub fn explain_all(robot: &Robot, request: &Request) -> Result<Vec<Explanation>, GenerateError> {
+pub fn explain_all(
+    robot: &Robot,
+    request: &Request,
+    without: &[WaySource],
+) -> Result<Vec<Explanation>, GenerateError> {
     if let Some(plan) = &request.plan
         && plan.input != input_hash(robot)
     {
@@ -90,7 +96,7 @@ pub fn explain_all(robot: &Robot, request: &Request) -> Result<Vec<Explanation>,
     let mut explained = Vec::new();
     for (index, &function) in request.functions.iter().enumerate() {
         if !request.functions[..index].contains(&function) {
-            explained.push(exact(&task, function)?);
+            explained.push(exact(&task, function, without)?);
         }
     }
     let programs: Vec<&Program> = explained.iter().map(|(_, program)| program).collect();
@@ -104,7 +110,11 @@ pub fn explain_all(robot: &Robot, request: &Request) -> Result<Vec<Explanation>,
 
 /// Returns everything but what a tolerance admits, and the program that it is applied
 /// to.
-fn exact(task: &Task<'_>, function: Function) -> Result<(Explanation, Program), GenerateError> {
+fn exact(
+    task: &Task<'_>,
+    function: Function,
+    without: &[WaySource],
+) -> Result<(Explanation, Program), GenerateError> {
     let Task {
         robot,
         scene_robot,
@@ -114,7 +124,7 @@ fn exact(task: &Task<'_>, function: Function) -> Result<(Explanation, Program), 
     if function.columns() != Columns::None {
         return Err(GenerateError::Unexplained(function));
     }
-    let found = steps::search(task, function)?;
+    let found = steps::search(task, function, None)?;
     let tuned = found.tuned.as_ref();
     let tuned = tuned.ok_or(GenerateError::Unexplained(function))?;
     let mut rows = Vec::new();
@@ -138,7 +148,7 @@ fn exact(task: &Task<'_>, function: Function) -> Result<(Explanation, Program), 
     fingerprints(formulation, &trace.graph);
     rows.extend(steps::newton_euler(scene_robot, function, &trace));
     rows.extend(steps::chain(scene_robot, function, tuned));
-    let (searched, program) = steps::searched(task, function, &found)?;
+    let (searched, program) = steps::searched(task, function, &found, without)?;
     rows.extend(searched);
     let chain = Chain::new(
         &portfolio::skeleton_for(scene_robot, function),

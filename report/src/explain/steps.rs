@@ -17,7 +17,7 @@ use dalembert_codegen::workspace::portfolio::tune::{self, Tuned};
 use dalembert_codegen::workspace::portfolio::{self, Start};
 use dalembert_codegen::workspace::program::{Counts, Lowered, Program, ScalarType};
 use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::simplify;
+use dalembert_codegen::workspace::simplify::{self, WaySource};
 use dalembert_codegen::workspace::task::{Request, Task};
 use dalembert_codegen::workspace::trace::Trace;
 
@@ -49,6 +49,8 @@ pub enum SearchStep {
     ChainUnit,
     /// Equality saturation.
     EGraph,
+    /// The search without one of its sources.
+    Without(WaySource),
     /// Discovery and extraction in turns.
     Search,
     /// The program that the plan beside the robot file keeps.
@@ -59,8 +61,9 @@ pub enum SearchStep {
 
 impl SearchStep {
     /// Returns a name for programs.
-    pub fn key(self) -> &'static str {
-        match self {
+    pub fn key(self) -> String {
+        let key = match self {
+            SearchStep::Without(source) => return format!("without_{}", source.name()),
             SearchStep::LagrangeWritten => "lagrange_euler_written",
             SearchStep::LagrangeFolded => "lagrange_euler_folded",
             SearchStep::LagrangeFingerprints => "lagrange_euler_fingerprints",
@@ -76,12 +79,14 @@ impl SearchStep {
             SearchStep::Search => "search",
             SearchStep::Plan => "plan",
             SearchStep::Tolerance => "tolerance",
-        }
+        };
+        key.to_owned()
     }
 
     /// Returns a name for readers.
-    pub fn title(self) -> &'static str {
-        match self {
+    pub fn title(self) -> String {
+        let title = match self {
+            SearchStep::Without(source) => return format!("  search without {}", source.name()),
             SearchStep::LagrangeWritten => "Lagrange–Euler, run with this robot's numbers",
             SearchStep::LagrangeFolded => "  traced: folded, equal expressions shared",
             SearchStep::LagrangeFingerprints => "  fingerprints: equal values shared",
@@ -97,7 +102,8 @@ impl SearchStep {
             SearchStep::Search => "  search, all forms",
             SearchStep::Plan => "kept in the plan",
             SearchStep::Tolerance => "what the tolerance admits",
-        }
+        };
+        title.to_owned()
     }
 }
 
@@ -165,7 +171,7 @@ pub(super) fn lagrange_euler(
     let graphs = std::slice::from_ref(&trace.graph);
     let watch = Some(request.watch.over(function));
     // Whatever it costs in digits: that is what the row is to show.
-    if let Some(found) = simplify::watched(graphs, &[], request.effort, &|_| true, watch) {
+    if let Some(found) = simplify::watched(graphs, &[], request.effort, None, &|_| true, watch) {
         rows.extend([
             row(SearchStep::LagrangeFingerprints, &found.start),
             row(SearchStep::LagrangeEGraph, &found.saturated),
@@ -231,28 +237,39 @@ pub(super) fn kept(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
     regrouping
 }
 
-/// Returns the search over all forms, nothing replayed.
-pub(super) fn search(task: &Task<'_>, function: Function) -> Result<Found, GenerateError> {
+/// Returns the search over all forms, nothing replayed; without one of its sources, if that
+/// is said.
+pub(super) fn search(
+    task: &Task<'_>,
+    function: Function,
+    without: Option<WaySource>,
+) -> Result<Found, GenerateError> {
     let anew = Request {
         start: Start::Auto,
+        without,
         plan: None,
         ..task.request.clone()
     };
     search::search(&task.with(&anew), function)
 }
 
-/// Returns what the search made of all forms, and what the plan keeps; and the last of
-/// them: what is generated, or what a tolerance is applied to.
+/// Returns what the search made of all forms, also without each of these sources, and what the
+/// plan keeps; and the last of them: what is generated, or what a tolerance is applied to.
 pub(super) fn searched(
     task: &Task<'_>,
     function: Function,
     found: &Found,
+    without: &[WaySource],
 ) -> Result<(Vec<Row>, Program), GenerateError> {
     let scene_robot = task.scene_robot;
     let row = |step, graph: &Graph| Row::graph(step, scene_robot, function, graph);
     let simplified = &found.simplified;
     let mut rows = vec![row(SearchStep::EGraph, &simplified.saturated)];
     let mut last = Program::in_scene(scene_robot, function, &simplified.graph);
+    for &source in without {
+        let found = search(task, function, Some(source))?;
+        rows.push(row(SearchStep::Without(source), &found.simplified.graph));
+    }
     rows.push(Row::program(SearchStep::Search, last.clone()));
     if let Some(entry) = search::replay(task, function)? {
         last = entry.program.clone();

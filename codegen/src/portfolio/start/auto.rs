@@ -8,8 +8,11 @@ use super::{Approach, Beginning, Problem};
 use crate::function::Function;
 use crate::graph::Graph;
 use crate::portfolio::tune::Tuned;
-use crate::portfolio::{Form, Source, Sums, angle_sums, has_shoulder, regrouped, textbook, tuned};
+use crate::portfolio::{
+    Form, Source, Sums, angle_sums, has_shoulder, regrouped, textbook, tuned, unmoved,
+};
 use crate::scene::SceneRobot;
+use crate::simplify::WaySource;
 
 /// The start `auto`.
 pub(super) struct Auto;
@@ -94,6 +97,7 @@ fn by_chain(problem: &Problem<'_>) -> Vec<Approach> {
         scene_robot,
         function,
         effort,
+        without,
         limit,
         from,
         watch,
@@ -109,9 +113,10 @@ fn by_chain(problem: &Problem<'_>) -> Vec<Approach> {
     if symbols.len() < families[0].len() {
         families.push(symbols);
     }
-    let tuned = families
-        .iter()
-        .map(|forms| tuned(scene_robot, function, forms, effort, limit, from, watch));
+    let tuned = families.iter().map(|forms| match without {
+        Some(WaySource::Regrouping) => unmoved(scene_robot, function, forms),
+        _ => tuned(scene_robot, function, forms, effort, limit, from, watch),
+    });
     let near = near(tuned.collect(), |tuned: &Tuned| tuned.price);
     let approach = |(index, tuned): (usize, Tuned)| {
         // Seen in other axes the hand has hardly a value in common.

@@ -19,7 +19,7 @@ use super::{Limit, Variant, tune::Tuned};
 use crate::function::Function;
 use crate::graph::Graph;
 use crate::scene::SceneRobot;
-use crate::simplify::Effort;
+use crate::simplify::{Effort, WaySource};
 use crate::watch::FunctionWatch;
 use crate::words::Word;
 use only::Only;
@@ -152,6 +152,8 @@ pub(crate) struct Problem<'a> {
     pub scene_robot: &'a SceneRobot,
     pub function: Function,
     pub effort: Effort,
+    /// What is left out, to see what it earns.
+    pub without: Option<WaySource>,
     /// What a program may be off, if there is a limit.
     pub limit: Option<Limit<'a>>,
     /// Regroupings to start from, besides those that every robot has.

@@ -7,22 +7,18 @@ use rustc_hash::FxHashMap;
 
 use crate::function::Argument;
 use crate::program::Input;
-use crate::simplify::classes::{ClassId, Classes, ENode, Leaf};
+use crate::simplify::classes::{ClassId, Classes, Leaf, Operator, Signed, Way};
 
 /// Finds classes that are a constant multiple of one another, or differ by a
 /// constant, and adds the ways that lead from one to the other.
-pub(crate) fn multiples(
-    classes: &mut Classes,
-    pool: &[ClassId],
-    choice: &[Option<ENode>],
-) -> usize {
+pub(crate) fn multiples(classes: &mut Classes, pool: &[ClassId], choice: &[Option<Way>]) {
     // Points 0 and 1 share the constant angles, so a ratio (difference) that
     // is the same at both is a constant.
     let mut ratios: FxHashMap<Field, Vec<ClassId>> = FxHashMap::default();
     let mut shifts: FxHashMap<Field, Vec<ClassId>> = FxHashMap::default();
     for &id in pool {
-        let print = classes.get(id).print;
-        let constant = matches!(classes.get(id).leaf, Some(Leaf::Constant(_)));
+        let print = *classes.print(id);
+        let constant = matches!(classes.leaf(id), Some(Leaf::Constant(_)));
         if constant || print.is_constant() {
             continue;
         }
@@ -36,59 +32,37 @@ pub(crate) fn multiples(
     let mut found = Vec::new();
     for (a, x, b, y) in values.pairs(ratios) {
         if !num_traits::Zero::is_zero(&x) {
-            found.push((b, ENode::Product(a, a), Exact::from(y / x)));
+            found.push((b, Operator::Product, a, Exact::from(y / x)));
         }
     }
     for (a, x, b, y) in values.pairs(shifts) {
         // b = c ± a, whichever it is.
-        found.push((b, ENode::Sum(a, a), Exact::from(&y - &x)));
-        found.push((b, ENode::Difference(a, a), Exact::from(&y + &x)));
+        found.push((b, Operator::Sum, a, Exact::from(&y - &x)));
+        found.push((b, Operator::Sum, a, Exact::from(&y + &x)));
     }
-    let mut count = 0;
-    for (class, kind, constant) in found {
+    for (class, operator, a, constant) in found {
         if constant.is_zero() || constant.is_one() || constant.neg().is_one() {
             continue;
         }
-        let Some(leaf) = intern_constant(classes, &constant) else {
+        let Some(Signed { class: leaf, .. }) = classes.add_constant(&constant) else {
             continue;
         };
-        let [a, _] = kind.operands();
-        let candidates = match kind {
-            ENode::Product(..) => vec![ENode::Product(a, leaf)],
-            _ => vec![ENode::Sum(a, leaf), ENode::Difference(a, leaf)],
-        };
-        for way in candidates {
-            let print = classes.way_print(way);
-            if classes.find(&print).is_some_and(|hit| hit.class == class) {
-                count += usize::from(classes.add_way(class, way));
-            }
+        classes.add_to(class, Way::new(operator, [a, leaf]));
+        if operator == Operator::Sum {
+            classes.add_to(class, Way::new(Operator::Difference, [a, leaf]));
         }
     }
-    count
-}
-
-/// Returns the leaf class of a constant.
-fn intern_constant(classes: &mut Classes, constant: &Exact) -> Option<ClassId> {
-    let print = crate::graph::Points::SEARCH.constant(constant)?;
-    let signed = classes.intern(&print);
-    let leaf = if signed.negative {
-        constant.neg()
-    } else {
-        constant.clone()
-    };
-    classes.set_leaf(signed.class, Leaf::Constant(leaf));
-    Some(signed.class)
 }
 
 /// Exact values of classes at one rational state, by the chosen program.
 struct Values<'a> {
     classes: &'a Classes,
-    choice: &'a [Option<ENode>],
+    choice: &'a [Option<Way>],
     known: FxHashMap<ClassId, Option<Rational>>,
 }
 
 impl<'a> Values<'a> {
-    fn new(classes: &'a Classes, choice: &'a [Option<ENode>]) -> Self {
+    fn new(classes: &'a Classes, choice: &'a [Option<Way>]) -> Self {
         Values {
             classes,
             choice,
@@ -126,14 +100,13 @@ impl<'a> Values<'a> {
                 pending.pop();
                 continue;
             }
-            let class = self.classes.get(top);
-            let value = match &class.leaf {
+            let value = match self.classes.leaf(top) {
                 Some(Leaf::Constant(constant)) => constant.as_rational().cloned(),
                 Some(Leaf::Input(input)) => Some(sample(*input)),
-                None => match self.choice.get(top as usize).copied().flatten() {
+                None => match self.choice.get(usize::from(top)).copied().flatten() {
                     None => None,
                     Some(way) => {
-                        let [a, b] = way.operands();
+                        let [a, b] = way.operands;
                         let (Some(x), Some(y)) = (self.known.get(&a), self.known.get(&b)) else {
                             for operand in [a, b] {
                                 if !self.known.contains_key(&operand) {
@@ -143,9 +116,10 @@ impl<'a> Values<'a> {
                             continue;
                         };
                         let print = self.classes.way_print(way);
+                        let negative = print != *self.classes.print(top);
                         match (x, y) {
-                            (Some(x), Some(y)) => operate(way, x, y)
-                                .map(|value| if print == class.print { value } else { -value }),
+                            (Some(x), Some(y)) => operate(way.operator, x, y)
+                                .map(|value| if negative { -value } else { value }),
                             _ => None,
                         }
                     }
@@ -159,13 +133,13 @@ impl<'a> Values<'a> {
 }
 
 /// Returns the value of a way; none of a quotient by zero.
-fn operate(way: ENode, x: &Rational, y: &Rational) -> Option<Rational> {
-    Some(match way {
-        ENode::Sum(..) => x + y,
-        ENode::Difference(..) => x - y,
-        ENode::Product(..) => x * y,
-        ENode::Quotient(..) if num_traits::Zero::is_zero(y) => return None,
-        ENode::Quotient(..) => x / y,
+fn operate(operator: Operator, x: &Rational, y: &Rational) -> Option<Rational> {
+    Some(match operator {
+        Operator::Sum => x + y,
+        Operator::Difference => x - y,
+        Operator::Product => x * y,
+        Operator::Quotient if num_traits::Zero::is_zero(y) => return None,
+        Operator::Quotient => x / y,
     })
 }
 

@@ -5,8 +5,7 @@ use dalembert_model::scalar::field::Field;
 use rustc_hash::FxHashMap;
 
 use super::{for_pairs, up_to_sign};
-use crate::graph::Fingerprint;
-use crate::simplify::classes::{ClassId, Classes, ENode};
+use crate::simplify::classes::{ClassId, Classes, Operator, Way};
 use crate::simplify::sieve::Sieve;
 
 /// What of y and c a pair a ∘ b is, in the order in which ways are tried.
@@ -25,7 +24,7 @@ enum Inverse {
 /// y = (a ∘ b) ± c where the pair a ∘ b has the key of another, y ∓ c, and y = (a ∘ b)·c
 /// where it has that of y / c. So of the keys of all pairs and quotients, hundreds of
 /// thousands, only those come into a map that are met twice.
-pub(crate) fn resubstitute(classes: &mut Classes, pool: &[ClassId]) -> usize {
+pub(crate) fn resubstitute(classes: &mut Classes, pool: &[ClassId]) {
     let mut met = Sieve::new(5 * pool.len() * pool.len() / 2);
     let mut again = met.clone();
     let mut meet = |key: Field| match met.passes(key) {
@@ -34,32 +33,33 @@ pub(crate) fn resubstitute(classes: &mut Classes, pool: &[ClassId]) -> usize {
     };
     for_pairs(classes, pool, |key, _| meet(key));
     for_quotients(classes, pool, |key, _, _| meet(key));
-    let mut pairs: Vec<(Field, ENode)> = Vec::new();
+    let mut pairs: Vec<(Field, Way)> = Vec::new();
     for_pairs(classes, pool, |key, way| {
         if again.passes(key) {
             pairs.push((key, way));
         }
     });
     // a ∘ b → the first such pair.
-    let mut table: FxHashMap<Field, ENode> = FxHashMap::default();
+    let mut table: FxHashMap<Field, Way> = FxHashMap::default();
     for &(key, way) in &pairs {
         table.entry(key).or_insert(way);
     }
     // y, c, which of the three keys, and the pair that has it.
-    let mut found: Vec<(ClassId, ClassId, Inverse, ENode)> = Vec::new();
+    let mut found: Vec<(ClassId, ClassId, Inverse, Way)> = Vec::new();
     let mut meet = |key: &Field, y: ClassId, c: ClassId, inverse: Inverse| {
         if let Some(&way) = table.get(key)
-            && !way.operands().contains(&y)
+            && !way.operands.contains(&y)
         {
             found.push((y, c, inverse, way));
         }
     };
     for (key, way) in &pairs {
-        let ([y, c], inverse) = match *way {
-            ENode::Difference(y, c) => ([y, c], Inverse::Difference),
-            ENode::Sum(y, c) => ([y, c], Inverse::Sum),
+        let inverse = match way.operator {
+            Operator::Difference => Inverse::Difference,
+            Operator::Sum => Inverse::Sum,
             _ => continue,
         };
+        let [y, c] = way.operands;
         if y != c {
             meet(key, y, c, inverse);
             meet(key, c, y, inverse);
@@ -71,26 +71,18 @@ pub(crate) fn resubstitute(classes: &mut Classes, pool: &[ClassId]) -> usize {
         }
     });
     found.sort_unstable();
-    let mut count = 0;
     for (y, c, inverse, inner) in found {
-        let print = classes.way_print(inner);
-        if print == Fingerprint::zero() {
+        let Some(middle) = classes.add(inner) else {
             continue;
-        }
-        let middle = classes.intern(&print).class;
-        classes.add_way(middle, inner);
-        let ways = match inverse {
-            Inverse::Quotient => vec![ENode::Product(middle, c)],
-            _ => vec![ENode::Sum(middle, c), ENode::Difference(middle, c)],
         };
-        for way in ways {
-            let print = classes.way_print(way);
-            if classes.find(&print).is_some_and(|hit| hit.class == y) {
-                count += usize::from(classes.add_way(y, way));
-            }
+        let operators: &[Operator] = match inverse {
+            Inverse::Quotient => &[Operator::Product],
+            _ => &[Operator::Sum, Operator::Difference],
+        };
+        for &operator in operators {
+            classes.add_to(y, Way::new(operator, [middle.class, c]));
         }
     }
-    count
 }
 
 /// Calls with the key of every y / c in the pool, y and c.
@@ -99,7 +91,7 @@ fn for_quotients(
     pool: &[ClassId],
     mut call: impl FnMut(Field, ClassId, ClassId),
 ) {
-    let first = |id: ClassId| classes.get(id).print.0[0];
+    let first = |id: ClassId| classes.print(id).0[0];
     let divisors: Vec<(ClassId, Field)> = pool
         .iter()
         .filter_map(|&c| Some((c, first(c).inverse()?)))

@@ -32,7 +32,7 @@ impl Extraction<'_> {
             let mut order = self.live.clone();
             order.sort_unstable();
             for id in order {
-                for index in 0..self.classes.get(id).ways.len() as u32 {
+                for index in 0..self.ways.of(id).len() as u32 {
                     if self.uses[id as usize] == 0 || index == self.chosen[id as usize] {
                         continue;
                     }
@@ -62,7 +62,7 @@ impl Extraction<'_> {
                 return;
             }
             let id = self.live[random.below(self.live.len())];
-            let ways = self.classes.get(id).ways.len();
+            let ways = self.ways.of(id).len();
             if ways < 2 {
                 continue;
             }

@@ -1,7 +1,7 @@
 //! What operations cost.
 
 use crate::program::{AngleSum, Counts};
-use crate::simplify::classes::ENode;
+use crate::simplify::classes::Operator;
 
 /// What operations cost, in hundredths of an operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,11 +53,11 @@ impl CostModel {
         self.mul.min(self.add).min(self.div)
     }
 
-    pub(super) fn way(&self, way: ENode) -> u64 {
-        match way {
-            ENode::Product(..) => self.mul,
-            ENode::Sum(..) | ENode::Difference(..) => self.add,
-            ENode::Quotient(..) => self.div,
+    pub(super) fn way(&self, operator: Operator) -> u64 {
+        match operator {
+            Operator::Product => self.mul,
+            Operator::Sum | Operator::Difference => self.add,
+            Operator::Quotient => self.div,
         }
     }
 }

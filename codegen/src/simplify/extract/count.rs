@@ -1,7 +1,6 @@
 //! Uses of each class by chosen ways, and the cost of what lives.
 
-use super::{Extraction, NONE};
-use crate::simplify::classes::{ClassId, ENode};
+use super::{Extraction, NONE, Place, Step};
 
 /// The ways of a dead operand that are looked at: the first found, which are
 /// those of real programs.
@@ -9,7 +8,7 @@ const MAX_ENODES: usize = 16;
 
 impl Extraction<'_> {
     /// Counts one more use; a class that comes to life takes the way that adds least.
-    pub(super) fn acquire(&mut self, id: ClassId, depth: u32) {
+    pub(super) fn acquire(&mut self, id: Place, depth: u32) {
         self.uses[id as usize] += 1;
         if self.uses[id as usize] > 1 {
             return;
@@ -25,17 +24,17 @@ impl Extraction<'_> {
             self.choose_for_birth(id);
         }
         if let Some(way) = self.way(id) {
-            self.cost += self.model.way(way);
+            self.cost += way.cost;
             self.place[id as usize] = self.live.len() as u32;
             self.live.push(id);
-            for operand in way.operands() {
+            for operand in way.operands {
                 self.acquire(operand, depth);
             }
         }
     }
 
     /// Counts one use less; an unused class frees its operands.
-    pub(super) fn release(&mut self, id: ClassId) {
+    pub(super) fn release(&mut self, id: Place) {
         self.uses[id as usize] -= 1;
         if self.uses[id as usize] > 0 {
             return;
@@ -48,26 +47,27 @@ impl Extraction<'_> {
             }
         }
         if let Some(way) = self.way(id) {
-            self.cost -= self.model.way(way);
+            self.cost -= way.cost;
             let place = self.place[id as usize] as usize;
             self.live.swap_remove(place);
             if let Some(&moved) = self.live.get(place) {
                 self.place[moved as usize] = place as u32;
             }
-            for operand in way.operands() {
+            for operand in way.operands {
                 self.release(operand);
             }
         }
     }
 
     /// Gives a dead class the way with the least work that is not done yet.
-    pub(super) fn choose_for_birth(&mut self, id: ClassId) {
-        let ways = &self.classes.get(id).ways;
-        if ways.len() < 2 {
+    pub(super) fn choose_for_birth(&mut self, id: Place) {
+        let range = self.ways.range(id);
+        if range.len() < 2 {
             return;
         }
         let mut best = (u64::MAX, self.chosen[id as usize]);
-        for (index, &way) in ways.iter().enumerate() {
+        for (index, place) in range.enumerate() {
+            let way = self.ways.steps[place];
             let cost = self.marginal(way, 2, best.0);
             if cost < best.0 && (index as u32 == self.chosen[id as usize] || self.admits(id, way)) {
                 best = (cost, index as u32);
@@ -81,9 +81,9 @@ impl Extraction<'_> {
 
     /// Returns what a way adds, looking `depth` levels into dead operands, where that is less
     /// than `below`; else something that is not.
-    fn marginal(&self, way: ENode, depth: u32, below: u64) -> u64 {
-        let mut cost = self.model.way(way);
-        for operand in way.operands() {
+    fn marginal(&self, way: Step, depth: u32, below: u64) -> u64 {
+        let mut cost = way.cost;
+        for operand in way.operands {
             if cost >= below {
                 break;
             }
@@ -94,8 +94,7 @@ impl Extraction<'_> {
             if angle != NONE && self.angle_uses[angle as usize] == 0 {
                 cost += self.angle_cost[angle as usize];
             }
-            let class = self.classes.get(operand);
-            if class.leaf.is_some() {
+            if self.is_leaf[operand as usize] {
                 continue;
             }
             if depth == 0 {
@@ -103,7 +102,7 @@ impl Extraction<'_> {
                 continue;
             }
             let mut least = u64::MAX / 4;
-            for &way in class.ways.iter().take(MAX_ENODES) {
+            for &way in self.ways.of(operand).iter().take(MAX_ENODES) {
                 // No way costs less than one operation.
                 let one = self.model.least();
                 if least <= one || cost + one >= below {

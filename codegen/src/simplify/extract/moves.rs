@@ -1,28 +1,26 @@
 //! Another way for a class, and back.
 
-use super::{Extraction, NONE, operands};
-use crate::simplify::classes::{ClassId, ENode};
+use super::{Extraction, NONE, Place, Step};
 
 impl Extraction<'_> {
     /// Returns whether the class may take the way: no operand of it depends on the class.
-    pub(super) fn admits(&mut self, id: ClassId, way: ENode) -> bool {
-        let (classes, chosen) = (self.classes, &self.chosen);
-        self.order
-            .admits(id, way.operands(), |id| operands(classes, chosen, id))
+    pub(super) fn admits(&mut self, id: Place, way: Step) -> bool {
+        let (ways, chosen) = (&self.ways, &self.chosen);
+        let operands = |id| ways.operands(chosen, id);
+        self.order.admits(id, way.operands, operands)
     }
 
     /// Returns whether every operand has a way or is a leaf.
-    fn computable(&self, way: ENode) -> bool {
-        way.operands()
-            .iter()
-            .all(|&id| self.classes.get(id).leaf.is_some() || self.chosen[id as usize] != NONE)
+    fn computable(&self, way: Step) -> bool {
+        let mut operands = way.operands.iter().map(|&id| id as usize);
+        operands.all(|id| self.is_leaf[id] || self.chosen[id] != NONE)
     }
 
     /// Gives a live class another way; `None` if that closes a cycle.
     /// The caller may take it back with [`Self::revert`].
-    pub(super) fn switch(&mut self, id: ClassId, index: u32) -> Option<()> {
+    pub(super) fn switch(&mut self, id: Place, index: u32) -> Option<()> {
         let old = self.way(id)?;
-        let new = *self.classes.get(id).ways.get(index as usize)?;
+        let new = *self.ways.of(id).get(index as usize)?;
         if !self.computable(new) || !self.admits(id, new) {
             return None;
         }
@@ -32,16 +30,16 @@ impl Extraction<'_> {
         Some(())
     }
 
-    fn rewire(&mut self, id: ClassId, old: ENode, index: u32, new: ENode, depth: u32) {
+    fn rewire(&mut self, id: Place, old: Step, index: u32, new: Step, depth: u32) {
         // The old operands go first, so that what only they kept alive counts
         // as work for the new way.
-        self.cost -= self.model.way(old);
-        for operand in old.operands() {
+        self.cost -= old.cost;
+        for operand in old.operands {
             self.release(operand);
         }
         self.chosen[id as usize] = index;
-        self.cost += self.model.way(new);
-        for operand in new.operands() {
+        self.cost += new.cost;
+        for operand in new.operands {
             self.acquire(operand, depth);
         }
     }
@@ -53,13 +51,13 @@ impl Extraction<'_> {
         let Some(now) = self.way(id) else {
             return;
         };
-        let Some(&before) = self.classes.get(id).ways.get(index as usize) else {
+        let Some(&before) = self.ways.of(id).get(index as usize) else {
             return;
         };
         // Kill what the move brought to life, restore the choices it made
         // there, then revive the old operands with the choices they had.
-        self.cost -= self.model.way(now);
-        for operand in now.operands() {
+        self.cost -= now.cost;
+        for operand in now.operands {
             self.release(operand);
         }
         while let Some((id, index)) = self.undo.pop() {
@@ -69,8 +67,8 @@ impl Extraction<'_> {
                 self.admits(id, way);
             }
         }
-        self.cost += self.model.way(before);
-        for operand in before.operands() {
+        self.cost += before.cost;
+        for operand in before.operands {
             self.acquire(operand, 0);
         }
     }

@@ -2,7 +2,7 @@
 //! change: whether a way would close a cycle is then asked only of the classes
 //! between, which are few, and not of everything below.
 
-use crate::simplify::classes::ClassId;
+use super::Place;
 
 const NONE: u32 = u32::MAX;
 
@@ -20,12 +20,12 @@ pub(super) struct Order {
     /// Marks of the search, and what it found.
     marks: Vec<u32>,
     stamp: u32,
-    found: Vec<ClassId>,
+    found: Vec<Place>,
 }
 
 impl Order {
     /// Makes an order of so many classes, each after its operands. `operands` must be acyclic.
-    pub(super) fn new(classes: usize, operands: impl Fn(ClassId) -> Option<[ClassId; 2]>) -> Order {
+    pub(super) fn new(classes: usize, operands: impl Fn(Place) -> Option<[Place; 2]>) -> Order {
         let mut order = Order {
             labels: vec![0; classes],
             before: vec![NONE; classes],
@@ -40,13 +40,13 @@ impl Order {
     }
 
     /// Orders all anew, after a change of many ways at once.
-    pub(super) fn sort(&mut self, operands: impl Fn(ClassId) -> Option<[ClassId; 2]>) {
+    pub(super) fn sort(&mut self, operands: impl Fn(Place) -> Option<[Place; 2]>) {
         self.stamp += 2;
         // Half-way: its operands are on the stack above it. Done: it is in the list.
         let (half, done) = (self.stamp - 1, self.stamp);
-        let mut list: Vec<ClassId> = Vec::with_capacity(self.labels.len());
-        let mut stack: Vec<ClassId> = Vec::new();
-        for id in 0..self.labels.len() as ClassId {
+        let mut list: Vec<Place> = Vec::with_capacity(self.labels.len());
+        let mut stack: Vec<Place> = Vec::new();
+        for id in 0..self.labels.len() as Place {
             stack.push(id);
             while let Some(&top) = stack.last() {
                 let mark = self.marks[top as usize];
@@ -86,9 +86,9 @@ impl Order {
     /// before it from now on. `operands` are those of the ways that are chosen.
     pub(super) fn admits(
         &mut self,
-        class: ClassId,
-        reads: [ClassId; 2],
-        operands: impl Fn(ClassId) -> Option<[ClassId; 2]>,
+        class: Place,
+        reads: [Place; 2],
+        operands: impl Fn(Place) -> Option<[Place; 2]>,
     ) -> bool {
         self.stamp += 1;
         self.found.clear();
@@ -120,7 +120,7 @@ impl Order {
 
     /// Moves what was found, which is all that it reads among what comes after the
     /// class, to just before it.
-    fn bring_before(&mut self, class: ClassId) {
+    fn bring_before(&mut self, class: Place) {
         let mut found = std::mem::take(&mut self.found);
         found.sort_unstable_by_key(|&id| self.labels[id as usize]);
         let steps = found.len() as u64 + 1;
@@ -141,7 +141,7 @@ impl Order {
     }
 
     /// Returns how far the label before a class is away.
-    fn room_before(&self, class: ClassId) -> u64 {
+    fn room_before(&self, class: Place) -> u64 {
         let before = match self.before[class as usize] {
             NONE => 0,
             before => self.labels[before as usize],
@@ -149,7 +149,7 @@ impl Order {
         self.labels[class as usize] - before
     }
 
-    fn unlink(&mut self, id: ClassId) {
+    fn unlink(&mut self, id: Place) {
         let (before, after) = (self.before[id as usize], self.after[id as usize]);
         self.link(before, after);
     }
@@ -172,7 +172,7 @@ mod tests {
     use crate::random::Random;
 
     /// Returns whether a class depends on another, found from nothing but the choice.
-    fn reaches(chosen: &[Option<[ClassId; 2]>], from: ClassId, class: ClassId) -> bool {
+    fn reaches(chosen: &[Option<[Place; 2]>], from: Place, class: Place) -> bool {
         let (mut seen, mut stack) = (vec![false; chosen.len()], vec![from]);
         while let Some(id) = stack.pop() {
             if !std::mem::replace(&mut seen[id as usize], true) {
@@ -186,11 +186,11 @@ mod tests {
     fn says_what_a_search_of_everything_says() {
         const CLASSES: usize = 40;
         let mut random = Random::new(5);
-        let mut chosen: Vec<Option<[ClassId; 2]>> = vec![None; CLASSES];
+        let mut chosen: Vec<Option<[Place; 2]>> = vec![None; CLASSES];
         let mut order = Order::new(CLASSES, |id| chosen[id as usize]);
         let mut said = [0; 2];
         for round in 0..20_000 {
-            let mut draw = || random.below(CLASSES) as ClassId;
+            let mut draw = || random.below(CLASSES) as Place;
             let (class, reads) = (draw(), [draw(), draw()]);
             if round % 7 == 0 {
                 // Few ways, so that most of those that are asked for are none.

@@ -1,8 +1,9 @@
 //! The search, against all choices there are.
 
 use super::*;
-use crate::graph::rules::pattern::graph;
+use crate::graph::pattern::graph;
 use crate::random::Random;
+use crate::simplify::classes::{ClassId, Operator};
 
 const MODEL: CostModel = CostModel::OPERATIONS;
 const SCHEDULE: Schedule = Schedule {
@@ -13,31 +14,31 @@ const SCHEDULE: Schedule = Schedule {
 
 /// Returns what the outputs cost by a choice, found from nothing but the choice;
 /// `None` where it goes in a circle.
-fn cost_of(classes: &Classes, choice: &[Option<ENode>]) -> Option<u64> {
+fn cost_of(classes: &Classes, choice: &[Option<Way>]) -> Option<u64> {
     fn visit(
         classes: &Classes,
-        choice: &[Option<ENode>],
+        choice: &[Option<Way>],
         id: ClassId,
         state: &mut [u8],
     ) -> Option<u64> {
-        match state[id as usize] {
+        match state[usize::from(id)] {
             2 => return Some(0),
             1 => return None,
             _ => {}
         }
-        if classes.get(id).leaf.is_some() {
+        if classes.leaf(id).is_some() {
             return Some(0);
         }
-        state[id as usize] = 1;
-        let way = choice[id as usize]?;
-        let mut cost = MODEL.way(way);
-        for operand in way.operands() {
+        state[usize::from(id)] = 1;
+        let way = choice[usize::from(id)]?;
+        let mut cost = MODEL.way(way.operator);
+        for operand in way.operands {
             cost += visit(classes, choice, operand, state)?;
         }
-        state[id as usize] = 2;
+        state[usize::from(id)] = 2;
         Some(cost)
     }
-    let mut state = vec![0; classes.len()];
+    let mut state = vec![0; classes.bound()];
     let outputs = classes.outputs.iter().flatten();
     let costs = outputs.map(|output| visit(classes, choice, output.class, &mut state));
     costs.sum()
@@ -45,18 +46,17 @@ fn cost_of(classes: &Classes, choice: &[Option<ENode>]) -> Option<u64> {
 
 /// The least cost over all choices.
 fn least(classes: &Classes) -> u64 {
-    let ways: Vec<&[ENode]> = (0..classes.len() as ClassId)
-        .map(|id| classes.get(id).ways.as_slice())
-        .collect();
+    let ids = classes.ids().iter();
+    let ways: Vec<Vec<Way>> = ids.map(|&id| classes.ways_of(id).collect()).collect();
     let count: usize = ways.iter().map(|ways| ways.len().max(1)).product();
     assert!((2..100_000).contains(&count), "{count} choices");
     let cost = |mut index: usize| {
-        let choice = ways.iter().map(|ways| {
-            let way = ways.get(index % ways.len().max(1)).copied();
+        let mut choice: Choice = vec![None; classes.bound()];
+        for (&id, ways) in classes.ids().iter().zip(&ways) {
+            choice[usize::from(id)] = ways.get(index % ways.len().max(1)).copied();
             index /= ways.len().max(1);
-            way
-        });
-        cost_of(classes, &choice.collect::<Vec<_>>())
+        }
+        cost_of(classes, &choice)
     };
     (0..count)
         .filter_map(cost)
@@ -65,10 +65,11 @@ fn least(classes: &Classes) -> u64 {
 }
 
 /// Formulas of the same values, the first ones the outputs.
-fn classes(outputs: &[&str], others: &[&str]) -> Classes {
-    let mut classes = Classes::new(&graph(outputs));
+fn classes(outputs: &[&str], others: &[&str]) -> (Classes, Choice) {
+    let mut classes = Classes::default();
+    let (_, program) = classes.begin(&graph(outputs));
     classes.absorb(&graph(others));
-    classes
+    (classes, program)
 }
 
 #[test]
@@ -95,10 +96,9 @@ fn finds_the_cheapest_of_all_programs() {
             ],
         ),
     ];
-    for classes in &cases {
-        let program = classes.program();
-        let start = cost_of(classes, &program).unwrap();
-        let mut search = Extraction::new(classes, &program, MODEL);
+    for (classes, program) in &cases {
+        let start = cost_of(classes, program).unwrap();
+        let mut search = Extraction::new(classes, program, MODEL);
         assert_eq!(
             search.cost(),
             start,
@@ -118,16 +118,12 @@ fn finds_the_cheapest_of_all_programs() {
 #[test]
 fn a_way_in_a_circle_is_never_taken() {
     // b·c from y − a, y from a + b·c: each is a way for the other.
-    let mut classes = Classes::new(&graph(&["(+ ?a (* ?b ?c))", "(* ?b ?c)"]));
+    let (mut classes, program) = classes(&["(+ ?a (* ?b ?c))", "(* ?b ?c)"], &[]);
     let [y, product] = [0, 1].map(|i| classes.outputs[i].unwrap().class);
-    let sum = classes.get(y).ways[0];
-    let a = sum
-        .operands()
-        .into_iter()
-        .find(|&id| id != product)
-        .unwrap();
-    assert!(classes.add_way(product, ENode::Difference(y, a)));
-    let program = classes.program();
+    let sum = classes.ways_of(y).next().unwrap();
+    let a = sum.operands.into_iter().find(|&id| id != product).unwrap();
+    classes.add(Way::new(Operator::Difference, [y, a]));
+    assert_eq!(classes.ways_of(product).count(), 2);
     let mut search = Extraction::new(&classes, &program, MODEL);
     for seed in 0..20 {
         search.anneal(SCHEDULE, &mut Random::new(seed));
@@ -138,11 +134,10 @@ fn a_way_in_a_circle_is_never_taken() {
 
 #[test]
 fn the_same_seed_gives_the_same_program() {
-    let classes = classes(
+    let (classes, program) = classes(
         &["(+ (+ (* ?a ?b) (* ?a ?c)) (* ?d ?d))", "(* ?d (+ ?b ?c))"],
         &["(+ (* ?a (+ ?b ?c)) (* ?d ?d))", "(+ (* ?d ?b) (* ?d ?c))"],
     );
-    let program = classes.program();
     let run = || {
         let mut search = Extraction::new(&classes, &program, MODEL);
         search.anneal(SCHEDULE, &mut Random::new(11));
