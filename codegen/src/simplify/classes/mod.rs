@@ -35,9 +35,11 @@ struct Known {
     leaf: Option<u32>,
 }
 
-/// The analysis: what is known of each class, and the class of each print.
+/// The analysis: what is known of each class, and the class of each print. It is a table by
+/// number and not egg's data of a class, which a hash map would have to find.
 #[derive(Clone, Debug, Default)]
 struct Fingerprints {
+    known: Vec<Known>,
     leaves: Vec<Leaf>,
     by_print: FxHashMap<Fingerprint, ClassId>,
     /// The classes, first made first.
@@ -45,44 +47,52 @@ struct Fingerprints {
 }
 
 impl Analysis<ENode> for Fingerprints {
-    type Data = Known;
+    type Data = ();
 
-    fn make(egraph: &mut egg::EGraph<ENode, Self>, node: &ENode, _: Id) -> Known {
+    fn make(egraph: &mut egg::EGraph<ENode, Self>, node: &ENode, id: Id) {
+        let analysis = &mut egraph.analysis;
         let (print, leaf) = match *node {
-            ENode::Leaf(leaf) => {
-                let print = leaf_print(&egraph.analysis.leaves[leaf as usize]);
-                (print, Some(leaf))
-            }
+            ENode::Leaf(leaf) => (leaf_print(&analysis.leaves[leaf as usize]), Some(leaf)),
             ENode::Way(way) => {
-                let operands = way.operands.each_ref().map(|id| &egraph[*id].data.print);
+                let operands = way
+                    .operands
+                    .map(|id| &analysis.known[usize::from(id)].print);
                 (way.operator.print(operands), None)
             }
         };
         let print = print.canonical().0;
-        Known { print, leaf }
+        // E-nodes are numbered one after the other.
+        debug_assert_eq!(analysis.known.len(), usize::from(id));
+        analysis.known.push(Known { print, leaf });
     }
 
-    fn merge(&mut self, known: &mut Known, new: Known) -> DidMerge {
-        // Only classes of equal prints are united, and no print depends on which of them is
-        // a leaf.
-        known.leaf = known.leaf.or(new.leaf);
+    /// Merges nothing: only classes of equal prints are united, and `modify` says which is a leaf.
+    fn merge(&mut self, (): &mut (), (): ()) -> DidMerge {
         DidMerge(false, false)
     }
 
     /// Unites the class of a new e-node with the one that has its print.
     fn modify(egraph: &mut egg::EGraph<ENode, Self>, id: Id) {
-        let print = egraph[id].data.print;
-        match egraph.analysis.by_print.get(&print) {
+        let Fingerprints {
+            known,
+            by_print,
+            roots,
+            ..
+        } = &mut egraph.analysis;
+        let Known { print, leaf } = known[usize::from(id)];
+        match by_print.get(&print) {
             None => {
-                egraph.analysis.by_print.insert(print, id);
-                egraph.analysis.roots.push(id);
+                by_print.insert(print, id);
+                roots.push(id);
             }
-            Some(&known) if known != id => {
-                egraph.union(known, id);
+            Some(&root) if root != id => {
+                let own = &mut known[usize::from(root)].leaf;
+                *own = own.or(leaf);
+                egraph.union(root, id);
             }
             Some(_) => {
                 // A leaf needs no operation any more.
-                if let Some(leaf) = egraph[id].data.leaf {
+                if let Some(leaf) = leaf {
                     egraph[id].nodes = vec![ENode::Leaf(leaf)];
                 }
             }
@@ -139,12 +149,12 @@ impl Classes {
 
     /// Returns the canonical print of a class.
     pub(crate) fn print(&self, id: ClassId) -> &Fingerprint {
-        &self.egraph[id].data.print
+        &self.egraph.analysis.known[usize::from(id)].print
     }
 
     /// Returns the leaf that a class is, if it is one: then there are no ways.
     pub(crate) fn leaf(&self, id: ClassId) -> Option<&Leaf> {
-        let leaf = self.egraph[id].data.leaf?;
+        let leaf = self.egraph.analysis.known[usize::from(id)].leaf?;
         self.egraph.analysis.leaves.get(leaf as usize)
     }
 
