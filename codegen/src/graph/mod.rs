@@ -15,6 +15,8 @@ pub(crate) mod fingerprint;
 #[cfg(test)]
 pub(crate) mod pattern;
 pub(crate) mod symbol;
+#[cfg(test)]
+pub(crate) mod tests;
 
 use dalembert_model::number::Exact;
 

@@ -35,7 +35,7 @@ impl Effort {
         RuleLimits {
             growth: 20,
             iterations: match self {
-                Effort::Quick => 1,
+                Effort::Quick => 2,
                 Effort::Thorough => 4,
             },
         }

@@ -160,8 +160,8 @@ mod tests {
 
     use super::*;
     use crate::function::{Argument, Function};
-    use crate::graph::builder::tests::BY_SHAPE;
     use crate::graph::pattern::{Algebra, Pattern, is_constant};
+    use crate::graph::tests::BY_SHAPE;
     use crate::graph::{Builder, Folding, Value as Symbol};
     use crate::program::Program;
 

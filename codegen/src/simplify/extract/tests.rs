@@ -122,7 +122,9 @@ fn a_way_in_a_circle_is_never_taken() {
     let [y, product] = [0, 1].map(|i| classes.outputs[i].unwrap().class);
     let sum = classes.ways_of(y).next().unwrap();
     let a = sum.operands.into_iter().find(|&id| id != product).unwrap();
-    classes.add(Way::new(Operator::Difference, [y, a]));
+    for operator in [Operator::Sum, Operator::Difference] {
+        classes.add_to(product, Way::new(operator, [y, a]));
+    }
     assert_eq!(classes.ways_of(product).count(), 2);
     let mut search = Extraction::new(&classes, &program, MODEL);
     for seed in 0..20 {
