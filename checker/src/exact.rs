@@ -16,7 +16,7 @@ pub const RATE: f64 = 10.0;
 /// What an exact program may be off, in units of half an ulp of the largest output: above
 /// this something was left out, or rounding can cost that much.
 const MOST_UNITS: f64 = 65_536.0;
-/// What may be left over in an equation that is tried, in the same units of its terms.
+/// The most that may be left over in an equation that is tried, in the same units of its terms.
 const MOST_LEFT: f64 = 4096.0;
 
 /// The findings about one function.

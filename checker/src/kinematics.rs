@@ -44,10 +44,16 @@ impl<'a, N: Number> Arm<'a, N> {
         Ok(Arm { setting, joints })
     }
 
-    /// Returns the pose of a frame to which a way leads from that of a joint.
-    fn pose(&self, joint: usize, behind: &[&[Step]], work: &mut Work) -> Result<Pose<N>, Fault> {
+    /// Returns the way to a frame to which another leads from that of a joint.
+    fn steps(&self, joint: usize, behind: &[&[Step]]) -> Vec<Step<N>> {
         let mut steps = self.joints[joint].clone();
         steps.extend(way(&behind.concat()));
+        steps
+    }
+
+    /// Returns the pose of a frame to which a way leads from that of a joint.
+    fn pose(&self, joint: usize, behind: &[&[Step]], work: &mut Work) -> Result<Pose<N>, Fault> {
+        let steps = self.steps(joint, behind);
         let (mut pose, products) = (Pose(Default::default()), &mut Products(work));
         for axis in 0..3 {
             let mut unit = Vector::default();
@@ -107,8 +113,7 @@ impl<'a, N: Number> Arm<'a, N> {
         let mut energy = N::default();
         for (joint, own) in self.setting.joints.iter().enumerate() {
             for body in &own.bodies {
-                let mut steps = self.joints[joint].clone();
-                steps.extend(way(&[own.behind.as_slice(), &body.frame].concat()));
+                let steps = self.steps(joint, &[&own.behind, &body.frame]);
                 let (com, products) = (body.com.map(N::constant), &mut Products(work));
                 let com = products.outward(&com, &steps, true)?;
                 let height = products.dot(&gravity, &com)?;

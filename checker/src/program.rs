@@ -14,7 +14,7 @@ pub enum Source {
 pub enum Node {
     /// A literal as the scalar holds it.
     Constant(f64),
-    /// Of an argument, counted from zero, an entry.
+    /// An entry of an argument, both counted from zero.
     Input(usize, usize),
     /// A sum.
     Add(usize, usize),

@@ -109,7 +109,7 @@ impl Quantity {
 /// The name of a result, and what it is.
 pub type Field = (&'static str, Quantity);
 
-/// How far a result of a struct reaches, as its text tells.
+/// The size of a result of a struct, as its text tells.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Extent {
     /// The number of axes of its array.
@@ -262,7 +262,8 @@ impl Function {
     }
 }
 
-type Dualities<N> = Vec<State<Dual<N>>>;
+/// The state of each joint, and its slope.
+type Slopes<N> = Vec<State<Dual<N>>>;
 
 /// A state, and what is asked of it.
 pub(crate) struct At<'a, N> {
@@ -290,7 +291,7 @@ impl<'a, N: Number> At<'a, N> {
     }
 
     /// Returns states with their slopes where positions and velocities have these.
-    fn moved(&mut self, states: &[State<N>], slopes: [&[N]; 2]) -> Result<Dualities<N>, Fault> {
+    fn moved(&mut self, states: &[State<N>], slopes: [&[N]; 2]) -> Result<Slopes<N>, Fault> {
         let mut all = Vec::new();
         let [dq, dqd] = slopes.map(<[N]>::iter);
         for ((state, dq), dqd) in states.iter().zip(dq).zip(dqd) {

@@ -79,7 +79,7 @@ fn drawn(setting: &Setting, is_single: bool, random: &mut Random) -> Vec<Vec<f64
     .collect()
 }
 
-/// What is left over of equations at a state.
+/// The equations of a function at a state, and the rest that each leaves.
 struct Equations<'a> {
     at: At<'a, f64>,
     /// D over the rows, row by row, once it is asked for.
@@ -138,7 +138,11 @@ impl Equations<'_> {
                     self.push(&[*own, *by, -result]);
                 }
             }
-            _ => return Err(Fault::certificate("no equation is known of a result")),
+            _ => {
+                return Err(Fault::certificate(
+                    "the checker knows no equation for a result of this function",
+                ));
+            }
         }
         Ok(())
     }

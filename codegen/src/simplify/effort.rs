@@ -30,7 +30,7 @@ impl Effort {
         }
     }
 
-    /// How far rules are applied.
+    /// Returns the limits of the rules before the first round.
     pub(super) fn rules(self) -> RuleLimits {
         RuleLimits {
             growth: 20,

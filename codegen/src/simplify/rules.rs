@@ -38,12 +38,12 @@ pub(crate) const RULES: &[(&str, &str, &str)] = &[
 /// The rows, read once.
 static READ: LazyLock<Vec<Rule>> = LazyLock::new(|| RULES.iter().flat_map(Rule::read).collect());
 
-/// How far the rules are applied.
+/// Limits of the rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct RuleLimits {
     /// The number of e-nodes, for each one that was there, at which they stop.
     pub growth: usize,
-    /// How often each is applied to all that is there.
+    /// The number of times that each is applied to all that is there.
     pub iterations: usize,
 }
 

@@ -21,11 +21,11 @@ pub(crate) struct SearchLimits {
     pub pairs: usize,
     /// The most classes among which two-operation substitutes are tried.
     pub substitutes: usize,
-    /// How far rules are applied to the program.
+    /// Limits of the rules that are applied to the program.
     pub rules: RuleLimits,
     /// Annealing of a round.
     pub schedule: Schedule,
-    /// What is left out, to see what it earns.
+    /// The source that is left out, to see what it earns.
     pub without: Option<WaySource>,
 }
 

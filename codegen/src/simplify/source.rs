@@ -3,7 +3,7 @@
 use crate::words::words;
 
 words! {
-    /// What adds ways to compute the values of a program.
+    /// A source of ways to compute the values of a program.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum WaySource: "source" {
         /// Other formulations than the cheapest, and sums of angles.

@@ -52,7 +52,7 @@ macro_rules! request {
             /// is refused where that is not enough. They are counted, never timed: the
             /// same everywhere. No limit if `None`.
             pub work: Option<u64>,
-            /// What a search leaves out, to see what it earns.
+            /// The source that a search leaves out, to see what it earns.
             #[doc(hidden)]
             pub without: Option<WaySource>,
         }

@@ -26,13 +26,13 @@ pub struct Factor<S> {
 /// A symmetric matrix of which all unknowns but the first few are eliminated.
 #[derive(Clone, Debug)]
 pub struct Partial<S> {
-    /// What is left of the matrix; of the first unknowns, the lower half.
+    /// The rest of the matrix; of the first unknowns, the lower half.
     rest: Vec<Vec<S>>,
     /// `upper[k][i]` = U_ik, i < k, of those that are eliminated.
     upper: Vec<Vec<S>>,
     /// 1/d_k of those.
     inverses: Vec<S>,
-    /// How many are left.
+    /// The number of unknowns that are left.
     kept: usize,
 }
 

@@ -31,7 +31,7 @@ pub(super) struct Definition {
 }
 
 impl Definition {
-    /// What most functions are; a file states the rest, and what differs.
+    /// The definition that most functions share; a file states the rest, and what differs.
     pub(super) const PLAIN: Definition = Definition {
         name: "",
         summary: "",

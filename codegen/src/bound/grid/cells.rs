@@ -26,7 +26,7 @@ pub(super) struct Cells<'a> {
     buffers: Vec<Vec<f64>>,
     /// Whether the value at a point is at most a bound.
     accept: &'a dyn Fn(&[f64], f64) -> bool,
-    /// Whether the values are terms of one polynomial: something is known of it before all
+    /// True if the values are terms of one polynomial: something is known of it before all
     /// of its angles are put in.
     pub is_sum: bool,
     /// Whether what is bounded is nowhere negative.

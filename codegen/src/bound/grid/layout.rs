@@ -24,7 +24,7 @@ pub(super) struct Group {
     pub square: f64,
 }
 
-/// What is known of a polynomial without looking at its angles.
+/// Bounds of a polynomial without looking at its angles.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Crude {
     /// At least its magnitude.

@@ -152,7 +152,7 @@ pub(crate) struct Problem<'a> {
     pub scene_robot: &'a SceneRobot,
     pub function: Function,
     pub effort: Effort,
-    /// What is left out, to see what it earns.
+    /// The source that is left out, to see what it earns.
     pub without: Option<WaySource>,
     /// What a program may be off, if there is a limit.
     pub limit: Option<Limit<'a>>,

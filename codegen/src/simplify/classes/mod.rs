@@ -26,7 +26,7 @@ pub(crate) use language::{ENode, Leaf, Operator, Way};
 /// A class: its root in the e-graph.
 pub(crate) type ClassId = Id;
 
-/// What is known of a class.
+/// The facts of a class.
 #[derive(Clone, Copy, Debug)]
 struct Known {
     /// Its canonical print.
@@ -116,7 +116,7 @@ fn leaf_print(leaf: &Leaf) -> Fingerprint {
 pub(crate) struct Signed {
     /// The class.
     pub class: ClassId,
-    /// Whether the value is the negated canonical one.
+    /// True if the value is the negated canonical one.
     pub negative: bool,
 }
 

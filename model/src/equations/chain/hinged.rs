@@ -16,7 +16,7 @@ pub(super) struct Hinged<S> {
     pub(super) moment: Vector<S>,
 }
 
-/// What a joint of the shoulder leaves of ω̇ of the frame before.
+/// The part that a joint of the shoulder leaves of ω̇ of the frame before.
 pub(super) struct Solved<S> {
     /// (τ − p_z) / D
     pub(super) own: S,
