@@ -1,8 +1,6 @@
 //! One program of all test files: they share what they link, and both cores.
 
 mod equations_axes;
-#[cfg(feature = "bigfloat")]
-mod equations_big;
 mod equations_counts;
 mod equations_extremes;
 mod equations_golden;
@@ -11,6 +9,7 @@ mod equations_shoulder;
 mod equations_slips;
 mod equations_structure;
 mod equations_support;
+mod equations_wide;
 mod friction;
 mod outputs;
 mod placed;

@@ -1,5 +1,5 @@
 //! Every output of robots that nobody chose stays below 100 u, f64 and f32, of the
-//! truth in 134 digits; what inverts D below 100 u times D's condition.
+//! truth in 76 digits; what inverts D below 100 u times D's condition.
 //!
 //! An error is that of a quantity's entries against its largest entry, or a sixteenth
 //! of the largest met where that is more. The whole campaign is for releases: `cargo
@@ -15,8 +15,8 @@ use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::states::{SEED, seeded};
 use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::floating::{BOUND, Emitted, Granted, Runtime};
+use dalembert_model::number::Wide;
 use dalembert_model::scalar::Scalar;
-use dalembert_model::scalar::big::Big;
 use dalembert_report::stress::truth::Truth;
 
 /// States a robot.
@@ -80,16 +80,16 @@ fn campaign(count: usize, each: usize, longest: usize) -> Worst {
 /// What was computed at a state, what is true, and the condition that excuses it.
 struct Case {
     found: Vec<f64>,
-    truth: Vec<Big>,
+    truth: Vec<Wide>,
     granted: Granted,
 }
 
 /// Returns the truth at a finite state. What was proved to vanish does so, and not within
-/// 134 digits only.
-fn exactly(emitted: &Emitted, truth: Option<Vec<Big>>) -> Vec<Big> {
+/// 76 digits only.
+fn exactly(emitted: &Emitted, truth: Option<Vec<Wide>>) -> Vec<Wide> {
     let truth = truth.expect("a finite state").into_iter();
     let entries = truth.zip(emitted.vanishing());
-    let exact = entries.map(|(value, vanishes)| if vanishes { Big::zero() } else { value });
+    let exact = entries.map(|(value, vanishes)| if vanishes { Wide::zero() } else { value });
     exact.collect()
 }
 
@@ -102,15 +102,15 @@ fn errors(emitted: &Emitted, cases: &[Case]) -> Vec<(Quantity, f64)> {
         start = range.end;
         let size = |case: &Case| {
             let entries = case.truth[range.clone()].iter();
-            entries.map(|x| x.abs().to_f64()).fold(0.0, f64::max)
+            entries.map(|x| x.magnitude()).fold(0.0, f64::max)
         };
         let least = LEAST_PART * cases.iter().map(size).fold(0.0, f64::max);
         let error = |case: &Case| {
             let pairs = case.found[range.clone()]
                 .iter()
                 .zip(&case.truth[range.clone()]);
-            let off = |(found, truth): (&f64, &Big)| match Big::from_f64(*found) {
-                Some(found) => found.sub(truth).abs().to_f64(),
+            let off = |(found, truth): (&f64, &Wide)| match Wide::from_f64(*found) {
+                Some(found) => found.sub(truth).magnitude(),
                 None => f64::INFINITY,
             };
             match pairs.map(off).fold(0.0, f64::max) {

@@ -13,8 +13,8 @@ use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::task::Request;
 use dalembert_model::equations::Formulation;
+use dalembert_model::number::Wide;
 use dalembert_model::robot::Robot;
-use dalembert_model::scalar::big::Big;
 use dalembert_report::stress::category::{Criterion, NORMWISE};
 use dalembert_report::stress::deviation::{Deviation, Measure};
 use dalembert_report::stress::rounding::rounded;
@@ -191,9 +191,9 @@ fn overflows(case: &Extreme, scalar: ScalarType) -> bool {
 }
 
 /// Returns what is beyond the range must not look like a number.
-fn never_silent(found: &[f64], truth: &[Big]) -> bool {
+fn never_silent(found: &[f64], truth: &[Wide]) -> bool {
     let largest = f64::from(f32::MAX);
-    let beyond = |truth: &Big| truth.abs().to_f64() > largest;
+    let beyond = |truth: &Wide| truth.magnitude() > largest;
     !truth.iter().any(beyond) || found.iter().any(|x| !x.is_finite())
 }
 

@@ -9,12 +9,10 @@ use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::floating::Emitted;
 use dalembert_model::equations::matrix::Columns;
 use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};
-use dalembert_model::number::Rounded;
+use dalembert_model::number::{Rounded, Wide};
 use dalembert_model::read;
 use dalembert_model::robot::{JointKind, Robot};
-use dalembert_model::scalar::big::Big;
 use dalembert_model::scalar::dual::Dual;
-use dalembert_report::stress::truth::number;
 
 fn robot(name: &str) -> Robot {
     let folder = env!("CARGO_MANIFEST_DIR");
@@ -51,25 +49,24 @@ impl Symbols {
     }
 }
 
-/// Returns Ḋ by dual numbers through a formula for D. Over the big float: in doubles
+/// Returns Ḋ by dual numbers through a formula for D. Over the wide float: in doubles
 /// the formulas as written cancel up to 90 u of Ḋ themselves.
 fn inertia_rate(robot: &Robot, formula: Formulation, state: &JointState) -> Matrix {
-    let arm = Arm::from_robot(robot, &mut |x| Dual::constant(number(x)));
+    let arm = Arm::from_robot(robot, &mut |x| Dual::constant(Wide::from_exact(x)));
     let joints = robot.joints.iter().zip(state.q.iter().zip(&state.qd));
     let position: Vec<_> = joints
         .map(|(joint, (&q, &qd))| {
-            let [value, rate] = [q, qd].map(|x| Big::from_f64(x).unwrap());
+            let [value, rate] = [q, qd].map(|x| Wide::from_f64(x).unwrap());
             match joint.kind {
                 JointKind::Revolute => {
-                    let (sin, cos) = value.sin_cos();
-                    JointPosition::Revolute(SinCosPair { sin, cos }.turning(&rate))
+                    JointPosition::Revolute(Wide::sincos_of(q).unwrap().turning(&rate))
                 }
                 JointKind::Prismatic => JointPosition::Prismatic(Dual { value, rate }),
             }
         })
         .collect();
     let d = formula.inertia(&arm, &arm.at(&position));
-    let rates = |row: &Vec<Dual<Big>>| row.iter().map(|d| d.rate.to_f64()).collect();
+    let rates = |row: &Vec<Dual<Wide>>| row.iter().map(|d| d.rate.to_f64()).collect();
     d.iter().map(rates).collect()
 }
 

@@ -13,10 +13,7 @@
 //! - [`count`]: counts the operations of a formula as written
 //! - [`record`]: a formula as it is executed, to run it again in other scalars
 //! - [`dyadic`]: numbers made of zero and one, which need no context
-//! - `big`: a big float, the reference of tests and reports (feature `bigfloat`)
 
-#[cfg(feature = "bigfloat")]
-pub mod big;
 pub mod count;
 pub mod dual;
 pub mod dyadic;

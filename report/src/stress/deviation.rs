@@ -1,9 +1,8 @@
 //! Errors in units of u.
 
-use dalembert_model::number::Rounded;
+use dalembert_model::number::{Rounded, Wide};
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
-use dalembert_model::scalar::big::Big;
 
 use dalembert_codegen::workspace::program::ScalarType;
 
@@ -55,26 +54,26 @@ impl Measure {
     }
 
     /// Returns the error of each entry; infinite if it is not finite.
-    fn errors(&self, found: &[f64], truth: &[Big]) -> Vec<f64> {
-        let error = |(found, truth): (&f64, &Big)| match Big::from_f64(*found) {
-            Some(found) => (found.sub(truth).abs().to_f64() - self.underflow).max(0.0),
+    fn errors(&self, found: &[f64], truth: &[Wide]) -> Vec<f64> {
+        let error = |(found, truth): (&f64, &Wide)| match Wide::from_f64(*found) {
+            Some(found) => (found.sub(truth).magnitude() - self.underflow).max(0.0),
             None => f64::INFINITY,
         };
         found.iter().zip(truth).map(error).collect()
     }
 
     /// Returns the largest error of a result against a size, in u.
-    pub fn against(&self, found: &[f64], truth: &[Big], size: f64) -> f64 {
+    pub fn against(&self, found: &[f64], truth: &[Wide], size: f64) -> f64 {
         let errors = self.errors(found, truth).into_iter();
         ratio(errors.fold(0.0, f64::max), size) / self.scalar.unit_roundoff()
     }
 
     /// Returns the error of a result; infinite if it is not finite.
-    pub fn of(&self, found: &[f64], truth: &[Big]) -> Deviation {
+    pub fn of(&self, found: &[f64], truth: &[Wide]) -> Deviation {
         let u = self.scalar.unit_roundoff();
         let errors = self.errors(found, truth);
         let most = errors.iter().copied().fold(0.0, f64::max);
-        let size = truth.iter().map(|x| x.abs().to_f64()).fold(0.0, f64::max);
+        let size = truth.iter().map(|x| x.magnitude()).fold(0.0, f64::max);
         let mut deviation = Deviation {
             normwise: ratio(most, size) / u,
             ..Deviation::default()

@@ -16,9 +16,9 @@ use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::states::{JointState, positions, seeded};
 use dalembert_codegen::workspace::verify::condition::Condition;
 use dalembert_codegen::workspace::verify::floating::LEAST_PART;
+use dalembert_model::number::Wide;
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::Robot;
-use dalembert_model::scalar::big::Big;
 use nalgebra::DVector;
 
 use super::category::NORMWISE;
@@ -181,7 +181,7 @@ fn condition(truth: &Truth, q: &[f64], scalar: ScalarType) -> Condition {
         _ => vec![0.0; q.len()],
     });
     let d = truth.run(Function::Inertia, &state).unwrap_or_default();
-    let d: Vec<f64> = d.iter().map(Big::to_f64).collect();
+    let d: Vec<f64> = d.iter().map(Wide::to_f64).collect();
     Condition::of(&d, scalar.unit_roundoff())
 }
 
@@ -208,7 +208,7 @@ impl<'a> Cases<'a> {
         }
     }
 
-    fn truths(&self, function: Function) -> Vec<Option<Vec<Big>>> {
+    fn truths(&self, function: Function) -> Vec<Option<Vec<Wide>>> {
         let states = self.states.iter();
         states
             .map(|(state, _)| self.truth.run(function, state))
@@ -220,7 +220,7 @@ impl<'a> Cases<'a> {
         function: Function,
         subject: Subject,
         code: &Result<Code, GenerateError>,
-        truths: &[Option<Vec<Big>>],
+        truths: &[Option<Vec<Wide>>],
     ) -> Row {
         let scalar = self.measure.scalar;
         let mut row = Row {
@@ -280,7 +280,7 @@ impl<'a> Cases<'a> {
 
     /// Returns what an error of each quantity is relative to at least: ∂q̈/∂q̇ of an arm that is
     /// stretched out all but vanishes, and what is left of it says nothing about the code.
-    fn least(&self, function: Function, truths: &[Option<Vec<Big>>]) -> Vec<f64> {
+    fn least(&self, function: Function, truths: &[Option<Vec<Wide>>]) -> Vec<f64> {
         let most = |range: Range<usize>| {
             let parts = truths.iter().flatten();
             let parts = parts.filter_map(|truth| truth.get(range.clone()));
@@ -290,7 +290,7 @@ impl<'a> Cases<'a> {
     }
 
     /// Returns the worst of a function's quantities, in u.
-    fn normwise(&self, function: Function, found: &[f64], truth: &[Big], least: &[f64]) -> f64 {
+    fn normwise(&self, function: Function, found: &[f64], truth: &[Wide], least: &[f64]) -> f64 {
         let mut worst = 0.0f64;
         for (range, least) in self.parts(function).into_iter().zip(least) {
             let parts = (found.get(range.clone()), truth.get(range));
@@ -304,8 +304,8 @@ impl<'a> Cases<'a> {
     }
 }
 
-fn largest(values: &[Big]) -> f64 {
-    let sizes = values.iter().map(|x| x.abs().to_f64());
+fn largest(values: &[Wide]) -> f64 {
+    let sizes = values.iter().map(|x| x.magnitude());
     sizes.fold(0.0, f64::max)
 }
 

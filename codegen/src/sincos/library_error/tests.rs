@@ -3,8 +3,8 @@
 use super::*;
 use crate::program::{Library, Operand};
 use crate::random::Random;
+use dalembert_model::number::Wide;
 use dalembert_model::scalar::Scalar;
-use dalembert_model::scalar::big::Big;
 
 /// Below what is said in certificates, and not far above what was measured
 /// (`sines/tests/accuracy.rs`): 0.8166 and 0.7999 u.
@@ -74,10 +74,10 @@ fn no_sine_is_further_off() {
             (f64::from(single), [sinf.into(), cosf.into()]),
         ];
         for (called, (x, found)) in called.iter().zip(runs) {
-            let (sin, cos) = Big::from_f64(x).unwrap().sin_cos();
-            for (found, exact) in found.into_iter().zip([sin, cos]) {
-                let error = Big::from_f64(found).unwrap().sub(&exact).abs().to_f64();
-                let size = exact.abs().to_f64();
+            let exact = Wide::sincos_of(x).unwrap();
+            for (found, exact) in found.into_iter().zip([exact.sin, exact.cos]) {
+                let error = Wide::from_f64(found).unwrap().sub(&exact).magnitude();
+                let size = exact.magnitude();
                 assert!(error <= called.error(size), "{x:e}: {error:e} of {size:e}");
             }
         }

@@ -16,7 +16,7 @@ use num_traits::float::FloatCore;
 use num_traits::{One, Signed};
 
 use super::trig::sin_cos;
-use super::{Angle, Exact, Rational};
+use super::{Angle, Exact, Rational, Rounded};
 use crate::scalar::{Divide, Scalar, SinCosPair};
 use limbs::{LIMBS, Limbs};
 
@@ -72,6 +72,17 @@ impl Wide {
             sin: Wide::cut(&sin, -(bits as i64)),
             cos: Wide::cut(&cos, -(bits as i64)),
         }
+    }
+
+    /// Returns sine and cosine of a double of radians; `None` if it is not finite.
+    pub fn sincos_of(radians: f64) -> Option<SinCosPair<Wide>> {
+        let radians = Rational::from_float(radians)?;
+        Some(Wide::sincos(&Angle::Radians(radians)))
+    }
+
+    /// Returns the nearest double.
+    pub fn to_f64(&self) -> f64 {
+        f64::nearest_rational(&self.to_rational())
     }
 
     /// Returns the same number, exactly.
@@ -266,6 +277,7 @@ impl Divide for Wide {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::parse::parse_decimal;
     use crate::scalar::field::Points;
 
     fn ratio(n: i64, d: i64) -> Wide {
@@ -278,15 +290,48 @@ mod tests {
         let one = third.add(&third).add(&third);
         let off = one.sub(&Wide::one()).magnitude();
         assert!(off < 1e-76, "{off:e}");
-        let angle = Angle::Radians(Rational::new(7.into(), 5.into()));
-        let SinCosPair { sin, cos } = Wide::sincos(&angle);
-        let circle = sin.mul(&sin).add(&cos.mul(&cos)).sub(&Wide::one());
-        assert!(circle.magnitude() < 1e-76);
-        assert!(
-            sin.sub(&Wide::from_f64(libm::sin(1.4)).unwrap())
-                .magnitude()
-                < 3e-16
-        );
+        let root = ratio(2, 1).sqrt();
+        let off = root.mul(&root).sub(&ratio(2, 1)).magnitude();
+        assert!(off < 1e-75, "{off:e}");
+        assert_eq!(ratio(-2, 1).sqrt(), Wide::zero());
+        assert_eq!(ratio(-1, 3).to_f64(), -1.0 / 3.0);
+        assert_eq!(Wide::from_f64(5e-324).unwrap().to_f64(), 5e-324);
+    }
+
+    #[test]
+    fn sines_are_exact_to_76_digits() {
+        // By another library; the cosine of the double nearest to π/2 is 6e-17, where its own
+        // digits count.
+        let float = |x| Angle::Radians(Rational::from_float(x).unwrap());
+        let cases = [
+            (
+                float(1e8),
+                "0.9316390271097260080275166536120429704729018385275364343082838951377085",
+                "-0.3633850893556905538723753525471001109242591608743450338614273001604573",
+            ),
+            (
+                float(core::f64::consts::FRAC_PI_2),
+                "0.9999999999999999999999999999999981253002716726780066919054431429030069",
+                "0.000000000000000061232339957367658861303296613750014646403777988362830520960549827724863083",
+            ),
+            (
+                Angle::Radians(Rational::new(100_000_001.into(), 3.into())),
+                "-0.8972480653247857786621955002224547409844971199531700126290374231224449",
+                "0.4415267933783055843488219302431761577399738907081202532594240236267627",
+            ),
+        ];
+        for (angle, sin, cos) in cases {
+            let found = Wide::sincos(&angle);
+            for (found, digits) in [(found.sin, sin), (found.cos, cos)] {
+                let expected = Wide::from_rational(&parse_decimal(digits).unwrap());
+                let off = found.sub(&expected).magnitude();
+                assert!(off < 1e-69, "{digits}: {off:e}");
+            }
+        }
+        let seventh = Angle::PiTimes(Rational::new(1.into(), 7.into()));
+        let digits = "0.4338837391175581204757683328483587546099907277874598764445473035322032";
+        let expected = Wide::from_rational(&parse_decimal(digits).unwrap());
+        assert!(Wide::sincos(&seventh).sin.sub(&expected).magnitude() < 1e-69);
     }
 
     #[test]

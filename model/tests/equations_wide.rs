@@ -1,23 +1,23 @@
-//! The big float against the 30-digit truth of the extreme cases.
+//! The wide float against the 30-digit truth of the extreme cases.
 use crate::equations_support::extremes::{self, Extreme};
 use dalembert_model::equations::{Arm, DhVariables, Formulation, JointPosition, SinCosPair};
+use dalembert_model::number::parse::parse_decimal;
+use dalembert_model::number::{Rational, Wide};
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
-use dalembert_model::scalar::big::Big;
 use nalgebra::DVector;
 
-fn number(x: f64) -> Big {
-    Big::from_f64(x).unwrap()
+fn number(x: f64) -> Wide {
+    Wide::from_f64(x).unwrap()
 }
 
-fn pair(angle: f64) -> SinCosPair<Big> {
-    let (sin, cos) = number(angle).sin_cos();
-    SinCosPair { sin, cos }
+fn pair(angle: f64) -> SinCosPair<Wide> {
+    Wide::sincos_of(angle).unwrap()
 }
 
-fn at(arm: &Arm<Big>, q: &[f64]) -> Vec<DhVariables<Big>> {
-    let position = |(link, q): (&dalembert_model::equations::Link<Big>, &f64)| match link.kind {
+fn at(arm: &Arm<Wide>, q: &[f64]) -> Vec<DhVariables<Wide>> {
+    let position = |(link, q): (&dalembert_model::equations::Link<Wide>, &f64)| match link.kind {
         JointKind::Revolute => JointPosition::Revolute(pair(*q)),
         JointKind::Prismatic => JointPosition::Prismatic(number(*q)),
     };
@@ -26,26 +26,35 @@ fn at(arm: &Arm<Big>, q: &[f64]) -> Vec<DhVariables<Big>> {
 }
 
 /// Returns max|found − truth| / max|truth| as an f64.
-fn relative(found: &[Big], truth: &[String]) -> f64 {
+fn relative(found: &[Wide], truth: &[Wide]) -> f64 {
     assert_eq!(found.len(), truth.len());
-    let truth: Vec<Big> = truth
-        .iter()
-        .map(|x| Big::from_decimal(x).unwrap())
-        .collect();
-    let largest = |values: &mut dyn Iterator<Item = Big>| {
-        values.fold(Big::zero(), |a, b| if a < b { b } else { a })
+    // Some are below the least double: compared as they are.
+    let largest = |values: &mut dyn Iterator<Item = Wide>| {
+        let sizes = values.map(|x| if x.is_negative() { x.neg() } else { x });
+        sizes.fold(
+            Wide::zero(),
+            |a, b| if a.sub(&b).is_negative() { b } else { a },
+        )
     };
-    let error = largest(&mut found.iter().zip(&truth).map(|(a, b)| a.sub(b).abs()));
-    let size = largest(&mut truth.iter().map(Big::abs));
-    match error.div(&size) {
-        Some(relative) => relative.to_f64(),
-        // The file writes entries below 1e-70 of the scale as zero.
-        None => error.to_f64(),
-    }
+    let error = largest(&mut found.iter().zip(truth).map(|(a, b)| a.sub(b)));
+    let size = largest(&mut truth.iter().copied());
+    // The file writes entries below 1e-70 of the scale as zero.
+    error.over(&size).unwrap_or(error).magnitude()
+}
+
+/// Reads the file's numbers, of which some are beyond what a robot file may hold.
+fn read(numbers: &[String]) -> Vec<Wide> {
+    let read = |text: &String| {
+        let (digits, power) = text.split_once('e').unwrap_or((text, "0"));
+        let digits = parse_decimal(digits).unwrap();
+        let ten = Rational::from_integer(10.into());
+        Wide::from_rational(&(digits * ten.pow(power.parse().unwrap())))
+    };
+    numbers.iter().map(read).collect()
 }
 
 /// Returns the worst error of τ, D, h, c.
-fn errors(case: &Extreme, arm: &Arm<Big>, formulation: Formulation) -> [f64; 4] {
+fn errors(case: &Extreme, arm: &Arm<Wide>, formulation: Formulation) -> [f64; 4] {
     let at = at(arm, &case.q);
     let rates = |values: &[f64]| values.iter().map(|x| number(*x)).collect::<Vec<_>>();
     let [qd, qdd] = [rates(&case.qd), rates(&case.qdd)];
@@ -57,11 +66,11 @@ fn errors(case: &Extreme, arm: &Arm<Big>, formulation: Formulation) -> [f64; 4] 
     [
         relative(
             &formulation.inverse_dynamics(arm, &at, &qd, &qdd),
-            &case.tau,
+            &read(&case.tau),
         ),
-        relative(&d.collect::<Vec<_>>(), &case.d.concat()),
-        relative(&formulation.velocity_terms(arm, &at, &qd), &case.h),
-        relative(&formulation.gravity(arm, &at), &case.c),
+        relative(&d.collect::<Vec<_>>(), &read(&case.d.concat())),
+        relative(&formulation.velocity_terms(arm, &at, &qd), &read(&case.h)),
+        relative(&formulation.gravity(arm, &at), &read(&case.c)),
     ]
 }
 
@@ -148,8 +157,7 @@ fn f32_runtime_stays_within_100_u() {
         );
         let [q, qd, qdd] = [q, qd, qdd].map(DVector::from_vec);
         let tau = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
-        let found: Vec<Big> = tau.iter().map(|x| exact(*x)).collect();
-        let truth: Vec<String> = truth.iter().map(|x| x.to_decimal(30)).collect();
+        let found: Vec<Wide> = tau.iter().map(|x| exact(*x)).collect();
         let error = relative(&found, &truth) / u;
         assert!(error <= 100.0, "{}: {error} u", case.id);
         if error > worst.0 {
