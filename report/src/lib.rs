@@ -2,7 +2,7 @@
 //! a user of the macro compiles.
 //!
 //! - [`couplings`]: which coefficients vanish or repeat, and why
-//! - [`stress`]: stability at the extremes, against a big float
+//! - [`stress`]: stability at the extremes, against a float of 256 bits
 //! - [`explain`]: what each step brought, and why
 //! - [`drawing`]: the arm in two views, as SVG
 //! - [`states`]: given states compared with the code, and why they disagree

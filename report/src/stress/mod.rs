@@ -1,7 +1,7 @@
 //! Numerical stability at the extremes: generated code and generic runtime
-//! against a big-float reference, where robots are not.
+//! against a reference in 256 bits, where robots are not.
 //!
-//! - [`truth`]: the reference: the equations over a big float
+//! - [`truth`]: the reference: the equations over a float of 256 bits
 //! - [`subject`]: what is tested: emitted code and runtime, f64 and f32
 //! - [`rounding`]: a robot with its parameters rounded to a scalar
 //! - [`scale`]: states of given magnitudes, and the torques to be met there
