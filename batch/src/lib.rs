@@ -48,7 +48,7 @@
 //! - `function`: what a generator says of a function
 //! - `unequal`: slices of different lengths
 //! - `vector`: floats side by side, `x86` and `portable`: those of a processor; `float`: which
-//!   there are of a float
+//!   there are of a float; `quads`: numbers that move among vectors
 //! - `slices`: from slices to vectors and back
 //! - `dispatch`: as wide as the processor's vectors are
 //! - `parallel`: on all cores
@@ -63,6 +63,8 @@ mod unequal;
 mod vector;
 
 mod portable;
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+mod quads;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod x86;
 

@@ -8,9 +8,10 @@ use crate::slices::{check_columns, check_states};
 use crate::vector::BLOCK;
 use crate::{Function, Unequal};
 
-/// The least number of states of a task: to hand one to another thread, and to wait for it, takes
-/// some ten microseconds, which must be a small part of its work.
-const TASK: usize = 4096;
+/// The least numbers, arguments and results, of a task. To hand one to another thread and to wait
+/// for it takes some ten microseconds, on a virtual machine up to a hundred, and must be a part of
+/// its work that costs less than the other thread saves: a million numbers take 100 to 400.
+const TASK: usize = 1 << 20;
 
 /// Runs [`states`](crate::states) on all cores.
 ///
@@ -27,7 +28,7 @@ where
 {
     check_states(&arguments, results.len())?;
     let count = results.len();
-    if is_one_task(count) {
+    if is_one_task(count, A * N + M) {
         return crate::states::<F, A, N, M, K>(arguments, results);
     }
     let half = middle(count);
@@ -56,7 +57,7 @@ where
     F::Scalar: Send + Sync,
 {
     let count = check_columns(&arguments, results)?;
-    if is_one_task(count) {
+    if is_one_task(count, A * N + M) {
         return crate::columns::<F, A, N, M, K>(arguments, results);
     }
     let half = middle(count);
@@ -77,9 +78,10 @@ where
     left.and(right)
 }
 
-/// Returns whether so many states are not worth a second thread, or there is none.
-fn is_one_task(count: usize) -> bool {
-    count < 2 * TASK || rayon::current_num_threads() == 1
+/// Returns whether so many states of so many numbers are not worth a second thread, or there is
+/// none.
+fn is_one_task(count: usize, numbers: usize) -> bool {
+    count.saturating_mul(numbers) < 2 * TASK || rayon::current_num_threads() == 1
 }
 
 /// Returns the middle of so many states, a whole number of blocks.

@@ -1,9 +1,9 @@
 //! The vectors of the target as it is compiled for, of 128 bits, by the crate `wide`; where it has
 //! none, numbers.
 
-use dalembert_sines::text::by_pairs;
+use dalembert_sines::text::{self, Products};
 
-use crate::vector::{BLOCK, Vector, lanes};
+use crate::vector::{BLOCK, Vector, by_numbers, lanes};
 
 #[cfg(any(
     target_arch = "x86",
@@ -14,7 +14,7 @@ use crate::vector::{BLOCK, Vector, lanes};
 mod vectors {
     use dalembert_sines::text::{Doubles, Singles};
 
-    use super::{BLOCK, Vector, by_pairs, lanes};
+    use super::{BLOCK, Products, Vector, by_numbers, lanes, text};
 
     macro_rules! portable {
         ($vector:ident, $float:ident, $lanes:literal) => {
@@ -28,15 +28,16 @@ mod vectors {
                     |_vector| (),
                     |_token, from| $vector::from_array(from)
                 );
+                by_numbers!(
+                    $float,
+                    $lanes,
+                    |vector| vector.to_array(),
+                    |_token, from| $vector::from_array(from)
+                );
 
                 #[inline(always)]
                 fn sqrt(self) -> Self {
                     self.root()
-                }
-
-                #[inline(always)]
-                fn mul_add(self, factor: Self, addend: Self) -> Self {
-                    self.fused(factor, addend)
                 }
             }
         };
@@ -52,10 +53,10 @@ mod vectors {
     target_arch = "wasm32"
 )))]
 mod numbers {
-    use super::{BLOCK, Vector, by_pairs, lanes};
+    use super::{BLOCK, Products, Vector, by_numbers, lanes, text};
 
     macro_rules! number {
-        ($float:ident, $sqrt:ident, $fma:ident) => {
+        ($float:ident, $sqrt:ident) => {
             impl Vector<$float> for $float {
                 type Token = ();
 
@@ -66,19 +67,15 @@ mod numbers {
                     |_number| (),
                     |_token, from| from[0]
                 );
+                by_numbers!($float, 1, |number| [number], |_token, from| from[0]);
 
                 #[inline(always)]
                 fn sqrt(self) -> Self {
                     dalembert_sines::$sqrt(self)
                 }
-
-                #[inline(always)]
-                fn mul_add(self, factor: Self, addend: Self) -> Self {
-                    dalembert_sines::text::$fma(self, factor, addend)
-                }
             }
         };
     }
-    number!(f64, sqrt, fma);
-    number!(f32, sqrtf, fmaf);
+    number!(f64, sqrt);
+    number!(f32, sqrtf);
 }

@@ -1,6 +1,6 @@
 //! Floats side by side, as a generated function computes with them.
 
-use dalembert_sines::text::Floats;
+use dalembert_sines::text::{Floats, Products};
 
 /// The states that are computed before any other: first their sines, then all the rest, so that
 /// neither takes registers from the other.
@@ -16,16 +16,25 @@ pub trait Vector<T>: Floats<T> {
     /// Returns the vector that stands after so many others.
     fn load(token: Self::Token, from: &[T; BLOCK], after: usize) -> Self;
 
-    /// Writes the vector after so many others.
-    fn store(self, to: &mut [T; BLOCK], after: usize);
+    /// Writes the vector from an entry on.
+    fn store(self, to: &mut [T], from: usize);
+
+    /// Returns the columns of so many rows.
+    fn columns<const N: usize>(token: Self::Token, rows: &[[T; N]]) -> [Self; N];
+
+    /// Writes columns in so many rows.
+    fn rows<const N: usize>(columns: &[Self; N], rows: &mut [[T; N]]);
 
     /// Returns the roots.
     #[must_use]
     fn sqrt(self) -> Self;
 
     /// Returns the products plus the addends, rounded once.
+    #[inline(always)]
     #[must_use]
-    fn mul_add(self, factor: Self, addend: Self) -> Self;
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        self.fused(factor, addend)
+    }
 
     /// Returns a function's value for each.
     #[must_use]
@@ -36,7 +45,9 @@ pub trait Vector<T>: Floats<T> {
 
     /// Computes sines and cosines, and returns whether they are those of all angles: of far
     /// ones they are not.
-    fn sincos<const K: usize>(angles: &[Self; K]) -> ([Self; K], [Self; K], bool);
+    fn sincos<P: Products<T>, const K: usize>(
+        angles: &[Self; K],
+    ) -> ([Self; K], [Self; K], bool);
 }
 
 /// Returns the roots, as generated code calls them.
@@ -67,10 +78,11 @@ macro_rules! lanes {
         }
 
         #[inline(always)]
-        fn store(self, to: &mut [$float; BLOCK], after: usize) {
+        fn store(self, to: &mut [$float], from: usize) {
             let $vector = self;
-            let (places, _) = to.as_chunks_mut::<$lanes>();
-            if let Some(place) = places.get_mut(after) {
+            if let Some(rest) = to.get_mut(from..)
+                && let Some(place) = rest.first_chunk_mut::<$lanes>()
+            {
                 *place = $array;
             }
         }
@@ -97,9 +109,50 @@ macro_rules! lanes {
         }
 
         #[inline(always)]
-        fn sincos<const K: usize>(angles: &[Self; K]) -> ([Self; K], [Self; K], bool) {
-            by_pairs::<$float, Self, K>(angles)
+        fn sincos<P: Products<$float>, const K: usize>(
+            angles: &[Self; K],
+        ) -> ([Self; K], [Self; K], bool) {
+            text::together::<$float, P, Self, K>(angles)
         }
     };
 }
 pub(crate) use lanes;
+
+/// Implements the methods of [`Vector`] that turn rows into columns, one number after the other.
+macro_rules! by_numbers {
+    ($float:ident, $lanes:literal, |$vector:ident| $array:expr, |$token:ident, $from:ident| $made:expr) => {
+        #[inline(always)]
+        fn columns<const N: usize>($token: Self::Token, rows: &[[$float; N]]) -> [Self; N] {
+            let $from = [0.0; $lanes];
+            let mut columns = [$made; N];
+            let mut entry = 0;
+            while entry < N {
+                let mut $from = [0.0; $lanes];
+                let mut lane = 0;
+                while lane < $lanes && lane < rows.len() {
+                    $from[lane] = rows[lane][entry];
+                    lane += 1;
+                }
+                columns[entry] = $made;
+                entry += 1;
+            }
+            columns
+        }
+
+        #[inline(always)]
+        fn rows<const N: usize>(columns: &[Self; N], rows: &mut [[$float; N]]) {
+            let mut entry = 0;
+            while entry < N {
+                let $vector = columns[entry];
+                let array: [$float; $lanes] = $array;
+                let mut lane = 0;
+                while lane < $lanes && lane < rows.len() {
+                    rows[lane][entry] = array[lane];
+                    lane += 1;
+                }
+                entry += 1;
+            }
+        }
+    };
+}
+pub(crate) use by_numbers;

@@ -135,8 +135,8 @@ mod vectors {
 /// its error reads, and what batches compute in vectors of their own.
 #[doc(hidden)]
 pub mod text {
-    pub use crate::angle::{Angle, alone, by_pairs, rest};
-    pub use crate::number::{Floats, Number, Pair};
+    pub use crate::angle::{Angle, alone, rest, together};
+    pub use crate::number::{Floats, Fused, Number, Pair, Products, Rounded};
     #[cfg(any(
         target_arch = "x86",
         target_arch = "x86_64",
@@ -160,7 +160,6 @@ pub mod text {
         target_arch = "wasm32"
     )))]
     pub type Singles = f32;
-    pub use libm::{fma, fmaf};
 }
 
 /// Roots, correctly rounded: libm's, for code that has all from here.
