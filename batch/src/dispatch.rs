@@ -9,7 +9,8 @@ use core::marker::PhantomData;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 use pulp::x86::{V3, V4};
 
-use crate::slices::{check_columns, check_states, ending, run_columns, run_states};
+use crate::block::ending;
+use crate::slices::{check_columns, check_states, run_columns, run_states};
 use crate::vector::BLOCK;
 use crate::{Float, Function, Unequal, Vector};
 
@@ -78,11 +79,25 @@ where
     check_states(&arguments, results.len())?;
     let from = BLOCK.saturating_sub(results.len());
     if from == 0 {
-        run(vectors, States::<F, A, N, M, K> { arguments, results, from });
+        run(
+            vectors,
+            States::<F, A, N, M, K> {
+                arguments,
+                results,
+                from,
+            },
+        );
     } else if !results.is_empty() {
         let blocks = arguments.map(ending);
         let arguments = blocks.each_ref().map(|rows| &rows[..]);
-        run(vectors, States::<F, A, N, M, K> { arguments, results, from });
+        run(
+            vectors,
+            States::<F, A, N, M, K> {
+                arguments,
+                results,
+                from,
+            },
+        );
     }
     Ok(())
 }
@@ -120,7 +135,14 @@ where
         1..BLOCK => few_columns::<F, A, N, M, K>(vectors, arguments, results, states),
         _ => {
             let from = 0;
-            run(vectors, Columns::<F, A, N, M, K> { arguments, results, from });
+            run(
+                vectors,
+                Columns::<F, A, N, M, K> {
+                    arguments,
+                    results,
+                    from,
+                },
+            );
         }
     }
     Ok(())
@@ -137,7 +159,9 @@ fn few_columns<F, const A: usize, const N: usize, const M: usize, const K: usize
     F: Function<A, N, M, K>,
 {
     let blocks = arguments.map(|columns| columns.map(ending));
-    let slices = blocks.each_ref().map(|columns| columns.each_ref().map(|column| &column[..]));
+    let slices = blocks
+        .each_ref()
+        .map(|columns| columns.each_ref().map(|column| &column[..]));
     let mut found = [[F::Scalar::default(); BLOCK]; M];
     let from = BLOCK - states;
     let work = Columns::<F, A, N, M, K> {

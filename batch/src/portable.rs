@@ -3,7 +3,7 @@
 
 use dalembert_sines::text::{self, Products};
 
-use crate::vector::{BLOCK, Vector, by_numbers, lanes};
+use crate::vector::{BLOCK, Vector, lanes};
 
 #[cfg(any(
     target_arch = "x86",
@@ -14,7 +14,7 @@ use crate::vector::{BLOCK, Vector, by_numbers, lanes};
 mod vectors {
     use dalembert_sines::text::{Doubles, Singles};
 
-    use super::{BLOCK, Products, Vector, by_numbers, lanes, text};
+    use super::{BLOCK, Products, Vector, lanes, text};
 
     macro_rules! portable {
         ($vector:ident, $float:ident, $lanes:literal) => {
@@ -26,12 +26,6 @@ mod vectors {
                     $lanes,
                     |vector| vector.to_array(),
                     |_vector| (),
-                    |_token, from| $vector::from_array(from)
-                );
-                by_numbers!(
-                    $float,
-                    $lanes,
-                    |vector| vector.to_array(),
                     |_token, from| $vector::from_array(from)
                 );
 
@@ -53,7 +47,7 @@ mod vectors {
     target_arch = "wasm32"
 )))]
 mod numbers {
-    use super::{BLOCK, Products, Vector, by_numbers, lanes, text};
+    use super::{BLOCK, Products, Vector, lanes, text};
 
     macro_rules! number {
         ($float:ident, $sqrt:ident) => {
@@ -67,7 +61,6 @@ mod numbers {
                     |_number| (),
                     |_token, from| from[0]
                 );
-                by_numbers!($float, 1, |number| [number], |_token, from| from[0]);
 
                 #[inline(always)]
                 fn sqrt(self) -> Self {

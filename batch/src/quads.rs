@@ -206,3 +206,52 @@ singles!(
     _mm256_unpacklo_ps, _mm256_unpackhi_ps, _mm256_unpacklo_pd, _mm256_unpackhi_pd,
     _mm256_castpd_ps, _mm256_castps_pd; avx
 );
+
+/// Implements the methods of [`Vector`](crate::Vector) that turn rows into columns and back, four
+/// entries at a time; fewer have no room for that.
+macro_rules! quads {
+    ($float:ident, $vector:ident) => {
+        #[inline(always)]
+        fn columns<const N: usize>(token: Self::Token, rows: &[[$float; N]]) -> [Self; N] {
+            if N < 4 {
+                return columns_by_numbers(token, rows);
+            }
+            let mut columns = [$vector(token, cast(token.columns(rows, 0)[0])); N];
+            let mut done = 0;
+            while done < N {
+                // The last four may begin among those that are done.
+                let first = if done + 4 <= N { done } else { N - 4 };
+                let four = token.columns(rows, first);
+                let mut entry = 0;
+                while entry < 4 {
+                    columns[first + entry] = $vector(token, cast(four[entry]));
+                    entry += 1;
+                }
+                done = first + 4;
+            }
+            columns
+        }
+
+        #[inline(always)]
+        fn rows<const N: usize>(columns: &[Self; N], rows: &mut [[$float; N]]) {
+            if N < 4 {
+                return rows_by_numbers(columns, rows);
+            }
+            // From the last on: who reads a row reads its first four together, which must be what
+            // was written together last.
+            let mut left = N;
+            while left > 0 {
+                let first = if left > 4 { left - 4 } else { 0 };
+                let mut four = [cast(columns[first].1); 4];
+                let mut entry = 0;
+                while entry < 4 {
+                    four[entry] = cast(columns[first + entry].1);
+                    entry += 1;
+                }
+                columns[first].0.rows(four, rows, first);
+                left = first;
+            }
+        }
+    };
+}
+pub(crate) use quads;

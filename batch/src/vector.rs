@@ -20,10 +20,22 @@ pub trait Vector<T>: Floats<T> {
     fn store(self, to: &mut [T], from: usize);
 
     /// Returns the columns of so many rows.
-    fn columns<const N: usize>(token: Self::Token, rows: &[[T; N]]) -> [Self; N];
+    #[inline(always)]
+    fn columns<const N: usize>(token: Self::Token, rows: &[[T; N]]) -> [Self; N]
+    where
+        T: Copy + Default,
+    {
+        columns_by_numbers(token, rows)
+    }
 
     /// Writes columns in so many rows.
-    fn rows<const N: usize>(columns: &[Self; N], rows: &mut [[T; N]]);
+    #[inline(always)]
+    fn rows<const N: usize>(columns: &[Self; N], rows: &mut [[T; N]])
+    where
+        T: Copy + Default,
+    {
+        rows_by_numbers(columns, rows);
+    }
 
     /// Returns the roots.
     #[must_use]
@@ -45,9 +57,47 @@ pub trait Vector<T>: Floats<T> {
 
     /// Computes sines and cosines, and returns whether they are those of all angles: of far
     /// ones they are not.
-    fn sincos<P: Products<T>, const K: usize>(
-        angles: &[Self; K],
-    ) -> ([Self; K], [Self; K], bool);
+    fn sincos<P: Products<T>, const K: usize>(angles: &[Self; K]) -> ([Self; K], [Self; K], bool);
+}
+
+/// Returns the columns of rows, one number after the other.
+#[inline(always)]
+pub(crate) fn columns_by_numbers<T: Copy + Default, V: Vector<T>, const N: usize>(
+    token: V::Token,
+    rows: &[[T; N]],
+) -> [V; N] {
+    let mut columns = [V::load(token, &[T::default(); BLOCK], 0); N];
+    let mut entry = 0;
+    while entry < N {
+        let mut lanes = [T::default(); BLOCK];
+        let mut lane = 0;
+        while lane < V::LANES && lane < rows.len() {
+            lanes[lane] = rows[lane][entry];
+            lane += 1;
+        }
+        columns[entry] = V::load(token, &lanes, 0);
+        entry += 1;
+    }
+    columns
+}
+
+/// Writes columns in rows, one number after the other.
+#[inline(always)]
+pub(crate) fn rows_by_numbers<T: Copy + Default, V: Vector<T>, const N: usize>(
+    columns: &[V; N],
+    rows: &mut [[T; N]],
+) {
+    let mut entry = 0;
+    while entry < N {
+        let mut lanes = [T::default(); BLOCK];
+        columns[entry].store(&mut lanes, 0);
+        let mut lane = 0;
+        while lane < V::LANES && lane < rows.len() {
+            rows[lane][entry] = lanes[lane];
+            lane += 1;
+        }
+        entry += 1;
+    }
 }
 
 /// Returns the roots, as generated code calls them.
@@ -117,42 +167,3 @@ macro_rules! lanes {
     };
 }
 pub(crate) use lanes;
-
-/// Implements the methods of [`Vector`] that turn rows into columns, one number after the other.
-macro_rules! by_numbers {
-    ($float:ident, $lanes:literal, |$vector:ident| $array:expr, |$token:ident, $from:ident| $made:expr) => {
-        #[inline(always)]
-        fn columns<const N: usize>($token: Self::Token, rows: &[[$float; N]]) -> [Self; N] {
-            let $from = [0.0; $lanes];
-            let mut columns = [$made; N];
-            let mut entry = 0;
-            while entry < N {
-                let mut $from = [0.0; $lanes];
-                let mut lane = 0;
-                while lane < $lanes && lane < rows.len() {
-                    $from[lane] = rows[lane][entry];
-                    lane += 1;
-                }
-                columns[entry] = $made;
-                entry += 1;
-            }
-            columns
-        }
-
-        #[inline(always)]
-        fn rows<const N: usize>(columns: &[Self; N], rows: &mut [[$float; N]]) {
-            let mut entry = 0;
-            while entry < N {
-                let $vector = columns[entry];
-                let array: [$float; $lanes] = $array;
-                let mut lane = 0;
-                while lane < $lanes && lane < rows.len() {
-                    rows[lane][entry] = array[lane];
-                    lane += 1;
-                }
-                entry += 1;
-            }
-        }
-    };
-}
-pub(crate) use by_numbers;

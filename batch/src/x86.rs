@@ -7,8 +7,8 @@ use dalembert_sines::text::{self, Floats, Number, Products};
 use pulp::x86::{V3, V4};
 use pulp::{Simd, cast, f32x8, f32x16, f64x4, f64x8, u32x8, u32x16, u64x4, u64x8};
 
-use crate::quads::Quads;
-use crate::vector::{BLOCK, Vector, lanes};
+use crate::quads::{Quads, quads};
+use crate::vector::{BLOCK, Vector, columns_by_numbers, lanes, rows_by_numbers};
 
 macro_rules! operation {
     ($vector:ident, $operation:ident, $method:ident, $by:ident) => {
@@ -120,63 +120,7 @@ macro_rules! vector {
                 |token, from| $vector(token, cast(from))
             );
 
-            #[inline(always)]
-            fn columns<const N: usize>(token: $token, rows: &[[$float; N]]) -> [Self; N] {
-                let zero = $vector(token, cast([0.0 as $float; $lanes]));
-                let mut columns = [zero; N];
-                let mut done = 0;
-                while done < N {
-                    if N < 4 {
-                        let mut lanes = [0.0; $lanes];
-                        let mut lane = 0;
-                        while lane < $lanes && lane < rows.len() {
-                            lanes[lane] = rows[lane][done];
-                            lane += 1;
-                        }
-                        columns[done] = $vector(token, cast(lanes));
-                        done += 1;
-                        continue;
-                    }
-                    // The last four may begin among those that are done.
-                    let first = if done + 4 <= N { done } else { N - 4 };
-                    let four = token.columns(rows, first);
-                    let mut entry = 0;
-                    while entry < 4 {
-                        columns[first + entry] = $vector(token, cast(four[entry]));
-                        entry += 1;
-                    }
-                    done = first + 4;
-                }
-                columns
-            }
-
-            #[inline(always)]
-            fn rows<const N: usize>(columns: &[Self; N], rows: &mut [[$float; N]]) {
-                // From the last on: who reads a row reads its first four together, which must
-                // be what was written together last.
-                let mut left = N;
-                while left > 0 {
-                    if N < 4 {
-                        left -= 1;
-                        let lanes: [$float; $lanes] = cast(columns[left].1);
-                        let mut lane = 0;
-                        while lane < $lanes && lane < rows.len() {
-                            rows[lane][left] = lanes[lane];
-                            lane += 1;
-                        }
-                        continue;
-                    }
-                    let first = if left > 4 { left - 4 } else { 0 };
-                    let mut four = [cast(columns[first].1); 4];
-                    let mut entry = 0;
-                    while entry < 4 {
-                        four[entry] = cast(columns[first + entry].1);
-                        entry += 1;
-                    }
-                    columns[first].0.rows(four, rows, first);
-                    left = first;
-                }
-            }
+            quads!($float, $vector);
 
             #[inline(always)]
             fn sqrt(self) -> Self {

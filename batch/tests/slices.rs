@@ -182,8 +182,9 @@ macro_rules! fused {
                         96 if has_odd => odd[k / 97 % odd.len()],
                         _ => (k as $float - 500.0) * 0.0371,
                     };
-                    let x: Vec<[$float; 5]> =
-                        (0..200).map(|k| [0, 1, 2, 3, 4].map(|i| angle(5 * k + i))).collect();
+                    let x: Vec<[$float; 5]> = (0..200)
+                        .map(|k| [0, 1, 2, 3, 4].map(|i| angle(5 * k + i)))
+                        .collect();
                     let mut found = vec![[0.5; 10]; 200];
                     states_in::<$kind, 1, 5, 10, 5>(vectors, [&x], &mut found).unwrap();
                     for (x, found) in x.iter().zip(&found) {
@@ -205,7 +206,11 @@ macro_rules! fused {
     };
 }
 fused!(FusedDoubles, f64, fused_sines_are_those_of_their_text);
-fused!(FusedFloats, f32, fused_sines_of_floats_are_those_of_their_text);
+fused!(
+    FusedFloats,
+    f32,
+    fused_sines_of_floats_are_those_of_their_text
+);
 
 fn arguments(count: usize) -> [Vec<[f32; 2]>; 2] {
     let first = (0..count).map(|k| [k as f32 + 0.5, f32::NAN]).collect();
@@ -274,8 +279,8 @@ fn every_length_as_the_processor_has_it() {
 #[test]
 fn every_length_on_all_cores() {
     use dalembert_batch::parallel;
-    // Two tasks begin at 2²¹ numbers, of which a state has seven.
-    for count in [0, 1, 299_592, 299_594, 700_001] {
+    // Tasks begin at 3 MiB, and a state has 28 bytes.
+    for count in [0, 1, 112_347, 112_348, 200_001] {
         check!(
             count,
             parallel::states::<Three, 2, 2, 3, 0>,

@@ -101,6 +101,12 @@
 //!
 //! Underflow takes nothing away: a product that is subnormal is added to a number
 //! whose ulp is far above it, or is zero where the sine is the angle itself.
+//!
+//! ## Fused products
+//!
+//! Batches of functions whose products are fused fuse them here as well. What is exact
+//! above stays so, and each fused product takes away a rounding: the generator's proof
+//! gives 0.83 u for both, in both scalars.
 #![no_std]
 #![forbid(unsafe_code)]
 

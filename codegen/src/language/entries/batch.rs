@@ -7,7 +7,8 @@ use std::fmt::Write;
 
 use super::{Around, arguments, vectors};
 use crate::language::{Printed, function, result};
-use crate::sincos::library_error::{Called, FUSED_ULPS};
+use crate::program::ScalarType;
+use crate::sincos::library_error::{Called, FUSED_ERROR};
 
 /// Prints them.
 pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_>) {
@@ -31,8 +32,9 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_
         }
         true => format!(
             "/// the processor has: the same bits on every one, but not those of [`{name}`]. Products are fused\n\
-             /// in the sines and cosines as well, which are proved to err by at most {FUSED_ULPS} ulp of one up to\n\
+             /// in the sines and cosines as well, which are proved to err by at most {FUSED_ERROR} u, u = {}, up to\n\
              /// {:?} rad; beyond, they are libm's.",
+            if scalar == ScalarType::F64 { "2⁻⁵³" } else { "2⁻²⁴" },
             Called::largest(scalar)
         ),
     };

@@ -139,7 +139,8 @@ fn is_exact(steps: &[Step<Literal, Part>], index: usize, [x, y]: [Interval; 2]) 
             // A product that is no float is none of two near ones.
             let near = near && fusion(steps, index).is_none();
             // (c − t) − h with t = c − h: a fused h has a step before each.
-            let is_float = |h: &Own| at(h).is_none_or(|h| h.operation != Operation::Fused || scales(h));
+            let is_float =
+                |h: &Own| at(h).is_none_or(|h| h.operation != Operation::Fused || scales(h));
             let is_same = |a: &Own, b: &Own| {
                 let both = at(a).zip(at(b));
                 let fused = |(a, b): (&Step<_, _>, _)| a.operation == Operation::Fused && a == b;
@@ -148,7 +149,8 @@ fn is_exact(steps: &[Step<Literal, Part>], index: usize, [x, y]: [Interval; 2]) 
             let first = at(&step.left).filter(|first| first.operation == Operation::Sub);
             let dekker = first.is_some_and(|first| {
                 let t = at(&first.right).filter(|t| t.operation == Operation::Sub);
-                let same = t.is_some_and(|t| t.left == first.left && is_same(&t.right, &step.right));
+                let same =
+                    t.is_some_and(|t| t.left == first.left && is_same(&t.right, &step.right));
                 let larger = match first.left {
                     Operand::Constant(Literal(c)) => y.magnitude() <= c.abs(),
                     _ => false,
