@@ -195,7 +195,7 @@ macro_rules! fused {
                             assert!(same || x.is_nan() || x.is_infinite(), "{vectors:?}: {x:e}");
                             assert_eq!(own.map($float::is_nan), pair.map($float::is_nan));
                             let rounded: [$float; 2] = alone::<$float, Rounded>(x).into();
-                            far += usize::from(!(x.abs() <= $float::LARGEST) && x.is_finite());
+                            far += usize::from(x.abs() > $float::LARGEST && x.is_finite());
                             others += usize::from(own != rounded && x.is_finite());
                         }
                     }
