@@ -10,7 +10,7 @@ use std::ops::{Add, BitAnd, BitXor, Div, Mul, Neg, Sub};
 use std::time::Instant;
 
 use dalembert::batch::{Floats, Function, Vector};
-use dalembert_sines::text::{Angle, Number, Pair, by_pairs};
+use dalembert_sines::text::{Angle, Fused, Number, Products, Rounded, together};
 
 /// Counts of operations: sums and differences; products; fused ones; bits; sums of integers; shifts;
 /// comparisons; quotients; roots.
@@ -268,6 +268,10 @@ macro_rules! number {
             fn all(self, _: $float) -> Counted {
                 Counted
             }
+            fn fused(self, _: Counted, _: Counted) -> Counted {
+                count(2);
+                Counted
+            }
         }
 
         impl Floats<$float> for Counted {
@@ -298,13 +302,13 @@ macro_rules! number {
             fn load((): (), _: &[$float; 64], _: usize) -> Counted {
                 Counted
             }
-            fn store(self, _: &mut [$float; 64], _: usize) {}
+            fn store(self, _: &mut [$float], _: usize) {}
+            fn columns<const N: usize>((): (), _: &[[$float; N]]) -> [Counted; N] {
+                [Counted; N]
+            }
+            fn rows<const N: usize>(_: &[Counted; N], _: &mut [[$float; N]]) {}
             fn sqrt(self) -> Counted {
                 count(8);
-                Counted
-            }
-            fn mul_add(self, _: Counted, _: Counted) -> Counted {
-                count(2);
                 Counted
             }
             fn each(self, _: impl Fn($float) -> $float) -> Counted {
@@ -313,8 +317,10 @@ macro_rules! number {
             fn both(self, _: impl Fn($float) -> ($float, $float)) -> (Counted, Counted) {
                 (Counted, Counted)
             }
-            fn sincos<const K: usize>(angles: &[Counted; K]) -> ([Counted; K], [Counted; K], bool) {
-                by_pairs::<$float, Counted, K>(angles)
+            fn sincos<P: Products<$float>, const K: usize>(
+                angles: &[Counted; K],
+            ) -> ([Counted; K], [Counted; K], bool) {
+                together::<$float, P, Counted, K>(angles)
             }
         }
     )*};
@@ -326,12 +332,14 @@ pub fn operations<F, const A: usize, const N: usize, const M: usize, const K: us
 where
     F: Function<A, N, M, K>,
     Counted: Vector<F::Scalar>,
-    Pair<Counted>: Number<F::Scalar>,
 {
     COUNTED.set([0; KINDS]);
     let arguments = [[Counted; N]; A];
     let angles: [Counted; K] = F::angles(&arguments);
-    let (sin, cos, _) = by_pairs::<F::Scalar, Counted, K>(&angles);
+    let (sin, cos, _) = match F::FUSED {
+        true => Counted::sincos::<Fused, K>(&angles),
+        false => Counted::sincos::<Rounded, K>(&angles),
+    };
     let _ = F::vectors(&arguments, &sin, &cos);
     COUNTED.get()
 }

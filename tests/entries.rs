@@ -3,7 +3,7 @@
 
 use std::array::from_fn;
 
-use dalembert::batch::{self, Function, Slice};
+use dalembert::batch::{self, Function, Slice, Vectors};
 use dalembert_model::scalar::field::Points;
 
 #[rustfmt::skip] // As the generator writes it.
@@ -167,6 +167,23 @@ macro_rules! check {
         // Some of it are numbers, or nothing would be compared.
         assert!(single.iter().any(|$result| $numbers.iter().all(|x| x.is_finite())));
 
+        // Where products are fused, batches have sines of their own: those of the portable vectors,
+        // of numbers one after the other, next to those of a state alone.
+        let mut many = single.clone();
+        if <Kind as Function<_, _, _, _>>::FUSED {
+            let arguments = [$(&$argument[..]),*];
+            batch::states_in::<Kind, _, _, _, _>(Vectors::Portable, arguments, &mut many).unwrap();
+            for (k, (single, many)) in single.iter().zip(&many).enumerate() {
+                let is_usual = [$($argument[k]),*].as_flattened().iter().all(|x| x.abs() < 4.0);
+                let [single, many] = [single, many].map(|$result| -> Vec<$scalar> { $numbers });
+                let most = single.iter().fold(1.0, |most: $scalar, x| most.max(x.abs()));
+                for (single, many) in single.iter().zip(&many) {
+                    let near = (single - many).abs() <= 500.0 * <$scalar>::EPSILON * most;
+                    assert!(near || !is_usual, "{single} {many}");
+                }
+            }
+        }
+
         // Lanes, of every width that the drivers take and others.
         macro_rules! width {
             ($width:literal) => {
@@ -189,19 +206,19 @@ macro_rules! check {
 
         for count in 0..=MOST {
             $(let $argument = &$argument[..count];)*
-            let mut found = single.clone();
+            let mut found = many.clone();
             found.reverse();
             found.truncate(count);
             $module::$batch($($argument,)* &mut found).unwrap();
-            assert!(found.iter().zip(&single).all(|(a, b)| a.same(b)), "{count}");
+            assert!(found.iter().zip(&many).all(|(a, b)| a.same(b)), "{count}");
 
             $(let $argument = columns($argument);
               let $argument = $argument.each_ref().map(|column| column.as_slice());)*
-            let $result = &single[0];
+            let $result = &many[0];
             let mut found = array($numbers.iter().map(|_| vec![0.0; count]).collect());
             let mut slices = found.each_mut().map(|column| column.as_mut_slice());
             $module::$columns($(&$argument,)* &mut slices).unwrap();
-            for (k, $result) in single[..count].iter().enumerate() {
+            for (k, $result) in many[..count].iter().enumerate() {
                 for (column, expected) in found.iter().zip($numbers.iter()) {
                     assert!(column[k].same(expected), "{count}");
                 }

@@ -9,7 +9,9 @@ use core::marker::PhantomData;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 use pulp::x86::{V3, V4};
 
+use crate::block::ending;
 use crate::slices::{check_columns, check_states, run_columns, run_states};
+use crate::vector::BLOCK;
 use crate::{Float, Function, Unequal, Vector};
 
 /// The vectors that a batch is computed in.
@@ -75,7 +77,28 @@ where
     F: Function<A, N, M, K>,
 {
     check_states(&arguments, results.len())?;
-    run(vectors, States::<F, A, N, M, K> { arguments, results });
+    let from = BLOCK.saturating_sub(results.len());
+    if from == 0 {
+        run(
+            vectors,
+            States::<F, A, N, M, K> {
+                arguments,
+                results,
+                from,
+            },
+        );
+    } else if !results.is_empty() {
+        let blocks = arguments.map(ending);
+        let arguments = blocks.each_ref().map(|rows| &rows[..]);
+        run(
+            vectors,
+            States::<F, A, N, M, K> {
+                arguments,
+                results,
+                from,
+            },
+        );
+    }
     Ok(())
 }
 
@@ -106,9 +129,50 @@ pub fn columns_in<F, const A: usize, const N: usize, const M: usize, const K: us
 where
     F: Function<A, N, M, K>,
 {
-    check_columns(&arguments, results)?;
-    run(vectors, Columns::<F, A, N, M, K> { arguments, results });
+    let states = check_columns(&arguments, results)?;
+    match states {
+        0 => {}
+        1..BLOCK => few_columns::<F, A, N, M, K>(vectors, arguments, results, states),
+        _ => {
+            let from = 0;
+            run(
+                vectors,
+                Columns::<F, A, N, M, K> {
+                    arguments,
+                    results,
+                    from,
+                },
+            );
+        }
+    }
     Ok(())
+}
+
+/// Computes the function at fewer states than a block has, at the end of one.
+#[inline(never)]
+fn few_columns<F, const A: usize, const N: usize, const M: usize, const K: usize>(
+    vectors: Vectors,
+    arguments: [&[&[F::Scalar]; N]; A],
+    results: &mut [&mut [F::Scalar]; M],
+    states: usize,
+) where
+    F: Function<A, N, M, K>,
+{
+    let blocks = arguments.map(|columns| columns.map(ending));
+    let slices = blocks
+        .each_ref()
+        .map(|columns| columns.each_ref().map(|column| &column[..]));
+    let mut found = [[F::Scalar::default(); BLOCK]; M];
+    let from = BLOCK - states;
+    let work = Columns::<F, A, N, M, K> {
+        arguments: slices.each_ref(),
+        results: &mut found.each_mut().map(|column| &mut column[..]),
+        from,
+    };
+    run(vectors, work);
+    for (column, found) in results.iter_mut().zip(&found) {
+        column.copy_from_slice(&found[from..]);
+    }
 }
 
 /// A computation that may run in any vectors.
@@ -159,6 +223,8 @@ where
 {
     arguments: [&'a [[F::Scalar; N]]; A],
     results: &'a mut [F::State],
+    /// The first state of which there is a result, of at least a block.
+    from: usize,
 }
 
 impl<F, const A: usize, const N: usize, const M: usize, const K: usize> Work
@@ -170,7 +236,7 @@ where
 
     #[inline(always)]
     fn with<V: Vector<F::Scalar>>(self, token: V::Token) {
-        run_states::<F, V, A, N, M, K>(token, self.arguments, self.results);
+        run_states::<F, V, A, N, M, K>(token, self.arguments, self.results, self.from);
     }
 }
 
@@ -180,6 +246,8 @@ where
 {
     arguments: [&'a [&'a [F::Scalar]; N]; A],
     results: &'r mut [&'c mut [F::Scalar]; M],
+    /// The first state that is computed, of at least a block.
+    from: usize,
 }
 
 impl<F, const A: usize, const N: usize, const M: usize, const K: usize> Work
@@ -191,6 +259,6 @@ where
 
     #[inline(always)]
     fn with<V: Vector<F::Scalar>>(self, token: V::Token) {
-        run_columns::<F, V, A, N, M, K>(token, self.arguments, self.results);
+        run_columns::<F, V, A, N, M, K>(token, self.arguments, self.results, self.from);
     }
 }

@@ -14,6 +14,8 @@ pub trait Function<const A: usize, const N: usize, const M: usize, const K: usiz
     type Scalar: Float;
     /// The results of one state.
     type State;
+    /// Whether products are fused in the sines, too.
+    const FUSED: bool = false;
 
     /// Returns the angles whose sines and cosines [`vectors`](Function::vectors) takes.
     fn angles<V: Floats<Self::Scalar>>(arguments: &[[V; N]; A]) -> [V; K];

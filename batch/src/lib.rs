@@ -37,7 +37,9 @@
 //!
 //! A state's results are those that it has alone, bit for bit: each lane does the
 //! same operations in the same order, and none is contracted to a fused one. Only
-//! which NaN stands for "no number" is the processor's choice.
+//! which NaN stands for "no number" is the processor's choice. A function that is
+//! [`FUSED`](Function::FUSED) says otherwise: its sines have fused products, too, and
+//! its results the same bits in all vectors, but not those of a single call.
 //!
 //! With the feature `std` the processor is asked what it has, once a call: a
 //! plain `cargo build --release` computes in vectors of AVX-512 or AVX2 where
@@ -48,8 +50,8 @@
 //! - `function`: what a generator says of a function
 //! - `unequal`: slices of different lengths
 //! - `vector`: floats side by side, `x86` and `portable`: those of a processor; `float`: which
-//!   there are of a float
-//! - `slices`: from slices to vectors and back
+//!   there are of a float; `quads`: numbers that move among vectors
+//! - `block`: so many states of slices; `slices`: from slices to vectors and back
 //! - `dispatch`: as wide as the processor's vectors are
 //! - `parallel`: on all cores
 #![no_std]
@@ -64,8 +66,11 @@ mod vector;
 
 mod portable;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
+mod quads;
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod x86;
 
+mod block;
 mod slices;
 
 mod dispatch;

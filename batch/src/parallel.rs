@@ -1,16 +1,25 @@
-//! Batches on all cores by rayon; each half of the states goes to a free thread.
+//! Batches on all cores by rayon: whoever is free takes the next task, the caller too.
 //!
-//! What comes out does not depend on who computes it.
+//! The caller waits for nobody to begin: as long as the others wake up it computes, and where
+//! they never do it has computed all. What comes out does not depend on who computes it.
+
+extern crate std;
 
 use core::array::from_fn;
+use core::mem::take;
+use std::sync::Mutex;
 
 use crate::slices::{check_columns, check_states};
 use crate::vector::BLOCK;
 use crate::{Function, Unequal};
 
-/// The least number of states of a task: to hand one to another thread, and to wait for it, takes
-/// some ten microseconds, which must be a small part of its work.
-const TASK: usize = 4096;
+/// The bytes of a task's arguments and results: ten to thirty microseconds, in which a task costs
+/// nothing to take, and of which the last ones end at nearly one time.
+const TASK: usize = 1 << 19;
+
+/// Less is computed at once: a thread would wake up, which takes ten microseconds and on a virtual
+/// machine more, when nothing is left.
+const LEAST: usize = 3 << 20;
 
 /// Runs [`states`](crate::states) on all cores.
 ///
@@ -26,21 +35,21 @@ where
     F::State: Send,
 {
     check_states(&arguments, results.len())?;
-    let count = results.len();
-    if is_one_task(count) {
+    let Some(task) = task::<F, A, N, M, K>(results.len()) else {
         return crate::states::<F, A, N, M, K>(arguments, results);
-    }
-    let half = middle(count);
-    let (left, right) = results.split_at_mut(half);
-    let (first, second) = (
-        arguments.map(|argument| argument.split_at(half).0),
-        arguments.map(|argument| argument.split_at(half).1),
-    );
-    let (left, right) = rayon::join(
-        || states::<F, A, N, M, K>(first, left),
-        || states::<F, A, N, M, K>(second, right),
-    );
-    left.and(right)
+    };
+    share(
+        (arguments, results),
+        |(arguments, results)| {
+            let count = task.min(results.len());
+            let (own, others) = take(results).split_at_mut(count);
+            *results = others;
+            let own_arguments = arguments.map(|argument| &argument[..count]);
+            *arguments = arguments.map(|argument| &argument[count..]);
+            (count > 0).then_some((own_arguments, own))
+        },
+        |(arguments, results)| crate::states::<F, A, N, M, K>(arguments, results),
+    )
 }
 
 /// Runs [`columns`](crate::columns) on all cores.
@@ -55,34 +64,64 @@ where
     F: Function<A, N, M, K>,
     F::Scalar: Send + Sync,
 {
-    let count = check_columns(&arguments, results)?;
-    if is_one_task(count) {
+    let states = check_columns(&arguments, results)?;
+    let Some(task) = task::<F, A, N, M, K>(states) else {
         return crate::columns::<F, A, N, M, K>(arguments, results);
-    }
-    let half = middle(count);
-    let first = arguments.map(|columns| columns.map(|column| column.split_at(half).0));
-    let second = arguments.map(|columns| columns.map(|column| column.split_at(half).1));
-    let halves = results.each_mut().map(|column| column.split_at_mut(half));
-    let (mut left, mut right) = (
-        from_fn::<&mut [F::Scalar], M, _>(|_| &mut []),
-        from_fn::<&mut [F::Scalar], M, _>(|_| &mut []),
-    );
-    for (((a, b), left), right) in halves.into_iter().zip(&mut left).zip(&mut right) {
-        (*left, *right) = (a, b);
-    }
-    let (left, right) = rayon::join(
-        || columns::<F, A, N, M, K>(first.each_ref(), &mut left),
-        || columns::<F, A, N, M, K>(second.each_ref(), &mut right),
-    );
-    left.and(right)
+    };
+    let results = results.each_mut().map(|column| &mut **column);
+    share(
+        (0, results),
+        |(first, results)| {
+            let range = *first..(*first + task).min(states);
+            *first = range.end;
+            let mut own = from_fn::<&mut [F::Scalar], M, _>(|_| &mut []);
+            for (own, rest) in own.iter_mut().zip(results) {
+                (*own, *rest) = take(rest).split_at_mut(range.len());
+            }
+            let own_arguments =
+                arguments.map(|columns| columns.map(|column| &column[range.clone()]));
+            (!range.is_empty()).then_some((own_arguments, own))
+        },
+        |(arguments, mut results)| {
+            crate::columns::<F, A, N, M, K>(arguments.each_ref(), &mut results)
+        },
+    )
 }
 
-/// Returns whether so many states are not worth a second thread, or there is none.
-fn is_one_task(count: usize) -> bool {
-    count < 2 * TASK || rayon::current_num_threads() == 1
+/// Returns the states of a task, whole blocks; `None` where so many states are not worth a second
+/// thread, or there is none.
+fn task<F, const A: usize, const N: usize, const M: usize, const K: usize>(
+    states: usize,
+) -> Option<usize>
+where
+    F: Function<A, N, M, K>,
+{
+    let bytes = (A * N + M) * size_of::<F::Scalar>();
+    let is_much = states.saturating_mul(bytes) >= LEAST && rayon::current_num_threads() > 1;
+    is_much.then(|| (TASK / bytes).next_multiple_of(BLOCK))
 }
 
-/// Returns the middle of so many states, a whole number of blocks.
-fn middle(count: usize) -> usize {
-    (count / 2).next_multiple_of(BLOCK)
+/// Runs the tasks that work is split into until nothing is left, on all threads.
+fn share<W: Send, T>(
+    work: W,
+    split: impl Fn(&mut W) -> Option<T> + Sync,
+    run: impl Fn(T) -> Result<(), Unequal> + Sync,
+) -> Result<(), Unequal> {
+    let rest = Mutex::new(work);
+    // Poisoned where another panicked, which ends all.
+    let next = || rest.lock().ok().and_then(|mut rest| split(&mut rest));
+    let all = || {
+        let mut found = Ok(());
+        while let Some(task) = next() {
+            found = found.and(run(task));
+        }
+        found
+    };
+    rayon::in_place_scope(|scope| {
+        for _ in 1..rayon::current_num_threads() {
+            // Slices that were checked before are equal.
+            scope.spawn(|_| _ = all());
+        }
+        all()
+    })
 }

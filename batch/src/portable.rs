@@ -1,7 +1,7 @@
 //! The vectors of the target as it is compiled for, of 128 bits, by the crate `wide`; where it has
 //! none, numbers.
 
-use dalembert_sines::text::by_pairs;
+use dalembert_sines::text::{self, Products};
 
 use crate::vector::{BLOCK, Vector, lanes};
 
@@ -14,7 +14,7 @@ use crate::vector::{BLOCK, Vector, lanes};
 mod vectors {
     use dalembert_sines::text::{Doubles, Singles};
 
-    use super::{BLOCK, Vector, by_pairs, lanes};
+    use super::{BLOCK, Products, Vector, lanes, text};
 
     macro_rules! portable {
         ($vector:ident, $float:ident, $lanes:literal) => {
@@ -33,11 +33,6 @@ mod vectors {
                 fn sqrt(self) -> Self {
                     self.root()
                 }
-
-                #[inline(always)]
-                fn mul_add(self, factor: Self, addend: Self) -> Self {
-                    self.fused(factor, addend)
-                }
             }
         };
     }
@@ -52,10 +47,10 @@ mod vectors {
     target_arch = "wasm32"
 )))]
 mod numbers {
-    use super::{BLOCK, Vector, by_pairs, lanes};
+    use super::{BLOCK, Products, Vector, lanes, text};
 
     macro_rules! number {
-        ($float:ident, $sqrt:ident, $fma:ident) => {
+        ($float:ident, $sqrt:ident) => {
             impl Vector<$float> for $float {
                 type Token = ();
 
@@ -71,14 +66,9 @@ mod numbers {
                 fn sqrt(self) -> Self {
                     dalembert_sines::$sqrt(self)
                 }
-
-                #[inline(always)]
-                fn mul_add(self, factor: Self, addend: Self) -> Self {
-                    dalembert_sines::text::$fma(self, factor, addend)
-                }
             }
         };
     }
-    number!(f64, sqrt, fma);
-    number!(f32, sqrtf, fmaf);
+    number!(f64, sqrt);
+    number!(f32, sqrtf);
 }

@@ -1,6 +1,6 @@
 //! Floats side by side, as a generated function computes with them.
 
-use dalembert_sines::text::Floats;
+use dalembert_sines::text::{Floats, Products};
 
 /// The states that are computed before any other: first their sines, then all the rest, so that
 /// neither takes registers from the other.
@@ -16,16 +16,37 @@ pub trait Vector<T>: Floats<T> {
     /// Returns the vector that stands after so many others.
     fn load(token: Self::Token, from: &[T; BLOCK], after: usize) -> Self;
 
-    /// Writes the vector after so many others.
-    fn store(self, to: &mut [T; BLOCK], after: usize);
+    /// Writes the vector from an entry on.
+    fn store(self, to: &mut [T], from: usize);
+
+    /// Returns the columns of so many rows.
+    #[inline(always)]
+    fn columns<const N: usize>(token: Self::Token, rows: &[[T; N]]) -> [Self; N]
+    where
+        T: Copy + Default,
+    {
+        columns_by_numbers(token, rows)
+    }
+
+    /// Writes columns in so many rows.
+    #[inline(always)]
+    fn rows<const N: usize>(columns: &[Self; N], rows: &mut [[T; N]])
+    where
+        T: Copy + Default,
+    {
+        rows_by_numbers(columns, rows);
+    }
 
     /// Returns the roots.
     #[must_use]
     fn sqrt(self) -> Self;
 
     /// Returns the products plus the addends, rounded once.
+    #[inline(always)]
     #[must_use]
-    fn mul_add(self, factor: Self, addend: Self) -> Self;
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        self.fused(factor, addend)
+    }
 
     /// Returns a function's value for each.
     #[must_use]
@@ -36,7 +57,47 @@ pub trait Vector<T>: Floats<T> {
 
     /// Computes sines and cosines, and returns whether they are those of all angles: of far
     /// ones they are not.
-    fn sincos<const K: usize>(angles: &[Self; K]) -> ([Self; K], [Self; K], bool);
+    fn sincos<P: Products<T>, const K: usize>(angles: &[Self; K]) -> ([Self; K], [Self; K], bool);
+}
+
+/// Returns the columns of rows, one number after the other.
+#[inline(always)]
+pub(crate) fn columns_by_numbers<T: Copy + Default, V: Vector<T>, const N: usize>(
+    token: V::Token,
+    rows: &[[T; N]],
+) -> [V; N] {
+    let mut columns = [V::load(token, &[T::default(); BLOCK], 0); N];
+    let mut entry = 0;
+    while entry < N {
+        let mut lanes = [T::default(); BLOCK];
+        let mut lane = 0;
+        while lane < V::LANES && lane < rows.len() {
+            lanes[lane] = rows[lane][entry];
+            lane += 1;
+        }
+        columns[entry] = V::load(token, &lanes, 0);
+        entry += 1;
+    }
+    columns
+}
+
+/// Writes columns in rows, one number after the other.
+#[inline(always)]
+pub(crate) fn rows_by_numbers<T: Copy + Default, V: Vector<T>, const N: usize>(
+    columns: &[V; N],
+    rows: &mut [[T; N]],
+) {
+    let mut entry = 0;
+    while entry < N {
+        let mut lanes = [T::default(); BLOCK];
+        columns[entry].store(&mut lanes, 0);
+        let mut lane = 0;
+        while lane < V::LANES && lane < rows.len() {
+            rows[lane][entry] = lanes[lane];
+            lane += 1;
+        }
+        entry += 1;
+    }
 }
 
 /// Returns the roots, as generated code calls them.
@@ -67,10 +128,11 @@ macro_rules! lanes {
         }
 
         #[inline(always)]
-        fn store(self, to: &mut [$float; BLOCK], after: usize) {
+        fn store(self, to: &mut [$float], from: usize) {
             let $vector = self;
-            let (places, _) = to.as_chunks_mut::<$lanes>();
-            if let Some(place) = places.get_mut(after) {
+            if let Some(rest) = to.get_mut(from..)
+                && let Some(place) = rest.first_chunk_mut::<$lanes>()
+            {
                 *place = $array;
             }
         }
@@ -97,8 +159,10 @@ macro_rules! lanes {
         }
 
         #[inline(always)]
-        fn sincos<const K: usize>(angles: &[Self; K]) -> ([Self; K], [Self; K], bool) {
-            by_pairs::<$float, Self, K>(angles)
+        fn sincos<P: Products<$float>, const K: usize>(
+            angles: &[Self; K],
+        ) -> ([Self; K], [Self; K], bool) {
+            text::together::<$float, P, Self, K>(angles)
         }
     };
 }

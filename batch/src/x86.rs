@@ -3,11 +3,12 @@
 
 use core::ops::{Add, BitAnd, BitXor, Div, Mul, Neg, Sub};
 
-use dalembert_sines::text::{Floats, Number, by_pairs};
+use dalembert_sines::text::{self, Floats, Number, Products};
 use pulp::x86::{V3, V4};
 use pulp::{Simd, cast, f32x8, f32x16, f64x4, f64x8, u32x8, u32x16, u64x4, u64x8};
 
-use crate::vector::{BLOCK, Vector, lanes};
+use crate::quads::{Quads, quads};
+use crate::vector::{BLOCK, Vector, columns_by_numbers, lanes, rows_by_numbers};
 
 macro_rules! operation {
     ($vector:ident, $operation:ident, $method:ident, $by:ident) => {
@@ -70,6 +71,11 @@ macro_rules! vector {
             fn all(self, value: $float) -> Self {
                 $vector(self.0, self.0.$all(value))
             }
+
+            #[inline(always)]
+            fn fused(self, factor: Self, addend: Self) -> Self {
+                $vector(self.0, self.0.$fused(self.1, factor.1, addend.1))
+            }
         }
 
         impl Floats<$float> for $vector {
@@ -114,14 +120,11 @@ macro_rules! vector {
                 |token, from| $vector(token, cast(from))
             );
 
+            quads!($float, $vector);
+
             #[inline(always)]
             fn sqrt(self) -> Self {
                 $vector(self.0, self.0.$sqrt(self.1))
-            }
-
-            #[inline(always)]
-            fn mul_add(self, factor: Self, addend: Self) -> Self {
-                $vector(self.0, self.0.$fused(self.1, factor.1, addend.1))
             }
         }
     };

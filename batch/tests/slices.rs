@@ -88,6 +88,130 @@ fn every_operation_in_all_vectors() {
     }
 }
 
+/// Rows that are moved in vectors, four numbers at a time: five to read, six to write.
+macro_rules! moved {
+    ($kind:ident, $float:ident) => {
+        struct $kind;
+
+        impl Function<2, 5, 6, 0> for $kind {
+            type Scalar = $float;
+            type State = [$float; 6];
+
+            #[inline(always)]
+            fn angles<V: Floats<$float>>(_: &[[V; 5]; 2]) -> [V; 0] {
+                []
+            }
+
+            #[inline(always)]
+            fn vectors<V: Vector<$float>>([x, y]: &[[V; 5]; 2], _: &[V; 0], _: &[V; 0]) -> [V; 6] {
+                [x[4], y[3], x[2], y[1], x[0], x[1] + y[4]]
+            }
+
+            #[inline(always)]
+            fn state(results: [$float; 6]) -> [$float; 6] {
+                results
+            }
+        }
+    };
+}
+moved!(MovedDoubles, f64);
+moved!(MovedFloats, f32);
+
+/// Every row comes back in its place, whatever the length and the vectors.
+#[test]
+fn rows_of_every_length_in_all_vectors() {
+    macro_rules! check {
+        ($kind:ident, $float:ident) => {
+            for count in (0..=2 * 64 + 17).chain([1000]) {
+                let number = |at: usize| (at as $float).sqrt();
+                let row = |k: usize, from: usize| [0, 1, 2, 3, 4].map(|i| number(from + 5 * k + i));
+                let x: Vec<[$float; 5]> = (0..count).map(|k| row(k, 0)).collect();
+                let y: Vec<[$float; 5]> = (0..count).map(|k| row(k, 7777)).collect();
+                for vectors in ALL {
+                    // One more behind the results: nobody writes there.
+                    let mut found = vec![[-1.0; 6]; count + 1];
+                    states_in::<$kind, 2, 5, 6, 0>(vectors, [&x, &y], &mut found[..count]).unwrap();
+                    for ((x, y), found) in x.iter().zip(&y).zip(&found) {
+                        assert_eq!(*found, [x[4], y[3], x[2], y[1], x[0], x[1] + y[4]]);
+                    }
+                    assert_eq!(found[count], [-1.0; 6]);
+                }
+            }
+        };
+    }
+    check!(MovedDoubles, f64);
+    check!(MovedFloats, f32);
+}
+
+/// Sines in which products are fused, of one angle more than stand side by side.
+macro_rules! fused {
+    ($kind:ident, $float:ident, $test:ident) => {
+        struct $kind;
+
+        impl Function<1, 5, 10, 5> for $kind {
+            type Scalar = $float;
+            type State = [$float; 10];
+            const FUSED: bool = true;
+
+            #[inline(always)]
+            fn angles<V: Floats<$float>>([x]: &[[V; 5]; 1]) -> [V; 5] {
+                *x
+            }
+
+            #[inline(always)]
+            fn vectors<V: Vector<$float>>(_: &[[V; 5]; 1], s: &[V; 5], c: &[V; 5]) -> [V; 10] {
+                [s[0], s[1], s[2], s[3], s[4], c[0], c[1], c[2], c[3], c[4]]
+            }
+
+            #[inline(always)]
+            fn state(results: [$float; 10]) -> [$float; 10] {
+                results
+            }
+        }
+
+        /// In all vectors they are those of the same text in numbers, and a library's of angles
+        /// that it is not for.
+        #[test]
+        fn $test() {
+            use dalembert_sines::text::{Angle, Fused, Rounded, alone};
+            let odd = [$float::NAN, $float::INFINITY, 8192.5, -0.0, 1e-40, -1e30];
+            let (mut far, mut others) = (0, 0);
+            for vectors in ALL {
+                for has_odd in [false, true] {
+                    let angle = |k: usize| match k % 97 {
+                        96 if has_odd => odd[k / 97 % odd.len()],
+                        _ => (k as $float - 500.0) * 0.0371,
+                    };
+                    let x: Vec<[$float; 5]> = (0..200)
+                        .map(|k| [0, 1, 2, 3, 4].map(|i| angle(5 * k + i)))
+                        .collect();
+                    let mut found = vec![[0.5; 10]; 200];
+                    states_in::<$kind, 1, 5, 10, 5>(vectors, [&x], &mut found).unwrap();
+                    for (x, found) in x.iter().zip(&found) {
+                        for (i, &x) in x.iter().enumerate() {
+                            let own = [found[i], found[5 + i]];
+                            let pair: [$float; 2] = alone::<$float, Fused>(x).into();
+                            let same = own.map($float::to_bits) == pair.map($float::to_bits);
+                            assert!(same || x.is_nan() || x.is_infinite(), "{vectors:?}: {x:e}");
+                            assert_eq!(own.map($float::is_nan), pair.map($float::is_nan));
+                            let rounded: [$float; 2] = alone::<$float, Rounded>(x).into();
+                            far += usize::from(x.abs() > $float::LARGEST && x.is_finite());
+                            others += usize::from(own != rounded && x.is_finite());
+                        }
+                    }
+                }
+            }
+            assert!(far > 5 && others > 10, "{far} {others}");
+        }
+    };
+}
+fused!(FusedDoubles, f64, fused_sines_are_those_of_their_text);
+fused!(
+    FusedFloats,
+    f32,
+    fused_sines_of_floats_are_those_of_their_text
+);
+
 fn arguments(count: usize) -> [Vec<[f32; 2]>; 2] {
     let first = (0..count).map(|k| [k as f32 + 0.5, f32::NAN]).collect();
     let second = (0..count).map(|k| [f32::NAN, 3.0 - k as f32]).collect();
@@ -155,7 +279,8 @@ fn every_length_as_the_processor_has_it() {
 #[test]
 fn every_length_on_all_cores() {
     use dalembert_batch::parallel;
-    for count in [0, 1, 8191, 8192, 8193, 20_001] {
+    // Tasks begin at 3 MiB, and a state has 28 bytes.
+    for count in [0, 1, 112_347, 112_348, 200_001] {
         check!(
             count,
             parallel::states::<Three, 2, 2, 3, 0>,

@@ -1,9 +1,9 @@
 //! Sines by the text of `dalembert-sines`, run on values of the function that is emitted.
 
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Mul, Neg, Sub};
 
 use cranelift_codegen::ir::{InstBuilder, MemFlagsData, Value};
-use dalembert_sines::text::{Angle, Number, rest};
+use dalembert_sines::text::{Angle, Number, Rounded, rest};
 
 use crate::emit::{Call, Emitter};
 
@@ -69,15 +69,49 @@ macro_rules! operations {
 }
 operations!(Add add, Sub sub, Mul mul);
 
+impl<'e, 'f> Neg for Traced<'e, 'f> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        match self {
+            Traced::Constant(value) => Traced::Constant(-value),
+            Traced::Computed(value, emitter) => {
+                Traced::Computed(emitter.with(|b| b.ins().fneg(value)), emitter)
+            }
+        }
+    }
+}
+
+impl<'e, 'f> Traced<'e, 'f> {
+    fn fma(self, factor: Traced<'e, 'f>, addend: Traced<'e, 'f>) -> Traced<'e, 'f> {
+        let emitter = match (self, factor, addend) {
+            (Traced::Computed(_, emitter), ..)
+            | (_, Traced::Computed(_, emitter), _)
+            | (.., Traced::Computed(_, emitter)) => emitter,
+            _ => return Traced::Constant(f64::NAN),
+        };
+        let [left, right, addend] = [self, factor, addend].map(|x| x.value(emitter));
+        let value = emitter.with(|b| b.ins().fma(left, right, addend));
+        Traced::Computed(value, emitter)
+    }
+}
+
 impl Number<f64> for Traced<'_, '_> {
     fn all(self, value: f64) -> Self {
         Traced::Constant(value)
+    }
+
+    fn fused(self, factor: Self, addend: Self) -> Self {
+        self.fma(factor, addend)
     }
 }
 
 impl Number<f32> for Traced<'_, '_> {
     fn all(self, value: f32) -> Self {
         Traced::Constant(f64::from(value))
+    }
+
+    fn fused(self, factor: Self, addend: Self) -> Self {
+        self.fma(factor, addend)
     }
 }
 
@@ -91,7 +125,7 @@ where
     let mut usual: Option<Value> = None;
     let mut computed = Vec::with_capacity(angles.len());
     for &angle in angles {
-        let (shifted, sin, cos) = rest::<T, Traced<'e, 'f>>(Traced::Computed(angle, emitter));
+        let (shifted, sin, cos) = rest::<T, Rounded, _>(Traced::Computed(angle, emitter));
         let [shifted, sin, cos] = [shifted, sin, cos].map(|traced| traced.value(emitter));
         computed.push(turned(emitter, T::SIGN, shifted, sin, cos));
         let within = emitter.is_within(angle, T::LARGEST.into());

@@ -2,7 +2,7 @@
 
 use core::ops::{Add, Mul, Sub};
 
-use crate::number::{Floats, Number, Pair};
+use crate::number::{Floats, Number, Pair, Products, Rounded};
 
 /// A float that angles are in.
 pub trait Angle:
@@ -25,7 +25,7 @@ pub trait Angle:
     const ONE: Self;
 
     /// Returns (r − sin r)/r³ and (cos r − 1 + r²/2)/r⁴ of z = r² and w = z².
-    fn polynomials<V: Number<Self>>(z: V, w: V) -> (V, V);
+    fn polynomials<P: Products<Self>, V: Number<Self>>(z: V, w: V) -> (V, V);
 
     /// Computes sine and cosine of any angle, by libm.
     fn library(self) -> (Self, Self);
@@ -35,25 +35,27 @@ pub trait Angle:
 /// is left of it. The documentation of the crate says why every line is as exact
 /// as is needed.
 #[inline(always)]
-pub fn rest<T: Angle, V: Number<T>>(x: V) -> (V, V, V) {
-    let shifted = x * T::INVERSE + T::SHIFT;
+pub fn rest<T: Angle, P: Products<T>, V: Number<T>>(x: V) -> (V, V, V) {
+    let shifted = P::plus(P::of(x, x.all(T::INVERSE)), x.all(T::SHIFT));
     let k = shifted - T::SHIFT;
     let [much, little, least] = T::QUARTER;
-    let rest = x - k * much;
-    let second = k * little;
-    let r = rest - second;
+    let rest = P::taken(x, P::of(k, x.all(much)));
+    let second = P::of(k, x.all(little));
+    let r = P::taken(rest, second);
     // What r lacks, with the other sign: subtracted below, so that the sine of
     // -0 is -0.
-    let lacks = k * least - ((rest - r) - second);
+    let third = P::of(k, x.all(least));
+    let lacks = P::less(third, P::taken(rest - r, second));
 
     let z = r * r;
     let w = z * z;
-    let (sine, cosine) = T::polynomials(z, w);
-    let half = z * T::HALF;
+    let (sine, cosine) = T::polynomials::<P, V>(z, w);
+    let half = P::of(z, x.all(T::HALF));
     let one = x.all(T::ONE);
-    let top = one - half;
-    let sin = r - (lacks * top + (r * z) * sine);
-    let cos = top + (((one - top) - half) + (w * cosine + r * lacks));
+    let top = P::taken(one, half);
+    let sin = r - P::added(lacks * top, P::of(r * z, sine));
+    let small = P::taken(one - top, half);
+    let cos = top + (small + P::plus(P::of(w, cosine), r * lacks));
     (shifted, sin, cos)
 }
 
@@ -81,36 +83,53 @@ pub(crate) fn turned<T: Angle, V: Floats<T>>(shifted: V, sin: V, cos: V) -> (V, 
 pub(crate) fn singly<T: Angle, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
     let (mut sines, mut cosines) = ([T::default(); N], [T::default(); N]);
     for ((angle, sine), cosine) in angles.iter().zip(&mut sines).zip(&mut cosines) {
-        (*sine, *cosine) = alone(*angle);
+        (*sine, *cosine) = alone::<T, Rounded>(*angle);
     }
     (sines, cosines)
 }
 
 /// Computes sine and cosine of any angle, to the bits that it has among others.
 #[inline(always)]
-pub fn alone<T: Angle>(angle: T) -> (T, T) {
-    let (shifted, sin, cos) = rest::<T, T>(angle);
+pub fn alone<T: Angle, P: Products<T>>(angle: T) -> (T, T) {
+    let (shifted, sin, cos) = rest::<T, P, T>(angle);
     match angle.are_within(T::LARGEST) {
         true => turned(shifted, sin, cos),
         false => angle.library(),
     }
 }
 
-/// Computes sines and cosines, two angles at a time, and returns whether the polynomials are for
-/// all of them.
+/// Computes sines and cosines, four angles at a time and the last ones in pairs, and returns
+/// whether the polynomials are for all of them.
 #[inline(always)]
-pub fn by_pairs<T: Angle, V: Floats<T>, const N: usize>(angles: &[V; N]) -> ([V; N], [V; N], bool)
+pub fn together<T, P, V, const N: usize>(angles: &[V; N]) -> ([V; N], [V; N], bool)
 where
+    T: Angle,
+    P: Products<T>,
+    V: Floats<T>,
     Pair<V>: Number<T>,
+    Pair<Pair<V>>: Number<T>,
 {
     let (mut sines, mut cosines) = (*angles, *angles);
     let mut usual = true;
     let mut at = 0;
     while at < N {
+        usual &= angles[at].are_within(T::LARGEST);
+        at += 1;
+    }
+    at = 0;
+    while at + 4 <= N {
+        let four = [angles[at], angles[at + 1], angles[at + 2], angles[at + 3]];
+        let four = Pair(Pair(four[0], four[1]), Pair(four[2], four[3]));
+        let (shifted, sin, cos) = rest::<T, P, _>(four);
+        (sines[at], cosines[at]) = turned(shifted.0.0, sin.0.0, cos.0.0);
+        (sines[at + 1], cosines[at + 1]) = turned(shifted.0.1, sin.0.1, cos.0.1);
+        (sines[at + 2], cosines[at + 2]) = turned(shifted.1.0, sin.1.0, cos.1.0);
+        (sines[at + 3], cosines[at + 3]) = turned(shifted.1.1, sin.1.1, cos.1.1);
+        at += 4;
+    }
+    while at < N {
         let other = if at + 1 < N { at + 1 } else { at };
-        let both = Pair(angles[at], angles[other]);
-        usual &= both.0.are_within(T::LARGEST) & both.1.are_within(T::LARGEST);
-        let (shifted, sin, cos) = rest::<T, Pair<V>>(both);
+        let (shifted, sin, cos) = rest::<T, P, _>(Pair(angles[at], angles[other]));
         (sines[other], cosines[other]) = turned(shifted.1, sin.1, cos.1);
         (sines[at], cosines[at]) = turned(shifted.0, sin.0, cos.0);
         at += 2;
@@ -127,6 +146,7 @@ pub fn across<T: Angle, const N: usize, const L: usize>(
 ) -> ([[T; L]; N], [[T; L]; N])
 where
     Pair<T>: Number<T>,
+    Pair<Pair<T>>: Number<T>,
 {
     let (mut sines, mut cosines) = ([[T::default(); L]; N], [[T::default(); L]; N]);
     let mut usual = true;
@@ -135,7 +155,8 @@ where
         let other = if angle + 1 < N { angle + 1 } else { angle };
         let mut lane = 0;
         while lane < L {
-            let (sin, cos, both) = by_pairs(&[angles[angle][lane], angles[other][lane]]);
+            let two = [angles[angle][lane], angles[other][lane]];
+            let (sin, cos, both) = together::<T, Rounded, T, 2>(&two);
             [sines[angle][lane], sines[other][lane]] = sin;
             [cosines[angle][lane], cosines[other][lane]] = cos;
             usual &= both;

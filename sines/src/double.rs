@@ -6,7 +6,7 @@
 //! the cosine, absolute, below 2⁻⁶⁴·¹⁸ (`tests/polynomials.rs`).
 
 use crate::angle::Angle;
-use crate::number::Number;
+use crate::number::{Number, Products};
 
 /// (r − sin r)/r³ over r², from the lowest power.
 pub(crate) const SINE: [f64; 6] = [
@@ -31,8 +31,11 @@ pub(crate) const COSINE: [f64; 6] = [
 /// Returns the polynomial of degree 5, in halves: shorter than one product after the
 /// other.
 #[inline(always)]
-fn polynomial<V: Number<f64>>(c: [f64; 6], z: V, w: V) -> V {
-    (z * c[1] + c[0]) + w * ((z * c[3] + c[2]) + w * (z * c[5] + c[4]))
+fn polynomial<P: Products<f64>, V: Number<f64>>(c: [f64; 6], z: V, w: V) -> V {
+    let low = P::plus(P::of(z, z.all(c[1])), z.all(c[0]));
+    let middle = P::plus(P::of(z, z.all(c[3])), z.all(c[2]));
+    let high = P::plus(P::of(z, z.all(c[5])), z.all(c[4]));
+    P::added(low, P::of(w, P::added(middle, P::of(w, high))))
 }
 
 impl Angle for f64 {
@@ -49,8 +52,11 @@ impl Angle for f64 {
     const ONE: f64 = 1.0;
 
     #[inline(always)]
-    fn polynomials<V: Number<f64>>(z: V, w: V) -> (V, V) {
-        (polynomial(SINE, z, w), polynomial(COSINE, z, w))
+    fn polynomials<P: Products<f64>, V: Number<f64>>(z: V, w: V) -> (V, V) {
+        (
+            polynomial::<P, V>(SINE, z, w),
+            polynomial::<P, V>(COSINE, z, w),
+        )
     }
 
     fn library(self) -> (f64, f64) {

@@ -101,6 +101,12 @@
 //!
 //! Underflow takes nothing away: a product that is subnormal is added to a number
 //! whose ulp is far above it, or is zero where the sine is the angle itself.
+//!
+//! ## Fused products
+//!
+//! Batches of functions whose products are fused fuse them here as well. What is exact
+//! above stays so, and each fused product takes away a rounding: the generator's proof
+//! gives 0.83 u for both, in both scalars.
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -135,8 +141,8 @@ mod vectors {
 /// its error reads, and what batches compute in vectors of their own.
 #[doc(hidden)]
 pub mod text {
-    pub use crate::angle::{Angle, alone, by_pairs, rest};
-    pub use crate::number::{Floats, Number, Pair};
+    pub use crate::angle::{Angle, alone, rest, together};
+    pub use crate::number::{Floats, Fused, Number, Pair, Products, Rounded};
     #[cfg(any(
         target_arch = "x86",
         target_arch = "x86_64",
@@ -160,7 +166,6 @@ pub mod text {
         target_arch = "wasm32"
     )))]
     pub type Singles = f32;
-    pub use libm::{fma, fmaf};
 }
 
 /// Roots, correctly rounded: libm's, for code that has all from here.

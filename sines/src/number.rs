@@ -6,6 +6,7 @@ use core::ops::{Add, BitAnd, BitXor, Div, Mul, Neg, Sub};
 /// A float, or one for each lane; the other operand may be one for all.
 pub trait Number<T>:
     Copy
+    + Neg<Output = Self>
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
@@ -15,10 +16,97 @@ pub trait Number<T>:
 {
     /// Returns a value in every lane that this number has.
     fn all(self, value: T) -> Self;
+
+    /// Returns the product plus the addend, rounded once.
+    #[must_use]
+    fn fused(self, factor: Self, addend: Self) -> Self;
+}
+
+/// What becomes of a product whose sums round it.
+pub trait Products<T> {
+    /// A product of two such numbers.
+    type Of<V: Number<T>>: Copy;
+
+    /// Returns left·right
+    fn of<V: Number<T>>(left: V, right: V) -> Self::Of<V>;
+    /// Returns product + addend
+    fn plus<V: Number<T>>(product: Self::Of<V>, addend: V) -> V;
+    /// Returns product − number
+    fn less<V: Number<T>>(product: Self::Of<V>, number: V) -> V;
+    /// Returns number + product
+    fn added<V: Number<T>>(number: V, product: Self::Of<V>) -> V;
+    /// Returns number − product
+    fn taken<V: Number<T>>(number: V, product: Self::Of<V>) -> V;
+}
+
+/// A product is rounded, and so is each sum of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Rounded;
+
+impl<T> Products<T> for Rounded {
+    type Of<V: Number<T>> = V;
+
+    #[inline(always)]
+    fn of<V: Number<T>>(left: V, right: V) -> V {
+        left * right
+    }
+
+    #[inline(always)]
+    fn plus<V: Number<T>>(product: V, addend: V) -> V {
+        product + addend
+    }
+
+    #[inline(always)]
+    fn less<V: Number<T>>(product: V, number: V) -> V {
+        product - number
+    }
+
+    #[inline(always)]
+    fn added<V: Number<T>>(number: V, product: V) -> V {
+        number + product
+    }
+
+    #[inline(always)]
+    fn taken<V: Number<T>>(number: V, product: V) -> V {
+        number - product
+    }
+}
+
+/// A product is fused with each sum of it, which rounds once.
+#[derive(Clone, Copy, Debug)]
+pub struct Fused;
+
+impl<T> Products<T> for Fused {
+    type Of<V: Number<T>> = (V, V);
+
+    #[inline(always)]
+    fn of<V: Number<T>>(left: V, right: V) -> (V, V) {
+        (left, right)
+    }
+
+    #[inline(always)]
+    fn plus<V: Number<T>>((left, right): (V, V), addend: V) -> V {
+        left.fused(right, addend)
+    }
+
+    #[inline(always)]
+    fn less<V: Number<T>>((left, right): (V, V), number: V) -> V {
+        left.fused(right, -number)
+    }
+
+    #[inline(always)]
+    fn added<V: Number<T>>(number: V, (left, right): (V, V)) -> V {
+        left.fused(right, number)
+    }
+
+    #[inline(always)]
+    fn taken<V: Number<T>>(number: V, (left, right): (V, V)) -> V {
+        (-left).fused(right, number)
+    }
 }
 
 /// Floats of known bits: one, or a vector of them.
-pub trait Floats<T>: Number<T> + Neg<Output = Self> + Div<Output = Self> {
+pub trait Floats<T>: Number<T> + Div<Output = Self> {
     /// Their bits, as integers that wrap.
     type Bits: Copy
         + BitXor<Output = Self::Bits>
@@ -37,11 +125,16 @@ pub trait Floats<T>: Number<T> + Neg<Output = Self> + Div<Output = Self> {
 }
 
 macro_rules! scalar {
-    ($float:ident, $bits:ident) => {
+    ($float:ident, $bits:ident, $fma:ident) => {
         impl Number<$float> for $float {
             #[inline(always)]
             fn all(self, value: $float) -> $float {
                 value
+            }
+
+            #[inline(always)]
+            fn fused(self, factor: $float, addend: $float) -> $float {
+                libm::$fma(self, factor, addend)
             }
         }
 
@@ -75,8 +168,8 @@ macro_rules! scalar {
         }
     };
 }
-scalar!(f64, u64);
-scalar!(f32, u32);
+scalar!(f64, u64, fma);
+scalar!(f32, u32, fmaf);
 
 /// Two numbers side by side: what is done with one is done with the other in between, so that
 /// neither has to wait for itself.
@@ -112,6 +205,14 @@ macro_rules! pairwise {
 }
 pairwise!(Add, add; Sub, sub; Mul, mul);
 
+impl<V: Neg<Output = V>> Neg for Pair<V> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Pair(-self.0, -self.1)
+    }
+}
+
 impl<T, V: Number<T>> Number<T> for Pair<V>
 where
     Pair<V>: Add<T, Output = Self> + Sub<T, Output = Self> + Mul<T, Output = Self>,
@@ -120,5 +221,13 @@ where
     #[inline(always)]
     fn all(self, value: T) -> Self {
         Pair(self.0.all(value), self.1.all(value))
+    }
+
+    #[inline(always)]
+    fn fused(self, factor: Self, addend: Self) -> Self {
+        Pair(
+            self.0.fused(factor.0, addend.0),
+            self.1.fused(factor.1, addend.1),
+        )
     }
 }

@@ -6,7 +6,7 @@
 //! cosine, absolute, below 2⁻³³·¹ (`tests/polynomials.rs`).
 
 use crate::angle::Angle;
-use crate::number::Number;
+use crate::number::{Number, Products};
 
 /// (r − sin r)/r³ over r², from the lowest power.
 pub(crate) const SINE: [f32; 3] = [0.16666655, -0.008332189, 0.00019518287];
@@ -15,8 +15,9 @@ pub(crate) const SINE: [f32; 3] = [0.16666655, -0.008332189, 0.00019518287];
 pub(crate) const COSINE: [f32; 3] = [0.041666646, -0.0013887301, 2.443067e-5];
 
 #[inline(always)]
-fn polynomial<V: Number<f32>>(c: [f32; 3], z: V) -> V {
-    (z * c[2] + c[1]) * z + c[0]
+fn polynomial<P: Products<f32>, V: Number<f32>>(c: [f32; 3], z: V) -> V {
+    let high = P::plus(P::of(z, z.all(c[2])), z.all(c[1]));
+    P::plus(P::of(high, z), z.all(c[0]))
 }
 
 impl Angle for f32 {
@@ -29,8 +30,8 @@ impl Angle for f32 {
     const ONE: f32 = 1.0;
 
     #[inline(always)]
-    fn polynomials<V: Number<f32>>(z: V, _: V) -> (V, V) {
-        (polynomial(SINE, z), polynomial(COSINE, z))
+    fn polynomials<P: Products<f32>, V: Number<f32>>(z: V, _: V) -> (V, V) {
+        (polynomial::<P, V>(SINE, z), polynomial::<P, V>(COSINE, z))
     }
 
     fn library(self) -> (f32, f32) {

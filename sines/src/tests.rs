@@ -7,9 +7,9 @@ extern crate std;
 use dalembert_model::number::{Angle as Turn, Rational, Rounded};
 use std::vec::Vec;
 
-use crate::angle::{Angle, across, singly};
-use crate::number::{Number, Pair};
-use crate::vectors::together;
+use crate::angle::{Angle, across, alone, singly, together};
+use crate::number::{self, Fused, Number, Pair};
+use crate::vectors::{self, TwoDoubles};
 use crate::{double, single};
 
 fn exact(x: f64) -> Rational {
@@ -153,10 +153,45 @@ fn no_angle_is_nearer_to_a_quarter_turn_than_stated() {
     assert!((-26.33..-26.32).contains(&single), "{single}");
 }
 
+/// Fused, too: five angles in vectors, four of them side by side, have the bits of each alone,
+/// which are other ones than those of rounded products; and where the polynomials are for none,
+/// they say so.
+#[test]
+fn fused_angles_have_the_same_bits_in_vectors_and_alone() {
+    let (mut random, mut others) = (7u64, 0);
+    for _ in 0..500 {
+        let angles: [f64; 10] = core::array::from_fn(|_| {
+            random = random.wrapping_mul(6364136223846793005).wrapping_add(1);
+            20.0 * ((random >> 11) as f64 / (1u64 << 53) as f64 - 0.5)
+        });
+        let lanes: [TwoDoubles; 5] =
+            core::array::from_fn(|k| TwoDoubles::from_array([angles[k], angles[5 + k]]));
+        let (sines, cosines, usual) = together::<f64, Fused, _, 5>(&lanes);
+        assert!(usual);
+        for (k, angle) in angles.into_iter().enumerate() {
+            let (sin, cos) = alone::<f64, Fused>(angle);
+            let own = [sines, cosines].map(|found| found[k % 5].to_array()[k / 5].to_bits());
+            assert_eq!(own, [sin.to_bits(), cos.to_bits()], "{angle}");
+            others += usize::from(alone::<f64, number::Rounded>(angle) != (sin, cos));
+        }
+    }
+    assert!(others > 10, "{others}");
+    for far in [8192.5, f64::NAN, f64::INFINITY] {
+        let lanes = [TwoDoubles::from_array([0.5, far]); 3];
+        assert!(!together::<f64, Fused, _, 3>(&lanes).2);
+        let (own, library) = (alone::<f64, Fused>(far), libm::sincos(far));
+        assert_eq!(own.0.to_bits(), library.0.to_bits());
+        assert_eq!(own.1.to_bits(), library.1.to_bits());
+    }
+    let zero = alone::<f64, Fused>(-0.0);
+    assert!(zero.0 == 0.0 && zero.0.is_sign_negative() && zero.1 == 1.0);
+}
+
 /// Angles in seven lanes of three, as a caller has them.
 fn in_lanes<T: Angle>(angles: &[T; 21]) -> ([T; 21], [T; 21])
 where
     Pair<T>: Number<T>,
+    Pair<Pair<T>>: Number<T>,
 {
     let lanes: [[T; 7]; 3] = core::array::from_fn(|i| core::array::from_fn(|l| angles[7 * i + l]));
     let (sin, cos) = across(&lanes);
@@ -182,16 +217,16 @@ fn lanes_and_single_angles_have_the_same_bits() {
             }
         });
         let singles = angles.map(|x| x as f32);
-        let (a, b) = (singly(&angles), together(&angles));
+        let (a, b) = (singly(&angles), vectors::together(&angles));
         assert_eq!(a.0.map(f64::to_bits), b.0.map(f64::to_bits), "{angles:?}");
         assert_eq!(a.1.map(f64::to_bits), b.1.map(f64::to_bits), "{angles:?}");
-        let (a, b) = (in_lanes(&angles), together(&angles));
+        let (a, b) = (in_lanes(&angles), vectors::together(&angles));
         assert_eq!(a.0.map(f64::to_bits), b.0.map(f64::to_bits), "{angles:?}");
         assert_eq!(a.1.map(f64::to_bits), b.1.map(f64::to_bits), "{angles:?}");
-        let (a, b) = (singly(&singles), together(&singles));
+        let (a, b) = (singly(&singles), vectors::together(&singles));
         assert_eq!(a.0.map(f32::to_bits), b.0.map(f32::to_bits), "{singles:?}");
         assert_eq!(a.1.map(f32::to_bits), b.1.map(f32::to_bits), "{singles:?}");
-        let (a, b) = (in_lanes(&singles), together(&singles));
+        let (a, b) = (in_lanes(&singles), vectors::together(&singles));
         assert_eq!(a.0.map(f32::to_bits), b.0.map(f32::to_bits), "{singles:?}");
         assert_eq!(a.1.map(f32::to_bits), b.1.map(f32::to_bits), "{singles:?}");
     }

@@ -10,7 +10,7 @@ use wide::bytemuck::cast;
 use wide::{f32x4, f32x8, f64x2, f64x4, u32x4, u32x8, u64x2, u64x4};
 
 use crate::angle::{Angle, rest, singly, turned, unusual};
-use crate::number::{Floats, Number};
+use crate::number::{Floats, Number, Rounded};
 
 /// A scalar whose angles are put into vectors.
 pub trait Vectored: Angle {
@@ -125,6 +125,22 @@ macro_rules! vector {
             fn all(self, value: $float) -> Self {
                 $vector($wide::splat(value))
             }
+
+            #[inline(always)]
+            fn fused(self, factor: Self, addend: Self) -> Self {
+                // Elsewhere the crate `wide` rounds twice.
+                if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
+                    return $vector(self.0.mul_add(factor.0, addend.0));
+                }
+                let (left, right) = (self.0.to_array(), factor.0.to_array());
+                let (addend, mut found) = (addend.0.to_array(), [0.0; $lanes]);
+                let mut lane = 0;
+                while lane < $lanes {
+                    found[lane] = left[lane].fused(right[lane], addend[lane]);
+                    lane += 1;
+                }
+                $vector($wide::new(found))
+            }
         }
 
         impl Floats<$float> for $vector {
@@ -178,7 +194,7 @@ macro_rules! vector {
                     lane += 1;
                 }
                 let angle = $vector($wide::new(taken));
-                let (shifted, sin, cos) = rest::<$float, _>(angle);
+                let (shifted, sin, cos) = rest::<$float, Rounded, _>(angle);
                 let (sin, cos) = turned(shifted, sin, cos);
                 let (sin, cos) = (sin.0.to_array(), cos.0.to_array());
                 let mut lane = 0;
@@ -199,7 +215,7 @@ vector!(EightFloats, f32x8, u32x8, f32, 8);
 
 /// Further operations that batches need of vectors.
 macro_rules! batched {
-    ($vector:ident, $wide:ident, $float:ident, $lanes:literal, $fma:ident) => {
+    ($vector:ident, $wide:ident, $float:ident, $lanes:literal) => {
         impl $vector {
             /// Returns the vector of an array.
             #[inline(always)]
@@ -218,24 +234,8 @@ macro_rules! batched {
             pub fn root(self) -> Self {
                 $vector(self.0.sqrt())
             }
-
-            /// Returns the products plus the addends, rounded once.
-            #[inline(always)]
-            pub fn fused(self, factor: Self, addend: Self) -> Self {
-                // Elsewhere the crate `wide` rounds twice.
-                if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
-                    return $vector(self.0.mul_add(factor.0, addend.0));
-                }
-                let (mut left, right) = (self.to_array(), factor.to_array());
-                let mut lane = 0;
-                while lane < $lanes {
-                    left[lane] = libm::$fma(left[lane], right[lane], addend.to_array()[lane]);
-                    lane += 1;
-                }
-                $vector::from_array(left)
-            }
         }
     };
 }
-batched!(TwoDoubles, f64x2, f64, 2, fma);
-batched!(FourFloats, f32x4, f32, 4, fmaf);
+batched!(TwoDoubles, f64x2, f64, 2);
+batched!(FourFloats, f32x4, f32, 4);

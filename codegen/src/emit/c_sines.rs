@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use dalembert_sines::text::Angle;
+use dalembert_sines::text::{Angle, Rounded};
 
 use crate::language::Printed;
 use crate::language::c99::{Names, float, largest};
@@ -53,7 +53,7 @@ struct Words {
 impl Words {
     fn of(names: &Names) -> Words {
         let dialect = names.dialect();
-        let kernel: Kernel = trace(dialect.scalar);
+        let kernel: Kernel = trace::<Rounded>(dialect.scalar);
         let term = |term: Term| match term {
             Term::Input(_) => "x0".to_owned(),
             Term::Constant(value) => dialect.literal(value),

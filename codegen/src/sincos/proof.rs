@@ -115,9 +115,8 @@ fn expand(kernel: &Kernel) -> Option<Vec<Poly>> {
         let value = match step.operation {
             Operation::Add => left.add(&right),
             Operation::Sub => left.sub(&right),
-            Operation::Mul => left.mul(&right),
-            // Polynomials have neither.
-            Operation::Fused | Operation::Div => return None,
+            Operation::Mul | Operation::Fused => left.mul(&right),
+            Operation::Div => return None,
         };
         values.push(value);
     }

@@ -7,6 +7,8 @@ use std::fmt::Write;
 
 use super::{Around, arguments, vectors};
 use crate::language::{Printed, function, result};
+use crate::program::ScalarType;
+use crate::sincos::library_error::{Called, FUSED_ERROR};
 
 /// Prints them.
 pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_>) {
@@ -24,11 +26,23 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_
         let each = arguments.iter();
         each.map(|name| format!("{name}: {kind}, ")).collect()
     };
+    let bits = match vectors::fuses_sines(printed.code) {
+        false => {
+            "/// the processor has; bit for bit the results that each has alone, or a NaN for a NaN.".to_owned()
+        }
+        true => format!(
+            "/// the processor has: the same bits on every one, but not those of [`{name}`]. Products are fused\n\
+             /// in the sines and cosines as well, which are proved to err by at most {FUSED_ERROR} u, u = {}, up to\n\
+             /// {:?} rad; beyond, they are libm's.",
+            if scalar == ScalarType::F64 { "2⁻⁵³" } else { "2⁻²⁴" },
+            Called::largest(scalar)
+        ),
+    };
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
         "\n/// [`{name}`] at any number of states, an entry of every slice each, with the vectors that\n\
-         /// the processor has; bit for bit the results that each has alone, or a NaN for a NaN.\n\
+         {bits}\n\
          ///\n/// # Errors\n/// The slices are of different lengths; then nothing is computed.\n\
          pub fn {name}_batch({}results: &mut [{result}]) -> Result<(), {batch}::Unequal> {{\n    \
          {batch}::states::<{kind}, {sizes}>([{passed}], results)\n}}",
@@ -66,8 +80,12 @@ fn marker(text: &mut String, printed: &Printed<'_>, around: &Around<'_>, kind: &
         "/// [`{name}`] as the functions of `dalembert-batch` take it.\n\
          #[derive(Clone, Copy, Debug)]\npub struct {kind};\n\n\
          impl {batch}::Function<{count}, {n}, {entries}, {taken}> for {kind} {{\n    \
-         type Scalar = {scalar};\n    type State = {result};\n"
+         type Scalar = {scalar};\n    type State = {result};"
     );
+    if vectors::fuses_sines(printed.code) {
+        text.push_str("    const FUSED: bool = true;\n");
+    }
+    text.push('\n');
     vectors::write(text, printed, around);
     let _ = writeln!(
         text,

@@ -23,13 +23,19 @@ use crate::function::Argument;
 use crate::language::dialect::Dialect;
 use crate::language::scope::Scope;
 use crate::language::{Printed, function, sines, speed, trig};
-use crate::program::{Lowered, LoweredTrig};
+use crate::program::{Lowered, LoweredTrig, Operation, Step};
 
 /// Returns the angles whose sines are given.
 pub(super) fn taken(code: &Lowered) -> impl Iterator<Item = &LoweredTrig> {
     code.trig
         .iter()
         .filter(|trig| trig::is_together(trig, code))
+}
+
+/// Returns whether products are fused in the sines that are given, as they are in what reads them.
+pub(super) fn fuses_sines(code: &Lowered) -> bool {
+    let is_fused = |step: &Step<_>| step.operation == Operation::Fused;
+    code.steps.iter().any(is_fused) && taken(code).next().is_some()
 }
 
 /// Prints the methods that compute in vectors.

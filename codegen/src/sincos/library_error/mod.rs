@@ -21,6 +21,8 @@ pub(crate) mod trace;
 
 use std::sync::OnceLock;
 
+use dalembert_sines::text::Rounded;
+
 use crate::program::ScalarType;
 use crate::program::kernel::Kernel;
 
@@ -29,6 +31,10 @@ const WIDEST: f64 = 0.79;
 
 /// What is smaller is computed as the sine of what is left of the angle.
 const SINE_ALONE: f64 = 0.7;
+
+/// What is proved of sines and cosines in which products are fused, in unit roundoffs: less than of
+/// the others, at every size (`tests`), so that what is certified with those is of these.
+pub(crate) const FUSED_ERROR: f64 = 0.83;
 
 /// Parts of the range of r with a bound each: as wide as each other, then narrower
 /// towards zero, so many for each half.
@@ -56,7 +62,7 @@ impl Called {
             ScalarType::F32 => 1,
         };
         FOUND[place]
-            .get_or_init(|| Called::prove_of(&trace::trace(scalar), scalar))
+            .get_or_init(|| Called::prove_of(&trace::trace::<Rounded>(scalar), scalar))
             .as_ref()
     }
 

@@ -10,6 +10,9 @@
 //!   Dekker's sum; if not, both are so small that all differences are multiples of the
 //!   last bit of P₂ that floats hold.
 //! - ℓ = k·P₃ − e is rounded twice, and k·(π/2 − P₁ − P₂ − P₃) is missing: ε.
+//!
+//! Where products are fused with their sums, what is exact above is the same number, and what is
+//! rounded is rounded once less: the bounds hold of both.
 
 use dalembert_model::number::{Angle, Rational};
 
@@ -55,37 +58,48 @@ pub(super) struct Reduced {
     pub error: f64,
 }
 
-/// Steps that it takes, the last of which gives ℓ; r is the result of another.
-const STEPS: usize = 11;
-const REST: usize = 6;
-
 /// Returns the reduction that the routine begins with, and what follows; `None` if it is another.
 pub(super) fn split(kernel: &Kernel, scalar: ScalarType) -> Option<(Parts, Left)> {
     use Operand::Step as At;
-    use Operation::{Add, Mul, Sub};
-    if kernel.steps.len() < STEPS {
-        return None;
-    }
-    let (first, rest) = kernel.steps.split_at(STEPS);
-    let known = |at: usize| match first[at].right {
+    use Operation::{Add, Fused, Mul, Sub};
+    let is_fused = kernel.steps.first()?.operation == Fused;
+    let known = |at: usize| match kernel.steps.get(at)?.right {
         Operand::Constant(Literal(value)) => Some(value),
         _ => None,
     };
+    let third = if is_fused { 10 } else { 7 };
     let (inverse, shift) = (known(0)?, literal(magic(scalar)));
-    let quarter = [known(3)?, known(5)?, known(7)?];
-    let expected = [
-        (Mul, ANGLE, literal(inverse)),
+    let quarter = [known(3)?, known(5)?, known(third)?];
+    let [much, little, least] = quarter.map(literal);
+    let product = if is_fused { Fused } else { Mul };
+    let mut expected = vec![
+        (product, ANGLE, literal(inverse)),
         (Add, At(0), shift),
         (Sub, At(1), shift),
-        (Mul, At(2), literal(quarter[0])),
+        (product, At(2), much),
         (Sub, ANGLE, At(3)),
-        (Mul, At(2), literal(quarter[1])),
+        (product, At(2), little),
         (Sub, At(4), At(5)),
-        (Mul, At(2), literal(quarter[2])),
-        (Sub, At(4), At(REST)),
-        (Sub, At(8), At(5)),
-        (Sub, At(7), At(9)),
     ];
+    // Which is r; the last is ℓ. A product that two sums take stands before each.
+    let rest_at = expected.len() - 1;
+    expected.extend(match is_fused {
+        false => vec![
+            (Mul, At(2), least),
+            (Sub, At(4), At(rest_at)),
+            (Sub, At(8), At(5)),
+            (Sub, At(7), At(9)),
+        ],
+        true => vec![
+            (Sub, At(4), At(rest_at)),
+            (Fused, At(2), little),
+            (Sub, At(7), At(8)),
+            (Fused, At(2), least),
+            (Sub, At(10), At(9)),
+        ],
+    });
+    let (first, rest) = kernel.steps.split_at_checked(expected.len())?;
+    let count = first.len();
     let is = |(step, expected): (&KernelStep, (Operation, Term, Term))| {
         (step.operation, step.left, step.right) == expected
     };
@@ -94,9 +108,9 @@ pub(super) fn split(kernel: &Kernel, scalar: ScalarType) -> Option<(Parts, Left)
     }
     let moved = |term: Term| match term {
         Operand::Constant(value) => Some(Operand::Constant(value)),
-        At(REST) => Some(Operand::Input(Part::Rest)),
-        At(step) if step == STEPS - 1 => Some(Operand::Input(Part::Lacks)),
-        At(step) => step.checked_sub(STEPS).map(At),
+        At(step) if step == rest_at => Some(Operand::Input(Part::Rest)),
+        At(step) if step == count - 1 => Some(Operand::Input(Part::Lacks)),
+        At(step) => step.checked_sub(count).map(At),
         Operand::Input(_) => None,
     };
     let steps = rest.iter().map(|step| {

@@ -4,7 +4,9 @@
 //! operation rounds by half an ulp of its result, and some not at all: products with a
 //! power of two, differences of numbers within a factor of two of each other
 //! (Sterbenz), and (c − t) − h where t = c − h was rounded and c is the larger one
-//! (Dekker). What the last sum rounds is the true value but for all that came before.
+//! (Dekker; h may be a product with a power of two, which fused sums do not round either).
+//! A product that is fused is not rounded, the sum that takes it is. What the last sum rounds is
+//! the true value but for all that came before.
 //!
 //! **Approximation.** With exact arithmetic the results are polynomials p(r, ℓ). Of
 //! p(r, 0) see [`proof`](crate::sincos::proof); and by the mean value theorem p(r, ℓ) is
@@ -15,6 +17,7 @@ use super::reduction::{Left, Part};
 use crate::interval::Interval;
 use crate::interval::rounding::{self, Forward, binade};
 use crate::program::adjoint::{Leaf, backward};
+use crate::program::fused::{fusion, underflows};
 use crate::program::kernel::{ANGLE, Kernel, Term, Value, literal};
 use crate::program::scalar_type::underflow;
 use crate::program::{Literal, Operand, Operation, ScalarType, Step};
@@ -40,9 +43,9 @@ pub(super) fn bound(left: &Left, scalar: ScalarType, ends: [f64; 2], lacks: f64)
     let u = scalar.unit_roundoff();
     let run = |exact: &[bool]| {
         rounding::forward(&left.steps, operands, |index, value| {
-            let eta = match left.steps[index].operation {
-                Operation::Mul => underflow(scalar),
-                _ => 0.0,
+            let eta = match underflows(&left.steps, index) {
+                true => underflow(scalar),
+                false => 0.0,
             };
             match exact.get(index) {
                 Some(true) => eta,
@@ -127,20 +130,32 @@ fn is_exact(steps: &[Step<Literal, Part>], index: usize, [x, y]: [Interval; 2]) 
         Operand::Step(before) => steps.get(*before),
         _ => None,
     };
+    let scales = |step: &Step<Literal, Part>| power(&step.left) || power(&step.right);
     match step.operation {
-        Operation::Mul => power(&step.left) || power(&step.right),
+        Operation::Mul => scales(step),
+        Operation::Fused => true,
         Operation::Sub => {
             let near = x.low() > 0.0 && y.high() <= 2.0 * x.low() && x.high() <= 2.0 * y.low();
-            // (c − t) − h with t = c − h.
+            // A product that is no float is none of two near ones.
+            let near = near && fusion(steps, index).is_none();
+            // (c − t) − h with t = c − h: a fused h has a step before each.
+            let is_float =
+                |h: &Own| at(h).is_none_or(|h| h.operation != Operation::Fused || scales(h));
+            let is_same = |a: &Own, b: &Own| {
+                let both = at(a).zip(at(b));
+                let fused = |(a, b): (&Step<_, _>, _)| a.operation == Operation::Fused && a == b;
+                a == b || both.is_some_and(fused)
+            };
             let first = at(&step.left).filter(|first| first.operation == Operation::Sub);
             let dekker = first.is_some_and(|first| {
                 let t = at(&first.right).filter(|t| t.operation == Operation::Sub);
-                let same = t.is_some_and(|t| t.left == first.left && t.right == step.right);
+                let same =
+                    t.is_some_and(|t| t.left == first.left && is_same(&t.right, &step.right));
                 let larger = match first.left {
                     Operand::Constant(Literal(c)) => y.magnitude() <= c.abs(),
                     _ => false,
                 };
-                same && larger
+                same && larger && is_float(&step.right)
             });
             near || dekker
         }

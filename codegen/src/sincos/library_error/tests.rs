@@ -5,6 +5,7 @@ use crate::program::{Library, Operand};
 use crate::random::Random;
 use dalembert_model::number::Wide;
 use dalembert_model::scalar::Scalar;
+use dalembert_sines::text::{Fused, alone};
 
 /// Below what is said in certificates, and not far above what was measured
 /// (`sines/tests/accuracy.rs`): 0.8166 and 0.7999 u.
@@ -34,46 +35,84 @@ fn less_than_stated_is_proved_in_both_scalars() {
     }
 }
 
+/// Of those that batches fuse as well: so what is certified of the others is of them.
+#[test]
+fn fused_products_err_no_more() {
+    for scalar in ScalarType::ALL {
+        let u = scalar.unit_roundoff();
+        let called = Called::of(scalar).unwrap();
+        let fused = Called::prove_of(&trace::trace::<Fused>(scalar), scalar).unwrap();
+        let (own, other) = (fused.error(1.0) / u, called.error(1.0) / u);
+        println!(
+            "{scalar}: {own} u fused, cosine {} u; {other} u",
+            fused.cosine / u
+        );
+        assert!(own > 0.7 && own <= FUSED_ERROR, "{scalar}: {own}");
+        assert!(fused.cosine <= called.cosine && fused.beyond <= called.beyond);
+        for ((to, error), (wider, other)) in fused.sines.iter().zip(&called.sines) {
+            assert!(
+                to <= wider && error <= other,
+                "{to}: {} u, {} u",
+                error / u,
+                other / u
+            );
+        }
+    }
+}
+
 /// What was recorded is the crate's, to the last bit: the kernel runs as it does where
 /// no quarter turn is taken off.
 #[test]
 fn the_recorded_text_is_the_routine() {
     let mut random = Random::new(3);
-    let kernels = ScalarType::ALL.map(|scalar| (scalar, trace::trace(scalar)));
+    let kernels = ScalarType::ALL.map(|scalar| {
+        let rounded = trace::trace::<Rounded>(scalar);
+        (scalar, rounded, trace::trace::<Fused>(scalar))
+    });
     for _ in 0..1000 {
         let x = 1.5 * (random.unit() - 0.5);
-        for (scalar, kernel) in &kernels {
+        for (scalar, rounded, fused) in &kernels {
             match scalar {
                 ScalarType::F64 => {
                     let ([sin], [cos]) = dalembert_sines::sincos(&[x]);
-                    assert_eq!(kernel.run(x), (sin, cos));
+                    assert_eq!(rounded.run(x), (sin, cos));
+                    assert_eq!(fused.run(x), alone::<f64, Fused>(x));
                 }
                 ScalarType::F32 => {
-                    let ([sin], [cos]) = dalembert_sines::sincosf(&[x as f32]);
-                    assert_eq!(kernel.run(x as f32), (sin, cos));
+                    let x = x as f32;
+                    let ([sin], [cos]) = dalembert_sines::sincosf(&[x]);
+                    assert_eq!(rounded.run(x), (sin, cos));
+                    assert_eq!(fused.run(x), alone::<f32, Fused>(x));
                 }
             }
         }
     }
 }
 
-/// Nothing that is computed is further off than is proved, large and small alike.
+/// Nothing that is computed is further off than is proved, large and small alike; fused or not.
 #[test]
 fn no_sine_is_further_off() {
     let mut random = Random::new(4);
     let called = ScalarType::ALL.map(|scalar| Called::of(scalar).unwrap());
+    let fused = ScalarType::ALL.map(|scalar| {
+        let kernel = trace::trace::<Fused>(scalar);
+        Called::prove_of(&kernel, scalar).unwrap()
+    });
     for index in 0..600 {
         let reach = [8192.0, 3.2, 0.3, 1e-3][index % 4];
         let turns = core::f64::consts::PI * (index % 3) as f64;
         let x = (turns + reach * (2.0 * random.unit() - 1.0)).clamp(-8192.0, 8192.0);
         let single = (x as f32).clamp(-100.0, 100.0);
-        let ([sin], [cos]) = dalembert_sines::sincos(&[x]);
-        let ([sinf], [cosf]) = dalembert_sines::sincosf(&[single]);
+        let wide = |(sin, cos): (f32, f32)| [f64::from(sin), cos.into()];
+        let (rounded, roundedf) = (alone::<f64, Rounded>(x), alone::<f32, Rounded>(single));
+        let (once, oncef) = (alone::<f64, Fused>(x), alone::<f32, Fused>(single));
         let runs = [
-            (x, [sin, cos]),
-            (f64::from(single), [sinf.into(), cosf.into()]),
+            (called[0], x, rounded.into()),
+            (called[1], single.into(), wide(roundedf)),
+            (&fused[0], x, once.into()),
+            (&fused[1], single.into(), wide(oncef)),
         ];
-        for (called, (x, found)) in called.iter().zip(runs) {
+        for (called, x, found) in runs {
             let exact = Wide::sincos_of(x).unwrap();
             for (found, exact) in found.into_iter().zip([exact.sin, exact.cos]) {
                 let error = Wide::from_f64(found).unwrap().sub(&exact).magnitude();
@@ -88,7 +127,7 @@ fn no_sine_is_further_off() {
 #[test]
 fn another_text_has_another_bound() {
     let scalar = ScalarType::F64;
-    let kernel = trace::trace(scalar);
+    let kernel = trace::trace::<Rounded>(scalar);
     let (parts, _) = reduction::split(&kernel, scalar).unwrap();
     let largest = Called::largest(scalar);
     assert!(reduction::bound(&parts, scalar, largest).is_some());

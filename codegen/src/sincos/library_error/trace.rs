@@ -1,9 +1,9 @@
 //! The routine as it stands, recorded.
 
 use std::cell::RefCell;
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Mul, Neg, Sub};
 
-use dalembert_sines::text::{Number, rest};
+use dalembert_sines::text::{Number, Products, rest};
 
 use crate::program::kernel::{ANGLE, Kernel, KernelStep, Term, Value, literal};
 use crate::program::{Operation, ScalarType};
@@ -14,19 +14,22 @@ struct Traced<'t> {
     /// None of a literal.
     tape: Option<&'t RefCell<Vec<KernelStep>>>,
     term: Term,
+    /// Of a factor or an addend that is fused.
+    negative: bool,
 }
 
 /// Returns what sine and cosine are computed by from an angle, before they trade places or
 /// change their signs.
-pub(crate) fn trace(scalar: ScalarType) -> Kernel {
+pub(crate) fn trace<P: Products<f64> + Products<f32>>(scalar: ScalarType) -> Kernel {
     let tape = RefCell::new(Vec::new());
     let angle = Traced {
         tape: Some(&tape),
         term: ANGLE,
+        negative: false,
     };
     let (_, sin, cos) = match scalar {
-        ScalarType::F64 => rest::<f64, _>(angle),
-        ScalarType::F32 => rest::<f32, _>(angle),
+        ScalarType::F64 => rest::<f64, P, _>(angle),
+        ScalarType::F32 => rest::<f32, P, _>(angle),
     };
     let (sin, cos) = (Value::of(sin.term), Value::of(cos.term));
     Kernel {
@@ -41,6 +44,7 @@ impl<'t> Traced<'t> {
         Traced {
             tape: None,
             term: literal(value),
+            negative: false,
         }
     }
 
@@ -58,6 +62,28 @@ impl<'t> Traced<'t> {
         Traced {
             tape: Some(tape),
             term: Term::Step(steps.len() - 1),
+            negative: false,
+        }
+    }
+
+    fn fuse(self, factor: Traced<'t>, addend: Traced<'t>) -> Traced<'t> {
+        let product = self.record(Operation::Fused, factor);
+        match (self.negative != factor.negative, addend.negative) {
+            (false, false) => product.record(Operation::Add, addend),
+            (false, true) => product.record(Operation::Sub, addend),
+            (true, false) => addend.record(Operation::Sub, product),
+            // Of none of both a step says so.
+            (true, true) => Traced::literal(f64::NAN),
+        }
+    }
+}
+
+impl Neg for Traced<'_> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Traced {
+            negative: !self.negative,
+            ..self
         }
     }
 }
@@ -94,10 +120,18 @@ impl Number<f64> for Traced<'_> {
     fn all(self, value: f64) -> Self {
         Traced::literal(value)
     }
+
+    fn fused(self, factor: Self, addend: Self) -> Self {
+        self.fuse(factor, addend)
+    }
 }
 
 impl Number<f32> for Traced<'_> {
     fn all(self, value: f32) -> Self {
         Traced::literal(value.into())
+    }
+
+    fn fused(self, factor: Self, addend: Self) -> Self {
+        self.fuse(factor, addend)
     }
 }
