@@ -40,6 +40,7 @@ mod second_derivatives;
 mod shallow;
 mod shown;
 mod sincos;
+mod sources;
 mod straight;
 mod support;
 mod text;

@@ -54,7 +54,7 @@ impl Pattern {
             };
         }
         let name = words.next().expect("an operation");
-        let known = ["+", "-", "±", "*", "/", "neg"]
+        let known = ["+", "-", "±", "*", "neg"]
             .into_iter()
             .find(|known| *known == name);
         let name = known.unwrap_or_else(|| panic!("`{name}` is no operation"));
@@ -125,7 +125,6 @@ impl Algebra for InBuilder<'_> {
         match symbol {
             "+" => self.0.add(a, b),
             "-" => self.0.sub(a, b),
-            "/" => self.0.div(a, b),
             _ => self.0.mul(a, b),
         }
     }

@@ -64,7 +64,11 @@ pub(crate) fn round(
     if has(WaySource::Resubstitution) && own.len() <= limits.substitutes {
         discover::resubstitute(&mut classes, &own);
     }
-    let found = extract(&classes, &choice, limits.schedule, random);
+    let mut schedule = limits.schedule;
+    if !has(WaySource::Annealing) {
+        schedule.moves = 0;
+    }
+    let found = extract(&classes, &choice, schedule, random);
     if cost(&found) <= cost(program) {
         found
     } else {

@@ -3,9 +3,10 @@
 
 use super::columns::{Nodes, Value};
 use crate::program::{Input, Operand, Operation};
+use crate::simplify::CostModel;
 
 /// A sine/cosine pair weighs as much as this many operations.
-pub(super) const SINCOS: u32 = 8;
+pub(super) const SINCOS: u32 = (CostModel::TOLERATED.sincos / CostModel::TOLERATED.add) as u32;
 
 /// Operations that stay, sines and cosines weighed.
 pub(super) fn price(nodes: &Nodes, edits: &[Option<Value>], scratch: &mut Scratch) -> u32 {

@@ -121,8 +121,14 @@ fn by_chain(problem: &Problem<'_>) -> Vec<Approach> {
     let approach = |(index, tuned): (usize, Tuned)| {
         // Seen in other axes the hand has hardly a value in common.
         let forms = families[index].iter().copied();
-        let forms: Vec<Form> = forms.filter(|form| form.hand == tuned.form.hand).collect();
+        let forms: Vec<Form> = match without {
+            Some(WaySource::Forms) => vec![tuned.form],
+            _ => forms.filter(|form| form.hand == tuned.form.hand).collect(),
+        };
         let mut variants = regrouped(scene_robot, function, &forms, &tuned.regrouping);
+        if without == Some(WaySource::Axes) {
+            variants.truncate(forms.len());
+        }
         // The textbook recursion gives D column by column and h_ikm by polarisation, with
         // n² of work a link or more: no match.
         let mut quantities = function.quantities().iter();

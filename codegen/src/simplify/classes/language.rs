@@ -18,7 +18,7 @@ pub(crate) enum Operator {
     Difference,
     /// a · b
     Product,
-    /// a / b; these come from formulas, and from rules that keep the divisor.
+    /// a / b; these come from formulas alone.
     Quotient,
 }
 

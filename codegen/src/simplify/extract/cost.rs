@@ -31,6 +31,12 @@ impl CostModel {
         sum_sincos: 300,
     };
 
+    /// What a tolerance admits: the polynomials of a pair then take about eight operations.
+    pub(crate) const TOLERATED: CostModel = CostModel {
+        sincos: 800,
+        ..CostModel::OPERATIONS
+    };
+
     /// Returns the sine and cosine of an angle, apart from forming it.
     pub(crate) fn angle(&self, angle: AngleSum) -> u64 {
         match angle.additions() {
