@@ -12,10 +12,10 @@ use dalembert_model::scene::{Scale, Tolerance};
 
 use crate::approximate::admitted::{Admitted, Claim, within};
 use crate::approximate::error::{NoPolynomials, ToleranceError, Unbounded};
-use crate::approximate::prune::{self, PruneSettings, Pruned};
-use crate::approximate::reduce;
+use crate::approximate::prune::{PruneSettings, Pruned};
 use crate::approximate::regrouping;
 use crate::approximate::sines;
+use crate::approximate::starts::Starts;
 use crate::bound::definite::{Indefinite, least_eigenvalue};
 use crate::bound::input_box::InputBox;
 use crate::bound::scale;
@@ -26,7 +26,6 @@ use crate::bound::work::Meter;
 use crate::certificate::subject::Subject;
 use crate::certificate::{Certificate, Refuted, Shared};
 use crate::edits::Stage;
-use crate::parallel;
 use crate::program::{Library, Program, ScalarType, has_inertia};
 use crate::scene::SceneRobot;
 use crate::watch::{FunctionWatch, Part};
@@ -292,45 +291,19 @@ impl<'a> ErrorBudget<'a> {
                     watch,
                 )
             });
-            let start = start.as_ref();
-            let edited = prune::watched(exact, start, limits, &allowances, settings, watch);
+            let starts = Starts {
+                scene_robot: self.scene_robot,
+                exact,
+                equal: start.as_ref(),
+                limits,
+                allowances: &allowances,
+                settings,
+                watch,
+            };
+            let found = starts.pruned(from, &mut models);
             spent()?;
-            // Where nothing may go, no smaller model is near enough.
-            if edited.stages.is_empty() && from.is_empty() {
+            if found.is_empty() {
                 break;
-            }
-            let reduces = settings.models > 0 && !edited.stages.is_empty();
-            let mut found = vec![edited];
-            if reduces || !from.is_empty() {
-                let models = models.get_or_insert_with(|| match reduces {
-                    true => reduce::programs(self.scene_robot, exact, limits, &allowances, watch),
-                    false => Vec::new(),
-                });
-                let mut starts = prune::promising(exact, models, limits, &allowances, settings);
-                starts.extend(from);
-                let pruned = |start: &&Program| {
-                    prune::watched(exact, Some(start), limits, &allowances, settings, watch)
-                };
-                found.extend(parallel::each(&starts, pruned));
-                found.retain(|pruned| !pruned.stages.is_empty());
-                // Of equals the edited exact program.
-                found.sort_by_key(|pruned| prune::cost(&pruned.program));
-                let rounds = found
-                    .first()
-                    .map_or(0, |best| settings.rounds(&best.program));
-                for round in 0..rounds {
-                    let best = found[0].program.clone();
-                    let seeds = [2 * round + 1, 2 * round + 2];
-                    let again = parallel::each(&seeds, |&seed| {
-                        let settings = PruneSettings { seed, ..*settings };
-                        // The best so far, and in turn what others were edited from.
-                        let other = starts.get(round as usize % starts.len().max(1));
-                        let start = other.filter(|_| seed % 2 == 0).copied().unwrap_or(&best);
-                        prune::watched(exact, Some(start), limits, &allowances, &settings, watch)
-                    });
-                    found.extend(again.into_iter().filter(|again| !again.stages.is_empty()));
-                    found.sort_by_key(|pruned| prune::cost(&pruned.program));
-                }
             }
             for Pruned {
                 stages, program, ..

@@ -1,7 +1,8 @@
 //! The lossy search: the cheapest program that a tolerance admits.
 //!
 //! - [`prune`]: the cheapest edits that a bound admits; `regrouping`: the exact
-//!   program that they leave least of; `reduce`: smaller models to start from
+//!   program that they leave least of; `reduce`: smaller models to start from;
+//!   `starts`: which programs are edited, and how often
 //! - [`sines`]: polynomials for sines, as exact as a tolerance needs
 //! - [`choose`]: the cheapest variant; [`admitted`]: with its certificates; [`error`]: why
 //!   there is none
@@ -17,3 +18,4 @@ pub(crate) mod prune;
 mod reduce;
 mod regrouping;
 pub(crate) mod sines;
+mod starts;

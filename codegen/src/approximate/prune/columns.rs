@@ -10,6 +10,7 @@
 use std::collections::BTreeMap;
 
 use crate::edits::{Edit, EditSite};
+use crate::function::Argument;
 use crate::program::columns::Column;
 use crate::program::run::angle_value;
 use crate::program::{Input, Operand, Output, Program, Step};
@@ -82,6 +83,19 @@ impl Nodes {
         self.samples = states.len();
     }
 
+    /// Turns every sample to a position; its motion stays.
+    pub(super) fn turn_to(&mut self, position: &JointState) {
+        for (column, &input) in self
+            .columns
+            .chunks_exact_mut(self.samples)
+            .zip(&self.inputs)
+        {
+            if let Input::Sin(_) | Input::Cos(_) | Input::Entry(Argument::Position, _) = input {
+                column.fill(at(input, position));
+            }
+        }
+    }
+
     /// Returns the node that an operand reads, unless it is a constant.
     pub(super) fn node_of(&self, operand: &Operand<f64, usize>) -> Option<usize> {
         match operand {
@@ -102,19 +116,23 @@ impl Nodes {
 
     /// Returns the outputs, output after output.
     pub(super) fn values(&self, columns: &[f64]) -> Vec<f64> {
-        let m = self.samples;
-        let mut values = Vec::with_capacity(self.outputs.len() * m);
-        for output in &self.outputs {
-            match self.value(&output.value, output.negative) {
-                Value::Known(c) => values.extend(std::iter::repeat_n(c, m)),
-                Value::Node(node, negative) => {
-                    let sign = if negative { -1.0 } else { 1.0 };
-                    let column = &columns[node as usize * m..][..m];
-                    values.extend(column.iter().map(|x| sign * x));
-                }
+        let outputs = 0..self.outputs.len();
+        outputs
+            .flat_map(|output| self.output(output, columns))
+            .collect()
+    }
+
+    /// Returns an output at every sample.
+    pub(super) fn output(&self, output: usize, columns: &[f64]) -> Vec<f64> {
+        let (output, m) = (&self.outputs[output], self.samples);
+        match self.value(&output.value, output.negative) {
+            Value::Known(c) => vec![c; m],
+            Value::Node(node, negative) => {
+                let sign = if negative { -1.0 } else { 1.0 };
+                let column = &columns[node as usize * m..][..m];
+                column.iter().map(|x| sign * x).collect()
             }
         }
-        values
     }
 
     pub(super) fn len(&self) -> usize {

@@ -30,7 +30,6 @@ use super::motions::{self, Motions};
 use crate::bound::input_box::InputBox;
 use crate::bound::magnitude::{BoxEffort, magnitudes_within};
 use crate::edits::{Stage, deviation, has_edits};
-use crate::parallel;
 use crate::program::Program;
 use crate::random::Random;
 use crate::simplify::Effort;
@@ -68,11 +67,14 @@ pub struct PruneSettings {
     pub effort: Effort,
     /// Whether constants are corrected for what is left out.
     pub refit: bool,
+    /// The last guesses whose worst positions stay among the samples.
+    pub worst: usize,
     /// Smaller models to start from as well; none where work is limited, of which a
     /// thread counts its own.
     pub models: usize,
-    /// Times that the best program and another one are edited again, with other samples, if the
-    /// best has a hundred operations: of a shorter one that is quicker, and is done more often.
+    /// Times that the best starts are edited again, with other samples, if they are left with
+    /// some 300 operations, fewer times if with less; and that the best programs are, if they
+    /// have 50, more often if they are shorter.
     pub restarts: u64,
     /// Added to the seed of the samples and of what is taken back.
     pub seed: u64,
@@ -92,7 +94,8 @@ impl Default for PruneSettings {
             budget: BoxEffort::QUICK,
             effort: Effort::Quick,
             refit: true,
-            models: 2,
+            worst: usize::MAX,
+            models: 3,
             restarts: 3,
             seed: 0,
             work: None,
@@ -123,6 +126,7 @@ impl PruneSettings {
         budget: BoxEffort::QUICK,
         effort: Effort::Quick,
         refit: true,
+        worst: usize::MAX,
         models: 0,
         restarts: 0,
         seed: 0,
@@ -140,6 +144,7 @@ impl PruneSettings {
         budget: BoxEffort::QUICK,
         effort: Effort::Thorough,
         refit: true,
+        worst: usize::MAX,
         models: 5,
         restarts: 10,
         seed: 0,
@@ -149,17 +154,41 @@ impl PruneSettings {
     /// Returns the settings for the effort of a command that reports on variants.
     pub fn of(effort: Effort) -> PruneSettings {
         match effort {
-            Effort::Quick => PruneSettings::default(),
+            // Fewer samples take less than half of the time: programs are edited more often.
+            Effort::Quick => PruneSettings {
+                samples: 24,
+                worst: WORST,
+                ..PruneSettings::default()
+            },
             Effort::Thorough => PruneSettings::THOROUGH,
         }
     }
 
-    /// Returns how often a program is edited again.
-    pub(crate) fn rounds(&self, best: &Program) -> u64 {
+    /// Returns how often the best programs are edited again, the best being of such a cost.
+    pub(crate) fn rounds(&self, best: usize) -> u64 {
+        50 * self.restarts / (best as u64).max(1)
+    }
+
+    /// Returns how often the best starts of a program of so many steps are edited again, the
+    /// best being left with such a cost.
+    pub(crate) fn again(&self, steps: usize, best: usize) -> u64 {
         match self.restarts {
             0 => 0,
-            restarts => (100 * restarts / cost(best).max(1) as u64).max(1),
+            _ if self.hurries(steps) => 0,
+            restarts => {
+                ((best as u64).saturating_mul(restarts) / 300).clamp(2.min(restarts), restarts)
+            }
         }
+    }
+
+    /// Returns the positions that may be sampled after a guess, of so many outputs.
+    fn positions(&self, steps: usize, outputs: usize) -> usize {
+        let rounds = if self.hurries(steps) {
+            WORST
+        } else {
+            self.worst
+        };
+        self.samples.saturating_add(rounds.saturating_mul(outputs))
     }
 
     /// Returns what a stage may use of the allowances.
@@ -195,6 +224,10 @@ impl PruneSettings {
         }
     }
 }
+
+/// The guesses whose worst positions stay, where time is short: what one goes through grows
+/// with them, and what was worst long ago no longer is.
+const WORST: usize = 2;
 
 /// A program of more steps is long.
 const LONG: usize = 400;
@@ -316,6 +349,22 @@ pub(crate) fn watched(
     }
 }
 
+/// Returns another program as it is, if it is cheaper and certified to be within the allowances.
+pub(crate) fn unedited(
+    program: &Program,
+    start: &Program,
+    limits: &InputBox,
+    allowances: &[f64],
+    settings: &PruneSettings,
+) -> Option<Pruned> {
+    let start = Pruned {
+        stages: vec![Stage::unedited(program.clone())],
+        program: start.clone(),
+        errors: Vec::new(),
+    };
+    direct(program, start, limits, allowances, settings)
+}
+
 /// Returns a program that is no edit of the exact one, if it is cheaper and certified to be
 /// within the allowances.
 fn direct(
@@ -334,23 +383,6 @@ fn direct(
     }
     best.stages.truncate(1);
     Some(best)
-}
-
-/// Selects the programs to start from of which pruning is about to leave least: as many as
-/// the settings say.
-pub(crate) fn promising<'p>(
-    full: &Program,
-    starts: &'p [Program],
-    limits: &InputBox,
-    allowances: &[f64],
-    settings: &PruneSettings,
-) -> Vec<&'p Program> {
-    let price = |start: &Program| appraise(full, start, limits, allowances, settings);
-    let prices = parallel::each(starts, price);
-    let mut all: Vec<(u32, &Program)> = prices.into_iter().zip(starts).collect();
-    all.sort_by_key(|(price, _)| *price);
-    all.truncate(settings.models);
-    all.into_iter().map(|(_, start)| start).collect()
 }
 
 /// Estimates what [`prune`] would leave of a program: operations, sines and cosines weighed.

@@ -36,10 +36,6 @@ const USED_ENOUGH: f64 = 0.88;
 const MORE: usize = 4;
 const CAUTION: f64 = 0.8;
 
-/// Of long programs, the guesses whose worst positions stay among the samples: what one
-/// goes through grows with them, and what was worst long ago no longer is.
-const ROUNDS: usize = 2;
-
 /// In place of the ratio of errors where D may be singular.
 const SINGULAR: f64 = 4.0;
 
@@ -156,11 +152,9 @@ impl Search<'_> {
             }
             let (pruned, ratios) = self.certify(&original, &state, &mut greedy);
             self.adversaries(&pruned.stages, positions, random);
-            if self.hurries() {
-                let most = self.settings.samples + ROUNDS * self.allowances.len();
-                let old = positions.len().saturating_sub(most);
-                positions.drain(self.settings.samples..self.settings.samples + old);
-            }
+            let (steps, outputs) = (self.full.steps.len(), self.allowances.len());
+            let old = (positions.len()).saturating_sub(self.settings.positions(steps, outputs));
+            positions.drain(self.settings.samples..self.settings.samples + old);
             let cheaper = best
                 .as_ref()
                 .is_none_or(|b| cost(&pruned.program) < cost(&b.pruned.program));
@@ -325,16 +319,24 @@ impl Search<'_> {
     /// Positions where the error is large join the samples.
     fn adversaries(&self, stages: &[Stage], positions: &mut Vec<Vec<f64>>, random: &mut Random) {
         let Some(last) = stages.last() else { return };
-        let code = |program: &Program| program.lower(ScalarType::F64, |_| None);
-        let full = code(self.full);
-        let edited = code(&last.program(Folding::Syntactic));
+        let edited = last.program(Folding::Syntactic);
+        let middle: Vec<f64> = self
+            .limits
+            .position
+            .iter()
+            .map(|range| range.mid())
+            .collect();
+        let motions = self.motions.states(&[middle]);
+        let mut both = [self.full, &edited].map(|program| Nodes::new(program, &motions));
+        let unedited = both.each_ref().map(|nodes| vec![None; nodes.len()]);
         for output in 0..self.allowances.len() {
             let mut error = |state: &JointState| {
-                let states = self.motions.states(std::slice::from_ref(&state.q));
-                let states = Columns::<f64>::of(&states);
-                let (x, y) = (full.run_columns(&states), edited.run_columns(&states));
-                let pairs = x[output].iter().zip(&y[output]);
-                let mut error: Vec<f64> = pairs.map(|(x, y)| x - y).collect();
+                let [x, y] = [0, 1].map(|which| {
+                    both[which].turn_to(state);
+                    both[which].run(&unedited[which])
+                });
+                let [x, y] = [both[0].output(output, &x), both[1].output(output, &y)];
+                let mut error: Vec<f64> = x.iter().zip(&y).map(|(x, y)| x - y).collect();
                 self.motions.monomials(&mut error);
                 self.motions.largest(&error)
             };

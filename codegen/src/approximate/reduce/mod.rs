@@ -24,12 +24,13 @@ mod terms;
 
 use crate::approximate::motions;
 use crate::bound::input_box::InputBox;
+use crate::parallel;
 use crate::program::Program;
 use crate::random::Random;
 use crate::scene::SceneRobot;
 use crate::watch::FunctionWatch;
 use build::Builder;
-use terms::{Model, Terms};
+use terms::Terms;
 
 /// The seed of the sampled positions.
 const SEED: u64 = 0x5eed;
@@ -38,7 +39,7 @@ const SEED: u64 = 0x5eed;
 const POSITIONS: usize = 48;
 
 /// The parts of the allowances that tried models use: the rest is for pruning.
-const USES: [f64; 5] = [0.25, 0.45, 0.65, 0.8, 0.93];
+const USES: [f64; 8] = [0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.8, 0.93];
 
 /// Returns programs of smaller models than the exact program's, from those that leave most
 /// of the allowances to the smallest; none for a function that is not linear in the links'
@@ -64,20 +65,17 @@ pub(super) fn programs(
         terms: &terms,
     };
     let models = path::eliminate(&terms, &builder, &is_over);
-    let mut programs: Vec<Program> = Vec::new();
-    for most in USES {
-        // The smallest that leaves so much.
-        let fits = |model: &&Model| model.error <= most;
-        let Some(model) = models.iter().rev().find(fits) else {
-            continue;
-        };
-        if is_over() {
-            break;
-        }
-        let program = builder.program(&path::refined(&terms, model));
-        if let Some(program) = program.filter(|program| !programs.contains(program)) {
-            programs.push(program);
-        }
-    }
+    // The smallest that leaves so much.
+    let of = |most: &f64| models.iter().rposition(|model| model.error <= *most);
+    let mut places: Vec<usize> = USES.iter().filter_map(of).collect();
+    places.dedup();
+    let mut programs: Vec<Program> = parallel::each(&places, |&place| match is_over() {
+        true => None,
+        false => builder.program(&path::refined(&terms, &models[place])),
+    })
+    .into_iter()
+    .flatten()
+    .collect();
+    programs.dedup();
     programs
 }

@@ -3,6 +3,7 @@
 use super::build::Builder;
 use super::fit::{Fit, Solution};
 use super::terms::{Model, Terms};
+use crate::parallel;
 
 /// The largest error that a fit at the samples may have.
 const MOST: f64 = 0.95;
@@ -35,8 +36,9 @@ pub(super) fn eliminate(
         candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
         candidates.truncate(COUNTED);
         let paid = builder.price(&now);
-        for (loss, other) in &mut candidates {
-            let saved = paid.saturating_sub(builder.price(other)) as f64;
+        let prices = parallel::each(&candidates, |(_, other)| builder.price(other));
+        for ((loss, _), price) in candidates.iter_mut().zip(prices) {
+            let saved = paid.saturating_sub(price) as f64;
             *loss = (*loss + 1e-18) / (0.3 + saved).powi(2);
         }
         candidates.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -1,0 +1,163 @@
+//! Programs to edit, and how often.
+//!
+//! The exact program, those of smaller tolerances and those of smaller models
+//! ([`reduce`](super::reduce)) are appraised. Of those that are about to leave little more than
+//! the best one, each is edited; the best two of them again with other samples; and then, again
+//! and again, the best two programs found so far. Long programs gain more by the first, short
+//! ones by the second, which is quicker the shorter they are.
+
+use crate::approximate::prune::{self, PruneSettings, Pruned, cost};
+use crate::approximate::reduce;
+use crate::bound::input_box::InputBox;
+use crate::parallel;
+use crate::program::Program;
+use crate::scene::SceneRobot;
+use crate::watch::FunctionWatch;
+
+/// Starts that are about to leave this much more than the best are not edited.
+const NEAR: f64 = 1.15;
+
+/// Of the starts, and of the programs found, so many are edited again.
+const AGAIN: usize = 2;
+
+/// What programs are edited for.
+pub(super) struct Starts<'a> {
+    pub scene_robot: &'a SceneRobot,
+    /// The exact program.
+    pub exact: &'a Program,
+    /// An equal one to edit in its place.
+    pub equal: Option<&'a Program>,
+    pub limits: &'a InputBox,
+    pub allowances: &'a [f64],
+    pub settings: &'a PruneSettings,
+    pub watch: Option<FunctionWatch<'a>>,
+}
+
+impl Starts<'_> {
+    /// Returns what comes of the exact program, of these and of smaller models, the cheapest
+    /// first: never dearer than the first of these, if that is within the allowances.
+    pub(super) fn pruned(
+        &self,
+        from: &[Program],
+        models: &mut Option<Vec<Program>>,
+    ) -> Vec<Pruned> {
+        let mut starts: Vec<Option<&Program>> = vec![None];
+        starts.extend(from.iter().map(Some));
+        // Where nothing may go, no smaller model is near enough.
+        if self.settings.models > 0 && self.price(None) < self.cost(None) {
+            let models = models.get_or_insert_with(|| {
+                let (exact, limits) = (self.exact, self.limits);
+                reduce::programs(self.scene_robot, exact, limits, self.allowances, self.watch)
+            });
+            starts = self.promising(starts, models);
+        }
+        let mut found = self.started(&starts);
+        if let Some(first) = from.first().filter(|first| least(&found) > cost(first)) {
+            let (limits, allowances) = (self.limits, self.allowances);
+            let kept = prune::unedited(self.exact, first, limits, allowances, self.settings);
+            add(&mut found, kept);
+        }
+        for round in 1..=self.settings.rounds(least(&found)) {
+            let best = found.iter().take(AGAIN);
+            let best: Vec<Program> = best.map(|found| found.program.clone()).collect();
+            add(&mut found, self.edited(best.iter().map(Some), round));
+        }
+        found
+    }
+
+    /// Returns what is left of each start, of the best ones with other samples as well.
+    fn started(&self, starts: &[Option<&Program>]) -> Vec<Pruned> {
+        let steps = self.exact.steps.len();
+        let mut found = Vec::new();
+        let edited = self.edited(starts.iter().copied(), 0);
+        let mut ranked: Vec<_> = edited
+            .iter()
+            .map(|found| cost(&found.program))
+            .zip(starts)
+            .collect();
+        ranked.sort_by_key(|(left, _)| *left);
+        add(&mut found, edited);
+        let rounds = match found.is_empty() {
+            true => 0,
+            false => self.settings.again(steps, least(&found)),
+        };
+        for round in 1..=rounds {
+            let best = ranked.iter().take(AGAIN).map(|(_, start)| **start);
+            add(&mut found, self.edited(best, round));
+        }
+        found
+    }
+
+    /// Selects the starts to edit, the shortest first.
+    fn promising<'p>(
+        &self,
+        mut starts: Vec<Option<&'p Program>>,
+        models: &'p [Program],
+    ) -> Vec<Option<&'p Program>> {
+        starts.extend(models.iter().map(Some));
+        let others = starts.len() - models.len();
+        let prices = parallel::each(&starts, |start| self.price(*start));
+        let is_model = (0..starts.len()).map(|index| index >= others);
+        let mut all: Vec<_> = prices.into_iter().zip(starts).zip(is_model).collect();
+        all.sort_by_key(|((price, _), _)| *price);
+        let most = all
+            .first()
+            .map_or(0.0, |((price, _), _)| NEAR * *price as f64);
+        let mut models = 0;
+        all.retain(|((price, _), is_model)| {
+            models += usize::from(*is_model);
+            *price as f64 <= most && !(*is_model && models > self.settings.models)
+        });
+        let mut starts: Vec<_> = all.into_iter().map(|((_, start), _)| start).collect();
+        starts.sort_by_key(|start| self.cost(*start));
+        starts
+    }
+
+    fn program<'p>(&'p self, start: Option<&'p Program>) -> &'p Program {
+        start.or(self.equal).unwrap_or(self.exact)
+    }
+
+    fn cost(&self, start: Option<&Program>) -> usize {
+        cost(self.program(start))
+    }
+
+    /// Estimates what pruning would leave of a start.
+    fn price(&self, start: Option<&Program>) -> usize {
+        let (program, limits, allowances) = (self.program(start), self.limits, self.allowances);
+        prune::appraise(self.exact, program, limits, allowances, self.settings) as usize
+    }
+
+    /// Returns what is left of each start, with the samples of a round.
+    fn edited<'p>(
+        &self,
+        starts: impl Iterator<Item = Option<&'p Program>>,
+        round: u64,
+    ) -> Vec<Pruned> {
+        let starts: Vec<_> = starts.collect();
+        let settings = PruneSettings {
+            seed: self.settings.seed + round,
+            ..*self.settings
+        };
+        parallel::each(&starts, |start| {
+            let (limits, allowances) = (self.limits, self.allowances);
+            let start = start.or(self.equal);
+            prune::watched(self.exact, start, limits, allowances, &settings, self.watch)
+        })
+    }
+}
+
+/// Returns the cost of the cheapest program, the first; of none, more than any has.
+fn least(found: &[Pruned]) -> usize {
+    let first = found.first();
+    first.map_or(usize::MAX, |found| cost(&found.program))
+}
+
+/// Adds what is new, the cheapest first.
+fn add(found: &mut Vec<Pruned>, others: impl IntoIterator<Item = Pruned>) {
+    for other in others {
+        if !other.stages.is_empty() && found.iter().all(|known| known.program != other.program) {
+            found.push(other);
+        }
+    }
+    found.sort_by_key(|pruned| cost(&pruned.program));
+}
