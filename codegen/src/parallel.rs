@@ -12,10 +12,7 @@ const STACK: usize = 8 << 20;
 /// Returns what a function makes of each, in their order, by as many threads as the
 /// machine runs at once. A thread that the system refuses is done without. Work begins
 /// with the last: the long outputs come last, and none should be left alone at the end.
-pub(crate) fn each<'t, T: Sync, R: Send>(
-    items: &'t [T],
-    function: impl Fn(&'t T) -> R + Sync,
-) -> Vec<R> {
+pub fn each<'t, T: Sync, R: Send>(items: &'t [T], function: impl Fn(&'t T) -> R + Sync) -> Vec<R> {
     let next = AtomicUsize::new(0);
     let results = Mutex::new(Vec::new());
     let work = || {

@@ -131,6 +131,10 @@ pub mod interval {
     pub use crate::interval::Interval;
 }
 
+pub mod parallel {
+    pub use crate::parallel::each;
+}
+
 pub mod plan {
     pub use crate::plan::{Edited, Entry, Plan, file};
 }

@@ -160,14 +160,16 @@ impl<'a> ErrorBudget<'a> {
 
     /// Returns the exact program's certificates, whatever they come to.
     pub fn unedited(&self, scalars: &[ScalarType], bound_effort: BoundEffort) -> Admitted {
-        self.certified(&[], self.exact, scalars, bound_effort)
+        self.certified(&[], self.exact, scalars, &[], bound_effort)
     }
 
+    /// Returns the certificates of a variant, which is to be within tolerances.
     fn certified(
         &self,
         stages: &[Stage],
         emitted: &Program,
         scalars: &[ScalarType],
+        tolerances: &[f64],
         bound_effort: BoundEffort,
     ) -> Admitted {
         // What the scalars share, then each of them.
@@ -179,8 +181,9 @@ impl<'a> ErrorBudget<'a> {
         };
         tell(0);
         let subject = self.subject(stages, emitted);
-        let model = subject.model(bound_effort);
         let sensitivity = self.sensitivity(emitted, bound_effort);
+        let limits = self.left(&subject, scalars, tolerances, &sensitivity);
+        let model = subject.model_within(&limits, bound_effort);
         let certificate = |(index, &scalar)| {
             tell(1 + index);
             Certificate {
@@ -190,6 +193,25 @@ impl<'a> ErrorBudget<'a> {
         };
         let certificates = scalars.iter().enumerate().map(certificate);
         Admitted::of(stages, emitted, certificates.collect())
+    }
+
+    /// Returns what rounding leaves of each tolerance in every scalar, in the output's unit.
+    fn left(
+        &self,
+        subject: &Subject<'_>,
+        scalars: &[ScalarType],
+        tolerances: &[f64],
+        sensitivity: &Sensitivity,
+    ) -> Vec<f64> {
+        let mut left = tolerances.to_vec();
+        for &scalar in scalars {
+            let rounding = subject.rounding(scalar, sensitivity).into_iter();
+            for ((left, t), rounding) in left.iter_mut().zip(tolerances).zip(rounding) {
+                *left = left.min(t * (1.0 - 1e-14) - rounding.total());
+            }
+        }
+        let pairs = left.iter().zip(&self.scales);
+        pairs.map(|(left, scale)| left * scale).collect()
     }
 
     /// Returns the variant of a plan, with its claims: program and edits are proved to
@@ -309,7 +331,7 @@ impl<'a> ErrorBudget<'a> {
                 stages, program, ..
             } in found
             {
-                let variant = self.certified(&stages, &program, scalars, bound_effort);
+                let variant = self.certified(&stages, &program, scalars, tolerances, bound_effort);
                 if variant.within(tolerances).is_ok() && variant.is_definite() {
                     return Ok(variant);
                 }

@@ -40,10 +40,15 @@ impl<'s> Shared<'s> {
         }
     }
 
-    /// Returns what the edits cost, relative to each output's T.
-    fn edits(&self, effort: usize) -> Vec<f64> {
-        let found = self.models[effort].get_or_init(|| self.subject.model(EFFORTS[effort]));
-        self.subject.relative(found)
+    /// Returns what the edits cost, relative to each output's T, for which the scalars' claims
+    /// are the same.
+    fn edits(&self, effort: usize, claims: &[ErrorByCause]) -> Vec<f64> {
+        let pairs = claims.iter().zip(self.subject.scales);
+        // Relative to T it is rounded up.
+        let limit = |(claim, scale): (&ErrorByCause, &f64)| claim.model * (1.0 - 4e-16) * scale;
+        let limits: Vec<f64> = pairs.map(limit).collect();
+        let find = || self.subject.model_within(&limits, EFFORTS[effort]);
+        self.subject.relative(self.models[effort].get_or_init(find))
     }
 
     /// Returns what rounding and sines cost in a scalar.
@@ -66,7 +71,7 @@ impl Certificate {
     fn check_bounds(&self, shared: &Shared<'_>) -> Result<Vec<ErrorByCause>, Refuted> {
         let claims = &self.bounds;
         let edits = least(
-            |effort| shared.edits(effort),
+            |effort| shared.edits(effort, claims),
             |found| {
                 claims
                     .iter()

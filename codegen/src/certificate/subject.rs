@@ -5,10 +5,11 @@ use dalembert_model::scene::Scale;
 use super::Certificate;
 use crate::bound::definite::least_eigenvalue;
 use crate::bound::input_box::InputBox;
-use crate::bound::magnitude::{magnitudes, relative};
+use crate::bound::magnitude::{magnitudes, magnitudes_within, relative};
 use crate::bound::sensitivity::{BoundEffort, Sensitivity};
 use crate::bound::turns::turns_freely;
 use crate::edits::{Stage, deviation, difference, has_edits};
+use crate::graph::Graph;
 use crate::language::{MathPath, Printed, function};
 use crate::program::{AngleSum, Library, Program, ScalarType, has_inertia};
 use crate::scene::SceneRobot;
@@ -17,6 +18,9 @@ use crate::sincos::library_error::Called;
 use crate::sincos::{self, AngleKernel, Sines};
 use crate::split::ErrorByCause;
 use crate::verify::exact::prove_same;
+
+/// What is further above a limit than this is not within it.
+const NEAR: f64 = 1.07;
 
 /// What a claim is about, whatever the scalar.
 #[derive(Clone, Copy, Debug)]
@@ -43,12 +47,36 @@ impl Subject<'_> {
     /// Returns the largest errors of the edits, one an output, in its unit: the part
     /// of the bounds that every scalar shares, and the longest to find.
     pub(crate) fn model(&self, bound_effort: BoundEffort) -> Vec<f64> {
+        self.model_within(&[], bound_effort)
+    }
+
+    /// Returns the same; an output that is a little above its limit is shown to be at most that, if
+    /// it can be: bounds by themselves exceed what is reached by some hundredths.
+    pub(crate) fn model_within(&self, limits: &[f64], bound_effort: BoundEffort) -> Vec<f64> {
         let error = match direct(self.stages, self.emitted) {
             Some(exact) => deviation(exact, self.emitted),
             None if has_edits(self.stages) => difference(self.stages),
             None => return vec![0.0; self.scales.len()],
         };
-        magnitudes(&error, self.limits, self.scales, bound_effort.budget)
+        let budget = bound_effort.budget;
+        let mut found = magnitudes(&error, self.limits, self.scales, budget);
+        let pairs = || found.iter().zip(limits);
+        let is_above = |(x, limit): (&f64, &f64)| x > limit;
+        if pairs().all(|(x, limit)| *x <= NEAR * limit) && pairs().any(is_above) {
+            let above: Vec<usize> = (0..limits.len())
+                .filter(|&i| found[i] > limits[i])
+                .collect();
+            let above_limits: Vec<f64> = above.iter().map(|&i| limits[i]).collect();
+            let error = Graph {
+                outputs: above.iter().map(|&i| error.outputs[i]).collect(),
+                ..error
+            };
+            let shown = magnitudes_within(&error, self.limits, &above_limits, budget);
+            for (index, shown) in above.into_iter().zip(shown.unwrap_or_default()) {
+                found[index] = shown;
+            }
+        }
+        found
     }
 
     /// Bounds by cause, relative to the scales, with the edits' and the
@@ -75,7 +103,7 @@ impl Subject<'_> {
     }
 
     /// Returns what sines and rounding cost, relative to the scales.
-    pub(super) fn rounding(
+    pub(crate) fn rounding(
         &self,
         scalar: ScalarType,
         sensitivity: &Sensitivity,

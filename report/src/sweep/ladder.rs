@@ -10,6 +10,7 @@ use dalembert_codegen::workspace::approximate::prune::PruneSettings;
 use dalembert_codegen::workspace::bound::sensitivity::BoundEffort;
 use dalembert_codegen::workspace::certificate::Certificate;
 use dalembert_codegen::workspace::falsify::falsify;
+use dalembert_codegen::workspace::parallel;
 use dalembert_codegen::workspace::program::{Program, ScalarType};
 use dalembert_codegen::workspace::simplify::Effort;
 
@@ -140,17 +141,20 @@ impl<'a> Ladder<'a> {
         };
         self.waiting
             .begin(&format!("attempts to refute {tolerance:e}"));
-        let mut points = Vec::new();
+        let mut certificates = Vec::new();
         for certificate in variants.into_iter().flat_map(|v| v.certificates) {
             let polynomials = match exact {
                 true => None,
                 false => self.polynomials(tolerance, &certificate),
             };
-            points.push(self.point(tolerance, certificate)?);
-            if let Some(certificate) = polynomials {
-                points.push(self.point(tolerance, certificate)?);
-            }
+            certificates.push(certificate);
+            certificates.extend(polynomials);
         }
+        let options = self.options;
+        let points = parallel::each(&certificates, |certificate| {
+            point(options, tolerance, certificate)
+        });
+        let points = points.into_iter().collect::<Result<_, _>>()?;
         Ok(Rung { tolerance, points })
     }
 
@@ -192,40 +196,41 @@ impl<'a> Ladder<'a> {
         exact.certificates.retain(|c| scalars.contains(&c.scalar));
         exact
     }
+}
 
-    fn point(&self, tolerance: f64, certificate: Certificate) -> Result<Point, SweepError> {
-        let (observed, mut violation) = self.falsified(&certificate)?;
-        let mut rounding_observed = None;
-        if certificate.scalar == ScalarType::F32 {
-            let (observed, other) = self.falsified(&certificate.of_rounding())?;
-            rounding_observed = observed;
-            violation = violation.or(other);
-        }
-        Ok(Point {
-            observed,
-            rounding_observed,
-            violation,
-            ..Point::new(tolerance, certificate)
-        })
+/// Runs a variant at states that try to refute its claim.
+fn point(options: Options, tolerance: f64, certificate: &Certificate) -> Result<Point, SweepError> {
+    let (observed, mut violation) = falsified(options, certificate)?;
+    let mut rounding_observed = None;
+    if certificate.scalar == ScalarType::F32 {
+        let (observed, other) = falsified(options, &certificate.of_rounding())?;
+        rounding_observed = observed;
+        violation = violation.or(other);
     }
+    Ok(Point {
+        observed,
+        rounding_observed,
+        violation,
+        ..Point::new(tolerance, certificate.clone())
+    })
+}
 
-    /// Returns the largest error that is seen, and one above E.
-    fn falsified(
-        &self,
-        certificate: &Certificate,
-    ) -> Result<(Option<f64>, Option<String>), SweepError> {
-        let falsification = falsify(certificate, self.options.samples, self.options.climbs, 1)
-            .map_err(SweepError::Text)?;
-        let largest = || falsification.observed.iter().copied().fold(0.0, f64::max);
-        let observed = (falsification.states > 0).then(largest);
-        let violation = falsification.violation.map(|(index, state)| {
-            format!(
-                "{} errs up to {:e}, which is more than its E of {:e}, as at {state:?}",
-                certificate.emitted.entry(index),
-                falsification.observed[index],
-                certificate.bounds[index].total()
-            )
-        });
-        Ok((observed, violation))
-    }
+/// Returns the largest error that is seen, and one above E.
+fn falsified(
+    options: Options,
+    certificate: &Certificate,
+) -> Result<(Option<f64>, Option<String>), SweepError> {
+    let falsification =
+        falsify(certificate, options.samples, options.climbs, 1).map_err(SweepError::Text)?;
+    let largest = || falsification.observed.iter().copied().fold(0.0, f64::max);
+    let observed = (falsification.states > 0).then(largest);
+    let violation = falsification.violation.map(|(index, state)| {
+        format!(
+            "{} errs up to {:e}, which is more than its E of {:e}, as at {state:?}",
+            certificate.emitted.entry(index),
+            falsification.observed[index],
+            certificate.bounds[index].total()
+        )
+    });
+    Ok((observed, violation))
 }

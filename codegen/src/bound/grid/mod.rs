@@ -200,35 +200,33 @@ fn bound(layout: &Layout, limits: &InputBox, aim: Aim, closeness: GridEffort) ->
     let value = |values: &[f64]| layout.value(values) - layout.slack;
     let least = climb(&mut cells, closeness.starts, &value);
     let tries = tries(least, 2.0 * layout.slack, crude, closeness.close);
-    let start = match aim {
-        Aim::Least(goal) | Aim::Judged(goal, _) => {
-            let enough = tries.iter().position(|&bound| bound >= goal);
-            enough.unwrap_or(tries.len().saturating_sub(1))
-        }
-        Aim::Within(most) => match tries.iter().rposition(|&bound| bound <= most) {
-            Some(last) => last,
-            None => return crude,
-        },
-    };
     let mut shown = |bound: f64| {
         cells.points = points;
-        cells.below(0, bound)
+        least <= bound && bound < crude && cells.below(0, bound)
     };
-    let first = tries.get(start).copied();
-    if let Aim::Judged(_, most) = aim {
-        let first = first.filter(|&bound| bound < most);
-        let found = first
-            .into_iter()
-            .chain([most])
-            .find(|&bound| least <= bound && bound < crude && shown(bound));
-        let above = f64::max(least * (1.0 + closeness.close), most.next_up());
-        return found.unwrap_or(above.min(crude));
-    }
-    match first.filter(|&bound| shown(bound)) {
-        Some(bound) => bound,
-        None if matches!(aim, Aim::Within(_)) => crude,
-        None => least_shown(&tries, start, &mut shown).unwrap_or(crude),
-    }
+    let start = |goal: f64| tries.iter().position(|&bound| bound >= goal);
+    let (first, most) = match aim {
+        Aim::Least(goal) => {
+            let start = start(goal).unwrap_or(tries.len().saturating_sub(1));
+            return match tries.get(start).filter(|&&bound| shown(bound)) {
+                Some(&bound) => bound,
+                None => least_shown(&tries, start, &mut shown).unwrap_or(crude),
+            };
+        }
+        Aim::Judged(goal, most) => (start(goal).map(|start| tries[start]), most),
+        Aim::Within(most) => (
+            tries.iter().rev().copied().find(|&bound| bound <= most),
+            most,
+        ),
+    };
+    // Between two of them, what is asked for may be shown where the smaller one is not.
+    let first = first.filter(|&bound| bound < most);
+    let found = first.into_iter().chain([most]).find(|&bound| shown(bound));
+    let above = match aim {
+        Aim::Judged(..) => f64::max(least * (1.0 + closeness.close), most.next_up()),
+        _ => crude,
+    };
+    found.unwrap_or(above.min(crude))
 }
 
 /// Bounds to try: from a value that is taken up to the crude bound.

@@ -7,10 +7,11 @@
 mod boxes;
 
 use crate::bound::distinct::Distinct;
-use crate::bound::expand::expand;
+use crate::bound::expand::{Polynomial, expand};
 use crate::bound::grid::{self, Aim, GridEffort};
 use crate::bound::input_box::InputBox;
 use crate::graph::Graph;
+use crate::parallel;
 use boxes::branch_and_bound;
 
 /// How much work a bound may take.
@@ -109,12 +110,21 @@ fn written_out(
     let polynomials = expand(graph, whole)?;
     let sliding = grid::sliding(graph, whole.joints());
     let closeness = GridEffort::fine(budget.points);
-    let mut most = Vec::new();
-    for (polynomial, aim) in polynomials.iter().zip(aims) {
+    let bound = |(polynomial, aim): (&Polynomial, Aim)| {
         let polynomial = grid::harmonics(polynomial, whole.joints())?;
-        let found = grid::magnitude(polynomial, whole, &sliding, aim, closeness);
+        Some(grid::magnitude(polynomial, whole, &sliding, aim, closeness))
+    };
+    let all: Vec<_> = polynomials.iter().zip(aims).collect();
+    if all.iter().all(|(_, aim)| matches!(aim, Aim::Least(_))) {
+        return parallel::each(&all, |one| bound(*one))
+            .into_iter()
+            .collect();
+    }
+    let mut most = Vec::new();
+    for one in all {
+        let found = bound(one)?;
         most.push(found);
-        if matches!(aim, Aim::Within(limit) if found > limit) {
+        if matches!(one.1, Aim::Within(limit) if found > limit) {
             break;
         }
     }

@@ -19,6 +19,7 @@ use crate::bound::input_box::InputBox;
 use crate::graph::Edge;
 use crate::interval::Interval;
 use crate::interval::rounding::binade;
+use crate::parallel;
 use crate::program::{Input, Operand, Operation, Program, ScalarType};
 
 /// How close a bound is to come to a sum that is taken.
@@ -128,27 +129,24 @@ impl<'a> Written<'a> {
             return vec![Together::default(); program.outputs.len()];
         };
         let constants = ScalarType::ALL.map(|scalar| (scalar, Constants::of(program, scalar, &[])));
-        let outputs = gradient.adjoints.iter();
-        outputs
-            .map(|adjoints| {
-                let (steps, list) = arithmetic(program, gradient, adjoints, most, &constants);
-                let found = squares.sum(&list, self.closeness);
-                let (arithmetic, caps) = of_steps(program, &steps, &list, found);
-                let weights: Vec<f64> = (adjoints.sines.iter())
-                    .map(|(input, _)| weight(*input, self.limits, &constants))
-                    .collect();
-                let list: Vec<Product> = (adjoints.sines.iter().zip(&weights))
-                    .map(|((_, edge), &weight)| alone(weight, edge))
-                    .collect();
-                let sines = squares.sum(&list, self.closeness);
-                Together {
-                    arithmetic,
-                    caps,
-                    sines: sines.map(|found| found.sum),
-                    weights,
-                }
-            })
-            .collect()
+        parallel::each(&gradient.adjoints, |adjoints| {
+            let (steps, list) = arithmetic(program, gradient, adjoints, most, &constants);
+            let found = squares.sum(&list, self.closeness);
+            let (arithmetic, caps) = of_steps(program, &steps, &list, found);
+            let weights: Vec<f64> = (adjoints.sines.iter())
+                .map(|(input, _)| weight(*input, self.limits, &constants))
+                .collect();
+            let list: Vec<Product> = (adjoints.sines.iter().zip(&weights))
+                .map(|((_, edge), &weight)| alone(weight, edge))
+                .collect();
+            let sines = squares.sum(&list, self.closeness);
+            Together {
+                arithmetic,
+                caps,
+                sines: sines.map(|found| found.sum),
+                weights,
+            }
+        })
     }
 }
 
