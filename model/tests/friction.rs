@@ -190,7 +190,7 @@ mod slopes {
                 ];
                 let mut expected = [(); 2].map(|()| vec![vec![Wide::zero(); 3]; 3]);
                 for k in 0..3 {
-                    let (mut more, mut less) = (qd.clone(), qd.clone());
+                    let (mut more, mut less) = (qd, qd);
                     (more[k], less[k]) = (qd[k].add(&step), qd[k].sub(&step));
                     let pairs = results(&more).into_iter().zip(results(&less));
                     for (rows, (more, less)) in expected.iter_mut().zip(pairs) {
