@@ -66,18 +66,26 @@ impl Wide {
 
     /// Returns sine and cosine of an angle, each within 2⁻²⁵⁵ of the true value.
     pub fn sincos(angle: &Angle) -> SinCosPair<Wide> {
-        let bits = BITS as usize + 16;
+        Wide::sincos_to(angle, BITS as usize + 16)
+    }
+
+    /// Returns sine and cosine of a double of radians, also of one that is as small as a double
+    /// can be; `None` if it is not finite.
+    pub fn sincos_of(radians: f64) -> Option<SinCosPair<Wide>> {
+        let angle = Angle::Radians(Rational::from_float(radians)?);
+        // So many of the sine's first bits may be zero.
+        let (_, exponent, _) = FloatCore::integer_decode(radians);
+        let more = usize::from(exponent.min(0).unsigned_abs());
+        Some(Wide::sincos_to(&angle, BITS as usize + 16 + more))
+    }
+
+    /// Returns sine and cosine of an angle from so many bits behind the point.
+    fn sincos_to(angle: &Angle, bits: usize) -> SinCosPair<Wide> {
         let (sin, cos) = sin_cos(angle, bits);
         SinCosPair {
             sin: Wide::cut(&sin, -(bits as i64)),
             cos: Wide::cut(&cos, -(bits as i64)),
         }
-    }
-
-    /// Returns sine and cosine of a double of radians; `None` if it is not finite.
-    pub fn sincos_of(radians: f64) -> Option<SinCosPair<Wide>> {
-        let radians = Rational::from_float(radians)?;
-        Some(Wide::sincos(&Angle::Radians(radians)))
     }
 
     /// Returns the nearest double.
@@ -328,6 +336,11 @@ mod tests {
                 assert!(off < 1e-69, "{digits}: {off:e}");
             }
         }
+        let least = Wide::from_f64(5e-324).unwrap();
+        assert_eq!(
+            Wide::sincos_of(5e-324).unwrap().sin.to_f64(),
+            least.to_f64()
+        );
         let seventh = Angle::PiTimes(Rational::new(1.into(), 7.into()));
         let digits = "0.4338837391175581204757683328483587546099907277874598764445473035322032";
         let expected = Wide::from_rational(&parse_decimal(digits).unwrap());
