@@ -77,28 +77,24 @@ where
     F: Function<A, N, M, K>,
 {
     check_states(&arguments, results.len())?;
-    let from = BLOCK.saturating_sub(results.len());
-    if from == 0 {
-        run(
-            vectors,
-            States::<F, A, N, M, K> {
-                arguments,
-                results,
-                from,
-            },
-        );
-    } else if !results.is_empty() {
-        let blocks = arguments.map(ending);
-        let arguments = blocks.each_ref().map(|rows| &rows[..]);
-        run(
-            vectors,
-            States::<F, A, N, M, K> {
-                arguments,
-                results,
-                from,
-            },
-        );
+    if results.is_empty() {
+        return Ok(());
     }
+    let from = BLOCK.saturating_sub(results.len());
+    let mut arguments = arguments;
+    let blocks: [[[F::Scalar; N]; BLOCK]; A];
+    if from > 0 {
+        blocks = arguments.map(ending);
+        arguments = blocks.each_ref().map(|rows| &rows[..]);
+    }
+    run(
+        vectors,
+        States::<F, A, N, M, K> {
+            arguments,
+            results,
+            from,
+        },
+    );
     Ok(())
 }
 
