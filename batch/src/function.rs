@@ -14,7 +14,7 @@ pub trait Function<const A: usize, const N: usize, const M: usize, const K: usiz
     type Scalar: Float;
     /// The results of one state.
     type State;
-    /// Whether products are fused in the sines, too.
+    /// Says whether the sines fuse their products as well, as the function's text does.
     const FUSED: bool = false;
 
     /// Returns the angles whose sines and cosines [`vectors`](Function::vectors) takes.

@@ -8,7 +8,7 @@ use core::arch::x86_64::{__m256, __m256d, __m512, __m512d};
 use pulp::x86::{V3, V4};
 use pulp::{cast, f32x4, f64x4};
 
-/// What moves numbers of a type among its vectors.
+/// Moves numbers of a type among its vectors.
 pub(crate) trait Quads<T, Raw>: Sized {
     /// Returns the columns of four entries, from one on, in so many rows.
     fn columns<const N: usize>(self, rows: &[[T; N]], entry: usize) -> [Raw; 4];

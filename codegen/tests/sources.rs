@@ -1,4 +1,4 @@
-//! What each source of the search earns: operations that its absence costs, over the six
+//! Counts what each source of the search earns: operations that its absence costs, over the six
 //! robots of `generated`, the arms of the gallery and twenty that nobody chose.
 
 use std::path::Path;

@@ -190,7 +190,7 @@ fn overflows(case: &Extreme, scalar: ScalarType) -> bool {
     case.category.starts_with("f32overflow") && scalar == ScalarType::F32
 }
 
-/// Returns what is beyond the range must not look like a number.
+/// Returns whether no result looks like a number where the truth is beyond the range.
 fn never_silent(found: &[f64], truth: &[Wide]) -> bool {
     let largest = f64::from(f32::MAX);
     let beyond = |truth: &Wide| truth.magnitude() > largest;

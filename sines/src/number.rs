@@ -22,7 +22,7 @@ pub trait Number<T>:
     fn fused(self, factor: Self, addend: Self) -> Self;
 }
 
-/// What becomes of a product whose sums round it.
+/// Takes products into sums, rounded before or fused with them.
 pub trait Products<T> {
     /// A product of two such numbers.
     type Of<V: Number<T>>: Copy;

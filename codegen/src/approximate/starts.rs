@@ -17,10 +17,10 @@ use crate::watch::FunctionWatch;
 /// Starts that are about to leave this much more than the best are not edited.
 const NEAR: f64 = 1.15;
 
-/// Of the starts, and of the programs found, so many are edited again.
+/// The number of best starts, and of best programs found, that are edited again.
 const AGAIN: usize = 2;
 
-/// What programs are edited for.
+/// The programs to start from, and the errors that edits may cost.
 pub(super) struct Starts<'a> {
     pub scene_robot: &'a SceneRobot,
     /// The exact program.

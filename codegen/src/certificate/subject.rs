@@ -19,7 +19,7 @@ use crate::sincos::{self, AngleKernel, Sines};
 use crate::split::ErrorByCause;
 use crate::verify::exact::prove_same;
 
-/// What is further above a limit than this is not within it.
+/// A bound that exceeds its limit by more than this factor is not tried at the limit.
 const NEAR: f64 = 1.07;
 
 /// What a claim is about, whatever the scalar.

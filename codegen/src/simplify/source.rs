@@ -1,4 +1,4 @@
-//! What the search chooses from, by name: each can be left out, to see what it earns.
+//! The sources that the search chooses from, by name: each can be left out, to see what it earns.
 
 use crate::words::words;
 

@@ -31,7 +31,8 @@ impl CostModel {
         sum_sincos: 300,
     };
 
-    /// What a tolerance admits: the polynomials of a pair then take about eight operations.
+    /// Prices where a tolerance is given: polynomials for a pair of sine and cosine then take about
+    /// eight operations.
     pub(crate) const TOLERATED: CostModel = CostModel {
         sincos: 800,
         ..CostModel::OPERATIONS

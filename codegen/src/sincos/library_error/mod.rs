@@ -32,8 +32,8 @@ const WIDEST: f64 = 0.79;
 /// What is smaller is computed as the sine of what is left of the angle.
 const SINE_ALONE: f64 = 0.7;
 
-/// What is proved of sines and cosines in which products are fused, in unit roundoffs: less than of
-/// the others, at every size (`tests`), so that what is certified with those is of these.
+/// Bounds the error of sines and cosines with fused products, in unit roundoffs: it is proved, and
+/// below that of rounded products at every size (`tests`), so certificates for those hold here.
 pub(crate) const FUSED_ERROR: f64 = 0.83;
 
 /// Parts of the range of r with a bound each: as wide as each other, then narrower

@@ -35,7 +35,7 @@ fn less_than_stated_is_proved_in_both_scalars() {
     }
 }
 
-/// Of those that batches fuse as well: so what is certified of the others is of them.
+/// Fused products err no more than rounded ones, so certificates for those hold for these.
 #[test]
 fn fused_products_err_no_more() {
     for scalar in ScalarType::ALL {

@@ -14,7 +14,7 @@ struct Traced<'t> {
     /// None of a literal.
     tape: Option<&'t RefCell<Vec<KernelStep>>>,
     term: Term,
-    /// Of a factor or an addend that is fused.
+    /// Is true where a fused product takes the opposite of this value.
     negative: bool,
 }
 
