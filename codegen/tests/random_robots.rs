@@ -97,37 +97,6 @@ fn formulations_agree() {
     }
 }
 
-/// A recording that is run is the formula that is executed: every function, in the
-/// prime field, where equal is equal.
-#[test]
-fn recordings_are_the_formulas() {
-    let points = Points::SEARCH;
-    let of_input = |input| points.input(input).0[0];
-    let of_constant = |constant: &Exact| points.constant(constant).unwrap().0[0];
-    for (seed, robot, _) in robots(24, 0x7ec0) {
-        let n = robot.joints.len();
-        if n > 4 {
-            continue;
-        }
-        let scene_robot = SceneRobot::whole(&robot);
-        for function in Function::ALL {
-            for formulation in [Formulation::LagrangeEuler, Formulation::NewtonEulerLink] {
-                let arm = Arm::from_robot(&robot, &mut { of_constant });
-                let posed = scene_robot.posed(function, arm, of_input, of_constant);
-                let expected = posed.results(&scene_robot, function, formulation);
-                let recording = scene_robot.record(function, |posed, _| {
-                    posed.results(&scene_robot, function, formulation)
-                });
-                let found = recording.run(|x| of_input(*x), |x| Some(of_constant(x)));
-                assert!(
-                    found == Some(expected),
-                    "seed {seed}, {n} joints: {function} by {formulation:?}"
-                );
-            }
-        }
-    }
-}
-
 /// Without velocities, what is left of the torques is D q̈ + c: the scene's
 /// code against the whole robot's two functions, which know no scene.
 #[test]

@@ -3,13 +3,14 @@
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::{GenerateError, generate};
 use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::states::seeded;
 use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::verify::reference::Reference;
 use dalembert_codegen::workspace::words::parse;
 use dalembert_report::stress::deviation::Measure;
 use dalembert_report::stress::growth::{chain, measure};
 use dalembert_report::stress::subject::Code;
-use dalembert_report::stress::truth::Truth;
 
 fn request(function: Function, start: &str) -> Request {
     Request {
@@ -44,10 +45,10 @@ fn long_functions_come_in_parts_and_are_right() {
     assert!(lines(&generated.text) >= 6);
     let code = Code::Emitted(generated.emitted);
     let measure = Measure::new(&robot, ScalarType::F64, Vec::new());
-    let truth = Truth::new(&robot);
+    let reference = Reference::new(&SceneRobot::whole(&robot));
     for state in seeded(&robot, 3, 8) {
         let found = code.run(function, &state).unwrap();
-        let expected = truth.run(function, &state).unwrap();
+        let expected = reference.run(function, &state);
         let n = robot.joints.len();
         for range in [0..n * n, n * n..n * n + n, n * n + n..n * n + 2 * n] {
             let error = measure.of(&found[range.clone()], &expected[range]);

@@ -7,14 +7,15 @@ use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Limits, Robo
 
 use super::deviation::Measure;
 use super::subject::Code;
-use super::truth::Truth;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::{GenerateError, generate};
 use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::program::{Counts, ScalarType};
 use dalembert_codegen::workspace::random::Random;
+use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::states::seeded;
 use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::verify::reference::Reference;
 
 /// The lengths of chain that are measured.
 pub const JOINTS: [usize; 10] = [1, 2, 3, 4, 6, 8, 12, 20, 30, 60];
@@ -51,13 +52,13 @@ pub fn measure(n: usize, request: &Request) -> Result<Growth, GenerateError> {
     let generated = generate(&robot, &request)?;
     let time = begin.elapsed();
     let code = Code::Emitted(generated.emitted);
-    let truth = Truth::new(&robot);
+    let reference = Reference::new(&SceneRobot::whole(&robot));
     let measure = Measure::new(&robot, ScalarType::F64, Vec::new());
     let mut error = 0.0f64;
     for state in seeded(&robot, 20, 1) {
         let run = Function::InverseDynamics;
-        if let (Some(found), Some(truth)) = (code.run(run, &state), truth.run(run, &state)) {
-            error = error.max(measure.of(&found, &truth).normwise);
+        if let Some(found) = code.run(run, &state) {
+            error = error.max(measure.of(&found, &reference.run(run, &state)).normwise);
         }
     }
     let counts = generated.functions.first().map(|f| f.counts());

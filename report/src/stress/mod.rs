@@ -1,9 +1,7 @@
 //! Numerical stability at the extremes: generated code and generic runtime
 //! against a reference in 256 bits, where robots are not.
 //!
-//! - [`truth`]: the reference: the equations over a float of 256 bits
 //! - [`subject`]: what is tested: emitted code and runtime, f64 and f32
-//! - [`rounding`]: a robot with its parameters rounded to a scalar
 //! - [`scale`]: states of given magnitudes, and the torques to be met there
 //! - [`deviation`]: errors in u, normwise and for each joint
 //! - [`robots`], [`states`]: extremes made out of a robot
@@ -20,10 +18,8 @@ pub mod deviation;
 pub mod growth;
 pub mod report;
 pub mod robots;
-pub mod rounding;
 pub mod scale;
 pub mod singular;
 pub mod states;
 pub mod subject;
 pub mod sweep;
-pub mod truth;

@@ -5,12 +5,13 @@ use dalembert_model::robot::Robot;
 use super::deviation::Measure;
 use super::report::Options;
 use super::subject::{Code, Subject};
-use super::truth::Truth;
 use super::{robots, states};
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::GenerateError;
 use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::states::{JointState, seeded};
+use dalembert_codegen::workspace::verify::reference::Reference;
 
 /// The quantity that is varied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,7 +97,7 @@ pub fn run(robot: &Robot, options: &Options) -> Result<Vec<Curve>, GenerateError
 /// The programs of a robot, a scalar's subjects together.
 struct Codes {
     robot: Robot,
-    truth: Truth,
+    reference: Reference,
     codes: Vec<(ScalarType, Option<Code>)>,
 }
 
@@ -110,7 +111,7 @@ impl Codes {
             codes.push((scalar, emitted.ok()));
         }
         Ok(Codes {
-            truth: Truth::new(robot),
+            reference: Reference::new(&SceneRobot::whole(robot)),
             robot: robot.clone(),
             codes,
         })
@@ -125,8 +126,12 @@ impl Codes {
                 let state = state.in_scalar(*scalar);
                 let run = Function::InverseDynamics;
                 let found = code.as_ref().and_then(|code| code.run(run, &state));
-                let error = match (found, self.truth.run(run, &state)) {
-                    (Some(found), Some(truth)) => measure.of(&found, &truth).normwise,
+                let error = match found {
+                    Some(found) if state.is_finite() => {
+                        measure
+                            .of(&found, &self.reference.run(run, &state))
+                            .normwise
+                    }
                     _ => f64::INFINITY,
                 };
                 worst[index] = worst[index].max(if error.is_nan() { f64::INFINITY } else { error });

@@ -1,6 +1,8 @@
 //! The extreme cases as robots with exact parameters.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
+pub mod rounding;
+
 use std::path::PathBuf;
 
 use dalembert_codegen::workspace::states::JointState;
