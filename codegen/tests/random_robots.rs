@@ -12,12 +12,11 @@ use dalembert_codegen::workspace::graph::Points;
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::program::run::State;
-use dalembert_codegen::workspace::scene::{self, SceneRobot};
+use dalembert_codegen::workspace::scene;
 use dalembert_codegen::workspace::states::{SEED, seeded};
 use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::floating::Runtime;
 use dalembert_model::equations::{Arm, Formulation};
-use dalembert_model::number::Exact;
 use dalembert_model::scene::Scene;
 
 /// Returns a function whose code stays small enough for a test.

@@ -8,18 +8,14 @@
 //! - [`category`]: the matrix of them, and what each is held to
 //! - [`report`]: the matrix run on one robot
 //! - [`singular`]: functions that divide, where D is nearest to singular
-//! - [`sweep`]: errors against the size of angles, velocities and mass ratios
-//! - [`growth`]: what longer chains cost
 //!
 //! The measured table of worst errors is in `README.md` of this folder.
 
 pub mod category;
 pub mod deviation;
-pub mod growth;
 pub mod report;
 pub mod robots;
 pub mod scale;
 pub mod singular;
 pub mod states;
 pub mod subject;
-pub mod sweep;
