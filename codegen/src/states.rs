@@ -2,7 +2,7 @@
 
 use dalembert_model::number::Rounded;
 use dalembert_model::outputs::{Argument, Sizes};
-use dalembert_model::robot::{Limit, Joint, JointKind, Position, Robot};
+use dalembert_model::robot::{Joint, JointKind, Limit, Position, Robot};
 
 use crate::random::Random;
 
