@@ -60,7 +60,7 @@ impl Angle {
         }
     }
 
-    /// Returns the same angle in the form that compares equal whenever the
+    /// Returns the angle in the form that compares equal whenever the
     /// value does: zero radians become zero times π. (No other rational number
     /// of radians is a rational multiple of π.)
     #[must_use]
@@ -249,7 +249,7 @@ impl Snap {
         Self::near(Angle::Radians(radians))
     }
 
-    /// Says whether an angle that stays as written is close to a right angle.
+    /// Reads an angle that stays as written, and notes a right angle close to it.
     pub fn near(angle: Angle) -> Snapped {
         let radians = angle.radians();
         let quarter = pi() / Rational::from_integer(2.into());

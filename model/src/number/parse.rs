@@ -40,7 +40,7 @@ pub enum NumberError {
 }
 
 impl NumberError {
-    /// Returns what would be right instead.
+    /// Returns the likely fix.
     pub fn help(self) -> &'static str {
         match self {
             NumberError::Malformed => "write a number like 0.5, -3 or 1.2e-4",

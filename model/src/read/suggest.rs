@@ -43,7 +43,7 @@ const OTHER_WORDS: [(&str, &str); 32] = [
     ("sliding", "prismatic"),
 ];
 
-/// Returns what to do about a bundle that is none, with the output that was
+/// Returns the likely fix of a bundle that cannot be read, with the output that was
 /// probably meant.
 pub fn for_bundle(error: &BundleError) -> String {
     let meant = match error {
@@ -63,8 +63,7 @@ const SEVERAL: [(&str, &[&str], &str); 1] = [(
     "write `viscous` for friction that grows with the speed, `coulomb` for one that does not, or both",
 )];
 
-/// Returns what to write instead of a key that is not known, if that is one or
-/// several of these.
+/// Returns the known key, or the several, that an unknown one probably stands for.
 pub(super) fn for_key(word: &str, known: &[&str]) -> Option<String> {
     let has_all = |keys: &[&str]| keys.iter().all(|key| known.contains(key));
     let mut several = SEVERAL.iter();

@@ -79,7 +79,7 @@ impl Wide {
         Some(Wide::sincos_to(&angle, BITS as usize + 16 + more))
     }
 
-    /// Returns sine and cosine of an angle from so many bits behind the point.
+    /// Returns sine and cosine of an angle from `bits` bits behind the point.
     fn sincos_to(angle: &Angle, bits: usize) -> SinCosPair<Wide> {
         let (sin, cos) = sin_cos(angle, bits);
         SinCosPair {
@@ -93,7 +93,7 @@ impl Wide {
         f64::nearest_rational(&self.to_rational())
     }
 
-    /// Returns the same number, exactly.
+    /// Returns its value, exactly.
     pub fn to_rational(&self) -> Rational {
         let power = self.exponent.unsigned_abs();
         let whole = self.whole();
