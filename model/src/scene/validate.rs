@@ -1,4 +1,4 @@
-//! What no scene of a robot may be, whoever made it.
+//! Checks of scenes, from files and from code.
 //!
 //! - this file: names, joints, locks, the payload
 //! - `bounds`: the box
@@ -21,8 +21,8 @@ use crate::number::parse::write_decimal;
 use crate::robot::{Finding, Findings, Joint, JointKind, Position, Robot, RobotWarning, reach};
 
 impl Scene {
-    /// Returns everything that is wrong or odd about the scene; without an error among
-    /// it, every later stage accepts it with this robot.
+    /// Returns every error and warning about the scene. Every later stage accepts a scene
+    /// without an error, with this robot.
     pub fn validate(&self, robot: &Robot) -> Vec<Finding> {
         let mut check = Check {
             scene: self,

@@ -65,7 +65,7 @@ impl Check<'_> {
         self.scene.outputs.iter().any(scaled)
     }
 
-    /// Reports what a bound needs and nobody says, and what T is made of:
+    /// Reports limits that a bound needs and that are missing, and those of the scale T:
     /// limits above zero, of every joint with a result.
     fn needs(&mut self, scale: Scale) {
         let scene = self.scene;
