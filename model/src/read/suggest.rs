@@ -6,7 +6,7 @@ use alloc::string::String;
 use crate::outputs::{BundleError, Function};
 
 /// Words of other tools and textbooks, with ours.
-const OTHER_WORDS: [(&str, &str); 32] = [
+const OTHER_WORDS: [(&str, &str); 42] = [
     ("m", "mass"),
     ("weight", "mass"),
     ("r", "com"),
@@ -39,6 +39,16 @@ const OTHER_WORDS: [(&str, &str); 32] = [
     ("continuous", "revolute"),
     ("linear", "prismatic"),
     ("sliding", "prismatic"),
+    ("rnea", "inverse_dynamics"),
+    ("id", "inverse_dynamics"),
+    ("aba", "forward_dynamics"),
+    ("fd", "forward_dynamics"),
+    ("crba", "inertia"),
+    ("mass_matrix", "inertia"),
+    ("inertia_matrix", "inertia"),
+    ("fk", "forward_kinematics"),
+    ("nle", "manipulator_equation"),
+    ("nonlinear_effects", "manipulator_equation"),
 ];
 
 /// Returns what to do about a bundle that is none, with the output that was
