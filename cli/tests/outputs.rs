@@ -243,7 +243,7 @@ fn folders_are_made_at_the_end() {
     let tradeoff = |output: &str| run(&["tradeoff", &arm, "-o", output]);
     // The robot has no limits: said after the folder was looked at.
     let ran = tradeoff(&path("new/deep"));
-    refused(&ran, "has no limit", &folder, &before);
+    refused(&ran, "joints 1, 2 have no limit", &folder, &before);
     let ran = tradeoff(&path("arm.toml/deep"));
     refused(&ran, "arm.toml` is no folder", &folder, &before);
     let ran = run(&["stress", &arm, "-o", &arm]);
