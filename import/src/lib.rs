@@ -222,6 +222,7 @@ fn imported(
         false => Snapping::All,
     };
     let mut taken = snapped(all)?;
+    let mut stays = options.exact;
     if !options.snap && taken.3.relative() > FELT {
         let message = format!(
             "rounded numbers stay as they are: the exact ones that were probably meant would change \
@@ -233,13 +234,14 @@ fn imported(
             message,
             "--snap takes the exact ones, and code gets shorter",
         );
+        stays = true;
         taken = snapped(Snapping::Near)?;
         if taken.3.relative() > FELT {
             taken = snapped(Snapping::None)?;
         }
     }
     let (snapped, snaps, arm, change) = taken;
-    let text = write::file(&snapped, &chain, &arm, &snaps, options, problems);
+    let text = write::file(&snapped, &chain, &arm, (&snaps, stays), options, problems);
     let reading = match read::parse(&text, &read::Options::default()) {
         Ok(reading) => reading,
         Err(errors) => {

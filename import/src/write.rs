@@ -18,12 +18,13 @@ use crate::snap::Snap;
 use crate::tree::{Chain, Moving};
 use crate::urdf::{Joint, Kind, Mimic, Number, Urdf};
 
-/// Writes the robot file, and says what of the URDF is not in it.
+/// Writes the robot file, and says what of the URDF is not in it; where digits stay as they stand, its
+/// reader does not warn of them.
 pub(crate) fn file(
     urdf: &Urdf,
     chain: &Chain,
     arm: &Arm,
-    snaps: &[Snap],
+    (snaps, stays): (&[Snap], bool),
     options: &Options,
     problems: &mut Problems,
 ) -> String {
@@ -86,7 +87,7 @@ pub(crate) fn file(
     if !arm.tool.is_identity() {
         line(&mut text, "tool", &placement(&as_read(&arm.tool)));
     }
-    if options.exact {
+    if stays {
         line(&mut text, "allow", "[\"near_right_angle\"]");
     }
     let mut left_out = LeftOut::default();
