@@ -80,7 +80,7 @@ fn within(lines: &[&str], functions: &[&Found], setting: &Setting) -> Option<Vec
 
 /// Returns the lines of an `impl`, by which the robot as a value calls a function.
 fn implementation(head: &str, functions: &[&Found], joints: usize) -> Option<Vec<String>> {
-    let asked = between(head, "impl ", &format!(" for Robot {{"))?;
+    let asked = between(head, "impl ", " for Robot {")?;
     let (path, question) = asked.split_once('<')?.0.rsplit_once("::")?;
     let found = functions
         .iter()

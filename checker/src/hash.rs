@@ -3,7 +3,7 @@
 
 /// Returns the first bits of the roots of the first 64 primes behind the point.
 fn bits(root: impl Fn(f64) -> f64) -> Vec<u32> {
-    let is_prime = |n: &u32| (2..*n).all(|k| n % k > 0);
+    let is_prime = |n: &u32| !(2..*n).any(|k| n.is_multiple_of(k));
     let fraction = |n: u32| (root(f64::from(n)).fract() * 2f64.powi(32)) as u32;
     (2..312).filter(is_prime).map(fraction).collect()
 }
