@@ -181,6 +181,9 @@ fn a_urdf_is_loaded() {
         .unwrap()
         .to_string();
     assert!(error.contains("there is no file"), "{error}");
-    let error = Arm::parse("<robot", "it", None, &load).err().unwrap().to_string();
+    let error = Arm::parse("<robot", "it", None, &load)
+        .err()
+        .unwrap()
+        .to_string();
     assert!(error.contains("error"), "{error}");
 }
