@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
+use super::arguments::described;
 use super::module::{function_doc, header};
 use super::state_box::StateBox;
 use super::{GeneratedFunction, acsl, c_sines, fused, parameters};
@@ -99,7 +100,10 @@ pub(crate) fn write(
     // Writing to a string cannot fail.
     let _ = write!(
         text,
-        "#ifndef {guard}\n#define {guard}\n\n{includes}\n\
+        "#ifndef {guard}\n#define {guard}\n\n\
+         #ifdef __FAST_MATH__\n\
+         #error \"-ffast-math changes what is computed: compile without it\"\n\
+         #endif\n\n{includes}\n\
          /* No array overlaps another one that is written. */\n\
          #ifdef __cplusplus\n#define {restrict}\n#else\n#define {restrict} restrict\n#endif\n\n\
          /* Each operation is rounded: no product and sum become one that is not written so. */\n\
@@ -179,7 +183,10 @@ pub(crate) fn write(
             doc.push(String::new());
             for argument in printed.arguments {
                 let (name, length) = (argument.name(), argument.length(printed.sizes));
-                doc.push(format!("{name}[{length}]: {}", argument.meaning()));
+                let mut lines = described(*argument, scene_robot).into_iter();
+                let first = lines.next().unwrap_or_default();
+                doc.push(format!("{name}[{length}]: {first}"));
+                doc.extend(lines);
             }
             for quantity in function.quantities() {
                 let rows = scene_robot.rows();

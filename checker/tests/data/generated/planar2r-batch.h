@@ -2,6 +2,10 @@
 #ifndef PLANAR2R_H
 #define PLANAR2R_H
 
+#ifdef __FAST_MATH__
+#error "-ffast-math changes what is computed: compile without it"
+#endif
+
 #include <math.h>
 #include <stddef.h>
 
