@@ -204,6 +204,9 @@ fn items_beside_functions() {
         name,
         "does not follow from the functions and the robot: `let _ = (qd, qdd)",
     );
+    let call = "inverse_dynamics(q, qd, qdd)";
+    let whole = own("trait1.rs").replacen("let _ = (qd, qdd); gravity(q)", call, 1);
+    assert!(found(&whole, PEND).unwrap().is_shown());
     let report = found(&own("n1.rs"), PEND).unwrap();
     lost(&report, "pub const N", "pub const N: usize = 1;");
 }
