@@ -4,8 +4,9 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Choice, Facts, load};
+use super::quantity::{Facts, load};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
+use crate::equations::chain::Choice;
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -30,7 +31,7 @@ impl Formula for Gravity {
         unit: load,
         scale: ErrorScale::Load,
         given: Some("c"),
-        choices: Some(&[Choice::Travel]),
+        choices: Some(&[Choice::CompositeH]),
         payload_dependence: PayloadDependence::Torque,
         gravity: true,
         ..Facts::PLAIN
@@ -41,6 +42,6 @@ impl Formula for Gravity {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        Some(at.composite.gravity(at.form.travel))
+        Some(at.composite.gravity(at.form.composite_h))
     }
 }
