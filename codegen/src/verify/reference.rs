@@ -129,7 +129,7 @@ impl<'s> Reference<'s> {
 #[derive(Clone, Debug)]
 struct Known {
     value: Wide,
-    /// |value| or a little more.
+    /// |value|, rounded up.
     size: f64,
     /// In units of [`LOST`].
     lost: f64,
@@ -147,7 +147,7 @@ impl Known {
 
     /// Returns it rounded itself, with what its operands' errors make of it.
     fn rounded(value: Wide, carried: f64) -> Known {
-        let size = value.bound();
+        let size = value.magnitude();
         Known {
             value,
             size,

@@ -3,7 +3,7 @@
 
 use super::Sizes;
 use crate::equations::load::PAYLOAD;
-use crate::robot::Field;
+use crate::robot::Limit;
 
 /// The number of entries of an argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,7 +24,7 @@ struct Facts {
     given: Option<&'static str>,
     meaning: &'static str,
     length: Length,
-    limit: Option<Field>,
+    limit: Option<Limit>,
     reach: f64,
 }
 
@@ -66,27 +66,27 @@ arguments! {
     /// q
     Position "q" "q" "position", Some("q"),
         "Positions, rad or m.",
-        Length::Joints, Some(Field::Position), 1.0;
+        Length::Joints, Some(Limit::Position), 1.0;
     /// q̇
     Velocity "qd" "q̇" "velocity", Some("qd"),
         "Velocities, rad/s or m/s.",
-        Length::Joints, Some(Field::Velocity), 3.0;
+        Length::Joints, Some(Limit::Velocity), 3.0;
     /// q̈
     Acceleration "qdd" "q̈" "acceleration", Some("qdd"),
         "Accelerations, rad/s² or m/s².",
-        Length::Joints, Some(Field::Acceleration), 10.0;
+        Length::Joints, Some(Limit::Acceleration), 10.0;
     /// τ
     Torque "tau" "τ" "torque", Some("torque"),
         "Torques, N·m or N.",
-        Length::Joints, Some(Field::Torque), 100.0;
+        Length::Joints, Some(Limit::Torque), 100.0;
     /// A velocity v that a controller wishes for.
     ReferenceVelocity "v" "v" "reference velocity", None,
         "Velocities wished for, rad/s or m/s.",
-        Length::Joints, Some(Field::Velocity), 3.0;
+        Length::Joints, Some(Limit::Velocity), 3.0;
     /// An acceleration a that a controller wishes for.
     ReferenceAcceleration "a" "a" "reference acceleration", None,
         "Accelerations wished for, rad/s² or m/s².",
-        Length::Joints, Some(Field::Acceleration), 10.0;
+        Length::Joints, Some(Limit::Acceleration), 10.0;
     /// The acceleration of gravity, where it is an argument.
     Gravity "g" "g" "gravity", None,
         "Acceleration of gravity in base axes, m/s²; where the base moves, less that of the base.",
@@ -189,7 +189,7 @@ impl Argument {
 
     /// Returns the limit of a joint that says how far its entries reach; none where
     /// they are no joint's.
-    pub fn limit(self) -> Option<Field> {
+    pub fn limit(self) -> Option<Limit> {
         self.facts().limit
     }
 

@@ -3,19 +3,18 @@
 //! The text passes through, in this order:
 //! - `guard`: size, depth and count limits, before anything recursive runs
 //! - `toml-span`, for the structure and the spans; its numbers are not used
-//! - `file`, `allow`, `joint`, `frame` and `scene`: the keys of the file, through `table` and
-//!   `value`
-//! - `placed`: DH rows for joints that are placed by frames
-//! - [`Robot::validate`]: what is wrong whoever made the robot
+//! - `file`, `joint`, `mimic`, `link` and `scene`: the keys of the file, through `table` and `value`
+//! - [`Robot::validate`] and [`Scene::validate`], whose findings name places of the file, which
+//!   `table` finds in it
 //!
-//! # What a robot file may say besides rows
+//! # Keys besides those of rows
 //!
 //! ```toml
 //! base = { xyz = [0, 0, 0.8], rpy = ["pi", 0, 0] }    # frame 0 in base axes
 //! tool = { xyz = [0, 0, 0.107] }                      # the hand in the last frame
 //! payload_frame = { xyz = [0, 0, 0.05] }              # of payloads in the last frame
 //! allow = ["impossible_inertia"]                      # warnings that are known, by name
-//! outputs = ["inverse_dynamics", "gravity"]            # generated where nobody names any
+//! outputs = ["inverse_dynamics", "gravity"]            # generated where a request names none
 //!
 //! [[joint]]                       # a joint without a row of the DH table:
 //! placement = { xyz = [0.3, 0, 0.1], rpy = [0, "pi/2", 0] }
@@ -28,8 +27,8 @@
 //! rpy = ["pi/2", 0, 0]
 //! ```
 //!
-//! What is odd and not wrong is a warning, each with a name ([`RobotWarning`]) in its help.
-//! Of those that the file allows nothing is said.
+//! An oddity that is not wrong is a warning, each with a name ([`RobotWarning`]) in its help. The
+//! file silences it by that name.
 //!
 //! Gravity, poses, Jacobians and wrenches are in base axes, which are frame 0's
 //! own without a `base`. A placement is where a frame is in the one before: moved
@@ -42,19 +41,15 @@
 //! placed, and in the rows' otherwise. A row may turn about y after
 //! its twist, `beta`, where axes are nearly parallel.
 //!
-//! `report` collects and prints what was found; `suggest` finds the word that
-//! was meant, `foreign` what was meant where the text is no TOML.
+//! `report` collects and prints diagnostics; `suggest` finds the likely word, `foreign` the likely
+//! intention where the text is no TOML.
 
-mod allow;
 mod file;
 mod foreign;
-mod frame;
 mod guard;
 mod joint;
+mod link;
 mod mimic;
-mod outputs;
-mod placed;
-mod places;
 mod report;
 mod scene;
 mod suggest;
@@ -86,8 +81,8 @@ pub struct Options {
 pub struct Reading {
     /// The robot; [`Robot::validate`] finds no error in it.
     pub robot: Robot,
-    /// The functions that the file is for, which are generated where nobody names any; empty
-    /// if it does not say.
+    /// The functions that the file is for, which are generated where a request names none; empty
+    /// if the file lists none.
     pub outputs: Vec<Function>,
     /// Its scenes, in the order of the file; [`Scene::validate`] finds nothing.
     pub scenes: Vec<Scene>,
@@ -101,9 +96,13 @@ pub struct Reading {
 /// Everything that is wrong with the file, at once and in its order; only an
 /// error of the TOML syntax hides those after it.
 pub fn parse(source: &str, options: &Options) -> Result<Reading, Diagnostics> {
-    let mut sink = report::Sink::new(source);
-    let robot = file::read(source, options, &mut sink);
-    sink.finish(robot)
+    let mut cx = value::Context {
+        snap: options.snap,
+        sink: report::Sink::new(source),
+        unread: Vec::new(),
+    };
+    let read = file::read(source, &mut cx);
+    cx.sink.finish(read)
 }
 
 /// Reads a robot file from bytes.

@@ -1,4 +1,4 @@
-//! What may be odd about a robot file that is right: the names of its warnings.
+//! Warnings about robot files that are right but odd, by their names.
 
 use core::fmt;
 
