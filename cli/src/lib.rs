@@ -8,7 +8,7 @@
 //! - `count`: operation counts
 //! - `verify`: the exact proof and what rounding costs
 //! - `explain`: what each step brought, which coefficients vanish or repeat, and why
-//! - `stress`: numerical stability at the extremes, and growth
+//! - `stress`: numerical stability at the extremes
 //! - `certify`: a certificate checked again
 //! - `tradeoff`: certified error against operations
 //! - `plot`: charts as SVG

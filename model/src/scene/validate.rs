@@ -82,17 +82,9 @@ impl<'a> Check<'a> {
                 let message = format!("there is no joint {}: the robot has {n}", joint + 1);
                 self.error(place, message, "joints are counted from 1");
             } else if joints[..index].contains(&joint) {
-                let message = format!("joint {} is {twice}", self.called(joint));
+                let message = format!("{} is {twice}", self.robot.joint_label(joint));
                 self.error(place, message, "once is enough");
             }
-        }
-    }
-
-    /// Returns `4`, or `4 (wrist)`.
-    fn called(&self, joint: usize) -> String {
-        match self.joint(joint).and_then(|j| j.name.as_deref()) {
-            Some(name) => format!("{} ({name})", joint + 1),
-            None => format!("{}", joint + 1),
         }
     }
 
@@ -133,8 +125,8 @@ impl<'a> Check<'a> {
                     || compare(at, high) == Some(Ordering::Greater);
                 if outside {
                     let message = format!(
-                        "joint {} is locked outside its {whose}, {} to {}",
-                        self.called(*index),
+                        "{} is locked outside its {whose}, {} to {}",
+                        self.robot.joint_label(*index),
                         shown(low),
                         shown(high)
                     );

@@ -7,7 +7,9 @@ use alloc::vec::Vec;
 use super::{Float, Scene};
 use crate::number::Rational;
 use crate::robot::Position;
-use crate::robot::values::{inertia, lines, list, number, position, quoted, short_hash, table};
+use crate::robot::values::{
+    inertia, lines, list, number, position, quoted, short_hash, table, word,
+};
 
 /// Writes a scene as its table in a robot file, `[scene.NAME]`, joints by
 /// number.
@@ -41,10 +43,8 @@ pub fn write(scene: &Scene) -> String {
         let scale = quoted(tolerance.relative_to.word());
         table([("value", Some(value)), ("relative_to", Some(scale))])
     });
-    let scalar = scene.scalar.map(|scalar| match scalar {
-        Float::F64 => quoted("f64"),
-        Float::F32 => quoted("f32"),
-    });
+    let scalar = scene.scalar.as_ref();
+    let scalar = scalar.map(|scalar| quoted(word(&Float::WORDS, scalar)));
     lines(
         &mut text,
         [
