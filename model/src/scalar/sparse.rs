@@ -136,8 +136,8 @@ mod tests {
             Value(points.field()),
         ];
         type Own = Sparse<Field>;
-        type Plain = fn(&Field, &Field) -> Field;
-        let pairs: [(fn(&Own, &Own) -> Own, Plain); 4] = [
+        type Operation<S> = fn(&S, &S) -> S;
+        let pairs: [(Operation<Own>, Operation<Field>); 4] = [
             (Own::add, Field::add),
             (Own::sub, Field::sub),
             (Own::mul, Field::mul),
