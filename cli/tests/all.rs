@@ -18,5 +18,6 @@ mod show;
 mod sines;
 mod stress;
 mod support;
+mod terminal;
 mod tolerance;
 mod tradeoff;

@@ -17,8 +17,8 @@ use super::{Choice, MORE};
 pub struct GenerateArgs {
     /// The robot file
     pub robot: PathBuf,
-    /// Write the code to this file [default: standard output]; a link is
-    /// followed, a device or pipe written into
+    /// Write the code to this file [default: standard output, `-`]; its ending chooses the
+    /// language (.rs, .h, .cuh). A link is followed, a device or pipe written into
     #[arg(short, long, value_name = "FILE", group = "standard output free")]
     pub output: Option<PathBuf>,
     /// Write nothing: compare with FILE and exit with 1 if it differs

@@ -31,8 +31,8 @@ impl Files {
     /// Something cannot be written, or would be written over something else.
     pub fn of(args: &GenerateArgs, request: &Request) -> Result<Files, Failure> {
         let code = match &args.output {
-            Some(file) => Some(Target::at(file)?),
-            None => (!args.report).then(Target::standard),
+            None if args.report => None,
+            file => Some(Target::output(file.as_deref(), args.json || args.report)?),
         };
         let scene = request.scene.as_ref();
         let certified = scene.is_some_and(|scene| scene.tolerance.is_some());

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
+use super::arguments::described;
 use super::module::{function_doc, header};
 use super::state_box::StateBox;
 use super::{GeneratedFunction, acsl, c_sines, fused, parameters};
@@ -182,7 +183,10 @@ pub(crate) fn write(
             doc.push(String::new());
             for argument in printed.arguments {
                 let (name, length) = (argument.name(), argument.length(printed.sizes));
-                doc.push(format!("{name}[{length}]: {}", argument.meaning()));
+                let mut lines = described(*argument, scene_robot).into_iter();
+                let first = lines.next().unwrap_or_default();
+                doc.push(format!("{name}[{length}]: {first}"));
+                doc.extend(lines);
             }
             for quantity in function.quantities() {
                 let rows = scene_robot.rows();

@@ -8,7 +8,7 @@ use strsim::osa_distance;
 use crate::outputs::{BundleError, Function};
 
 /// Words of other tools and textbooks, with ours.
-const OTHER_WORDS: [(&str, &str); 32] = [
+const OTHER_WORDS: [(&str, &str); 42] = [
     ("m", "mass"),
     ("weight", "mass"),
     ("r", "com"),
@@ -41,6 +41,16 @@ const OTHER_WORDS: [(&str, &str); 32] = [
     ("continuous", "revolute"),
     ("linear", "prismatic"),
     ("sliding", "prismatic"),
+    ("rnea", "inverse_dynamics"),
+    ("id", "inverse_dynamics"),
+    ("aba", "forward_dynamics"),
+    ("fd", "forward_dynamics"),
+    ("crba", "inertia"),
+    ("mass_matrix", "inertia"),
+    ("inertia_matrix", "inertia"),
+    ("fk", "forward_kinematics"),
+    ("nle", "manipulator_equation"),
+    ("nonlinear_effects", "manipulator_equation"),
 ];
 
 /// Returns the likely fix of a bundle that cannot be read, with the output that was
