@@ -51,6 +51,20 @@ fn numbers(value: &Value) -> Vec<f64> {
     }
 }
 
+/// Returns the largest entry of what a function sums: its result, and itself without the wished
+/// velocity or acceleration. Of `passivity` these cancel, 160 N·m to 0.2, and what rounding costs is of
+/// them: it is below 5 u of the largest part at 60 000 random states, and up to 167 u of the sum.
+fn size_of_parts(truth: &Reference, function: Function, state: &JointState) -> f64 {
+    let parts = [(1.0, 1.0), (1.0, 0.0), (0.0, 1.0), (0.0, 0.0)].map(|(by_v, by_a)| {
+        let mut part = state.clone();
+        part.v.iter_mut().for_each(|v| *v *= by_v);
+        part.a.iter_mut().for_each(|a| *a *= by_a);
+        let entries = truth.run(function, &part);
+        entries.iter().map(TrueValue::magnitude).fold(0.0, f64::max)
+    });
+    parts.into_iter().fold(0.0, f64::max)
+}
+
 /// Values, errors in both scalars, and arguments as long as there are
 /// coordinates, of every output; half of them where tests are not optimised.
 #[test]
@@ -82,7 +96,10 @@ fn the_code_gives_what_pinocchio_gives() {
                     start = range.end;
                     let known = &known[range.clone()];
                     let largest = |most: f64, x: f64| most.max(x);
-                    let size = known.iter().map(TrueValue::magnitude).fold(0.0, largest);
+                    let size = match quantity {
+                        Quantity::Passivity => size_of_parts(&truth, function, &state),
+                        _ => known.iter().map(TrueValue::magnitude).fold(0.0, largest),
+                    };
                     let errors = known.iter().zip(&found[range]);
                     let error = errors.map(|(known, x)| known.error(*x)).fold(0.0, largest);
                     let units = error / (size * granted.to(quantity) * u).max(f64::MIN_POSITIVE);
