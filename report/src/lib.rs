@@ -5,9 +5,8 @@
 //! - [`stress`]: stability at the extremes, against a float of 256 bits
 //! - [`explain`]: what each step brought, and why
 //! - [`drawing`]: the arm in two views, as SVG
-//! - [`states`]: given states compared with the code, and why they disagree
+//! - [`states`]: given states compared with the code
 //! - [`table3`]: the paper's counts beside the formulas'
-//! - [`processor`]: what compilers do not say of functions
 //! - [`trace`]: what a number of the robot file reaches in generated code
 //! - [`sweep`]: certified error against operations, tolerance by tolerance
 #![forbid(unsafe_code)]
@@ -16,7 +15,6 @@
 pub mod couplings;
 pub mod drawing;
 pub mod explain;
-pub mod processor;
 pub mod states;
 pub mod stress;
 pub mod sweep;

@@ -9,7 +9,6 @@ use std::ffi::OsStr;
 use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser};
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::words::{Word, bundle, parse};
-use dalembert_report::processor::target::{TARGETS, Target};
 
 pub(super) fn lock_parser() -> impl TypedValueParser<Value = (String, String)> {
     StringValueParser::new().try_map(|text| match text.rsplit_once('=') {
@@ -94,13 +93,4 @@ pub(super) fn states_parser() -> impl TypedValueParser<Value = usize> {
     clap::value_parser!(i64)
         .range(1..=most)
         .map(|states| states as usize)
-}
-
-pub(super) fn target_parser() -> impl TypedValueParser<Value = &'static Target> {
-    let names = PossibleValuesParser::new(TARGETS.iter().map(|target| target.name));
-    names.try_map(|name| {
-        let mut all = TARGETS.iter();
-        all.find(|target| target.name == name)
-            .ok_or("no such processor")
-    })
 }

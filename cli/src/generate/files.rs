@@ -32,7 +32,7 @@ impl Files {
     pub fn of(args: &GenerateArgs, request: &Request) -> Result<Files, Failure> {
         let code = match &args.output {
             Some(file) => Some(Target::at(file)?),
-            None => (!args.report).then(Target::standard),
+            None => Some(Target::standard()),
         };
         let scene = request.scene.as_ref();
         let certified = scene.is_some_and(|scene| scene.tolerance.is_some());
