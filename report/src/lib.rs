@@ -1,7 +1,7 @@
 //! What is reported about a robot and the code generated for it: nothing that
 //! a user of the macro compiles.
 //!
-//! - [`couplings`]: which coefficients vanish or repeat, and why
+//! - [`couplings`]: the coefficients that vanish or repeat
 //! - [`stress`]: stability at the extremes, against a float of 256 bits
 //! - [`explain`]: what each step brought, and why
 //! - [`drawing`]: the arm in two views, as SVG
