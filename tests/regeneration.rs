@@ -1,5 +1,5 @@
 //! What is generated and checked in is what the generator writes from the plans
-//! beside the robots, byte for byte: the robots' source, and the code and counts in the README.
+//! beside the robots, byte for byte: the robots' source, and the code and counts of the README and the guide.
 //! Every program of these plans is proved, whether or not a checked-in file has it.
 //!
 //! What differs is written anew before the test fails, so that running it once
@@ -61,11 +61,13 @@ fn checked_in_code_is_up_to_date() {
         functions.extend(others(&reading.robot, &request));
         all.insert(name, functions);
     }
-    let readme = root().join("README.md");
     let planar2r = fs::read_to_string(root().join("generated/robots/planar2r.rs")).unwrap();
-    let text = updated(&fs::read_to_string(&readme).unwrap(), &planar2r, &all);
-    if !keep(&readme, &text) {
-        stale.push(readme);
+    for page in ["README.md", "docs/src/operations.md"] {
+        let page = root().join(page);
+        let text = updated(&fs::read_to_string(&page).unwrap(), &planar2r, &all);
+        if !keep(&page, &text) {
+            stale.push(page);
+        }
     }
     assert!(
         stale.is_empty(),
@@ -106,7 +108,7 @@ fn others(robot: &Robot, request: &Request) -> Vec<GeneratedFunction> {
         generated.functions
     };
     let own = generated(&[]);
-    // Proved, and not in the README's table: it has one row a function.
+    // Proved, and not in the guide's table, which has one row a function.
     let parameters: Vec<_> = entries()
         .filter_map(|entry| entry.parameters.clone())
         .collect();
@@ -119,11 +121,11 @@ fn others(robot: &Robot, request: &Request) -> Vec<GeneratedFunction> {
     own
 }
 
-/// Returns the README with the code and the rows of counts as they are now.
-fn updated(readme: &str, planar2r: &str, all: &Table) -> String {
+/// Updates the code and the rows of counts of a page.
+fn updated(page: &str, planar2r: &str, all: &Table) -> String {
     let mut text = String::new();
     let mut columns: Vec<&str> = Vec::new();
-    let mut lines = readme.lines();
+    let mut lines = page.lines();
     while let Some(line) = lines.next() {
         let cells: Vec<&str> = line.split('|').map(str::trim).collect();
         if cells.get(2).is_some_and(|cell| all.contains_key(*cell)) {

@@ -2,7 +2,7 @@
 
 use dalembert_model::number::Rounded;
 use dalembert_model::outputs::{Argument, Sizes};
-use dalembert_model::robot::{Field, Joint, JointKind, Position, Robot};
+use dalembert_model::robot::{Joint, JointKind, Limit, Position, Robot};
 
 use crate::random::Random;
 
@@ -172,9 +172,9 @@ pub fn positions(robot: &Robot) -> Vec<[f64; 2]> {
 fn range(joint: &Joint, argument: Argument) -> [f64; 2] {
     let limits = &joint.limits;
     let most = match argument.limit() {
-        Some(Field::Velocity) => &limits.velocity,
-        Some(Field::Acceleration) => &limits.acceleration,
-        Some(Field::Torque) => &limits.torque,
+        Some(Limit::Velocity) => &limits.velocity,
+        Some(Limit::Acceleration) => &limits.acceleration,
+        Some(Limit::Torque) => &limits.torque,
         _ => return position(joint),
     };
     let most = most.as_ref();

@@ -5,7 +5,7 @@
 use dalembert_model::number::Angle;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::read::{Options, parse, parse_bytes};
-use dalembert_model::robot::{Severity, write};
+use dalembert_model::robot::write;
 
 /// A small generator with a fixed seed: a failure comes back on every run.
 struct Random(u64);
@@ -99,10 +99,7 @@ fn check(bytes: &[u8]) {
     match parse_bytes(bytes, &Options::default()) {
         Ok(reading) => {
             let robot = reading.robot;
-            let wrong = robot
-                .validate()
-                .iter()
-                .any(|f| f.severity == Severity::Error);
+            let wrong = robot.validate().iter().any(|f| f.is_error());
             assert!(!wrong, "{source}");
             let again = parse(&write(&robot), &Options::default())
                 .expect("reads")

@@ -37,9 +37,9 @@ use dalembert_model::equations::following::Following;
 use dalembert_model::equations::regressor::{Column, of_links};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::{Axis, Columns, Motion, RuntimeParameter, Sizes};
-use dalembert_model::robot::{Position, Robot, Severity};
+use dalembert_model::robot::{Finding, Position, Robot};
 use dalembert_model::scalar::Scalar;
-use dalembert_model::scene::{Scene, SceneFinding};
+use dalembert_model::scene::Scene;
 
 use base::{BaseParameters, NoBase};
 pub(crate) use key::ParametersKey;
@@ -94,7 +94,7 @@ pub struct SceneError {
     /// The scene's name.
     pub scene: String,
     /// The errors; never empty.
-    pub findings: Vec<SceneFinding>,
+    pub findings: Vec<Finding>,
 }
 
 impl fmt::Display for SceneError {
@@ -135,7 +135,7 @@ impl SceneRobot {
     /// What [`Scene::validate`] finds, but for warnings.
     pub fn new(robot: &Robot, scene: &Scene) -> Result<SceneRobot, SceneError> {
         let mut findings = scene.validate(robot);
-        findings.retain(|finding| finding.severity == Severity::Error);
+        findings.retain(Finding::is_error);
         if !findings.is_empty() {
             let scene = scene.name.clone();
             return Err(SceneError { scene, findings });

@@ -2,7 +2,7 @@
 
 use dalembert_codegen::workspace::random::Random;
 use dalembert_model::number::{Angle, Rational};
-use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Limits, Robot, Severity};
+use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Limits, Robot};
 
 /// Draws the parts of a robot.
 pub struct Draw(pub Random);
@@ -116,7 +116,7 @@ pub fn robots(count: usize, seed: u64) -> impl Iterator<Item = (u64, Robot, Draw
         let mut draw = Draw(Random::new(seed));
         let robot = draw.robot(1 + index % 8);
         let findings = robot.validate();
-        let wrong = findings.iter().find(|f| f.severity == Severity::Error);
+        let wrong = findings.iter().find(|f| f.is_error());
         assert!(wrong.is_none(), "seed {seed}: {wrong:?}");
         (seed, robot, draw)
     })

@@ -3,7 +3,7 @@
 
 use super::Sizes;
 use crate::equations::load::PAYLOAD;
-use crate::robot::Field;
+use crate::robot::Limit;
 
 /// An argument of a generated function: an array, of most with an entry a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -53,7 +53,7 @@ struct Facts {
     given: Option<&'static str>,
     meaning: &'static str,
     length: Length,
-    limit: Option<Field>,
+    limit: Option<Limit>,
     reach: f64,
 }
 
@@ -66,7 +66,7 @@ const TABLE: [Facts; Argument::COUNT] = [
         given: Some("q"),
         meaning: "Positions, rad or m.",
         length: Length::Joints,
-        limit: Some(Field::Position),
+        limit: Some(Limit::Position),
         reach: 1.0,
     },
     Facts {
@@ -76,7 +76,7 @@ const TABLE: [Facts; Argument::COUNT] = [
         given: Some("qd"),
         meaning: "Velocities, rad/s or m/s.",
         length: Length::Joints,
-        limit: Some(Field::Velocity),
+        limit: Some(Limit::Velocity),
         reach: 3.0,
     },
     Facts {
@@ -86,7 +86,7 @@ const TABLE: [Facts; Argument::COUNT] = [
         given: Some("qdd"),
         meaning: "Accelerations, rad/s² or m/s².",
         length: Length::Joints,
-        limit: Some(Field::Acceleration),
+        limit: Some(Limit::Acceleration),
         reach: 10.0,
     },
     Facts {
@@ -96,7 +96,7 @@ const TABLE: [Facts; Argument::COUNT] = [
         given: Some("torque"),
         meaning: "Torques, N·m or N.",
         length: Length::Joints,
-        limit: Some(Field::Torque),
+        limit: Some(Limit::Torque),
         reach: 100.0,
     },
     Facts {
@@ -106,7 +106,7 @@ const TABLE: [Facts; Argument::COUNT] = [
         given: None,
         meaning: "Velocities wished for, rad/s or m/s.",
         length: Length::Joints,
-        limit: Some(Field::Velocity),
+        limit: Some(Limit::Velocity),
         reach: 3.0,
     },
     Facts {
@@ -116,7 +116,7 @@ const TABLE: [Facts; Argument::COUNT] = [
         given: None,
         meaning: "Accelerations wished for, rad/s² or m/s².",
         length: Length::Joints,
-        limit: Some(Field::Acceleration),
+        limit: Some(Limit::Acceleration),
         reach: 10.0,
     },
     Facts {
@@ -273,7 +273,7 @@ impl Argument {
 
     /// Returns the limit of a joint that says how far its entries reach; none where
     /// they are no joint's.
-    pub fn limit(self) -> Option<Field> {
+    pub fn limit(self) -> Option<Limit> {
         self.facts().limit
     }
 

@@ -1,221 +1,239 @@
-//! The file as a whole: the robot's own keys, and the list of joints.
+//! The file as a whole: the robot's own keys, and the lists of joints and frames.
 
 use alloc::format;
-use alloc::string::ToString;
 use alloc::vec::Vec;
-use core::ops::Range;
 
-use num_traits::Zero;
 use toml_span::Value;
 
-use super::places::Places;
-use super::report::Sink;
-use super::table::Keys;
-use super::value::{Context, first_line};
-use super::{Options, allow, frame, guard, joint, mimic, outputs, placed, scene, syntax};
-use crate::number::Rational;
+use super::report::quote;
+use super::table::{Table, locate};
+use super::value::Context;
+use super::{guard, joint, link, mimic, scene, suggest, syntax};
 use crate::outputs::Function;
-use crate::placed::Placed;
-use crate::robot::{Convention, Finding, Joint, Place, Placement, Robot};
+use crate::placed::{Placed, derive};
+use crate::robot::{Convention, Finding, Frame, Joint, Placement, Robot, RobotWarning};
 use crate::scene::Scene;
 
-/// The keys of a robot.
-const KEYS: [&str; 11] = [
-    "name",
-    "convention",
-    "gravity",
-    "base",
-    "tool",
-    "payload_frame",
-    "allow",
-    "outputs",
-    "joint",
-    "frame",
-    "scene",
-];
-
 /// Reads a robot, reporting to the sink; `None` only after an error.
-pub(super) fn read<'s>(
-    source: &'s str,
-    options: &Options,
-    sink: &mut Sink<'s>,
-) -> Option<(Robot, Vec<Function>, Vec<Scene>)> {
-    if !guard::admits(source, sink) {
+pub(super) fn read(source: &str, cx: &mut Context) -> Option<(Robot, Vec<Function>, Vec<Scene>)> {
+    if !guard::admits(source, &mut cx.sink) {
         return None;
     }
     let root = match toml_span::parse(source) {
         Ok(root) => root,
         Err(error) => {
-            syntax::report(source, &error, sink);
+            syntax::report(source, &error, &mut cx.sink);
             return None;
         }
     };
-    let mut cx = Context {
-        source,
-        snap: options.snap,
-        sink,
-    };
-    let mut places = Places::default();
-    let (robot, findings) = robot(&mut cx, &mut places, &root)?;
+    let mut keys = Table::open(cx, &root, "", "the robot", "")?;
+    keys.span = 0..0;
+    let (robot, findings) = robot(cx, &mut keys);
     for finding in findings {
-        if !places.was_read(finding.place) {
-            continue;
+        if !cx.is_unread(&finding.place) {
+            let span = locate(&root, 0..0, source, &finding.place);
+            cx.sink
+                .found(finding.warning, span, finding.message, &finding.help);
         }
-        let span = places.span(finding.place).unwrap_or(0..0);
-        let help = finding.help.unwrap_or_default();
-        cx.sink.found(finding.warning, span, finding.message, &help);
     }
-    let key = |key| root.as_table().and_then(|table| table.get(key));
-    let outputs = key("outputs").and_then(|value| outputs::read(&mut cx, value, "a robot"));
-    let scenes = key("scene");
+    let outputs = keys.optional(cx, "outputs", |cx, value| outputs(cx, value, "a robot"));
     // Without joints, every joint of a scene would be unknown as well.
-    let scenes = scenes.filter(|_| !robot.joints.is_empty());
-    let scenes = scenes.map_or_else(Vec::new, |scenes| {
-        scene::read(&mut cx, &robot, &places, scenes)
-    });
+    let scenes = keys.get("scene").filter(|_| !robot.joints.is_empty());
+    let scenes = scenes.map_or_else(Vec::new, |scenes| scene::read(cx, &robot, &root, scenes));
+    keys.finish(cx);
     Some((robot, outputs.unwrap_or_default(), scenes))
 }
 
-/// Returns the robot, and what is wrong or odd about it beside what cannot be read.
-fn robot(cx: &mut Context, places: &mut Places, root: &Value) -> Option<(Robot, Vec<Finding>)> {
-    let keys = Keys {
-        table: cx.table(root, "")?,
-        span: 0..0,
-        what: "the robot".to_string(),
-    };
-    keys.reject_unknown(&KEYS, cx.sink);
-    let at = |value: Option<&Value>| value.map_or(0..0, Context::span);
-
-    let name = keys.require(
-        "name",
-        "name = \"puma560\"; the generated module is called after it",
-        cx.sink,
-    );
-    let text = name.and_then(|value| cx.string(value));
-    let name = places.keep(Place::Name, at(name), text, Default::default);
-
-    const GRAVITY: &str = "gravity = [0, 0, -9.81]: the acceleration of gravity in base axes, m/s²";
-    let gravity = keys.require("gravity", GRAVITY, cx.sink);
-    let vector = gravity.and_then(|value| cx.array(value, GRAVITY, Context::number));
-    let gravity = places.keep(Place::Gravity, at(gravity), vector, || {
-        [(); 3].map(|()| Rational::zero())
-    });
-
-    if let Some(value) = keys.get("allow") {
-        allow::read(cx, value);
-    }
-
-    let base = placement(cx, places, &keys, "base", Place::Base);
-    let tool = placement(cx, places, &keys, "tool", Place::Tool);
-    let payload_frame = placement(cx, places, &keys, "payload_frame", Place::PayloadFrame);
-
-    let list = keys.require(
-        "joint",
-        "each joint is a [[joint]] table, from the base to the hand",
-        cx.sink,
-    );
-    let span = list.map_or(0..0, |list| first_line(cx.source, Context::span(list)));
-    let read = list.and_then(|list| joints(cx, places, list));
-    let read = places.keep(Place::Joints, span, read, Vec::new);
-
+/// Reads the robot, and returns the findings about it.
+fn robot<'v>(cx: &mut Context, keys: &mut Table<'v>) -> (Robot, Vec<Finding>) {
+    const NAME: &str = "name = \"puma560\"; the generated module is called after it";
     const WHICH: &str = "\"standard\" where joint i acts along z of frame i − 1, \"modified\" (Craig) where it acts along z of frame i";
     const CONVENTION: &str =
         "convention = \"standard\", or \"modified\" (Craig): row i holds its own A_i's alpha and a";
-    let convention = match read.iter().any(|joint| joint.placed.is_some()) {
-        true => placed::convention(cx, keys.get("convention")),
-        false => keys
-            .require("convention", CONVENTION, cx.sink)
-            .and_then(|value| cx.word_or(value, &Convention::WORDS, WHICH))
-            .unwrap_or(Convention::Standard),
+    const GRAVITY: &str = "gravity = [0, 0, -9.81]: the acceleration of gravity in base axes, m/s²";
+    const JOINT: &str = "each joint is a [[joint]] table, from the base to the hand";
+
+    let name = keys.required(cx, "name", NAME, Context::string);
+    let convention = keys.get("convention");
+    let gravity = keys.required(cx, "gravity", GRAVITY, |cx, value| {
+        cx.array(value, GRAVITY, Context::number)
+    });
+    let [base, tool, payload_frame] =
+        ["base", "tool", "payload_frame"].map(|key| placement(cx, keys, key));
+    keys.optional(cx, "allow", allow);
+    keys.get("outputs");
+    let read = keys.required(cx, "joint", JOINT, joints);
+    let read = read.unwrap_or_default();
+
+    let word = |cx: &mut Context, value| cx.word(value, &Convention::WORDS, WHICH);
+    let convention = match (read.iter().any(|joint| joint.placed.is_some()), convention) {
+        (false, _) => keys.required(cx, "convention", CONVENTION, word),
+        (true, None) => None,
+        (true, Some(value)) => {
+            if word(cx, value) == Some(Convention::Modified) {
+                let message = "joints that are placed have rows of the standard convention";
+                let help = "leave `convention` out: it says how rows are meant, and there are none";
+                cx.refuse::<()>(value, message, help);
+            }
+            None
+        }
     };
-    let (joints, placements) = read
-        .into_iter()
-        .map(|read| (read.joint, (read.placed, read.span)))
-        .unzip();
     let mut robot = Robot {
-        name,
-        convention,
-        gravity,
+        name: name.unwrap_or_default(),
+        convention: convention.unwrap_or(Convention::Standard),
+        gravity: gravity.unwrap_or_default(),
         base,
         tool,
         payload_frame,
-        joints,
+        joints: read.iter().map(|read| read.joint.clone()).collect(),
         followers: Vec::new(),
         frames: Vec::new(),
     };
-    robot.frames = keys.get("frame").map_or_else(Vec::new, |list| {
-        frame::read(cx, places, &robot.joints, list)
-    });
-    let mimics = list
-        .and_then(Value::as_array)
-        .map_or(&[][..], Vec::as_slice);
-    let mimics = mimics.iter().map(|item| item.as_table()?.get("mimic"));
-    let mimics = mimic::read(cx, &robot.joints, &mimics.collect::<Vec<_>>());
-    let findings = placed::rows(cx, places, &mut robot, placements);
-    Some((mimic::split(cx, robot, &mimics), findings))
+    let frames = keys.optional(cx, "frame", |cx, list| frames(cx, &robot.joints, list));
+    robot.frames = frames.unwrap_or_default();
+    let mimics = mimic::read(cx, &robot.joints, &read);
+    let findings = rows(cx, &mut robot, read);
+    (mimic::split(cx, robot, &mimics), findings)
 }
 
-/// A `[[joint]]` table.
-struct Read {
-    joint: Joint,
-    /// Where it is, if it has no row.
-    placed: Option<Placed>,
-    span: Range<usize>,
-}
-
-/// Returns a placement that a key may give.
-fn placement(
+/// Returns the placement of an optional key.
+pub(super) fn placement(
     cx: &mut Context,
-    places: &mut Places,
-    keys: &Keys,
-    key: &str,
-    place: Place,
+    keys: &mut Table,
+    key: &'static str,
 ) -> Option<Placement> {
-    let value = keys.get(key)?;
-    let read = cx.placement(value, key);
-    let span = first_line(cx.source, Context::span(value));
-    places
-        .keep(place, span, read, Placement::default)
-        .unless_identity()
+    let help = format!("{key} = {{ xyz = [0, 0, 0.1], rpy = [0, \"pi/2\", 0] }}");
+    let placement = keys.table(cx, key, &help, Context::placement);
+    placement.and_then(Placement::unless_identity)
 }
 
-fn joints(cx: &mut Context, places: &mut Places, list: &Value) -> Option<Vec<Read>> {
-    let Some(items) = list.as_array() else {
-        cx.wanted(
-            list,
-            "[[joint]] tables",
-            "write [[joint]], with two brackets",
-        );
-        return None;
-    };
-    if items.len() > Robot::MAX_JOINTS {
-        let span = items.get(Robot::MAX_JOINTS).map_or(0..0, Context::span);
-        let span = first_line(cx.source, span);
-        let message = format!(
-            "a robot has 1 to {} joints, not {}",
-            Robot::MAX_JOINTS,
-            items.len()
-        );
-        cx.sink.error(span, message, "this is the first too many");
+/// Reads the names of warnings, and silences them. An unknown name is an error: it silences
+/// nothing, and its author thinks it does.
+fn allow(cx: &mut Context, value: &Value) -> Option<()> {
+    let names = RobotWarning::WORDS.map(|(name, _)| name);
+    let help = format!("allow = [\"{}\"]", names[0]);
+    let items = cx.list(value, "an array of the names of warnings", &help)?;
+    cx.each(items, |cx, _, item| {
+        let text = cx.string(item)?;
+        let mut words = RobotWarning::WORDS.iter();
+        if let Some((_, warning)) = words.find(|(name, _)| *name == text) {
+            cx.sink.allow(*warning);
+            return Some(());
+        }
+        let message = format!("there is no warning {}", quote(&text));
+        let help = match suggest::closest(&text, &names) {
+            Some(meant) => format!("did you mean \"{meant}\"?"),
+            None => format!("warnings are: {}", names.join(", ")),
+        };
+        cx.refuse(item, message, &help)
+    })?;
+    Some(())
+}
+
+/// Reads a list of outputs by name, bundles among them; `whose` is the owner of the list in
+/// messages.
+pub(super) fn outputs(cx: &mut Context, value: &Value, whose: &str) -> Option<Vec<Function>> {
+    let items = cx.list(value, "a list", "outputs = [\"inverse_dynamics\"]")?;
+    if items.is_empty() {
+        let message = format!("{whose} wants one output at least");
+        return cx.refuse(value, message, "leave `outputs` out for the request's");
     }
-    let joints = items.iter().take(Robot::MAX_JOINTS).enumerate();
-    Some(
-        joints
-            .filter_map(|(index, item)| {
-                let table = cx.table(item, "each joint is a [[joint]] table")?;
-                let keys = Keys {
-                    table,
-                    span: first_line(cx.source, Context::span(item)),
-                    what: format!("joint {}", index + 1),
-                };
-                let (joint, placed) = joint::read(cx, places, &keys, index);
-                let span = keys.span;
-                Some(Read {
-                    joint,
-                    placed,
-                    span,
-                })
-            })
-            .collect(),
-    )
+    let words = Function::ALL.map(|function| (function.name(), function));
+    let mut outputs: Vec<Function> = Vec::new();
+    cx.each(items, |cx, _, item| {
+        let is_bundle = |text: &&str| text.contains(['=', '+', '@', ':']);
+        let output = match item.as_str().filter(is_bundle).map(Function::parse) {
+            None => cx.word(item, &words, "")?,
+            Some(Ok(bundle)) => bundle,
+            Some(Err(error)) => {
+                let error = error.among(&outputs);
+                return cx.refuse(item, error.message(), &suggest::for_bundle(&error));
+            }
+        };
+        if outputs.iter().any(|other| output.is_namesake(*other)) {
+            let message = format!("`{}` is in the list already", output.name());
+            return cx.refuse(item, message, "once is enough");
+        }
+        outputs.push(output);
+        Some(())
+    })?;
+    Some(outputs)
+}
+
+fn joints<'v>(cx: &mut Context, list: &'v Value<'v>) -> Option<Vec<joint::Read<'v>>> {
+    const BRACKETS: &str = "write [[joint]], with two brackets";
+    let items = cx.list(list, "[[joint]] tables", BRACKETS)?;
+    let most = Robot::MAX_JOINTS;
+    if let Some(item) = items.get(most) {
+        let message = format!("a robot has 1 to {most} joints, not {}", items.len());
+        cx.refuse::<()>(item, message, "this is the first too many");
+    }
+    cx.each(&items[..most.min(items.len())], |cx, index, item| {
+        let number = index + 1;
+        let (place, name) = (format!("joint/#{number}"), format!("joint {number}"));
+        let keys = Table::open(cx, item, place, name, "each joint is a [[joint]] table")?;
+        Some(joint::read(cx, keys))
+    })
+}
+
+/// Reads the frames that are fixed to links.
+fn frames(cx: &mut Context, joints: &[Joint], list: &Value) -> Option<Vec<Frame>> {
+    const NAME: &str = "name = \"camera\": functions are called after it, `jacobian_camera`";
+    const LINK: &str = "link = 3, or the name of its joint: what the frame is fixed to";
+    // Without joints, every link would be unknown as well.
+    if joints.is_empty() {
+        return None;
+    }
+    let items = cx.list(
+        list,
+        "[[frame]] tables",
+        "write [[frame]], with two brackets",
+    )?;
+    cx.each(items, |cx, index, item| {
+        let number = index + 1;
+        let (place, name) = (format!("frame/#{number}"), format!("frame {number}"));
+        let mut keys = Table::open(cx, item, place, name, "each frame is a [[frame]] table")?;
+        let name = keys.required(cx, "name", NAME, Context::string);
+        let joint = keys.required(cx, "link", LINK, |cx, value| {
+            link::read(cx, joints, value, LINK)
+        });
+        let placement = cx.placement(&mut keys);
+        keys.finish(cx);
+        Some(Frame {
+            name: name?,
+            joint: joint?,
+            placement: placement?,
+        })
+    })
+}
+
+/// Gives a robot its rows where all joints are placed, and refuses joints of which only some
+/// are. Returns the findings about the robot: of joints that are placed, about their
+/// placements.
+fn rows(cx: &mut Context, robot: &mut Robot, read: Vec<joint::Read>) -> Vec<Finding> {
+    let is_placed = read.iter().any(|joint| joint.placed.is_some());
+    let mut placed: Vec<Placed> = Vec::with_capacity(read.len());
+    for (index, joint) in read.into_iter().enumerate() {
+        match joint.placed {
+            Some(own) => placed.push(own),
+            None if is_placed => {
+                let message = format!("joint {} is not placed, and others are", index + 1);
+                let help = "give all joints a placement and an axis, or all of them DH rows";
+                cx.sink.error(joint.span, message, help);
+            }
+            None => {}
+        }
+    }
+    let is_whole = is_placed && placed.len() == robot.joints.len();
+    if !is_whole || !cx.unread.is_empty() {
+        return robot.validate();
+    }
+    let placements: Vec<Placement> = placed.iter().map(|own| own.placement.clone()).collect();
+    let mut findings = robot.validate_placed(&placements);
+    // Directions of length zero were refused where they stand, and then there is an
+    // error already. An oddity of a derived row is none of the file's.
+    if derive(robot, &placed).is_ok() && !findings.iter().any(Finding::is_error) {
+        findings.extend(robot.validate().into_iter().filter(Finding::is_error));
+    }
+    findings
 }

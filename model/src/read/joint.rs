@@ -1,90 +1,60 @@
 //! One `[[joint]]` table.
 
 use alloc::format;
-use alloc::string::ToString;
 use core::ops::Range;
 
-use num_traits::{One, Zero};
+use num_traits::Zero;
 use toml_span::Value;
 
-use super::places::Places;
-use super::table::Keys;
-use super::value::{Context, first_line};
+use super::file::placement;
+use super::table::Table;
+use super::value::Context;
 use crate::number::{Angle, Rational};
 use crate::placed::Placed;
-use crate::robot::{Field, Inertia, Joint, JointKind, Limits, Place, Placement, Position};
+use crate::robot::{Joint, JointKind, Limits};
 
-/// The keys of a joint, in the order that robot files have them.
-const KEYS: [&str; 20] = [
-    "name",
-    "kind",
-    "alpha",
-    "beta",
-    "a",
-    "d",
-    "theta",
-    "offset",
-    "placement",
-    "axis",
-    "mass",
-    "com",
-    "inertia",
-    "viscous",
-    "coulomb",
-    "coulomb_width",
-    "armature",
-    "frame",
-    "limits",
-    "mimic",
-];
-/// Those of a row of the DH table.
-const ROW: [Field; 6] = [
-    Field::Alpha,
-    Field::Beta,
-    Field::A,
-    Field::D,
-    Field::Theta,
-    Field::Offset,
-];
-/// The keys of its limits.
-const LIMITS: [&str; 4] = ["position", "velocity", "acceleration", "torque"];
+/// The keys of a row of the DH table.
+const ROW: [&str; 6] = ["alpha", "beta", "a", "d", "theta", "offset"];
 
-/// Reads the fields of one joint in turn.
-struct Fields<'r, 's, 'k, 'v, 'de> {
-    cx: &'r mut Context<'s, 'k>,
-    places: &'r mut Places,
-    keys: &'r Keys<'v, 'de>,
-    index: usize,
+/// A joint as its table says.
+pub(super) struct Read<'v> {
+    pub(super) joint: Joint,
+    /// Where it is, if it has no row.
+    pub(super) placed: Option<Placed>,
+    pub(super) mimic: Option<&'v Value<'v>>,
+    pub(super) span: Range<usize>,
 }
 
-/// Reads joint `index`, counted from zero; what cannot be read is reported and
-/// made up.
-pub(super) fn read(
-    cx: &mut Context,
-    places: &mut Places,
-    keys: &Keys,
-    index: usize,
-) -> (Joint, Option<Placed>) {
-    keys.reject_unknown(&KEYS, cx.sink);
-    let mut fields = Fields {
-        cx,
-        places,
-        keys,
-        index,
-    };
-    let name = keys.get("name").map(|value| {
-        let text = fields.cx.string(value);
-        fields.keep(Field::Name, value, text, Default::default)
+/// Reads a joint. Zeros stand in for values that cannot be read, which are reported.
+pub(super) fn read<'v>(cx: &mut Context, mut keys: Table<'v>) -> Read<'v> {
+    const KIND: &str = "kind = \"revolute\" or \"prismatic\"";
+    const MASS: &str = "mass = 4.8, in kg; a link without mass has mass = 0";
+    const COM: &str = "com = [x, y, z]: the centre of mass in the link frame, in m; only a link with mass = 0 may leave it out";
+    const INERTIA: &str = "inertia = [Ixx, Iyy, Izz, Ixy, Iyz, Ixz] about the centre of mass, in kg·m²; only a link with mass = 0 may leave it out";
+
+    let own = &mut keys;
+    let name = own.optional(cx, "name", Context::string);
+    let kind = own.required(cx, "kind", KIND, |cx, value| {
+        cx.word(value, &JointKind::WORDS, "")
     });
-    let kind = fields.kind();
-    let placed = fields.placed();
-    let alpha = fields.angle(Field::Alpha);
-    let beta = fields.angle(Field::Beta);
-    let a = fields.number(Field::A);
-    let (d, theta) = fields.variable(kind);
-    let (mass, is_massless) = fields.mass();
-    let com = fields.com(is_massless);
-    let inertia = fields.inertia(is_massless);
+    let alpha = angle(cx, own, "alpha");
+    let beta = angle(cx, own, "beta");
+    let a = number(cx, own, "a");
+    let (d, theta) = variable(cx, own, kind);
+    let placed = placed(cx, own);
+    let mass = own.required(cx, "mass", MASS, Context::number);
+    // A body without mass has no centre, and no inertia unless the file says so.
+    let is_massless = mass.as_ref().is_some_and(Zero::is_zero);
+    let com = match own.get("com") {
+        None if is_massless => None,
+        _ => own.required(cx, "com", COM, |cx, value| {
+            cx.array(value, COM, Context::number)
+        }),
+    };
+    let inertia = match own.get("inertia") {
+        None if is_massless => None,
+        _ => own.required(cx, "inertia", INERTIA, Context::inertia),
+    };
     let joint = Joint {
         name,
         kind: kind.unwrap_or(JointKind::Revolute),
@@ -93,260 +63,113 @@ pub(super) fn read(
         a,
         d,
         theta,
-        mass,
-        com,
-        inertia,
-        viscous: fields.number(Field::Viscous),
-        coulomb: fields.number(Field::Coulomb),
-        coulomb_width: fields.coulomb_width(),
-        armature: fields.number(Field::Armature),
-        frame: fields.frame(),
-        limits: fields.limits(kind),
+        mass: mass.unwrap_or_default(),
+        com: com.unwrap_or_default(),
+        inertia: inertia.unwrap_or_default(),
+        viscous: number(cx, own, "viscous"),
+        coulomb: number(cx, own, "coulomb"),
+        coulomb_width: number(cx, own, "coulomb_width"),
+        armature: number(cx, own, "armature"),
+        frame: placement(cx, own, "frame"),
+        limits: limits(cx, own, kind),
     };
-    (joint, placed)
+    let (mimic, span) = (own.get("mimic"), own.span.clone());
+    keys.finish(cx);
+    Read {
+        joint,
+        placed,
+        mimic,
+        span,
+    }
 }
 
-impl Fields<'_, '_, '_, '_, '_> {
-    fn keep<T>(
-        &mut self,
-        field: Field,
-        value: &Value,
-        read: Option<T>,
-        or: impl FnOnce() -> T,
-    ) -> T {
-        let span = first_line(self.cx.source, Context::span(value));
-        self.keep_at(field, span, read, or)
-    }
+/// Reads a number that is zero unless given.
+fn number(cx: &mut Context, keys: &mut Table, key: &'static str) -> Rational {
+    keys.optional(cx, key, Context::number).unwrap_or_default()
+}
 
-    fn keep_at<T>(
-        &mut self,
-        field: Field,
-        span: Range<usize>,
-        read: Option<T>,
-        or: impl FnOnce() -> T,
-    ) -> T {
-        let place = Place::Joint(self.index, field);
-        self.places.keep(place, span, read, or)
-    }
+/// Reads an angle that is zero unless given.
+fn angle(cx: &mut Context, keys: &mut Table, key: &'static str) -> Angle {
+    keys.optional(cx, key, Context::angle).unwrap_or_default()
+}
 
-    /// Returns where the link is, if that is given instead of a row.
-    fn placed(&mut self) -> Option<Placed> {
-        const AXIS: &str = "axis = [0, 0, 1]: the joint's axis in the axes of its link's frame";
-        let given = self.keys.get("placement").or(self.keys.get("axis"))?;
-        let span = first_line(self.cx.source, Context::span(given));
-        let row = ROW
-            .iter()
-            .find(|field| self.keys.get(field.key()).is_some());
-        if let (None, Some(row)) = (self.keys.get("placement"), row) {
-            let message = format!("`axis` beside `{}`, and no `placement`", row.key());
-            let help = "an axis belongs to a joint that is placed; in a DH table joints act along \
-                        z: leave `axis` out";
-            self.cx.sink.error(Context::span(given), message, help);
-            return None;
+/// Reads the constant parts of d and theta: one of them belongs to the joint's
+/// variable, and is called `offset`.
+fn variable(cx: &mut Context, keys: &mut Table, kind: Option<JointKind>) -> (Rational, Angle) {
+    let (d, theta) = (number(cx, keys, "d"), angle(cx, keys, "theta"));
+    let (key, kind, is_zero, own) = match kind {
+        Some(JointKind::Revolute) => {
+            let offset = angle(cx, keys, "offset");
+            ("theta", "revolute", theta.is_zero(), (d, offset))
         }
-        for field in ROW {
-            if let Some(value) = self.keys.get(field.key()) {
-                let message = format!("`{}` of a joint that is placed", field.key());
-                let help = "a placement takes the place of the DH row: leave the one or the other";
-                self.cx.sink.error(Context::span(value), message, help);
-            }
-            // What is odd about the row is so because of the placement.
-            self.keep_at(field, span.clone(), Some(()), || ());
+        Some(JointKind::Prismatic) => {
+            let offset = number(cx, keys, "offset");
+            ("d", "prismatic", d.is_zero(), (offset, theta))
         }
-        let placement = match self.keys.get("placement") {
-            None => Some(Placement::default()),
-            Some(value) => self.cx.placement(value, "placement"),
-        };
-        let axis = self.keys.require("axis", AXIS, self.cx.sink);
-        let axis = axis.and_then(|value| {
-            let read = self.cx.array(value, AXIS, Context::number)?;
-            if read.iter().all(Zero::is_zero) {
-                let span = first_line(self.cx.source, Context::span(value));
-                let message = "an axis of length zero has no direction".to_string();
-                self.cx.sink.error(span, message, AXIS);
-                return None;
-            }
-            Some(read)
+        // Without a kind there is no saying what the offset is.
+        None => {
+            keys.get("offset");
+            return (d, theta);
+        }
+    };
+    if let (false, Some(value)) = (is_zero, keys.get(key)) {
+        let message = format!("`{key}` of a {kind} joint is its variable, so it must be 0");
+        let help = "a constant that is added to it is called `offset`";
+        cx.refuse::<()>(value, message, help);
+    }
+    own
+}
+
+/// Returns the link's placement and the joint's axis, where they are given instead of a row.
+fn placed(cx: &mut Context, keys: &mut Table) -> Option<Placed> {
+    const AXIS: &str = "axis = [0, 0, 1]: the joint's axis in the axes of its link's frame";
+    let (place, axis) = (keys.get("placement"), keys.get("axis"));
+    let given = ROW.map(|key| keys.get(key).map(|value| (key, value)));
+    let mut given = given.into_iter().flatten();
+    if let (None, Some(axis)) = (place, axis)
+        && let Some((row, _)) = given.next()
+    {
+        let message = format!("`axis` beside `{row}`, and no `placement`");
+        let help = "an axis belongs to a joint that is placed; in a DH table joints act along \
+                    z: leave `axis` out";
+        return cx.refuse(axis, message, help);
+    }
+    place.or(axis)?;
+    for (key, value) in given {
+        let message = format!("`{key}` of a joint that is placed");
+        let help = "a placement takes the place of the DH row: leave the one or the other";
+        cx.refuse::<()>(value, message, help);
+    }
+    let placement = placement(cx, keys, "placement").unwrap_or_default();
+    let axis = keys.required(cx, "axis", AXIS, |cx, value| {
+        let axis: [Rational; 3] = cx.array(value, AXIS, Context::number)?;
+        match axis.iter().all(Zero::is_zero) {
+            true => cx.refuse(value, "an axis of length zero has no direction", AXIS),
+            false => Some(axis),
+        }
+    });
+    let axis = axis.unwrap_or_default();
+    Some(Placed { placement, axis })
+}
+
+fn limits(cx: &mut Context, keys: &mut Table, kind: Option<JointKind>) -> Limits {
+    const HELP: &str =
+        "limits = { position = [-2.8, 2.8], velocity = 8, acceleration = 20, torque = 97.6 }";
+    let read = keys.table(cx, "limits", HELP, |cx, keys| {
+        // Without a kind there is no saying what a position is.
+        let position = keys.get("position").filter(|_| kind.is_some());
+        let position = position.and_then(|_| {
+            keys.optional(cx, "position", |cx, value| {
+                let help = "position = [lowest, highest], or leave it out";
+                cx.array(value, help, |cx, end| cx.position(end, kind))
+            })
         });
-        // Without one of them nothing is said of what would follow.
-        let read = placement.zip(axis);
-        let (placement, axis) = self.keep_at(Field::Placement, span, read, || {
-            let axis = [0, 0, 1].map(|x: i64| Rational::from_integer(x.into()));
-            (Placement::default(), axis)
-        });
-        Some(Placed { placement, axis })
-    }
-
-    fn kind(&mut self) -> Option<JointKind> {
-        let help = "kind = \"revolute\" or \"prismatic\"";
-        let value = self.keys.require("kind", help, self.cx.sink)?;
-        self.cx.word(value, &JointKind::WORDS)
-    }
-
-    /// Reads the link's own frame, in that of its row or of its placement.
-    fn frame(&mut self) -> Option<Placement> {
-        let value = self.keys.get(Field::Frame.key())?;
-        let read = self.cx.placement(value, Field::Frame.key());
-        self.keep(Field::Frame, value, read, Placement::default)
-            .unless_identity()
-    }
-
-    /// Reads a number that is zero unless given.
-    fn number(&mut self, field: Field) -> Rational {
-        let Some(value) = self.keys.get(field.key()) else {
-            return Rational::zero();
-        };
-        let read = self.cx.number(value);
-        self.keep(field, value, read, Rational::zero)
-    }
-
-    /// Reads the width of Coulomb friction; of one that cannot be read nothing is said
-    /// but that, and one that is missing is missing where the friction stands.
-    fn coulomb_width(&mut self) -> Rational {
-        let field = Field::CoulombWidth;
-        let Some(value) = self.keys.get(field.key()) else {
-            let coulomb = self.keys.get(Field::Coulomb.key());
-            let span = coulomb.map_or(self.keys.span.clone(), Context::span);
-            return self.keep_at(field, span, Some(Rational::zero()), Rational::zero);
-        };
-        let read = self.cx.number(value);
-        self.keep(field, value, read, Rational::one)
-    }
-
-    /// Reads an angle that is zero unless given.
-    fn angle(&mut self, field: Field) -> Angle {
-        let Some(value) = self.keys.get(field.key()) else {
-            return Angle::default();
-        };
-        let read = self.cx.angle(value);
-        self.keep(field, value, read, Angle::default)
-    }
-
-    /// Reads the constant parts of d and theta: one of them belongs to the joint's
-    /// variable, and is called `offset`.
-    fn variable(&mut self, kind: Option<JointKind>) -> (Rational, Angle) {
-        match kind {
-            Some(JointKind::Revolute) => {
-                let theta = self.angle(Field::Theta);
-                self.no_variable(Field::Theta, theta.is_zero(), "revolute");
-                (self.number(Field::D), self.angle(Field::Offset))
-            }
-            Some(JointKind::Prismatic) => {
-                let d = self.number(Field::D);
-                self.no_variable(Field::D, d.is_zero(), "prismatic");
-                (self.number(Field::Offset), self.angle(Field::Theta))
-            }
-            // Without a kind there is no saying what the offset is.
-            None => (self.number(Field::D), self.angle(Field::Theta)),
-        }
-    }
-
-    fn no_variable(&mut self, field: Field, zero: bool, kind: &str) {
-        let key = field.key();
-        if let (false, Some(value)) = (zero, self.keys.get(key)) {
-            let message = format!("`{key}` of a {kind} joint is its variable, so it must be 0");
-            let help = "a constant that is added to it is called `offset`";
-            self.cx.sink.error(Context::span(value), message, help);
-        }
-    }
-
-    /// Reads the mass, and whether the file says that there is none.
-    fn mass(&mut self) -> (Rational, bool) {
-        let help = "mass = 4.8, in kg; a link without mass has mass = 0";
-        let value = self.keys.require("mass", help, self.cx.sink);
-        let read = value.and_then(|value| self.cx.number(value));
-        let is_massless = read.as_ref().is_some_and(Zero::is_zero);
-        let span = value.map_or(self.keys.span.clone(), Context::span);
-        let mass = self.keep_at(Field::Mass, span, read, Rational::zero);
-        (mass, is_massless)
-    }
-
-    /// Reads the centre of mass; what has no mass has none.
-    fn com(&mut self, is_massless: bool) -> [Rational; 3] {
-        let zeros = || [(); 3].map(|()| Rational::zero());
-        const COM: &str = "com = [x, y, z]: the centre of mass in the link frame, in m; only a link with mass = 0 may leave it out";
-        let value = match self.keys.get("com") {
-            None if is_massless => return zeros(),
-            _ => self.keys.require("com", COM, self.cx.sink),
-        };
-        let read = value.and_then(|value| self.cx.array(value, COM, Context::number));
-        match value {
-            Some(value) => self.keep(Field::Com, value, read, zeros),
-            None => zeros(),
-        }
-    }
-
-    /// Reads the inertia; what has no mass has none unless the file says so.
-    fn inertia(&mut self, is_massless: bool) -> Inertia<Rational> {
-        const HELP: &str = "inertia = [Ixx, Iyy, Izz, Ixy, Iyz, Ixz] about the centre of mass, in kg·m²; only a link with mass = 0 may leave it out";
-        let value = match self.keys.get("inertia") {
-            None if is_massless => None,
-            _ => self.keys.require("inertia", HELP, self.cx.sink),
-        };
-        let Some(value) = value else {
-            return Inertia::default();
-        };
-        let read = self.cx.inertia(value);
-        self.keep(Field::Inertia, value, read, Inertia::default)
-    }
-
-    fn limits(&mut self, kind: Option<JointKind>) -> Limits {
-        let Some(value) = self.keys.get("limits") else {
-            return Limits::default();
-        };
-        let help =
-            "limits = { position = [-2.8, 2.8], velocity = 8, acceleration = 20, torque = 97.6 }";
-        let Some(table) = self.cx.table(value, help) else {
-            return Limits::default();
-        };
-        let keys = Keys {
-            table,
-            span: first_line(self.cx.source, Context::span(value)),
-            what: "limits".to_string(),
-        };
-        keys.reject_unknown(&LIMITS, self.cx.sink);
-        let mut inner = Fields {
-            cx: self.cx,
-            places: self.places,
-            keys: &keys,
-            index: self.index,
-        };
-        Limits {
-            position: inner.position(kind),
-            velocity: inner.rate(Field::Velocity, kind),
-            acceleration: inner.rate(Field::Acceleration, kind),
-            torque: inner.limit(Field::Torque),
-        }
-    }
-
-    /// Reads a limit of velocity or acceleration: of a joint that turns in radians, as a
-    /// number.
-    fn rate(&mut self, field: Field, kind: Option<JointKind>) -> Option<Rational> {
-        let value = self.keys.get(field.key())?;
-        let read = match kind {
-            Some(JointKind::Revolute) => self.cx.rate(value, field.key()),
-            _ => self.cx.number(value),
-        };
-        Some(self.keep(field, value, read, Rational::zero))
-    }
-
-    fn limit(&mut self, field: Field) -> Option<Rational> {
-        self.keys.get(field.key())?;
-        Some(self.number(field))
-    }
-
-    fn position(&mut self, kind: Option<JointKind>) -> Option<[Position; 2]> {
-        let value = self.keys.get("position")?;
-        let help = "position = [lowest, highest], or leave it out";
-        let read = match kind? {
-            JointKind::Revolute => self
-                .cx
-                .array(value, help, |cx, item| cx.angle(item).map(Position::Angle)),
-            JointKind::Prismatic => self.cx.array(value, help, |cx, item| {
-                cx.length(item).map(Position::Length)
-            }),
-        };
-        let read = read?;
-        Some(self.keep(Field::Position, value, Some(read.clone()), || read))
-    }
+        Some(Limits {
+            position,
+            velocity: keys.optional(cx, "velocity", |cx, v| cx.rate(v, kind, "rad/s")),
+            acceleration: keys.optional(cx, "acceleration", |cx, v| cx.rate(v, kind, "rad/s²")),
+            torque: keys.optional(cx, "torque", Context::number),
+        })
+    });
+    read.unwrap_or_default()
 }

@@ -1,117 +1,106 @@
 //! `mimic` of a joint: which other it follows, and along which line.
 
 use alloc::format;
-use alloc::string::ToString;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
-use core::ops::Range;
 
 use num_traits::{One, Signed, Zero};
 use toml_span::Value;
 
-use super::frame;
-use super::table::Keys;
-use super::value::{Context, first_line};
+use super::table::Table;
+use super::value::Context;
+use super::{joint, link};
 use crate::number::Rational;
 use crate::robot::{Follower, Joint, JointKind, Position, Robot};
 
-/// What `mimic` may say.
-const KEYS: [&str; 3] = ["joint", "multiplier", "offset"];
-/// How it is written.
+/// A `mimic`, for messages.
 const HELP: &str = "mimic = { joint = 2, multiplier = -1, offset = 0 }: q is multiplier times the \
                     position of that joint, plus offset";
 
-/// What a joint follows, as the file has it.
-pub(super) struct Mimic {
+/// A joint's leader and the line along which it follows.
+pub(super) struct Mimic<'v> {
     leader: usize,
     multiplier: Rational,
     offset: Position,
-    span: Range<usize>,
+    value: &'v Value<'v>,
 }
 
-/// Reads what joints follow, each from its `mimic`; what cannot be read is reported and
-/// left out.
-pub(super) fn read(
+/// Reads the `mimic` of every joint; one that cannot be read is reported and left out.
+pub(super) fn read<'v>(
     cx: &mut Context,
     joints: &[Joint],
-    values: &[Option<&Value>],
-) -> Vec<Option<Mimic>> {
-    let values = values.iter().zip(joints).enumerate();
+    read: &[joint::Read<'v>],
+) -> Vec<Option<Mimic<'v>>> {
+    let values = read.iter().map(|read| read.mimic).enumerate();
     values
-        .map(|(row, (value, joint))| one(cx, joints, row, joint, (*value)?))
+        .map(|(row, value)| one(cx, joints, row, value?))
         .collect()
 }
 
-fn one(
+fn one<'v>(
     cx: &mut Context,
     joints: &[Joint],
     row: usize,
-    joint: &Joint,
-    value: &Value,
-) -> Option<Mimic> {
-    let span = first_line(cx.source, Context::span(value));
-    let keys = Keys {
-        table: cx.table(value, HELP)?,
-        span: span.clone(),
-        what: "mimic".to_string(),
-    };
-    keys.reject_unknown(&KEYS, cx.sink);
-    let leader = keys.require("joint", HELP, cx.sink)?;
-    let leader = frame::joint(cx, joints, leader, HELP)?;
-    let multiplier = match keys.get("multiplier") {
-        None => Rational::one(),
-        Some(value) => cx.number(value)?,
-    };
+    value: &'v Value<'v>,
+) -> Option<Mimic<'v>> {
+    let joint = &joints[row];
     let turns = joint.kind == JointKind::Revolute;
-    let offset = match (keys.get("offset"), turns) {
-        (None, true) => Position::Angle(Default::default()),
-        (None, false) => Position::Length(Rational::zero()),
-        (Some(value), true) => Position::Angle(cx.angle(value)?),
-        (Some(value), false) => Position::Length(cx.length(value)?),
+    let mut keys = Table::open(cx, value, "mimic", "mimic", HELP)?;
+    let leader = keys.required(cx, "joint", HELP, |cx, value| {
+        link::read(cx, joints, value, HELP)
+    });
+    let multiplier = match keys.get("multiplier") {
+        None => Some(Rational::one()),
+        Some(value) => cx.number(value),
     };
+    let offset = match keys.get("offset") {
+        None if turns => Some(Position::Angle(Default::default())),
+        None => Some(Position::Length(Rational::zero())),
+        Some(value) => cx.position(value, Some(joint.kind)),
+    };
+    keys.finish(cx);
+    let (leader, multiplier, offset) = (leader?, multiplier?, offset?);
     let most = Rational::from_integer(Follower::MAX_TURNS.into());
-    let refusal = if leader == row {
-        Some(("a joint that follows itself".to_string(), HELP.to_string()))
+    let is_whole = |number: &Rational| number.is_integer() && number.abs() <= most;
+    let (message, help) = if leader == row {
+        ("a joint that follows itself".to_string(), HELP.to_string())
     } else if joints[leader].kind != joint.kind {
-        Some((
+        (
             "one of both joints turns, and the other slides".to_string(),
             "a joint follows another of its own kind".to_string(),
-        ))
+        )
     } else if multiplier.is_zero() {
-        let help = "one that stands still is a part of its link";
-        Some((
+        (
             "a multiplier of 0: the joint never moves".to_string(),
-            help.to_string(),
-        ))
-    } else if turns && (!multiplier.is_integer() || multiplier.abs() > most) {
-        Some((format!("a joint that turns {multiplier} times as far"), {
-            let inverse = multiplier.recip();
-            match inverse.is_integer() && inverse.abs() <= most {
-                true => format!(
-                    "sines are of whole multiples, up to {most}: let that joint mimic this one, \
-                     with multiplier = {inverse}"
-                ),
-                false => format!("sines are of whole multiples of an angle, up to {most}"),
+            "one that stands still is a part of its link".to_string(),
+        )
+    } else if turns && !is_whole(&multiplier) {
+        let inverse = multiplier.recip();
+        let other: String = match is_whole(&inverse) {
+            true => {
+                format!(": let that joint mimic this one, with multiplier = {inverse}")
             }
-        }))
+            false => String::new(),
+        };
+        let of = if other.is_empty() { " of an angle" } else { "" };
+        (
+            format!("a joint that turns {multiplier} times as far"),
+            format!("sines are of whole multiples{of}, up to {most}{other}"),
+        )
     } else if joint.has_coulomb() {
-        let help = "give it to the joint that leads, times the size of the multiplier";
-        Some((
+        (
             "`coulomb` of a joint that follows another".to_string(),
-            help.to_string(),
-        ))
+            "give it to the joint that leads, times the size of the multiplier".to_string(),
+        )
     } else {
-        None
+        return Some(Mimic {
+            leader,
+            multiplier,
+            offset,
+            value,
+        });
     };
-    if let Some((message, help)) = refusal {
-        cx.sink.error(span, message, &help);
-        return None;
-    }
-    Some(Mimic {
-        leader,
-        multiplier,
-        offset,
-        span,
-    })
+    cx.refuse(value, message, &help)
 }
 
 /// Takes the joints of a robot that follow others out of its coordinates. One that
@@ -134,7 +123,7 @@ pub(super) fn split(cx: &mut Context, robot: Robot, mimics: &[Option<Mimic>]) ->
                     false => "an offset in radians on one that is a part of π",
                 };
                 let help = "let each follow the one that leads them all";
-                cx.sink.error(mimic.span.clone(), message.to_string(), help);
+                cx.refuse::<()>(mimic.value, message, help);
                 return robot;
             };
             offset = added;
@@ -154,12 +143,10 @@ pub(super) fn split(cx: &mut Context, robot: Robot, mimics: &[Option<Mimic>]) ->
         let Some(leader) = robot.joints.get_mut(own.leader) else {
             continue;
         };
-        if own.narrow(leader).is_none() {
-            let mimic = mimics.get(own.row).and_then(Option::as_ref);
-            let span = mimic.map_or(0..0, |mimic| mimic.span.clone());
+        if let (None, Some(Some(mimic))) = (own.narrow(leader), mimics.get(own.row)) {
             let message = "there is no position at which both are within their limits";
             let help = format!("{HELP}; look at `position` of both");
-            cx.sink.error(span, message.to_string(), &help);
+            cx.refuse::<()>(mimic.value, message, &help);
         }
     }
     robot

@@ -3,10 +3,9 @@
 //! The text passes through, in this order:
 //! - `guard`: size, depth and count limits, before anything recursive runs
 //! - `toml-span`, for the structure and the spans; its numbers are not used
-//! - `file`, `allow`, `joint`, `frame` and `scene`: the keys of the file, through `table` and
-//!   `value`
-//! - `placed`: DH rows for joints that are placed by frames
-//! - [`Robot::validate`]: what is wrong whoever made the robot
+//! - `file`, `joint`, `mimic`, `link` and `scene`: the keys of the file, through `table` and `value`
+//! - [`Robot::validate`] and [`Scene::validate`], whose findings name places of the file, which
+//!   `table` finds in it
 //!
 //! # What a robot file may say besides rows
 //!
@@ -45,16 +44,12 @@
 //! `report` collects and prints what was found; `suggest` finds the word that
 //! was meant, `foreign` what was meant where the text is no TOML.
 
-mod allow;
 mod file;
 mod foreign;
-mod frame;
 mod guard;
 mod joint;
+mod link;
 mod mimic;
-mod outputs;
-mod placed;
-mod places;
 mod report;
 mod scene;
 mod suggest;
@@ -101,9 +96,13 @@ pub struct Reading {
 /// Everything that is wrong with the file, at once and in its order; only an
 /// error of the TOML syntax hides those after it.
 pub fn parse(source: &str, options: &Options) -> Result<Reading, Diagnostics> {
-    let mut sink = report::Sink::new(source);
-    let robot = file::read(source, options, &mut sink);
-    sink.finish(robot)
+    let mut cx = value::Context {
+        snap: options.snap,
+        sink: report::Sink::new(source),
+        unread: Vec::new(),
+    };
+    let read = file::read(source, &mut cx);
+    cx.sink.finish(read)
 }
 
 /// Reads a robot file from bytes.

@@ -128,21 +128,21 @@ impl fmt::Display for Diagnostics {
 impl core::error::Error for Diagnostics {}
 
 /// Collects diagnostics and knows the lines of the source.
-pub(super) struct Sink<'s> {
-    source: &'s str,
+pub(super) struct Sink {
+    pub(super) source: String,
     line_starts: Vec<usize>,
     found: Vec<Diagnostic>,
     allowed: BTreeSet<RobotWarning>,
 }
 
-impl<'s> Sink<'s> {
-    pub(super) fn new(source: &'s str) -> Self {
+impl Sink {
+    pub(super) fn new(source: &str) -> Self {
         let newlines = source.bytes().enumerate().filter(|(_, b)| *b == b'\n');
         let line_starts = core::iter::once(0)
             .chain(newlines.map(|(i, _)| i + 1))
             .collect();
         Sink {
-            source,
+            source: source.to_string(),
             line_starts,
             found: Vec::new(),
             allowed: BTreeSet::new(),
@@ -162,19 +162,8 @@ impl<'s> Sink<'s> {
         self.push(Severity::Note, None, span, message, help);
     }
 
-    /// Adds a warning, whose help ends with the way to silence it.
-    pub(super) fn warning(
-        &mut self,
-        warning: RobotWarning,
-        span: Range<usize>,
-        message: String,
-        help: &str,
-    ) {
-        let help = format!("{help}; allow = [\"{warning}\"] silences this");
-        self.push(Severity::Warning, Some(warning), span, message, &help);
-    }
-
-    /// Adds a warning, or an error if there is no warning.
+    /// Adds a warning, whose help ends with the way to silence it, or an error if there is no
+    /// warning.
     pub(super) fn found(
         &mut self,
         warning: Option<RobotWarning>,
@@ -182,10 +171,11 @@ impl<'s> Sink<'s> {
         message: String,
         help: &str,
     ) {
-        match warning {
-            Some(warning) => self.warning(warning, span, message, help),
-            None => self.error(span, message, help),
-        }
+        let Some(name) = warning else {
+            return self.error(span, message, help);
+        };
+        let help = format!("{help}; allow = [\"{name}\"] silences this");
+        self.push(Severity::Warning, warning, span, message, &help);
     }
 
     fn push(

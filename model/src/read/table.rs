@@ -1,59 +1,182 @@
-//! The keys of one table: which are there, which are missing, which are not
-//! known.
+//! Tables of the file: keys that are there, missing or unknown, and the places of values.
 
 use alloc::format;
-use alloc::string::String;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::ops::Range;
 
 use toml_span::Value;
-use toml_span::value::Table;
+use toml_span::value::{Key, Table as Entries};
 
-use super::report::{Sink, quote};
+use super::report::quote;
 use super::suggest;
+use super::value::{Context, first_line, span_of};
 
-/// A table, with the words that messages use for it.
-pub(super) struct Keys<'v, 'de> {
-    /// Its entries.
-    pub(super) table: &'v Table<'de>,
-    /// Where to report what is missing.
+/// A table that is read key by key.
+pub(super) struct Table<'v> {
+    entries: &'v Entries<'v>,
+    /// Its place in the file, as findings have it.
+    pub(super) place: String,
+    /// The span of the error about a missing key.
     pub(super) span: Range<usize>,
     /// Its name in messages: `the robot`, `joint 3`.
-    pub(super) what: String,
+    name: String,
+    /// The keys that were asked for: the known ones.
+    known: Vec<&'static str>,
 }
 
-impl<'v, 'de> Keys<'v, 'de> {
-    /// Returns the value of an optional key.
-    pub(super) fn get(&self, key: &str) -> Option<&'v Value<'de>> {
-        self.table.get(key)
+impl<'v> Table<'v> {
+    /// Takes a value as a table; `help` shows one.
+    pub(super) fn open(
+        cx: &mut Context,
+        value: &'v Value<'v>,
+        place: impl Into<String>,
+        name: impl Into<String>,
+        help: &str,
+    ) -> Option<Self> {
+        let Some(entries) = value.as_table() else {
+            return cx.wanted(value, "a table", help);
+        };
+        Some(Table {
+            entries,
+            place: place.into(),
+            span: first_line(&cx.sink.source, span_of(value)),
+            name: name.into(),
+            known: Vec::new(),
+        })
     }
 
-    /// Returns the value of a key that must be there.
-    pub(super) fn require(&self, key: &str, help: &str, sink: &mut Sink) -> Option<&'v Value<'de>> {
-        let value = self.get(key);
-        if value.is_none() {
-            let message = format!("{} has no `{key}`", self.what);
-            sink.error(self.span.clone(), message, help);
+    /// Returns its entries in the order of the file.
+    pub(super) fn entries(&self) -> Vec<(&'v Key<'v>, &'v Value<'v>)> {
+        in_order(self.entries)
+    }
+
+    /// Returns the value of a key, which is a known one from now on.
+    pub(super) fn get(&mut self, key: &'static str) -> Option<&'v Value<'v>> {
+        if !self.known.contains(&key) {
+            self.known.push(key);
         }
-        value
+        self.entries.get(key)
     }
 
-    /// Reports every key that is not among the known ones.
-    pub(super) fn reject_unknown(&self, known: &[&str], sink: &mut Sink) {
-        for key in self.table.keys() {
-            if known.contains(&&*key.name) {
+    /// Reads the value of an optional key. Nothing more is reported at the place of a value
+    /// that cannot be read.
+    pub(super) fn optional<T>(
+        &mut self,
+        cx: &mut Context,
+        key: &'static str,
+        read: impl FnOnce(&mut Context, &'v Value<'v>) -> Option<T>,
+    ) -> Option<T> {
+        let read = read(cx, self.get(key)?);
+        if read.is_none() {
+            cx.unread.push(self.place_of(key));
+        }
+        read
+    }
+
+    /// Reads the value of a key that must be there; `help` shows one.
+    pub(super) fn required<T>(
+        &mut self,
+        cx: &mut Context,
+        key: &'static str,
+        help: &str,
+        read: impl FnOnce(&mut Context, &'v Value<'v>) -> Option<T>,
+    ) -> Option<T> {
+        if self.get(key).is_none() {
+            let message = format!("{} has no `{key}`", self.name);
+            cx.sink.error(self.span.clone(), message, help);
+            cx.unread.push(self.place_of(key));
+        }
+        self.optional(cx, key, read)
+    }
+
+    /// Reads the table of an optional key, and reports the keys that `read` does not ask for;
+    /// `help` shows such a table.
+    pub(super) fn table<T>(
+        &mut self,
+        cx: &mut Context,
+        key: &'static str,
+        help: &str,
+        read: impl FnOnce(&mut Context, &mut Table<'v>) -> Option<T>,
+    ) -> Option<T> {
+        let place = self.place_of(key);
+        self.optional(cx, key, |cx, value| {
+            let mut table = Table::open(cx, value, place, key, help)?;
+            let read = read(cx, &mut table);
+            table.finish(cx);
+            read
+        })
+    }
+
+    /// Returns the place of a key.
+    pub(super) fn place_of(&self, key: &str) -> String {
+        match self.place.as_str() {
+            "" => key.to_string(),
+            place => format!("{place}/{key}"),
+        }
+    }
+
+    /// Reports every key that was not asked for.
+    pub(super) fn finish(self, cx: &mut Context) {
+        for key in self.entries.keys() {
+            if self.known.contains(&&*key.name) {
                 continue;
             }
             // A key that is there already is not what a second one means.
+            let known = self.known.iter().copied();
             let free: Vec<&str> = known
-                .iter()
-                .copied()
-                .filter(|known| self.get(known).is_none())
+                .filter(|key| !self.entries.contains_key(*key))
                 .collect();
             let help = suggest::for_key(&key.name, &free);
-            let help = help.unwrap_or_else(|| format!("{} has: {}", self.what, known.join(", ")));
+            let help =
+                help.unwrap_or_else(|| format!("{} has: {}", self.name, self.known.join(", ")));
             let message = format!("unknown key {}", quote(&key.name));
-            sink.error(key.span.start..key.span.end, message, &help);
+            cx.sink.error(span_of_key(key), message, &help);
         }
     }
+}
+
+/// Returns the bytes of a key.
+pub(super) fn span_of_key(key: &Key) -> Range<usize> {
+    key.span.start..key.span.end.max(key.span.start)
+}
+
+fn in_order<'v>(entries: &'v Entries<'v>) -> Vec<(&'v Key<'v>, &'v Value<'v>)> {
+    let mut entries: Vec<_> = entries.iter().collect();
+    entries.sort_by_key(|(key, _)| key.span.start);
+    entries
+}
+
+/// Returns the bytes of the value at a place in `value`, which has these `bytes`: those of the
+/// table around it, or of the key that stands for it, where the file leaves it out.
+pub(super) fn locate(
+    value: &Value,
+    bytes: Range<usize>,
+    source: &str,
+    place: &str,
+) -> Range<usize> {
+    let (mut value, mut bytes) = (value, bytes);
+    for step in place.split('/') {
+        let instead = match step {
+            "coulomb_width" => "coulomb",
+            "alpha" | "beta" | "a" | "d" | "theta" | "offset" => "placement",
+            _ => "",
+        };
+        let number: Option<usize> = step.strip_prefix('#').and_then(|step| step.parse().ok());
+        let index = number.and_then(|number| number.checked_sub(1));
+        let found = match (value.as_table(), value.as_array(), index) {
+            (Some(entries), _, Some(index)) => in_order(entries)
+                .get(index)
+                .map(|(key, value)| (key.span.start..span_of(value).end, *value)),
+            (Some(entries), ..) => {
+                let found = entries.get(step).or_else(|| entries.get(instead));
+                found.map(|value| (span_of(value), value))
+            }
+            (_, Some(items), Some(index)) => items.get(index).map(|item| (span_of(item), item)),
+            _ => None,
+        };
+        let Some(found) = found else { break };
+        (bytes, value) = found;
+    }
+    first_line(source, bytes)
 }

@@ -1,7 +1,7 @@
-//! One value of the file: a number, an angle, a word, a vector, a tensor.
+//! Values of the file: numbers, angles, words, vectors, tensors, placements.
 //!
-//! Every reader returns `None` after reporting what is wrong, so that its
-//! caller goes on with the rest of the file.
+//! Every reader returns `None` after reporting an error, so that its caller goes on with the
+//! rest of the file.
 
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -9,53 +9,81 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use toml_span::Value;
-use toml_span::value::{Table, ValueInner};
+use toml_span::value::ValueInner;
 
 use super::report::{Sink, quote};
-use super::table::Keys;
+use super::table::Table;
 use super::{RobotWarning, foreign, suggest};
 use crate::number::parse::{parse_decimal, parse_fraction};
 use crate::number::{Angle, Rational, Snap, Snapped};
-use crate::robot::{Inertia, Placement};
+use crate::robot::{Inertia, JointKind, Placement, Position};
 
-/// The source, the sink and the options of a reading.
-pub(super) struct Context<'s, 'k> {
-    pub(super) source: &'s str,
+/// The diagnostics and the options of a reading.
+pub(super) struct Context {
     pub(super) snap: Snap,
-    pub(super) sink: &'k mut Sink<'s>,
+    pub(super) sink: Sink,
+    /// The places of values that are missing or cannot be read: others stand in for them, and
+    /// nothing is reported of those.
+    pub(super) unread: Vec<String>,
 }
 
-impl<'s> Context<'s, '_> {
-    /// Returns the bytes of a value. The parser leaves the quotes of a string out,
-    /// and for an empty one points at the quote alone.
-    pub(super) fn span(value: &Value) -> Range<usize> {
-        value.span.start..value.span.end.max(value.span.start)
+/// Returns the bytes of a value. The parser leaves the quotes of a string out,
+/// and for an empty one points at the quote alone.
+pub(super) fn span_of(value: &Value) -> Range<usize> {
+    value.span.start..value.span.end.max(value.span.start)
+}
+
+/// Returns the part of a span on its first line: the part that a message points at.
+pub(super) fn first_line(source: &str, span: Range<usize>) -> Range<usize> {
+    let line = source.get(span.clone()).and_then(|s| s.lines().next());
+    span.start..span.start + line.map_or(1, |line| line.trim_end().len().max(1))
+}
+
+impl Context {
+    /// Returns whether a place of the file, or one around it, is missing or cannot be read.
+    pub(super) fn is_unread(&self, place: &str) -> bool {
+        let is_of = |unread: &String| match place.strip_prefix(unread.as_str()) {
+            Some(rest) => rest.is_empty() || rest.starts_with('/'),
+            None => false,
+        };
+        self.unread.iter().any(is_of)
     }
 
     /// Returns the literal of a number as it stands in the source.
-    fn literal(&self, value: &Value) -> &'s str {
-        self.source.get(Self::span(value)).unwrap_or_default()
+    fn literal(&self, value: &Value) -> String {
+        let literal = self.sink.source.get(span_of(value));
+        literal.unwrap_or_default().to_string()
     }
 
-    /// Says that a value has the wrong type.
-    pub(super) fn wanted(&mut self, value: &Value, expected: &str, help: &str) {
+    /// Reports an error about a value.
+    pub(super) fn refuse<T>(
+        &mut self,
+        value: &Value,
+        message: impl Into<String>,
+        help: &str,
+    ) -> Option<T> {
+        let span = first_line(&self.sink.source, span_of(value));
+        self.sink.error(span, message.into(), help);
+        None
+    }
+
+    /// Reports a value of the wrong type.
+    pub(super) fn wanted<T>(&mut self, value: &Value, expected: &str, help: &str) -> Option<T> {
         let found = match value.as_ref() {
             ValueInner::String(text) => format!("the string {}", quote(text)),
             ValueInner::Integer(_) | ValueInner::Float(_) => {
-                format!("the number {}", quote(self.literal(value)))
+                format!("the number {}", quote(&self.literal(value)))
             }
             ValueInner::Boolean(flag) => format!("`{flag}`"),
             ValueInner::Array(items) => format!("an array of {}", items.len()),
             ValueInner::Table(_) => "a table".to_string(),
         };
-        let span = first_line(self.source, Self::span(value));
-        let message = format!("expected {expected}, found {found}");
-        self.sink.error(span, message, help);
+        self.refuse(value, format!("expected {expected}, found {found}"), help)
     }
 
     /// Reads a number, exact; `"1/3"` too.
     pub(super) fn number(&mut self, value: &Value) -> Option<Rational> {
-        self.number_of(
+        self.number_or(
             value,
             "write the number alone, in SI units, or a fraction such as \"1/3\"",
         )
@@ -63,118 +91,102 @@ impl<'s> Context<'s, '_> {
 
     /// Reads a length, m.
     pub(super) fn length(&mut self, value: &Value) -> Option<Rational> {
-        self.number_of(
+        self.number_or(
             value,
             "write metres as a number alone, or a fraction such as \"1/3\"",
         )
     }
 
-    /// Reads a velocity or an acceleration of a joint that turns, called so: a number, and
-    /// of an angle the help says which.
-    pub(super) fn rate(&mut self, value: &Value, what: &str) -> Option<Rational> {
+    /// Reads a velocity or an acceleration, in `unit` of a joint that turns: the help for an
+    /// angle is in that unit.
+    pub(super) fn rate(
+        &mut self,
+        value: &Value,
+        kind: Option<JointKind>,
+        unit: &str,
+    ) -> Option<Rational> {
         let text = value.as_str().unwrap_or_default();
         let a_second = text.trim().trim_end_matches("/s²").trim_end_matches("/s");
-        if parse_decimal(a_second).is_err()
-            && let Ok(angle) = Angle::parse(a_second)
-        {
-            let radians = angle.to_f64();
-            let unit = match what {
-                "acceleration" => "rad/s²",
-                _ => "rad/s",
-            };
-            let help = format!("in {unit}, as a number: write {radians:.4}");
-            self.wanted(value, "a number", &help);
-            return None;
+        match Angle::parse(a_second) {
+            Ok(angle) if kind == Some(JointKind::Revolute) && parse_decimal(a_second).is_err() => {
+                let radians = angle.to_f64();
+                let help = format!("in {unit}, as a number: write {radians:.4}");
+                self.wanted(value, "a number", &help)
+            }
+            _ => self.number(value),
         }
-        self.number(value)
     }
 
-    /// Reads a part of something, without unit.
+    /// Reads a number without unit, a part of something.
     pub(super) fn part(&mut self, value: &Value) -> Option<Rational> {
-        self.number_of(
+        self.number_or(
             value,
             "write the part as a number, 0.01 for 1%, or a fraction such as \"1/100\"",
         )
     }
 
-    /// Reads a number; `help` is for what is none.
-    fn number_of(&mut self, value: &Value, help: &str) -> Option<Rational> {
+    fn number_or(&mut self, value: &Value, help: &str) -> Option<Rational> {
         let parsed = match value.as_ref() {
-            ValueInner::Integer(_) | ValueInner::Float(_) => parse_decimal(self.literal(value)),
+            ValueInner::Integer(_) | ValueInner::Float(_) => parse_decimal(&self.literal(value)),
             ValueInner::String(text) if text.contains('/') && !text.contains("pi") => {
                 parse_fraction(text)
             }
-            ValueInner::String(text) if parse_decimal(text.trim()).is_ok() => {
-                self.wanted(value, "a number", "write it without quotes");
-                return None;
-            }
-            ValueInner::String(text) if Angle::parse(text).is_ok() => {
-                self.wanted(value, "a number", "this value is no angle");
-                return None;
-            }
-            ValueInner::String(text) if foreign::in_text(text).is_some() => {
-                let help = foreign::in_text(text).unwrap_or_default();
-                self.wanted(value, "a number", &help);
-                return None;
-            }
-            _ => {
-                self.wanted(value, "a number", help);
-                return None;
+            other => {
+                let text = match other {
+                    ValueInner::String(text) => text,
+                    _ => "",
+                };
+                let foreign = foreign::in_text(text);
+                let help = match foreign.as_deref() {
+                    _ if parse_decimal(text.trim()).is_ok() => "write it without quotes",
+                    _ if Angle::parse(text).is_ok() => "this value is no angle",
+                    meant => meant.unwrap_or(help),
+                };
+                return self.wanted(value, "a number", help);
             }
         };
-        parsed
-            .map_err(|error| {
-                let text = quote(self.literal(value));
-                let message = format!("{text} is {error}");
-                self.sink.error(Self::span(value), message, error.help());
-            })
-            .ok()
+        match parsed {
+            Ok(number) => Some(number),
+            Err(error) => {
+                let message = format!("{} is {error}", quote(&self.literal(value)));
+                self.refuse(value, message, error.help())
+            }
+        }
     }
 
     /// Reads an angle: radians as a number, or one of the text forms.
     pub(super) fn angle(&mut self, value: &Value) -> Option<Angle> {
-        const FORMS: &str = "radians as a number, \"pi/2\", \"-3*pi/4\" or \"90deg\"";
         let snapped = match value.as_ref() {
-            ValueInner::String(text) => match Angle::parse(text) {
-                Ok(angle) => Snap::near(angle),
-                Err(_) if parse_decimal(text.trim()).is_ok() => {
-                    let number = text.trim();
-                    let help = format!(
-                        "of radians write {number} without quotes, of degrees \"{number}deg\""
-                    );
-                    self.wanted(value, "an angle", &help);
-                    return None;
-                }
-                Err(_) => {
-                    let help = foreign::in_text(text);
-                    let help = help.unwrap_or_else(|| format!("write {FORMS}"));
-                    self.wanted(value, "an angle", &help);
-                    return None;
-                }
-            },
             ValueInner::Integer(_) | ValueInner::Float(_) => self.snap.apply(self.number(value)?),
-            _ => {
-                self.wanted(value, "an angle", &format!("write {FORMS}"));
-                return None;
+            ValueInner::String(text) if Angle::parse(text).is_ok() => {
+                Snap::near(Angle::parse(text).unwrap_or_default())
+            }
+            other => {
+                let text = match other {
+                    ValueInner::String(text) => text.trim(),
+                    _ => "",
+                };
+                let help = match (parse_decimal(text), foreign::in_text(text)) {
+                    (Ok(_), _) => {
+                        format!("of radians write {text} without quotes, of degrees \"{text}deg\"")
+                    }
+                    (Err(_), Some(meant)) => meant,
+                    _ => "write radians as a number, \"pi/2\", \"-3*pi/4\" or \"90deg\"".into(),
+                };
+                return self.wanted(value, "an angle", &help);
             }
         };
-        Some(self.snapped(value, snapped))
-    }
-
-    /// Says what became of an angle.
-    fn snapped(&mut self, value: &Value, snapped: Snapped) -> Angle {
-        let span = Self::span(value);
         let text = self.literal(value);
         let written = |multiple: &Angle| match multiple.is_zero() {
             true => "0".to_string(),
             false => format!("\"{multiple}\""),
         };
-        match snapped {
+        Some(match snapped {
             Snapped::Kept(angle) => angle,
             Snapped::Taken(angle) => {
                 let message = format!("{text} is read as {angle}");
                 let help = format!("write {} to say so", written(&angle));
-                self.sink.note(span, message, &help);
+                self.sink.note(span_of(value), message, &help);
                 angle
             }
             Snapped::Near {
@@ -186,120 +198,122 @@ impl<'s> Context<'s, '_> {
                     format!("{text} is {distance:.1e} from {multiple}; it stays as written");
                 let help = format!("write {} if you mean it", written(&multiple));
                 let warning = RobotWarning::NearRightAngle;
-                self.sink.warning(warning, span, message, &help);
+                self.sink
+                    .found(Some(warning), span_of(value), message, &help);
                 angle
             }
+        })
+    }
+
+    /// Reads a position of a joint: an angle, or of one that slides a length.
+    pub(super) fn position(&mut self, value: &Value, kind: Option<JointKind>) -> Option<Position> {
+        match kind {
+            Some(JointKind::Prismatic) => self.length(value).map(Position::Length),
+            _ => self.angle(value).map(Position::Angle),
         }
     }
 
     /// Reads a text.
     pub(super) fn string(&mut self, value: &Value) -> Option<String> {
-        let text = value.as_str().map(ToString::to_string);
-        if text.is_none() {
-            self.wanted(value, "a string", "write it in quotes");
+        match value.as_str() {
+            Some(text) => Some(text.to_string()),
+            None => self.wanted(value, "a string", "write it in quotes"),
         }
-        text
     }
 
-    /// Reads one of a few words.
-    pub(super) fn word<T: Copy>(&mut self, value: &Value, words: &[(&str, T)]) -> Option<T> {
-        self.word_or(value, words, "")
-    }
-
-    /// Reads one of a few words; `which` says what they mean to whoever wrote none that is
-    /// like them.
-    pub(super) fn word_or<T: Copy>(
+    /// Reads one of a few words; `help` is for a text that is like none of them.
+    pub(super) fn word<T: Copy>(
         &mut self,
         value: &Value,
         words: &[(&str, T)],
-        which: &str,
+        help: &str,
     ) -> Option<T> {
-        let names: Vec<&str> = words.iter().map(|(name, _)| *name).collect();
-        let listed: Vec<String> = names.iter().map(|n| format!("\"{n}\"")).collect();
-        let listed = listed.join(" or ");
-        let Some(text) = value.as_str() else {
-            self.wanted(value, &listed, which);
-            return None;
-        };
-        if let Some((_, meaning)) = words.iter().find(|(name, _)| *name == text) {
+        let text = value.as_str();
+        if let Some((_, meaning)) = words.iter().find(|(word, _)| Some(*word) == text) {
             return Some(*meaning);
         }
-        let help = match suggest::closest(text, &names) {
-            Some(meant) => format!("did you mean \"{meant}\"?"),
-            None if text == "fixed" => {
+        let names: Vec<&str> = words.iter().map(|(name, _)| *name).collect();
+        let help = match text.map(|text| suggest::closest(text, &names)) {
+            Some(Some(meant)) => format!("did you mean \"{meant}\"?"),
+            Some(None) if text == Some("fixed") => {
                 "a joint that does not move is part of the link before it".to_string()
             }
-            None => which.to_string(),
+            _ => help.to_string(),
         };
-        self.wanted(value, &listed, &help);
-        None
+        self.wanted(value, &format!("\"{}\"", names.join("\" or \"")), &help)
     }
 
-    /// Reads a table.
-    pub(super) fn table<'v, 'de>(
+    /// Returns the items of a list.
+    pub(super) fn list<'v>(
         &mut self,
-        value: &'v Value<'de>,
+        value: &'v Value<'v>,
+        expected: &str,
         help: &str,
-    ) -> Option<&'v Table<'de>> {
-        let table = value.as_table();
-        if table.is_none() {
-            self.wanted(value, "a table", help);
+    ) -> Option<&'v [Value<'v>]> {
+        match value.as_array() {
+            Some(items) => Some(items),
+            None => self.wanted(value, expected, help),
         }
-        table
     }
 
-    /// `N` values in an array, each read by `item`; all of them are looked at
-    /// before it gives up.
+    /// Reads the items of a list, all of them before it gives up.
+    pub(super) fn each<'v, T>(
+        &mut self,
+        items: &'v [Value<'v>],
+        mut read: impl FnMut(&mut Self, usize, &'v Value<'v>) -> Option<T>,
+    ) -> Option<Vec<T>> {
+        let items = items.iter().enumerate();
+        let read: Vec<Option<T>> = items.map(|(i, item)| read(self, i, item)).collect();
+        read.into_iter().collect()
+    }
+
+    /// Reads `N` values in an array.
     pub(super) fn array<T, const N: usize>(
         &mut self,
         value: &Value,
         help: &str,
         mut item: impl FnMut(&mut Self, &Value) -> Option<T>,
     ) -> Option<[T; N]> {
-        let items = value.as_array().filter(|items| items.len() == N);
-        let Some(items) = items else {
-            let comma = foreign::decimal_comma_in(self.literal(value));
-            let comma = comma.filter(|_| value.as_array().is_some());
-            let comma = comma.map(|meant| format!("decimals have a point: {meant}"));
-            self.wanted(
-                value,
-                &format!("an array of {N}"),
-                comma.as_deref().unwrap_or(help),
-            );
-            return None;
-        };
-        let read: Vec<Option<T>> = items.iter().map(|v| item(self, v)).collect();
-        let read: Option<Vec<T>> = read.into_iter().collect();
-        read?.try_into().ok()
+        let items = self.items(value, N, &format!("an array of {N}"), help)?;
+        let read = self.each(items, |cx, _, value| item(cx, value))?;
+        read.try_into().ok()
     }
 
-    /// Reads a placement; `what` is the key that has it.
-    pub(super) fn placement(&mut self, value: &Value, what: &str) -> Option<Placement> {
-        let help = format!("{what} = {{ xyz = [0, 0, 0.1], rpy = [0, \"pi/2\", 0] }}");
-        let keys = Keys {
-            table: self.table(value, &help)?,
-            span: first_line(self.source, Self::span(value)),
-            what: what.to_string(),
+    /// Returns the items of an array of a length.
+    fn items<'v>(
+        &mut self,
+        value: &'v Value<'v>,
+        length: usize,
+        expected: &str,
+        help: &str,
+    ) -> Option<&'v [Value<'v>]> {
+        let Some(items) = value.as_array() else {
+            return self.wanted(value, expected, help);
         };
-        keys.reject_unknown(&["xyz", "rpy"], self.sink);
-        self.placement_of(&keys)
+        if items.len() == length {
+            return Some(items);
+        }
+        let comma = foreign::decimal_comma_in(&self.literal(value));
+        let comma = comma.map(|meant| format!("decimals have a point: {meant}"));
+        self.wanted(value, expected, comma.as_deref().unwrap_or(help))
     }
 
-    /// Reads the placement that the keys of a table say, among others.
-    pub(super) fn placement_of(&mut self, keys: &Keys) -> Option<Placement> {
+    /// Reads the placement that a table says, among other keys.
+    pub(super) fn placement(&mut self, table: &mut Table) -> Option<Placement> {
         const XYZ: &str = "xyz = [x, y, z], in m";
         const RPY: &str = "rpy = [roll, pitch, yaw], turns about the fixed axes x, y and z, e.g. [0, \"pi/2\", 0]";
-        let mut placement = Placement::default();
-        let (xyz, rpy) = (keys.get("xyz"), keys.get("rpy"));
-        let xyz = xyz.map(|value| self.array(value, XYZ, Self::length));
-        let rpy = rpy.map(|value| self.array(value, RPY, Self::angle));
-        if let Some(xyz) = xyz {
-            placement.xyz = xyz?;
-        }
-        if let Some(rpy) = rpy {
-            placement.rpy = rpy?;
-        }
-        Some(placement)
+        let xyz = match table.get("xyz") {
+            None => Some(Placement::default().xyz),
+            Some(value) => self.array(value, XYZ, Self::length),
+        };
+        let rpy = match table.get("rpy") {
+            None => Some(Placement::default().rpy),
+            Some(value) => self.array(value, RPY, Self::angle),
+        };
+        Some(Placement {
+            xyz: xyz?,
+            rpy: rpy?,
+        })
     }
 
     /// Reads an inertia tensor: six entries or three rows.
@@ -307,47 +321,21 @@ impl<'s> Context<'s, '_> {
         const HELP: &str =
             "write [Ixx, Iyy, Izz, Ixy, Iyz, Ixz] or three rows of three, about the centre of mass";
         let items = value.as_array().map(Vec::as_slice).unwrap_or_default();
-        let rows = items.len() == 3 && items.iter().any(|item| item.as_array().is_some());
-        if rows {
-            let rows = self.array::<_, 3>(value, HELP, |cx, row| {
-                cx.array::<_, 3>(row, HELP, Self::number)
-            })?;
-            return self.symmetric(value, rows);
+        if items.len() != 3 || items.iter().all(|item| item.as_array().is_none()) {
+            self.items(value, 6, "6 numbers or 3 rows of 3", HELP)?;
+            return self.array(value, HELP, Self::number).map(Inertia::of);
         }
-        if items.len() != 6 {
-            let comma = foreign::decimal_comma_in(self.literal(value));
-            let comma = comma.filter(|_| value.as_array().is_some());
-            let comma = comma.map(|meant| format!("decimals have a point: {meant}"));
-            let help = comma.as_deref().unwrap_or(HELP);
-            self.wanted(value, "6 numbers or 3 rows of 3", help);
-            return None;
-        }
-        self.array(value, HELP, Self::number).map(Inertia::of)
-    }
-
-    fn symmetric(&mut self, value: &Value, rows: [[Rational; 3]; 3]) -> Option<Inertia<Rational>> {
+        let rows: [[Rational; 3]; 3] =
+            self.array(value, HELP, |cx, row| cx.array(row, HELP, Self::number))?;
         for (i, k) in [(0, 1), (0, 2), (1, 2)] {
             if rows[i][k] != rows[k][i] {
+                let (row, column) = (i + 1, k + 1);
                 let message = format!(
-                    "the tensor is not symmetric: row {}, column {} is not row {}, column {}",
-                    i + 1,
-                    k + 1,
-                    k + 1,
-                    i + 1
+                    "the tensor is not symmetric: row {row}, column {column} is not row {column}, column {row}"
                 );
-                let span = first_line(self.source, Self::span(value));
-                self.sink
-                    .error(span, message, "write the same number in both");
-                return None;
+                return self.refuse(value, message, "write the same number in both");
             }
         }
-        let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = rows;
-        Some(Inertia::of([xx, yy, zz, xy, yz, xz]))
+        Some(Inertia::symmetric(|i, k| rows[i][k].clone()))
     }
-}
-
-/// Returns the part of a span on its first line: what a message points at.
-pub(super) fn first_line(source: &str, span: Range<usize>) -> Range<usize> {
-    let line = source.get(span.clone()).and_then(|s| s.lines().next());
-    span.start..span.start + line.map_or(1, |line| line.trim_end().len().max(1))
 }

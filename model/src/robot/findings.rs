@@ -1,11 +1,11 @@
-//! What can be said of a robot, and how much it matters.
+//! Findings about robots and scenes: errors and warnings, each at a place of the robot file.
 
 use alloc::borrow::ToOwned;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
 
-use super::{Place, RobotWarning};
+use super::RobotWarning;
 
 /// The severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -28,57 +28,68 @@ impl fmt::Display for Severity {
     }
 }
 
-/// Something wrong, or odd, about a robot.
+/// An error or a warning about a robot or a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// Error or warning.
-    pub severity: Severity,
     /// The name of a warning; `None` of an error.
     pub warning: Option<RobotWarning>,
-    /// Which part of the robot.
-    pub place: Place,
+    /// The keys of the robot file that lead to the value, from the outermost one:
+    /// `joint/#2/limits/velocity`. An entry of a list or a table is named by `#` and its
+    /// number, from one.
+    pub place: String,
     /// A sentence that says the mistake.
     pub message: String,
-    /// The likely fix.
-    pub help: Option<String>,
+    /// The likely fix; may be empty.
+    pub help: String,
+}
+
+impl Finding {
+    /// Returns whether it is an error, not a warning.
+    pub fn is_error(&self) -> bool {
+        self.warning.is_none()
+    }
 }
 
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}: {}", self.severity, self.place, self.message)
+        f.write_str(&self.message)?;
+        match self.help.as_str() {
+            "" => Ok(()),
+            help => write!(f, " ({help})"),
+        }
     }
 }
 
-/// Collects them.
+/// Collects findings.
 #[derive(Default)]
-pub(super) struct Findings(Vec<Finding>);
+pub(crate) struct Findings(pub(crate) Vec<Finding>);
 
 impl Findings {
-    pub(super) fn error(&mut self, place: Place, message: String, help: &str) {
-        self.push(None, place, message, help);
-    }
-
-    pub(super) fn warn(
+    pub(crate) fn error(
         &mut self,
-        warning: RobotWarning,
-        place: Place,
-        message: String,
+        place: impl Into<String>,
+        message: impl Into<String>,
         help: &str,
     ) {
-        self.push(Some(warning), place, message, help);
+        self.push(None, place.into(), message.into(), help);
     }
 
-    fn push(&mut self, warning: Option<RobotWarning>, place: Place, message: String, help: &str) {
+    pub(crate) fn warn(
+        &mut self,
+        warning: RobotWarning,
+        place: impl Into<String>,
+        message: impl Into<String>,
+        help: &str,
+    ) {
+        self.push(Some(warning), place.into(), message.into(), help);
+    }
+
+    fn push(&mut self, warning: Option<RobotWarning>, place: String, message: String, help: &str) {
         self.0.push(Finding {
-            severity: warning.map_or(Severity::Error, |_| Severity::Warning),
             warning,
             place,
             message,
-            help: (!help.is_empty()).then(|| help.to_owned()),
+            help: help.to_owned(),
         });
-    }
-
-    pub(super) fn into_all(self) -> Vec<Finding> {
-        self.0
     }
 }

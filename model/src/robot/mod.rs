@@ -4,8 +4,7 @@
 //! ([`Angle`]), all other numbers are exact rationals.
 //!
 //! - `placement`: where a frame is in another, [`Placement`]
-//! - `place`: names of the parts of a robot, for findings
-//! - `findings`: what is said of a robot, and how much it matters
+//! - `findings`: errors and warnings, each at a place of the robot file ([`Finding`])
 //! - `follower`: joints that follow others, rows without a coordinate ([`Follower`])
 //! - `warning`: the names of warnings, by which a file silences them ([`RobotWarning`])
 //! - `validate`: what no robot may be, whoever made it ([`Robot::validate`])
@@ -19,7 +18,6 @@ mod body;
 mod findings;
 mod follower;
 mod frame;
-mod place;
 mod placement;
 pub(crate) mod reach;
 mod units;
@@ -37,11 +35,11 @@ use num_traits::Zero;
 use crate::number::{Angle, Rational};
 
 pub use body::Defect;
+pub(crate) use findings::Findings;
 pub use findings::{Finding, Severity};
 pub use follower::Follower;
 pub(crate) use frame::ENDINGS;
 pub use frame::{HAND, is_frame_name};
-pub use place::{Field, Place};
 pub use placement::Placement;
 pub use warning::RobotWarning;
 
@@ -124,16 +122,12 @@ pub struct Frame {
 }
 
 impl Robot {
-    /// Returns the placements that it may have, with the place and the key of each.
-    pub fn placements(&self) -> [(Place, &'static str, Option<&Placement>); 3] {
+    /// Returns the placements that it may have, each with its key in the robot file.
+    pub fn placements(&self) -> [(&'static str, Option<&Placement>); 3] {
         [
-            (Place::Base, "base", self.base.as_ref()),
-            (Place::Tool, "tool", self.tool.as_ref()),
-            (
-                Place::PayloadFrame,
-                "payload_frame",
-                self.payload_frame.as_ref(),
-            ),
+            ("base", self.base.as_ref()),
+            ("tool", self.tool.as_ref()),
+            ("payload_frame", self.payload_frame.as_ref()),
         ]
     }
 
@@ -277,6 +271,31 @@ pub struct Limits {
     pub acceleration: Option<Rational>,
     /// Largest |τ|, N·m or N.
     pub torque: Option<Rational>,
+}
+
+/// A limit of a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Limit {
+    /// The range of positions.
+    Position,
+    /// The largest |q̇|.
+    Velocity,
+    /// The largest |q̈|.
+    Acceleration,
+    /// The largest |τ|.
+    Torque,
+}
+
+impl Limit {
+    /// Returns its key in the robot file.
+    pub fn key(self) -> &'static str {
+        match self {
+            Limit::Position => "position",
+            Limit::Velocity => "velocity",
+            Limit::Acceleration => "acceleration",
+            Limit::Torque => "torque",
+        }
+    }
 }
 
 /// A position of a joint.

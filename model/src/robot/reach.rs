@@ -7,7 +7,8 @@ use num_traits::{Signed, Zero};
 
 use super::findings::Findings;
 use super::units::{shown, whole};
-use super::{Field, Inertia, Joint, Place, Placement, Position, Robot, RobotWarning};
+use super::validate::of_joint;
+use super::{Inertia, Joint, Placement, Position, Robot, RobotWarning};
 use crate::number::{Rational, Rounded};
 
 /// A body whose mass is further from its centre than this many times the arm's reach
@@ -81,7 +82,7 @@ pub(crate) fn large_inertia(
 impl Findings {
     pub(super) fn doubtful_inertia(&mut self, index: usize, joint: &Joint, reach: &Rational) {
         if let Some((message, help)) = large_inertia(&joint.inertia, &joint.mass, reach) {
-            let place = Place::Joint(index, Field::Inertia);
+            let place = of_joint(index, "inertia");
             self.warn(RobotWarning::LargeInertia, place, message, &help);
         }
     }

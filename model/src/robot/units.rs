@@ -11,7 +11,8 @@ use alloc::string::{String, ToString};
 use num_traits::{Signed, Zero};
 
 use super::findings::Findings;
-use super::{Field, Joint, JointKind, Place, Placement, Position, RobotWarning};
+use super::validate::of_joint;
+use super::{Joint, JointKind, Placement, Position, RobotWarning};
 use crate::number::parse::write_decimal;
 use crate::number::{Angle, Rational, Rounded};
 
@@ -42,7 +43,7 @@ fn thousandth(value: &Rational) -> String {
 }
 
 impl Findings {
-    fn warning(&mut self, warning: RobotWarning, place: Place, message: String, help: &str) {
+    fn warning(&mut self, warning: RobotWarning, place: &str, message: String, help: &str) {
         let help = format!("{help}; it is taken as it stands");
         self.warn(warning, place, message, &help);
     }
@@ -66,7 +67,7 @@ impl Findings {
         let meant = meant.map_or("gravity is in m/s²", |(_, meant)| *meant);
         self.warning(
             RobotWarning::UnusualGravity,
-            Place::Gravity,
+            "gravity",
             format!("the acceleration of gravity is {size:.4} m/s², far from the Earth's 9.81"),
             &format!("{meant}: on the Earth it is [0, 0, -9.81] if z points up"),
         );
@@ -79,14 +80,14 @@ impl Findings {
         }
         self.warning(
             RobotWarning::UpwardGravity,
-            Place::Gravity,
+            "gravity",
             "gravity points upwards, along the base's z".to_owned(),
             "it is the acceleration of what falls, [0, 0, -9.81] if z points up; of an arm that \
              hangs, say base = { rpy = [\"pi\", 0, 0] }",
         );
     }
 
-    pub(super) fn doubtful_placement(&mut self, place: Place, placement: &Placement) {
+    pub(super) fn doubtful_placement(&mut self, place: &str, placement: &Placement) {
         if let Some(longest) = placement.xyz.iter().max_by_key(|x| x.abs()) {
             self.doubtful_length(place, "xyz", longest);
         }
@@ -96,24 +97,30 @@ impl Findings {
     }
 
     pub(super) fn doubtful_joint(&mut self, index: usize, joint: &Joint) {
-        let at = |field| Place::Joint(index, field);
+        let at = |key| of_joint(index, key);
         let (d, theta) = match joint.kind {
-            JointKind::Revolute => (Field::D, Field::Offset),
-            JointKind::Prismatic => (Field::Offset, Field::Theta),
+            JointKind::Revolute => ("d", "offset"),
+            JointKind::Prismatic => ("offset", "theta"),
         };
-        self.doubtful_angle(at(Field::Alpha), Field::Alpha.key(), &joint.alpha);
-        self.doubtful_angle(at(Field::Beta), Field::Beta.key(), &joint.beta);
-        self.doubtful_angle(at(theta), theta.key(), &joint.theta);
-        self.doubtful_length(at(Field::A), Field::A.key(), &joint.a);
-        self.doubtful_length(at(d), d.key(), &joint.d);
-        if let Some(longest) = joint.com.iter().max_by_key(|x| x.abs()) {
-            self.doubtful_length(at(Field::Com), Field::Com.key(), longest);
+        for (key, angle) in [
+            ("alpha", &joint.alpha),
+            ("beta", &joint.beta),
+            (theta, &joint.theta),
+        ] {
+            self.doubtful_angle(&at(key), key, angle);
+        }
+        let longest = joint.com.iter().max_by_key(|x| x.abs());
+        let lengths = [("a", Some(&joint.a)), (d, Some(&joint.d)), ("com", longest)];
+        for (key, length) in lengths {
+            if let Some(length) = length {
+                self.doubtful_length(&at(key), key, length);
+            }
         }
         if joint.mass >= whole(MAX_MASS) {
             let mass = &joint.mass;
             self.warning(
                 RobotWarning::LargeMass,
-                at(Field::Mass),
+                &at("mass"),
                 format!("the link's mass is {} kg: a tonne or more", shown(mass)),
                 &format!("masses are in kg: of grams, write {}", thousandth(mass)),
             );
@@ -137,7 +144,7 @@ impl Findings {
         };
         self.warning(
             RobotWarning::LargeWidth,
-            Place::Joint(index, Field::CoulombWidth),
+            &of_joint(index, "coulomb_width"),
             format!(
                 "the sign of Coulomb friction is smoothed over {} {unit}, and the joint reaches {}",
                 shown(width),
@@ -148,16 +155,16 @@ impl Findings {
     }
 
     fn doubtful_limits(&mut self, index: usize, joint: &Joint) {
-        let at = |field| Place::Joint(index, field);
-        for (field, limit) in [
-            (Field::Velocity, &joint.limits.velocity),
-            (Field::Acceleration, &joint.limits.acceleration),
+        let at = |key| of_joint(index, &format!("limits/{key}"));
+        for (key, limit) in [
+            ("velocity", &joint.limits.velocity),
+            ("acceleration", &joint.limits.acceleration),
         ] {
             if limit.as_ref().is_some_and(Zero::is_zero) {
                 self.warning(
                     RobotWarning::ZeroLimit,
-                    at(field),
-                    format!("the limit of {} is 0: the joint never moves", field.key()),
+                    &at(key),
+                    format!("the limit of {key} is 0: the joint never moves"),
                     "leave it out where it is not known; a scene locks a joint that stands still",
                 );
             }
@@ -167,7 +174,7 @@ impl Findings {
                 Position::Angle(Angle::Radians(value)) if value.abs() > whole(MAX_POSITION) => {
                     self.warning(
                         RobotWarning::LargeLimit,
-                        at(Field::Position),
+                        &at("position"),
                         format!("a limit of {} rad is more than five turns", shown(value)),
                         &format!(
                             "angles are in rad: of degrees, write \"{}deg\"",
@@ -177,7 +184,7 @@ impl Findings {
                     break;
                 }
                 Position::Length(value) if value.abs() > whole(MAX_LENGTH) => {
-                    self.doubtful_length(at(Field::Position), Field::Position.key(), value);
+                    self.doubtful_length(&at("position"), "position", value);
                     break;
                 }
                 _ => {}
@@ -204,15 +211,10 @@ impl Findings {
             }
         };
         let message = format!("a joint that reaches {} {unit} is fast", shown(velocity));
-        self.warning(
-            RobotWarning::LargeVelocity,
-            at(Field::Velocity),
-            message,
-            &help,
-        );
+        self.warning(RobotWarning::LargeVelocity, &at("velocity"), message, &help);
     }
 
-    fn doubtful_angle(&mut self, place: Place, what: &str, angle: &Angle) {
+    fn doubtful_angle(&mut self, place: &str, what: &str, angle: &Angle) {
         // Whoever writes 5*pi/2 or "450deg" knows the unit.
         let Angle::Radians(value) = angle else {
             return;
@@ -231,7 +233,7 @@ impl Findings {
         }
     }
 
-    fn doubtful_length(&mut self, place: Place, what: &str, length: &Rational) {
+    fn doubtful_length(&mut self, place: &str, what: &str, length: &Rational) {
         if length.abs() > whole(MAX_LENGTH) {
             self.warning(
                 RobotWarning::LargeLength,

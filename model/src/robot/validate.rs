@@ -15,10 +15,7 @@ use num_traits::{Signed, Zero};
 use super::body::Defect;
 use super::findings::{Finding, Findings};
 use super::frame::{HAND, is_frame_name};
-use super::{
-    Convention, Field, Joint, JointKind, Place, Placement, Position, Robot, RobotWarning, reach,
-    units,
-};
+use super::{Convention, Joint, JointKind, Placement, Position, Robot, RobotWarning, reach, units};
 use crate::number::parse::in_range;
 use crate::number::{Angle, Rational, Rounded};
 
@@ -40,32 +37,25 @@ impl Robot {
         let reach = reach::reach(self, placed);
         findings.robot_name(&self.name);
         for value in &self.gravity {
-            findings.size(Place::Gravity, value);
+            findings.size("gravity", value);
         }
         findings.doubtful_gravity(&self.gravity);
         findings.upward_gravity(&self.gravity);
-        for (place, _, placement) in self.placements() {
+        for (key, placement) in self.placements() {
             if let Some(placement) = placement {
-                findings.placement(place, placement);
-                findings.doubtful_placement(place, placement);
+                findings.placement(key, placement);
             }
         }
         let rows = self.rows();
         if self.joints.is_empty() || rows.len() > Robot::MAX_JOINTS {
-            findings.error(
-                Place::Joints,
-                format!(
-                    "a robot has 1 to {} joints, not {}",
-                    Robot::MAX_JOINTS,
-                    rows.len()
-                ),
-                "each joint is a [[joint]] table",
-            );
+            let (most, found) = (Robot::MAX_JOINTS, rows.len());
+            let message = format!("a robot has 1 to {most} joints, not {found}");
+            findings.error("joint", message, "each joint is a [[joint]] table");
         }
         if !self.follow() {
             let message = "rows that follow are not in order, or cannot follow as they are to";
             let help = "each follows a joint of its kind, one that turns by a whole multiple";
-            findings.error(Place::Joints, message.into(), help);
+            findings.error("joint", message, help);
         }
         let mut names = BTreeMap::new();
         for (index, joint) in rows.into_iter().enumerate() {
@@ -73,36 +63,33 @@ impl Robot {
             findings.doubtful_joint(index, joint);
             findings.doubtful_inertia(index, joint, &reach);
             if let Some(placement) = placed.get(index) {
-                let place = Place::Joint(index, Field::Placement);
-                findings.placement(place, placement);
-                findings.doubtful_placement(place, placement);
+                findings.placement(&of_joint(index, "placement"), placement);
             }
             if self.convention == Convention::Modified && !joint.beta.is_zero() {
-                findings.error(
-                    Place::Joint(index, Field::Beta),
-                    "a turn about y after the twist belongs to standard DH".to_owned(),
-                    "write the table in the standard convention, or leave beta out",
-                );
+                let message = "a turn about y after the twist belongs to standard DH";
+                let help = "write the table in the standard convention, or leave beta out";
+                findings.error(of_joint(index, "beta"), message, help);
             }
             let Some(name) = joint.name.as_deref() else {
                 continue;
             };
-            let place = Place::Joint(index, Field::Name);
-            findings.joint_name(place, name);
-            findings.joint_number(index, name);
+            findings.joint_name(index, name);
             if let Some(first) = names.get(name) {
-                findings.error(
-                    place,
-                    format!("joint {} is called {name:?} already", first + 1),
-                    "give every joint a name of its own, or none",
-                );
+                let message = format!("joint {} is called {name:?} already", first + 1);
+                let help = "give every joint a name of its own, or none";
+                findings.error(of_joint(index, "name"), message, help);
             } else {
                 names.insert(name, index);
             }
         }
         findings.frames(self);
-        findings.into_all()
+        findings.0
     }
+}
+
+/// Returns the place of a key of the joint with this zero-based index.
+pub(super) fn of_joint(index: usize, key: &str) -> String {
+    format!("joint/#{}/{key}", index + 1)
 }
 
 impl Findings {
@@ -122,56 +109,45 @@ impl Findings {
             Some(better) => format!("the generated module is called after the robot; write {better:?}"),
             None => "the generated module is called after the robot: lower-case letters, digits and underscores, a letter first".to_owned(),
         };
-        self.error(Place::Name, message, &help);
+        self.error("name", message, &help);
     }
 
-    fn joint_name(&mut self, place: Place, name: &str) {
+    fn joint_name(&mut self, index: usize, name: &str) {
+        let place = of_joint(index, "name");
         let length = name.chars().count();
         if length == 0 || length > Robot::MAX_NAME || name.chars().any(char::is_control) {
+            let most = Robot::MAX_NAME;
             self.error(
                 place,
                 format!(
-                    "a joint's name has 1 to {} characters, none of them a control character",
-                    Robot::MAX_NAME
+                    "a joint's name has 1 to {most} characters, none of them a control character"
                 ),
                 "leave the name out if the joint has none",
             );
         } else if name.chars().any(units::turns_text) {
-            self.error(
-                place,
-                "a joint's name has no character that turns the direction of text".to_owned(),
-                &units::without_turns(name),
-            );
-        }
-    }
-
-    /// Refuses a name that is another joint's number: scenes name joints by either.
-    fn joint_number(&mut self, index: usize, name: &str) {
-        let Ok(number) = name.trim().parse::<i64>() else {
-            return;
-        };
-        if usize::try_from(number) != Ok(index + 1) {
+            let message = "a joint's name has no character that turns the direction of text";
+            self.error(place, message, &units::without_turns(name));
+        } else if let Ok(number) = name.trim().parse::<i64>()
+            && usize::try_from(number) != Ok(index + 1)
+        {
+            // Scenes name joints by either.
             let message = format!(
                 "joint {} is called {name:?}, which is a joint's number and not its own",
                 index + 1
             );
-            let help = format!("write \"joint_{number}\"");
-            self.error(Place::Joint(index, Field::Name), message, &help);
+            self.error(place, message, &format!("write \"joint_{number}\""));
         }
     }
 
     fn frames(&mut self, robot: &Robot) {
         if robot.frames.len() > Robot::MAX_FRAMES {
             let message = format!("a robot has {} frames at most", Robot::MAX_FRAMES);
-            self.error(
-                Place::Frames,
-                message,
-                "leave out those that nothing asks for",
-            );
+            self.error("frame", message, "leave out those that nothing asks for");
         }
         let mut names = BTreeMap::new();
         for (index, frame) in robot.frames.iter().enumerate() {
-            let (place, name) = (Place::Frame(index), frame.name.as_str());
+            let place = format!("frame/#{}/name", index + 1);
+            let (place, name) = (place.as_str(), frame.name.as_str());
             if name == HAND {
                 let message = format!("`{HAND}` is the name of the robot's own hand");
                 self.error(place, message, "call the frame otherwise");
@@ -195,118 +171,113 @@ impl Findings {
                 self.error(place, message, &help);
             }
             self.placement(place, &frame.placement);
-            self.doubtful_placement(place, &frame.placement);
         }
     }
 
-    fn placement(&mut self, place: Place, placement: &Placement) {
+    fn placement(&mut self, place: &str, placement: &Placement) {
         for value in &placement.xyz {
             self.size(place, value);
         }
         for value in &placement.rpy {
             self.angle(place, value);
         }
+        self.doubtful_placement(place, placement);
     }
 
     fn joint(&mut self, index: usize, joint: &Joint) {
-        let at = |field| Place::Joint(index, field);
-        // What the file calls offset is the constant part of the variable.
+        let at = |key| of_joint(index, key);
+        // The constant part of the variable is called offset in the file.
         let (d, theta) = match joint.kind {
-            JointKind::Revolute => (Field::D, Field::Offset),
-            JointKind::Prismatic => (Field::Offset, Field::Theta),
+            JointKind::Revolute => ("d", "offset"),
+            JointKind::Prismatic => ("offset", "theta"),
         };
-        self.angle(at(Field::Alpha), &joint.alpha);
-        self.angle(at(Field::Beta), &joint.beta);
-        self.angle(at(theta), &joint.theta);
-        self.size(at(Field::A), &joint.a);
-        self.size(at(d), &joint.d);
+        self.angle(&at("alpha"), &joint.alpha);
+        self.angle(&at("beta"), &joint.beta);
+        self.angle(&at(theta), &joint.theta);
+        self.size(&at("a"), &joint.a);
+        self.size(&at(d), &joint.d);
         for value in &joint.com {
-            self.size(at(Field::Com), value);
+            self.size(&at("com"), value);
         }
         for value in joint.inertia.rows().iter().flatten() {
-            self.size(at(Field::Inertia), value);
+            self.size(&at("inertia"), value);
         }
-        self.not_negative(at(Field::Mass), "mass", &joint.mass);
-        self.not_negative(at(Field::Viscous), "viscous", &joint.viscous);
+        self.not_negative(&at("mass"), &joint.mass);
+        self.not_negative(&at("viscous"), &joint.viscous);
         self.coulomb(index, joint);
-        self.not_negative(at(Field::Armature), "armature", &joint.armature);
+        self.not_negative(&at("armature"), &joint.armature);
         if let Some(frame) = &joint.frame {
-            self.placement(at(Field::Frame), frame);
+            self.placement(&at("frame"), frame);
         }
         let limits = &joint.limits;
-        for (field, limit) in [
-            (Field::Velocity, &limits.velocity),
-            (Field::Acceleration, &limits.acceleration),
-            (Field::Torque, &limits.torque),
+        for (key, limit) in [
+            ("limits/velocity", &limits.velocity),
+            ("limits/acceleration", &limits.acceleration),
+            ("limits/torque", &limits.torque),
         ] {
             if let Some(limit) = limit {
-                self.not_negative(at(field), field.key(), limit);
+                self.not_negative(&at(key), limit);
             }
         }
         if let Some(range) = &limits.position {
-            self.range(at(Field::Position), joint.kind, range);
+            self.range(&at("limits/position"), joint.kind, range);
         }
-        self.body(at(Field::Inertia), joint);
+        self.body(&at("inertia"), joint);
     }
 
     /// Checks the width of Coulomb friction: without one it would jump where a joint stands
     /// still, and have no slope there; the square of one is a number in f32, too.
     fn coulomb(&mut self, index: usize, joint: &Joint) {
-        let at = |field| Place::Joint(index, field);
         let unit = match joint.kind {
             JointKind::Revolute => "rad/s",
             JointKind::Prismatic => "m/s",
+        };
+        self.not_negative(&of_joint(index, "coulomb"), &joint.coulomb);
+        let width = &joint.coulomb_width;
+        let message = if width.is_negative() {
+            "coulomb_width is negative"
+        } else if width.is_zero() && joint.coulomb.is_positive() {
+            "Coulomb friction without a `coulomb_width` above zero"
+        } else if !width.is_zero() && !WIDTHS.contains(&f64::nearest_rational(width)) {
+            "a coulomb_width too large or too small"
+        } else {
+            return;
         };
         let help = format!(
             "coulomb_width = 0.01, in {unit}: at this speed the friction is 1/√2 of `coulomb`, at \
              ten times as much less than 0.5 % below it"
         );
-        self.not_negative(at(Field::Coulomb), "coulomb", &joint.coulomb);
-        let width = &joint.coulomb_width;
-        if width.is_negative() {
-            let message = "coulomb_width is negative".to_owned();
-            self.error(at(Field::CoulombWidth), message, &help);
-        } else if width.is_zero() {
-            if joint.coulomb.is_positive() {
-                let message = "Coulomb friction without a `coulomb_width` above zero".to_owned();
-                self.error(at(Field::CoulombWidth), message, &help);
-            }
-        } else if !WIDTHS.contains(&f64::nearest_rational(width)) {
-            let message = "a coulomb_width too large or too small".to_owned();
-            self.error(at(Field::CoulombWidth), message, &help);
-        }
+        self.error(of_joint(index, "coulomb_width"), message, &help);
     }
 
-    fn size(&mut self, place: Place, value: &Rational) {
+    fn size(&mut self, place: &str, value: &Rational) {
         if !in_range(value) {
-            self.error(
-                place,
-                "a number too large or too small".to_owned(),
-                "zero, or a size from 1e-300 to 1e300",
-            );
+            let message = "a number too large or too small";
+            self.error(place, message, "zero, or a size from 1e-300 to 1e300");
         }
     }
 
-    fn angle(&mut self, place: Place, value: &Angle) {
+    fn angle(&mut self, place: &str, value: &Angle) {
         let (Angle::PiTimes(value) | Angle::Radians(value)) = value;
         self.size(place, value);
     }
 
-    fn not_negative(&mut self, place: Place, what: &str, value: &Rational) {
+    fn not_negative(&mut self, place: &str, value: &Rational) {
         self.size(place, value);
         if value.is_negative() {
-            let help = match what {
+            let (_, key) = place.rsplit_once('/').unwrap_or(("", place));
+            let help = match key {
                 "mass" => "a mass is zero or more, in kg",
                 "viscous" => "damping takes energy out: zero or more",
                 "coulomb" => "friction takes energy out: zero or more, in N·m or N",
                 "armature" => "a rotor's inertia is zero or more",
                 _ => "a limit bounds the size, in both directions: zero or more",
             };
-            self.error(place, format!("{what} is negative"), help);
+            self.error(place, format!("{key} is negative"), help);
         }
     }
 
-    fn range(&mut self, place: Place, kind: JointKind, range: &[Position; 2]) {
+    fn range(&mut self, place: &str, kind: JointKind, range: &[Position; 2]) {
         for position in range {
             match position {
                 Position::Angle(angle) => self.angle(place, angle),
@@ -321,31 +292,25 @@ impl Findings {
                 low.cmp(high)
             }
             _ => {
-                self.error(
-                    place,
-                    "the limits are not of the joint's kind".to_owned(),
-                    "angles for a revolute joint, lengths for a prismatic one",
-                );
-                return;
+                let message = "the limits are not of the joint's kind";
+                let help = "angles for a revolute joint, lengths for a prismatic one";
+                return self.error(place, message, help);
             }
         };
         if order != Ordering::Less {
-            self.error(
-                place,
-                "the lowest position is not below the highest".to_owned(),
-                "write [lowest, highest]",
-            );
+            let message = "the lowest position is not below the highest";
+            self.error(place, message, "write [lowest, highest]");
         }
     }
 
-    fn body(&mut self, place: Place, joint: &Joint) {
+    fn body(&mut self, place: &str, joint: &Joint) {
         let Some(defect) = joint.inertia.defect(&joint.mass) else {
             return;
         };
         let help = match defect {
             Defect::NegativeMoment => {
                 let help = "the order is Ixx, Iyy, Izz, Ixy, Iyz, Ixz about the centre of mass";
-                return self.error(place, defect.message().to_owned(), help);
+                return self.error(place, defect.message(), help);
             }
             Defect::Triangle => {
                 "expected for a link whose other moments were left out; taken as it stands"
@@ -354,8 +319,12 @@ impl Findings {
         };
         // A missing mass that leaves the tensor a possible one is usual in
         // published tables, and so is a broken one: either way only a warning.
-        let message = defect.message().to_owned();
-        self.warn(RobotWarning::ImpossibleInertia, place, message, help);
+        self.warn(
+            RobotWarning::ImpossibleInertia,
+            place,
+            defect.message(),
+            help,
+        );
     }
 }
 

@@ -30,7 +30,7 @@ pub fn write(robot: &Robot) -> String {
     };
     line(&mut text, "convention", convention);
     line(&mut text, "gravity", &list([x, y, z].map(number)));
-    for (_, key, value) in robot.placements() {
+    for (key, value) in robot.placements() {
         if let Some(value) = value {
             line(&mut text, key, &placement(value));
         }

@@ -16,7 +16,6 @@ use crate::number::Rational;
 use crate::outputs::Function;
 use crate::robot::{Inertia, Position};
 
-pub use validate::{Part, SceneFinding};
 pub use write::write;
 
 /// A use of a robot. Joints are zero-based here; people count from one.

@@ -7,76 +7,27 @@
 mod bounds;
 mod tolerance;
 
-use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::cmp::Ordering;
-use core::fmt;
+use core::fmt::Display;
 
 use num_traits::Signed;
 
 use super::Scene;
 use crate::number::Rational;
 use crate::number::parse::write_decimal;
-use crate::robot::{Field, Joint, JointKind, Position, Robot, RobotWarning, Severity, reach};
-
-/// A part of a scene, so that a reader can say on which line it is. Indices
-/// are places in the scene's lists, zero-based.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Part {
-    /// The scene's name.
-    Name,
-    /// The list of outputs.
-    Outputs,
-    /// An entry of `joints`; the list itself where it has no such entry.
-    Joint(usize),
-    /// An entry of `lock`; the table itself where it has no such entry.
-    Lock(usize),
-    /// The payload, by field.
-    Payload(Field),
-    /// An entry of a list of the box, which `Field` names.
-    Box(Field, usize),
-    /// An entry of the tolerance's values; the tolerance itself where it has
-    /// no such entry.
-    Tolerance(usize),
-    /// A limit of a joint of the robot, which the scene needs to be otherwise.
-    Limit(usize, Field),
-}
-
-/// Something wrong, or odd, about a scene.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SceneFinding {
-    /// Error or warning.
-    pub severity: Severity,
-    /// The name of a warning; `None` of an error.
-    pub warning: Option<RobotWarning>,
-    /// Which part.
-    pub part: Part,
-    /// A sentence that says the mistake.
-    pub message: String,
-    /// The likely fix.
-    pub help: String,
-}
-
-impl fmt::Display for SceneFinding {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message)?;
-        match self.help.as_str() {
-            "" => Ok(()),
-            help => write!(f, " ({help})"),
-        }
-    }
-}
+use crate::robot::{Finding, Findings, Joint, JointKind, Position, Robot, RobotWarning, reach};
 
 impl Scene {
     /// Returns everything that is wrong or odd about the scene; without an error among
     /// it, every later stage accepts it with this robot.
-    pub fn validate(&self, robot: &Robot) -> Vec<SceneFinding> {
+    pub fn validate(&self, robot: &Robot) -> Vec<Finding> {
         let mut check = Check {
             scene: self,
             robot,
-            found: Vec::new(),
+            found: Findings::default(),
         };
         check.name();
         check.joints();
@@ -84,44 +35,37 @@ impl Scene {
         check.payload();
         check.bounds();
         check.tolerance();
-        check.found
+        check.found.0
     }
 }
 
 struct Check<'a> {
     scene: &'a Scene,
     robot: &'a Robot,
-    found: Vec<SceneFinding>,
+    found: Findings,
 }
 
 impl<'a> Check<'a> {
-    fn say(&mut self, part: Part, message: String, help: &str) {
-        self.push(None, part, message, help);
+    /// Reports an error at a key of the scene, or at the scene.
+    fn error(&mut self, key: impl Display, message: impl Into<String>, help: &str) {
+        self.found.error(self.place(key), message, help);
     }
 
-    fn warn(&mut self, warning: RobotWarning, part: Part, message: String, help: &str) {
-        self.push(Some(warning), part, message, help);
+    fn warn(&mut self, warning: RobotWarning, key: impl Display, message: String, help: &str) {
+        self.found.warn(warning, self.place(key), message, help);
     }
 
-    fn push(&mut self, warning: Option<RobotWarning>, part: Part, message: String, help: &str) {
-        self.found.push(SceneFinding {
-            severity: warning.map_or(Severity::Error, |_| Severity::Warning),
-            warning,
-            part,
-            message,
-            help: help.to_owned(),
-        });
+    fn place(&self, key: impl Display) -> String {
+        format!("scene/{}/{key}", self.scene.name)
     }
 
     fn name(&mut self) {
         let name = &self.scene.name;
         let good = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
         if name.is_empty() || name.len() > Robot::MAX_NAME || !name.chars().all(good) {
-            self.say(
-                Part::Name,
-                format!("{name:?} cannot end the name of a Rust module"),
-                "the generated module is called after robot and scene: lower-case letters, digits and underscores",
-            );
+            let message = format!("{name:?} cannot end the name of a Rust module");
+            let help = "the generated module is called after robot and scene: lower-case letters, digits and underscores";
+            self.error("", message, help);
         }
     }
 
@@ -130,15 +74,16 @@ impl<'a> Check<'a> {
     }
 
     /// Checks that there are such joints, and none twice.
-    fn list(&mut self, part: fn(usize) -> Part, joints: &[usize], twice: &str) {
-        for (place, &joint) in joints.iter().enumerate() {
+    fn list(&mut self, key: &str, joints: &[usize], twice: &str) {
+        for (index, &joint) in joints.iter().enumerate() {
+            let place = format!("{key}/#{}", index + 1);
             if self.joint(joint).is_none() {
                 let n = self.robot.joints.len();
                 let message = format!("there is no joint {}: the robot has {n}", joint + 1);
-                self.say(part(place), message, "joints are counted from 1");
-            } else if joints[..place].contains(&joint) {
+                self.error(place, message, "joints are counted from 1");
+            } else if joints[..index].contains(&joint) {
                 let message = format!("joint {} is {twice}", self.called(joint));
-                self.say(part(place), message, "once is enough");
+                self.error(place, message, "once is enough");
             }
         }
     }
@@ -152,34 +97,29 @@ impl<'a> Check<'a> {
     }
 
     fn joints(&mut self) {
-        let rows = self.scene.rows(self.robot.joints.len());
-        if rows.is_empty() {
-            let message = match self.scene.joints {
-                Some(_) => "a scene wants the torque of one joint at least",
-                None => "every joint is locked: nothing is left to compute",
+        if self.scene.rows(self.robot.joints.len()).is_empty() {
+            let (key, message) = match self.scene.joints {
+                Some(_) => ("joints", "a scene wants the torque of one joint at least"),
+                None => ("lock", "every joint is locked: nothing is left to compute"),
             };
-            let part = match self.scene.joints {
-                Some(_) => Part::Joint(usize::MAX),
-                None => Part::Lock(usize::MAX),
-            };
-            self.say(part, message.to_owned(), "joints = [1, 2, 3]");
+            self.error(key, message, "joints = [1, 2, 3]");
         }
         if let Some(joints) = &self.scene.joints {
-            self.list(Part::Joint, joints, "in the list already");
+            self.list("joints", joints, "in the list already");
         }
     }
 
     fn locks(&mut self) {
         let joints: Vec<usize> = self.scene.lock.iter().map(|(joint, _)| *joint).collect();
-        self.list(Part::Lock, &joints, "locked already");
-        for (place, (index, at)) in self.scene.lock.iter().enumerate() {
+        self.list("lock", &joints, "locked already");
+        for (entry, (index, at)) in self.scene.lock.iter().enumerate() {
+            let place = format!("lock/#{}", entry + 1);
             let Some(joint) = self.joint(*index) else {
                 continue;
             };
             if !of_kind(joint.kind, at) {
                 let help = "an angle for a revolute joint, a length for a prismatic one";
-                let message = "the position is not of the joint's kind".to_owned();
-                self.say(Part::Lock(place), message, help);
+                self.error(place, "the position is not of the joint's kind", help);
                 continue;
             }
             let scene = self.scene;
@@ -204,7 +144,7 @@ impl<'a> Check<'a> {
                         }
                         JointKind::Prismatic => "lock it where it can be, in m",
                     };
-                    self.say(Part::Lock(place), message, help);
+                    self.error(&place, message, help);
                 }
             }
         }
@@ -215,19 +155,18 @@ impl<'a> Check<'a> {
             return;
         };
         if payload.mass.is_negative() {
-            let message = "the payload's mass is negative".to_owned();
-            self.say(Part::Payload(Field::Mass), message, "a mass in kg");
+            let message = "the payload's mass is negative";
+            self.error("payload/mass", message, "a mass in kg");
         }
         if payload.inertia.defect(&payload.mass).is_some() {
-            let message = "no body has this inertia".to_owned();
             let help = "about the payload's centre of mass: Ixx, Iyy, Izz, Ixy, Iyz, Ixz";
-            self.say(Part::Payload(Field::Inertia), message, help);
+            self.error("payload/inertia", "no body has this inertia", help);
         }
         let reach = reach::reach(self.robot, &[]);
         let odd = reach::large_inertia(&payload.inertia, &payload.mass, &reach);
         if let Some((message, help)) = odd {
-            let part = Part::Payload(Field::Inertia);
-            self.warn(RobotWarning::LargeInertia, part, message, &help);
+            let warning = RobotWarning::LargeInertia;
+            self.warn(warning, "payload/inertia", message, &help);
         }
     }
 }

@@ -30,7 +30,7 @@ fn rows(robot: &Robot, q: &[f64]) -> Vec<Vec<(usize, String)>> {
         format!("{convention}, gravity ({gravity}) m/s², lengths in m, masses in kg"),
         format!("drawn at q = ({})", at.join(", ")),
     ];
-    for (_, what, end) in robot.placements() {
+    for (what, end) in robot.placements() {
         rows.extend(end.map(|end| placement(what, end)));
     }
     let head = [

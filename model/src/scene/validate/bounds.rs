@@ -2,15 +2,14 @@
 //! the joint can be. One that goes beyond the limits is only odd: a bound over
 //! more than is needed is a bound.
 
-use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 
 use num_traits::Signed;
 
-use super::{Check, Part, compare, decimal, of_kind, shown};
-use crate::robot::{Field, Position, RobotWarning};
+use super::{Check, compare, decimal, of_kind, shown};
+use crate::robot::{Limit, Position, RobotWarning};
 
 /// The help for a box beyond the limits.
 const BEYOND: &str = "bounds hold over the whole range; taken as it stands";
@@ -19,41 +18,36 @@ impl Check<'_> {
     pub(super) fn bounds(&mut self) {
         let n = self.robot.joints.len();
         let bounds = &self.scene.bounds;
-        let lengths = [
-            (Field::Position, bounds.position.as_ref().map(Vec::len)),
-            (Field::Velocity, bounds.velocity.as_ref().map(Vec::len)),
-            (
-                Field::Acceleration,
-                bounds.acceleration.as_ref().map(Vec::len),
-            ),
-        ];
-        for (field, length) in lengths {
+        for (key, length) in [
+            ("position", bounds.position.as_ref().map(Vec::len)),
+            ("velocity", bounds.velocity.as_ref().map(Vec::len)),
+            ("acceleration", bounds.acceleration.as_ref().map(Vec::len)),
+        ] {
             if let Some(length) = length.filter(|&length| length != n) {
                 let message = format!("{length} entries, but the robot has {n} joints");
-                self.say(Part::Box(field, usize::MAX), message, "one entry a joint");
+                self.error(format!("box/{key}"), message, "one entry a joint");
             }
         }
         for (index, range) in bounds.position.iter().flatten().enumerate() {
             self.positions(index, range);
         }
-        self.rates(Field::Velocity);
-        self.rates(Field::Acceleration);
+        self.rates(Limit::Velocity);
+        self.rates(Limit::Acceleration);
     }
 
     fn positions(&mut self, index: usize, [low, high]: &[Position; 2]) {
         let Some(joint) = self.joint(index) else {
             return;
         };
-        let part = Part::Box(Field::Position, index);
+        let place = format!("box/position/#{}", index + 1);
         if !of_kind(joint.kind, low) || !of_kind(joint.kind, high) {
-            let message = "the range is not of the joint's kind".to_owned();
             let help = "angles for a revolute joint, lengths for a prismatic one";
-            return self.say(part, message, help);
+            return self.error(place, "the range is not of the joint's kind", help);
         }
         if compare(low, high) != Some(Ordering::Less) {
             let message = "the range is empty: its lowest position is not below its highest";
             let help = "write [lowest, highest]; a joint that does not move is locked";
-            return self.say(part, message.to_owned(), help);
+            return self.error(place, message, help);
         }
         // Of a locked joint the position is compared, with both.
         let Some([lowest, highest]) = &joint.limits.position else {
@@ -70,34 +64,35 @@ impl Check<'_> {
         if below(high, lowest) || below(highest, low) {
             let message = format!("joint {name} is never in this range: its limits are {limits}");
             let help = "a range has positions that the joint can take";
-            self.say(part, message, help);
+            self.error(place, message, help);
         } else if below(low, lowest) || below(highest, high) {
             let scene = &self.scene.name;
             let message = format!(
                 "the box of scene `{scene}` goes beyond the limits of joint {name}, {limits}"
             );
-            self.warn(RobotWarning::BoxBeyondLimits, part, message, BEYOND);
+            self.warn(RobotWarning::BoxBeyondLimits, place, message, BEYOND);
         }
     }
 
     /// Checks the ranges of velocities or accelerations. Zero is a range too: at rest.
-    fn rates(&mut self, field: Field) {
+    fn rates(&mut self, rate: Limit) {
         let bounds = &self.scene.bounds;
-        let values = match field {
-            Field::Velocity => &bounds.velocity,
+        let values = match rate {
+            Limit::Velocity => &bounds.velocity,
             _ => &bounds.acceleration,
         };
         for (index, value) in values.iter().flatten().enumerate() {
-            let (part, what) = (Part::Box(field, index), field.key());
+            let key = rate.key();
+            let place = format!("box/{key}/#{}", index + 1);
             if value.is_negative() {
-                let message = format!("the range is empty: the {what} is negative");
+                let message = format!("the range is empty: the {key} is negative");
                 let help = "the largest size, in both directions: zero or more";
-                self.say(part, message, help);
+                self.error(place, message, help);
                 continue;
             }
             let limits = self.joint(index).map(|joint| &joint.limits);
-            let limit = limits.and_then(|limits| match field {
-                Field::Velocity => limits.velocity.as_ref(),
+            let limit = limits.and_then(|limits| match rate {
+                Limit::Velocity => limits.velocity.as_ref(),
                 _ => limits.acceleration.as_ref(),
             });
             let beyond = limit.filter(|limit| value > limit && self.scene.locked(index).is_none());
@@ -105,9 +100,9 @@ impl Check<'_> {
                 let (scene, name) = (&self.scene.name, self.called(index));
                 let limit = decimal(limit);
                 let message = format!(
-                    "the box of scene `{scene}` goes beyond the {what} limit of joint {name}, {limit}"
+                    "the box of scene `{scene}` goes beyond the {key} limit of joint {name}, {limit}"
                 );
-                self.warn(RobotWarning::BoxBeyondLimits, part, message, BEYOND);
+                self.warn(RobotWarning::BoxBeyondLimits, place, message, BEYOND);
             }
         }
     }

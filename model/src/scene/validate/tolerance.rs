@@ -1,15 +1,15 @@
 //! The tolerance, and what it needs of the robot: a box, and limits of torque
 //! if these are what it is relative to.
 
-use alloc::borrow::ToOwned;
 use alloc::format;
+use alloc::string::String;
 
 use num_traits::{One, Signed, Zero};
 
-use super::{Check, Part};
+use super::Check;
 use crate::number::Rational;
 use crate::outputs::{Argument, ErrorScale, Function};
-use crate::robot::{Field, JointKind, RobotWarning};
+use crate::robot::{JointKind, Limit, RobotWarning};
 use crate::scene::Scale;
 
 impl Check<'_> {
@@ -21,13 +21,12 @@ impl Check<'_> {
         if found != 1 && found != n {
             let message = format!("{found} tolerances, but the robot has {n} joints");
             let help = "one for all joints, or one a joint";
-            self.say(Part::Tolerance(usize::MAX), message, help);
+            self.error("tolerance", message, help);
         }
         for (index, value) in tolerance.value.iter().enumerate() {
             if !value.is_positive() {
-                let message = "a tolerance is above zero".to_owned();
                 let help = "without a tolerance the code is exact up to rounding";
-                self.say(Part::Tolerance(index), message, help);
+                self.error(self.of_value(index), "a tolerance is above zero", help);
             }
         }
         if let Some(index) = tolerance
@@ -35,17 +34,22 @@ impl Check<'_> {
             .iter()
             .position(|value| *value >= Rational::one())
         {
-            let message =
-                "a tolerance of 1 or more allows an error as large as the output".to_owned();
+            let message = "a tolerance of 1 or more allows an error as large as the output";
             let help = "it is a part of what it is relative to: 0.01 for 1%";
-            self.warn(
-                RobotWarning::LooseTolerance,
-                Part::Tolerance(index),
-                message,
-                help,
-            );
+            let (warning, place) = (RobotWarning::LooseTolerance, self.of_value(index));
+            self.warn(warning, place, message.into(), help);
         }
         self.needs(tolerance.relative_to);
+    }
+
+    /// Returns the key of a value: of an entry where there are several.
+    fn of_value(&self, index: usize) -> String {
+        match &self.scene.tolerance {
+            Some(tolerance) if tolerance.value.len() > 1 => {
+                format!("tolerance/value/#{}", index + 1)
+            }
+            _ => "tolerance/value".into(),
+        }
     }
 
     /// Returns whether the scene asks for a function that reads this, or leaves
@@ -86,12 +90,12 @@ impl Check<'_> {
             if scale != Scale::Actuator || !rows.contains(&index) {
                 continue;
             }
-            self.above_zero(index, Field::Torque, limits.torque.as_ref());
+            self.above_zero(index, Limit::Torque, limits.torque.as_ref());
             if inertia {
-                self.above_zero(index, Field::Acceleration, limits.acceleration.as_ref());
+                self.above_zero(index, Limit::Acceleration, limits.acceleration.as_ref());
             }
             if coefficients {
-                self.above_zero(index, Field::Velocity, limits.velocity.as_ref());
+                self.above_zero(index, Limit::Velocity, limits.velocity.as_ref());
             }
         }
     }
@@ -101,16 +105,16 @@ impl Check<'_> {
             let name = self.called(joint);
             let message = format!("a tolerance needs the range of the {what} of joint {name}");
             let help = format!("give `{what}` in the scene's box or in the joint's limits");
-            self.say(Part::Tolerance(usize::MAX), message, &help);
+            self.error("tolerance", message, &help);
         }
     }
 
-    fn above_zero(&mut self, joint: usize, field: Field, limit: Option<&Rational>) {
-        let name = self.called(joint);
-        let (what, of) = match field {
-            Field::Torque => ("torque", ""),
-            Field::Acceleration => ("acceleration", " of D"),
-            _ => ("velocity", " of h_ikm"),
+    fn above_zero(&mut self, joint: usize, rate: Limit, limit: Option<&Rational>) {
+        let (name, what) = (self.called(joint), rate.key());
+        let of = match rate {
+            Limit::Acceleration => " of D",
+            Limit::Velocity => " of h_ikm",
+            _ => "",
         };
         match limit {
             None => {
@@ -119,18 +123,21 @@ impl Check<'_> {
                 );
                 let help =
                     format!("give `{what}` in the joint's limits, or relative_to = \"range\"");
-                self.say(Part::Tolerance(usize::MAX), message, &help);
+                self.error("tolerance", message, &help);
             }
             Some(limit) if limit.is_zero() => {
                 let bounds = &self.scene.bounds;
-                let in_box = match field {
-                    Field::Velocity => bounds.velocity.is_some(),
-                    Field::Acceleration => bounds.acceleration.is_some(),
+                let in_box = match rate {
+                    Limit::Velocity => bounds.velocity.is_some(),
+                    Limit::Acceleration => bounds.acceleration.is_some(),
                     _ => false,
                 };
-                let part = match in_box {
-                    true => Part::Box(field, joint),
-                    false => Part::Limit(joint, field),
+                let place = match in_box {
+                    true => self.place(format_args!("box/{what}/#{}", joint + 1)),
+                    false => {
+                        let row = self.robot.row_of(joint) + 1;
+                        format!("joint/#{row}/limits/{what}")
+                    }
                 };
                 let message = format!(
                     "the {what} limit of joint {name} is 0, but the tolerance{of} of scene `{}` is \
@@ -138,7 +145,7 @@ impl Check<'_> {
                     self.scene.name
                 );
                 let help = format!("give a {what} above 0, or relative_to = \"range\"");
-                self.say(part, message, &help);
+                self.found.error(place, message, &help);
             }
             Some(_) => {}
         }

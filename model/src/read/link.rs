@@ -1,0 +1,58 @@
+//! Joints and links by their number or name.
+
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use toml_span::Value;
+
+use super::report::quote;
+use super::suggest;
+use super::value::Context;
+use crate::robot::Joint;
+
+/// Reads the joint that moves a link; `help` shows a link.
+pub(super) fn read(cx: &mut Context, joints: &[Joint], value: &Value, help: &str) -> Option<usize> {
+    let Some(text) = text_of(value) else {
+        return cx.wanted(value, "a link", help);
+    };
+    let found = find(joints, &text);
+    if found.is_none() {
+        let message = format!("there is no link {}", quote(&text));
+        let meant = meant(joints, &text);
+        let help = format!("links have the names of their joints; {meant}");
+        return cx.refuse(value, message, &help);
+    }
+    found
+}
+
+/// Returns the number or the name of a joint as text.
+pub(super) fn text_of(value: &Value) -> Option<String> {
+    let number = value.as_integer().map(|number| number.to_string());
+    value.as_str().map(ToString::to_string).or(number)
+}
+
+/// Returns the index of the joint with a number, from one, or a name.
+pub(super) fn find(joints: &[Joint], text: &str) -> Option<usize> {
+    match text.parse::<usize>() {
+        Ok(number) => number.checked_sub(1).filter(|joint| *joint < joints.len()),
+        Err(_) => {
+            let mut names = joints.iter().map(|joint| joint.name.as_deref());
+            names.position(|name| name == Some(text))
+        }
+    }
+}
+
+/// Returns the likely fix of a text that names no joint.
+pub(super) fn meant(joints: &[Joint], text: &str) -> String {
+    let n = joints.len();
+    let names: Vec<&str> = joints.iter().filter_map(|j| j.name.as_deref()).collect();
+    match (text.parse::<i64>(), suggest::closest(text, &names)) {
+        (Err(_), Some(meant)) => format!("did you mean `{meant}`?"),
+        (Err(_), None) if names.is_empty() => {
+            format!("the joints have no names: count them from 1 to {n}")
+        }
+        _ if names.is_empty() => format!("joints are counted from 1 to {n}"),
+        _ => format!("joints are counted from 1 to {n}: {}", names.join(", ")),
+    }
+}
