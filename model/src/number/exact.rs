@@ -121,7 +121,50 @@ impl PartialOrd for Power {
     }
 }
 
+/// The size of a constant: what arithmetic with it may cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Extent {
+    /// Its monomials: 1 for a rational.
+    pub terms: u64,
+    /// The most angles of a monomial.
+    pub angles: u64,
+    /// The largest degree of a monomial in sines and cosines.
+    pub degree: u64,
+    /// The most bits of a coefficient or an angle, numerator and denominator
+    /// together.
+    pub bits: u64,
+}
+
 impl Exact {
+    /// Returns how large it is.
+    pub fn extent(&self) -> Extent {
+        let bits = |value: &Rational| value.numer().bits() + value.denom().bits();
+        match &self.0 {
+            Form::Rational(value) => Extent {
+                terms: 1,
+                bits: bits(value),
+                ..Extent::default()
+            },
+            Form::Polynomial(terms) => {
+                let mut extent = Extent {
+                    terms: terms.len() as u64,
+                    ..Extent::default()
+                };
+                for (monomial, coefficient) in terms.iter() {
+                    let degrees = monomial.iter().map(|p| u64::from(p.sin) + u64::from(p.cos));
+                    extent.angles = extent.angles.max(monomial.len() as u64);
+                    extent.degree = extent.degree.max(degrees.sum());
+                    extent.bits = extent.bits.max(bits(coefficient));
+                    for power in monomial {
+                        let (Angle::PiTimes(angle) | Angle::Radians(angle)) = power.angle.as_ref();
+                        extent.bits = extent.bits.max(bits(angle));
+                    }
+                }
+                extent
+            }
+        }
+    }
+
     /// Returns the pair of a constant angle; multiples of π/2 give 0 and ±1.
     pub fn sincos(angle: &Angle) -> SinCosPair<Exact> {
         let (turns, key) = reduce(angle);

@@ -18,7 +18,7 @@ mod trig;
 mod wide;
 
 pub use angle::{Angle, Snap, Snapped};
-pub use exact::Exact;
+pub use exact::{Exact, Extent};
 pub use round::Rounded;
 pub use text::NotExact;
 pub use wide::Wide;
