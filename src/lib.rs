@@ -141,9 +141,9 @@ pub mod matrices;
 ///
 /// # Clauses
 ///
-/// - `outputs: …;` of `inverse_dynamics`, `gravity`, `inertia`, `coriolis`,
-///   `manipulator_equation`, `dynamic_coefficients`. There is no default:
-///   every function costs compile time. `servo = inverse_dynamics + jacobian` among
+/// - `outputs: …;` of the names that the guide lists, such as `inverse_dynamics`. The default is what
+///   the robot file names, or the seven that a controller calls: every function costs
+///   compile time. `servo = inverse_dynamics + jacobian` among
 ///   them is one function of that name ([below](#several-at-once)).
 /// - `scalar: f64;` or `f32`. With `f64, f32` there are two modules, `NAME` and
 ///   `NAME_f32`. The default is `f64`.

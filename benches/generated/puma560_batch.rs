@@ -20,10 +20,10 @@
 /// | `forward_dynamics` | 216 | 186 | 4 | 4 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod puma560 {
@@ -41,7 +41,7 @@ pub fn angles(q: &[f64; 6]) -> [f64; 6] {
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 139 mul, 120 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 34, coefficients of at most 149 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics(q: &[f64; 6], qd: &[f64; 6], qdd: &[f64; 6]) -> [f64; 6] {
     let ([s2, s3, s4, s5], [c2, c3, c4, c5]) = dalembert_sines::sincos(&[q[1], q[2], q[3], q[4]]);
@@ -645,7 +645,7 @@ pub fn inverse_dynamics_columns(q: &[&[f64]; 6], qd: &[&[f64]; 6], qdd: &[&[f64]
 /// Forward dynamics: the accelerations q̈ = D⁻¹ (τ - h - c - b∘q̇).
 ///
 /// 216 mul, 186 add, 4 div, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 1650, coefficients of at most 11541 bits, a wrong program passes with probability below 1e-57).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 ///
 /// Divides by the pivots of D, which are positive wherever D is positive definite. Where a
 /// joint moves no inertia a pivot is zero, and results are infinite or NaN.
@@ -1564,10 +1564,10 @@ pub fn forward_dynamics_columns(q: &[&[f64]; 6], qd: &[&[f64]; 6], tau: &[&[f64]
 /// | `forward_dynamics` | 216 | 186 | 4 | 4 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod puma560_f32 {
@@ -1585,7 +1585,7 @@ pub fn angles(q: &[f32; 6]) -> [f32; 6] {
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 139 mul, 120 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 34, coefficients of at most 149 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics(q: &[f32; 6], qd: &[f32; 6], qdd: &[f32; 6]) -> [f32; 6] {
     let ([s2, s3, s4, s5], [c2, c3, c4, c5]) = dalembert_sines::sincosf(&[q[1], q[2], q[3], q[4]]);
@@ -2189,7 +2189,7 @@ pub fn inverse_dynamics_columns(q: &[&[f32]; 6], qd: &[&[f32]; 6], qdd: &[&[f32]
 /// Forward dynamics: the accelerations q̈ = D⁻¹ (τ - h - c - b∘q̇).
 ///
 /// 216 mul, 186 add, 4 div, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 1650, coefficients of at most 11541 bits, a wrong program passes with probability below 1e-57).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 ///
 /// Divides by the pivots of D, which are positive wherever D is positive definite. Where a
 /// joint moves no inertia a pivot is zero, and results are infinite or NaN.

@@ -118,8 +118,8 @@ pub use error::BuildError;
 
 /// A request for generated code: a robot file, and the functions that are wanted.
 ///
-/// Nothing chosen, it is every function in both scalars. Each function costs
-/// compile time, so most crates choose.
+/// Nothing chosen, it is the outputs that the robot file names, or the seven that a controller calls, in
+/// both scalars. Each function costs compile time, so most crates choose.
 #[derive(Clone, Debug, Default)]
 pub struct Generator {
     robot: Option<PathBuf>,

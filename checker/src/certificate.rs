@@ -91,7 +91,7 @@ impl Claim {
     pub(crate) fn whole(&self) -> Result<(), Fault> {
         let count = self.rows.len();
         let outputs = self.function()?.places(count.min(64)).len();
-        let is_bound = |total: &Option<f64>| total.is_some_and(|e| e.is_finite() && e >= 0.0);
+        let is_bound = |total: &Option<f64>| total.is_some_and(|e| (0.0..1.0).contains(&e));
         let known = ["f64", "f32"].contains(&self.scalar.as_str());
         let has_rows = count < 64 && !self.rows.contains(&0);
         let has_total = self.total.len() == outputs && self.total.iter().all(is_bound);
@@ -100,7 +100,7 @@ impl Claim {
         Fault::unless(known, "`scalar`: expected f64 or f32")?;
         Fault::unless(has_rows, "`rows`: expected joints, from 1")?;
         Fault::unless(has_scale, "`scale`: expected one an output")?;
-        let why = "`total`: expected E, zero or above, one an output";
+        let why = "`total`: expected E, from zero to below one, one an output";
         Fault::unless(has_total, why)
     }
 }

@@ -1,21 +1,31 @@
 //! A generated file without a certificate: how far each of its functions can be from the
 //! dynamics of the robot.
 
+use crate::aside;
 use crate::c99;
 use crate::certificate::Claim;
 use crate::fault::Fault;
 use crate::file::{self, Found};
+use crate::interval::UNIT;
+use crate::number::Work;
+use crate::quantity::Function;
 use crate::scene::{self, Setting};
 use crate::sines::Scalar;
 use crate::tried;
-use crate::verdict::measure;
+use crate::verdict::{self, measure};
 
 /// The largest rates where the robot file has no limit, per second and per second
 /// squared.
 pub const RATE: f64 = 10.0;
-/// What an exact program may be off, in units of half an ulp of the largest output: above
-/// this something was left out, or rounding can cost that much.
+/// The most that rounding may cost an exact program, in half ulps of the largest entry; and in half
+/// ulps of a double, what the checker's own numbers, which are doubles, leave open.
 const MOST_UNITS: f64 = 65_536.0;
+/// The most that text and equations may differ by in real numbers, in half ulps of the entry itself:
+/// rounding of constants explains so much. (Tens in most functions; 146 in the Panda's smallest h_ikm,
+/// 141 with sines by polynomials.)
+const MOST_EDITS: f64 = 256.0;
+/// An entry below this share of its result's largest counts as zero.
+const ZERO: f64 = 1e-12;
 /// The most that may be left over in an equation that is tried, in the same units of its terms.
 const MOST_LEFT: f64 = 4096.0;
 
@@ -32,8 +42,8 @@ pub struct Line {
     pub result: Result<Distance, Fault>,
 }
 
-/// How far a function can be from the dynamics, each number relative to the largest
-/// entry, of all that are seen, of what it is an entry of.
+/// How far a function can be from the dynamics, each number relative to the largest value seen of
+/// the entry, of a matrix of its row or its column.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Distance {
     /// In real numbers, with constants as they are printed.
@@ -47,6 +57,10 @@ pub struct Distance {
     /// The number of states at which the equation that it solves was tried, where nothing is
     /// bounded; else zero.
     pub tried: usize,
+    /// `true` if every entry is bounded as an exact program's is.
+    pub is_within: bool,
+    /// `true` if sines are polynomials, which err more than rounding.
+    pub has_polynomials: bool,
 }
 
 impl Distance {
@@ -60,12 +74,7 @@ impl Distance {
 
     /// Returns whether that is no more than an exact program's rounding.
     pub fn is_shown(&self) -> bool {
-        self.units()
-            <= if self.tried > 0 {
-                MOST_LEFT
-            } else {
-                MOST_UNITS
-            }
+        self.is_within || self.tried > 0 && self.units() <= MOST_LEFT
     }
 }
 
@@ -105,15 +114,38 @@ pub fn check(source: &str, robot: &str, scene: Option<&str>) -> Result<Report, F
         text: (found.text.clone(), found.line),
         result: distance(found, &setting),
     };
-    // These compute no dynamics: one says where a box is, one which angles there are.
-    let is_other = |found: &&Found| !["in_box", "angles"].contains(&found.name);
-    let functions = match source.starts_with(c99::HEAD) {
+    let items = match source.starts_with(c99::HEAD) {
         true => c99::functions(source)?,
         false => file::functions(source)?,
     };
+    // These compute no dynamics: one says where a box is, one which angles there are.
+    let is_other = |found: &&Found| !["in_box", "angles", ""].contains(&found.name);
+    let mut lines: Vec<Line> = items.iter().filter(is_other).map(line).collect();
+    lines.extend(
+        items
+            .iter()
+            .filter_map(|item| beside(item, &items, &setting)),
+    );
     Ok(Report {
-        lines: functions.iter().filter(is_other).map(line).collect(),
+        lines,
         is_unlimited,
+    })
+}
+
+/// Returns the reason why an item that is no function is not shown, if there is one.
+fn beside(item: &Found, items: &[Found], setting: &Setting) -> Option<Line> {
+    let own = |other: &&Found| other.module == item.module && !other.name.is_empty();
+    let functions: Vec<&Found> = items.iter().filter(own).collect();
+    let fault = item
+        .name
+        .is_empty()
+        .then(|| aside::follows(item, &functions, setting));
+    let head = item.text.lines().next().unwrap_or("");
+    Some(Line {
+        module: item.module.to_owned(),
+        name: head.split([':', '{', '(']).next()?.trim().to_owned(),
+        text: (item.text.clone(), item.line),
+        result: Err(fault?.err()?),
     })
 }
 
@@ -123,13 +155,16 @@ fn distance(found: &Found, setting: &Setting) -> Result<Distance, Fault> {
     let claim = Claim::exact(found, is_single, setting);
     let why = |fault: Fault| fault.to_string().replace("certificate: ", "");
     let unknown = |fault| Fault::Text(found.line, why(fault));
-    let places = claim.function().map_err(unknown)?.places(claim.rows.len());
+    claim.function().map_err(unknown)?;
     let in_file = |fault| match fault {
         Fault::Text(line, why) => Fault::Text(found.line + line - 1, why),
         other => other,
     };
     let mut distance = Distance {
         unit: Scalar::of(&claim.scalar).unit,
+        has_polynomials: ["let x1 = ", " x1_1 = "]
+            .iter()
+            .any(|word| found.text.contains(word)),
         ..Distance::default()
     };
     if claim.function()?.is_tried() {
@@ -146,16 +181,51 @@ fn distance(found: &Found, setting: &Setting) -> Result<Distance, Fault> {
         }
         return Ok(distance);
     }
-    let all = measure(&claim, setting, |_| f64::INFINITY).map_err(in_file)?;
-    let pairs = || places.iter().map(|(quantity, _)| quantity).zip(&all);
-    for (own, found) in pairs() {
-        let same = pairs().filter(|(other, _)| *other == own);
-        let size = same.map(|(_, found)| found.seen.size).fold(0.0, f64::max);
-        let of = |x: f64| if x == 0.0 { 0.0 } else { x / size };
-        let worse = |before: f64, x: f64| if x > before || x.is_nan() { x } else { before };
+    let all = measure(&claim, setting, |_| f64::INFINITY, &mut Work::default()).map_err(in_file)?;
+    let (sizes, largest) = sizes(&claim.function()?, claim.rows.len(), &all);
+    let worse = |before: f64, x: f64| if x > before || x.is_nan() { x } else { before };
+    distance.is_within = true;
+    for ((found, own), whole) in all.iter().zip(sizes).zip(largest) {
+        let of = |x: f64| if x == 0.0 { 0.0 } else { x / own };
         distance.edits = worse(distance.edits, of(found.edits));
         distance.rounding = worse(distance.rounding, of(found.rounding));
         distance.seen = worse(distance.seen, of(found.seen.off));
+        let explained = MOST_EDITS * distance.unit * own + MOST_UNITS * UNIT * whole;
+        let is_small = found.rounding <= MOST_UNITS * distance.unit * whole;
+        distance.is_within &= found.edits <= explained && is_small;
     }
     Ok(distance)
+}
+
+/// Returns of each output the size that it is measured by, and the largest of the result that it
+/// is in. The first is its own largest value, of a matrix the smallest of the largest in its row and in
+/// its column; where that is zero, the result's.
+fn sizes(function: &Function, rows: usize, all: &[verdict::Found]) -> (Vec<f64>, Vec<f64>) {
+    let (mut own, mut largest, mut left) = (Vec::new(), Vec::new(), all);
+    for (_, quantity) in &function.fields {
+        let shape = quantity.shape(rows);
+        let (each, behind) = left.split_at(shape.iter().product());
+        left = behind;
+        let most = |list: &mut dyn Iterator<Item = &verdict::Found>| {
+            list.map(|found| found.seen.size).fold(0.0, f64::max)
+        };
+        let whole = most(&mut each.iter());
+        for index in 0..each.len() {
+            let mut size = whole;
+            let mut stride = each.len();
+            for length in &shape {
+                stride /= length;
+                let digit = |index: usize| index / stride % length;
+                let same = |(other, _): &(usize, _)| digit(*other) == digit(index);
+                let mut slice = each.iter().enumerate().filter(same).map(|(_, found)| found);
+                let most = most(&mut slice);
+                if most > ZERO * whole {
+                    size = size.min(most);
+                }
+            }
+            own.push(size);
+        }
+        largest.extend(each.iter().map(|_| whole));
+    }
+    (own, largest)
 }

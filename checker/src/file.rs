@@ -16,7 +16,7 @@ pub const MOST_BYTES: usize = 32 << 20;
 pub struct Found<'t> {
     /// The module that it is in; empty where the file is the module.
     pub module: &'t str,
-    /// Its name.
+    /// Its name; empty of what is no function.
     pub name: &'t str,
     /// The line of its head, from one.
     pub line: usize,
@@ -102,9 +102,10 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
         has_items |= module.is_none();
         if let Some(name) = words.strip_prefix("pub fn ") {
             let end = name.find(|c: char| !is_letter(c)).unwrap_or(0);
-            (found.module, found.name) = (module.unwrap_or(""), &name[..end]);
-            all.push(found);
+            found.name = &name[..end];
         }
+        found.module = module.unwrap_or("");
+        all.push(found);
     }
     let end = source.lines().count();
     match module {

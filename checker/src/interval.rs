@@ -70,8 +70,10 @@ impl Mul for Interval {
     }
 }
 
-/// The errors of what [`sin_cos`] returns are below this, for angles up to 1000 rad.
+/// The errors of what [`sin_cos`] returns are below this, for angles up to [`FARTHEST`].
 pub const SINE_ERROR: f64 = 1e-15;
+/// The largest angle of which sines are known here, rad.
+pub const FARTHEST: f64 = 1000.0;
 
 /// Returns sine and cosine of a double by Taylor's series, each within [`SINE_ERROR`] for
 /// |x| ≤ 1000.

@@ -7,7 +7,7 @@
 //! says how far its own bound is from it:
 //!
 //! 1. `literal`, `robot`, `scene`: the robot file, every number as an interval about a double
-//! 2. `file`, `c99`, `program`, `text`: the text, by a small strict grammar
+//! 2. `file`, `aside`, `c99`, `program`, `text`: the text, by a small strict grammar
 //! 3. `dynamics`, `kinematics`, `quantity`: the recursion of Newton and Euler, and what follows
 //! 4. `polynomial`, `ring`, `values`, `sines`: text and recursion as polynomials in
 //!    sines, cosines and rates; all that was not edited cancels in their difference
@@ -24,6 +24,7 @@
 #![forbid(unsafe_code)]
 #![allow(clippy::neg_cmp_op_on_partial_ord)] // So that NaN counts as too large.
 
+mod aside;
 mod c99;
 mod certificate;
 pub mod dynamics;

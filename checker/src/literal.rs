@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use crate::fault::Fault;
-use crate::interval::{SINE_ERROR, UNIT, sin_cos};
+use crate::interval::{FARTHEST, SINE_ERROR, UNIT, sin_cos};
 use crate::number::Real;
 
 /// A number or an angle as it is written.
@@ -49,7 +49,7 @@ impl Angle {
         let (sin, cos) = sin_cos(radians);
         let radius = radius + SINE_ERROR;
         let (sin, cos) = (real(sin, radius), real(cos, radius));
-        (radians.abs() < 1000.0).then_some(Angle { radians, sin, cos })
+        (radians.abs() < FARTHEST).then_some(Angle { radians, sin, cos })
     }
 }
 
@@ -115,7 +115,13 @@ impl Literal {
                 turn.or_else(|| Angle::near(value, radius))
             }),
         };
-        read.ok_or_else(|| Fault::robot(key, "expected an angle: rad, \"pi/2\" or \"90deg\""))
+        let is_far = self
+            .number()
+            .is_some_and(|(value, _)| value.abs() >= FARTHEST);
+        read.ok_or_else(|| match is_far {
+            true => Fault::robot(key, "angles up to 1000 rad are checked: limit the box"),
+            false => Fault::robot(key, "expected an angle: rad, \"pi/2\" or \"90deg\""),
+        })
     }
 }
 

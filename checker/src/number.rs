@@ -2,7 +2,8 @@
 
 use crate::fault::Fault;
 
-/// The most products of terms for all polynomials of one certificate.
+/// The most products of terms for all polynomials of one certificate, and of doubles in the search
+/// of witnesses for all of its outputs.
 pub const MOST_WORK: u64 = 400_000_000;
 
 /// Counts products of terms, so that the work for one certificate is bounded.
@@ -70,8 +71,8 @@ impl Number for f64 {
         -self
     }
 
-    fn times(&self, other: &f64, _: &mut Work) -> Result<f64, Fault> {
-        Ok(self * other)
+    fn times(&self, other: &f64, work: &mut Work) -> Result<f64, Fault> {
+        work.spend(1).map(|()| self * other)
     }
 }
 

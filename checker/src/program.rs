@@ -42,3 +42,40 @@ pub struct Program {
     /// The values returned, of a matrix row by row.
     pub outputs: Vec<usize>,
 }
+
+/// Joints that turn, and whether their angles are subtracted.
+pub type Angle = Vec<(usize, bool)>;
+
+/// The most joints of an angle.
+const MOST_SUMMED: usize = 32;
+
+impl Program {
+    /// Returns for each value the angle that it is, none of what is no signed sum of positions of
+    /// joints that turn.
+    pub fn angles(&self, turns: impl Fn(usize) -> bool) -> Vec<Option<Angle>> {
+        let mut all: Vec<Option<Angle>> = Vec::with_capacity(self.nodes.len());
+        let signed = |angle: &Option<Angle>, minus: bool| -> Option<Angle> {
+            let joints = angle.as_ref()?.iter();
+            Some(
+                joints
+                    .map(|&(joint, negative)| (joint, negative != minus))
+                    .collect(),
+            )
+        };
+        for &node in &self.nodes {
+            let angle = match node {
+                Node::Input(0, joint) if turns(joint) => Some(vec![(joint, false)]),
+                Node::Neg(a) => signed(&all[a], true),
+                Node::Add(a, b) | Node::Sub(a, b) => {
+                    let other = signed(&all[b], matches!(node, Node::Sub(..)));
+                    let both = all[a].clone().zip(other);
+                    let sum = both.map(|(angle, other)| [angle, other].concat());
+                    sum.filter(|sum| sum.len() <= MOST_SUMMED)
+                }
+                _ => None,
+            };
+            all.push(angle);
+        }
+        all
+    }
+}

@@ -21,9 +21,9 @@ pub(crate) fn outputs<N: Number>(
     claim: &Claim,
     setting: &Setting,
     at: &At,
+    work: &mut Work,
 ) -> Result<Vec<N>, Fault> {
-    let states = states(setting, at);
-    let (rows, work) = (claim.rows(), &mut Work::default());
+    let (states, rows) = (states(setting, at), claim.rows());
     claim.function()?.outputs(setting, &states, &rows, work)
 }
 
@@ -102,7 +102,7 @@ pub(crate) fn seen(
         let [low, high] = ends(*range);
         *value = rounded(*value, is_single).clamp(low, high);
     }
-    let formula: Vec<Polynomial> = outputs(claim, setting, &at)?;
+    let formula: Vec<Polynomial> = outputs(claim, setting, &at, &mut Work::default())?;
     let computed = run(program, &at, is_single);
     let seen = formula.iter().zip(computed).map(|(formula, computed)| {
         let (value, size) = (formula.value(), formula.value().abs());

@@ -89,6 +89,8 @@ pub struct Setting {
     pub torques: Vec<f64>,
     /// The joints, from zero, that results are over.
     pub rows: Vec<usize>,
+    /// `true` if a scene of the file has a tolerance.
+    pub has_tolerances: bool,
     /// The largest error of each joint that the user accepts, relative to a scale.
     pub tolerance: Option<Vec<f64>>,
     /// What that scale is: `actuator` or `range`.
@@ -170,6 +172,7 @@ fn setting(file: &File<Scene>, scene: &Scene) -> Result<Setting, Fault> {
         ranges: ranges(rows, &scene.r#box, &at, still)?,
         torques: rows.iter().map(torque).collect::<Result<_, Fault>>()?,
         locks,
+        has_tolerances: file.scene.values().any(|scene| scene.tolerance.is_some()),
         tolerance: tolerance.transpose()?,
         relative_to: scene.tolerance.as_ref().map(|t| t.relative_to.clone()),
     })

@@ -17,8 +17,10 @@ use std::str::FromStr;
 use crate::certificate::Claim;
 use crate::fault::Fault;
 use crate::file::{between, structure};
+use crate::interval::FARTHEST;
 use crate::program::{Node, Program, Source};
 use crate::quantity::{ARGUMENTS, Function, entries};
+use crate::scene::Setting;
 
 /// The most values of a function.
 const MOST_NODES: usize = 20_000;
@@ -56,12 +58,13 @@ pub(crate) struct Parser<'t> {
     pub(crate) suffix: &'static str,
 }
 
-/// Reads the function of a claim about an arm of so many joints.
+/// Reads the function of a claim about an arm.
 ///
 /// # Errors
-/// The first thing that is not of the grammar or not of this claim, with its line.
-pub fn read(claim: &Claim, joints: usize) -> Result<Program, Fault> {
-    let text = &claim.text;
+/// The first thing that is not of the grammar or not of this claim, with its line; a sine of
+/// something else than a signed sum of joint positions, or of an angle that is far.
+pub fn read(claim: &Claim, setting: &Setting) -> Result<Program, Fault> {
+    let (text, joints) = (&claim.text, setting.joints.len());
     let mut parser = Parser {
         name: &claim.function,
         function: claim.function()?,
@@ -76,12 +79,31 @@ pub fn read(claim: &Claim, joints: usize) -> Result<Program, Fault> {
         false => parser.rust_function(),
     };
     if read.is_some() {
-        return Ok(parser.program);
+        return near(claim, &parser.program, setting).map(|()| parser.program);
     }
     let line = parser.lines.get(parser.line.saturating_sub(1));
     let line = line.unwrap_or(&"").trim();
     let why = format!("not of the grammar or the claim: `{line}`");
     Err(Fault::Text(parser.line.max(1), why))
+}
+
+/// Refuses a sine of something that is no angle, or of one where the checker's own sine is none.
+fn near(claim: &Claim, program: &Program, setting: &Setting) -> Result<(), Fault> {
+    let angles = program.angles(|joint| setting.joints[joint].turns);
+    let far = |&(joint, _): &(usize, bool)| {
+        let range = claim.position.get(joint).into_iter().flatten();
+        range.fold(0.0, |most: f64, end| most.max(end.abs()))
+    };
+    for node in &program.nodes {
+        let &Node::Sine(angle, ..) = node else {
+            continue;
+        };
+        let angle = angles[angle].as_ref();
+        let angle = angle.ok_or(Fault::certificate("a sine of something that is no angle"))?;
+        let why = "the sine of an angle beyond 1000 rad";
+        Fault::unless(angle.iter().map(far).sum::<f64>() < FARTHEST, why)?;
+    }
+    Ok(())
 }
 
 impl<'t> Parser<'t> {

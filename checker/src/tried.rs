@@ -22,7 +22,7 @@ const TORQUE: f64 = 100.0;
 /// # Errors
 /// A text that is not of the grammar; results over fewer joints than move.
 pub fn worst(claim: &Claim, setting: &Setting) -> Result<Vec<Seen>, Fault> {
-    let (program, function) = (text::read(claim, setting.joints.len())?, claim.function()?);
+    let (program, function) = (text::read(claim, setting)?, claim.function()?);
     let moving = (0..setting.joints.len()).filter(|&joint| setting.locks[joint].is_none());
     let (rows, is_single) = (moving.collect::<Vec<usize>>(), claim.scalar == "f32");
     let why = "its results are not over all joints that move";

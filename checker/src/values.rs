@@ -6,7 +6,7 @@ use crate::fault::Fault;
 use crate::interval::Interval;
 use crate::number::Number;
 use crate::polynomial::{MAX_JOINTS, Polynomial, SLACK, Variable, Work};
-use crate::program::{Node, Program, Source};
+use crate::program::{Angle, Node, Program, Source};
 use crate::ring::Ring;
 use crate::scene::Setting;
 use crate::sines::{self, Scalar};
@@ -21,13 +21,6 @@ pub struct Value {
     pub size: f64,
     /// How far the computed number is from it at most.
     pub error: f64,
-}
-
-/// What a node stands for: a number, or an angle that only sines may read.
-enum Meaning {
-    /// Joints that turn, and whether their angles are subtracted.
-    Angle(Vec<(usize, bool)>),
-    Number(Value),
 }
 
 struct Values<'a> {
@@ -63,46 +56,37 @@ pub fn outputs(
         arguments: claim.function()?.arguments(),
         errors: 0,
     };
+    let angles = program.angles(|joint| setting.joints[joint].turns);
     let mut all = Vec::with_capacity(program.nodes.len());
-    for &node in &program.nodes {
-        let meaning = values.meaning(node, &all, work)?;
-        all.push(meaning);
+    for (&node, angle) in program.nodes.iter().zip(&angles) {
+        let value = match (node, angle) {
+            (Node::Input(argument, joint), _) => values.input(argument, joint)?,
+            (_, Some(_)) => None,
+            _ => Some(values.value(node, &all, &angles, work)?),
+        };
+        all.push(value);
     }
     let output = |&node: &usize| number(&all, node).cloned();
     program.outputs.iter().map(output).collect()
 }
 
-/// Returns the joints of an angle, or of its opposite.
-fn signed(joints: &[(usize, bool)], minus: bool) -> impl Iterator<Item = (usize, bool)> {
-    let joints = joints.iter();
-    joints.map(move |&(joint, negative)| (joint, negative != minus))
-}
-
-fn number(all: &[Meaning], node: usize) -> Result<&Value, Fault> {
-    match all.get(node) {
-        Some(Meaning::Number(value)) => Ok(value),
-        _ => Err(Fault::certificate(
-            "the text uses the angle of a joint as a number",
-        )),
-    }
+fn number(all: &[Option<Value>], node: usize) -> Result<&Value, Fault> {
+    let value = all.get(node).and_then(Option::as_ref);
+    value.ok_or_else(|| Fault::certificate("the text uses the angle of a joint as a number"))
 }
 
 impl Values<'_> {
-    fn meaning(&mut self, node: Node, all: &[Meaning], work: &mut Work) -> Result<Meaning, Fault> {
-        let angle = |node: usize| match &all[node] {
-            Meaning::Angle(joints) => Some(joints),
-            Meaning::Number(_) => None,
-        };
-        let value = match node {
+    /// Returns a value that is no angle.
+    fn value(
+        &mut self,
+        node: Node,
+        all: &[Option<Value>],
+        angles: &[Option<Angle>],
+        work: &mut Work,
+    ) -> Result<Value, Fault> {
+        Ok(match node {
             Node::Constant(value) => exact(Polynomial::constant(value.into()), value.abs()),
-            Node::Input(argument, joint) => match self.input(argument, joint)? {
-                None => return Ok(Meaning::Angle(vec![(joint, false)])),
-                Some(value) => exact(value.clone(), self.ring.size(value)),
-            },
             Node::Neg(a) => {
-                if let Some(joints) = angle(a) {
-                    return Ok(Meaning::Angle(signed(joints, true).collect()));
-                }
                 let a = number(all, a)?;
                 Value {
                     exact: a.exact.negated(),
@@ -111,13 +95,6 @@ impl Values<'_> {
             }
             Node::Add(a, b) | Node::Sub(a, b) => {
                 let minus = matches!(node, Node::Sub(..));
-                if let (Some(a), Some(b)) = (angle(a), angle(b)) {
-                    let sum = signed(a, false).chain(signed(b, minus));
-                    let sum: Vec<(usize, bool)> = sum.collect();
-                    let is_short = sum.len() <= MAX_JOINTS;
-                    Fault::unless(is_short, "an angle is the sum of too many")?;
-                    return Ok(Meaning::Angle(sum));
-                }
                 let (a, b) = (number(all, a)?, number(all, b)?);
                 let negated = minus.then(|| b.exact.negated());
                 let exact = a.exact.plus(negated.as_ref().unwrap_or(&b.exact));
@@ -139,19 +116,17 @@ impl Values<'_> {
                 let error = self.scalar.rounded(size, inherited * SLACK);
                 Value { exact, size, error }
             }
-            Node::Div(..) => return Err(Fault::certificate("the text divides")),
             Node::Sine(a, is_sine, source) => {
-                let Some(joints) = angle(a) else {
-                    return Err(Fault::certificate("a sine of something that is no angle"));
-                };
-                self.sine(joints, is_sine, source, work)?
+                let why = "a sine of something that is no angle";
+                let angle = angles[a].as_ref().ok_or(Fault::certificate(why))?;
+                self.sine(angle, is_sine, source, work)?
             }
-        };
-        Ok(Meaning::Number(value))
+            Node::Div(..) | Node::Input(..) => return Err(Fault::certificate("the text divides")),
+        })
     }
 
     /// Returns an entry of an argument; `None` of an angle.
-    fn input(&self, argument: usize, joint: usize) -> Result<Option<&Polynomial>, Fault> {
+    fn input(&self, argument: usize, joint: usize) -> Result<Option<Value>, Fault> {
         let state = &self.ring.states[joint];
         let is_still = argument > 0 && self.setting.still[argument - 1];
         let why = match self.setting.locks[joint] {
@@ -162,7 +137,8 @@ impl Values<'_> {
             None => {
                 let is_angle = argument == 0 && self.setting.joints[joint].turns;
                 let all = [&state.position, &state.velocity, &state.acceleration];
-                return Ok(all.get(argument).copied().filter(|_| !is_angle));
+                let value = all.get(argument).copied().filter(|_| !is_angle);
+                return Ok(value.map(|value| exact(value.clone(), self.ring.size(value))));
             }
         };
         Err(Fault::certificate(why))

@@ -86,14 +86,19 @@ pub fn audit(claim: &Claim, robot: &str, tolerance: Option<f64>) -> Result<Verdi
         setting.tolerance = Some(vec![tolerance; setting.joints.len()]);
         setting.relative_to.clone_from(&claim.relative_to);
     }
+    let is_open = claim.scene.is_none() && tolerance.is_none() && setting.has_tolerances;
+    let why =
+        "it names no scene, and the robot file has scenes with tolerances: name one (--scene)";
+    Fault::unless(!is_open, why)?;
     claim.whole()?;
     let why = format!("`{}` is only tried, in a whole file", claim.function);
     Fault::unless(!claim.function()?.is_tried(), &why)?;
     about(claim, &setting)?;
     let claimed = |index: usize| claim.total[index].unwrap_or(f64::NAN) * claim.scale[index];
-    let found = measure(claim, &setting, claimed)?;
+    let searched = &mut Work::default();
+    let found = measure(claim, &setting, claimed, searched)?;
     let places = claim.function()?.places(claim.rows.len());
-    let most = attainable(claim, &setting, &places)?;
+    let most = attainable(claim, &setting, &places, searched)?;
     let largest = claim.scale.iter().copied().fold(0.0, f64::max);
     let rows = claim.rows();
     let mut outputs = Vec::new();
@@ -152,8 +157,9 @@ pub fn measure(
     claim: &Claim,
     setting: &Setting,
     wanted: impl Fn(usize) -> f64,
+    searched: &mut Work,
 ) -> Result<Vec<Found>, Fault> {
-    let program = text::read(claim, setting.joints.len())?;
+    let program = text::read(claim, setting)?;
     let work = &mut Work::default();
     let ring = Ring::new(setting, claim, work)?;
     let texts = values::outputs(&program, setting, claim, &ring, work)?;
@@ -171,7 +177,7 @@ pub fn measure(
             seen: seen[index],
         };
         if found.bound() > claimed && found.seen.off <= claimed {
-            let off = witness::error(claim, setting, &program, (index, claimed))?;
+            let off = witness::error(claim, setting, &program, (index, claimed), searched)?;
             found.seen.off = found.seen.off.max(off);
         }
         if !(found.seen.off <= found.bound()) {
@@ -223,6 +229,7 @@ fn attainable(
     claim: &Claim,
     setting: &Setting,
     places: &[(Quantity, Vec<usize>)],
+    work: &mut Work,
 ) -> Result<Vec<f64>, Fault> {
     let row = |place: usize| claim.rows[place] - 1;
     let rate = |which: usize, place: usize| setting.ranges[which][row(place)][1];
@@ -237,7 +244,7 @@ fn attainable(
     };
     let most: Vec<f64> = match claim.relative_to.as_deref() {
         Some("actuator") => places.iter().map(actuator).collect::<Result<_, Fault>>()?,
-        Some("range") => witness::reached(claim, setting)?,
+        Some("range") => witness::reached(claim, setting, work)?,
         _ => {
             return Err(Fault::certificate(
                 "`relative_to` is neither actuator nor range",

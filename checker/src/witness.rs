@@ -5,6 +5,7 @@
 
 use crate::certificate::Claim;
 use crate::fault::Fault;
+use crate::number::Work;
 use crate::polynomial::Polynomial;
 use crate::program::Program;
 use crate::sample::{At, Random, ends, outputs, run, seen};
@@ -25,16 +26,22 @@ const NEAR: f64 = 1e-3;
 ///
 /// # Errors
 /// As of [`crate::dynamics::torques`].
-pub fn reached(claim: &Claim, setting: &Setting) -> Result<Vec<f64>, Fault> {
-    let one = |(output, scale): (usize, &f64)| {
-        let value = |at: &At| Ok(outputs::<f64>(claim, setting, at)?[output]);
+pub fn reached(claim: &Claim, setting: &Setting, work: &mut Work) -> Result<Vec<f64>, Fault> {
+    let mut one = |(output, scale): (usize, &f64)| {
+        let mut value = |at: &At| Ok(outputs::<f64>(claim, setting, at, work)?[output]);
         let sure = |at: At| {
-            let found = &outputs::<Polynomial>(claim, setting, &at)?[output];
+            let work = &mut Work::default();
+            let found = &outputs::<Polynomial>(claim, setting, &at, work)?[output];
             Ok(((found.value().abs() - found.rest).next_down(), at))
         };
-        search(setting, HOPS, scale * (1.0 - 1e-6), &value, &sure)
+        search(setting, HOPS, scale * (1.0 - 1e-6), &mut value, &sure)
     };
-    claim.scale.iter().enumerate().map(one).collect()
+    claim
+        .scale
+        .iter()
+        .enumerate()
+        .map(|each| one(each))
+        .collect()
 }
 
 /// Returns the largest error of an output that is found, looked for until one is above
@@ -47,25 +54,28 @@ pub fn error(
     setting: &Setting,
     program: &Program,
     (output, claimed): (usize, f64),
+    work: &mut Work,
 ) -> Result<f64, Fault> {
     let is_single = claim.scalar == "f32";
-    let value = |at: &At| {
-        let off = run(program, at, is_single)[output] - outputs::<f64>(claim, setting, at)?[output];
+    let mut value = |at: &At| {
+        let own = outputs::<f64>(claim, setting, at, work)?[output];
+        let off = run(program, at, is_single)[output] - own;
         Ok(if off.is_finite() { off } else { f64::MAX })
     };
     let sure = |at: At| {
         let (seen, at) = seen(claim, setting, program, at)?;
         Ok((seen[output].off, at))
     };
-    search(setting, 0, claimed, &value, &sure)
+    search(setting, 0, claimed, &mut value, &sure)
 }
 
-/// Returns the largest of what is sure at states where a value is large, until it is above another.
+/// Returns the largest of what is sure at states where a value is large, until it is above another
+/// or the work is spent.
 fn search(
     setting: &Setting,
     hops: usize,
     enough: f64,
-    value: &dyn Fn(&At) -> Result<f64, Fault>,
+    value: &mut dyn FnMut(&At) -> Result<f64, Fault>,
     sure: &dyn Fn(At) -> Result<(f64, At), Fault>,
 ) -> Result<f64, Fault> {
     let mut random = Random(2);
@@ -75,7 +85,10 @@ fn search(
             true => random.state(setting, [attempt % 2 == 0; 3]),
             false => hopped(&best, setting, &mut random),
         };
-        climb(setting, &mut at, value)?;
+        match climb(setting, &mut at, value) {
+            Err(Fault::Work) => break,
+            climbed => climbed?,
+        }
         let (found, at) = sure(at)?;
         if found > most {
             (most, best) = (found, at);
@@ -102,7 +115,7 @@ fn hopped(from: &At, setting: &Setting, random: &mut Random) -> At {
 fn climb(
     setting: &Setting,
     at: &mut At,
-    value: &dyn Fn(&At) -> Result<f64, Fault>,
+    value: &mut dyn FnMut(&At) -> Result<f64, Fault>,
 ) -> Result<(), Fault> {
     let mut own = value(at)?;
     for round in 0..ROUNDS {

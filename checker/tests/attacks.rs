@@ -1,5 +1,6 @@
 //! The false claims that the project's own checker once accepted: none is shown here.
 
+use dalembert_checker::exact::{Report, check};
 use dalembert_checker::{Fault, audit};
 
 use crate::support::{claim, file};
@@ -86,4 +87,147 @@ fn robots_of_attacks() {
         fault.to_string().contains("relative_to") || fault.to_string().contains("box"),
         "{fault}"
     );
+}
+
+/// Returns what is found of a generated file, of the attacks in this crate's own folder.
+fn found(source: &str, robot: &str) -> Result<Report, Fault> {
+    check(source, &file(robot), None)
+}
+
+fn own(name: &str) -> String {
+    file(&format!("checker/tests/data/attacks/{name}"))
+}
+
+const PEND: &str = "checker/tests/data/attacks/pend.toml";
+const TRI: &str = "checker/tests/data/attacks/tri.toml";
+
+/// Asserts that a line of the report is not shown for a reason that has these words.
+#[track_caller]
+fn lost(report: &Report, name: &str, words: &str) {
+    let mut lines = report.lines.iter().filter(|line| line.name == name);
+    let lost = lines.any(|line| {
+        line.result
+            .as_ref()
+            .is_err_and(|f| f.to_string().contains(words))
+    });
+    assert!(lost && !report.is_shown(), "{name}: {words}: {report:?}");
+}
+
+/// Sines of constants, which libm has otherwise than the checker, and of what is far.
+#[test]
+fn sines_of_something_else() {
+    for name in ["ulp.rs", "far32.rs"] {
+        let report = found(&own(name), PEND).unwrap();
+        lost(
+            &report,
+            "forward_dynamics",
+            "sine of something that is no angle",
+        );
+    }
+    // In limits that reach so far, the checker's sine is none.
+    let far = file(PEND).replacen("[\"-pi\", \"pi\"]", "[-3, 999]", 1);
+    let text = own("ulp.rs").replacen("libm::sincos(0.44)", "libm::sincos(q[0])", 1);
+    let text = text.replacen("q[0]);", "a1);", 1).replacen(
+        "    let (s1,",
+        "    let a1 = q[0] + q[1];\n    let (s1,",
+        1,
+    );
+    lost(
+        &check(&text, &far, None).unwrap(),
+        "forward_dynamics",
+        "beyond 1000 rad",
+    );
+}
+
+/// A torque that is zero, and a row of D, beside larger entries.
+#[test]
+fn entries_of_zero_in_single_precision() {
+    let report = found(&own("ur10_z.rs"), "generated/robots/ur10.toml").unwrap();
+    for line in &report.lines {
+        let is_shown = line.result.as_ref().is_ok_and(|found| found.is_shown());
+        assert_eq!(is_shown, line.name == "gravity", "{line:?}");
+    }
+}
+
+/// Armature, friction and gravity that are others by less than the rounding of f32 may cost.
+#[test]
+fn parameters_that_are_others_in_single_precision() {
+    let source = own("tri_small.rs");
+    assert!(found(&source, TRI).unwrap().is_shown());
+    for (from, to, names) in [
+        (
+            "armature = 0.05",
+            "armature = 0.0505",
+            &["inertia", "inverse_dynamics"][..],
+        ),
+        ("viscous = 0.3", "viscous = 0.303", &["inverse_dynamics"]),
+        ("-9.7]", "-9.71]", &["gravity", "inverse_dynamics"]),
+    ] {
+        let robot = file(TRI).replacen(from, to, 1);
+        let report = check(&source, &robot, None).unwrap();
+        for line in report.lines.iter().filter(|line| line.module == "tri_f32") {
+            let is_shown = line.result.as_ref().is_ok_and(|found| found.is_shown());
+            assert_eq!(
+                is_shown,
+                !names.contains(&line.name.as_str()),
+                "{to}: {line:?}"
+            );
+        }
+    }
+}
+
+/// For a compiler a comment begins in the line of a slash, a star and a slash.
+#[test]
+fn a_comment_that_a_compiler_sees_elsewhere() {
+    let guard = "#define TWO_H\n#ifdef __FAST_MATH__\n\
+                 #error \"-ffast-math changes what is computed: compile without it\"\n#endif\n";
+    let header = own("hide.h").replacen("#define TWO_H\n", guard, 1);
+    lost(
+        &found(&header, PEND).unwrap(),
+        "gravity",
+        "not of the grammar",
+    );
+    // Without these lines it is read, and shown.
+    let whole = header.replace("\n/*/\n", "\n");
+    assert!(found(&whole, PEND).unwrap().is_shown());
+    // Without the guard against another arithmetic none is.
+    assert!(found(&own("hide.h"), PEND).is_err());
+}
+
+/// A trait that calls another function, and a number of joints that is another.
+#[test]
+fn items_beside_functions() {
+    let report = found(&own("trait1.rs"), PEND).unwrap();
+    let name = "impl dalembert";
+    lost(
+        &report,
+        name,
+        "does not follow from the functions and the robot: `let _ = (qd, qdd)",
+    );
+    let report = found(&own("n1.rs"), PEND).unwrap();
+    lost(&report, "pub const N", "pub const N: usize = 1;");
+}
+
+/// A certificate that names no scene is held to no tolerance, and E of two to nothing.
+#[test]
+fn certificates_that_nothing_holds() {
+    let path = "checker/tests/data/attacks/zero.json";
+    let mut claim = claim(path);
+    let fault = audit(&claim, &file(TRI), None).unwrap_err().to_string();
+    assert!(fault.contains("it names no scene"), "{fault}");
+    claim.scene = Some("act".into());
+    let fault = audit(&claim, &file(TRI), None).unwrap_err().to_string();
+    assert!(fault.contains("below one"), "{fault}");
+}
+
+/// Thirty-nine scales that nothing reaches are refused soon.
+#[test]
+fn work_for_witnesses() {
+    let claim = claim("checker/tests/data/attacks/dos.json");
+    let begin = std::time::Instant::now();
+    let refused = audit(&claim, &file(TRI), Some(1e-2));
+    assert!(!refused.is_ok_and(|verdict| verdict.is_shown()));
+    let seconds = begin.elapsed().as_secs_f64();
+    // Five of a processor; it was 152, and other tests take their share.
+    assert!(seconds < 120.0, "{seconds}");
 }

@@ -123,7 +123,7 @@ fn with_polynomials(added: &str) -> f64 {
         1,
     );
     claim.position[0] = [-1.0, 1.0];
-    audit(&claim, &robot, None).unwrap().outputs[1]
+    audit(&claim, &robot, Some(1e-3)).unwrap().outputs[1]
         .found
         .bound()
 }

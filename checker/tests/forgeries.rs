@@ -274,7 +274,11 @@ fn terms_that_a_prime_divides() {
 #[test]
 fn a_result_of_no_joint_is_held_to_a_tolerance() {
     let robot = read(&attack("energy.toml"));
-    let forged = audit(&claim(&attack("energy.json")), &robot, None).unwrap();
+    let mut forged = claim(&attack("energy.json"));
+    let fault = audit(&forged, &robot, None).unwrap_err().to_string();
+    assert!(fault.contains("below one"), "{fault}");
+    forged.total = vec![Some(0.99)];
+    let forged = audit(&forged, &robot, None).unwrap();
     assert!(!forged.is_shown(), "{forged:?}");
     let [output] = &forged.outputs[..] else {
         panic!("{forged:?}");

@@ -20,11 +20,9 @@ pub fn run(args: &ImportArgs) -> Outcome {
     if let Some(folder) = args.output.as_deref().filter(|_| args.all) {
         return all(args, folder);
     }
-    let target = match &args.output {
-        None => Target::standard(),
-        Some(path) => Target::at(path)?,
-    };
+    let target = Target::output(args.output.as_deref(), args.json)?;
     distinct::distinct(&[("the URDF", &args.urdf)], &[("the robot file", &target)])?;
+    target.ends_in("toml")?;
     target.check()?;
     if !args.force {
         target.ours()?;
@@ -33,11 +31,19 @@ pub fn run(args: &ImportArgs) -> Outcome {
     let source = model::text(&args.urdf, &args.xacro)?;
     let imported = import_text(&source, &args.chain.options(&args.urdf))
         .map_err(|errors| Failure::Input(source.render(&errors.0)))?;
+    if !args.json {
+        notes(&imported, &source);
+        args.chain
+            .assumed()
+            .iter()
+            .for_each(|said| output::note(said));
+    }
+    output::undenied()?;
     write::write(&[(&target, &imported.text)])?;
     match args.json {
         true => output::print_json(&json(&imported, &name, &source)),
         false => {
-            report(&imported, &source);
+            report(&imported);
             Ok(())
         }
     }
@@ -58,6 +64,22 @@ fn all(args: &ImportArgs, folder: &Path) -> Outcome {
     for name in names.iter().filter(|_| !args.force && folder.is_dir()) {
         Target::at(&folder.join(name))?.ours()?;
     }
+    let mut said = BTreeSet::new();
+    let made = arms
+        .iter()
+        .flat_map(|(_, made)| &made.notes)
+        .filter(|_| !args.json);
+    for note in made.map(|note| source.render(slice::from_ref(note))) {
+        if said.insert(note.clone()) {
+            output::note(&note);
+        }
+    }
+    args.chain
+        .assumed()
+        .iter()
+        .filter(|_| !args.json)
+        .for_each(|said| output::note(said));
+    output::undenied()?;
     into.write(&files)?;
     if args.json {
         let arms = arms.iter().map(|(_, made)| json(made, &name, &source));
@@ -69,17 +91,7 @@ fn all(args: &ImportArgs, folder: &Path) -> Outcome {
             "shared": shared.collect::<Vec<_>>(),
         }));
     }
-    let mut said = BTreeSet::new();
     for (arm, made) in &arms {
-        for note in made
-            .notes
-            .iter()
-            .map(|note| source.render(slice::from_ref(note)))
-        {
-            if said.insert(note.clone()) {
-                output::note(&note);
-            }
-        }
         let joints = made.robot.joints.len();
         let snaps = made.snaps.len();
         let change = made.change.as_ref().map(|change| {
@@ -147,9 +159,8 @@ fn json(imported: &Imported, name: &str, source: &Text) -> Value {
     })
 }
 
-/// Prints what a person wants to know: what was left out, which numbers were
-/// replaced by others, and what that changes.
-fn report(imported: &Imported, source: &Text) {
+/// Prints what was left out, and which numbers were replaced by others.
+fn notes(imported: &Imported, source: &Text) {
     for note in &imported.notes {
         output::note(&source.render(slice::from_ref(note)));
     }
@@ -157,6 +168,10 @@ fn report(imported: &Imported, source: &Text) {
         let (name, line) = source.line(snap.span.start);
         output::note(&format!("{name}:{line}: {snap}"));
     }
+}
+
+/// Prints the robot, and the change that replaced numbers make.
+fn report(imported: &Imported) {
     let Robot { name, joints, .. } = &imported.robot;
     output::note(&format!("{name}: {} joints", joints.len()));
     if let Some(change) = &imported.change {

@@ -64,6 +64,7 @@ pub fn reading(path: &Path) -> Result<Reading, Failure> {
             for note in &reading.notes {
                 output::note(&note.render(&name, &source));
             }
+            output::undenied()?;
             Ok(reading)
         }
         Err(errors) => Err(Failure::Input(errors.render(&name, &source))),

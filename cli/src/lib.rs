@@ -8,7 +8,7 @@
 //! - `count`: operation counts
 //! - `verify`: the exact proof and what rounding costs
 //! - `explain`: what each step brought, which coefficients vanish or repeat, and why
-//! - `stress`: numerical stability at the extremes, and growth
+//! - `stress`: numerical stability at the extremes
 //! - `certify`: a certificate checked again
 //! - `tradeoff`: certified error against operations
 //! - `plot`: charts as SVG
@@ -42,15 +42,19 @@ mod verify;
 
 use std::ffi::OsString;
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
+use clap_complete::Shell;
 
 use args::{Args, Command};
-use outcome::Failure;
+use outcome::{Failure, Outcome};
 
 /// Runs the command with its arguments, the first of which is its name, and returns the exit
 /// code of the process. Wrong arguments and `--help` end the process.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
-    let outcome = match Args::parse_from(args).command {
+    let args = Args::parse_from(args);
+    output::begin(args.deny_warnings);
+    let waiting = progress::begin();
+    let outcome = match args.command {
         Command::Generate(args) => generate::run(&args),
         Command::Import(args) => import::run(&args),
         Command::New(args) => new::run(&args),
@@ -61,7 +65,10 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Stress(args) => stress::run(&args),
         Command::Certify(args) => certify::run(&args),
         Command::Tradeoff(args) => tradeoff::run(&args),
+        Command::Completions { shell } => completions(shell),
     };
+    drop(waiting);
+    let outcome = outcome.and_then(|()| output::undenied());
     let (why, code) = match outcome {
         Ok(()) => return 0,
         Err(Failure::Check(why)) => (why, 1),
@@ -69,4 +76,11 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
     };
     output::note(&why);
     code
+}
+
+/// Prints the completions of a shell.
+fn completions(shell: Shell) -> Outcome {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Args::command(), "dalembert", &mut script);
+    output::print(&String::from_utf8_lossy(&script))
 }

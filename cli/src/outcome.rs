@@ -21,9 +21,7 @@ impl From<GenerateError> for Failure {
         match error {
             // A proof, a run or a text check that fails is a failed check; all else
             // is something that the robot or the request asks for.
-            GenerateError::Disproved(_, Disproof::Unfit | Disproof::Large { .. }) => {
-                Failure::Input(text)
-            }
+            GenerateError::Disproved(_, Disproof::Unfit | Disproof::Large) => Failure::Input(text),
             GenerateError::Disproved(..) | GenerateError::Defect(..) => Failure::Check(text),
             _ => Failure::Input(text),
         }

@@ -1,18 +1,21 @@
 //! Standard output and tables.
 
 use std::io::{self, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 
+use anstream::{AutoStream, ColorChoice};
 use dalembert_codegen::workspace::program::Counts;
 use dalembert_model::read::{Diagnostic, RobotWarning};
 use serde_json::{Value, json};
 
-use crate::outcome::Failure;
+use crate::outcome::{Failure, Outcome};
+use crate::progress;
 
 /// Prints to standard output. A reader that has gone away, as in `… | head`,
 /// is no failure.
-pub fn print(text: &str) -> Result<(), Failure> {
+pub fn print(text: &str) -> Outcome {
     let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match progress::aside(|| out.write_all(text.as_bytes()).and_then(|()| out.flush())) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Input(format!(
             "error: standard output cannot be written: {error}"
         ))),
@@ -21,7 +24,7 @@ pub fn print(text: &str) -> Result<(), Failure> {
 }
 
 /// Prints a JSON document.
-pub fn print_json(value: &Value) -> Result<(), Failure> {
+pub fn print_json(value: &Value) -> Outcome {
     print(&format!("{value:#}\n"))
 }
 
@@ -51,11 +54,58 @@ pub fn counts(counts: &Counts) -> Value {
     })
 }
 
-/// Prints a line, or several, on standard error.
+/// Whether a warning was printed in this run, and whether warnings are denied.
+static WARNED: AtomicBool = AtomicBool::new(false);
+static DENIED: AtomicBool = AtomicBool::new(false);
+
+/// Begins a run, which may deny warnings.
+pub fn begin(denies_warnings: bool) {
+    WARNED.store(false, Ordering::Relaxed);
+    DENIED.store(denies_warnings, Ordering::Relaxed);
+}
+
+/// Fails where a warning was printed and warnings are denied.
+///
+/// # Errors
+/// A failed check.
+pub fn undenied() -> Outcome {
+    match WARNED.load(Ordering::Relaxed) && DENIED.load(Ordering::Relaxed) {
+        true => Err(Failure::Check(
+            "error: there are warnings, and --deny-warnings takes them for errors".into(),
+        )),
+        false => Ok(()),
+    }
+}
+
+/// The words that begin a message or its parts, with their colours on a terminal.
+const COLOURS: [(&str, &str); 6] = [
+    ("error", "1;31"),
+    ("warning", "1;33"),
+    ("note", "1;36"),
+    ("  = help", "1;32"),
+    ("  = note", "1;36"),
+    (" --> ", "1;34"),
+];
+
+/// Prints a line, or several, on standard error: in colour on a terminal, unless the environment
+/// says otherwise (`NO_COLOR`, `CLICOLOR_FORCE`).
 pub fn note(text: &str) {
-    let mut err = io::stderr().lock();
-    // There is nowhere left to complain to.
-    let _ = writeln!(err, "{}", text.trim_end());
+    let text = text.trim_end();
+    if text.lines().any(|line| line.starts_with("warning")) {
+        WARNED.store(true, Ordering::Relaxed);
+    }
+    let plain = AutoStream::choice(&io::stderr()) == ColorChoice::Never;
+    let coloured = |line: &str| match COLOURS.iter().find(|(mark, _)| line.starts_with(mark)) {
+        Some((mark, code)) if !plain => {
+            format!("\x1b[{code}m{mark}\x1b[0m{}", &line[mark.len()..])
+        }
+        _ => line.to_owned(),
+    };
+    let lines: Vec<String> = text.split('\n').map(coloured).collect();
+    progress::aside(|| {
+        // There is nowhere left to complain to.
+        let _ = writeln!(io::stderr().lock(), "{}", lines.join("\n"));
+    });
 }
 
 /// Lays out rows in columns: the first to the left, the others to the right

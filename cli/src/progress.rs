@@ -1,13 +1,14 @@
-//! A long search: progress on a terminal, and Ctrl-C to end it with the best
-//! so far.
+//! A long run: after two seconds a bar on a terminal, and Ctrl-C to end a thorough search with
+//! the best so far.
 //!
 //! Only the command knows clocks, terminals and signals; the library is told
 //! through an [`Observer`].
 
-use std::process;
+use std::io::{self, IsTerminal};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
+use std::{process, thread};
 
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::simplify::Effort;
@@ -15,18 +16,62 @@ use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::watch::{Observer, Progress, Watch};
 use dalembert_report::sweep::Point;
 use dalembert_report::sweep::ladder::Waiting;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::output;
 
 /// The exit code of a process that Ctrl-C ended: 128 + SIGINT.
 const INTERRUPTED: i32 = 130;
 
+/// The time that a run takes without a bar.
+const QUIET: Duration = Duration::from_secs(2);
+
+/// The bar of the run: there is one terminal.
+static BAR: Mutex<Option<ProgressBar>> = Mutex::new(None);
+
+/// Shows a bar as long as it lives.
+pub struct Shown;
+
+/// Begins a run, whose bar appears on a terminal when it has taken two seconds.
+pub fn begin() -> Shown {
+    let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::hidden());
+    if let Ok(style) = ProgressStyle::with_template("{elapsed} {bar:24} {wide_msg}") {
+        bar.set_style(style);
+    }
+    *BAR.lock().unwrap_or_else(PoisonError::into_inner) = Some(bar.clone());
+    if io::stderr().is_terminal() {
+        thread::spawn(move || {
+            thread::sleep(QUIET);
+            if !bar.is_finished() {
+                bar.set_draw_target(ProgressDrawTarget::stderr());
+                bar.enable_steady_tick(Duration::from_millis(500));
+            }
+        });
+    }
+    Shown
+}
+
+/// Returns the bar of the run.
+fn bar() -> ProgressBar {
+    let bar = BAR.lock().unwrap_or_else(PoisonError::into_inner).clone();
+    bar.unwrap_or_else(ProgressBar::hidden)
+}
+
+/// Prints while the bar is away.
+pub fn aside<R>(print: impl FnOnce() -> R) -> R {
+    bar().suspend(print)
+}
+
+impl Drop for Shown {
+    fn drop(&mut self) {
+        bar().finish_and_clear();
+    }
+}
+
 /// Watches a search while it lives.
-pub struct Session(Option<Arc<Terminal>>);
+pub struct Session(Arc<Terminal>);
 
 struct Terminal {
-    bar: ProgressBar,
     /// The functions that are searched for, in this order.
     functions: Vec<Function>,
     stop: AtomicBool,
@@ -34,27 +79,20 @@ struct Terminal {
     over: AtomicBool,
 }
 
-/// Watches the searches of a request if they may take long: thorough ones, and
-/// those for what a tolerance admits.
+/// Watches the searches of a request; Ctrl-C ends thorough ones.
 pub fn watch(request: &mut Request) -> Session {
-    let thorough = request.effort == Effort::Thorough;
-    let scene = request.scene.as_ref();
-    if !thorough && scene.is_none_or(|scene| scene.tolerance.is_none()) {
-        return Session(None);
-    }
     let terminal = Arc::new(Terminal {
-        bar: bar(1),
         functions: Function::in_order(&request.functions),
         stop: AtomicBool::new(false),
         over: AtomicBool::new(false),
     });
-    if thorough {
+    if request.effort == Effort::Thorough {
         let heard = terminal.clone();
         // Without a handler Ctrl-C ends the process, as ever.
         let _ = ctrlc::set_handler(move || heard.interrupt());
     }
     request.watch = Watch::by(terminal.clone());
-    Session(Some(terminal))
+    Session(terminal)
 }
 
 /// The steps of a long run, on a terminal.
@@ -62,16 +100,15 @@ pub struct Steps(Arc<StepObserver>);
 
 /// The step that is done at the moment.
 struct StepObserver {
-    bar: ProgressBar,
     name: Mutex<String>,
 }
 
 impl Steps {
     /// Begins to count so many of them.
     pub fn new(steps: usize) -> Steps {
-        let bar = bar(steps as u64);
+        bar().set_length(steps as u64);
         let name = Mutex::default();
-        Steps(Arc::new(StepObserver { bar, name }))
+        Steps(Arc::new(StepObserver { name }))
     }
 
     /// Shows how far searches within a step have come.
@@ -82,15 +119,15 @@ impl Steps {
 
 impl Waiting for Steps {
     fn begin(&self, name: &str) {
-        self.0.bar.set_message(name.to_owned());
-        self.0.bar.inc(1);
+        bar().set_message(name.to_owned());
+        bar().inc(1);
         let mut current = self.0.name.lock().unwrap_or_else(PoisonError::into_inner);
         name.clone_into(&mut current);
     }
 
     /// Prints a line where there is no terminal that shows a bar.
     fn done(&self, tolerance: f64, variants: &[Point]) {
-        if self.0.bar.is_hidden() {
+        if !io::stderr().is_terminal() {
             output::note(&line(tolerance, variants));
         }
     }
@@ -134,19 +171,12 @@ impl Observer for StepObserver {
             _ => format!("{round}/{rounds}"),
         };
         let reached = reached(progress);
-        self.bar
-            .set_message(format!("{name}, {part} {round}{reached}"));
+        bar().set_message(format!("{name}, {part} {round}{reached}"));
     }
 
     /// Never ends a search early: every tolerance has its own variants.
     fn stop(&self) -> bool {
         false
-    }
-}
-
-impl Drop for Steps {
-    fn drop(&mut self) {
-        self.0.bar.finish_and_clear();
     }
 }
 
@@ -168,31 +198,19 @@ fn reached(progress: &Progress) -> String {
     }
 }
 
-/// Shows a bar on standard error; it hides itself where that is no terminal.
-fn bar(length: u64) -> ProgressBar {
-    let bar = ProgressBar::new(length);
-    if let Ok(style) = ProgressStyle::with_template("{elapsed} {bar:24} {wide_msg}") {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(Duration::from_millis(500));
-    bar
-}
-
 impl Terminal {
     /// Asks for an end the first time, and ends the second time; what comes after the search has
     /// no end but that.
     fn interrupt(&self) {
         let over = self.over.load(Ordering::Relaxed);
         if self.stop.swap(true, Ordering::Relaxed) || over {
-            self.bar.finish_and_clear();
+            bar().finish_and_clear();
             process::exit(INTERRUPTED);
         }
-        self.bar.suspend(|| {
-            output::note(
-                "ending the search after this round; its best program is then compared with a quick \
-                 search's, proved and measured. Press Ctrl-C again to quit without a result",
-            );
-        });
+        output::note(
+            "ending the search after this round; its best program is then compared with a quick \
+             search's, proved and measured. Press Ctrl-C again to quit without a result",
+        );
     }
 }
 
@@ -206,12 +224,11 @@ impl Observer for Terminal {
             ..
         } = progress;
         let known = *rounds > 0;
-        self.bar.set_length(if known { *rounds as u64 } else { 1 });
-        self.bar.set_position(if known { *round as u64 } else { 0 });
+        bar().set_length(if known { *rounds as u64 } else { 1 });
+        bar().set_position(if known { *round as u64 } else { 0 });
         let reached = reached(progress);
         let place = place(&self.functions, *function);
-        self.bar
-            .set_message(format!("{place}{function}, {part}{reached}"));
+        bar().set_message(format!("{place}{function}, {part}{reached}"));
     }
 
     fn stop(&self) -> bool {
@@ -221,10 +238,8 @@ impl Observer for Terminal {
 
 impl Drop for Session {
     fn drop(&mut self) {
-        let Some(terminal) = &self.0 else { return };
-        terminal.over.store(true, Ordering::Relaxed);
-        terminal.bar.finish_and_clear();
-        if terminal.stop() {
+        self.0.over.store(true, Ordering::Relaxed);
+        if self.0.stop() {
             output::note("the search was ended early: more might be found");
         }
     }

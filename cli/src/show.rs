@@ -19,14 +19,12 @@ use crate::{input, output};
 /// Runs the subcommand.
 pub fn run(args: &ShowArgs) -> Outcome {
     let robot = input::robot(&args.robot)?;
-    let target = match &args.output {
-        None => Target::standard(),
-        Some(path) => Target::at(path)?,
-    };
+    let target = Target::output(args.output.as_deref(), args.json)?;
     distinct::distinct(
         &[("the robot file", &args.robot)],
         &[("the drawing", &target)],
     )?;
+    target.ends_in("svg")?;
     if !args.force {
         target.ours()?;
     }

@@ -17,5 +17,6 @@ mod show;
 mod sines;
 mod stress;
 mod support;
+mod terminal;
 mod tolerance;
 mod tradeoff;

@@ -97,7 +97,7 @@ fn files_that_cannot_be_read_or_written() {
 
 /// Arguments, and words of what is said.
 const WRONG: &str = "
-generate PUMA --outputs graviti | 'gravity'
+generate PUMA --outputs graviti | `gravity`
 count PUMA --formulation lagrange | 'lagrange_euler'
 count PUMA --scalar f65 | 'f64'
 count PUMA --effort quik | 'quick'

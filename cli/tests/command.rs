@@ -247,7 +247,13 @@ fn bundles_by_their_text() {
             "a=gravity+inertia,a=gravity+jacobian",
             "call one of them otherwise",
         ),
-        ("gravty", "a similar value exists: 'gravity'"),
+        ("gravty", "did you mean `gravity`?"),
+        ("rnea", "did you mean `inverse_dynamics`?"),
+        ("aba", "did you mean `forward_dynamics`?"),
+        ("crba", "did you mean `inertia`?"),
+        ("mass_matrix", "did you mean `inertia`?"),
+        ("fk", "did you mean `forward_kinematics`?"),
+        ("nle", "did you mean `manipulator_equation`?"),
     ] {
         let ran = run(&["count", &planar, "--outputs", outputs]);
         assert_eq!(ran.code, 2, "{outputs}");

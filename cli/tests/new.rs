@@ -12,7 +12,7 @@ const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 /// the checkout that the command comes from, since no registry has this version.
 #[test]
 fn it_builds_and_passes_at_once() {
-    let folder = temporary("new").join("my_arm");
+    let folder = temporary("new").join("my-arm");
     let name = folder.to_str().unwrap();
     good(&["new", name]);
     // The versions that everything else here is tested with.
@@ -86,7 +86,7 @@ fn from_robot_files_and_urdfs() {
         (vec![text("fn")], "write \"fn_robot\""),
         (
             vec![text("dalembert")],
-            "cannot depend on the crate `dalembert`",
+            "depends on the crate `dalembert`: write \"my_dalembert\"",
         ),
         (
             vec![text("hand"), "--from".into(), panda.clone()],

@@ -143,7 +143,9 @@ fn files_of_others_stay() {
         &folder,
         &before,
     );
-    let show = ["show", &arm, "-o", &path("main.rs")];
+    fs::write(folder.join("main.svg"), "<svg/>").unwrap();
+    let before = names(&folder);
+    let show = ["show", &arm, "-o", &path("main.svg")];
     refused(&run(&show), words, &folder, &before);
     let text = fs::read_to_string(folder.join("main.rs")).unwrap();
     assert_eq!(text, "fn main() {}\n");
@@ -241,7 +243,7 @@ fn folders_are_made_at_the_end() {
     let tradeoff = |output: &str| run(&["tradeoff", &arm, "-o", output]);
     // The robot has no limits: said after the folder was looked at.
     let ran = tradeoff(&path("new/deep"));
-    refused(&ran, "has no limit", &folder, &before);
+    refused(&ran, "joints 1, 2 have no limit", &folder, &before);
     let ran = tradeoff(&path("arm.toml/deep"));
     refused(&ran, "arm.toml` is no folder", &folder, &before);
     let ran = run(&["stress", &arm, "-o", &arm]);
@@ -337,4 +339,58 @@ fn friction_is_counted_or_refused() {
         refused(&ran, words, &folder, &before);
         ran.says(&["arm.toml:"]);
     }
+}
+
+/// The ending of `-o` chooses the language; one that no language has, or another one, is refused.
+#[test]
+fn endings_choose_the_language() {
+    let (folder, arm) = arm("endings");
+    let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    let generate = |name: &str, more: &[&str]| {
+        let fixed = ["generate", &arm, "--outputs", "gravity", "-o", &path(name)];
+        run(&[&fixed[..], more].concat())
+    };
+    for (name, part) in [
+        ("a.rs", "pub mod planar2r {"),
+        ("a.h", "#ifndef PLANAR2R_H"),
+        ("a.H", "#ifndef PLANAR2R_H"),
+        ("a.cuh", "__device__"),
+        ("plain", "pub mod planar2r {"),
+    ] {
+        let ran = generate(name, &[]);
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        let text = fs::read_to_string(folder.join(name)).unwrap();
+        assert!(text.contains(part), "{name}: {text}");
+    }
+    assert_eq!(generate("a.inc", &["--language", "c"]).code, 0);
+    let before = names(&folder);
+    for (name, more) in [
+        ("b.png", &[][..]),
+        ("b.py", &[]),
+        ("b.rs", &["--language", "c"]),
+        ("b.h", &["--language", "rust"]),
+    ] {
+        let ran = generate(name, more);
+        ran.ends(2, &["does not end as a file of", ".h (c)"]);
+    }
+    run(&["show", &arm, "-o", &path("s.png")]).ends(2, &["would hold a .svg file", "s.svg"]);
+    assert_eq!(names(&folder), before);
+}
+
+/// `-` is standard output, for which a report and a file cannot both be meant.
+#[test]
+fn a_hyphen_is_standard_output() {
+    let (folder, arm) = arm("hyphen");
+    let before = names(&folder);
+    for command in [
+        &["generate", &arm, "--outputs", "gravity"][..],
+        &["show", &arm],
+    ] {
+        let [plain, hyphen] = [&[][..], &["-o", "-"]].map(|more| good(&[command, more].concat()));
+        assert_eq!(plain.out, hyphen.out);
+        let both = run(&[command, &["-o", "-", "--json"]].concat());
+        both.ends(2, &["the report goes to standard output"]);
+    }
+    run(&["stress", &arm, "-o", "-"]).ends(2, &["a folder is needed"]);
+    assert_eq!(names(&folder), before);
 }

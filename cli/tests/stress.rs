@@ -6,11 +6,8 @@ use crate::support::{good, robot, run, temporary};
 use serde_json::Value;
 
 #[test]
-fn a_robot_passes_with_table_and_charts() {
-    let folder = temporary("stress");
-    let charts = folder.join("charts");
-    let name = charts.to_str().unwrap();
-    let ran = good(&["stress", &robot("planar2r"), "--states", "5", "-o", name]);
+fn a_robot_passes_with_a_table() {
+    let ran = good(&["stress", &robot("planar2r"), "--states", "5"]);
     assert!(ran.out.contains("angles 1e8") && ran.out.contains("D singular"));
     assert!(ran.out.contains("warning: where D is singular"));
     assert!(
@@ -28,11 +25,6 @@ fn a_robot_passes_with_table_and_charts() {
             .filter(|line| line.trim_start().starts_with(function));
         let good = lines.filter(|line| line.trim_end().ends_with(" ok"));
         assert!(good.count() >= 4, "{function}: {}", ran.out);
-    }
-    for chart in ["angles.svg", "velocities.svg", "mass_ratio.svg"] {
-        let svg = fs::read_to_string(charts.join(chart)).unwrap();
-        assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
-        assert!(svg.contains("prefers-color-scheme:dark") && svg.contains("emitted f32"));
     }
 }
 

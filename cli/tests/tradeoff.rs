@@ -163,7 +163,10 @@ fn variants_are_measured() {
 fn tradeoff_says_what_it_lacks() {
     let (_, arm) = arm("tradeoff_lacks");
     for (arguments, words) in [
-        (vec![], "joint 1 has no limit `velocity`"),
+        (
+            vec![],
+            "joints 1, 2, 3 have no limit `velocity`; joints 1, 2, 3 have no limit `acceleration`",
+        ),
         (
             vec!["--function", "gravity"],
             "joint 1 has no limit `torque`",

@@ -228,9 +228,6 @@ pub mod verify {
     pub mod parameters {
         pub use crate::verify::parameters::prove_base;
     }
-    pub mod reach {
-        pub use crate::verify::reach::{Place, Reach, Unreached, reach};
-    }
     pub mod reference {
         pub use crate::verify::reference::{Reference, TrueValue};
     }

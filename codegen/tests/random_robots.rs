@@ -12,12 +12,11 @@ use dalembert_codegen::workspace::graph::Points;
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::program::run::State;
-use dalembert_codegen::workspace::scene::{self, SceneRobot};
+use dalembert_codegen::workspace::scene;
 use dalembert_codegen::workspace::states::{SEED, seeded};
 use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::floating::Runtime;
 use dalembert_model::equations::{Arm, Formulation};
-use dalembert_model::number::Exact;
 use dalembert_model::scene::Scene;
 
 /// Returns a function whose code stays small enough for a test.
@@ -91,37 +90,6 @@ fn formulations_agree() {
                 assert!(
                     found == expected,
                     "seed {seed}, {n} joints: {function} by {formulation:?} is not by {first:?}"
-                );
-            }
-        }
-    }
-}
-
-/// A recording that is run is the formula that is executed: every function, in the
-/// prime field, where equal is equal.
-#[test]
-fn recordings_are_the_formulas() {
-    let points = Points::SEARCH;
-    let of_input = |input| points.input(input).0[0];
-    let of_constant = |constant: &Exact| points.constant(constant).unwrap().0[0];
-    for (seed, robot, _) in robots(24, 0x7ec0) {
-        let n = robot.joints.len();
-        if n > 4 {
-            continue;
-        }
-        let scene_robot = SceneRobot::whole(&robot);
-        for function in Function::ALL {
-            for formulation in [Formulation::LagrangeEuler, Formulation::NewtonEulerLink] {
-                let arm = Arm::from_robot(&robot, &mut { of_constant });
-                let posed = scene_robot.posed(function, arm, of_input, of_constant);
-                let expected = posed.results(&scene_robot, function, formulation);
-                let recording = scene_robot.record(function, |posed, _| {
-                    posed.results(&scene_robot, function, formulation)
-                });
-                let found = recording.run(|x| of_input(*x), |x| Some(of_constant(x)));
-                assert!(
-                    found == Some(expected),
-                    "seed {seed}, {n} joints: {function} by {formulation:?}"
                 );
             }
         }

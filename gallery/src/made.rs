@@ -97,9 +97,9 @@ fn options(arm: &Arm) -> Options {
             .map(|joint| ((*joint).to_owned(), "0".to_owned()))
             .collect(),
         without: chain.without.iter().map(|link| (*link).into()).collect(),
-        exact: false,
+        snap: true,
         file: file.to_owned(),
-        name: None,
+        ..Options::default()
     }
 }
 

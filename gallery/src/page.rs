@@ -27,7 +27,7 @@ too. Every function is proved before it is counted.
 
 Compare arms with care: what an arm costs is decided by how its maker wrote it down. Doosan's M1013
 says 1.571 where a right angle is meant, which is off by 2e-4 rad, more than `dalembert import` takes
-for one; with \"pi/2\" in its robot file the torques take 212/199 instead of 327/271. Where every
+for one; with \"pi/2\" in its robot file the torques take a third less. Where every
 product of inertia is given, as for most arms of seven joints, each of them has to be computed with.
 ";
 

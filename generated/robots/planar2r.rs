@@ -20,10 +20,10 @@
 /// | `dynamic_coefficients` | 6 | 4 | 2 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod planar2r {
@@ -33,7 +33,7 @@ pub const N: usize = 2;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 13 mul, 10 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 128 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> [f64; 2] {
     let (s1, c1) = libm::sincos(q[0]);
@@ -67,7 +67,7 @@ pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> [f64; 2]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 4 mul, 2 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 4, coefficients of at most 124 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
     let (s1, c1) = libm::sincos(q[0]);
@@ -84,7 +84,7 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 1 mul, 2 add, 1 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 8, coefficients of at most 126 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inertia(q: &[f64; 2]) -> [[f64; 2]; 2] {
     let c2 = libm::cos(q[1]);
@@ -100,7 +100,7 @@ pub fn inertia(q: &[f64; 2]) -> [[f64; 2]; 2] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 5 mul, 2 add, 1 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 127 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn coriolis(q: &[f64; 2], qd: &[f64; 2]) -> [f64; 2] {
     let s2 = libm::sin(q[1]);
@@ -128,7 +128,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 10 mul, 6 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 127 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn manipulator_equation(q: &[f64; 2], qd: &[f64; 2]) -> ManipulatorEquation {
     let (s1, c1) = libm::sincos(q[0]);
@@ -173,7 +173,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 6 mul, 4 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 8, coefficients of at most 126 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f64; 2]) -> DynamicCoefficients {
     let (s1, c1) = libm::sincos(q[0]);
@@ -228,10 +228,10 @@ pub fn dynamic_coefficients(q: &[f64; 2]) -> DynamicCoefficients {
 /// | `dynamic_coefficients` | 6 | 4 | 2 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod planar2r_f32 {
@@ -241,7 +241,7 @@ pub const N: usize = 2;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 13 mul, 10 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 128 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics(q: &[f32; 2], qd: &[f32; 2], qdd: &[f32; 2]) -> [f32; 2] {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -275,7 +275,7 @@ pub fn inverse_dynamics(q: &[f32; 2], qd: &[f32; 2], qdd: &[f32; 2]) -> [f32; 2]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 4 mul, 2 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 4, coefficients of at most 124 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn gravity(q: &[f32; 2]) -> [f32; 2] {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -292,7 +292,7 @@ pub fn gravity(q: &[f32; 2]) -> [f32; 2] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 1 mul, 2 add, 1 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 8, coefficients of at most 126 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inertia(q: &[f32; 2]) -> [[f32; 2]; 2] {
     let c2 = libm::cosf(q[1]);
@@ -308,7 +308,7 @@ pub fn inertia(q: &[f32; 2]) -> [[f32; 2]; 2] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 5 mul, 2 add, 1 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 127 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn coriolis(q: &[f32; 2], qd: &[f32; 2]) -> [f32; 2] {
     let s2 = libm::sinf(q[1]);
@@ -336,7 +336,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 10 mul, 6 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 127 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn manipulator_equation(q: &[f32; 2], qd: &[f32; 2]) -> ManipulatorEquation {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -381,7 +381,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 6 mul, 4 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 8, coefficients of at most 126 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f32; 2]) -> DynamicCoefficients {
     let (s1, c1) = libm::sincosf(q[0]);

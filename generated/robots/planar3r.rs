@@ -21,10 +21,10 @@
 /// | `dynamic_coefficients` | 15 | 14 | 3 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod planar3r {
@@ -34,7 +34,7 @@ pub const N: usize = 3;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 24 mul, 22 add, 3 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 14, coefficients of at most 133 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics(q: &[f64; 3], qd: &[f64; 3], qdd: &[f64; 3]) -> [f64; 3] {
     let (s1, c1) = libm::sincos(q[0]);
@@ -92,7 +92,7 @@ pub fn inverse_dynamics(q: &[f64; 3], qd: &[f64; 3], qdd: &[f64; 3]) -> [f64; 3]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 9 mul, 5 add, 3 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 6, coefficients of at most 126 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn gravity(q: &[f64; 3]) -> [f64; 3] {
     let (s1, c1) = libm::sincos(q[0]);
@@ -118,7 +118,7 @@ pub fn gravity(q: &[f64; 3]) -> [f64; 3] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 5 mul, 8 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 12, coefficients of at most 130 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inertia(q: &[f64; 3]) -> [[f64; 3]; 3] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -146,7 +146,7 @@ pub fn inertia(q: &[f64; 3]) -> [[f64; 3]; 3] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 14 mul, 8 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 14, coefficients of at most 133 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn coriolis(q: &[f64; 3], qd: &[f64; 3]) -> [f64; 3] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -190,7 +190,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 28 mul, 22 add, 3 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 14, coefficients of at most 137 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn manipulator_equation(q: &[f64; 3], qd: &[f64; 3]) -> ManipulatorEquation {
     let (s1, c1) = libm::sincos(q[0]);
@@ -271,7 +271,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 15 mul, 14 add, 3 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 12, coefficients of at most 130 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f64; 3]) -> DynamicCoefficients {
     let (s1, c1) = libm::sincos(q[0]);
@@ -355,10 +355,10 @@ pub fn dynamic_coefficients(q: &[f64; 3]) -> DynamicCoefficients {
 /// | `dynamic_coefficients` | 15 | 14 | 3 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod planar3r_f32 {
@@ -368,7 +368,7 @@ pub const N: usize = 3;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 24 mul, 22 add, 3 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 14, coefficients of at most 133 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics(q: &[f32; 3], qd: &[f32; 3], qdd: &[f32; 3]) -> [f32; 3] {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -426,7 +426,7 @@ pub fn inverse_dynamics(q: &[f32; 3], qd: &[f32; 3], qdd: &[f32; 3]) -> [f32; 3]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 9 mul, 5 add, 3 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 6, coefficients of at most 126 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn gravity(q: &[f32; 3]) -> [f32; 3] {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -452,7 +452,7 @@ pub fn gravity(q: &[f32; 3]) -> [f32; 3] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 5 mul, 8 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 12, coefficients of at most 130 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inertia(q: &[f32; 3]) -> [[f32; 3]; 3] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -480,7 +480,7 @@ pub fn inertia(q: &[f32; 3]) -> [[f32; 3]; 3] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 14 mul, 8 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 14, coefficients of at most 133 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn coriolis(q: &[f32; 3], qd: &[f32; 3]) -> [f32; 3] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -524,7 +524,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 28 mul, 22 add, 3 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 14, coefficients of at most 137 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn manipulator_equation(q: &[f32; 3], qd: &[f32; 3]) -> ManipulatorEquation {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -605,7 +605,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 15 mul, 14 add, 3 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 12, coefficients of at most 130 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f32; 3]) -> DynamicCoefficients {
     let (s1, c1) = libm::sincosf(q[0]);

@@ -24,10 +24,10 @@
 /// | `dynamic_coefficients` | 131 | 101 | 4 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod puma560 {
@@ -37,7 +37,7 @@ pub const N: usize = 6;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 139 mul, 120 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 34, coefficients of at most 149 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics(q: &[f64; 6], qd: &[f64; 6], qdd: &[f64; 6]) -> [f64; 6] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -309,7 +309,7 @@ pub fn inverse_dynamics(q: &[f64; 6], qd: &[f64; 6], qdd: &[f64; 6]) -> [f64; 6]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 18 mul, 8 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 91 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn gravity(q: &[f64; 6]) -> [f64; 6] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -348,7 +348,7 @@ pub fn gravity(q: &[f64; 6]) -> [f64; 6] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 61 mul, 57 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 24, coefficients of at most 202 bits, a wrong program passes with probability below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inertia(q: &[f64; 6]) -> [[f64; 6]; 6] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -486,7 +486,7 @@ pub fn inertia(q: &[f64; 6]) -> [[f64; 6]; 6] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 117 mul, 95 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 36, coefficients of at most 149 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn coriolis(q: &[f64; 6], qd: &[f64; 6]) -> [f64; 6] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -722,7 +722,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 180 mul, 152 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 36, coefficients of at most 194 bits, a wrong program passes with probability below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn manipulator_equation(q: &[f64; 6], qd: &[f64; 6]) -> ManipulatorEquation {
     let (s2, c2) = libm::sincos(q[1]);
@@ -1089,7 +1089,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 131 mul, 101 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 26, coefficients of at most 479 bits, a wrong program passes with probability below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f64; 6]) -> DynamicCoefficients {
     let (s2, c2) = libm::sincos(q[1]);
@@ -1416,10 +1416,10 @@ pub fn dynamic_coefficients(q: &[f64; 6]) -> DynamicCoefficients {
 /// | `dynamic_coefficients` | 131 | 101 | 4 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod puma560_f32 {
@@ -1429,7 +1429,7 @@ pub const N: usize = 6;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 139 mul, 120 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 34, coefficients of at most 149 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics(q: &[f32; 6], qd: &[f32; 6], qdd: &[f32; 6]) -> [f32; 6] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -1701,7 +1701,7 @@ pub fn inverse_dynamics(q: &[f32; 6], qd: &[f32; 6], qdd: &[f32; 6]) -> [f32; 6]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 18 mul, 8 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 91 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn gravity(q: &[f32; 6]) -> [f32; 6] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -1740,7 +1740,7 @@ pub fn gravity(q: &[f32; 6]) -> [f32; 6] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 61 mul, 57 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 24, coefficients of at most 202 bits, a wrong program passes with probability below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inertia(q: &[f32; 6]) -> [[f32; 6]; 6] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -1878,7 +1878,7 @@ pub fn inertia(q: &[f32; 6]) -> [[f32; 6]; 6] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 117 mul, 95 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 36, coefficients of at most 149 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn coriolis(q: &[f32; 6], qd: &[f32; 6]) -> [f32; 6] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -2114,7 +2114,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 180 mul, 152 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 36, coefficients of at most 194 bits, a wrong program passes with probability below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn manipulator_equation(q: &[f32; 6], qd: &[f32; 6]) -> ManipulatorEquation {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -2481,7 +2481,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 131 mul, 101 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 26, coefficients of at most 479 bits, a wrong program passes with probability below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f32; 6]) -> DynamicCoefficients {
     let (s2, c2) = libm::sincosf(q[1]);

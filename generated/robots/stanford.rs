@@ -24,10 +24,10 @@
 /// | `dynamic_coefficients` | 115 | 75 | 3 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod stanford {
@@ -37,7 +37,7 @@ pub const N: usize = 6;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 110 mul, 91 add, 3 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 30, coefficients of at most 162 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics(q: &[f64; 6], qd: &[f64; 6], qdd: &[f64; 6]) -> [f64; 6] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -250,7 +250,7 @@ pub fn inverse_dynamics(q: &[f64; 6], qd: &[f64; 6], qdd: &[f64; 6]) -> [f64; 6]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 17 mul, 6 add, 3 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 7, coefficients of at most 66 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn gravity(q: &[f64; 6]) -> [f64; 6] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -285,7 +285,7 @@ pub fn gravity(q: &[f64; 6]) -> [f64; 6] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 46 mul, 38 add, 3 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 22, coefficients of at most 279 bits, a wrong program passes with probability below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inertia(q: &[f64; 6]) -> [[f64; 6]; 6] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -388,7 +388,7 @@ pub fn inertia(q: &[f64; 6]) -> [[f64; 6]; 6] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 102 mul, 76 add, 3 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 30, coefficients of at most 161 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn coriolis(q: &[f64; 6], qd: &[f64; 6]) -> [f64; 6] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -589,7 +589,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 154 mul, 116 add, 3 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 30, coefficients of at most 233 bits, a wrong program passes with probability below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn manipulator_equation(q: &[f64; 6], qd: &[f64; 6]) -> ManipulatorEquation {
     let (s2, c2) = libm::sincos(q[1]);
@@ -893,7 +893,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 115 mul, 75 add, 3 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 22, coefficients of at most 416 bits, a wrong program passes with probability below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f64; 6]) -> DynamicCoefficients {
     let (s2, c2) = libm::sincos(q[1]);
@@ -1177,10 +1177,10 @@ pub fn dynamic_coefficients(q: &[f64; 6]) -> DynamicCoefficients {
 /// | `dynamic_coefficients` | 115 | 75 | 3 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod stanford_f32 {
@@ -1190,7 +1190,7 @@ pub const N: usize = 6;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 110 mul, 91 add, 3 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 30, coefficients of at most 162 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics(q: &[f32; 6], qd: &[f32; 6], qdd: &[f32; 6]) -> [f32; 6] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -1403,7 +1403,7 @@ pub fn inverse_dynamics(q: &[f32; 6], qd: &[f32; 6], qdd: &[f32; 6]) -> [f32; 6]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 17 mul, 6 add, 3 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 7, coefficients of at most 66 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn gravity(q: &[f32; 6]) -> [f32; 6] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -1438,7 +1438,7 @@ pub fn gravity(q: &[f32; 6]) -> [f32; 6] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 46 mul, 38 add, 3 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 22, coefficients of at most 279 bits, a wrong program passes with probability below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inertia(q: &[f32; 6]) -> [[f32; 6]; 6] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -1541,7 +1541,7 @@ pub fn inertia(q: &[f32; 6]) -> [[f32; 6]; 6] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 102 mul, 76 add, 3 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 30, coefficients of at most 161 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn coriolis(q: &[f32; 6], qd: &[f32; 6]) -> [f32; 6] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -1742,7 +1742,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 154 mul, 116 add, 3 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 30, coefficients of at most 233 bits, a wrong program passes with probability below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn manipulator_equation(q: &[f32; 6], qd: &[f32; 6]) -> ManipulatorEquation {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -2046,7 +2046,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 115 mul, 75 add, 3 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 22, coefficients of at most 416 bits, a wrong program passes with probability below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f32; 6]) -> DynamicCoefficients {
     let (s2, c2) = libm::sincosf(q[1]);

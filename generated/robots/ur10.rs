@@ -24,10 +24,10 @@
 /// | `dynamic_coefficients` | 109 | 101 | 5 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod ur10 {
@@ -37,7 +37,7 @@ pub const N: usize = 6;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 138 mul, 117 add, 5 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 38, coefficients of at most 284 bits, a wrong program passes with probability below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics(q: &[f64; 6], qd: &[f64; 6], qdd: &[f64; 6]) -> [f64; 6] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -306,7 +306,7 @@ pub fn inverse_dynamics(q: &[f64; 6], qd: &[f64; 6], qdd: &[f64; 6]) -> [f64; 6]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 15 mul, 7 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 8, coefficients of at most 100 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn gravity(q: &[f64; 6]) -> [f64; 6] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -341,7 +341,7 @@ pub fn gravity(q: &[f64; 6]) -> [f64; 6] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 58 mul, 56 add, 5 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 24, coefficients of at most 276 bits, a wrong program passes with probability below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inertia(q: &[f64; 6]) -> [[f64; 6]; 6] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -476,7 +476,7 @@ pub fn inertia(q: &[f64; 6]) -> [[f64; 6]; 6] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 115 mul, 87 add, 5 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 38, coefficients of at most 251 bits, a wrong program passes with probability below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn coriolis(q: &[f64; 6], qd: &[f64; 6]) -> [f64; 6] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -703,7 +703,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 161 mul, 142 add, 5 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 38, coefficients of at most 582 bits, a wrong program passes with probability below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn manipulator_equation(q: &[f64; 6], qd: &[f64; 6]) -> ManipulatorEquation {
     let (s2, c2) = libm::sincos(q[1]);
@@ -1042,7 +1042,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 109 mul, 101 add, 5 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 28, coefficients of at most 390 bits, a wrong program passes with probability below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f64; 6]) -> DynamicCoefficients {
     let (s2, c2) = libm::sincos(q[1]);
@@ -1348,10 +1348,10 @@ pub fn dynamic_coefficients(q: &[f64; 6]) -> DynamicCoefficients {
 /// | `dynamic_coefficients` | 109 | 101 | 5 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod ur10_f32 {
@@ -1361,7 +1361,7 @@ pub const N: usize = 6;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 138 mul, 117 add, 5 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 38, coefficients of at most 284 bits, a wrong program passes with probability below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics(q: &[f32; 6], qd: &[f32; 6], qdd: &[f32; 6]) -> [f32; 6] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -1630,7 +1630,7 @@ pub fn inverse_dynamics(q: &[f32; 6], qd: &[f32; 6], qdd: &[f32; 6]) -> [f32; 6]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 15 mul, 7 add, 4 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 8, coefficients of at most 100 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn gravity(q: &[f32; 6]) -> [f32; 6] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -1665,7 +1665,7 @@ pub fn gravity(q: &[f32; 6]) -> [f32; 6] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 58 mul, 56 add, 5 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 24, coefficients of at most 276 bits, a wrong program passes with probability below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inertia(q: &[f32; 6]) -> [[f32; 6]; 6] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -1800,7 +1800,7 @@ pub fn inertia(q: &[f32; 6]) -> [[f32; 6]; 6] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 115 mul, 87 add, 5 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 38, coefficients of at most 251 bits, a wrong program passes with probability below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn coriolis(q: &[f32; 6], qd: &[f32; 6]) -> [f32; 6] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -2027,7 +2027,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 161 mul, 142 add, 5 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 38, coefficients of at most 582 bits, a wrong program passes with probability below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn manipulator_equation(q: &[f32; 6], qd: &[f32; 6]) -> ManipulatorEquation {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -2366,7 +2366,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 109 mul, 101 add, 5 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 28, coefficients of at most 390 bits, a wrong program passes with probability below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f32; 6]) -> DynamicCoefficients {
     let (s2, c2) = libm::sincosf(q[1]);

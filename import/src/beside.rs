@@ -149,7 +149,7 @@ impl Tree<'_, '_, '_> {
                         let joint = &self.urdf.joints[moving.joint].name;
                         let at = lock::advised(&self.urdf.joints[moving.joint]);
                         let message = format!("joint `{joint}` of the chain is tied by {}", tie.name);
-                        let help = format!("each joint moves by itself: add --lock {joint}={at}, end before it by --tip, or take the tie out");
+                        let help = format!("each joint moves by itself: add --lock {joint}={at}, end before it by --tip, or leave the tie out by --ignore-ties");
                         (&tie.span, message, help)
                     }));
                 }
@@ -161,7 +161,7 @@ impl Tree<'_, '_, '_> {
                             tie.name,
                             names.join("` and `")
                         );
-                        let help = "closed loops are not read: take the tie out, or hold what moves between them by --lock".to_owned();
+                        let help = "closed loops are not read: hold what moves between them by --lock, or leave the tie out by --ignore-ties".to_owned();
                         found.push((&tie.span, message, help));
                     }
                 }

@@ -43,9 +43,10 @@
 //! Of an MJCF: bodies with their joints, hinges and slides, several to a body, frames and
 //! sites, defaults and their classes, every way to write an orientation, units and orders
 //! of angles, inertials, and the mass of simple geoms where MuJoCo takes that; gravity;
-//! armature and damping; forces of actuators as limits of torque. Springs, friction and
+//! armature and damping; forces of actuators as limits of torque; `settotalmass`. Springs, friction and
 //! gravity compensation are said and left out. Equalities, tendons and loops are refused
-//! where they would move, and so is a mass that only a mesh knows.
+//! where they would move, unless they are [left out](Options::ignore_ties), and so is a mass that only a
+//! mesh knows. A fixed tendon over one joint is a limit of that.
 //!
 //! # Digits
 //!
@@ -65,7 +66,8 @@
 //!   1e-5 rad of a multiple of π/2, π/4 or π/6, as many quaternions come from 1.5708.
 //!
 //! What all of them together change in the torques and in where the hand is, is
-//! bounded ([`Change`]).
+//! bounded ([`Change`]). Where that is more than [`FELT`] of the torques' limits, only numbers within 1e-9
+//! of exact ones are taken for these, unless [`Options::snap`] asks for all.
 //! [`Options::exact`] takes the digits as they stand; the reader of robot files still
 //! takes the double next to a multiple of π/2 for it.
 #![forbid(unsafe_code)]
@@ -88,16 +90,21 @@ mod tree;
 mod urdf;
 mod write;
 
+use dalembert_model::number::Rational;
 use dalembert_model::read::{self, Diagnostic, Diagnostics};
 use dalembert_model::robot::Robot;
 
 pub use arms::{Arms, Shared, arms};
 pub use change::{Change, Displacement, Motion};
 pub use snap::Snap;
+use snap::Snapping;
 pub use text::Text;
 
 /// The largest URDF that is read, in bytes: meshes are not in it.
 pub const MAX_BYTES: usize = 1 << 24;
+
+/// The largest change of a torque, relative to its limit, that snapping makes unasked.
+pub const FELT: f64 = 1e-6;
 
 /// The chain to take of a URDF, and how.
 #[derive(Clone, Debug, Default)]
@@ -115,6 +122,14 @@ pub struct Options {
     pub without: Vec<String>,
     /// Take every digit as it stands.
     pub exact: bool,
+    /// Take rounded numbers for the exact ones that they were probably meant to be, however much
+    /// that changes the torques; without it, where it changes them by at most [`FELT`] of their
+    /// limits.
+    pub snap: bool,
+    /// Leave out tendons, loops and equalities, which no chain of joints can have.
+    pub ignore_ties: bool,
+    /// The limit of acceleration of every joint, rad/s² or m/s²: no model has one.
+    pub acceleration: Option<Rational>,
     /// The name of the file, for the robot file's first line.
     pub file: String,
     /// The name of the arm; without one, the model's.
@@ -179,6 +194,10 @@ fn model(source: &str, options: &Options, problems: &mut problems::Problems) -> 
         false => urdf::read(&document, problems)?,
     };
     names::check(&urdf, options, problems);
+    let mut urdf = urdf;
+    if options.ignore_ties {
+        urdf.untie(problems);
+    }
     // What the rest lacks would be what could not be read.
     (!problems.has_errors()).then_some(urdf)
 }
@@ -191,13 +210,38 @@ fn imported(
     let urdf = model(source, options, problems)?;
     let chain = tree::chain(&urdf, options, problems)?;
     let as_written = merge::arm(&urdf, &chain, problems)?;
-    let (snapped, snaps) = match options.exact {
-        true => (urdf, Vec::new()),
-        false => snap::snapped(&urdf, &chain),
+    let snapped = |snapping: Snapping| {
+        let (snapped, snaps) = snap::snapped(&urdf, &chain, snapping);
+        // What there is to say was said of the digits as they stand.
+        let arm = merge::arm(&snapped, &chain, &mut problems::Problems::new(source))?;
+        let change = change::bound(&as_written, &arm, &snapped, &chain, options);
+        Some((snapped, snaps, arm, change))
     };
-    // What there is to say was said of the digits as they stand.
-    let arm = merge::arm(&snapped, &chain, &mut problems::Problems::new(source))?;
-    let text = write::file(&snapped, &chain, &arm, &snaps, options, problems);
+    let all = match options.exact {
+        true => Snapping::None,
+        false => Snapping::All,
+    };
+    let mut taken = snapped(all)?;
+    let mut stays = options.exact;
+    if !options.snap && taken.3.relative() > FELT {
+        let message = format!(
+            "rounded numbers stay as they are: the exact ones that were probably meant would change \
+             the torques by {}",
+            taken.3
+        );
+        problems.note(
+            &urdf.span,
+            message,
+            "--snap takes the exact ones, and code gets shorter",
+        );
+        stays = true;
+        taken = snapped(Snapping::Near)?;
+        if taken.3.relative() > FELT {
+            taken = snapped(Snapping::None)?;
+        }
+    }
+    let (snapped, snaps, arm, change) = taken;
+    let text = write::file(&snapped, &chain, &arm, (&snaps, stays), options, problems);
     let reading = match read::parse(&text, &read::Options::default()) {
         Ok(reading) => reading,
         Err(errors) => {
@@ -205,7 +249,7 @@ fn imported(
             return None;
         }
     };
-    let change = (!snaps.is_empty()).then(|| change::bound(&as_written, &arm, &snapped, &chain));
+    let change = (!snaps.is_empty()).then_some(change);
     Some(Imported {
         text,
         robot: reading.robot,

@@ -101,7 +101,7 @@ fn is_outside(at: &Position, text: &str, [lower, upper]: [&Value<Position>; 2]) 
 }
 
 /// Compares positions of one joint; an angle and a length have no order.
-fn compare(left: &Position, right: &Position) -> Ordering {
+pub(crate) fn compare(left: &Position, right: &Position) -> Ordering {
     match (left, right) {
         (Position::Angle(left), Position::Angle(right)) => left.cmp_value(right),
         (Position::Length(left), Position::Length(right)) => left.cmp(right),

@@ -37,10 +37,28 @@ impl fmt::Display for Snap {
     }
 }
 
-/// Returns the URDF with every number of the chain taken for what it was meant to be.
-pub(crate) fn snapped(urdf: &Urdf, chain: &Chain) -> (Urdf, Vec<Snap>) {
+/// The numbers that are taken for others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Snapping {
+    /// Those whose digits tell what was meant.
+    All,
+    /// Those within 1e-9 of what was meant.
+    Near,
+    /// None of them.
+    None,
+}
+
+/// Returns the URDF with numbers of the chain taken for what they were meant to be.
+pub(crate) fn snapped(urdf: &Urdf, chain: &Chain, snapping: Snapping) -> (Urdf, Vec<Snap>) {
     let mut urdf = urdf.clone();
-    let mut snaps = Snaps(Vec::new());
+    let is_near = snapping == Snapping::Near;
+    let mut snaps = Snaps {
+        is_near,
+        taken: Vec::new(),
+    };
+    if snapping == Snapping::None {
+        return (urdf, snaps.taken);
+    }
     for joint in chain.joints() {
         let joint = &mut urdf.joints[joint];
         let of = |what: &str| format!("joint {}, {what}", joint.name);
@@ -71,16 +89,26 @@ pub(crate) fn snapped(urdf: &Urdf, chain: &Chain) -> (Urdf, Vec<Snap>) {
             snaps.length(product, &(&largest * power(NOTHING)), &of("inertia"));
         }
     }
-    snaps.0.sort_by_key(|snap| snap.span.start);
-    (urdf, snaps.0)
+    snaps.taken.sort_by_key(|snap| snap.span.start);
+    (urdf, snaps.taken)
 }
 
 /// Collects them.
-struct Snaps(Vec<Snap>);
+struct Snaps {
+    /// Whether digits that are further off stay.
+    is_near: bool,
+    taken: Vec<Snap>,
+}
 
 impl Snaps {
+    /// Returns the angle that digits were meant to be, unless it is too far off.
+    fn meant(&self, angle: &Angle, text: &str) -> Option<Angle> {
+        let off = |meant: &Angle| (angle.radians() - meant.radians()).abs();
+        meant(angle, text).filter(|meant| !self.is_near || off(meant) <= power(NOTHING))
+    }
+
     fn take<T>(&mut self, value: &mut Value<T>, meant: T, to: String, of: &str) {
-        self.0.push(Snap {
+        self.taken.push(Snap {
             span: value.span.clone(),
             of: of.to_owned(),
             from: value.text.clone(),
@@ -93,10 +121,10 @@ impl Snaps {
         for length in &mut origin.xyz {
             self.length(length, &power(NOTHING), xyz);
         }
-        if let Some(meant) = origin.meant.take() {
+        if let Some(meant) = origin.meant.take().filter(|_| !self.is_near) {
             let to = meant.rpy.each_ref().map(ToString::to_string).join(" ");
             let from = origin.rpy.each_ref().map(|angle| angle.text.as_str());
-            self.0.push(Snap {
+            self.taken.push(Snap {
                 span: origin.rpy[0].span.clone(),
                 of: rpy.to_owned(),
                 from: from.join(" "),
@@ -116,7 +144,7 @@ impl Snaps {
         }
         let mut off = Rational::zero();
         for angle in &mut origin.rpy {
-            if let Some(meant) = meant(&angle.value, &angle.text) {
+            if let Some(meant) = self.meant(&angle.value, &angle.text) {
                 off = off.max((angle.value.radians() - meant.radians()).abs());
                 let to = meant.to_string();
                 self.take(angle, meant, to, rpy);
@@ -151,7 +179,7 @@ impl Snaps {
         let Position::Angle(angle) = &limit.value else {
             return;
         };
-        if let Some(meant) = meant(angle, &limit.text) {
+        if let Some(meant) = self.meant(angle, &limit.text) {
             let to = meant.to_string();
             self.take(limit, Position::Angle(meant), to, of);
         }
@@ -181,7 +209,11 @@ mod tests {
             rpy: rpy.map(angle),
             meant: None,
         };
-        Snaps(Vec::new()).origin(&mut origin, "xyz", "rpy");
+        Snaps {
+            is_near: false,
+            taken: Vec::new(),
+        }
+        .origin(&mut origin, "xyz", "rpy");
         origin.rpy.map(|angle| angle.value.to_string())
     }
 

@@ -18,12 +18,13 @@ use crate::snap::Snap;
 use crate::tree::{Chain, Moving};
 use crate::urdf::{Joint, Kind, Mimic, Number, Urdf};
 
-/// Writes the robot file, and says what of the URDF is not in it.
+/// Writes the robot file, and says what of the URDF is not in it; where digits stay as they stand, its
+/// reader does not warn of them.
 pub(crate) fn file(
     urdf: &Urdf,
     chain: &Chain,
     arm: &Arm,
-    snaps: &[Snap],
+    (snaps, stays): (&[Snap], bool),
     options: &Options,
     problems: &mut Problems,
 ) -> String {
@@ -86,7 +87,7 @@ pub(crate) fn file(
     if !arm.tool.is_identity() {
         line(&mut text, "tool", &placement(&as_read(&arm.tool)));
     }
-    if options.exact {
+    if stays {
         line(&mut text, "allow", "[\"near_right_angle\"]");
     }
     let mut left_out = LeftOut::default();
@@ -95,7 +96,7 @@ pub(crate) fn file(
         let own = &urdf.joints[moving.joint];
         let name = name_of(own, index, problems);
         line(&mut text, "name", &quoted(&name));
-        joint(&mut text, own, link, &mut left_out);
+        joint(&mut text, own, link, options, &mut left_out);
         if let Some(Mimic {
             joint: leader,
             line: Some([multiplier, offset]),
@@ -164,7 +165,13 @@ fn name_of(joint: &Joint, index: usize, problems: &mut Problems) -> String {
     }
 }
 
-fn joint<'u>(text: &mut String, joint: &'u Joint, link: &Link, left_out: &mut LeftOut<'u>) {
+fn joint<'u>(
+    text: &mut String,
+    joint: &'u Joint,
+    link: &Link,
+    options: &Options,
+    left_out: &mut LeftOut<'u>,
+) {
     let kind = match joint.kind {
         Kind::Prismatic => "prismatic",
         _ => "revolute",
@@ -190,6 +197,9 @@ fn joint<'u>(text: &mut String, joint: &'u Joint, link: &Link, left_out: &mut Le
     if !joint.armature.is_zero() {
         line(text, "armature", &number(&joint.armature));
     }
+    if !joint.rotors.is_empty() {
+        left_out.rotors.push(joint);
+    }
     if let Some(friction) = joint.friction.as_ref().filter(|f| !f.value.is_zero()) {
         left_out.friction.push((joint, friction));
     }
@@ -207,6 +217,8 @@ fn joint<'u>(text: &mut String, joint: &'u Joint, link: &Link, left_out: &mut Le
     for (key, limit) in [("velocity", &joint.velocity), ("torque", &joint.effort)] {
         limits.extend(limit_of(joint, key, limit.as_ref(), left_out));
     }
+    let acceleration = options.acceleration.as_ref();
+    limits.extend(acceleration.map(|most| format!("acceleration = {}", number(most))));
     if !limits.is_empty() {
         line(text, "limits", &format!("{{ {} }}", limits.join(", ")));
     }
@@ -236,9 +248,11 @@ fn limit_of<'u>(
     None
 }
 
-/// Parts of the URDF that are not in the robot file: one note says it of all joints.
+/// Parts of the URDF that are not in the robot file, or as something else: one note says it of all
+/// joints.
 #[derive(Default)]
 struct LeftOut<'u> {
+    rotors: Vec<&'u Joint>,
     springs: Vec<(&'u Joint, &'u Number)>,
     friction: Vec<(&'u Joint, &'u Number)>,
     limits: Vec<(&'static str, &'u Joint, &'u Number)>,
@@ -247,6 +261,7 @@ struct LeftOut<'u> {
 impl LeftOut<'_> {
     fn say(&self, problems: &mut Problems) {
         self.say_friction(problems);
+        self.say_rotors(problems);
         if let Some((_, first)) = self.springs.first() {
             let message = format!("the springs at {} are left out", names(&self.springs));
             let help = "the torques are those without them: add stiffness times displacement to what is commanded";
@@ -274,6 +289,27 @@ impl LeftOut<'_> {
             };
             problems.note(&first.span, message, help);
         }
+    }
+
+    fn say_rotors(&self, problems: &mut Problems) {
+        let Some(first) = self.rotors.first().and_then(|joint| joint.rotors.first()) else {
+            return;
+        };
+        let armature = |joint: &&Joint| {
+            let product = |[inertia, ratio]: &[Number; 2]| {
+                format!("{} kg·m² × {}²", inertia.text, ratio.text)
+            };
+            let products: Vec<String> = joint.rotors.iter().map(product).collect();
+            let (products, sum) = (products.join(" + "), number(&joint.armature));
+            format!("`{}` {products} = {sum}", joint.name)
+        };
+        let all: Vec<String> = self.rotors.iter().map(armature).collect();
+        let message = format!("rotors are the joints' armatures: {}", all.join(", "));
+        problems.note(
+            &first[0].span,
+            message,
+            "each is the inertia times the square of the reduction",
+        );
     }
 
     fn say_friction(&self, problems: &mut Problems) {

@@ -146,7 +146,11 @@ fn the_bound_is_the_size_of_the_change() {
         <parent link="bar"/> <child link="hand"/> <origin xyz="0 0.25 0"/> </joint>
       <link name="hand"/>
     </robot>"#;
-    let imported = dalembert_import::import(source, &dalembert_import::Options::default()).unwrap();
+    let options = dalembert_import::Options {
+        snap: true,
+        ..Default::default()
+    };
+    let imported = dalembert_import::import(source, &options).unwrap();
     let change = imported.change.unwrap();
     let still = Motion {
         position: vec![0.0],

@@ -32,6 +32,7 @@ fn golden(name: &str) -> (Golden, Options) {
     let options = Options {
         tip: json["tip"].as_str().map(str::to_owned),
         lock: vec![("*".to_owned(), "0".to_owned())],
+        snap: true,
         ..Options::default()
     };
     (flat_states(&json), options)

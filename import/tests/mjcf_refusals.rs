@@ -69,8 +69,8 @@ fn the_arm_itself_is_taken() {
 
 /// What of the arm is replaced by what, and below it words of what is said.
 const REFUSED: &str = r#"
-</mujoco> => <tendon><fixed name="pull"><joint joint="reach" coef="1"/></fixed></tendon></mujoco>
-joint `reach` of the chain is tied by fixed tendon `pull` | --lock reach=0
+</mujoco> => <tendon><fixed name="pull"><joint joint="reach" coef="1"/><joint joint="turn" coef="1"/></fixed></tendon></mujoco>
+joint `turn` of the chain is tied by fixed tendon `pull` | --lock turn=0
 </mujoco> => <equality><joint joint1="reach" joint2="turn" polycoef="0 0.5"/></equality></mujoco>
 arm.urdf:22:11 | joint `reach` of the chain mimics `turn` | --lock reach=0
 </mujoco> => <equality><joint joint1="reach"/></equality></mujoco>
@@ -127,8 +127,12 @@ angle="radian" => eulerseq="xyw"
 `eulerseq` is `xyw`
 angle="radian" => coordinate="global"
 `coordinate` is `global`
-angle="radian" => settotalmass="3"
-`settotalmass` changes every mass
+angle="radian" => settotalmass="3" boundmass="0.5"
+`settotalmass` is of bodies whose masses are not all known
+</mujoco> => <tendon><fixed limited="true" range="3 4"><joint joint="turn" coef="1"/></fixed></tendon></mujoco>
+the tendon leaves joint `turn` no position within its limits
+</mujoco> => <tendon><fixed><joint joint="trn" coef="1"/></fixed></tendon></mujoco>
+there is no joint `trn` | did you mean `turn`?
 angle="radian" => boundmass="0.5"
 `boundmass` of the compiler is more than body `hand` has
 <site name="grip"/> => <attach model="m" body="b"/>
@@ -174,6 +178,77 @@ fn what_is_tied_beside_the_chain_is_held() {
     };
     let text = import(&source, &options).unwrap().text;
     assert!(text.contains("# Held: follow = -0.05\n"), "{text}");
+}
+
+/// A fixed tendon over one joint moves it with no other, and may narrow its limits.
+#[test]
+fn a_tendon_over_one_joint_is_a_limit() {
+    let limits = |tendon: &str| {
+        let tendon = format!("<tendon><fixed {tendon}/></fixed></tendon></mujoco>");
+        let source = with("</mujoco>", &tendon);
+        let text = import(&source, &at_the_hand()).unwrap().text;
+        let limits: Vec<String> = text
+            .lines()
+            .filter_map(|line| line.strip_prefix("limits = "))
+            .map(str::to_owned)
+            .collect();
+        limits.join(" ")
+    };
+    let own = "{ position = [-1, 2] }";
+    assert_eq!(limits("name=\"a\"><joint joint=\"turn\" coef=\"1\""), own);
+    let range = |coef: &str| {
+        limits(&format!(
+            "range=\"-0.5 4\"><joint joint=\"turn\" coef=\"{coef}\""
+        ))
+    };
+    assert_eq!(range("1"), "{ position = [-0.5, 2] }");
+    assert_eq!(range("-2"), "{ position = [-1, 0.25] }");
+    // Of a joint without limits they are the tendon's.
+    let slide = limits("range=\"-1 2\"><joint joint=\"reach\" coef=\"0.5\"");
+    assert_eq!(slide, format!("{own} {{ position = [-2, 4] }}"));
+}
+
+#[test]
+fn ties_are_ignored_where_that_is_asked_for() {
+    let ties = "<equality><weld body1=\"hand\"/><joint joint1=\"reach\" joint2=\"turn\" \
+        polycoef=\"0 0.5 1\"/></equality><tendon><fixed name=\"pull\"><joint joint=\"reach\" coef=\"1\"/>\
+        <joint joint=\"turn\" coef=\"1\"/></fixed></tendon></mujoco>";
+    let source = with("</mujoco>", ties);
+    assert!(refused(&source, &at_the_hand()).contains("--ignore-ties"));
+    let options = Options {
+        ignore_ties: true,
+        ..at_the_hand()
+    };
+    let imported = import(&source, &options).unwrap();
+    let plain = import(ARM, &at_the_hand()).unwrap();
+    assert_eq!(imported.robot, plain.robot);
+    let said = "equality `weld`, fixed tendon `pull`, the equality of joint `reach`";
+    let mut notes = imported.notes.iter();
+    assert!(
+        notes.any(|note| note.message.contains(said)),
+        "{:?}",
+        imported.notes
+    );
+}
+
+/// All bodies weigh 3.2 kg together, the finger's among them.
+#[test]
+fn the_total_mass_scales_masses_and_inertias() {
+    let arm = |settings: &str| {
+        let source = with("angle=\"radian\"", &format!("angle=\"radian\" {settings}"));
+        import(&source, &at_the_hand()).unwrap().robot
+    };
+    let (plain, twice) = (arm(""), arm("settotalmass=\"6.4\""));
+    let two = dalembert_model::number::Rational::from_integer(2.into());
+    for (one, other) in plain.joints.iter().zip(&twice.joints) {
+        assert_eq!(&one.mass * &two, other.mass);
+        assert_eq!(one.com, other.com);
+        assert_eq!(one.armature, other.armature);
+    }
+    // Of a body that is merged with no other: those are rounded to 20 digits.
+    let [one, other] = [&plain, &twice].map(|robot| robot.joints[0].inertia.clone());
+    assert_eq!(one.map(|moment| moment * &two), other);
+    assert_eq!(arm("settotalmass=\"-1\""), plain);
 }
 
 /// Includes: one that is missing, twice, in a circle, and one that says where a mistake is.

@@ -49,6 +49,7 @@ const ARM: &str = r#"<?xml version="1.0"?>
 
 fn at_the_hand() -> Options {
     Options {
+        snap: true,
         tip: Some("hand".into()),
         without: vec!["thumb".into()],
         ..Options::default()
@@ -97,6 +98,10 @@ fn the_file_says_what_the_urdf_says() {
             "the Coulomb friction of joint `turn`, 0.25, is left out",
         ),
         (20, "the limit of torque of joint `reach` is 0"),
+        (
+            37,
+            "rotors are the joints' armatures: `turn` 2e-5 kg·m² × 100² = 0.2",
+        ),
     ];
     assert_eq!(notes, expected);
     let help = imported.notes[0].help.as_deref().unwrap_or_default();
@@ -128,6 +133,10 @@ fn one_note_for_one_fact() {
             "the Coulomb friction of the joints `turn` (0.25), `reach` (3) is left out",
         ),
         (20, "the limit of velocity of joint `reach` is 0"),
+        (
+            37,
+            "rotors are the joints' armatures: `turn` 2e-5 kg·m² × 100² = 0.2",
+        ),
     ];
     assert_eq!(notes, expected);
     let weightless = ARM
@@ -505,4 +514,102 @@ fn one_of_several_chains_holds_the_others() {
         text.contains("choose the end by --tip: front, back\n"),
         "{text}"
     );
+}
+
+/// The reduction is that beside the rotor's own name, in whatever order they stand, and every
+/// rotor is named with its armature.
+#[test]
+fn a_rotor_has_its_own_reduction() {
+    let own = "<mechanicalReduction>100</mechanicalReduction><motorInertia>2e-5</motorInertia>";
+    let armature = |actuator: &str| {
+        assert!(ARM.contains(own));
+        let source = ARM.replacen(own, actuator, 1);
+        let source = source.replacen("<robot ", "<robot xmlns:drake=\"http://drake.mit.edu\" ", 1);
+        let imported = import(&source, &at_the_hand()).unwrap();
+        let line = imported
+            .text
+            .lines()
+            .find_map(|line| line.strip_prefix("armature = "));
+        let notes: Vec<String> = imported
+            .notes
+            .iter()
+            .map(|note| note.message.clone())
+            .collect();
+        (line.map(str::to_owned), notes.join("\n"))
+    };
+    for (actuator, expected) in [
+        (own, Some("2e-5 kg·m² × 100² = 0.2")),
+        (
+            "<mechanicalReduction>1</mechanicalReduction><drake:gear_ratio value=\"160\"/>\
+             <drake:rotor_inertia value=\"1e-4\"/>",
+            Some("1e-4 kg·m² × 160² = 2.56"),
+        ),
+        (
+            "<rotorInertia>1e-4</rotorInertia><gear_ratio>7</gear_ratio><mechanicalReduction>30</mechanicalReduction>",
+            Some("1e-4 kg·m² × 30² = 0.09"),
+        ),
+        (
+            "<motorInertia>0.5</motorInertia>",
+            Some("0.5 kg·m² × 1² = 0.5"),
+        ),
+        ("<mechanicalReduction>100</mechanicalReduction>", None),
+    ] {
+        let (line, notes) = armature(actuator);
+        let value = expected.map(|said| said.rsplit(' ').next().unwrap().to_owned());
+        assert_eq!(line, value, "{actuator}");
+        let said = expected.map(|said| format!("rotors are the joints' armatures: `turn` {said}"));
+        assert!(said.is_none_or(|said| notes.contains(&said)), "{notes}");
+        assert_eq!(notes.contains("rotors"), expected.is_some(), "{notes}");
+    }
+}
+
+/// Digits that are far from what they were meant to be stay, unless snapping is asked for.
+#[test]
+fn torques_are_not_moved_unasked() {
+    let with_snap = |angle: &str, snap: bool| {
+        let options = Options {
+            snap,
+            ..at_the_hand()
+        };
+        import(&ARM.replace("1.5708", angle), &options).unwrap()
+    };
+    // Off by 3.7e-6 rad, and by 2.1e-12.
+    let (kept, taken) = (with_snap("1.5708", false), with_snap("1.5708", true));
+    assert!(kept.text.contains("rpy = [1.5708, 0, 0]"), "{}", kept.text);
+    // Of digits that stay, the reader of robot files has nothing to say.
+    let again = read::parse(&kept.text, &read::Options::default()).unwrap();
+    assert_eq!(again.notes.len(), 0, "{:?}", again.notes);
+    assert!(
+        taken.text.contains("rpy = [\"pi/2\", 0, 0]"),
+        "{}",
+        taken.text
+    );
+    let mut notes = kept.notes.iter();
+    assert!(notes.any(|note| note.message.contains("rounded numbers stay as they are")));
+    assert!(taken.change.unwrap().relative() > 1e-6);
+    let near = with_snap("1.570796326797", false);
+    assert!(
+        near.text.contains("rpy = [\"pi/2\", 0, 0]"),
+        "{}",
+        near.text
+    );
+    assert!(near.change.unwrap().relative() < 1e-6);
+}
+
+/// Every joint has the limit of acceleration that is asked for, and the robot its name.
+#[test]
+fn limits_of_acceleration_and_names_are_options() {
+    let options = Options {
+        acceleration: Some(dalembert_model::number::Rational::from_integer(12.into())),
+        name: Some("other".into()),
+        ..at_the_hand()
+    };
+    let imported = import(ARM, &options).unwrap();
+    assert_eq!(
+        imported.text.matches("acceleration = 12 }").count(),
+        2,
+        "{}",
+        imported.text
+    );
+    assert_eq!(imported.robot.name, "other");
 }

@@ -6,21 +6,10 @@ use dalembert_model::number::Angle;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::read::{Options, parse, parse_bytes};
 use dalembert_model::robot::write;
+use dalembert_model::scalar::field::Points;
 
-/// A small generator with a fixed seed: a failure comes back on every run.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.next() % n.max(1) as u64) as usize
-    }
+fn below(points: &mut Points, n: usize) -> usize {
+    (points.bits() % n.max(1) as u64) as usize
 }
 
 /// Returns a dose for every day; `FUZZ_TIMES` multiplies it.
@@ -119,10 +108,10 @@ fn check(bytes: &[u8]) {
 
 #[test]
 fn arbitrary_bytes() {
-    let mut random = Random(1);
+    let mut random = Points::new(1);
     for _ in 0..dose(4000) {
-        let length = random.below(200);
-        let bytes: Vec<u8> = (0..length).map(|_| random.next() as u8).collect();
+        let length = below(&mut random, 200);
+        let bytes: Vec<u8> = (0..length).map(|_| random.bits() as u8).collect();
         check(&bytes);
         let ascii: Vec<u8> = bytes.iter().map(|b| b & 0x7f).collect();
         check(&ascii);
@@ -134,15 +123,15 @@ fn arbitrary_bytes() {
 #[test]
 fn tables_in_any_order() {
     const PARTS: [&str; 4] = ["a", "b", "joint", "\"\""];
-    let mut random = Random(5);
+    let mut random = Points::new(5);
     for _ in 0..dose(8000) {
         let mut text = String::new();
-        for _ in 0..random.below(9) {
-            let parts: Vec<&str> = (0..=random.below(3))
-                .map(|_| PARTS[random.below(PARTS.len())])
+        for _ in 0..below(&mut random, 9) {
+            let parts: Vec<&str> = (0..=below(&mut random, 3))
+                .map(|_| PARTS[below(&mut random, PARTS.len())])
                 .collect();
             let key = parts.join(".");
-            text += &match random.below(6) {
+            text += &match below(&mut random, 6) {
                 0 | 1 => format!("[{key}]\n"),
                 2 | 3 => format!("[[{key}]]\n"),
                 4 => format!("{key} = 1\n"),
@@ -155,11 +144,11 @@ fn tables_in_any_order() {
 
 #[test]
 fn pieces_of_toml() {
-    let mut random = Random(2);
+    let mut random = Points::new(2);
     for _ in 0..dose(8000) {
-        let count = random.below(30);
+        let count = below(&mut random, 30);
         let text: String = (0..count)
-            .map(|_| PIECES[random.below(PIECES.len())])
+            .map(|_| PIECES[below(&mut random, PIECES.len())])
             .collect();
         check(text.as_bytes());
     }
@@ -174,10 +163,10 @@ fn mutated_robots() {
         seeds.push(std::fs::read(path).expect("a file"));
     }
     seeds.sort();
-    let mut random = Random(3);
+    let mut random = Points::new(3);
     for _ in 0..dose(8000) {
-        let mut bytes = seeds[random.below(seeds.len())].clone();
-        for _ in 0..=random.below(6) {
+        let mut bytes = seeds[below(&mut random, seeds.len())].clone();
+        for _ in 0..=below(&mut random, 6) {
             mutate(&mut bytes, &mut random);
         }
         check(&bytes);
@@ -194,10 +183,10 @@ fn mutated_placements() {
                     tool = { xyz = [0.25, 0, 0], rpy = [0, \"-30deg\", 0] }\n";
         text.replacen("\n[[joint]]", &format!("{ends}\n[[joint]]"), 1)
     });
-    let mut random = Random(5);
+    let mut random = Points::new(5);
     for _ in 0..dose(800) {
-        let mut bytes = seeds[random.below(seeds.len())].clone().into_bytes();
-        for _ in 0..=random.below(3) {
+        let mut bytes = seeds[below(&mut random, seeds.len())].clone().into_bytes();
+        for _ in 0..=below(&mut random, 3) {
             mutate(&mut bytes, &mut random);
         }
         check(&bytes);
@@ -218,27 +207,27 @@ fn mutated_placements() {
     }
 }
 
-fn mutate(bytes: &mut Vec<u8>, random: &mut Random) {
-    let at = random.below(bytes.len());
-    let to = (at + random.below(40)).min(bytes.len());
-    match random.below(6) {
+fn mutate(bytes: &mut Vec<u8>, random: &mut Points) {
+    let at = below(random, bytes.len());
+    let to = (at + below(random, 40)).min(bytes.len());
+    match below(random, 6) {
         0 => drop(bytes.drain(at..to)),
         1 => {
-            let piece = PIECES[random.below(PIECES.len())].bytes();
+            let piece = PIECES[below(random, PIECES.len())].bytes();
             drop(bytes.splice(at..at, piece));
         }
         2 => {
-            let piece = PIECES[random.below(PIECES.len())].bytes();
+            let piece = PIECES[below(random, PIECES.len())].bytes();
             drop(bytes.splice(at..to, piece));
         }
         3 => {
             let copy = bytes[at..to].to_vec();
-            let at = random.below(bytes.len());
+            let at = below(random, bytes.len());
             drop(bytes.splice(at..at, copy));
         }
         4 => {
             if let Some(byte) = bytes.get_mut(at) {
-                *byte = random.next() as u8;
+                *byte = random.bits() as u8;
             }
         }
         // Digits for digits: what is still a robot file.
@@ -249,7 +238,7 @@ fn mutate(bytes: &mut Vec<u8>, random: &mut Random) {
                 .filter(|b| b.is_ascii_digit())
                 .take(3)
             {
-                *byte = b'0' + random.below(10) as u8;
+                *byte = b'0' + below(random, 10) as u8;
             }
         }
     }
@@ -258,11 +247,11 @@ fn mutate(bytes: &mut Vec<u8>, random: &mut Random) {
 #[test]
 fn numbers_and_angles() {
     const LETTERS: &[u8] = b"0123456789.+-_eEpi*/deg nxab ";
-    let mut random = Random(4);
+    let mut random = Points::new(4);
     for _ in 0..dose(20_000) {
-        let length = random.below(12);
+        let length = below(&mut random, 12);
         let text: String = (0..length)
-            .map(|_| LETTERS[random.below(LETTERS.len())] as char)
+            .map(|_| LETTERS[below(&mut random, LETTERS.len())] as char)
             .collect();
         let value = parse_decimal(&text);
         if let (Ok(value), false) = (&value, text.contains('_')) {

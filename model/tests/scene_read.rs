@@ -287,6 +287,23 @@ fn a_limit_of_zero() {
     assert_eq!(errors.0.len(), 1, "{errors}");
 }
 
+/// A limit is shown at its own row, also behind a row that follows another.
+#[test]
+fn a_limit_of_zero_behind_a_follower() {
+    const BOOM: &str = "[[joint]]\nname = \"boom\"";
+    let elbow = "[[joint]]\nname = \"elbow\"\nkind = \"revolute\"\nmass = 0\n\
+                 mimic = { joint = 1 }\nlimits = { torque = 7 }\n";
+    let robot = ROBOT.replace(BOOM, &format!("{elbow}{BOOM}"));
+    let robot = robot.replace("torque = 80", "torque = 0");
+    let scene = "[scene.a]\ntolerance = { value = 1e-3, relative_to = \"actuator\" }\n";
+    let errors = parse(&format!("{robot}{scene}"), &Options::default()).unwrap_err();
+    let line = 1 + robot
+        .lines()
+        .position(|l| l.contains("torque = 0"))
+        .unwrap();
+    assert_eq!((errors.0.len(), errors.0[0].line), (1, line), "{errors}");
+}
+
 /// A box may be larger than the limits, on purpose: a warning, and the scene as
 /// it stands.
 #[test]

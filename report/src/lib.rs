@@ -7,7 +7,6 @@
 //! - [`drawing`]: the arm in two views, as SVG
 //! - [`states`]: given states compared with the code
 //! - [`table3`]: the paper's counts beside the formulas'
-//! - [`trace`]: what a number of the robot file reaches in generated code
 //! - [`sweep`]: certified error against operations, tolerance by tolerance
 #![forbid(unsafe_code)]
 #![warn(missing_docs, clippy::missing_errors_doc)]
@@ -19,4 +18,3 @@ pub mod states;
 pub mod stress;
 pub mod sweep;
 pub mod table3;
-pub mod trace;

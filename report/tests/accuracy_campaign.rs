@@ -12,12 +12,11 @@ use crate::support::draw::robots;
 use dalembert_codegen::workspace::function::{Function, Quantity};
 use dalembert_codegen::workspace::generate::{GenerateError, generate};
 use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::states::{SEED, seeded};
 use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::floating::{BOUND, Emitted, Granted, Runtime};
-use dalembert_model::number::Wide;
-use dalembert_model::scalar::Scalar;
-use dalembert_report::stress::truth::Truth;
+use dalembert_codegen::workspace::verify::reference::{Reference, TrueValue};
 
 /// States a robot.
 const STATES: usize = 30;
@@ -40,7 +39,8 @@ fn campaign(count: usize, each: usize, longest: usize) -> Worst {
         if n > longest {
             continue;
         }
-        let (truth, runtime) = (Truth::new(&robot), Runtime::new(&robot));
+        let truth = Reference::new(&SceneRobot::whole(&robot));
+        let runtime = Runtime::new(&robot);
         for _ in 0..each {
             let function = outputs[next % outputs.len()];
             next += 1;
@@ -59,7 +59,8 @@ fn campaign(count: usize, each: usize, longest: usize) -> Worst {
                 let states = states.into_iter().map(|state| state.in_scalar(scalar));
                 let cases = states.map(|state| Case {
                     found: emitted.run(&state),
-                    truth: exactly(emitted, truth.run(function, &state)),
+                    truth: truth.run(function, &state),
+                    vanishing: emitted.vanishing().collect(),
                     granted: runtime.granted(function, &state),
                 });
                 for (quantity, error) in errors(emitted, &cases.collect::<Vec<_>>()) {
@@ -80,17 +81,10 @@ fn campaign(count: usize, each: usize, longest: usize) -> Worst {
 /// What was computed at a state, what is true, and the condition that excuses it.
 struct Case {
     found: Vec<f64>,
-    truth: Vec<Wide>,
+    truth: Vec<TrueValue>,
+    /// `true` of what was proved to vanish: it does so, and not within 76 digits only.
+    vanishing: Vec<bool>,
     granted: Granted,
-}
-
-/// Returns the truth at a finite state. What was proved to vanish does so, and not within
-/// 76 digits only.
-fn exactly(emitted: &Emitted, truth: Option<Vec<Wide>>) -> Vec<Wide> {
-    let truth = truth.expect("a finite state").into_iter();
-    let entries = truth.zip(emitted.vanishing());
-    let exact = entries.map(|(value, vanishes)| if vanishes { Wide::zero() } else { value });
-    exact.collect()
 }
 
 /// Returns the worst error of each quantity, in units of u.
@@ -101,19 +95,17 @@ fn errors(emitted: &Emitted, cases: &[Case]) -> Vec<(Quantity, f64)> {
         let range = start..start + quantity.len(emitted.sizes);
         start = range.end;
         let size = |case: &Case| {
-            let entries = case.truth[range.clone()].iter();
-            entries.map(|x| x.magnitude()).fold(0.0, f64::max)
+            let entries = range.clone().filter(|&index| !case.vanishing[index]);
+            let sizes = entries.map(|index| case.truth[index].magnitude());
+            sizes.fold(0.0, f64::max)
         };
         let least = LEAST_PART * cases.iter().map(size).fold(0.0, f64::max);
         let error = |case: &Case| {
-            let pairs = case.found[range.clone()]
-                .iter()
-                .zip(&case.truth[range.clone()]);
-            let off = |(found, truth): (&f64, &Wide)| match Wide::from_f64(*found) {
-                Some(found) => found.sub(truth).magnitude(),
-                None => f64::INFINITY,
+            let off = |index: usize| match case.vanishing[index] {
+                true => case.found[index].abs(),
+                false => case.truth[index].error(case.found[index]),
             };
-            match pairs.map(off).fold(0.0, f64::max) {
+            match range.clone().map(off).fold(0.0, f64::max) {
                 0.0 => 0.0,
                 off => off / (size(case).max(least) * case.granted.to(quantity)),
             }

@@ -7,20 +7,20 @@ use std::ops::Range;
 
 use crate::extremes_support;
 use crate::extremes_support::Extreme;
+use crate::extremes_support::rounding::rounded;
 use dalembert_codegen::workspace::function::{Function, Quantity, Sizes};
 use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::verify::reference::{Reference, TrueValue};
 use dalembert_model::equations::Formulation;
-use dalembert_model::number::Wide;
 use dalembert_model::robot::Robot;
 use dalembert_report::stress::category::{Criterion, NORMWISE};
 use dalembert_report::stress::deviation::{Deviation, Measure};
-use dalembert_report::stress::rounding::rounded;
 use dalembert_report::stress::scale;
 use dalembert_report::stress::subject::{Code, Subject};
-use dalembert_report::stress::truth::Truth;
 
 fn criterion(category: &str) -> Criterion {
     let starts = |prefixes: &[&str]| prefixes.iter().any(|p| category.starts_with(p));
@@ -41,10 +41,10 @@ fn criterion(category: &str) -> Criterion {
 /// The worst errors by category, code and quantity.
 type Table = BTreeMap<(String, Subject, Quantity), Deviation>;
 /// The programs of a robot: they do not depend on the state.
-struct Robots(Vec<(Robot, ScalarType, Truth, [Code; 2])>);
+struct Robots(Vec<(Robot, ScalarType, Reference, [Code; 2])>);
 
 impl Robots {
-    fn get(&mut self, robot: &Robot, scalar: ScalarType, first: bool) -> (&Truth, &[Code; 2]) {
+    fn get(&mut self, robot: &Robot, scalar: ScalarType, first: bool) -> (&Reference, &[Code; 2]) {
         let at = self
             .0
             .iter()
@@ -62,8 +62,12 @@ impl Robots {
             }
             let emitted = Code::Emitted(emitted);
             let codes = [Code::runtime(robot, scalar), emitted];
-            self.0
-                .push((robot.clone(), scalar, Truth::new(robot), codes));
+            self.0.push((
+                robot.clone(),
+                scalar,
+                Reference::new(&SceneRobot::whole(robot)),
+                codes,
+            ));
             self.0.len() - 1
         });
         let (_, _, truth, codes) = &self.0[at];
@@ -140,7 +144,7 @@ fn categories_meet_their_criteria(scalar: ScalarType, range: Range<usize>) {
         let measure = Measure::new(&robot, scalar, scale::torques(&robot, &states));
         let (truth, codes) = robots.get(&robot, scalar, is_first(case));
         for &function in functions(&robot, scalar) {
-            let expected = truth.run(function, &state).expect("a finite state");
+            let expected = truth.run(function, &state);
             for (subject, code) in Subject::ALL.into_iter().zip(codes) {
                 let found = code.run(function, &state).unwrap();
                 let mut start = 0;
@@ -191,9 +195,9 @@ fn overflows(case: &Extreme, scalar: ScalarType) -> bool {
 }
 
 /// Returns whether no result looks like a number where the truth is beyond the range.
-fn never_silent(found: &[f64], truth: &[Wide]) -> bool {
+fn never_silent(found: &[f64], truth: &[TrueValue]) -> bool {
     let largest = f64::from(f32::MAX);
-    let beyond = |truth: &Wide| truth.magnitude() > largest;
+    let beyond = |truth: &TrueValue| truth.magnitude() > largest;
     !truth.iter().any(beyond) || found.iter().any(|x| !x.is_finite())
 }
 

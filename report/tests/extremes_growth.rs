@@ -1,15 +1,16 @@
 //! Longer chains: linear inverse dynamics, code in parts, refusals.
 
+use crate::extremes_support::chain::chain;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::{GenerateError, generate};
 use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::states::seeded;
 use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::verify::reference::Reference;
 use dalembert_codegen::workspace::words::parse;
 use dalembert_report::stress::deviation::Measure;
-use dalembert_report::stress::growth::{chain, measure};
 use dalembert_report::stress::subject::Code;
-use dalembert_report::stress::truth::Truth;
 
 fn request(function: Function, start: &str) -> Request {
     Request {
@@ -23,9 +24,19 @@ fn request(function: Function, start: &str) -> Request {
 fn inverse_dynamics_grows_linearly() {
     let recursion = request(Function::InverseDynamics, "newton_euler");
     let operations = |n: usize| {
-        let growth = measure(n, &recursion).unwrap();
-        assert!(growth.error <= 100.0, "{n} joints: {} u", growth.error);
-        (growth.counts.mul + growth.counts.add) as f64
+        let robot = chain(n, n as u64);
+        let mut generated = generate(&robot, &recursion).unwrap();
+        let counts = generated.functions.remove(0).counts();
+        let code = Code::Emitted(generated.emitted);
+        let reference = Reference::new(&SceneRobot::whole(&robot));
+        let measure = Measure::new(&robot, ScalarType::F64, Vec::new());
+        for state in seeded(&robot, 20, 1) {
+            let found = code.run(Function::InverseDynamics, &state).unwrap();
+            let truth = reference.run(Function::InverseDynamics, &state);
+            let error = measure.of(&found, &truth).normwise;
+            assert!(error <= 100.0, "{n} joints: {error} u");
+        }
+        counts.operations() as f64
     };
     let [short, middle, long] = [12, 24, 48].map(operations);
     // Twice the joints, twice the increase.
@@ -44,10 +55,10 @@ fn long_functions_come_in_parts_and_are_right() {
     assert!(lines(&generated.text) >= 6);
     let code = Code::Emitted(generated.emitted);
     let measure = Measure::new(&robot, ScalarType::F64, Vec::new());
-    let truth = Truth::new(&robot);
+    let reference = Reference::new(&SceneRobot::whole(&robot));
     for state in seeded(&robot, 3, 8) {
         let found = code.run(function, &state).unwrap();
-        let expected = truth.run(function, &state).unwrap();
+        let expected = reference.run(function, &state);
         let n = robot.joints.len();
         for range in [0..n * n, n * n..n * n + n, n * n + n..n * n + 2 * n] {
             let error = measure.of(&found[range.clone()], &expected[range]);

@@ -1,11 +1,10 @@
-//! The matrix and the sweeps on whole robots.
+//! The matrix on whole robots.
 
 use dalembert_model::read;
 use dalembert_model::robot::Robot;
 use dalembert_report::stress::category::NORMWISE;
 use dalembert_report::stress::report::{Options, Verdict, run};
 use dalembert_report::stress::singular;
-use dalembert_report::stress::sweep;
 
 fn robot(name: &str) -> Robot {
     let folder = env!("CARGO_MANIFEST_DIR");
@@ -119,16 +118,4 @@ fn what_never_has_an_inverse_is_refused() {
     let refused = divided.refused.map(|error| error.to_string());
     assert!(divided.rows.is_empty());
     assert!(refused.is_some_and(|said| said.contains("D is singular in every state")));
-}
-
-#[test]
-fn curves_are_flat() {
-    let curves = sweep::run(&robot("planar2r"), &few()).unwrap();
-    assert_eq!(curves.len(), 12);
-    for curve in curves {
-        assert!(curve.points.len() > 3);
-        for (value, error) in &curve.points {
-            assert!(*error <= 100.0, "{:?} {value}: {error} u", curve.axis);
-        }
-    }
 }

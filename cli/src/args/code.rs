@@ -14,8 +14,8 @@ use super::{Choice, MORE};
 pub struct GenerateArgs {
     /// The robot file
     pub robot: PathBuf,
-    /// Write the code to this file [default: standard output]; a link is
-    /// followed, a device or pipe written into
+    /// Write the code to this file [default: standard output, `-`]; its ending chooses the
+    /// language (.rs, .h, .cuh). A link is followed, a device or pipe written into
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Write nothing: compare with FILE and exit with 1 if it differs
@@ -88,10 +88,6 @@ pub struct ExplainArgs {
     /// List every coefficient: D_ik, h_ikm, c_i, and which vanish or repeat another
     #[arg(long, conflicts_with = "scene")]
     pub coefficients: bool,
-    /// Show instead which constants, lines and results this number of the robot file reaches,
-    /// such as joint3.mass, elbow.com.x or gravity.z
-    #[arg(long, value_name = "NUMBER", conflicts_with_all = ["coefficients", "states"])]
-    pub trace: Option<String>,
     /// Show also what the search finds without each of these sources of ways
     #[arg(long, hide = true, value_name = "SOURCES", value_delimiter = ',', value_parser = word_parser::<WaySource>())]
     pub without: Vec<WaySource>,

@@ -30,14 +30,10 @@ pub struct VerifyArgs {
 #[derive(Debug, clap::Args)]
 pub struct StressArgs {
     /// The robot file
-    #[arg(required_unless_present = "growth")]
-    pub robot: Option<PathBuf>,
+    pub robot: PathBuf,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
-    /// Write charts (SVG) to this folder
-    #[arg(short, long, value_name = "DIR")]
-    pub output: Option<PathBuf>,
     /// States of each category
     #[arg(
         long,
@@ -47,9 +43,6 @@ pub struct StressArgs {
         default_value_t = 50
     )]
     pub states: usize,
-    /// Measure chains of 1 to 60 joints instead of a robot
-    #[arg(long, conflicts_with = "robot")]
-    pub growth: bool,
 }
 
 /// Arguments of `certify`.

@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use dalembert_import::Options;
+use dalembert_model::number::Rational;
 
-use super::values::lock_parser;
+use super::values::{acceleration_parser, lock_parser, name_parser};
 
 /// Arguments of `new`.
 #[derive(Debug, clap::Args)]
@@ -48,13 +49,35 @@ pub struct ChainArgs {
     /// Take every digit as it stands
     #[arg(long)]
     pub exact: bool,
+    /// Take rounded numbers for the exact ones that they were probably meant to be, even where that
+    /// changes a torque by more than 1e-6 of its limit
+    #[arg(long, conflicts_with = "exact")]
+    pub snap: bool,
+    /// Leave out tendons, loops and equalities, which no chain of joints can have
+    #[arg(long)]
+    pub ignore_ties: bool,
+    /// The limit of acceleration of every joint, rad/s² or m/s², which models do not have
+    /// [default: 10]
+    #[arg(long, value_name = "A", value_parser = acceleration_parser(), allow_hyphen_values = true)]
+    pub acceleration: Option<Rational>,
+    /// The name of the robot [default: the model's]
+    #[arg(long, value_name = "NAME", value_parser = name_parser())]
+    pub name: Option<String>,
 }
+
+/// The limit of acceleration that is taken where none is given, rad/s² or m/s².
+const ACCELERATION: i64 = 10;
 
 impl ChainArgs {
     /// Returns whether one of them is given.
     pub fn is_given(&self) -> bool {
-        let names = self.base.is_some() || self.tip.is_some() || self.exact;
-        names || self.lock_others.is_some() || !self.lock.is_empty() || !self.without.is_empty()
+        let names = self.base.is_some() || self.tip.is_some() || self.name.is_some();
+        let flags = self.exact || self.snap || self.ignore_ties || self.acceleration.is_some();
+        names
+            || flags
+            || self.lock_others.is_some()
+            || !self.lock.is_empty()
+            || !self.without.is_empty()
     }
 
     /// Returns the options for a URDF with this path.
@@ -67,13 +90,30 @@ impl ChainArgs {
             lock: self.lock.iter().cloned().chain(others).collect(),
             without: self.without.clone(),
             exact: self.exact,
+            snap: self.snap,
+            ignore_ties: self.ignore_ties,
+            acceleration: Some(
+                self.acceleration
+                    .clone()
+                    .unwrap_or_else(|| Rational::from_integer(ACCELERATION.into())),
+            ),
             file: urdf
                 .file_name()
                 .unwrap_or_default()
                 .to_string_lossy()
                 .into_owned(),
-            name: None,
+            name: self.name.clone(),
         }
+    }
+
+    /// Returns the sentence that says which limit of acceleration was taken unasked.
+    pub fn assumed(&self) -> Option<String> {
+        self.acceleration.is_none().then(|| {
+            format!(
+                "every joint's limit of acceleration is taken to be {ACCELERATION} rad/s² or m/s², since \
+                 models have none: --acceleration gives another"
+            )
+        })
     }
 }
 
@@ -81,7 +121,8 @@ impl ChainArgs {
 ///
 /// Links that are fixed to each other become one. Rounded numbers are replaced by the
 /// exact ones that were probably meant, 1.57079632679 by pi/2 for example; each is listed
-/// with its line, and the change of the torques is bounded. --exact keeps them.
+/// with its line, and the change of the torques is bounded. --exact keeps them; --snap takes those, too,
+/// that change a torque by more than 1e-6 of its limit.
 #[derive(Debug, clap::Args)]
 pub struct ImportArgs {
     /// The URDF, the MJCF of MuJoCo, or a xacro, for which the program `xacro` is run

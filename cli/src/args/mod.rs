@@ -16,6 +16,7 @@ mod options;
 mod values;
 
 use clap::{Parser, Subcommand};
+use clap_complete::Shell;
 
 pub use choice::Choice;
 pub use code::{CountArgs, ExplainArgs, GenerateArgs};
@@ -40,6 +41,9 @@ pub struct Args {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
+    /// Take warnings of robot files and models for errors: nothing is written, and the exit code is 1
+    #[arg(long, global = true)]
+    pub deny_warnings: bool,
 }
 
 /// What to do.
@@ -65,4 +69,9 @@ pub enum Command {
     Tradeoff(TradeoffArgs),
     /// Measure rounding errors in extreme cases: huge angles and speeds, odd masses
     Stress(StressArgs),
+    /// Print what a shell completes: dalembert completions bash > ~/.local/share/bash-completion/completions/dalembert
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
 }

@@ -1,6 +1,7 @@
 //! The options of one word, as arguments: from the table that macro and build script share.
 
 use clap::builder::PossibleValuesParser;
+use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Args, Command, Error, FromArgMatches};
 use dalembert_codegen::workspace::task::{Purpose, Request, WordOption};
 
@@ -17,6 +18,11 @@ impl<const OF_TEXT: bool> Options<OF_TEXT> {
             // Clap has taken no other words.
             let _ = (option.set)(request, word);
         }
+    }
+
+    /// Returns whether the option of this word is on the command line.
+    pub fn is_given(&self, word: &str) -> bool {
+        self.0.iter().any(|(option, _)| option.word == word)
     }
 
     fn table() -> impl Iterator<Item = &'static WordOption> {
@@ -38,7 +44,9 @@ impl<const OF_TEXT: bool> FromArgMatches for Options<OF_TEXT> {
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
         for option in Self::table() {
-            let word = matches.get_one::<String>(option.word);
+            // Defaults are those of a request.
+            let is_given = matches.value_source(option.word) == Some(ValueSource::CommandLine);
+            let word = matches.get_one::<String>(option.word).filter(|_| is_given);
             self.0.extend(word.map(|word| (option, word.clone())));
         }
         Ok(())

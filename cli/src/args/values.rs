@@ -9,6 +9,10 @@ use std::ffi::OsStr;
 use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser};
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::words::{Word, bundle, parse};
+use dalembert_model::number::Rational;
+use dalembert_model::number::parse::parse_decimal;
+use dalembert_model::robot::suggested_name;
+use num_traits::Signed;
 
 pub(super) fn lock_parser() -> impl TypedValueParser<Value = (String, String)> {
     StringValueParser::new().try_map(|text| match text.rsplit_once('=') {
@@ -19,8 +23,28 @@ pub(super) fn lock_parser() -> impl TypedValueParser<Value = (String, String)> {
     })
 }
 
-/// An output by its name, of which clap lists all and suggests one, or one at a frame or a
-/// bundle of some, which none of its lists can have.
+pub(super) fn acceleration_parser() -> impl TypedValueParser<Value = Rational> {
+    StringValueParser::new().try_map(|text| {
+        let number = parse_decimal(text.trim()).ok();
+        number
+            .filter(Signed::is_positive)
+            .ok_or("a limit of acceleration is a number above zero, such as 10")
+    })
+}
+
+/// Returns the name of a robot, as robot files have it.
+pub(super) fn name_parser() -> impl TypedValueParser<Value = String> {
+    StringValueParser::new().try_map(|text| match suggested_name(&text) {
+        Some(good) if good == text => Ok(text),
+        Some(good) => Err(format!(
+            "a name has lower-case letters, digits and `_`: write {good}"
+        )),
+        None => Err("a name has lower-case letters, digits and `_`, a letter first".to_owned()),
+    })
+}
+
+/// An output by its name, at a frame, or a bundle of some; names of other tools, such as `rnea`,
+/// are refused with ours.
 #[derive(Clone)]
 pub(super) struct FunctionParser;
 
@@ -33,13 +57,7 @@ impl TypedValueParser for FunctionParser {
         argument: Option<&clap::Arg>,
         value: &OsStr,
     ) -> Result<Function, clap::Error> {
-        let is_bundle = value.to_string_lossy().contains(['=', '+', '@', ':']);
-        if is_bundle {
-            let bundles = StringValueParser::new().try_map(|text| bundle(&text));
-            return bundles.parse_ref(command, argument, value);
-        }
-        let names = PossibleValuesParser::new(Function::ALL.map(Function::name));
-        let functions = names.try_map(|name| Function::parse(&name));
+        let functions = StringValueParser::new().try_map(|text| bundle(&text));
         functions.parse_ref(command, argument, value)
     }
 

@@ -107,7 +107,7 @@ pub fn write(
         let cells = [0, 1, 2].map(range).join(" | ");
         text += &format!("| {}{name} | {cells} |\n", joint + 1);
     }
-    text += "\n## Functions\n\nBounds hold over the whole box and are relative to the largest entry seen of a kind; \
+    text += "\n## Functions\n\nBounds hold over the whole box and are relative to the entry's largest value; \
              u is half an ulp of that. Operations and calls are counted in the text.\n\n\
              | function | mul | add | div | fused | calls | branches | in real numbers | rounding | both |\n\
              |---|---|---|---|---|---|---|---|---|---|\n";

@@ -8,7 +8,7 @@ use super::dossier;
 use crate::args::CertifyArgs;
 use crate::files::write;
 use crate::outcome::{Failure, Outcome};
-use crate::output;
+use crate::{input, output};
 
 /// Checks every function of a file and prints what was found.
 pub fn run(args: &CertifyArgs, source: &str, robot: &str) -> Outcome {
@@ -44,9 +44,29 @@ pub fn run(args: &CertifyArgs, source: &str, robot: &str) -> Outcome {
     match report.is_shown() {
         true => Ok(()),
         false => Err(Failure::Check(format!(
-            "error: not every function of {name} is shown to be the robot's"
+            "error: not every function of {name} is shown to be the robot's{}",
+            other_robot(args, source)?.unwrap_or_default()
         ))),
     }
+}
+
+/// Returns a note if the first line of a file names another robot file than the one that is given.
+fn other_robot(args: &CertifyArgs, source: &str) -> Result<Option<String>, Failure> {
+    let robot = input::robot(&args.robot)?;
+    let head = source.lines().next().unwrap_or("");
+    let named = head.split_once(" for `").and_then(|(_, rest)| {
+        let (name, rest) = rest.split_once('`')?;
+        let hash = rest.strip_prefix(", input ")?.split('.').next()?;
+        Some((name, hash))
+    });
+    let other = named.filter(|(_, hash)| *hash != robot.short_hash());
+    Ok(other.map(|(name, hash)| {
+        format!(
+            "\n  = note: the file is of `{name}`, input {hash}; the robot is `{}`, input {}",
+            robot.name,
+            robot.short_hash()
+        )
+    }))
 }
 
 fn of_line(line: &Line) -> Value {
@@ -69,7 +89,8 @@ fn of_line(line: &Line) -> Value {
 fn words(report: &Report) -> String {
     let mut text =
         "How far each function can be from the dynamics over the box of the robot file,\n\
-         relative to the largest entry seen of its kind; u is half an ulp of that.\n"
+         each entry relative to its own largest value, of a matrix to its row's or its column's;\n\
+         u is half an ulp of that.\n"
             .to_owned();
     if report.is_unlimited {
         text += &format!("Where the file has no limit, rates go up to {RATE} in SI units.\n");
@@ -94,10 +115,11 @@ fn words(report: &Report) -> String {
                 found.rounding,
                 found.units(),
                 found.seen / found.unit,
-                if found.is_shown() {
-                    "shown"
-                } else {
-                    "not shown"
+                match (found.is_shown(), found.has_polynomials) {
+                    (true, _) => "shown",
+                    (false, false) => "not shown",
+                    (false, true) =>
+                        "not shown: sines by polynomials err by more than rounding, which takes a scene with a tolerance",
                 },
             ),
             Err(fault) => format!("  {name:<22} not shown: {fault}\n"),

@@ -3,11 +3,9 @@
 //! - this file: what is measured and counted
 //! - [`text`]: the table and the reasons for readers
 //! - [`json`]: the same for programs
-//! - [`trace`]: what a number of the robot file reaches
 
 mod json;
 mod text;
-mod trace;
 
 use dalembert_codegen::workspace::function::{Function, Quantity};
 use dalembert_codegen::workspace::generate::GenerateError;
@@ -41,9 +39,6 @@ pub fn run(args: &ExplainArgs) -> Outcome {
         let scene = input::scene(&args.robot, &reading, name)?;
         let outputs = (!args.outputs.is_empty()).then(|| args.outputs.clone());
         request = request.choose(outputs, None, Some(scene));
-    }
-    if let Some(name) = &args.trace {
-        return trace::run(args, &reading.robot, request, name);
     }
     let session = progress::watch(&mut request);
     let robot = &reading.robot;

@@ -5,7 +5,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use super::distinct::distinct;
-use super::target::Target;
+use super::target::{STANDARD, Target};
 use super::unfinished::Unfinished;
 use super::write::write;
 use super::{parent, unwritable};
@@ -22,6 +22,12 @@ impl Folder {
     /// # Errors
     /// It is something else, or cannot be written in.
     pub fn at(path: &Path, files: &[&str], input: Option<&Path>) -> Result<Folder, Failure> {
+        if path == Path::new(STANDARD) {
+            return Err(unwritable(
+                path,
+                "it is standard output, and a folder is needed",
+            ));
+        }
         let mut there = path;
         // The one that is there already.
         loop {

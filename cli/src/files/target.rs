@@ -30,6 +30,9 @@ pub(super) enum Destination {
 /// Where a process finds what it has open.
 const OPEN: [&str; 4] = ["/dev/stdout", "/dev/stderr", "/dev/fd", "/proc/self/fd"];
 
+/// The path that stands for standard output.
+pub(super) const STANDARD: &str = "-";
+
 /// As much of a file as says who wrote it.
 const HEAD: u64 = 4096;
 
@@ -42,11 +45,47 @@ impl Target {
         }
     }
 
-    /// Finds out where a path leads.
+    /// Returns the target of `-o`: standard output without one, which the report cannot have too.
     ///
     /// # Errors
-    /// To a folder, or nowhere.
+    /// The path is a folder or leads nowhere, or both would go to standard output.
+    pub fn output(path: Option<&Path>, is_reported: bool) -> Result<Target, Failure> {
+        let target = path.map_or_else(|| Ok(Target::standard()), Target::at)?;
+        if path.is_some() && is_reported && target.place == Destination::Standard {
+            return Err(Failure::Input(
+                "error: the report goes to standard output, and `-o -` sends there what is written\n  \
+                 = help: give -o the name of a file"
+                    .into(),
+            ));
+        }
+        Ok(target)
+    }
+
+    /// Refuses a name that ends as files of another format do.
+    ///
+    /// # Errors
+    /// The name has an ending, and it is another.
+    pub fn ends_in(&self, ending: &str) -> Outcome {
+        let found = self.file().and(self.name.extension());
+        match found.filter(|found| !found.eq_ignore_ascii_case(ending)) {
+            None => Ok(()),
+            Some(_) => Err(Failure::Input(format!(
+                "error: `{}` would hold a .{ending} file\n  \
+                 = help: name it `{}`; `-o -` writes to standard output",
+                self.name.display(),
+                self.name.with_extension(ending).display()
+            ))),
+        }
+    }
+
+    /// Finds out where a path leads; `-` is standard output.
+    ///
+    /// # Errors
+    /// The path is a folder, or leads nowhere.
     pub fn at(path: &Path) -> Result<Target, Failure> {
+        if path == Path::new(STANDARD) {
+            return Ok(Target::standard());
+        }
         let place = place(path).map_err(|error| unwritable(path, said(path, &error)))?;
         let name = path.to_owned();
         Ok(Target { name, place })

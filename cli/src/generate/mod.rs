@@ -12,11 +12,12 @@ pub mod report;
 use dalembert_codegen::workspace::certificate::format;
 use dalembert_codegen::workspace::generate::Generated;
 use dalembert_codegen::workspace::generate::keep::keep;
+use dalembert_codegen::workspace::language::Language;
 use dalembert_codegen::workspace::simplify::Effort;
 use dalembert_report::explain::errors::{MAX_STATES, affordable_states};
 
 use crate::args::GenerateArgs;
-use crate::outcome::Outcome;
+use crate::outcome::{Failure, Outcome};
 use crate::{input, output, progress};
 use files::Files;
 
@@ -26,6 +27,7 @@ pub fn run(args: &GenerateArgs) -> Outcome {
     args.text.set(&mut request);
     // Before the work: what cannot be written is no news after it.
     let files = Files::of(args, &request)?;
+    request.language = language(args, request.language)?;
     let kept = request.plan.take_if(|_| args.save_plan);
     // A comparison with what a whole search gives needs a whole search.
     let session = (!args.check).then(|| progress::watch(&mut request));
@@ -61,6 +63,51 @@ pub fn run(args: &GenerateArgs) -> Outcome {
     match args.check {
         true => files.compare(&generated.text, certificates.as_deref()),
         false => files.write(&generated.text, certificates.as_deref(), plan.as_deref()),
+    }
+}
+
+/// The endings of the languages' files; the first of each is advised.
+const ENDINGS: [(&str, Language); 6] = [
+    ("rs", Language::Rust),
+    ("h", Language::C),
+    ("hpp", Language::C),
+    ("hh", Language::C),
+    ("cuh", Language::Cuda),
+    ("cu", Language::Cuda),
+];
+
+/// Returns the language of the code: that of the ending of `-o`, unless `--language` is given.
+///
+/// # Errors
+/// The ending is that of another language, or of none while `--language` is not given.
+fn language(args: &GenerateArgs, asked: Language) -> Result<Language, Failure> {
+    let is_asked = args.text.is_given("language");
+    let Some((path, ending)) =
+        (args.output.as_ref()).and_then(|path| Some((path, path.extension()?)))
+    else {
+        return Ok(asked);
+    };
+    let known = ENDINGS
+        .iter()
+        .find(|(known, _)| ending.eq_ignore_ascii_case(known));
+    match known {
+        Some((_, language)) if !is_asked || *language == asked => Ok(*language),
+        None if is_asked => Ok(asked),
+        _ => {
+            let endings =
+                ENDINGS.map(|(ending, language)| format!(".{ending} ({})", language.name()));
+            Err(Failure::Input(format!(
+                "error: `{}` does not end as a file of {} does\n  = help: the language follows from \
+                 the ending: {}",
+                path.display(),
+                if is_asked {
+                    asked.name()
+                } else {
+                    "any language"
+                },
+                endings.join(", ")
+            )))
+        }
     }
 }
 

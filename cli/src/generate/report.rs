@@ -9,6 +9,7 @@ use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::{Generated, GeneratedFunction};
 use dalembert_codegen::workspace::program::{Counts, Library};
 use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::verify::exact::Proof;
 use dalembert_codegen::workspace::verify::reference::Reference;
 use dalembert_model::robot::Robot;
 use dalembert_report::explain::errors::{Errors, of_program};
@@ -249,10 +250,7 @@ pub fn counts(generated: &Generated, whole: bool) -> String {
                 true => format!("{}, plan", function.source.name()),
                 false => function.source.name().to_owned(),
             },
-            match function.proof.miss() {
-                Some(exponent) => format!("proved, p(wrong) < 1e{exponent}"),
-                None => "proved".to_owned(),
-            },
+            format!("proved, p(wrong) < 1e{}", Proof::FAILURE_EXPONENT),
         ]);
         rows.push(row);
     }

@@ -71,26 +71,24 @@ pub fn run(args: &NewArgs) -> Outcome {
     Ok(())
 }
 
-/// The crate's name is the folder's.
+/// Returns the crate's name, which is the folder's; hyphens may be in it.
 fn crate_name(folder: &Path) -> Result<String, Failure> {
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
-    match suggested_name(&name) {
-        Some(good) if good == name && texts::DEPENDENCIES.contains(&good.as_str()) => {
-            Err(Failure::Input(format!(
-                "error: a crate `{name}` cannot depend on the crate `{name}`, and a new one does\n  \
-                 = help: write \"my_{name}\""
-            )))
+    let refused = |help: String| {
+        Err(Failure::Input(format!(
+            "error: {name:?} cannot name a crate\n  = help: {help}"
+        )))
+    };
+    let plain = name.replace('-', "_");
+    match suggested_name(&plain) {
+        Some(good) if good != plain => refused(format!("write {good:?}")),
+        None => {
+            refused("lower-case letters, digits, hyphens and underscores, a letter first".into())
         }
-        Some(good) if good == name => Ok(good),
-        suggested => {
-            let help = suggested.map_or_else(
-                || "lower-case letters, digits and underscores, a letter first".to_owned(),
-                |good| format!("write {good:?}"),
-            );
-            Err(Failure::Input(format!(
-                "error: {name:?} cannot name a crate\n  = help: {help}"
-            )))
-        }
+        Some(good) if texts::DEPENDENCIES.contains(&good.as_str()) => refused(format!(
+            "the new crate depends on the crate `{good}`: write \"my_{good}\""
+        )),
+        Some(_) => Ok(name.into_owned()),
     }
 }
 
@@ -116,6 +114,8 @@ fn robot_file(from: &Path, chain: &ChainArgs) -> Result<String, Failure> {
     match import_text(&text, &chain.options(from)) {
         Ok(imported) => {
             output::note(&text.render(&imported.notes));
+            chain.assumed().iter().for_each(|said| output::note(said));
+            output::undenied()?;
             Ok(imported.text)
         }
         Err(errors) => Err(Failure::Input(text.render(&errors.0))),
@@ -126,7 +126,7 @@ fn robot_file(from: &Path, chain: &ChainArgs) -> Result<String, Failure> {
 fn no_urdf(robot: &str) -> Failure {
     Failure::Input(format!(
         "error: {robot} has one chain, and every option for a URDF says which\n  = help: leave \
-         --base, --tip, --lock, --without and --exact out, or give a URDF by --from"
+         --base, --tip, --name and the others of `import` out, or give a URDF by --from"
     ))
 }
 

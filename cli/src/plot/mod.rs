@@ -2,8 +2,6 @@
 //!
 //! - [`axis`]: where values are, and which of them are named
 //! - [`picture`]: paper, axes, curves, marks and legend
-//! - [`curves`]: a chart of named curves
 
 pub mod axis;
-pub mod curves;
 pub mod picture;

@@ -107,13 +107,6 @@ impl Picture {
         self.svg.polyline(&attributes, points);
     }
 
-    /// Draws a level, from side to side.
-    pub fn level(&mut self, y: f64) {
-        let right = WIDTH - RIGHT;
-        self.svg
-            .element(&format!("<path class=\"b\" d=\"M{LEFT} {y:.1}H{right}\"/>"));
-    }
-
     /// Draws a line from a mark to where its end is marked, not shorter than a mark: that could
     /// not be seen.
     pub fn whisker(&mut self, class: &str, [x, y]: [f64; 2], end: f64) {
@@ -145,14 +138,6 @@ impl Picture {
         let left = WIDTH - RIGHT + 14.0;
         self.text([left + 36.0, at + 4.0], "start", name);
         [[left, at], [left + 28.0, at]]
-    }
-
-    /// Draws a level in the legend.
-    pub fn legend_of_level(&mut self, name: &str) {
-        let [[from, y], [to, _]] = self.legend(name);
-        self.svg.element(&format!(
-            "<path class=\"b\" d=\"M{from:.1} {y:.1}H{to:.1}\"/>"
-        ));
     }
 
     /// Returns the text.

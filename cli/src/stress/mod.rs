@@ -1,10 +1,8 @@
 //! `dalembert stress`: the matrix of extremes on the user's robot.
 //!
-//! - this file: the table and the charts
+//! - this file: the table
 //! - `singular`: functions that divide, where D is nearest to singular
-//! - [`growth`]: chains of 1 to 60 joints
 
-mod growth;
 mod singular;
 
 use dalembert_codegen::workspace::task::Request;
@@ -12,25 +10,15 @@ use dalembert_model::robot::Robot;
 use dalembert_report::stress::category::{Criterion, NORMWISE, PER_JOINT};
 use dalembert_report::stress::report::{self, Options, Row, Verdict};
 use dalembert_report::stress::singular::{self as divided, Divided};
-use dalembert_report::stress::sweep::{self, Axis, Curve};
 use serde_json::{Value, json};
 
 use crate::args::StressArgs;
-use crate::files::folder::Folder;
 use crate::outcome::{Failure, Outcome};
-use crate::plot::curves::Chart;
 use crate::{input, output};
 
 /// Runs the subcommand.
 pub fn run(args: &StressArgs) -> Outcome {
-    let Some(file) = &args.robot else {
-        return growth::run(args);
-    };
-    let names = Axis::ALL.map(file_name);
-    let output = args.output.as_deref();
-    let output = output.map(|folder| Folder::at(folder, &names, Some(file)));
-    let output = output.transpose()?;
-    let robot = input::robot(file)?;
+    let robot = input::robot(&args.robot)?;
     let options = Options {
         states: args.states.max(1),
         request: Request::default(),
@@ -43,13 +31,6 @@ pub fn run(args: &StressArgs) -> Outcome {
         output::print_json(&json(&robot, &rows, &divided))?;
     } else {
         output::print(&(text(&robot, &rows) + &singular::text(&divided)))?;
-    }
-    if let Some(folder) = output {
-        output::note("… charts");
-        let charts = charts(&robot, &sweep::run(&robot, &options)?);
-        let files = charts.into_iter();
-        let files: Vec<_> = files.map(|(name, c)| (name.to_owned(), c.svg())).collect();
-        folder.write(&files)?;
     }
     let verdicts = rows.iter().map(|row| row.verdict);
     let verdicts = verdicts.chain(divided.rows.iter().map(|row| row.verdict));
@@ -171,34 +152,4 @@ fn json(robot: &Robot, rows: &[Row], divided: &Divided) -> Value {
         "passed": rows.iter().all(|row| row.verdict != Verdict::Fail)
             && divided.rows.iter().all(|row| row.verdict != Verdict::Fail),
     })
-}
-
-fn file_name(axis: Axis) -> &'static str {
-    match axis {
-        Axis::Angle => "angles.svg",
-        Axis::Velocity => "velocities.svg",
-        Axis::MassRatio => "mass_ratio.svg",
-    }
-}
-
-fn charts(robot: &Robot, curves: &[Curve]) -> Vec<(&'static str, Chart)> {
-    let chart = |axis: Axis| {
-        let x = match axis {
-            Axis::Angle => "bound of |q|, rad",
-            Axis::Velocity => "|q̇| over its limit",
-            Axis::MassRatio => "masses of the last link over the first's",
-        };
-        let curves = curves.iter().filter(|curve| curve.axis == axis);
-        let chart = Chart {
-            title: format!("{}: worst error of τ", robot.name),
-            x: x.into(),
-            y: "normwise error, u".into(),
-            bound: Some((NORMWISE, "bound".into())),
-            curves: curves
-                .map(|c| (format!("{} {}", c.subject, c.scalar), c.points.clone()))
-                .collect(),
-        };
-        (file_name(axis), chart)
-    };
-    Axis::ALL.map(chart).to_vec()
 }

@@ -1,5 +1,6 @@
 //! The states for which a bound holds.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use dalembert_model::number::{Rational, Rounded};
@@ -21,29 +22,37 @@ pub struct InputBox {
     pub acceleration: Vec<Interval>,
 }
 
-/// A limit that a bound needs and the robot does not have, or has as zero
-/// where errors are to be relative to it.
+/// Limits that a bound needs and the robot does not have, or has as zero
+/// where errors are to be relative to them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MissingLimit {
-    /// Zero-based joint.
-    pub joint: usize,
-    /// The key in the robot file.
-    pub limit: &'static str,
+    /// Keys of the robot file, each with the zero-based joints that lack it.
+    pub limits: Vec<(&'static str, Vec<usize>)>,
     /// Whether it is there, but zero.
     pub zero: bool,
 }
 
 impl fmt::Display for MissingLimit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (joint, limit) = (self.joint + 1, self.limit);
+        let of = |(limit, joints): &(&str, Vec<usize>)| {
+            let numbers: Vec<String> = joints.iter().map(|joint| (joint + 1).to_string()).collect();
+            let (joints, have) = match numbers.len() {
+                1 => ("joint", "has"),
+                _ => ("joints", "have"),
+            };
+            let numbers = numbers.join(", ");
+            match self.zero {
+                false => format!("{joints} {numbers} {have} no limit `{limit}`"),
+                true => format!("the limit `{limit}` of {joints} {numbers} is 0"),
+            }
+        };
+        let limits: Vec<String> = self.limits.iter().map(of).collect();
+        let limits = limits.join("; ");
         match self.zero {
-            false => write!(
-                f,
-                "a bound needs a box: joint {joint} has no limit `{limit}`"
-            ),
+            false => write!(f, "a bound needs a box: {limits}"),
             true => write!(
                 f,
-                "the limit `{limit}` of joint {joint} is 0: errors relative to the actuators need \
+                "{limits}: errors relative to the actuators need \
                  one above 0; give that, or make them relative to the range"
             ),
         }
@@ -81,11 +90,14 @@ impl InputBox {
             velocity: Vec::new(),
             acceleration: Vec::new(),
         };
+        let mut missing: BTreeMap<&'static str, Vec<usize>> = BTreeMap::new();
         for (joint, row) in scene_robot.robot().joints.iter().enumerate() {
-            let missing = |limit| MissingLimit {
-                joint,
-                limit,
-                zero: false,
+            // Where a limit is missing, the box is not returned.
+            let mut or_missing = |found: Option<Interval>, limit| {
+                found.unwrap_or_else(|| {
+                    missing.entry(limit).or_default().push(joint);
+                    Interval::ZERO
+                })
             };
             if let Some(at) = scene_robot.scene().and_then(|scene| scene.locked(joint)) {
                 limits.position.push(around(at));
@@ -93,27 +105,31 @@ impl InputBox {
                 limits.acceleration.push(Interval::ZERO);
                 continue;
             }
-            limits
-                .position
-                .push(position(row).ok_or(missing("position"))?);
-            let rate = |argument, limit: &Option<Rational>, what| {
+            limits.position.push(or_missing(position(row), "position"));
+            let mut rate = |argument, limit: &Option<Rational>, what| {
                 if !arguments.contains(&argument) {
-                    return Ok(Interval::ZERO);
+                    return Interval::ZERO;
                 }
                 let most = limit.as_ref().map(f64::nearest_rational);
-                most.map(Interval::symmetric).ok_or(missing(what))
+                or_missing(most.map(Interval::symmetric), what)
             };
             let Limits {
                 velocity,
                 acceleration,
                 ..
             } = &row.limits;
-            let velocity = rate(Argument::Velocity, velocity, "velocity")?;
+            let velocity = rate(Argument::Velocity, velocity, "velocity");
             limits.velocity.push(velocity);
-            let acceleration = rate(Argument::Acceleration, acceleration, "acceleration")?;
+            let acceleration = rate(Argument::Acceleration, acceleration, "acceleration");
             limits.acceleration.push(acceleration);
         }
-        Ok(limits)
+        match missing.is_empty() {
+            true => Ok(limits),
+            false => Err(MissingLimit {
+                limits: missing.into_iter().rev().collect(),
+                zero: false,
+            }),
+        }
     }
 
     /// Returns the ranges of an argument; none of one that a box does not bound.

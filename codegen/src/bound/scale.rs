@@ -56,7 +56,8 @@ pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, NoScale> {
         let value = value.and_then(Option::as_ref).map(f64::nearest_rational);
         let zero = value.is_some();
         let above = value.filter(|&value| value > 0.0);
-        above.ok_or(MissingLimit { joint, limit, zero })
+        let limits = vec![(limit, vec![joint])];
+        above.ok_or(MissingLimit { limits, zero })
     };
     // Down, so that an error relative to it is rounded up.
     let torque = |joint| -> Result<f64, MissingLimit> {

@@ -99,7 +99,10 @@ pub(crate) fn write(
     // Writing to a string cannot fail.
     let _ = write!(
         text,
-        "#ifndef {guard}\n#define {guard}\n\n{includes}\n\
+        "#ifndef {guard}\n#define {guard}\n\n\
+         #ifdef __FAST_MATH__\n\
+         #error \"-ffast-math changes what is computed: compile without it\"\n\
+         #endif\n\n{includes}\n\
          /* No array overlaps another one that is written. */\n\
          #ifdef __cplusplus\n#define {restrict}\n#else\n#define {restrict} restrict\n#endif\n\n\
          /* Each operation is rounded: no product and sum become one that is not written so. */\n\

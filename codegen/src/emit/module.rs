@@ -272,19 +272,19 @@ pub(super) fn header(
     let proved = match functions.iter().any(|function| function.admitted.is_some()) {
         false => [
             "Every function was proved before it was printed: with exact constants it equals",
-            "the equations of motion at random points modulo random primes, and this text, read",
+            "the equations of motion at random points modulo 2⁶¹ − 1, and this text, read",
             "back, is the proved program with each constant rounded once.",
         ],
         true => [
             "Every function was proved before anything was left out of it: with exact",
-            "constants it equals the equations of motion at random points modulo random primes.",
+            "constants it equals the equations of motion at random points modulo 2⁶¹ − 1.",
             "Each function lists what was then left out of it, within the scene's tolerance.",
         ],
     };
     lines.extend(proved.map(String::from));
     let drawn = [
-        "Primes and points follow from the SHA-256 of robot, scene and program, so that nobody",
-        "can choose them. A miss is a wrong program that passes; its probability is for one program.",
+        "The points follow from the SHA-256 of robot, scene and program. The probability that a",
+        "wrong program passes is for one program.",
     ];
     lines.extend(drawn.map(String::from));
     lines

@@ -80,8 +80,8 @@ impl Fingerprint {
     }
 }
 
-/// Where fingerprints are taken: everything follows from the seed. Whoever
-/// knows it can aim at it, so no proof is made here.
+/// Points of the field, which follow from a seed: the search has a fixed one, a proof the hash of
+/// its statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Points {
     seed: u64,
@@ -91,12 +91,18 @@ impl Points {
     /// The points that the simplifier uses.
     pub const SEARCH: Points = Points { seed: 0x5eed };
 
+    /// Creates the points of a seed.
+    pub(crate) fn new(seed: u64) -> Points {
+        Points { seed }
+    }
+
     /// Returns the print of an input.
     pub fn input(&self, input: Input) -> Fingerprint {
         Fingerprint(core::array::from_fn(|point| self.input_at(input, point)))
     }
 
-    fn input_at(&self, input: Input, point: usize) -> Field {
+    /// Returns the value of an input at a point.
+    pub(crate) fn input_at(&self, input: Input, point: usize) -> Field {
         let draw = |kind: u64, joint: usize| {
             Field::new(mix([self.seed, point as u64, kind, joint as u64]))
         };
@@ -141,6 +147,14 @@ impl Points {
             })?;
         }
         Some(Fingerprint(print))
+    }
+
+    /// Returns the value of a constant at a point, which has its own constant angles; `None` if
+    /// the prime divides a denominator.
+    pub(crate) fn constant_at(&self, value: &Exact, point: usize) -> Option<Field> {
+        value.map(&mut |x: &Rational| Field::from_rational(x), &mut |angle| {
+            circle(mix([self.seed, point as u64, 5, hash_angle(angle)]))
+        })
     }
 
     /// Returns whether the search cannot tell a constant from zero: the prime divides

@@ -47,7 +47,6 @@ pub use key::{SceneKey, input_hash};
 use load::LoadParameters;
 pub use motion::motion;
 pub(crate) use posed::Posed;
-pub(crate) use posed::Value;
 
 use crate::function::{Argument, Function, Quantity};
 use crate::program::Input;

@@ -1,5 +1,5 @@
 //! An arm and its motion as a function takes them, in the scalar of
-//! a computation; and a formula over them, recorded once for all scalars.
+//! a computation.
 
 use dalembert_model::equations::load::{Loading, carried};
 use dalembert_model::equations::matrix::Columns;
@@ -7,7 +7,6 @@ use dalembert_model::equations::regressor::Column;
 use dalembert_model::equations::{Arm, Formulation, exact_pose};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::{Motion, RuntimeParameter, Written};
-use dalembert_model::scalar::record::{Recorded, Recorder, Recording};
 use dalembert_model::scalar::{Divide, Scalar};
 
 use super::SceneRobot;
@@ -29,37 +28,7 @@ pub struct Posed<S> {
     rows: Vec<usize>,
 }
 
-/// A value of a formula that is recorded: over a program's inputs and exact numbers.
-pub(crate) type Value = Recorded<Input, Exact>;
-
 impl SceneRobot {
-    /// Returns a formula over the scene's arm and motion as a function takes them, as it is
-    /// executed.
-    pub fn record(
-        &self,
-        function: Function,
-        formula: impl FnOnce(&Posed<Value>, &Recorder<Input, Exact>) -> Vec<Value>,
-    ) -> Recording<Input, Exact> {
-        let arm = |recorder: &Recorder<Input, Exact>| {
-            Arm::from_robot(self.robot(), &mut |x: &Exact| recorder.constant(x))
-        };
-        self.record_of(function, arm, formula)
-    }
-
-    /// Records a formula over another arm, such as one without lengths that have no effect.
-    pub fn record_of(
-        &self,
-        function: Function,
-        arm: impl FnOnce(&Recorder<Input, Exact>) -> Arm<Value>,
-        formula: impl FnOnce(&Posed<Value>, &Recorder<Input, Exact>) -> Vec<Value>,
-    ) -> Recording<Input, Exact> {
-        let recorder = Recorder::new();
-        let (input, constant) = (|x| recorder.input(x), |x: &Exact| recorder.constant(x));
-        let posed = self.posed(function, arm(&recorder), input, constant);
-        let outputs = formula(&posed, &recorder);
-        recorder.finish(&outputs)
-    }
-
     /// Returns the scene's arm, given in the scalar, and its motion from the values of a
     /// program's inputs and of constants.
     pub fn posed<S: Scalar>(

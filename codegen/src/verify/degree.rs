@@ -1,175 +1,194 @@
-//! Degree and height of a program's and a formula's outputs, from above.
+//! Degrees of formulas and programs, from above.
 //!
-//! A program is a polynomial in its inputs and in the pairs of constant
-//! angles. With every sine and cosine of an angle a rational function of one
-//! parameter, of numerator degree 2 over 1 + t², a polynomial whose degree in
-//! the pair of joint j is e_j becomes, times Π (1 + t_j²)^e_j, a polynomial of
-//! degree at most Σ 2e_j + (the degree in everything else).
-//!
-//! Its coefficients are rationals. If every constant is an integer over a
-//! common denominator E, a polynomial of degree k in the constants is, times
-//! E^k, one with integers; they are no larger than E^k times the sum of the
-//! coefficients' magnitudes, which products multiply and sums add, and which
-//! an angle's parameter at most doubles for each degree in its pair. [`height`]
-//! is the number of bits of that. Halving, which formulas do, counts by itself.
-//!
-//! [`height`]: Degree::height
+//! A value is N/Π dᵉ with polynomials N and d in the inputs and in the sines and cosines of
+//! joints and constant angles; divisors that are used again are the same d. Two values differ by
+//! a polynomial of degree k over a product of divisors, which do not vanish where both have
+//! values. With each of m pairs a rational function of one parameter, (2t, 1 − t²)/(1 + t²), that
+//! polynomial becomes one of degree at most (2m + 1)·k in the parameters that are drawn.
+
+use std::cell::RefCell;
+use std::rc::Rc;
 
 use dalembert_model::equations::SinCosPair;
-use dalembert_model::number::Exact;
-use dalembert_model::scalar::Scalar;
+use dalembert_model::number::{Angle, Exact};
+use dalembert_model::scalar::sparse::Sparse;
+use dalembert_model::scalar::{Divide, Scalar};
 
-use super::size::{Denominators, Size};
+use super::points::Leaves;
 use crate::program::Input;
 
-/// Degrees of a polynomial and the size of its coefficients: upper bounds,
-/// cancellation is not seen.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Degree {
-    /// The sum of the coefficients' magnitudes; none if it is zero.
-    size: Option<Size>,
-    /// In the sine and cosine of each joint.
-    joints: Vec<u32>,
-    /// In all other inputs together.
-    other: u32,
-    /// In the sines and cosines of constant angles together.
-    angles: u32,
-    /// In constants that are no integers.
-    constants: u32,
-    /// The number of halvings.
-    halvings: u32,
+/// The degree of a polynomial over powers of divisors; infinite beyond a double's range.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Degree {
+    top: f64,
+    /// The degree of each divisor and its power, ordered by address.
+    under: Vec<(Rc<f64>, f64)>,
 }
 
 impl Degree {
-    fn of(size: Option<Size>) -> Degree {
+    fn of(top: f64) -> Degree {
         Degree {
-            size,
-            joints: Vec::new(),
-            other: 0,
-            angles: 0,
-            constants: 0,
-            halvings: 0,
+            top,
+            under: Vec::new(),
         }
     }
 
-    /// Returns the degree of an input.
-    pub fn input(input: Input) -> Degree {
-        let mut degree = Degree::one();
-        match input.angle() {
-            Some(angle) => {
-                for (joint, _) in angle.terms() {
-                    degree.joints.resize(joint + 1, 0);
-                    degree.joints[joint] = 1;
-                }
-                // sin(a + b) is two products, and so on.
-                for _ in 0..angle.additions() {
-                    degree = degree.double();
-                }
+    /// Returns each divisor of either value with its power in both.
+    fn powers(&self, other: &Degree) -> Vec<(Rc<f64>, f64, f64)> {
+        let (mut own, mut others) = (self.under.iter().peekable(), other.under.iter().peekable());
+        let address = |entry: Option<&&(Rc<f64>, f64)>| entry.map(|(d, _)| Rc::as_ptr(d).addr());
+        let mut all = Vec::new();
+        loop {
+            let (a, b) = (address(own.peek()), address(others.peek()));
+            let Some(least) = a.into_iter().chain(b).min() else {
+                return all;
+            };
+            let a = own.next_if(|_| a == Some(least));
+            let b = others.next_if(|_| b == Some(least));
+            let power = |entry: Option<&(Rc<f64>, f64)>| entry.map_or(0.0, |(_, power)| *power);
+            if let Some((divisor, _)) = a.or(b) {
+                all.push((divisor.clone(), power(a), power(b)));
             }
-            None => degree.other = 1,
-        }
-        degree
-    }
-
-    /// Returns the degree of a constant and adds its denominators to `denominators`.
-    pub fn constant(constant: &Exact, denominators: &mut Denominators) -> Degree {
-        if constant.is_zero() {
-            return Degree::zero();
-        }
-        let generator = Degree {
-            angles: 1,
-            ..Degree::one()
-        };
-        let mut coefficient = |x: &_| {
-            Some(Degree {
-                constants: u32::from(denominators.note(x)),
-                ..Degree::of(Some(Size::of(x)))
-            })
-        };
-        let degree = constant.map(&mut coefficient, &mut |_| SinCosPair {
-            sin: generator.clone(),
-            cos: generator.clone(),
-        });
-        degree.unwrap_or_else(Degree::one)
-    }
-
-    /// Returns the degree in the random parameters; the largest there is if it was
-    /// beyond counting.
-    pub fn bound(&self) -> u64 {
-        match self.is_beyond_counting() {
-            true => u64::MAX,
-            false => self.pairs() * 2 + u64::from(self.other),
-        }
-    }
-
-    /// Sums of degrees stay at the largest number.
-    fn is_beyond_counting(&self) -> bool {
-        let others = [self.other, self.angles, self.constants, self.halvings];
-        let mut all = self.joints.iter().chain(&others);
-        all.any(|&degree| degree == u32::MAX)
-    }
-
-    /// Returns the bits of its coefficients once they are integers.
-    pub fn height(&self, denominators: &Denominators) -> u64 {
-        let size = self.size.map_or(0, |size| size.bits());
-        let shared = denominators.bits().saturating_mul(self.constants.into());
-        let bits = size.saturating_add(shared);
-        bits.saturating_add(self.pairs() + u64::from(self.halvings))
-    }
-
-    /// Returns the degree in all pairs together.
-    fn pairs(&self) -> u64 {
-        let joints = self.joints.iter().map(|&degree| u64::from(degree));
-        joints.sum::<u64>() + u64::from(self.angles)
-    }
-
-    fn combine(&self, other: &Degree, size: Option<Size>, f: impl Fn(u32, u32) -> u32) -> Degree {
-        let n = self.joints.len().max(other.joints.len());
-        let at = |degree: &Degree, i: usize| degree.joints.get(i).copied().unwrap_or(0);
-        Degree {
-            size,
-            joints: (0..n).map(|i| f(at(self, i), at(other, i))).collect(),
-            other: f(self.other, other.other),
-            angles: f(self.angles, other.angles),
-            constants: f(self.constants, other.constants),
-            halvings: f(self.halvings, other.halvings),
         }
     }
 }
 
 impl Scalar for Degree {
     fn zero() -> Self {
-        Degree::of(None)
+        Degree::default()
     }
     fn one() -> Self {
-        Degree::of(Some(Size::ONE))
+        Degree::default()
     }
     fn add(&self, other: &Self) -> Self {
-        match (self.size, other.size) {
-            (None, _) => other.clone(),
-            (_, None) => self.clone(),
-            (Some(a), Some(b)) => self.combine(other, Some(a.add(b)), u32::max),
+        if self.under.is_empty() && other.under.is_empty() {
+            return Degree::of(self.top.max(other.top));
+        }
+        let (mut a, mut b, mut under) = (self.top, other.top, Vec::new());
+        for (divisor, in_a, in_b) in self.powers(other) {
+            let power = in_a.max(in_b);
+            a += (power - in_a) * *divisor;
+            b += (power - in_b) * *divisor;
+            under.push((divisor, power));
+        }
+        Degree {
+            top: a.max(b),
+            under,
         }
     }
     fn sub(&self, other: &Self) -> Self {
         self.add(other)
     }
     fn mul(&self, other: &Self) -> Self {
-        match (self.size, other.size) {
-            (Some(a), Some(b)) => self.combine(other, Some(a.mul(b)), u32::saturating_add),
-            _ => Degree::zero(),
+        let powers = self.powers(other).into_iter();
+        Degree {
+            top: self.top + other.top,
+            under: powers.map(|(d, a, b)| (d, a + b)).collect(),
         }
     }
     fn neg(&self) -> Self {
         self.clone()
     }
     fn half(&self) -> Self {
-        Degree {
-            halvings: self.halvings.saturating_add(1),
-            ..self.clone()
-        }
+        self.clone()
     }
-    fn is_zero(&self) -> bool {
-        self.size.is_none()
+}
+
+impl Divide for Degree {
+    /// Returns the degree of (N/Π dᵉ)/(M/Π dᶠ), which is N Π d^(f − e) over M.
+    fn div(&self, other: &Self) -> Self {
+        let mut top = self.top;
+        let mut under = Vec::new();
+        for (divisor, own, others) in self.powers(other) {
+            if others > own {
+                top += (others - own) * *divisor;
+            } else if own > others {
+                under.push((divisor, own - others));
+            }
+        }
+        if other.top > 0.0 {
+            under.push((Rc::new(other.top), 1.0));
+            under.sort_by_key(|(divisor, _)| Rc::as_ptr(divisor).addr());
+        }
+        Degree { top, under }
+    }
+}
+
+/// Degrees of inputs and constants; collects the constant angles that are read.
+#[derive(Debug, Default)]
+pub(super) struct Degrees(RefCell<Vec<Angle>>);
+
+impl Degrees {
+    /// Returns a bound of the degree of the differences between two lists of values in the
+    /// parameters that are drawn, for an arm of `joints` joints.
+    pub(super) fn of_differences(
+        &self,
+        own: &[Sparse<Degree>],
+        others: &[Sparse<Degree>],
+        joints: usize,
+    ) -> f64 {
+        let differences = own.iter().zip(others).map(|(a, b)| a.add(b));
+        let tops = differences.map(|value| value.value().map_or(f64::INFINITY, |x| x.top));
+        let pairs = joints + self.0.borrow().len();
+        // A sum of infinities of both signs is no number, and must not pass for a small one.
+        let most = tops.fold(0.0, |most: f64, top| match top.is_nan() {
+            true => f64::INFINITY,
+            false => most.max(top),
+        });
+        (2 * pairs + 1) as f64 * most
+    }
+}
+
+impl Leaves for Degrees {
+    type Value = Sparse<Degree>;
+
+    fn input(&self, input: Input) -> Sparse<Degree> {
+        let terms = input.angle().map_or(1, |angle| angle.terms().count());
+        Sparse::Value(Degree::of(terms as f64))
+    }
+
+    fn constant(&self, constant: &Exact) -> Sparse<Degree> {
+        let pair = &mut |angle: &Angle| {
+            let mut known = self.0.borrow_mut();
+            if !known.contains(angle) {
+                known.push(angle.clone());
+            }
+            SinCosPair {
+                sin: Degree::of(1.0),
+                cos: Degree::of(1.0),
+            }
+        };
+        let degree = constant.map(&mut |_| Some(Degree::of(0.0)), pair);
+        Sparse::constant(constant, degree.unwrap_or_default())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// x/y + z/y has one y, x/y + z/w both; a divisor that is divided by again goes back up.
+    #[test]
+    fn a_divisor_counts_once() {
+        let [x, y, z, w] = [1.0; 4].map(Degree::of);
+        let inverse = Degree::one().div(&y);
+        assert_eq!(x.mul(&inverse).add(&z.mul(&inverse)).top, 1.0);
+        assert_eq!(x.mul(&inverse).add(&z.div(&w)).top, 2.0);
+        assert_eq!(x.mul(&inverse).add(&z).top, 2.0);
+        // 1/(x/y + z) is y/(x + z y).
+        let nested = Degree::one().div(&x.mul(&inverse).add(&z));
+        assert_eq!(nested.top, 1.0);
+        assert_eq!(nested.add(&Degree::one()).top, 2.0);
+    }
+
+    /// Whatever grows beyond counting has an infinite degree.
+    #[test]
+    fn powers_without_end_are_infinite() {
+        let mut power = Degree::one().div(&Degree::of(1.0));
+        for _ in 0..1100 {
+            power = power.mul(&power);
+        }
+        let sum = power.add(&Degree::one()).top;
+        assert!(sum.is_infinite() || sum.is_nan(), "{sum}");
     }
 }

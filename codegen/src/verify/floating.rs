@@ -6,16 +6,12 @@
 //! so that only the rounding of its own arithmetic and constants counts. What
 //! inverts D may err as many times more as D's condition at the state is.
 
-use std::cell::RefCell;
-use std::collections::BTreeMap;
-use std::rc::Rc;
-
 use dalembert_model::equations::factor::submatrix;
 use dalembert_model::equations::forward::free;
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;
-use dalembert_model::scalar::record::{Recorder, Recording};
+use dalembert_model::scalar::sparse::Sparse;
 
 use super::condition::Condition;
 use crate::function::{Argument, Function, Quantity, Sizes};
@@ -23,7 +19,7 @@ use crate::program::kernel::Kernel;
 use crate::program::machine::Machine;
 use crate::program::run::angle_value;
 use crate::program::{AngleSum, Input, Literal, Lowered, LoweredTrig, Operand, ScalarType};
-use crate::scene::{Posed, SceneRobot, Value};
+use crate::scene::{Posed, SceneRobot};
 use crate::states::JointState;
 
 /// The bound on the normwise error against the runtime, in units of u.
@@ -83,24 +79,15 @@ impl Granted {
     }
 }
 
-/// The generic runtime: the link-frame recursion in f64, constants rounded
-/// once. A formula is recorded where it is first asked for.
+/// The generic runtime: the link-frame recursion in f64, constants rounded once.
 #[derive(Debug)]
 pub struct Runtime {
     /// Lengths that no torque depends on are folded away while exact.
-    arm: Arm<Exact>,
+    arm: Arm<Sparse<f64>>,
     /// With them.
-    whole: Arm<Exact>,
+    whole: Arm<Sparse<f64>>,
     scene_robot: SceneRobot,
-    results: Formulas,
-    /// How many entries the matrices have that a function inverts.
-    lengths: RefCell<BTreeMap<Function, Vec<usize>>>,
-    /// D over the joints that move, as functions take the arm, and what else each quantity inverts.
-    divisors: Formulas,
 }
-
-/// A formula a function, over rounded constants.
-type Formulas = RefCell<BTreeMap<Function, Rc<Recording<Input, f64>>>>;
 
 impl Runtime {
     /// Creates the runtime of a robot; lengths without effect are folded away while exact.
@@ -113,12 +100,9 @@ impl Runtime {
     pub fn in_scene(scene_robot: SceneRobot) -> Runtime {
         let whole = Arm::from_robot(scene_robot.robot(), &mut Exact::clone);
         Runtime {
-            arm: whole.clone().fold_base(),
-            whole,
+            arm: whole.clone().fold_base().map(constant),
+            whole: whole.map(constant),
             scene_robot,
-            results: Formulas::default(),
-            lengths: RefCell::default(),
-            divisors: Formulas::default(),
         }
     }
 
@@ -128,31 +112,19 @@ impl Runtime {
         if !function.quantities().iter().any(inverts) {
             return Granted(Vec::new());
         }
-        // D, and a divisor a quantity; how long each is, the recording does not say.
-        let mut lengths = Vec::new();
-        let divisors = |posed: &Posed<Value>| {
-            let (arm, motion) = (&posed.arm, &posed.motion);
-            let d = Formulation::NewtonEulerLink.gathered_inertia(arm, &arm.at(&motion.q));
-            let mut all = vec![submatrix(&d, &free(&motion.moves)).concat()];
-            all.extend(posed.divisors(function));
-            lengths = all.iter().map(Vec::len).collect();
-            all.concat()
+        let posed = self.posed(function, state);
+        let (arm, motion) = (&posed.arm, &posed.motion);
+        let d = Formulation::NewtonEulerLink.gathered_inertia(arm, &arm.at(&motion.q));
+        let condition = |matrix: &[Sparse<f64>]| {
+            let matrix = floats(matrix);
+            (!matrix.is_empty()).then(|| Condition::of(&matrix, f64::EPSILON / 2.0))
         };
-        let recording = self.recorded(&self.divisors, function, self.arm_of(function), divisors);
-        let numbers = self.run_at(&recording, state);
-        let mut known = self.lengths.borrow_mut();
-        let lengths = known.entry(function).or_insert(lengths);
-        let mut rest = numbers.as_slice();
-        let mut conditions = lengths.iter().map(|length| {
-            let (own, others) = rest.split_at((*length).min(rest.len()));
-            rest = others;
-            (!own.is_empty()).then(|| Condition::of(own, f64::EPSILON / 2.0))
-        });
-        let of_inertia = conditions.next().flatten();
+        let of_inertia = condition(&submatrix(&d, &free(&motion.moves)).concat());
         let of_inertia = of_inertia.map_or(1.0, |condition| condition.scaled.max(1.0));
-        let quantities = function.quantities().iter().zip(conditions);
-        let factors = quantities.map(|(quantity, own)| {
-            let own = own.map_or(1.0, |condition| condition.raw.max(1.0));
+        let divisors = posed.divisors(function);
+        let quantities = function.quantities().iter().zip(&divisors);
+        let factors = quantities.map(|(quantity, divisor)| {
+            let own = condition(divisor).map_or(1.0, |condition| condition.raw.max(1.0));
             match quantity.inverts_inertia() {
                 true => (*quantity, of_inertia * own),
                 false => (*quantity, own),
@@ -161,30 +133,12 @@ impl Runtime {
         Granted(factors.collect())
     }
 
-    /// Returns a formula of a function, recorded unless it is there.
-    fn recorded(
-        &self,
-        known: &Formulas,
-        function: Function,
-        arm: &Arm<Exact>,
-        formula: impl FnOnce(&Posed<Value>) -> Vec<Value>,
-    ) -> Rc<Recording<Input, f64>> {
-        let mut known = known.borrow_mut();
-        let recording = known.entry(function).or_insert_with(|| {
-            let arm = |recorder: &Recorder<Input, Exact>| arm.map(|x| recorder.constant(x));
-            let formula = |posed: &Posed<Value>, _: &Recorder<Input, Exact>| formula(posed);
-            let recording = self.scene_robot.record_of(function, arm, formula);
-            Rc::new(recording.with_constants(f64::nearest))
-        });
-        recording.clone()
-    }
-
-    /// Returns a formula at a state.
-    fn run_at(&self, recording: &Recording<Input, f64>, state: &JointState) -> Vec<f64> {
-        let input = |input: &Input| {
-            // A motion reads the angles of single joints only.
-            let angle = |sum: AngleSum| sum.terms().map(|(joint, _)| state.q[joint]).sum::<f64>();
-            match *input {
+    /// Returns the arm and its motion at a state.
+    fn posed(&self, function: Function, state: &JointState) -> Posed<Sparse<f64>> {
+        // A motion reads the angles of single joints only.
+        let angle = |sum: AngleSum| sum.terms().map(|(joint, _)| state.q[joint]).sum::<f64>();
+        let input = |input: Input| {
+            Sparse::Value(match input {
                 Input::PerSpeed(joint) => {
                     let qd = state.entry(Argument::Velocity, joint);
                     let sqrt = |x: &f64| libm::sqrt(*x);
@@ -193,30 +147,38 @@ impl Runtime {
                 Input::Sin(sum) => libm::sincos(angle(sum)).0,
                 Input::Cos(sum) => libm::sincos(angle(sum)).1,
                 Input::Entry(argument, joint) => state.entry(argument, joint),
-            }
+            })
         };
-        // Every constant has a value.
-        let results = recording.run(input, |x| Some(*x));
-        results.unwrap_or_default()
+        let arm = self.arm_of(function).clone();
+        self.scene_robot.posed(function, arm, input, constant)
     }
 
     /// Returns the results of a function at a state, flat.
     pub fn run(&self, function: Function, state: &JointState) -> Vec<f64> {
+        let posed = self.posed(function, state);
         let formulation = Formulation::NewtonEulerLink;
-        let results =
-            |posed: &Posed<Value>| posed.results(&self.scene_robot, function, formulation);
-        let recording = self.recorded(&self.results, function, self.arm_of(function), results);
-        self.run_at(&recording, state)
+        floats(&posed.results(&self.scene_robot, function, formulation))
     }
 
     /// Returns the arm that a function is of.
-    fn arm_of(&self, function: Function) -> &Arm<Exact> {
+    fn arm_of(&self, function: Function) -> &Arm<Sparse<f64>> {
         let mut quantities = function.quantities().iter();
         match quantities.any(|quantity| quantity.depends_on_base()) {
             true => &self.whole,
             false => &self.arm,
         }
     }
+}
+
+/// Returns a constant rounded once.
+fn constant(exact: &Exact) -> Sparse<f64> {
+    Sparse::constant(exact, f64::nearest(exact))
+}
+
+/// Returns values as floats; a quotient by a structural zero is no number.
+fn floats(values: &[Sparse<f64>]) -> Vec<f64> {
+    let values = values.iter().map(Sparse::value);
+    values.map(|value| value.unwrap_or(f64::NAN)).collect()
 }
 
 impl Emitted {

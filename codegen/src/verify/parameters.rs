@@ -4,10 +4,9 @@
 //!
 //! Let B be what [`BaseParameters`] holds, π' = B π. Then τ = Y_full π = Y π' for
 //! every π exactly if Y_full = Y B, entry by entry, and that is what is evaluated
-//! here, as [`exact`](super::exact) evaluates programs: both sides by
-//! Lagrange–Euler, modulo primes and at points that follow from the statement.
-//! That no fewer columns would do needs no such proof: they were independent
-//! modulo a prime, and so they are.
+//! here, as [`exact`](super::exact) evaluates programs: both sides by Lagrange–Euler, at points
+//! that follow from the statement. Fewer columns would not do, and this needs no such proof: they
+//! were independent modulo a prime, and so they are.
 //!
 //! [`BaseParameters`]: crate::scene::base::BaseParameters
 
@@ -15,20 +14,16 @@ use std::collections::BTreeMap;
 
 use dalembert_model::equations::Formulation;
 use dalembert_model::equations::following::gather;
-use dalembert_model::equations::regressor::{Column, of_drives, of_links};
+use dalembert_model::equations::regressor::{Column, LinkParameter, of_drives, of_links};
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
-use dalembert_model::scalar::record::Recording;
-use dalembert_model::scalar::residue::Residue;
 
-use super::challenge::Transcript;
-use super::exact::{Disproof, WRITTEN_LIMIT, bounded, compare};
-use super::ratio::Ratio;
-use super::size::Denominators;
+use super::degree::Degrees;
+use super::exact::{Disproof, bounded, compare, posed, reference_formulation};
+use super::points::{Leaves, Residue, written};
 use crate::function::Function;
-use crate::program::Input;
+use crate::scene::SceneRobot;
 use crate::scene::base::{BaseParameters, Parameter};
-use crate::scene::{SceneRobot, Value};
 
 /// Proves the base parameters of a robot in its scene that a function is over.
 ///
@@ -39,32 +34,28 @@ pub fn prove_base(
     function: Function,
     base: &BaseParameters,
 ) -> Result<(), Disproof> {
-    let formulation = match scene_robot.robot().rows().len() <= WRITTEN_LIMIT {
-        true => Formulation::LagrangeEuler,
-        false => Formulation::NewtonEulerLink,
-    };
     let statement = Statement {
         scene_robot,
         function,
         base,
-        formulation,
+        formulation: reference_formulation(scene_robot),
     };
-    let differences = statement.differences().ok_or(Disproof::Unfit)?;
+    let combinations = statement.combinations().ok_or(Disproof::Unfit)?;
     let parameters = statement.parameters();
     let length = scene_robot.rows().len() * parameters.len();
+    let base = format!("{function} {:?} {:?}", base.columns, base.combinations);
     compare(
-        statement.transcript(),
-        |point| differences.run(|input| point.input(*input), |x| point.constant(x)),
+        &["base parameters", &written(scene_robot), &base],
         |_| Ok(Some(vec![Residue::zero(); length])),
+        |point| Some(statement.differences(&combinations, point)),
         |wrong| Disproof::Dependence {
             parameter: parameters[wrong % parameters.len()].to_string(),
         },
     )?;
-    let mut denominators = Denominators::default();
-    let constant = |constant: &Exact| Some(Ratio::constant(constant, &mut denominators));
-    let degrees = differences.run(|input| Ratio::input(*input), constant);
-    let degrees = degrees.unwrap_or_default();
-    bounded(&degrees, &vec![Ratio::zero(); length], &denominators).map(drop)
+    let degrees = Degrees::default();
+    let differences = statement.differences(&combinations, &degrees);
+    let zeros = vec![Scalar::zero(); length];
+    bounded(degrees.of_differences(&differences, &zeros, scene_robot.joints().len()))
 }
 
 struct Statement<'a> {
@@ -75,32 +66,8 @@ struct Statement<'a> {
 }
 
 impl Statement<'_> {
-    fn transcript(&self) -> Transcript {
-        let mut transcript = Transcript::new("base parameters");
-        transcript.scene_robot(self.scene_robot);
-        transcript.text(self.function.name());
-        transcript.number(self.base.columns.len());
-        for (column, terms) in self.base.columns.iter().zip(&self.base.combinations) {
-            let place = match column {
-                Column::Body { joint, .. } => format!("body {joint}"),
-                Column::Armature(joint) => format!("armature {joint}"),
-                Column::Viscous(joint) => format!("viscous {joint}"),
-            };
-            transcript.text(&place);
-            // Nothing of what there is none.
-            column.map(|number| transcript.text(&number.to_string()));
-            transcript.number(terms.len());
-            for (parameter, factor) in terms {
-                transcript.text(&parameter.to_string());
-                transcript.text(&factor.to_string());
-            }
-        }
-        transcript
-    }
-
     /// Returns all parameters of the robot file, in the order of the full columns.
     fn parameters(&self) -> Vec<Parameter> {
-        use dalembert_model::equations::regressor::LinkParameter;
         let rows = 0..self.scene_robot.robot().rows().len();
         let links = rows.flat_map(|joint| {
             let all = LinkParameter::ALL.into_iter();
@@ -129,41 +96,40 @@ impl Statement<'_> {
         combinations.collect()
     }
 
-    /// Returns Y_full − Y B over the rows, row by row, as a formula.
-    fn differences(&self) -> Option<Recording<Input, Exact>> {
-        let combinations = self.combinations()?;
-        let scene_robot = self.scene_robot;
-        let recording = scene_robot.record(self.function, |posed, recorder| {
-            let (arm, motion) = (&posed.arm, &posed.motion);
-            let by = |columns: &[Column<Value>]| {
-                let mut entries = self
-                    .function
-                    .evaluate(self.formulation, arm, motion, columns);
-                let rows: Vec<usize> = (0..arm.links.len()).collect();
-                gather(&arm.following, &rows, columns.len(), &mut entries);
-                let rows = entries.chunks(columns.len().max(1));
-                rows.map(<[Value]>::to_vec).collect::<Vec<_>>()
-            };
-            let mut all = of_links(scene_robot.robot().rows().len());
-            all.extend(of_drives(scene_robot.robot()));
-            let whole = by(&all);
-            let constant = |x: &Exact| recorder.constant(x);
-            let own: Vec<_> = self.base.columns.iter().map(|c| c.map(constant)).collect();
-            let own = by(&own);
-            let mut found = Vec::new();
-            for &joint in scene_robot.rows() {
-                let row = scene_robot.robot().row_of(joint);
-                let mut differences = whole[row].clone();
-                for (entry, terms) in own[row].iter().zip(&combinations) {
-                    for (place, factor) in terms {
-                        let part = entry.mul(&constant(factor));
-                        differences[*place] = differences[*place].sub(&part);
-                    }
+    /// Returns Y_full − Y B over the rows, row by row.
+    fn differences<L: Leaves>(
+        &self,
+        combinations: &[Vec<(usize, &Exact)>],
+        leaves: &L,
+    ) -> Vec<L::Value> {
+        let (robot, function) = (self.scene_robot.robot(), self.function);
+        let posed = posed(self.scene_robot, function, leaves);
+        let (arm, motion) = (&posed.arm, &posed.motion);
+        let by = |columns: &[Column<L::Value>]| {
+            let mut entries = function.evaluate(self.formulation, arm, motion, columns);
+            let rows: Vec<usize> = (0..arm.links.len()).collect();
+            gather(&arm.following, &rows, columns.len(), &mut entries);
+            let rows = entries.chunks(columns.len().max(1));
+            rows.map(<[L::Value]>::to_vec).collect::<Vec<_>>()
+        };
+        let mut all = of_links(robot.rows().len());
+        all.extend(of_drives(robot));
+        let whole = by(&all);
+        let constant = |x: &Exact| leaves.constant(x);
+        let own: Vec<_> = self.base.columns.iter().map(|c| c.map(constant)).collect();
+        let own = by(&own);
+        let mut found = Vec::new();
+        for &joint in self.scene_robot.rows() {
+            let row = robot.row_of(joint);
+            let mut differences = whole[row].clone();
+            for (entry, terms) in own[row].iter().zip(combinations) {
+                for (place, factor) in terms {
+                    let part = entry.mul(&constant(factor));
+                    differences[*place] = differences[*place].sub(&part);
                 }
-                found.extend(differences);
             }
-            found
-        });
-        Some(recording)
+            found.extend(differences);
+        }
+        found
     }
 }

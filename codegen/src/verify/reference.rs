@@ -2,9 +2,7 @@
 //! over the robot's own parameters, in 256 bits.
 //!
 //! It shares nothing with what is emitted but the robot and the state: no
-//! graph, no search, no proof, no printer, and unlike the proof no recording of the
-//! formula, which is executed anew at each state. Its own error is bounded along with
-//! it, by `Known`.
+//! graph, no search, no proof, no printer. Its own error is bounded along with it, by `Known`.
 
 use std::cell::RefCell;
 
@@ -25,8 +23,8 @@ const LOST: f64 = 6.3e-61;
 
 /// A robot, or a robot in a scene.
 #[derive(Clone, Debug)]
-pub struct Reference<'s> {
-    scene_robot: &'s SceneRobot,
+pub struct Reference {
+    scene_robot: SceneRobot,
     arm: Arm<Known>,
     /// The pairs of angles already computed, by their bits: several functions are run at the
     /// same states.
@@ -53,6 +51,11 @@ impl TrueValue {
         }
     }
 
+    /// Returns the nearest double.
+    pub fn to_f64(&self) -> f64 {
+        self.value.to_f64()
+    }
+
     /// |value|, rounded up.
     pub fn magnitude(&self) -> f64 {
         self.value.magnitude()
@@ -67,20 +70,19 @@ impl TrueValue {
     }
 }
 
-impl<'s> Reference<'s> {
+impl Reference {
     /// Creates the reference of a robot in its scene.
-    pub fn new(scene_robot: &'s SceneRobot) -> Reference<'s> {
-        let robot = scene_robot.robot();
+    pub fn new(scene_robot: &SceneRobot) -> Reference {
         Reference {
-            scene_robot,
-            arm: Arm::from_robot(robot, &mut Known::of),
+            arm: Arm::from_robot(scene_robot.robot(), &mut Known::of),
+            scene_robot: scene_robot.clone(),
             pairs: RefCell::default(),
         }
     }
 
     /// Returns the robot in its scene.
-    pub fn scene_robot(&self) -> &'s SceneRobot {
-        self.scene_robot
+    pub fn scene_robot(&self) -> &SceneRobot {
+        &self.scene_robot
     }
 
     /// Returns the results of a function over the scene's rows at a state of finite
@@ -102,7 +104,7 @@ impl<'s> Reference<'s> {
         };
         let arm = self.arm.clone();
         let posed = self.scene_robot.posed(function, arm, input, Known::of);
-        let results = posed.results(self.scene_robot, function, Formulation::NewtonEulerLink);
+        let results = posed.results(&self.scene_robot, function, Formulation::NewtonEulerLink);
         let known = |Known { value, lost, .. }: Known| TrueValue {
             value,
             lost: lost * LOST,
@@ -129,7 +131,7 @@ impl<'s> Reference<'s> {
 #[derive(Clone, Debug)]
 struct Known {
     value: Wide,
-    /// |value| or a little more.
+    /// |value|, rounded up.
     size: f64,
     /// In units of [`LOST`].
     lost: f64,
@@ -147,7 +149,7 @@ impl Known {
 
     /// Returns it rounded itself, with what its operands' errors make of it.
     fn rounded(value: Wide, carried: f64) -> Known {
-        let size = value.bound();
+        let size = value.magnitude();
         Known {
             value,
             size,

@@ -20,6 +20,7 @@ use dalembert_model::number::{Rational, Rounded, Wide};
 use dalembert_model::placed::frame::pose;
 use num_traits::Signed;
 
+use crate::Options;
 use crate::merge::{Arm, Link};
 use crate::tree::Chain;
 use crate::urdf::{Kind, Urdf};
@@ -72,7 +73,7 @@ struct Parts {
 
 impl Change {
     /// Returns the motion within the URDF's limits; where it has none, ±1 m, 3 per second;
-    /// 10 per second squared always, of which a URDF does not speak.
+    /// accelerations, which a URDF does not speak of, are those of the options, or 10.
     pub fn limits(&self) -> &Motion {
         &self.limits
     }
@@ -80,6 +81,12 @@ impl Change {
     /// Returns what each torque may be off over a motion, N·m or N; joints
     /// beyond the motion's are taken not to move.
     pub fn torques(&self, motion: &Motion) -> Vec<f64> {
+        let torques = self.pairs(motion).into_iter();
+        torques.map(|torque| torque.off).collect()
+    }
+
+    /// Returns the torques over a motion: the most that they are, and how far they are apart.
+    fn pairs(&self, motion: &Motion) -> Vec<Pair> {
         let value =
             |values: &[f64], i: usize| Pair::of(values.get(i).copied().unwrap_or(0.0).abs());
         let (mut omega, mut turning) = (Pair::ZERO, Pair::ZERO);
@@ -119,7 +126,7 @@ impl Change {
             (force, moment) = (force + *own, moment + *turn);
             let part = &self.links[i];
             let load = if part.slides { force } else { moment };
-            torques.push((part.axis * load).off);
+            torques.push(part.axis * load);
         }
         torques.reverse();
         torques
@@ -143,6 +150,18 @@ impl Change {
     /// Returns a bound as text, two digits, not below.
     pub fn in_digits(bound: f64) -> String {
         upward(bound)
+    }
+
+    /// Returns the largest of them within the limits, each relative to the joint's effort, or to the
+    /// bound of the torque itself where that is not known.
+    pub fn relative(&self) -> f64 {
+        let torques = self.pairs(&self.limits);
+        let effort = |i: usize| self.efforts.as_ref().map(|efforts| efforts[i]);
+        let parts = torques.iter().enumerate().map(|(i, torque)| {
+            let part = torque.off / effort(i).unwrap_or(torque.size);
+            if torque.off == 0.0 { 0.0 } else { part }
+        });
+        parts.fold(0.0, f64::max)
     }
 
     /// Returns the largest of them within the limits, relative to the joint's effort, if
@@ -196,7 +215,13 @@ fn angle(chord: f64) -> f64 {
 }
 
 /// Returns the bound of two arms that differ by what was snapped.
-pub(crate) fn bound(written: &Arm, snapped: &Arm, urdf: &Urdf, chain: &Chain) -> Change {
+pub(crate) fn bound(
+    written: &Arm,
+    snapped: &Arm,
+    urdf: &Urdf,
+    chain: &Chain,
+    options: &Options,
+) -> Change {
     let joints = || chain.moving.iter().map(|moving| &urdf.joints[moving.joint]);
     let links = written.links.iter().zip(&snapped.links).zip(joints());
     let upper = |value: &Rational| f64::nearest_rational(&value.abs()).next_up();
@@ -217,7 +242,7 @@ pub(crate) fn bound(written: &Arm, snapped: &Arm, urdf: &Urdf, chain: &Chain) ->
         velocity: joints()
             .map(|joint| given(&joint.velocity).unwrap_or(3.0))
             .collect(),
-        acceleration: vec![10.0; written.links.len()],
+        acceleration: vec![options.acceleration.as_ref().map_or(10.0, upper); written.links.len()],
     };
     let least = |value: &crate::urdf::Number| f64::nearest_rational(&value.value).next_down();
     let efforts = joints().map(|joint| {

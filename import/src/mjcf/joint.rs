@@ -198,6 +198,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             friction: None,
             spring: None,
             armature: Rational::zero(),
+            rotors: Vec::new(),
             mimic: None,
         }
     }

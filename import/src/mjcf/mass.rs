@@ -2,13 +2,14 @@
 
 use dalembert_model::number::Rational;
 use dalembert_model::robot::Inertia;
+use dalembert_model::robot::values::number;
 use num_traits::{Signed, Zero};
 
 use super::Mjcf;
 use super::geom::Weight;
 use super::settings::FromGeoms;
 use super::world::Item;
-use crate::urdf::{Inertial, Link, Number, Unread, start_tag};
+use crate::urdf::{Inertial, Link, Number, Unread, Urdf, start_tag};
 
 const WRITE_IT: &str = "give the body an <inertial>; MuJoCo writes them all: \
     load the model with <compiler saveinertial=\"true\"/> and save it by mj_saveLastXML";
@@ -42,6 +43,42 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             link.inertial = None;
         }
         solids
+    }
+
+    /// Scales all masses and inertias so that bodies weigh together what `settotalmass` says.
+    pub(super) fn total(&mut self, urdf: &mut Urdf) {
+        let Some(total) = self.settings.total.take() else {
+            return;
+        };
+        let unread = urdf.links.iter().flat_map(|link| &link.unread).next();
+        let own = urdf.links.iter().filter_map(|link| link.inertial.as_ref());
+        let own: Rational = own.map(|inertial| &inertial.mass.value).sum();
+        if unread.is_some() || own.is_zero() {
+            let message = "`settotalmass` is of bodies whose masses are not all known".to_owned();
+            self.reader.problems.error(&total.span, message, WRITE_IT);
+            return;
+        }
+        let ratio = &total.value / own;
+        let scaled = |own: &mut Number| {
+            own.value *= &ratio;
+            own.text = number(&own.value);
+        };
+        for inertial in urdf
+            .links
+            .iter_mut()
+            .filter_map(|link| link.inertial.as_mut())
+        {
+            let Inertia {
+                xx,
+                yy,
+                zz,
+                xy,
+                yz,
+                xz,
+            } = &mut inertial.inertia;
+            let all = [&mut inertial.mass, xx, yy, zz, xy, yz, xz];
+            all.into_iter().for_each(scaled);
+        }
     }
 
     /// Says where `compiler` makes a body heavier than it is written.

@@ -74,6 +74,7 @@ pub(crate) fn read(document: &Document, problems: &mut Problems) -> Option<Urdf>
         ties: Vec::new(),
     };
     mjcf.world(root, &mut urdf)?;
+    mjcf.total(&mut urdf);
     mjcf.forces(root, &mut urdf);
     mjcf.ties(root, &mut urdf);
     Some(urdf)

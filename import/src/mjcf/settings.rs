@@ -17,6 +17,8 @@ pub(super) struct Settings {
     pub(super) groups: [i64; 2],
     /// The least mass and the least moment of inertia.
     pub(super) least: [Option<Number>; 2],
+    /// The mass that all bodies have together.
+    pub(super) total: Option<Number>,
     gravity: Option<[Number; 3]>,
     has_gravity: bool,
 }
@@ -49,6 +51,7 @@ impl Settings {
             from_geoms: FromGeoms::Some,
             groups: [0, 5],
             least: [None, None],
+            total: None,
             gravity: None,
             has_gravity: true,
         }
@@ -114,10 +117,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             self.settings.least[index] = bound.filter(|bound| bound.value.is_positive());
         }
         let total = self.reader.number(node, "settotalmass");
-        if total.is_some_and(|total| total.value.is_positive()) {
-            let help = "write the masses as they shall be, and leave `settotalmass` out";
-            self.error(node, "`settotalmass` changes every mass".to_owned(), help);
-        }
+        self.settings.total = total.filter(|total| total.value.is_positive());
         if let Some([low, high]) = node.attribute_node("inertiagrouprange").and_then(|own| {
             self.reader
                 .list("inertiagrouprange", own.value(), own.range_value())

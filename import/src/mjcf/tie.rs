@@ -1,13 +1,16 @@
 //! Equalities and tendons: what ties joints or bodies to each other beside the tree.
 
-use dalembert_model::number::Rational;
-use num_traits::{One, Zero};
+use dalembert_model::number::{Angle, Rational};
+use dalembert_model::robot::Position;
+use dalembert_model::robot::values::number;
+use num_traits::{One, Signed, Zero};
 use roxmltree::Node;
 
 use super::joint::radians;
 use super::{Mjcf, within};
+use crate::lock::compare;
 use crate::problems::instead;
-use crate::urdf::{Mimic, Tie, Tied, Urdf, start_tag};
+use crate::urdf::{Kind, Mimic, Tie, Tied, Urdf, Value, start_tag};
 
 impl<'a> Mjcf<'a, '_, '_, '_> {
     /// Reads what ties joints and bodies.
@@ -29,7 +32,14 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
                 _ => continue,
             };
             let parts = node.children().filter(|child| child.has_tag_name(part));
-            let names = parts.filter_map(|child| child.attribute(part).map(str::to_owned));
+            let parts: Vec<Node> = parts.collect();
+            if let ("joint", [joint]) = (part, parts.as_slice()) {
+                self.limiting(node, *joint, urdf);
+                continue;
+            }
+            let names = parts
+                .iter()
+                .filter_map(|child| child.attribute(part).map(str::to_owned));
             let ends = match part {
                 "joint" => Tied::Joints(names.collect()),
                 _ => Tied::Links(names.collect()),
@@ -41,6 +51,79 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             };
             urdf.ties.push(self.tie(node, word, ends));
         }
+    }
+
+    /// Narrows the limits of the joint that a tendon is over alone to the tendon's range.
+    fn limiting(&mut self, node: Node<'a, '_>, joint: Node<'a, '_>, urdf: &mut Urdf) {
+        let class = self.class_of(node, "class", 0);
+        let is_limited = self.is_limited(node, class, "limited", "range");
+        let range = is_limited.then(|| self.list::<2>(node, class, "range"));
+        let Some((name, span)) = self.reader.attribute(joint, "joint") else {
+            return;
+        };
+        let coefficient = self.reader.required(joint, "coef");
+        let Some(own) = urdf.joints.iter_mut().find(|own| own.name == name) else {
+            let message = format!("there is no joint `{name}`");
+            let known = urdf.names[1].iter().map(String::as_str);
+            let help = instead(name, known);
+            self.reader.problems.error(&span, message, &help);
+            return;
+        };
+        for key in ["stiffness", "damping", "frictionloss", "armature"] {
+            let left_out = self.number(node, class, key);
+            if left_out.is_some_and(|value| !value.value.is_zero()) {
+                let message = format!("the {key} of the tendon over joint `{name}` is left out");
+                self.note(node, message, "the torques are those without it");
+            }
+        }
+        let Some((Some(mut range), by)) = range.zip(coefficient) else {
+            return;
+        };
+        if by.value.is_zero() {
+            return;
+        }
+        if by.value.is_negative() {
+            range.reverse();
+        }
+        let slides = own.kind == Kind::Prismatic;
+        let [low, high] = range.map(|end| {
+            let value = end.value / &by.value;
+            let text = if by.value.is_one() {
+                end.text
+            } else {
+                number(&value)
+            };
+            let value = match slides {
+                true => Position::Length(value),
+                false => Position::Angle(Angle::Radians(value).canonical()),
+            };
+            let span = end.span;
+            Value { value, text, span }
+        });
+        let position = match own.position.take() {
+            None => [low, high],
+            Some([lower, upper]) => [
+                if compare(&low.value, &lower.value).is_gt() {
+                    low
+                } else {
+                    lower
+                },
+                if compare(&high.value, &upper.value).is_lt() {
+                    high
+                } else {
+                    upper
+                },
+            ],
+        };
+        if compare(&position[0].value, &position[1].value).is_gt() {
+            let message = format!("the tendon leaves joint `{name}` no position within its limits");
+            self.error(
+                node,
+                message,
+                "range=\"lowest highest\" of coef times the position",
+            );
+        }
+        own.position = Some(position);
     }
 
     fn tie(&self, node: Node, word: &str, ends: Tied) -> Tie {

@@ -71,6 +71,8 @@ pub(crate) struct Joint {
     pub(crate) spring: Option<Number>,
     /// Rotors felt at the joint.
     pub(crate) armature: Rational,
+    /// The inertia of each rotor, and its reduction.
+    pub(crate) rotors: Vec<[Number; 2]>,
     /// The joint that it follows, with the place that says so.
     pub(crate) mimic: Option<Mimic>,
 }
@@ -175,6 +177,7 @@ impl Reader<'_, '_, '_> {
             friction,
             spring: None,
             armature: Rational::zero(),
+            rotors: Vec::new(),
             mimic,
         })
     }
@@ -216,48 +219,44 @@ impl Reader<'_, '_, '_> {
     /// Reads the rotors of a transmission: inertia times the square of the reduction, for every
     /// joint that it drives.
     pub(super) fn transmission(&mut self, node: Node, joints: &mut [Joint]) {
-        let mut armature = Rational::zero();
-        for actuator in node
-            .children()
-            .filter(|child| child.has_tag_name("actuator"))
-        {
-            let inertia = self.of_actuator(
-                actuator,
-                &[
-                    "rotorInertia",
-                    "rotor_inertia",
-                    "motorInertia",
-                    "motor_inertia",
-                ],
-            );
-            let reduction = self.of_actuator(
-                actuator,
-                &["mechanicalReduction", "gear_ratio", "gearRatio"],
-            );
-            let Some(inertia) = inertia else { continue };
-            let ratio = reduction.map_or_else(|| Rational::from_integer(1.into()), |r| r.value);
-            armature += inertia.value * &ratio * &ratio;
-        }
-        if armature.is_zero() {
-            return;
-        }
-        let driven: Vec<&str> = node
-            .children()
-            .filter(|child| child.has_tag_name("joint"))
+        let children = |name: &'static str| node.children().filter(move |c| c.has_tag_name(name));
+        let driven: Vec<&str> = children("joint")
             .filter_map(|joint| joint.attribute("name"))
             .collect();
-        for joint in joints {
-            if driven.contains(&joint.name.as_str()) {
-                joint.armature += &armature;
+        // Names in tags of other spaces, as `drake:gear_ratio`, are theirs.
+        for actuator in node
+            .children()
+            .filter(|c| c.tag_name().name() == "actuator")
+        {
+            // Files that were written for several tools have several reductions: the rotor's is in
+            // the spelling of its own.
+            let rotor = ROTORS.iter().find_map(|(rotors, ratios)| {
+                Some((named(actuator, rotors)?, named(actuator, ratios)))
+            });
+            let Some((inertia, ratio)) = rotor else {
+                continue;
+            };
+            let ratio = match ratio {
+                Some(ratio) => self.of_actuator(ratio),
+                None => Some(self.constant(inertia, ["1"])).map(|[one]| one),
+            };
+            let Some((inertia, ratio)) = self.of_actuator(inertia).zip(ratio) else {
+                continue;
+            };
+            for joint in joints
+                .iter_mut()
+                .filter(|own| driven.contains(&own.name.as_str()))
+            {
+                joint.armature += &inertia.value * &ratio.value * &ratio.value;
+                if !inertia.value.is_zero() {
+                    joint.rotors.push([inertia.clone(), ratio.clone()]);
+                }
             }
         }
     }
 
     /// Reads a number of an actuator: `<gear_ratio value="…"/>`, or as its text.
-    fn of_actuator(&mut self, actuator: Node, names: &[&str]) -> Option<Number> {
-        let found = actuator
-            .children()
-            .find(|child| names.contains(&child.tag_name().name()))?;
+    fn of_actuator(&mut self, found: Node) -> Option<Number> {
         if found.has_attribute("value") {
             return self.required(found, "value");
         }
@@ -265,3 +264,20 @@ impl Reader<'_, '_, '_> {
         self.parse(text, start_tag(self.source, found))
     }
 }
+
+/// Returns the first child of the first of these names that there is one of.
+fn named<'a, 'd>(node: Node<'a, 'd>, names: &[&str]) -> Option<Node<'a, 'd>> {
+    names.iter().find_map(|name| child(node, name))
+}
+
+/// Names of a rotor's inertia, with those of the reduction that belongs to it, the likeliest first.
+const ROTORS: [([&str; 2], [&str; 3]); 2] = [
+    (
+        ["rotor_inertia", "motor_inertia"],
+        ["gear_ratio", "gearRatio", "mechanicalReduction"],
+    ),
+    (
+        ["rotorInertia", "motorInertia"],
+        ["gearRatio", "mechanicalReduction", "gear_ratio"],
+    ),
+];

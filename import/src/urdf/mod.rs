@@ -59,6 +59,32 @@ pub(crate) enum Tied {
     Links(Vec<String>),
 }
 
+impl Urdf {
+    /// Leaves out the ties, and followers along curves, after naming them.
+    pub(crate) fn untie(&mut self, problems: &mut Problems) {
+        let mut ties: Vec<(Range<usize>, String)> = Vec::new();
+        ties.extend(self.ties.drain(..).map(|tie| (tie.span, tie.name)));
+        for joint in &mut self.joints {
+            if let Some(mimic) = joint.mimic.take_if(|mimic| mimic.line.is_none()) {
+                ties.push((
+                    mimic.span,
+                    format!("the equality of joint `{}`", joint.name),
+                ));
+            }
+        }
+        let Some((first, _)) = ties.first() else {
+            return;
+        };
+        let names: Vec<&str> = ties.iter().map(|(_, name)| name.as_str()).collect();
+        let message = format!(
+            "what ties joints and links is ignored: {}",
+            names.join(", ")
+        );
+        let help = "the torques are those of the chain without it";
+        problems.note(first, message, help);
+    }
+}
+
 /// Reads a URDF; `None` after saying why there is none.
 pub(crate) fn read(document: &Document, problems: &mut Problems) -> Option<Urdf> {
     let source = document.input_text();

@@ -54,6 +54,7 @@ pub fn snapped(name: &str) -> Options {
             .map(|joint| ((*joint).to_owned(), "0".to_owned()))
             .collect(),
         file: format!("{name}.urdf"),
+        snap: true,
         ..Options::default()
     }
 }

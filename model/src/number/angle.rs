@@ -7,9 +7,9 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
-use super::Rational;
 use super::parse::{self, NumberError};
 use super::small::compare;
+use super::{Rational, trig};
 
 /// An angle as the robot file gives it.
 ///
@@ -60,7 +60,7 @@ impl Angle {
         }
     }
 
-    /// Returns the same angle in the form that compares equal whenever the
+    /// Returns the angle in the form that compares equal whenever the
     /// value does: zero radians become zero times π. (No other rational number
     /// of radians is a rational multiple of π.)
     #[must_use]
@@ -96,7 +96,7 @@ impl Angle {
         }
     }
 
-    /// Returns its value in radians to 120 digits; exact for [`Angle::Radians`].
+    /// Returns its value in radians to 400 bits; exact for [`Angle::Radians`].
     pub fn radians(&self) -> Rational {
         match self {
             Angle::PiTimes(value) => value * pi(),
@@ -249,7 +249,7 @@ impl Snap {
         Self::near(Angle::Radians(radians))
     }
 
-    /// Says whether an angle that stays as written is close to a right angle.
+    /// Reads an angle that stays as written, and notes a right angle close to it.
     pub fn near(angle: Angle) -> Snapped {
         let radians = angle.radians();
         let quarter = pi() / Rational::from_integer(2.into());
@@ -269,13 +269,9 @@ impl Snap {
     }
 }
 
-/// Returns π to 120 digits: enough to round any angle of a robot file to a double and
+/// Returns π to 400 bits: enough to round any angle of a robot file to a double and
 /// to order any two that are not absurdly close.
 fn pi() -> Rational {
-    const DIGITS: &[u8] = b"31415926535897932384626433832795028841971693993751058209749445923078164062862089986280348253421170679821480865132823066470";
-    let scale = BigInt::from(10).pow(DIGITS.len() as u32 - 1);
-    Rational::new(
-        BigInt::parse_bytes(DIGITS, 10).unwrap_or_else(BigInt::one),
-        scale,
-    )
+    const BITS: usize = 400;
+    Rational::new(trig::pi(BITS), BigInt::one() << BITS)
 }

@@ -4,6 +4,8 @@
 //! 0.43180000000000001714…, and every constant of the generated code would
 //! carry a 53-bit numerator about.
 
+use alloc::format;
+use alloc::string::{String, ToString};
 use core::fmt;
 
 use num_bigint::BigInt;
@@ -38,7 +40,7 @@ pub enum NumberError {
 }
 
 impl NumberError {
-    /// Returns what would be right instead.
+    /// Returns the likely fix.
     pub fn help(self) -> &'static str {
         match self {
             NumberError::Malformed => "write a number like 0.5, -3 or 1.2e-4",
@@ -93,16 +95,10 @@ pub fn parse_decimal(text: &str) -> Result<Rational, NumberError> {
         Some((whole, fraction)) => (whole, Some(fraction)),
         None => (mantissa, None),
     };
-    let mut digits = Digits::default();
-    digits.push(whole)?;
-    if let Some(fraction) = fraction {
-        digits.push(fraction)?;
-    }
-    let point = fraction.map_or(0, |f| f.bytes().filter(u8::is_ascii_digit).count());
-    let scale = exponent.map_or(Ok(0), parse_exponent)? - point as i64;
-    let size = digits.finish()?;
-    let size = if negative { -size } else { size };
-    scaled(size, scale)
+    let fraction = fraction.map_or(Ok(String::new()), digits)?;
+    let scale = exponent.map_or(Ok(0), parse_exponent)? - fraction.len() as i64;
+    let size = integer(digits(whole)? + &fraction)?;
+    scaled(if negative { -size } else { size }, scale)
 }
 
 /// Reads a positive fraction `n/d` of two integers, with an optional sign.
@@ -130,9 +126,7 @@ pub(super) fn parse_integer(text: &str) -> Result<BigInt, NumberError> {
     if text.len() > MAX_LITERAL {
         return Err(NumberError::TooLong);
     }
-    let mut digits = Digits::default();
-    digits.push(text)?;
-    digits.finish()
+    integer(digits(text)?)
 }
 
 /// Returns whether a number is zero or of a size from 1e-300 to 1e300.
@@ -183,45 +177,25 @@ fn split_sign(text: &str) -> (bool, &str) {
 /// for every literal that is not zero.
 fn parse_exponent(text: &str) -> Result<i64, NumberError> {
     let (negative, rest) = split_sign(text);
-    check_run(rest)?;
-    let mut value = 0i64;
-    for digit in rest.bytes().filter(u8::is_ascii_digit) {
-        value = (value * 10 + i64::from(digit - b'0')).min(10_000);
-    }
+    // Too many digits for an integer are too many for a size.
+    let value = digits(rest)?.parse().unwrap_or(i64::MAX).min(10_000);
     Ok(if negative { -value } else { value })
 }
 
-/// Checks that a run of digits has underscores only between digits.
-fn check_run(run: &str) -> Result<(), NumberError> {
-    let good = !run.is_empty()
-        && run.split('_').all(|part| !part.is_empty())
+/// Returns the digits of a run that has underscores only between digits.
+fn digits(run: &str) -> Result<String, NumberError> {
+    let good = run.split('_').all(|part| !part.is_empty())
         && run.bytes().all(|b| b.is_ascii_digit() || b == b'_');
-    good.then_some(()).ok_or(NumberError::Malformed)
+    good.then(|| run.replace('_', ""))
+        .ok_or(NumberError::Malformed)
 }
 
-/// Collects digits; leading zeros do not count.
-#[derive(Default)]
-struct Digits(alloc::vec::Vec<u8>);
-
-impl Digits {
-    fn push(&mut self, run: &str) -> Result<(), NumberError> {
-        check_run(run)?;
-        for digit in run.bytes().filter(u8::is_ascii_digit) {
-            if digit != b'0' || !self.0.is_empty() {
-                self.0.push(digit);
-            }
-        }
-        Ok(())
-    }
-
-    fn finish(self) -> Result<BigInt, NumberError> {
-        if self.0.len() > MAX_DIGITS {
-            return Err(NumberError::TooLong);
-        }
-        if self.0.is_empty() {
-            return Ok(BigInt::zero());
-        }
-        BigInt::parse_bytes(&self.0, 10).ok_or(NumberError::Malformed)
+/// Returns the number of these digits; leading zeros do not count.
+fn integer(digits: String) -> Result<BigInt, NumberError> {
+    match digits.trim_start_matches('0') {
+        "" => Ok(BigInt::zero()),
+        digits if digits.len() > MAX_DIGITS => Err(NumberError::TooLong),
+        digits => digits.parse().map_err(|_| NumberError::Malformed),
     }
 }
 
@@ -230,9 +204,7 @@ impl Digits {
 ///
 /// Integers that a 64-bit reader would refuse, and numbers with many zeros,
 /// get an exponent.
-pub fn write_decimal(value: &Rational) -> Option<alloc::string::String> {
-    use alloc::format;
-    use alloc::string::ToString;
+pub fn write_decimal(value: &Rational) -> Option<String> {
     if value.is_zero() {
         return Some("0".to_string());
     }

@@ -116,7 +116,7 @@ fn scale(mut x: f64, mut e: i64) -> f64 {
     x * power(e)
 }
 
-/// Returns Ziv's strategy: more bits until both ends of the enclosure round alike.
+/// Rounds a polynomial by Ziv's strategy: more bits until both ends of the enclosure round alike.
 fn round_polynomial<T: Rounded>(terms: &BTreeMap<Monomial, Rational>) -> T {
     let mut bits = 128;
     loop {

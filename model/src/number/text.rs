@@ -145,19 +145,11 @@ fn parse_angle(text: &str) -> Result<Angle, NotExact> {
 }
 
 fn rational(text: &str) -> Result<Rational, NotExact> {
-    let (numerator, denominator) = text.split_once('/').unwrap_or((text, "1"));
-    let integer = |digits: &str| {
-        let plain = digits.strip_prefix('-').unwrap_or(digits);
-        let fine = !plain.is_empty() && plain.bytes().all(|b| b.is_ascii_digit());
-        fine.then(|| digits.parse::<num_bigint::BigInt>().ok())
-            .flatten()
-            .ok_or(NotExact)
-    };
-    let (numerator, denominator) = (integer(numerator)?, integer(denominator)?);
-    if denominator <= num_bigint::BigInt::from(0) {
-        return Err(NotExact);
+    let (_, denominator) = text.split_once('/').unwrap_or((text, "1"));
+    match text.starts_with('+') || denominator.starts_with(['-', '+']) || text.contains('_') {
+        true => Err(NotExact),
+        false => text.parse().map_err(|_| NotExact),
     }
-    Ok(Rational::new(numerator, denominator))
 }
 
 #[cfg(test)]

@@ -98,7 +98,7 @@ const PI: [u32; 17] = [
 
 /// Returns π·2^w. Series of some hundred bits are asked for thousands of times, so as many
 /// are kept.
-fn pi(w: usize) -> BigInt {
+pub(super) fn pi(w: usize) -> BigInt {
     match KEPT.checked_sub(w) {
         Some(more) => BigInt::from_slice(Sign::Plus, &PI) >> more,
         None => machin(w),

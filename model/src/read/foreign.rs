@@ -1,4 +1,4 @@
-//! What was meant where a text is no TOML: another format, characters that a
+//! Likely intentions behind a text that is no TOML: another format, characters that a
 //! word processor or a web page puts in, decimal commas, leading zeros.
 
 use alloc::format;
@@ -49,7 +49,7 @@ pub(super) fn format_of(source: &str) -> Option<(&'static str, &'static str)> {
     (first == "---" || first.starts_with("%YAML") || keyed).then_some(("YAML", TOML))
 }
 
-/// Returns what to write for a character that TOML does not take.
+/// Returns the message and the help about a character that TOML does not take.
 pub(super) fn character(c: char) -> Option<(String, &'static str)> {
     let code = u32::from(c);
     let named = |what: &str| format!("the character `{c}` (U+{code:04X}) is {what}");
@@ -92,7 +92,7 @@ fn decimal_comma(text: &str) -> Option<String> {
     (digits(alone) && digits(fraction)).then(|| format!("{whole}.{part}"))
 }
 
-/// Returns the same for a number that a comma at this byte cuts in two.
+/// Returns `17.4` for `17,4`, where the comma at this byte cuts the number in two.
 pub(super) fn decimal_comma_at(source: &str, comma: usize) -> Option<String> {
     let (before, rest) = (source.get(..comma)?, source.get(comma..)?);
     let ends = |c: char| c.is_whitespace() || matches!(c, '=' | '[' | '{' | ']' | '}' | '#');
@@ -102,8 +102,8 @@ pub(super) fn decimal_comma_at(source: &str, comma: usize) -> Option<String> {
     decimal_comma(text.trim_end_matches(','))
 }
 
-/// Returns whether an array's text has a number with a decimal comma:
-/// `[0, 0, -9,81]`.
+/// Returns the first number with a decimal comma in an array's text, with a point: `-9.81`
+/// of `[0, 0, -9,81]`.
 pub(super) fn decimal_comma_in(array: &str) -> Option<String> {
     let inner = array.trim().trim_start_matches('[').trim_end_matches(']');
     let mut words = inner

@@ -18,10 +18,10 @@ const MAX_KEYS: usize = 8192;
 /// The longest string or key, in bytes.
 const MAX_STRING: usize = 4096;
 
-/// Says whether the text may be parsed.
+/// Returns whether the text may be parsed, and reports the first limit that it exceeds.
 pub(super) fn admits(source: &str, sink: &mut Sink) -> bool {
     if source.len() > MAX_BYTES {
-        // How long it is nobody knows: no more than this is read of a file.
+        // The length stays unknown: no more than this is read of a file.
         let message = format!("the file is too long: a robot file has at most {MAX_BYTES} bytes");
         sink.error(0..0, message, "is this the right file?");
         return false;

@@ -19,7 +19,7 @@ const ROW: [&str; 6] = ["alpha", "beta", "a", "d", "theta", "offset"];
 /// A joint as its table says.
 pub(super) struct Read<'v> {
     pub(super) joint: Joint,
-    /// Where it is, if it has no row.
+    /// The link's placement and the joint's axis, if it has no row.
     pub(super) placed: Option<Placed>,
     pub(super) mimic: Option<&'v Value<'v>>,
     pub(super) span: Range<usize>,

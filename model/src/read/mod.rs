@@ -7,14 +7,14 @@
 //! - [`Robot::validate`] and [`Scene::validate`], whose findings name places of the file, which
 //!   `table` finds in it
 //!
-//! # What a robot file may say besides rows
+//! # Keys besides those of rows
 //!
 //! ```toml
 //! base = { xyz = [0, 0, 0.8], rpy = ["pi", 0, 0] }    # frame 0 in base axes
 //! tool = { xyz = [0, 0, 0.107] }                      # the hand in the last frame
 //! payload_frame = { xyz = [0, 0, 0.05] }              # of payloads in the last frame
 //! allow = ["impossible_inertia"]                      # warnings that are known, by name
-//! outputs = ["inverse_dynamics", "gravity"]            # generated where nobody names any
+//! outputs = ["inverse_dynamics", "gravity"]            # generated where a request names none
 //!
 //! [[joint]]                       # a joint without a row of the DH table:
 //! placement = { xyz = [0.3, 0, 0.1], rpy = [0, "pi/2", 0] }
@@ -27,8 +27,8 @@
 //! rpy = ["pi/2", 0, 0]
 //! ```
 //!
-//! What is odd and not wrong is a warning, each with a name ([`RobotWarning`]) in its help.
-//! Of those that the file allows nothing is said.
+//! An oddity that is not wrong is a warning, each with a name ([`RobotWarning`]) in its help. The
+//! file silences it by that name.
 //!
 //! Gravity, poses, Jacobians and wrenches are in base axes, which are frame 0's
 //! own without a `base`. A placement is where a frame is in the one before: moved
@@ -41,8 +41,8 @@
 //! placed, and in the rows' otherwise. A row may turn about y after
 //! its twist, `beta`, where axes are nearly parallel.
 //!
-//! `report` collects and prints what was found; `suggest` finds the word that
-//! was meant, `foreign` what was meant where the text is no TOML.
+//! `report` collects and prints diagnostics; `suggest` finds the likely word, `foreign` the likely
+//! intention where the text is no TOML.
 
 mod file;
 mod foreign;
@@ -81,8 +81,8 @@ pub struct Options {
 pub struct Reading {
     /// The robot; [`Robot::validate`] finds no error in it.
     pub robot: Robot,
-    /// The functions that the file is for, which are generated where nobody names any; empty
-    /// if it does not say.
+    /// The functions that the file is for, which are generated where a request names none; empty
+    /// if the file lists none.
     pub outputs: Vec<Function>,
     /// Its scenes, in the order of the file; [`Scene::validate`] finds nothing.
     pub scenes: Vec<Scene>,

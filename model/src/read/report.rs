@@ -149,7 +149,7 @@ impl Sink {
         }
     }
 
-    /// Says nothing of this, wherever in the file it is.
+    /// Silences a warning, wherever in the file it is.
     pub(super) fn allow(&mut self, warning: RobotWarning) {
         self.allowed.insert(warning);
     }

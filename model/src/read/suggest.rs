@@ -3,10 +3,12 @@
 use alloc::format;
 use alloc::string::String;
 
+use strsim::osa_distance;
+
 use crate::outputs::{BundleError, Function};
 
 /// Words of other tools and textbooks, with ours.
-const OTHER_WORDS: [(&str, &str); 32] = [
+const OTHER_WORDS: [(&str, &str); 42] = [
     ("m", "mass"),
     ("weight", "mass"),
     ("r", "com"),
@@ -39,9 +41,19 @@ const OTHER_WORDS: [(&str, &str); 32] = [
     ("continuous", "revolute"),
     ("linear", "prismatic"),
     ("sliding", "prismatic"),
+    ("rnea", "inverse_dynamics"),
+    ("id", "inverse_dynamics"),
+    ("aba", "forward_dynamics"),
+    ("fd", "forward_dynamics"),
+    ("crba", "inertia"),
+    ("mass_matrix", "inertia"),
+    ("inertia_matrix", "inertia"),
+    ("fk", "forward_kinematics"),
+    ("nle", "manipulator_equation"),
+    ("nonlinear_effects", "manipulator_equation"),
 ];
 
-/// Returns what to do about a bundle that is none, with the output that was
+/// Returns the likely fix of a bundle that cannot be read, with the output that was
 /// probably meant.
 pub fn for_bundle(error: &BundleError) -> String {
     let meant = match error {
@@ -61,8 +73,7 @@ const SEVERAL: [(&str, &[&str], &str); 1] = [(
     "write `viscous` for friction that grows with the speed, `coulomb` for one that does not, or both",
 )];
 
-/// Returns what to write instead of a key that is not known, if that is one or
-/// several of these.
+/// Returns the known key, or the several, that an unknown one probably stands for.
 pub(super) fn for_key(word: &str, known: &[&str]) -> Option<String> {
     let has_all = |keys: &[&str]| keys.iter().all(|key| known.contains(key));
     let mut several = SEVERAL.iter();
@@ -72,13 +83,12 @@ pub(super) fn for_key(word: &str, known: &[&str]) -> Option<String> {
     closest(word, known).map(|meant| format!("did you mean `{meant}`?"))
 }
 
-/// The longest word that is compared, with one place before its first letter.
-const N: usize = 64;
+/// The longest word that is compared: the work stays bounded.
+const MAX_LENGTH: usize = 64;
 
 /// Returns the candidate that `word` is most likely a slip of, if one is near.
 pub fn closest<'c>(word: &str, candidates: &[&'c str]) -> Option<&'c str> {
-    // Nothing is near a longer word, and the work stays bounded.
-    if word.len() >= N {
+    if word.len() >= MAX_LENGTH {
         return None;
     }
     let word = word.to_ascii_lowercase();
@@ -90,42 +100,16 @@ pub fn closest<'c>(word: &str, candidates: &[&'c str]) -> Option<&'c str> {
     let letters = word.chars().count();
     candidates
         .iter()
-        .map(|candidate| (distance(&word, &candidate.to_ascii_lowercase()), *candidate))
+        .map(|candidate| {
+            (
+                osa_distance(&word, &candidate.to_ascii_lowercase()),
+                *candidate,
+            )
+        })
         // One slip in three letters at most: `a` is not a slip of `d`.
         .filter(|(distance, candidate)| distance * 3 <= letters.max(candidate.len()))
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, candidate)| candidate)
-}
-
-/// Insertions, deletions, substitutions and swaps of neighbours that turn one
-/// word into the other.
-fn distance(left: &str, right: &str) -> usize {
-    let mut table = [[0usize; N]; N];
-    let (mut l, mut r) = (['\0'; N], ['\0'; N]);
-    let fill = |chars: &mut [char; N], word: &str| {
-        let mut count = 0;
-        for (slot, c) in chars.iter_mut().skip(1).zip(word.chars()) {
-            *slot = c;
-            count += 1;
-        }
-        count
-    };
-    let (rows, columns) = (fill(&mut l, left), fill(&mut r, right));
-    for i in 0..=rows {
-        for k in 0..=columns {
-            if i == 0 || k == 0 {
-                table[i][k] = i + k;
-                continue;
-            }
-            let change = table[i - 1][k - 1] + usize::from(l[i] != r[k]);
-            let mut best = change.min(table[i - 1][k] + 1).min(table[i][k - 1] + 1);
-            if i > 1 && k > 1 && l[i] == r[k - 1] && l[i - 1] == r[k] {
-                best = best.min(table[i - 2][k - 2] + 1);
-            }
-            table[i][k] = best;
-        }
-    }
-    table[rows][columns]
 }
 
 #[cfg(test)]

@@ -55,8 +55,8 @@ impl Inertia<Rational> {
     }
 }
 
-/// Returns a symmetric matrix is positive semidefinite iff no principal minor (not
-/// only the leading ones) is negative.
+/// Returns whether a symmetric matrix is positive semidefinite: no principal minor, not only of
+/// the leading ones, is negative.
 fn is_semidefinite(m: &[[Rational; 3]; 3]) -> bool {
     let minor = |i: usize, k: usize| &m[i][i] * &m[k][k] - &m[i][k] * &m[k][i];
     let det = &m[0][0] * minor(1, 2) - &m[0][1] * (&m[1][0] * &m[2][2] - &m[1][2] * &m[2][0])

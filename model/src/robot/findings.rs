@@ -14,7 +14,7 @@ pub enum Severity {
     Error,
     /// Probably a slip; taken as it stands.
     Warning,
-    /// Said so that nobody has to guess.
+    /// A decision of the reader that the author may want to know.
     Note,
 }
 

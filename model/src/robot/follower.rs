@@ -16,9 +16,9 @@ pub struct Follower {
     pub leader: usize,
     /// Its motion for a unit of the leader's; of a joint that turns a whole number.
     pub multiplier: Rational,
-    /// Where it is where the leader's position is zero.
+    /// Its position where the leader's is zero.
     pub offset: Position,
-    /// What the row says.
+    /// The row of the table.
     pub joint: Joint,
 }
 
@@ -66,7 +66,7 @@ impl Follower {
         Some(())
     }
 
-    /// Returns where the leader is where the joint is at a position.
+    /// Returns the leader's position where the joint is at this one.
     fn at_leader(&self, at: &Position) -> Position {
         let part = Rational::one() / &self.multiplier;
         let back = self.offset.scaled(&-Rational::one());
@@ -89,7 +89,7 @@ impl Position {
         }
     }
 
-    /// Returns the same times a number.
+    /// Returns the position times a number.
     #[must_use]
     pub fn scaled(&self, by: &Rational) -> Position {
         match self {

@@ -7,7 +7,7 @@
 //! - `findings`: errors and warnings, each at a place of the robot file ([`Finding`])
 //! - `follower`: joints that follow others, rows without a coordinate ([`Follower`])
 //! - `warning`: the names of warnings, by which a file silences them ([`RobotWarning`])
-//! - `validate`: what no robot may be, whoever made it ([`Robot::validate`])
+//! - `validate`: checks of robots, from files and from code ([`Robot::validate`])
 //! - `reach`: how far an arm reaches, and inertias too large for that
 //! - `units`: sizes that were probably meant in another unit
 //! - `body`: which inertia tensors a body can have
@@ -117,7 +117,7 @@ pub struct Frame {
     pub name: String,
     /// The row of the joint that moves the link, zero-based.
     pub joint: usize,
-    /// Where it is in the frame of that row.
+    /// Its pose in the frame of that row.
     pub placement: Placement,
 }
 
@@ -138,7 +138,7 @@ impl Robot {
     /// The longest name of a robot or a joint, in characters.
     pub const MAX_NAME: usize = 64;
 
-    /// Returns what a message calls a joint, from its zero-based index:
+    /// Returns the name of a joint in messages, from its zero-based index:
     /// `joint 2`, or `joint 2 (elbow)` where it has a name.
     pub fn joint_label(&self, index: usize) -> String {
         let name = self.joints.get(index).and_then(|joint| joint.name.as_ref());

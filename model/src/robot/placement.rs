@@ -4,7 +4,7 @@ use num_traits::{Signed, Zero};
 
 use crate::number::{Angle, Rational};
 
-/// Where a frame is in another: its origin at `xyz`, its axes turned by `rpy`.
+/// A pose of a frame in another: its origin at `xyz`, its axes turned by `rpy`.
 ///
 /// The angles are those of URDF: about the fixed axes x, y and z of the other
 /// frame, in this order, so that R = Rz(yaw) Ry(pitch) Rx(roll).
@@ -22,8 +22,7 @@ impl Placement {
         self.xyz.iter().all(Zero::is_zero) && self.rpy.iter().all(Angle::is_zero)
     }
 
-    /// |x| + |y| + |z|, in metres: what lengths that are computed from it are small
-    /// against.
+    /// Returns |x| + |y| + |z|, in metres: the scale of errors of lengths that are computed from it.
     pub fn size(&self) -> Rational {
         self.xyz.iter().map(Signed::abs).sum()
     }

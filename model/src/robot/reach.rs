@@ -1,4 +1,4 @@
-//! How far an arm reaches, and inertias that are far too large for that.
+//! The reach of an arm, and inertias that are far too large for it.
 
 use alloc::format;
 use alloc::string::String;
@@ -17,7 +17,7 @@ const MAX_GYRATION: i64 = 3;
 /// The distance, in metres, for an arm without lengths.
 const MAX_GYRATION_ALONE: i64 = 3;
 
-/// Returns how far an arm reaches at most, m, without its base: zero of one without
+/// Returns the largest reach of an arm, m, without its base: zero of one without
 /// lengths.
 pub(crate) fn reach(robot: &Robot, placed: &[Placement]) -> Rational {
     let largest = |xyz: &[Rational; 3]| xyz.iter().map(Signed::abs).sum::<Rational>();
@@ -38,8 +38,8 @@ pub(crate) fn reach(robot: &Robot, placed: &[Placement]) -> Rational {
     rows.sum::<Rational>() + steps + bodies.max().unwrap_or_default()
 }
 
-/// Returns what is odd about an inertia that is far too large for its mass on an arm
-/// that reaches so far, and what to do about it. A body whose mass is all at a
+/// Returns the message and the help about an inertia that is far too large for its mass on an
+/// arm of this reach. A body whose mass is all at a
 /// distance k from an axis has the moment m k².
 pub(crate) fn large_inertia(
     inertia: &Inertia<Rational>,

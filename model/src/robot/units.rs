@@ -1,7 +1,7 @@
 //! Sizes that no arm has in SI units: what was probably meant.
 //!
 //! They are taken as they stand. A crane is longer than ten metres and an
-//! excavator heavier than a tonne, but whoever types a data sheet's millimetres
+//! excavator heavier than a tonne, but who types a data sheet's millimetres
 //! or degrees learns it here and not from the torques.
 
 use alloc::borrow::ToOwned;
@@ -37,7 +37,7 @@ pub(super) fn shown(value: &Rational) -> String {
     write_decimal(value).unwrap_or_else(|| value.to_string())
 }
 
-/// Returns the same number with another unit of a thousandth.
+/// Returns a thousandth of the number: metres of millimetres.
 fn thousandth(value: &Rational) -> String {
     shown(&(value / whole(1000)))
 }
@@ -258,7 +258,7 @@ pub(super) fn turns_text(c: char) -> bool {
     matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// Returns what to do about one of them.
+/// Returns the likely fix of a name with one of them.
 pub(super) fn without_turns(name: &str) -> String {
     let plain: String = name.chars().filter(|c| !turns_text(*c)).collect();
     match plain.is_empty() {

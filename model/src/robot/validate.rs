@@ -1,4 +1,4 @@
-//! What no robot may be, whoever made it.
+//! Checks of robots, from files and from code.
 //!
 //! The robot file's reader, the macro and code that fills in a [`Robot`] by
 //! hand all come through here, so that the stages after may rely on it.
@@ -23,15 +23,14 @@ use crate::number::{Angle, Rational, Rounded};
 const WIDTHS: core::ops::RangeInclusive<f64> = 1e-9..=1e9;
 
 impl Robot {
-    /// Returns everything that is wrong or odd about the robot; without an error among
-    /// it, every later stage accepts the robot.
+    /// Returns every error and warning about the robot. Every later stage accepts a robot
+    /// without an error.
     pub fn validate(&self) -> Vec<Finding> {
         self.validate_placed(&[])
     }
 
-    /// Returns the same of a robot whose joints are placed, before it has rows: what
-    /// is wrong or odd about the numbers that somebody wrote, not about those that
-    /// follow.
+    /// Returns every error and warning about a robot whose joints are placed, before it has rows:
+    /// about the numbers of the file, not about those derived from them.
     pub(crate) fn validate_placed(&self, placed: &[Placement]) -> Vec<Finding> {
         let mut findings = Findings::default();
         let reach = reach::reach(self, placed);

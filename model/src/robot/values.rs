@@ -5,7 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt::Write;
 
-use super::{Placement, Position};
+use super::{Inertia, Placement, Position};
 use crate::number::parse::write_decimal;
 use crate::number::{Angle, Rational};
 
@@ -41,6 +41,47 @@ pub fn list(items: impl IntoIterator<Item = String>) -> String {
 pub fn placement(value: &Placement) -> String {
     let (xyz, rpy) = (value.xyz.iter().map(number), value.rpy.iter().map(angle));
     format!("{{ xyz = {}, rpy = {} }}", list(xyz), list(rpy))
+}
+
+/// Returns an array of the entries of a tensor.
+pub fn inertia(value: &Inertia<Rational>) -> String {
+    list(value.entries().map(number))
+}
+
+/// Returns a value that the reader would not take for granted.
+pub fn unless_zero(value: String) -> Option<String> {
+    (value != "0").then_some(value)
+}
+
+/// Writes the keys that have a value, a line each.
+pub fn lines<'k>(text: &mut String, keys: impl IntoIterator<Item = (&'k str, Option<String>)>) {
+    for (key, value) in keys {
+        if let Some(value) = value {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "{key} = {value}");
+        }
+    }
+}
+
+/// Returns an inline table of the keys that have a value; `None` if none has.
+pub fn table<'k>(keys: impl IntoIterator<Item = (&'k str, Option<String>)>) -> Option<String> {
+    let mut text = String::new();
+    lines(&mut text, keys);
+    let keys: Vec<&str> = text.lines().collect();
+    (!keys.is_empty()).then(|| format!("{{ {} }}", keys.join(", ")))
+}
+
+/// Returns the first 16 hexadecimal digits of the SHA-256 of a text.
+pub(crate) fn short_hash(text: &str) -> String {
+    let hash = &hmac_sha256::Hash::hash(text.as_bytes())[..8];
+    hash.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Returns the word of a value in a table of words.
+pub(crate) fn word<T: PartialEq>(words: &[(&'static str, T)], value: &T) -> &'static str {
+    let mut words = words.iter();
+    let found = words.find(|(_, meaning)| meaning == value);
+    found.map_or("", |(word, _)| word)
 }
 
 /// Returns a text as a TOML basic string.

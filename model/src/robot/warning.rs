@@ -1,6 +1,8 @@
-//! What may be odd about a robot file that is right: the names of its warnings.
+//! Warnings about robot files that are right but odd, by their names.
 
 use core::fmt;
+
+use super::values::word;
 
 /// The name of a warning about a robot file. List it in the file to silence the warning:
 /// `allow = ["large_mass"]`.
@@ -57,9 +59,7 @@ impl RobotWarning {
 
     /// Returns the name in robot files.
     pub fn name(self) -> &'static str {
-        let mut words = RobotWarning::WORDS.iter();
-        let found = words.find(|(_, warning)| *warning == self);
-        found.map_or("", |(name, _)| name)
+        word(&RobotWarning::WORDS, &self)
     }
 }
 

@@ -123,9 +123,13 @@ impl Scalar for Field {
 }
 
 impl Divide for Field {
-    /// Divides; by zero: zero. What tells values apart here is never a proof.
+    /// Returns the quotient; zero where the divisor is zero, which proofs exclude by
+    /// [`divides`](Divide::divides).
     fn div(&self, other: &Self) -> Self {
         other.inverse().map_or(Self::ZERO, |x| self.mul(&x))
+    }
+    fn divides(&self) -> bool {
+        self.0 != 0
     }
 }
 

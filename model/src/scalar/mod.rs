@@ -5,23 +5,18 @@
 //! and counting scalars can fold them without a global state.
 //!
 //! - floats (this file): the generic runtime
-//! - [`field`]: integers modulo 2⁶¹ − 1: what the search tells values apart by
-//! - [`prime`], [`residue`]: integers modulo a prime chosen at run time: proofs
+//! - [`field`]: integers modulo 2⁶¹ − 1, in which the search compares values and proofs are made
+//! - [`sparse`]: values of any scalar that know when they are zero or one by structure
 //! - [`dual`]: a value with its rate of change, for derivatives
 //! - [`sincos_pair`]: sine and cosine of an angle
 //! - [`structural`]: sums and products without structural zeros and ones
 //! - [`count`]: counts the operations of a formula as written
-//! - [`record`]: a formula as it is executed, to run it again in other scalars
-//! - [`dyadic`]: numbers made of zero and one, which need no context
 
 pub mod count;
 pub mod dual;
-pub mod dyadic;
 pub mod field;
-pub mod prime;
-pub mod record;
-pub mod residue;
 pub mod sincos_pair;
+pub mod sparse;
 pub mod structural;
 
 pub use sincos_pair::SinCosPair;
@@ -71,11 +66,16 @@ pub trait Scalar: Clone {
 ///
 /// A formula may divide only by what cannot vanish wherever it is meant to
 /// hold, and says why. Where a divisor is zero all the same there is no
-/// quotient, and no scalar panics: each says in its own way that there is
-/// none, floats by an infinity or NaN, residues by what equals nothing.
+/// quotient, and no scalar panics: floats return an infinity or NaN, the field
+/// returns zero, and [`sparse`] residues are lost.
 pub trait Divide: Scalar {
     /// Returns `self / other`
     fn div(&self, other: &Self) -> Self;
+
+    /// Returns `false` of a divisor by which there is no quotient.
+    fn divides(&self) -> bool {
+        true
+    }
 }
 
 macro_rules! float_scalar {

@@ -2,7 +2,7 @@
 //!
 //! - this file: [`Scene`], as the robot file has it
 //! - `apply`: the robot that a scene makes of a robot
-//! - `validate`: what no scene may be ([`Scene::validate`])
+//! - `validate`: checks of scenes, from files and from code ([`Scene::validate`])
 //! - `write`: the text that says the same ([`write`](write())), and its hash
 
 mod apply;
@@ -14,6 +14,7 @@ use alloc::vec::Vec;
 
 use crate::number::Rational;
 use crate::outputs::Function;
+use crate::robot::values::word;
 use crate::robot::{Inertia, Position};
 
 pub use write::write;
@@ -39,7 +40,7 @@ pub struct Scene {
     pub acceleration_zero: bool,
     /// The payload on the last link.
     pub payload: Option<Payload>,
-    /// Where the motion stays, instead of the robot's limits.
+    /// The ranges of the motion, instead of the robot's limits.
     pub bounds: MotionBox,
     /// The accuracy that may be given up.
     pub tolerance: Option<Tolerance>,
@@ -112,10 +113,7 @@ impl Scale {
 
     /// Returns its word.
     pub fn word(self) -> &'static str {
-        match self {
-            Scale::Actuator => "actuator",
-            Scale::Range => "range",
-        }
+        word(&Scale::WORDS, &self)
     }
 }
 
@@ -140,7 +138,7 @@ impl Scene {
         locks.find(|(at, _)| *at == joint).map(|(_, q)| q)
     }
 
-    /// Returns the same scene with nothing given up.
+    /// Returns the scene without its tolerance.
     #[must_use]
     pub fn without_tolerance(&self) -> Scene {
         Scene {

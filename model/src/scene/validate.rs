@@ -1,4 +1,4 @@
-//! What no scene of a robot may be, whoever made it.
+//! Checks of scenes, from files and from code.
 //!
 //! - this file: names, joints, locks, the payload
 //! - `bounds`: the box
@@ -21,8 +21,8 @@ use crate::number::parse::write_decimal;
 use crate::robot::{Finding, Findings, Joint, JointKind, Position, Robot, RobotWarning, reach};
 
 impl Scene {
-    /// Returns everything that is wrong or odd about the scene; without an error among
-    /// it, every later stage accepts it with this robot.
+    /// Returns every error and warning about the scene. Every later stage accepts a scene
+    /// without an error, with this robot.
     pub fn validate(&self, robot: &Robot) -> Vec<Finding> {
         let mut check = Check {
             scene: self,
@@ -82,17 +82,9 @@ impl<'a> Check<'a> {
                 let message = format!("there is no joint {}: the robot has {n}", joint + 1);
                 self.error(place, message, "joints are counted from 1");
             } else if joints[..index].contains(&joint) {
-                let message = format!("joint {} is {twice}", self.called(joint));
+                let message = format!("{} is {twice}", self.robot.joint_label(joint));
                 self.error(place, message, "once is enough");
             }
-        }
-    }
-
-    /// Returns `4`, or `4 (wrist)`.
-    fn called(&self, joint: usize) -> String {
-        match self.joint(joint).and_then(|j| j.name.as_deref()) {
-            Some(name) => format!("{} ({name})", joint + 1),
-            None => format!("{}", joint + 1),
         }
     }
 
@@ -133,8 +125,8 @@ impl<'a> Check<'a> {
                     || compare(at, high) == Some(Ordering::Greater);
                 if outside {
                     let message = format!(
-                        "joint {} is locked outside its {whose}, {} to {}",
-                        self.called(*index),
+                        "{} is locked outside its {whose}, {} to {}",
+                        self.robot.joint_label(*index),
                         shown(low),
                         shown(high)
                     );

@@ -68,7 +68,7 @@ pub fn measure(explanation: &Explanation, states: usize) -> Vec<Errors> {
 /// of its scene; states of f32 are rounded to it first. Programs of one robot and scene are
 /// compared at the same states: one reference for all is quickest.
 pub fn of_program(
-    reference: &Reference<'_>,
+    reference: &Reference,
     program: &Program,
     scalars: &[ScalarType],
     states: usize,
@@ -98,7 +98,7 @@ pub fn affordable_states(joints: usize) -> usize {
 
 /// Returns the states in a scalar and the true values there, without those that are not finite.
 fn at(
-    reference: &Reference<'_>,
+    reference: &Reference,
     function: Function,
     states: &[JointState],
     scalar: ScalarType,

@@ -1,10 +1,10 @@
 //! Errors in units of u.
 
-use dalembert_model::number::{Rounded, Wide};
+use dalembert_model::number::Rounded;
 use dalembert_model::robot::Robot;
-use dalembert_model::scalar::Scalar;
 
 use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::verify::reference::TrueValue;
 
 /// The error of a vector of joint torques, or of any other result.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -54,22 +54,20 @@ impl Measure {
     }
 
     /// Returns the error of each entry; infinite if it is not finite.
-    fn errors(&self, found: &[f64], truth: &[Wide]) -> Vec<f64> {
-        let error = |(found, truth): (&f64, &Wide)| match Wide::from_f64(*found) {
-            Some(found) => (found.sub(truth).magnitude() - self.underflow).max(0.0),
-            None => f64::INFINITY,
-        };
-        found.iter().zip(truth).map(error).collect()
+    fn errors(&self, found: &[f64], truth: &[TrueValue]) -> Vec<f64> {
+        let pairs = found.iter().zip(truth);
+        let error = |(found, truth): (&f64, &TrueValue)| truth.error(*found) - self.underflow;
+        pairs.map(|pair| error(pair).max(0.0)).collect()
     }
 
     /// Returns the largest error of a result against a size, in u.
-    pub fn against(&self, found: &[f64], truth: &[Wide], size: f64) -> f64 {
+    pub fn against(&self, found: &[f64], truth: &[TrueValue], size: f64) -> f64 {
         let errors = self.errors(found, truth).into_iter();
         ratio(errors.fold(0.0, f64::max), size) / self.scalar.unit_roundoff()
     }
 
     /// Returns the error of a result; infinite if it is not finite.
-    pub fn of(&self, found: &[f64], truth: &[Wide]) -> Deviation {
+    pub fn of(&self, found: &[f64], truth: &[TrueValue]) -> Deviation {
         let u = self.scalar.unit_roundoff();
         let errors = self.errors(found, truth);
         let most = errors.iter().copied().fold(0.0, f64::max);

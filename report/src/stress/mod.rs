@@ -1,29 +1,21 @@
 //! Numerical stability at the extremes: generated code and generic runtime
 //! against a reference in 256 bits, where robots are not.
 //!
-//! - [`truth`]: the reference: the equations over a float of 256 bits
 //! - [`subject`]: what is tested: emitted code and runtime, f64 and f32
-//! - [`rounding`]: a robot with its parameters rounded to a scalar
 //! - [`scale`]: states of given magnitudes, and the torques to be met there
 //! - [`deviation`]: errors in u, normwise and for each joint
 //! - [`robots`], [`states`]: extremes made out of a robot
 //! - [`category`]: the matrix of them, and what each is held to
 //! - [`report`]: the matrix run on one robot
 //! - [`singular`]: functions that divide, where D is nearest to singular
-//! - [`sweep`]: errors against the size of angles, velocities and mass ratios
-//! - [`growth`]: what longer chains cost
 //!
 //! The measured table of worst errors is in `README.md` of this folder.
 
 pub mod category;
 pub mod deviation;
-pub mod growth;
 pub mod report;
 pub mod robots;
-pub mod rounding;
 pub mod scale;
 pub mod singular;
 pub mod states;
 pub mod subject;
-pub mod sweep;
-pub mod truth;

@@ -8,13 +8,14 @@ use super::category::{Category, Criterion};
 use super::deviation::{Deviation, Measure};
 use super::scale;
 use super::subject::{Code, Subject};
-use super::truth::Truth;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::GenerateError;
 use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::states::JointState;
 use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::condition::Condition;
+use dalembert_codegen::workspace::verify::reference::{Reference, TrueValue};
 
 /// The options of a run.
 #[derive(Clone, Debug)]
@@ -93,7 +94,7 @@ impl fmt::Display for RangeFault {
 /// A robot and its programs.
 struct Programs {
     robot: Robot,
-    truth: Truth,
+    reference: Reference,
     /// By scalar, then by subject; the reason where there is none.
     codes: Vec<(ScalarType, [Result<Code, GenerateError>; 2])>,
 }
@@ -107,10 +108,16 @@ impl Programs {
             codes.push((scalar, [Ok(Code::runtime(&robot, scalar)), emitted]));
         }
         Ok(Programs {
-            truth: Truth::new(&robot),
+            reference: Reference::new(&SceneRobot::whole(&robot)),
             robot,
             codes,
         })
+    }
+
+    /// Returns the true values of a function; `None` at a state that is not finite.
+    fn truth(&self, function: Function, state: &JointState) -> Option<Vec<TrueValue>> {
+        let run = || self.reference.run(function, state);
+        state.is_finite().then(run)
     }
 }
 
@@ -145,7 +152,7 @@ fn one(category: &Category, programs: &Programs, options: &Options, rows: &mut V
     for (scalar, codes) in &programs.codes {
         let states = states.iter().map(|state| state.in_scalar(*scalar));
         let states: Vec<JointState> = states.collect();
-        let truth = |state| programs.truth.run(Function::InverseDynamics, state);
+        let truth = |state: &JointState| programs.truth(Function::InverseDynamics, state);
         let truths: Vec<_> = states.iter().map(truth).collect();
         let measure = Measure::new(robot, *scalar, scales.clone());
         for (subject, code) in Subject::ALL.into_iter().zip(codes) {
@@ -201,7 +208,11 @@ fn fill<'a>(row: &mut Row, results: impl Iterator<Item = (&'a JointState, Deviat
 
 /// Returns the condition of D at a state, each entry the nearest double.
 fn condition(programs: &Programs, state: Option<&JointState>, scalar: ScalarType) -> Condition {
-    let d = state.and_then(|state| programs.truth.run(Function::Inertia, state));
-    let d: Vec<f64> = d.unwrap_or_default().iter().map(|x| x.to_f64()).collect();
+    let d = state.and_then(|state| programs.truth(Function::Inertia, state));
+    let d: Vec<f64> = d
+        .unwrap_or_default()
+        .iter()
+        .map(TrueValue::to_f64)
+        .collect();
     Condition::of(&d, scalar.unit_roundoff())
 }

@@ -13,10 +13,11 @@ use std::ops::Range;
 use dalembert_codegen::workspace::function::{Argument, Function, Quantity, Sizes};
 use dalembert_codegen::workspace::generate::GenerateError;
 use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::scene::SceneRobot;
 use dalembert_codegen::workspace::states::{JointState, positions, seeded};
 use dalembert_codegen::workspace::verify::condition::Condition;
 use dalembert_codegen::workspace::verify::floating::LEAST_PART;
-use dalembert_model::number::Wide;
+use dalembert_codegen::workspace::verify::reference::{Reference as Truth, TrueValue};
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::Robot;
 use nalgebra::DVector;
@@ -25,7 +26,6 @@ use super::category::NORMWISE;
 use super::deviation::Measure;
 use super::report::{Options, RangeFault, Verdict};
 use super::subject::{Code, Subject};
-use super::truth::Truth;
 
 /// Positions drawn before the best of them are improved.
 const DRAWN: usize = 1000;
@@ -95,7 +95,7 @@ pub fn functions() -> Vec<Function> {
 /// # Errors
 /// Those of generating the code that is run.
 pub fn run(robot: &Robot, options: &Options) -> Result<Divided, GenerateError> {
-    let truth = Truth::new(robot);
+    let truth = Truth::new(&SceneRobot::whole(robot));
     let nearest = nearest(robot, &truth);
     let mut divided = Divided {
         nearest,
@@ -180,8 +180,8 @@ fn condition(truth: &Truth, q: &[f64], scalar: ScalarType) -> Condition {
         Argument::Position => q.to_vec(),
         _ => vec![0.0; q.len()],
     });
-    let d = truth.run(Function::Inertia, &state).unwrap_or_default();
-    let d: Vec<f64> = d.iter().map(Wide::to_f64).collect();
+    let d = truth.run(Function::Inertia, &state);
+    let d: Vec<f64> = d.iter().map(TrueValue::to_f64).collect();
     Condition::of(&d, scalar.unit_roundoff())
 }
 
@@ -208,10 +208,11 @@ impl<'a> Cases<'a> {
         }
     }
 
-    fn truths(&self, function: Function) -> Vec<Option<Vec<Wide>>> {
+    fn truths(&self, function: Function) -> Vec<Option<Vec<TrueValue>>> {
         let states = self.states.iter();
+        let truth = |state: &JointState| self.truth.run(function, state);
         states
-            .map(|(state, _)| self.truth.run(function, state))
+            .map(|(state, _)| state.is_finite().then(|| truth(state)))
             .collect()
     }
 
@@ -220,7 +221,7 @@ impl<'a> Cases<'a> {
         function: Function,
         subject: Subject,
         code: &Result<Code, GenerateError>,
-        truths: &[Option<Vec<Wide>>],
+        truths: &[Option<Vec<TrueValue>>],
     ) -> Row {
         let scalar = self.measure.scalar;
         let mut row = Row {
@@ -280,7 +281,7 @@ impl<'a> Cases<'a> {
 
     /// Returns what an error of each quantity is relative to at least: ∂q̈/∂q̇ of an arm that is
     /// stretched out all but vanishes, and what is left of it says nothing about the code.
-    fn least(&self, function: Function, truths: &[Option<Vec<Wide>>]) -> Vec<f64> {
+    fn least(&self, function: Function, truths: &[Option<Vec<TrueValue>>]) -> Vec<f64> {
         let most = |range: Range<usize>| {
             let parts = truths.iter().flatten();
             let parts = parts.filter_map(|truth| truth.get(range.clone()));
@@ -290,7 +291,13 @@ impl<'a> Cases<'a> {
     }
 
     /// Returns the worst of a function's quantities, in u.
-    fn normwise(&self, function: Function, found: &[f64], truth: &[Wide], least: &[f64]) -> f64 {
+    fn normwise(
+        &self,
+        function: Function,
+        found: &[f64],
+        truth: &[TrueValue],
+        least: &[f64],
+    ) -> f64 {
         let mut worst = 0.0f64;
         for (range, least) in self.parts(function).into_iter().zip(least) {
             let parts = (found.get(range.clone()), truth.get(range));
@@ -304,7 +311,7 @@ impl<'a> Cases<'a> {
     }
 }
 
-fn largest(values: &[Wide]) -> f64 {
+fn largest(values: &[TrueValue]) -> f64 {
     let sizes = values.iter().map(|x| x.magnitude());
     sizes.fold(0.0, f64::max)
 }

@@ -1,6 +1,9 @@
 //! The extreme cases as robots with exact parameters.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
+pub mod chain;
+pub mod rounding;
+
 use std::path::PathBuf;
 
 use dalembert_codegen::workspace::states::JointState;

@@ -18,10 +18,10 @@
 /// | `inertia` | 12 | 12 | 0 | 0 | 1 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod coulomb {
@@ -31,7 +31,7 @@ pub const N: usize = 3;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 48 mul, 40 add, 2 div, 2 sqrt, 1 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 16, coefficients of at most 64 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 ///
 /// With Coulomb friction: b_i stands for b_i + F_i r_i, r_i = 1/√(q̇_i² + w_i²), so that the
 /// friction is F_i q̇_i/√(q̇_i² + w_i²). In the proof each r_i is a variable.
@@ -135,7 +135,7 @@ pub fn inverse_dynamics(q: &[f64; 3], qd: &[f64; 3], qdd: &[f64; 3]) -> [f64; 3]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 2 mul, 1 add, 1 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 4, coefficients of at most 56 bits, a wrong program passes with probability below 1e-66).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn gravity(q: &[f64; 3]) -> [f64; 3] {
     let (s3, c3) = libm::sincos(q[2]);
@@ -148,7 +148,7 @@ pub fn gravity(q: &[f64; 3]) -> [f64; 3] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 12 mul, 12 add, 1 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 14, coefficients of at most 62 bits, a wrong program passes with probability below 1e-66).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inertia(q: &[f64; 3]) -> [[f64; 3]; 3] {
     let (s3, c3) = libm::sincos(q[2]);

@@ -30,10 +30,10 @@
 /// | `forward_dynamics_with_wrench` | 139 | 116 | 2 | 2 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod hand {
@@ -43,7 +43,7 @@ pub const N: usize = 3;
 /// Potential energy U = -Σ m g·r in joules, r from the base's origin.
 ///
 /// 12 mul, 11 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 11, coefficients of at most 46 bits, a wrong program passes with probability below 1e-66).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn potential_energy(q: &[f64; 3]) -> f64 {
     let (s1, c1) = libm::sincos(q[0]);
@@ -77,7 +77,7 @@ pub fn potential_energy(q: &[f64; 3]) -> f64 {
 /// Forward kinematics: the pose [R | p] of the last frame in base axes, 3×4, lengths in metres.
 ///
 /// 49 mul, 34 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 24, coefficients of at most 20 bits, a wrong program passes with probability below 1e-65).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn forward_kinematics(q: &[f64; 3]) -> [[f64; 4]; 3] {
     let (s1, c1) = libm::sincos(q[0]);
@@ -175,7 +175,7 @@ pub fn forward_kinematics(q: &[f64; 3]) -> [[f64; 4]; 3] {
 /// Poses [R | p] of every link's frame in base axes, n×3×4, lengths in metres.
 ///
 /// 60 mul, 37 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 18 bits, a wrong program passes with probability below 1e-66).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn link_poses(q: &[f64; 3]) -> [[[f64; 4]; 3]; 3] {
     let (s1, c1) = libm::sincos(q[0]);
@@ -299,7 +299,7 @@ pub fn link_poses(q: &[f64; 3]) -> [[[f64; 4]; 3]; 3] {
 /// Jacobian J(q) of the last frame in base axes, 6×n: linear over angular velocity, at its origin.
 ///
 /// 36 mul, 19 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 24, coefficients of at most 19 bits, a wrong program passes with probability below 1e-65).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn jacobian(q: &[f64; 3]) -> [[f64; 3]; 6] {
     let (s1, c1) = libm::sincos(q[0]);
@@ -372,7 +372,7 @@ pub fn jacobian(q: &[f64; 3]) -> [[f64; 3]; 6] {
 /// J̇q̇, the acceleration of the last frame that its velocities alone give, linear over angular.
 ///
 /// 61 mul, 31 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 26, coefficients of at most 26 bits, a wrong program passes with probability below 1e-65).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn jacobian_rate(q: &[f64; 3], qd: &[f64; 3]) -> [f64; 6] {
     let (s1, c1) = libm::sincos(q[0]);
@@ -486,7 +486,7 @@ pub struct InverseDynamicsDerivatives {
 /// Derivatives of the inverse dynamics: ∂τ/∂q, ∂τ/∂q̇ and ∂τ/∂q̈ = D.
 ///
 /// 166 mul, 135 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 25, coefficients of at most 62 bits, a wrong program passes with probability below 1e-65).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics_derivatives(q: &[f64; 3], qd: &[f64; 3], qdd: &[f64; 3]) -> InverseDynamicsDerivatives {
     let (s1, c1) = libm::sincos(q[0]);
@@ -814,7 +814,7 @@ pub fn inverse_dynamics_derivatives(q: &[f64; 3], qd: &[f64; 3], qdd: &[f64; 3])
 /// Passivity-based control: D a + C v + c + b∘v, with C of the Christoffel symbols.
 ///
 /// 84 mul, 65 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 26, coefficients of at most 67 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn passivity(q: &[f64; 3], qd: &[f64; 3], v: &[f64; 3], a: &[f64; 3]) -> [f64; 3] {
     let (s1, c1) = libm::sincos(q[0]);
@@ -974,7 +974,7 @@ pub fn passivity(q: &[f64; 3], qd: &[f64; 3], v: &[f64; 3], a: &[f64; 3]) -> [f6
 /// Forward dynamics: the accelerations q̈ = D⁻¹ (τ - h - c - b∘q̇).
 ///
 /// 81 mul, 63 add, 2 div, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 141, coefficients of at most 489 bits, a wrong program passes with probability below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 ///
 /// Divides by the pivots of D, which are positive wherever D is positive definite. Where a
 /// joint moves no inertia a pivot is zero, and results are infinite or NaN.
@@ -1134,7 +1134,7 @@ pub fn forward_dynamics(q: &[f64; 3], qd: &[f64; 3], tau: &[f64; 3]) -> [f64; 3]
 /// Inverse D⁻¹(q) of the inertia matrix, symmetric.
 ///
 /// 36 mul, 29 add, 2 div, 1 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 124, coefficients of at most 449 bits, a wrong program passes with probability below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 ///
 /// Divides by the pivots of D, which are positive wherever D is positive definite. Where a
 /// joint moves no inertia a pivot is zero, and results are infinite or NaN.
@@ -1229,7 +1229,7 @@ pub struct ForwardDynamicsDerivatives {
 /// Derivatives of the forward dynamics: ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ = D⁻¹.
 ///
 /// 261 mul, 210 add, 2 div, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 267, coefficients of at most 933 bits, a wrong program passes with probability below 1e-61).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 ///
 /// Divides by the pivots of D, which are positive wherever D is positive definite. Where a
 /// joint moves no inertia a pivot is zero, and results are infinite or NaN.
@@ -1741,7 +1741,7 @@ pub struct MomentumObserver {
 /// Momentum p = D q̇ and its drift β = Cᵀq̇ - c - b∘q̇: ṗ = τ + β but for outside forces.
 ///
 /// 68 mul, 44 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 20, coefficients of at most 69 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn momentum_observer(q: &[f64; 3], qd: &[f64; 3]) -> MomentumObserver {
     let (s1, c1) = libm::sincos(q[0]);
@@ -1867,7 +1867,7 @@ pub fn momentum_observer(q: &[f64; 3], qd: &[f64; 3]) -> MomentumObserver {
 /// Inverse dynamics while a wrench w acts on the hand: τ = D q̈ + h + c + b∘q̇ - Jᵀw.
 ///
 /// 126 mul, 110 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 28, coefficients of at most 65 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics_with_wrench(q: &[f64; 3], qd: &[f64; 3], qdd: &[f64; 3], wrench: &[f64; 6]) -> [f64; 3] {
     let (s1, c1) = libm::sincos(q[0]);
@@ -2114,7 +2114,7 @@ pub fn inverse_dynamics_with_wrench(q: &[f64; 3], qd: &[f64; 3], qdd: &[f64; 3],
 /// Forward dynamics while a wrench w acts on the hand: q̈ = D⁻¹ (τ + Jᵀw - h - c - b∘q̇).
 ///
 /// 139 mul, 116 add, 2 div, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 147, coefficients of at most 494 bits, a wrong program passes with probability below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 ///
 /// Divides by the pivots of D, which are positive wherever D is positive definite. Where a
 /// joint moves no inertia a pivot is zero, and results are infinite or NaN.

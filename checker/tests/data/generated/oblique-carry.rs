@@ -23,10 +23,10 @@
 /// | `inverse_dynamics` | 53 | 35 | 2 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod oblique_carry {
@@ -38,7 +38,7 @@ pub const JOINTS: [usize; 2] = [0, 1];
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 53 mul, 35 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 20, coefficients of at most 675 bits, a wrong program passes with probability below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> [f64; 2] {
     let (s1, c1) = libm::sincos(q[0]);

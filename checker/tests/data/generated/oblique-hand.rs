@@ -29,10 +29,10 @@
 /// | `forward_dynamics_with_wrench` | 94 | 77 | 1 | 2 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod oblique {
@@ -42,7 +42,7 @@ pub const N: usize = 2;
 /// Potential energy U = -Σ m g·r in joules, r from the base's origin.
 ///
 /// 17 mul, 14 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 14, coefficients of at most 177 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn potential_energy(q: &[f32; 2]) -> f32 {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -84,7 +84,7 @@ pub fn potential_energy(q: &[f32; 2]) -> f32 {
 /// Forward kinematics: the pose [R | p] of the last frame in base axes, 3×4, lengths in metres.
 ///
 /// 50 mul, 31 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 32, coefficients of at most 90 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn forward_kinematics(q: &[f32; 2]) -> [[f32; 4]; 3] {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -180,7 +180,7 @@ pub fn forward_kinematics(q: &[f32; 2]) -> [[f32; 4]; 3] {
 /// Poses [R | p] of every link's frame in base axes, n×3×4, lengths in metres.
 ///
 /// 70 mul, 44 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 16, coefficients of at most 90 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn link_poses(q: &[f32; 2]) -> [[[f32; 4]; 3]; 2] {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -316,7 +316,7 @@ pub fn link_poses(q: &[f32; 2]) -> [[[f32; 4]; 3]; 2] {
 /// Jacobian J(q) of the last frame in base axes, 6×n: linear over angular velocity, at its origin.
 ///
 /// 20 mul, 13 add, 1 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 32, coefficients of at most 89 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn jacobian(q: &[f32; 2]) -> [[f32; 2]; 6] {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -366,7 +366,7 @@ pub fn jacobian(q: &[f32; 2]) -> [[f32; 2]; 6] {
 /// J̇q̇, the acceleration of the last frame that its velocities alone give, linear over angular.
 ///
 /// 27 mul, 10 add, 1 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 34, coefficients of at most 89 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn jacobian_rate(q: &[f32; 2], qd: &[f32; 2]) -> [f32; 6] {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -424,7 +424,7 @@ pub struct InverseDynamicsDerivatives {
 /// Derivatives of the inverse dynamics: ∂τ/∂q, ∂τ/∂q̇ and ∂τ/∂q̈ = D.
 ///
 /// 71 mul, 61 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 20, coefficients of at most 452 bits, a wrong program passes with probability below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics_derivatives(q: &[f32; 2], qd: &[f32; 2], qdd: &[f32; 2]) -> InverseDynamicsDerivatives {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -580,7 +580,7 @@ pub fn inverse_dynamics_derivatives(q: &[f32; 2], qd: &[f32; 2], qdd: &[f32; 2])
 /// Passivity-based control: D a + C v + c + b∘v, with C of the Christoffel symbols.
 ///
 /// 52 mul, 36 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 20, coefficients of at most 453 bits, a wrong program passes with probability below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn passivity(q: &[f32; 2], qd: &[f32; 2], v: &[f32; 2], a: &[f32; 2]) -> [f32; 2] {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -679,7 +679,7 @@ pub fn passivity(q: &[f32; 2], qd: &[f32; 2], v: &[f32; 2], a: &[f32; 2]) -> [f3
 /// Forward dynamics: the accelerations q̈ = D⁻¹ (τ - h - c - b∘q̇).
 ///
 /// 43 mul, 34 add, 1 div, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 72, coefficients of at most 5041 bits, a wrong program passes with probability below 1e-58).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 ///
 /// Divides by the pivots of D, which are positive wherever D is positive definite. Where a
 /// joint moves no inertia a pivot is zero, and results are infinite or NaN.
@@ -771,7 +771,7 @@ pub fn forward_dynamics(q: &[f32; 2], qd: &[f32; 2], tau: &[f32; 2]) -> [f32; 2]
 /// Inverse D⁻¹(q) of the inertia matrix, symmetric.
 ///
 /// 15 mul, 14 add, 1 div, 1 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 56, coefficients of at most 4293 bits, a wrong program passes with probability below 1e-58).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 ///
 /// Divides by the pivots of D, which are positive wherever D is positive definite. Where a
 /// joint moves no inertia a pivot is zero, and results are infinite or NaN.
@@ -828,7 +828,7 @@ pub struct ForwardDynamicsDerivatives {
 /// Derivatives of the forward dynamics: ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ = D⁻¹.
 ///
 /// 104 mul, 81 add, 1 div, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 128, coefficients of at most 8997 bits, a wrong program passes with probability below 1e-57).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 ///
 /// Divides by the pivots of D, which are positive wherever D is positive definite. Where a
 /// joint moves no inertia a pivot is zero, and results are infinite or NaN.
@@ -1050,7 +1050,7 @@ pub struct MomentumObserver {
 /// Momentum p = D q̇ and its drift β = Cᵀq̇ - c - b∘q̇: ṗ = τ + β but for outside forces.
 ///
 /// 40 mul, 26 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 18, coefficients of at most 451 bits, a wrong program passes with probability below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn momentum_observer(q: &[f32; 2], qd: &[f32; 2]) -> MomentumObserver {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -1130,7 +1130,7 @@ pub fn momentum_observer(q: &[f32; 2], qd: &[f32; 2]) -> MomentumObserver {
 /// Inverse dynamics while a wrench w acts on the hand: τ = D q̈ + h + c + b∘q̇ - Jᵀw.
 ///
 /// 98 mul, 75 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 34, coefficients of at most 462 bits, a wrong program passes with probability below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics_with_wrench(q: &[f32; 2], qd: &[f32; 2], qdd: &[f32; 2], wrench: &[f32; 6]) -> [f32; 2] {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -1314,7 +1314,7 @@ pub fn inverse_dynamics_with_wrench(q: &[f32; 2], qd: &[f32; 2], qdd: &[f32; 2],
 /// Forward dynamics while a wrench w acts on the hand: q̈ = D⁻¹ (τ + Jᵀw - h - c - b∘q̇).
 ///
 /// 94 mul, 77 add, 1 div, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 86, coefficients of at most 5050 bits, a wrong program passes with probability below 1e-58).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 ///
 /// Divides by the pivots of D, which are positive wherever D is positive definite. Where a
 /// joint moves no inertia a pivot is zero, and results are infinite or NaN.

@@ -2,6 +2,10 @@
 #ifndef PLANAR2R_H
 #define PLANAR2R_H
 
+#ifdef __FAST_MATH__
+#error "-ffast-math changes what is computed: compile without it"
+#endif
+
 #include <math.h>
 #include <stddef.h>
 
@@ -53,10 +57,10 @@
  * | `servo` | 13 | 12 | 2 | regrouped |
  *
  * Every function was proved before it was printed: with exact constants it equals
- * the equations of motion at random points modulo random primes, and this text, read
+ * the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
  * back, is the proved program with each constant rounded once.
- * Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
- * can choose them. A miss is a wrong program that passes; its probability is for one program.
+ * The points follow from the SHA-256 of robot, scene and program. The probability that a
+ * wrong program passes is for one program.
  */
 
 /* The sine and the cosine of an angle. */
@@ -139,7 +143,7 @@ static inline planar2r_sincos_t planar2r_sincos(const int far, const double angl
  * Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
  *
  * 13 mul, 10 add, 2 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 128 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * qd[2]: Velocities, rad/s or m/s.
@@ -223,7 +227,7 @@ static inline void planar2r_inverse_dynamics_batch(const size_t n, const double 
  * Gravity load c(q): the torques that hold the arm still.
  *
  * 4 mul, 2 add, 2 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 4, coefficients of at most 124 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * c[2]: Gravity load c. Units: N·m.
@@ -284,7 +288,7 @@ static inline void planar2r_gravity_batch(const size_t n, const double *PLANAR2R
  * Kinetic energy T = ½ q̇ᵀ D q̇ in joules, the rotors' part included.
  *
  * 6 mul, 3 add, 1 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 130 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * qd[2]: Velocities, rad/s or m/s.
@@ -348,7 +352,7 @@ typedef struct {
  * `inverse_dynamics` and `inertia` in one function that shares their work.
  *
  * 13 mul, 12 add, 2 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 128 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * qd[2]: Velocities, rad/s or m/s.
@@ -462,10 +466,10 @@ static inline void planar2r_servo_batch(const size_t n, const double *PLANAR2R_R
  * | `servo` | 13 | 12 | 2 | regrouped |
  *
  * Every function was proved before it was printed: with exact constants it equals
- * the equations of motion at random points modulo random primes, and this text, read
+ * the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
  * back, is the proved program with each constant rounded once.
- * Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
- * can choose them. A miss is a wrong program that passes; its probability is for one program.
+ * The points follow from the SHA-256 of robot, scene and program. The probability that a
+ * wrong program passes is for one program.
  */
 
 /* The sine and the cosine of an angle. */
@@ -536,7 +540,7 @@ static inline planar2r_f32_sincos_t planar2r_f32_sincos(const int far, const flo
  * Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
  *
  * 13 mul, 10 add, 2 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 128 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * qd[2]: Velocities, rad/s or m/s.
@@ -620,7 +624,7 @@ static inline void planar2r_f32_inv_dyn_batch(const size_t n, const float *PLANA
  * Gravity load c(q): the torques that hold the arm still.
  *
  * 4 mul, 2 add, 2 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 4, coefficients of at most 124 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * c[2]: Gravity load c. Units: N·m.
@@ -681,7 +685,7 @@ static inline void planar2r_f32_gravity_batch(const size_t n, const float *PLANA
  * Kinetic energy T = ½ q̇ᵀ D q̇ in joules, the rotors' part included.
  *
  * 6 mul, 3 add, 1 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 130 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * qd[2]: Velocities, rad/s or m/s.
@@ -745,7 +749,7 @@ typedef struct {
  * `inverse_dynamics` and `inertia` in one function that shares their work.
  *
  * 13 mul, 12 add, 2 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 128 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * qd[2]: Velocities, rad/s or m/s.

@@ -18,10 +18,10 @@
 /// | `servo` | 13 | 12 | 2 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod planar2r {
@@ -31,7 +31,7 @@ pub const N: usize = 2;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 13 mul, 10 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 128 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> [f64; 2] {
     let (s1, c1) = libm::sincos(q[0]);
@@ -65,7 +65,7 @@ pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> [f64; 2]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 4 mul, 2 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 4, coefficients of at most 124 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
     let (s1, c1) = libm::sincos(q[0]);
@@ -82,7 +82,7 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
 /// Kinetic energy T = ½ q̇ᵀ D q̇ in joules, the rotors' part included.
 ///
 /// 6 mul, 3 add, 1 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 130 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn kinetic_energy(q: &[f64; 2], qd: &[f64; 2]) -> f64 {
     let c2 = libm::cos(q[1]);
@@ -110,7 +110,7 @@ pub struct Servo {
 /// `inverse_dynamics` and `inertia` in one function that shares their work.
 ///
 /// 13 mul, 12 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 128 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn servo(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> Servo {
     let (s1, c1) = libm::sincos(q[0]);
@@ -168,10 +168,10 @@ pub fn servo(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> Servo {
 /// | `servo` | 13 | 12 | 2 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod planar2r_f32 {
@@ -181,7 +181,7 @@ pub const N: usize = 2;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 13 mul, 10 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 128 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics(q: &[f32; 2], qd: &[f32; 2], qdd: &[f32; 2]) -> [f32; 2] {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -215,7 +215,7 @@ pub fn inverse_dynamics(q: &[f32; 2], qd: &[f32; 2], qdd: &[f32; 2]) -> [f32; 2]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 4 mul, 2 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 4, coefficients of at most 124 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn gravity(q: &[f32; 2]) -> [f32; 2] {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -232,7 +232,7 @@ pub fn gravity(q: &[f32; 2]) -> [f32; 2] {
 /// Kinetic energy T = ½ q̇ᵀ D q̇ in joules, the rotors' part included.
 ///
 /// 6 mul, 3 add, 1 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 130 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn kinetic_energy(q: &[f32; 2], qd: &[f32; 2]) -> f32 {
     let c2 = libm::cosf(q[1]);
@@ -260,7 +260,7 @@ pub struct Servo {
 /// `inverse_dynamics` and `inertia` in one function that shares their work.
 ///
 /// 13 mul, 12 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 128 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn servo(q: &[f32; 2], qd: &[f32; 2], qdd: &[f32; 2]) -> Servo {
     let (s1, c1) = libm::sincosf(q[0]);

@@ -2,6 +2,10 @@
 #ifndef PLANAR2R_H
 #define PLANAR2R_H
 
+#ifdef __FAST_MATH__
+#error "-ffast-math changes what is computed: compile without it"
+#endif
+
 #include <math.h>
 
 /* No array overlaps another one that is written. */
@@ -39,17 +43,17 @@
  * | `servo` | 20 | 16 | 2 | regrouped |
  *
  * Every function was proved before it was printed: with exact constants it equals
- * the equations of motion at random points modulo random primes, and this text, read
+ * the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
  * back, is the proved program with each constant rounded once.
- * Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
- * can choose them. A miss is a wrong program that passes; its probability is for one program.
+ * The points follow from the SHA-256 of robot, scene and program. The probability that a
+ * wrong program passes is for one program.
  */
 
 /*
  * Gravity load c(q): the torques that hold the arm still.
  *
  * 4 mul, 2 add, 2 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 4, coefficients of at most 124 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * c[2]: Gravity load c. Units: N·m.
@@ -89,7 +93,7 @@ typedef struct {
  * `inverse_dynamics`, `dynamic_coefficients` and `kinetic_energy` in one function that shares their work.
  *
  * 20 mul, 16 add, 2 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 142 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * qd[2]: Velocities, rad/s or m/s.
@@ -179,17 +183,17 @@ static inline void planar2r_servo(const double q[PLANAR2R_RESTRICT 2], const dou
  * | `servo` | 20 | 16 | 2 | regrouped |
  *
  * Every function was proved before it was printed: with exact constants it equals
- * the equations of motion at random points modulo random primes, and this text, read
+ * the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
  * back, is the proved program with each constant rounded once.
- * Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
- * can choose them. A miss is a wrong program that passes; its probability is for one program.
+ * The points follow from the SHA-256 of robot, scene and program. The probability that a
+ * wrong program passes is for one program.
  */
 
 /*
  * Gravity load c(q): the torques that hold the arm still.
  *
  * 4 mul, 2 add, 2 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 4, coefficients of at most 124 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * c[2]: Gravity load c. Units: N·m.
@@ -229,7 +233,7 @@ typedef struct {
  * `inverse_dynamics`, `dynamic_coefficients` and `kinetic_energy` in one function that shares their work.
  *
  * 20 mul, 16 add, 2 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 142 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * qd[2]: Velocities, rad/s or m/s.

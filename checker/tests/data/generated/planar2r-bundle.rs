@@ -16,10 +16,10 @@
 /// | `servo` | 20 | 16 | 2 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod planar2r {
@@ -29,7 +29,7 @@ pub const N: usize = 2;
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 4 mul, 2 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 4, coefficients of at most 124 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
     let (s1, c1) = libm::sincos(q[0]);
@@ -61,7 +61,7 @@ pub struct Servo {
 /// `inverse_dynamics`, `dynamic_coefficients` and `kinetic_energy` in one function that shares their work.
 ///
 /// 20 mul, 16 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 142 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn servo(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> Servo {
     let (s1, c1) = libm::sincos(q[0]);
@@ -140,10 +140,10 @@ pub fn servo(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> Servo {
 /// | `servo` | 20 | 16 | 2 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod planar2r_f32 {
@@ -153,7 +153,7 @@ pub const N: usize = 2;
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 4 mul, 2 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 4, coefficients of at most 124 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn gravity(q: &[f32; 2]) -> [f32; 2] {
     let (s1, c1) = libm::sincosf(q[0]);
@@ -185,7 +185,7 @@ pub struct Servo {
 /// `inverse_dynamics`, `dynamic_coefficients` and `kinetic_energy` in one function that shares their work.
 ///
 /// 20 mul, 16 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 142 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn servo(q: &[f32; 2], qd: &[f32; 2], qdd: &[f32; 2]) -> Servo {
     let (s1, c1) = libm::sincosf(q[0]);

@@ -2,6 +2,10 @@
 #ifndef PLANAR2R_H
 #define PLANAR2R_H
 
+#ifdef __FAST_MATH__
+#error "-ffast-math changes what is computed: compile without it"
+#endif
+
 #include <math.h>
 #include <stddef.h>
 
@@ -49,17 +53,17 @@
  * | `kinetic_energy` | 6 | 3 | 1 | regrouped |
  *
  * Every function was proved before it was printed: with exact constants it equals
- * the equations of motion at random points modulo random primes, and this text, read
+ * the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
  * back, is the proved program with each constant rounded once.
- * Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
- * can choose them. A miss is a wrong program that passes; its probability is for one program.
+ * The points follow from the SHA-256 of robot, scene and program. The probability that a
+ * wrong program passes is for one program.
  */
 
 /*
  * Inertia matrix D(q), symmetric; armature is on its diagonal.
  *
  * 1 mul, 2 add, 1 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 8, coefficients of at most 126 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * d[2][2], row by row: Inertia matrix D. Units: kg·m².
@@ -101,7 +105,7 @@ static inline void planar2r_inertia_batch(const size_t n, const double *PLANAR2R
  * Kinetic energy T = ½ q̇ᵀ D q̇ in joules, the rotors' part included.
  *
  * 6 mul, 3 add, 1 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 130 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * qd[2]: Velocities, rad/s or m/s.

@@ -20,10 +20,10 @@
 /// | `dynamic_coefficients` | 4 | 2 | 2 | 2 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod planar2r {
@@ -59,7 +59,7 @@ pub fn in_box(q: &[f32; 2]) -> bool {
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 5 mul, 2 add, 8 fma, 2 sincos, 38 trig_mul, 34 trig_add.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 128 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 ///
 /// A product and the sum that alone reads it are one operation, fma, rounded once; the t of
 /// that product is left out. `mul_add` needs `std`, and a build for a processor that has it
@@ -176,7 +176,7 @@ pub fn inverse_dynamics(q: &[f32; 2], qd: &[f32; 2], qdd: &[f32; 2]) -> [f32; 2]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 2 mul, 0 add, 2 fma, 2 sincos, 38 trig_mul, 34 trig_add.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 4, coefficients of at most 124 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 ///
 /// A product and the sum that alone reads it are one operation, fma, rounded once; the t of
 /// that product is left out. `mul_add` needs `std`, and a build for a processor that has it
@@ -282,7 +282,7 @@ pub fn gravity(q: &[f32; 2]) -> [f32; 2] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 0 mul, 1 add, 1 fma, 1 sincos, 8 trig_mul, 7 trig_add.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 8, coefficients of at most 126 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 ///
 /// A product and the sum that alone reads it are one operation, fma, rounded once; the t of
 /// that product is left out. `mul_add` needs `std`, and a build for a processor that has it
@@ -328,7 +328,7 @@ pub fn inertia(q: &[f32; 2]) -> [[f32; 2]; 2] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 5 mul, 2 add, 1 sincos, 10 trig_mul, 8 trig_add.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 127 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 ///
 /// Sines and cosines are polynomials, 10 mul, 8 add, with proved errors:
 ///
@@ -385,7 +385,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 8 mul, 4 add, 2 fma, 2 sincos, 38 trig_mul, 34 trig_add.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 127 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 ///
 /// A product and the sum that alone reads it are one operation, fma, rounded once; the t of
 /// that product is left out. `mul_add` needs `std`, and a build for a processor that has it
@@ -519,7 +519,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 4 mul, 2 add, 2 fma, 2 sincos, 38 trig_mul, 34 trig_add.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 8, coefficients of at most 126 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 ///
 /// A product and the sum that alone reads it are one operation, fma, rounded once; the t of
 /// that product is left out. `mul_add` needs `std`, and a build for a processor that has it

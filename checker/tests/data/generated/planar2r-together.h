@@ -2,6 +2,10 @@
 #ifndef PLANAR2R_H
 #define PLANAR2R_H
 
+#ifdef __FAST_MATH__
+#error "-ffast-math changes what is computed: compile without it"
+#endif
+
 #include <math.h>
 
 /* No array overlaps another one that is written. */
@@ -43,10 +47,10 @@
  * | `dynamic_coefficients` | 6 | 4 | 2 | regrouped |
  *
  * Every function was proved before it was printed: with exact constants it equals
- * the equations of motion at random points modulo random primes, and this text, read
+ * the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
  * back, is the proved program with each constant rounded once.
- * Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
- * can choose them. A miss is a wrong program that passes; its probability is for one program.
+ * The points follow from the SHA-256 of robot, scene and program. The probability that a
+ * wrong program passes is for one program.
  */
 
 /*
@@ -211,7 +215,7 @@ static inline void planar2r_sines_2(const double angle[PLANAR2R_RESTRICT 2], dou
  * Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
  *
  * 13 mul, 10 add, 2 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 128 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * qd[2]: Velocities, rad/s or m/s.
@@ -259,7 +263,7 @@ static inline void planar2r_inverse_dynamics(const double q[PLANAR2R_RESTRICT 2]
  * Gravity load c(q): the torques that hold the arm still.
  *
  * 4 mul, 2 add, 2 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 4, coefficients of at most 124 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * c[2]: Gravity load c. Units: N·m.
@@ -288,7 +292,7 @@ static inline void planar2r_gravity(const double q[PLANAR2R_RESTRICT 2], double 
  * Inertia matrix D(q), symmetric; armature is on its diagonal.
  *
  * 1 mul, 2 add, 1 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 8, coefficients of at most 126 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * d[2][2], row by row: Inertia matrix D. Units: kg·m².
@@ -313,7 +317,7 @@ static inline void planar2r_inertia(const double q[PLANAR2R_RESTRICT 2], double 
  * Coriolis and centripetal load h(q, q̇), damping not included.
  *
  * 5 mul, 2 add, 1 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 127 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * qd[2]: Velocities, rad/s or m/s.
@@ -341,7 +345,7 @@ static inline void planar2r_coriolis(const double q[PLANAR2R_RESTRICT 2], const 
  * D(q), h(q, q̇) and c(q), with shared work.
  *
  * 10 mul, 6 add, 2 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 127 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * qd[2]: Velocities, rad/s or m/s.
@@ -389,7 +393,7 @@ static inline void planar2r_manipulator_equation(const double q[PLANAR2R_RESTRIC
  * D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
  *
  * 6 mul, 4 add, 2 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 8, coefficients of at most 126 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * d[2][2], row by row: Inertia matrix D. Units: kg·m².
@@ -453,10 +457,10 @@ static inline void planar2r_dynamic_coefficients(const double q[PLANAR2R_RESTRIC
  * | `dynamic_coefficients` | 6 | 4 | 2 | regrouped |
  *
  * Every function was proved before it was printed: with exact constants it equals
- * the equations of motion at random points modulo random primes, and this text, read
+ * the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
  * back, is the proved program with each constant rounded once.
- * Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
- * can choose them. A miss is a wrong program that passes; its probability is for one program.
+ * The points follow from the SHA-256 of robot, scene and program. The probability that a
+ * wrong program passes is for one program.
  */
 
 /*
@@ -597,7 +601,7 @@ static inline void planar2r_f32_sines_2(const float angle[PLANAR2R_RESTRICT 2], 
  * Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
  *
  * 13 mul, 10 add, 2 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 128 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * qd[2]: Velocities, rad/s or m/s.
@@ -645,7 +649,7 @@ static inline void planar2r_f32_inverse_dynamics(const float q[PLANAR2R_RESTRICT
  * Gravity load c(q): the torques that hold the arm still.
  *
  * 4 mul, 2 add, 2 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 4, coefficients of at most 124 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * c[2]: Gravity load c. Units: N·m.
@@ -674,7 +678,7 @@ static inline void planar2r_f32_gravity(const float q[PLANAR2R_RESTRICT 2], floa
  * Inertia matrix D(q), symmetric; armature is on its diagonal.
  *
  * 1 mul, 2 add, 1 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 8, coefficients of at most 126 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * d[2][2], row by row: Inertia matrix D. Units: kg·m².
@@ -699,7 +703,7 @@ static inline void planar2r_f32_inertia(const float q[PLANAR2R_RESTRICT 2], floa
  * Coriolis and centripetal load h(q, q̇), damping not included.
  *
  * 5 mul, 2 add, 1 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 127 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * qd[2]: Velocities, rad/s or m/s.
@@ -727,7 +731,7 @@ static inline void planar2r_f32_coriolis(const float q[PLANAR2R_RESTRICT 2], con
  * D(q), h(q, q̇) and c(q), with shared work.
  *
  * 10 mul, 6 add, 2 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 10, coefficients of at most 127 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * qd[2]: Velocities, rad/s or m/s.
@@ -775,7 +779,7 @@ static inline void planar2r_f32_manip_eq(const float q[PLANAR2R_RESTRICT 2], con
  * D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
  *
  * 6 mul, 4 add, 2 sincos.
- * Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 8, coefficients of at most 126 bits, a wrong program passes with probability below 1e-64).
+ * Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
  *
  * q[2]: Positions, rad or m.
  * d[2][2], row by row: Inertia matrix D. Units: kg·m².

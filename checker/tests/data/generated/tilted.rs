@@ -21,10 +21,10 @@
 /// | `inertia` | 17 | 14 | 1 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod tilted {
@@ -34,7 +34,7 @@ pub const N: usize = 2;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 52 mul, 38 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 22, coefficients of at most 50 bits, a wrong program passes with probability below 1e-65).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> [f64; 2] {
     let (s1, c1) = libm::sincos(q[0]);
@@ -135,7 +135,7 @@ pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> [f64; 2]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 16 mul, 8 add, 2 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 8, coefficients of at most 34 bits, a wrong program passes with probability below 1e-66).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
     let (s1, c1) = libm::sincos(q[0]);
@@ -170,7 +170,7 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 17 mul, 14 add, 1 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 16, coefficients of at most 45 bits, a wrong program passes with probability below 1e-66).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inertia(q: &[f64; 2]) -> [[f64; 2]; 2] {
     let (s2, c2) = libm::sincos(q[1]);

@@ -84,7 +84,7 @@ fn wide(a: &Limbs) -> Double {
     all
 }
 
-/// Returns the same, lowered by at most as many bits.
+/// Returns a significand lowered by at most as many bits as it has.
 fn lowered(a: &Limbs, by: u32) -> Double {
     let (whole, part) = ((by / BITS) as usize, by % BITS);
     let mut all = [0; 2 * LIMBS];

@@ -58,18 +58,17 @@ impl Check<'_> {
         }
         let below = |a, b| compare(a, b) == Some(Ordering::Less);
         let (name, limits) = (
-            self.called(index),
+            self.robot.joint_label(index),
             format!("{} to {}", shown(lowest), shown(highest)),
         );
         if below(high, lowest) || below(highest, low) {
-            let message = format!("joint {name} is never in this range: its limits are {limits}");
+            let message = format!("{name} is never in this range: its limits are {limits}");
             let help = "a range has positions that the joint can take";
             self.error(place, message, help);
         } else if below(low, lowest) || below(highest, high) {
             let scene = &self.scene.name;
-            let message = format!(
-                "the box of scene `{scene}` goes beyond the limits of joint {name}, {limits}"
-            );
+            let message =
+                format!("the box of scene `{scene}` goes beyond the limits of {name}, {limits}");
             self.warn(RobotWarning::BoxBeyondLimits, place, message, BEYOND);
         }
     }
@@ -97,10 +96,10 @@ impl Check<'_> {
             });
             let beyond = limit.filter(|limit| value > limit && self.scene.locked(index).is_none());
             if let Some(limit) = beyond {
-                let (scene, name) = (&self.scene.name, self.called(index));
+                let (scene, name) = (&self.scene.name, self.robot.joint_label(index));
                 let limit = decimal(limit);
                 let message = format!(
-                    "the box of scene `{scene}` goes beyond the {key} limit of joint {name}, {limit}"
+                    "the box of scene `{scene}` goes beyond the {key} limit of {name}, {limit}"
                 );
                 self.warn(RobotWarning::BoxBeyondLimits, place, message, BEYOND);
             }

@@ -65,7 +65,7 @@ impl Check<'_> {
         self.scene.outputs.iter().any(scaled)
     }
 
-    /// Reports what a bound needs and nobody says, and what T is made of:
+    /// Reports limits that a bound needs and that are missing, and those of the scale T:
     /// limits above zero, of every joint with a result.
     fn needs(&mut self, scale: Scale) {
         let scene = self.scene;
@@ -102,15 +102,15 @@ impl Check<'_> {
 
     fn range(&mut self, joint: usize, what: &str, lacks: bool) {
         if lacks {
-            let name = self.called(joint);
-            let message = format!("a tolerance needs the range of the {what} of joint {name}");
+            let name = self.robot.joint_label(joint);
+            let message = format!("a tolerance needs the range of the {what} of {name}");
             let help = format!("give `{what}` in the scene's box or in the joint's limits");
             self.error("tolerance", message, &help);
         }
     }
 
     fn above_zero(&mut self, joint: usize, rate: Limit, limit: Option<&Rational>) {
-        let (name, what) = (self.called(joint), rate.key());
+        let (name, what) = (self.robot.joint_label(joint), rate.key());
         let of = match rate {
             Limit::Acceleration => " of D",
             Limit::Velocity => " of h_ikm",
@@ -119,7 +119,7 @@ impl Check<'_> {
         match limit {
             None => {
                 let message = format!(
-                    "a tolerance{of} relative to the actuator needs the {what} limit of joint {name}"
+                    "a tolerance{of} relative to the actuator needs the {what} limit of {name}"
                 );
                 let help =
                     format!("give `{what}` in the joint's limits, or relative_to = \"range\"");
@@ -140,7 +140,7 @@ impl Check<'_> {
                     }
                 };
                 let message = format!(
-                    "the {what} limit of joint {name} is 0, but the tolerance{of} of scene `{}` is \
+                    "the {what} limit of {name} is 0, but the tolerance{of} of scene `{}` is \
                      relative to the actuator",
                     self.scene.name
                 );

@@ -1,0 +1,169 @@
+//! Constants, structs and `impl`s beside the functions of a file in Rust. Each line is compared with
+//! the one that follows from the functions' heads and from the robot, so that whoever calls a
+//! function by a trait, or asks for the number of joints, gets what was checked.
+
+use crate::fault::Fault;
+use crate::file::{Found, between, results, structure};
+use crate::scene::Setting;
+
+/// The type that has the traits, and the box of states.
+const ROBOT: &str = "Robot";
+const BOX: &str = "StateBox";
+/// By how much a box may be larger than the robot file's: decimals were rounded.
+const BOX_SLACK: f64 = 1e-6;
+
+/// Checks an item of a module that has these functions.
+///
+/// # Errors
+/// Its first line that does not follow.
+pub(crate) fn follows(item: &Found, functions: &[&Found], setting: &Setting) -> Result<(), Fault> {
+    let lines: Vec<&str> = item.text.lines().map(str::trim).collect();
+    let lines = lines.iter().copied().filter(|line| !line.is_empty());
+    let lines: Vec<&str> = lines.collect();
+    let expected = expected(&lines, functions, setting);
+    let place = lines
+        .iter()
+        .zip(&expected)
+        .position(|(own, line)| own != line);
+    if place.is_none() && lines.len() == expected.len() {
+        return Ok(());
+    }
+    let own = lines.get(place.unwrap_or(0)).unwrap_or(&"");
+    let line = item
+        .text
+        .lines()
+        .position(|line| line.trim() == *own)
+        .unwrap_or(0);
+    let why = format!("it does not follow from the functions and the robot: `{own}`");
+    Err(Fault::Text(item.line + line, why))
+}
+
+/// Returns the lines that an item must have that begins with the first of these; none if nothing is
+/// known of it.
+fn expected(lines: &[&str], functions: &[&Found], setting: &Setting) -> Vec<String> {
+    let head = lines.first().copied().unwrap_or("");
+    let joints = setting.joints.len();
+    let known = if head.starts_with("pub const N:") {
+        Some(vec![format!("pub const N: usize = {joints};")])
+    } else if head.starts_with("pub const JOINTS:") {
+        let rows = &setting.rows;
+        Some(vec![format!(
+            "pub const JOINTS: [usize; {}] = {rows:?};",
+            rows.len()
+        )])
+    } else if head.starts_with("pub const BOX:") {
+        within(lines, functions, setting)
+    } else if let Some(name) = between(head, "pub struct ", " {") {
+        let fields = match functions.iter().find(|own| structure(own.name) == name) {
+            Some(own) => results(own.name, &own.text)
+                .into_iter()
+                .map(|(name, _)| name)
+                .collect(),
+            None => Some(vec!["q", "qd", "qdd"])
+                .filter(|_| name == BOX)
+                .unwrap_or_default(),
+        };
+        declared(lines, &fields)
+    } else if head.starts_with("impl ") {
+        implementation(head, functions, joints)
+    } else {
+        Some(vec![format!("pub struct {ROBOT};")])
+    };
+    known.unwrap_or_default()
+}
+
+/// Returns the lines of a struct if its fields are in this order, all of them but for a box of
+/// states, and arrays of numbers.
+fn declared(lines: &[&str], fields: &[&str]) -> Option<Vec<String>> {
+    let mut left = fields.iter();
+    for line in lines.get(1..lines.len() - 1)? {
+        let (name, kind) = line
+            .strip_prefix("pub ")?
+            .strip_suffix(',')?
+            .split_once(": ")?;
+        let bare = kind.replace("f64", "").replace("f32", "");
+        let is_array = bare
+            .chars()
+            .all(|c| c.is_ascii_digit() || "[]; ".contains(c));
+        (is_array && left.any(|field| *field == name)).then_some(())?;
+    }
+    Some(lines.iter().map(|line| line.to_string()).collect())
+}
+
+/// Returns the lines of the box of states if it is within the robot file's, and open only
+/// where sines are no polynomials.
+fn within(lines: &[&str], functions: &[&Found], setting: &Setting) -> Option<Vec<String>> {
+    let is_open = !functions.iter().any(|own| own.text.contains("let x1 = "));
+    let (mut ranges, mut is_position) = (None, false);
+    for line in lines.get(1..)? {
+        if let Some(name) = line.strip_suffix(": [") {
+            let place = ["q", "qd", "qdd"].iter().position(|own| *own == name)?;
+            (ranges, is_position) = (Some(setting.ranges[place].iter()), place == 0);
+        } else if let Some(pair) = between(line, "[", "],") {
+            let [own_low, own_high] = *ranges.as_mut()?.next()?;
+            let (low, high) = pair.split_once(", ")?;
+            if low.ends_with("::NEG_INFINITY") && high.ends_with("::INFINITY") {
+                (is_open || !is_position).then_some(())?;
+                continue;
+            }
+            let (low, high): (f64, f64) = (low.parse().ok()?, high.parse().ok()?);
+            let slack = BOX_SLACK * (own_low.abs() + own_high.abs());
+            (own_low - slack <= low && high <= own_high + slack).then_some(())?;
+        } else {
+            ["],", "};"].contains(line).then_some(())?;
+        }
+    }
+    let lines = lines.iter().skip(1).map(|line| line.to_string());
+    let head = format!("pub const BOX: {BOX} = {BOX} {{");
+    Some([head].into_iter().chain(lines).collect())
+}
+
+/// Returns the lines of an `impl`, by which the robot as a value calls a function.
+fn implementation(head: &str, functions: &[&Found], joints: usize) -> Option<Vec<String>> {
+    let asked = between(head, "impl ", &format!(" for {ROBOT} {{"))?;
+    let (path, question) = asked.split_once('<')?.0.rsplit_once("::")?;
+    let found = functions
+        .iter()
+        .find(|own| structure(own.name) == question)?;
+    let first = found.text.lines().next()?;
+    let (list, result) = first.split_once('(')?.1.split_once(") -> ")?;
+    let (list, result) = (list.replace("_q", "q"), result.strip_suffix(" {")?);
+    let names = list
+        .split(", ")
+        .map(|part| part.split_once(": ").map(|(name, _)| name));
+    let call = format!(
+        "{}({})",
+        found.name,
+        names.collect::<Option<Vec<&str>>>()?.join(", ")
+    );
+    let scalar = if list.contains("f32") { "f32" } else { "f64" };
+    let (answer, body) = match result == question {
+        false => (result.to_owned(), vec![call]),
+        true => {
+            let fields = results(found.name, &found.text)
+                .into_iter()
+                .map(|(name, _)| name);
+            let fields = fields.collect::<Vec<&str>>().join(", ");
+            let taken = format!("let {question} {{ {fields} }} = {call};");
+            let given = format!("{path}::answers::{question} {{ {fields} }}");
+            (
+                format!("{path}::answers::{question}<{scalar}, {joints}>"),
+                vec![taken, given],
+            )
+        }
+    };
+    // Of a regressor the trait has the number of columns beside that of joints.
+    let columns = result
+        .trim_matches('[')
+        .split([';', ']'])
+        .nth(1)
+        .unwrap_or("")
+        .trim();
+    let plain = format!("impl {path}::{question}<{scalar}, {joints}> for {ROBOT} {{");
+    let counted = plain.replace("> for", &format!(", {columns}> for"));
+    let mut lines = vec![if head == counted { counted } else { plain }];
+    lines.push(format!("fn {}(&self, {list}) -> {answer} {{", found.name));
+    lines.extend(body);
+    lines.extend(["}", "}"].map(String::from));
+    Some(lines)
+}

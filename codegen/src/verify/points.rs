@@ -1,0 +1,91 @@
+//! Points of the field at which proofs evaluate, drawn from the statement that is proved.
+//!
+//! The SHA-256 of a statement (robot, scene, programs) is the seed of its points, so that
+//! another digit of the statement gives other points, and the statement gives its own on every
+//! machine.
+
+use dalembert_model::number::Exact;
+use dalembert_model::outputs::RuntimeParameter;
+use dalembert_model::robot::write as write_robot;
+use dalembert_model::scalar::Divide;
+use dalembert_model::scalar::field::Field;
+use dalembert_model::scalar::sparse::Sparse;
+use dalembert_model::scene::write as write_scene;
+use hmac_sha256::Hash;
+
+use crate::graph::fingerprint::Points;
+use crate::program::Input;
+use crate::scene::SceneRobot;
+
+/// The number of points at which a statement is proved.
+pub(super) const POINTS: usize = 4;
+
+/// The number of points drawn before a statement is given up because values are missing.
+const MAX_DRAWS: usize = 16;
+
+/// A residue modulo 2⁶¹ − 1.
+pub(super) type Residue = Sparse<Field>;
+
+/// The values of inputs and constants that a formula or program is evaluated with.
+pub(super) trait Leaves {
+    /// The scalar.
+    type Value: Divide;
+    /// Returns the value of an input.
+    fn input(&self, input: Input) -> Self::Value;
+    /// Returns the value of a constant.
+    fn constant(&self, constant: &Exact) -> Self::Value;
+}
+
+/// A point: a residue for every input and for every constant angle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Point {
+    points: Points,
+    index: usize,
+}
+
+/// Returns the points of a statement, given as texts.
+pub(super) fn points(statement: &[&str]) -> impl Iterator<Item = Point> {
+    let mut hash = Hash::new();
+    for text in statement {
+        hash.update((text.len() as u64).to_le_bytes());
+        hash.update(text.as_bytes());
+    }
+    let hash = hash.finalize();
+    let bytes = hash.iter().take(8);
+    let seed = bytes.fold(0, |seed, &byte| (seed << 8) | u64::from(byte));
+    let points = Points::new(seed);
+    (0..MAX_DRAWS).map(move |index| Point { points, index })
+}
+
+/// Writes a robot in its scene: parameters, rows and arguments.
+pub(super) fn written(scene_robot: &SceneRobot) -> String {
+    format!(
+        "{}\n{}\n{:?}\n{:?}",
+        write_robot(scene_robot.robot()),
+        scene_robot.scene().map(write_scene).unwrap_or_default(),
+        scene_robot.rows(),
+        RuntimeParameter::ALL.map(|parameter| scene_robot.has(parameter)),
+    )
+}
+
+impl Leaves for Point {
+    type Value = Residue;
+
+    fn input(&self, input: Input) -> Residue {
+        Sparse::Value(self.points.input_at(input, self.index))
+    }
+
+    /// Returns a constant's residue, lost where 2⁶¹ − 1 divides a coefficient or a denominator:
+    /// the field cannot tell it from zero.
+    fn constant(&self, constant: &Exact) -> Residue {
+        match self.points.constant_at(constant, self.index) {
+            Some(value) if !Points::lose(constant) => Sparse::constant(constant, value),
+            _ => Sparse::Lost,
+        }
+    }
+}
+
+/// Returns the residues as integers, `None` if any is lost.
+pub(super) fn integers(values: &[Residue]) -> Option<Vec<Field>> {
+    values.iter().map(Sparse::value).collect()
+}
