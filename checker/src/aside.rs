@@ -1,41 +1,27 @@
-//! Constants, structs and `impl`s beside the functions of a file in Rust. Each line is compared with
-//! the one that follows from the functions' heads and from the robot, so that whoever calls a
+//! Constants and `impl`s beside the functions of a file in Rust. Each line is compared with the one
+//! that follows from the functions' heads and from the robot, so that whoever calls a
 //! function by a trait, or asks for the number of joints, gets what was checked.
 
 use crate::fault::Fault;
 use crate::file::{Found, between, results, structure};
 use crate::scene::Setting;
-
-/// The type that has the traits, and the box of states.
-const ROBOT: &str = "Robot";
-const BOX: &str = "StateBox";
-/// By how much a box may be larger than the robot file's: decimals were rounded.
-const BOX_SLACK: f64 = 1e-6;
+use crate::verdict::BOX_SLACK;
 
 /// Checks an item of a module that has these functions.
 ///
 /// # Errors
 /// Its first line that does not follow.
 pub(crate) fn follows(item: &Found, functions: &[&Found], setting: &Setting) -> Result<(), Fault> {
-    let lines: Vec<&str> = item.text.lines().map(str::trim).collect();
-    let lines = lines.iter().copied().filter(|line| !line.is_empty());
-    let lines: Vec<&str> = lines.collect();
+    let lines = item.text.lines().map(str::trim);
+    let lines: Vec<&str> = lines.filter(|line| !line.is_empty()).collect();
     let expected = expected(&lines, functions, setting);
-    let place = lines
-        .iter()
-        .zip(&expected)
-        .position(|(own, line)| own != line);
-    if place.is_none() && lines.len() == expected.len() {
+    let other = lines.iter().zip(&expected).find(|(own, line)| own != line);
+    if other.is_none() && lines.len() == expected.len() {
         return Ok(());
     }
-    let own = lines.get(place.unwrap_or(0)).unwrap_or(&"");
-    let line = item
-        .text
-        .lines()
-        .position(|line| line.trim() == *own)
-        .unwrap_or(0);
+    let own = other.map_or("", |(own, _)| own);
     let why = format!("it does not follow from the functions and the robot: `{own}`");
-    Err(Fault::Text(item.line + line, why))
+    Err(Fault::Text(item.line, why))
 }
 
 /// Returns the lines that an item must have that begins with the first of these; none if nothing is
@@ -53,41 +39,15 @@ fn expected(lines: &[&str], functions: &[&Found], setting: &Setting) -> Vec<Stri
         )])
     } else if head.starts_with("pub const BOX:") {
         within(lines, functions, setting)
-    } else if let Some(name) = between(head, "pub struct ", " {") {
-        let fields = match functions.iter().find(|own| structure(own.name) == name) {
-            Some(own) => results(own.name, &own.text)
-                .into_iter()
-                .map(|(name, _)| name)
-                .collect(),
-            None => Some(vec!["q", "qd", "qdd"])
-                .filter(|_| name == BOX)
-                .unwrap_or_default(),
-        };
-        declared(lines, &fields)
+    } else if between(head, "pub struct ", " {").is_some() {
+        // A compiler compares its fields with those that functions return.
+        Some(lines.iter().map(|line| line.to_string()).collect())
     } else if head.starts_with("impl ") {
         implementation(head, functions, joints)
     } else {
-        Some(vec![format!("pub struct {ROBOT};")])
+        Some(vec!["pub struct Robot;".to_owned()])
     };
     known.unwrap_or_default()
-}
-
-/// Returns the lines of a struct if its fields are in this order, all of them but for a box of
-/// states, and arrays of numbers.
-fn declared(lines: &[&str], fields: &[&str]) -> Option<Vec<String>> {
-    let mut left = fields.iter();
-    for line in lines.get(1..lines.len() - 1)? {
-        let (name, kind) = line
-            .strip_prefix("pub ")?
-            .strip_suffix(',')?
-            .split_once(": ")?;
-        let bare = kind.replace("f64", "").replace("f32", "");
-        let is_array = bare
-            .chars()
-            .all(|c| c.is_ascii_digit() || "[]; ".contains(c));
-        (is_array && left.any(|field| *field == name)).then_some(())?;
-    }
-    Some(lines.iter().map(|line| line.to_string()).collect())
 }
 
 /// Returns the lines of the box of states if it is within the robot file's, and open only
@@ -114,13 +74,13 @@ fn within(lines: &[&str], functions: &[&Found], setting: &Setting) -> Option<Vec
         }
     }
     let lines = lines.iter().skip(1).map(|line| line.to_string());
-    let head = format!("pub const BOX: {BOX} = {BOX} {{");
+    let head = "pub const BOX: StateBox = StateBox {".to_owned();
     Some([head].into_iter().chain(lines).collect())
 }
 
 /// Returns the lines of an `impl`, by which the robot as a value calls a function.
 fn implementation(head: &str, functions: &[&Found], joints: usize) -> Option<Vec<String>> {
-    let asked = between(head, "impl ", &format!(" for {ROBOT} {{"))?;
+    let asked = between(head, "impl ", " for Robot {")?;
     let (path, question) = asked.split_once('<')?.0.rsplit_once("::")?;
     let found = functions
         .iter()
@@ -159,7 +119,7 @@ fn implementation(head: &str, functions: &[&Found], joints: usize) -> Option<Vec
         .nth(1)
         .unwrap_or("")
         .trim();
-    let plain = format!("impl {path}::{question}<{scalar}, {joints}> for {ROBOT} {{");
+    let plain = format!("impl {path}::{question}<{scalar}, {joints}> for Robot {{");
     let counted = plain.replace("> for", &format!(", {columns}> for"));
     let mut lines = vec![if head == counted { counted } else { plain }];
     lines.push(format!("fn {}(&self, {list}) -> {answer} {{", found.name));

@@ -15,7 +15,7 @@
 //! 6. `values`, again: what rounding costs, by one pass over the text
 //! 7. `sample`: the text run at some states, which must not contradict the bounds;
 //!    `witness`: states at which T is reached
-//! 8. `tried`: functions that divide, by their equation at states, without a bound
+//! 8. `tried`: functions that divide, by their equation at states that `hash` draws, without a bound
 //! 9. `verdict`, `exact`: the parts in order, of a certificate and of a whole file
 //!
 //! What is believed: that every operation is rounded to nearest and none is contracted,
@@ -31,6 +31,7 @@ pub mod dynamics;
 pub mod exact;
 mod fault;
 pub mod file;
+pub mod hash;
 pub mod interval;
 pub mod kinematics;
 mod levels;

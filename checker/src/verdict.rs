@@ -15,7 +15,7 @@ use crate::witness;
 /// At how many states the text is run.
 const STATES: usize = 1000;
 /// By how much a box may be smaller than the file's: decimals were rounded to doubles.
-const BOX_SLACK: f64 = 1e-9;
+pub(crate) const BOX_SLACK: f64 = 1e-9;
 /// By how much T may be above the largest value that was found. What is tolerated is
 /// relative to what was found.
 const SCALE_SLACK: f64 = 1e-4;

@@ -27,7 +27,7 @@ const NEAR: f64 = 1e-3;
 /// # Errors
 /// As of [`crate::dynamics::torques`].
 pub fn reached(claim: &Claim, setting: &Setting, work: &mut Work) -> Result<Vec<f64>, Fault> {
-    let mut one = |(output, scale): (usize, &f64)| {
+    let one = |(output, scale): (usize, &f64)| {
         let mut value = |at: &At| Ok(outputs::<f64>(claim, setting, at, work)?[output]);
         let sure = |at: At| {
             let work = &mut Work::default();
@@ -36,12 +36,7 @@ pub fn reached(claim: &Claim, setting: &Setting, work: &mut Work) -> Result<Vec<
         };
         search(setting, HOPS, scale * (1.0 - 1e-6), &mut value, &sure)
     };
-    claim
-        .scale
-        .iter()
-        .enumerate()
-        .map(|each| one(each))
-        .collect()
+    claim.scale.iter().enumerate().map(one).collect()
 }
 
 /// Returns the largest error of an output that is found, looked for until one is above

@@ -2,6 +2,7 @@
 //! planted fault in each function or in the robot file.
 
 use dalembert_checker::exact::{Distance, Line, Report, check};
+use dalembert_checker::hash::hash;
 
 use crate::support::file;
 
@@ -144,4 +145,38 @@ fn results_over_fewer_joints() {
     let line = report.lines.iter().find(|l| l.name == "forward_dynamics");
     let fault = line.unwrap().result.as_ref().unwrap_err().to_string();
     assert!(fault.contains("over all joints that move"), "{fault}");
+}
+
+/// The states follow from the text and from the robot file: nobody can choose a text by them.
+#[test]
+fn states_that_nobody_chooses() {
+    let seen = |source: &str, robot: &str| {
+        let report = check(source, robot, None).unwrap();
+        let line = report
+            .lines
+            .iter()
+            .find(|line| line.name == "inertia_inverse");
+        line.unwrap().result.as_ref().unwrap().seen
+    };
+    let source = generated("hand.rs");
+    let begin = source.find("pub fn inertia_inverse").unwrap();
+    let end = begin + source[begin..].find("\n}\n").unwrap();
+    let module = |text: &str| format!("pub mod hand {{\n{text}\n}}\n}}\n");
+    let source = module(&source[begin..end]);
+    let other = source.replace("t7", "t7777");
+    let (first, second) = (seen(&source, &robot()), seen(&other, &robot()));
+    let third = seen(&source, &format!("{}\n# again", robot()));
+    assert!(
+        first != second && second != third && first != third,
+        "{first} {second} {third}"
+    );
+}
+
+/// The hashes of FIPS 180-4, of a message shorter than a block and of one that is longer.
+#[test]
+fn hashes() {
+    assert_eq!(hash(b"abc"), 0xba78_16bf_8f01_cfea);
+    let long = b"abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq";
+    assert_eq!(hash(long), 0x248d_6a61_d206_38b8);
+    assert_eq!(hash(b""), 0xe3b0_c442_98fc_1c14);
 }

@@ -1,4 +1,4 @@
-//! The functions that can be generated: the model's registry of outputs.
+//! The functions that can be generated: the model's table of outputs.
 
 pub(crate) use dalembert_model::outputs::ErrorScale;
 pub use dalembert_model::outputs::{

@@ -85,8 +85,7 @@ fn work_is_shared() {
     }
 }
 
-/// What the registry bundles under a name has the program of whoever bundles the
-/// same.
+/// A bundle of the table has the program of a user's bundle with its parts.
 #[test]
 fn the_manipulator_equation_is_a_bundle() {
     let planar = support::robot("planar3r");

@@ -200,6 +200,42 @@ fn headers() -> Vec<String> {
 }
 
 /// No compiler has a word to say of any header, in C or C++.
+/// Order, units, frame and point of a payload's ten numbers stand above the function that takes them.
+#[test]
+fn headers_say_what_a_payload_holds() {
+    let flange = "payload_frame = { xyz = [0, 0, 0.05] }\n\n[[joint]]";
+    let plain = support::source("planar2r", "");
+    let mut request = request(SinCos::Together, Entries::Single);
+    request.functions = vec![Function::Gravity];
+    request.parameters = vec![RuntimeParameter::Payload];
+    for (source, frame) in [
+        (
+            plain.replacen("[[joint]]", flange, 1),
+            "table at xyz (0, 0, 0.05) m, rpy (0, 0, 0)",
+        ),
+        (plain, "that of joint 2 in the table (a tool's pose moves"),
+    ] {
+        let text = generate(&support::read_robot(&source), &request)
+            .unwrap()
+            .text;
+        let (before, _) = text.split_once("_load(const double payload[").unwrap();
+        let (_, doc) = before.rsplit_once("/*").unwrap();
+        let said = doc
+            .replace(" *", "")
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ");
+        for part in [
+            "payload[10]: A body fixed to the last link",
+            "[0] its mass, kg; [1] to [3] its centre of mass x, y, z, m, in the last link's frame",
+            frame,
+            "[4] to [9] its inertia Ixx, Iyy, Izz, Ixy, Iyz, Ixz, kg·m², about its centre of mass",
+        ] {
+            assert!(said.contains(part), "{part}: {said}");
+        }
+    }
+}
+
 #[test]
 fn headers_are_compiled_without_a_warning() {
     let folder = folder("strict");

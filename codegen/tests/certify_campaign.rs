@@ -24,6 +24,7 @@ const CLIMBS: usize = 6;
 const FINENESS: BoundEffort = BoundEffort {
     budget: BoxEffort::QUICK,
     boxes: 512,
+    together: 1 << 18,
     ..BoundEffort::QUICK
 };
 

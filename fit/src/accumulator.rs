@@ -132,11 +132,9 @@ impl Accumulator {
         qd: &[f64],
         tau: &[f64],
     ) -> Result<(), Error> {
-        self.matches(model)?;
-        let n = self.rows.len();
-        check("qd", qd, n)?;
-        check("tau", tau, n)?;
-        for (argument, expected, found) in [("y", n, y.len()), ("y[0]", model.base(), K)] {
+        for (argument, expected, found) in
+            [("y", self.rows.len(), y.len()), ("y[0]", model.base(), K)]
+        {
             if found != expected {
                 return Err(Error::Length {
                     argument,
@@ -145,19 +143,7 @@ impl Accumulator {
                 });
             }
         }
-        for row in y {
-            check("y", row, K)?;
-        }
-        for (i, (row, triangle)) in self.rows.iter().zip(&mut self.triangles).enumerate() {
-            let entries = row.iter().map(|k| match model.columns()[*k] {
-                Column::Base(k) => y[i][k],
-                Column::Coulomb(joint) => model.coulomb(joint, &qd[joint]),
-                Column::Offset(_) => 1.0,
-            });
-            triangle.push(entries.chain([tau[i]]));
-        }
-        self.states += 1;
-        Ok(())
+        self.add_columns(model, y.as_flattened(), qd, tau, 1)
     }
 
     /// Adds states by what a generated `regressor` returns for many of them, column by column:

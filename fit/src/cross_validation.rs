@@ -1,4 +1,4 @@
-//! Residuals on logs that a fit has not seen.
+//! Residuals on logs that a fit has not seen, and logs that disagree with the others.
 
 use crate::accumulator::Accumulator;
 use crate::error::Error;
@@ -49,4 +49,79 @@ pub fn cross_validation(
         })
     });
     each.collect()
+}
+
+/// A log that the other logs' parameters do not explain, though its own do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Disagreement {
+    /// Its place among the logs.
+    pub file: usize,
+    /// The joint at which it disagrees most.
+    pub joint: usize,
+    /// That joint's residual with parameters from the other logs, root mean square.
+    pub others: f64,
+    /// The residual with parameters from the log itself.
+    pub own: f64,
+}
+
+/// A log disagrees where the others' parameters leave more than so many times what its own do.
+const DISAGREES: f64 = 2.0;
+
+/// The most logs that are named.
+const MOST: usize = 8;
+
+/// Finds logs that disagree with the others, up to eight, the one that does most first; `found`
+/// is their [`cross_validation`]. Each is left out before the next one is looked for, since its
+/// states are in the parameters that judge the rest. Of two that are left, nobody can tell which
+/// is wrong: both are returned.
+///
+/// # Errors
+/// Those of [`fit`].
+pub fn disagreeing(
+    model: &Model,
+    files: &[Accumulator],
+    prior: &Prior,
+    found: &[FileResidual],
+) -> Result<Vec<Disagreement>, Error> {
+    // A log too short for parameters of its own is not judged.
+    let own: Vec<_> = files
+        .iter()
+        .map(|file| fit(model, file, prior).ok())
+        .collect();
+    let mut rest: Vec<usize> = (0..files.len()).collect();
+    let (mut residuals, mut found) = (found.to_vec(), Vec::new());
+    loop {
+        let joints = rest.iter().zip(&residuals).flat_map(|(&file, residual)| {
+            let own = own[file].iter().flat_map(|fit| &fit.after);
+            let pairs = residual.after.iter().zip(own).enumerate();
+            pairs.map(move |(joint, (&others, &own))| Disagreement {
+                file,
+                joint,
+                others,
+                own,
+            })
+        });
+        let mut worst: Vec<Disagreement> = joints.filter(|one| one.size() > DISAGREES).collect();
+        worst.sort_by(|a, b| b.size().total_cmp(&a.size()));
+        let Some(&one) = worst.first() else {
+            return Ok(found);
+        };
+        found.push(one);
+        if rest.len() == 2 {
+            found.extend(worst.into_iter().find(|other| other.file != one.file));
+            return Ok(found);
+        }
+        if found.len() == MOST {
+            return Ok(found);
+        }
+        rest.retain(|file| *file != one.file);
+        let kept: Vec<Accumulator> = rest.iter().map(|file| files[*file].clone()).collect();
+        residuals = cross_validation(model, &kept, prior)?;
+    }
+}
+
+impl Disagreement {
+    fn size(&self) -> f64 {
+        self.others / self.own.max(f64::MIN_POSITIVE)
+    }
 }

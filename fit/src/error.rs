@@ -85,8 +85,9 @@ impl fmt::Display for Error {
             }
             Error::Option(expected) => f.write_str(expected),
             Error::NotConverged => f.write_str(
-                "no consistent bodies were found: scale the robot file's masses to about those \
-                 of the arm and try again",
+                "no bodies that exist were found near the identified parameters: look for mistakes in \
+                 the logs where the residuals are not small, else bring the robot file's masses \
+                 near those of the arm",
             ),
         }
     }

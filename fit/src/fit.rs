@@ -9,7 +9,7 @@
 //! the data per torque in that motion. Below [`LEAST_EXCITATION`] it is not excited: it
 //! keeps the robot file's value, and its standard error is infinite.
 
-mod noise;
+pub(crate) mod noise;
 
 use crate::accumulator::Accumulator;
 use crate::dense::{apply, back_substitute, dot, over, singular};

@@ -13,7 +13,9 @@
 //! - [`unexcited`]: what data do not tell; [`fit`](mod@fit): parameters with standard errors
 //! - [`consistent`](mod@consistent): the nearest bodies that exist
 //! - [`robot_file`]: the robot that has them
-//! - [`cross_validation`](mod@cross_validation): residuals on logs that a fit has not seen
+//! - [`cross_validation`](mod@cross_validation): residuals on logs that a fit
+//!   has not seen, and logs that disagree
+//! - [`suspect`](mod@suspect): mistakes in a log that its residuals give away
 //! - [`differentiate`](mod@differentiate): velocities and accelerations of encoders
 //! - [`fourier`], [`excite`](mod@excite): a trajectory that tells the parameters apart
 //! - [`simulate`]: seeded logs of an arm whose parameters are known
@@ -35,13 +37,14 @@ pub mod random;
 pub mod reference;
 pub mod robot_file;
 pub mod simulate;
+pub mod suspect;
 pub mod triangle;
 pub mod unexcited;
 pub mod watch;
 
 pub use accumulator::Accumulator;
 pub use consistent::{Bodies, consistent};
-pub use cross_validation::{FileResidual, cross_validation};
+pub use cross_validation::{Disagreement, FileResidual, cross_validation, disagreeing};
 pub use differentiate::{Differentiator, differentiate};
 pub use error::Error;
 pub use excite::{Effort, excite};
@@ -50,4 +53,5 @@ pub use fourier::Trajectory;
 pub use limits::Limits;
 pub use model::{Column, Model, Options};
 pub use robot_file::identified;
+pub use suspect::{Change, Suspicion, suspect};
 pub use watch::Watch;

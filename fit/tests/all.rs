@@ -8,5 +8,6 @@ mod identified;
 mod regressor;
 mod statistics;
 mod support;
+mod suspect;
 mod unexcited;
 mod watch;

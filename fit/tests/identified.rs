@@ -1,7 +1,7 @@
 //! From logs to a robot file, and logs that the fit has not seen.
 
 use dalembert_fit::random::Random;
-use dalembert_fit::{Error, Prior, consistent, cross_validation, fit, identified};
+use dalembert_fit::{Error, Prior, consistent, cross_validation, disagreeing, fit, identified};
 use dalembert_model::read::parse;
 use dalembert_model::robot::write;
 
@@ -71,6 +71,23 @@ fn logs_that_were_left_out_are_predicted() {
             assert!(file.before[i] > 2.0 * file.after[i]);
         }
     }
+    assert_eq!(
+        disagreeing(&model, &files, &Prior::None, &found),
+        Ok(Vec::new())
+    );
+    // The third arm carries something that the others do not.
+    let mut other = files.clone();
+    let mut random = Random::new(52);
+    let carrying: Vec<f64> = right.iter().map(|x| 1.2 * x).collect();
+    let own = states(&model, 300, 62);
+    other[2] = accumulated(&model, &own, &carrying, Some(&mut random));
+    let found = cross_validation(&model, &other, &Prior::None).unwrap();
+    let named = disagreeing(&model, &other, &Prior::None, &found).unwrap();
+    assert_eq!(named.iter().map(|one| one.file).collect::<Vec<_>>(), [2]);
+    assert!(named[0].others > 2.0 * named[0].own, "{named:?}");
+    let found = cross_validation(&model, &other[1..3], &Prior::None).unwrap();
+    let named = disagreeing(&model, &other[1..3], &Prior::None, &found).unwrap();
+    assert_eq!(named.len(), 2, "of two, either may be wrong");
     let one = cross_validation(&model, &files[..1], &Prior::None);
     assert_eq!(one, Err(Error::OneFile));
 }

@@ -130,7 +130,7 @@ impl Loaded {
     /// Why nothing was generated for it.
     pub fn of(robot: &Robot) -> Result<Loaded, Error> {
         let load = load(&Default::default(), Output::InverseDynamics);
-        let arm = Arm::parse(&write(robot), &robot.name, &load).map_err(Error::new)?;
+        let arm = Arm::parse(&write(robot), &robot.name, None, &load).map_err(Error::new)?;
         Loaded::with(arm, false)
     }
 
@@ -195,7 +195,8 @@ impl Fitted {
         let model = Model::new(robot, &Options::default())?;
         let text = write(&model.generator_robot());
         let load = load(&Default::default(), Output::Regressor);
-        let arm = Arm::parse(&text, "the robot with its drives", &load).map_err(Error::new)?;
+        let arm =
+            Arm::parse(&text, "the robot with its drives", None, &load).map_err(Error::new)?;
         let regressor = place(&arm)?;
         Ok(Fitted {
             model,

@@ -69,6 +69,7 @@ impl Function {
 
 /// An arm: its functions as machine code.
 pub struct Arm {
+    source: String,
     robot: Robot,
     entry: Entry,
     functions: Vec<Function>,
@@ -102,12 +103,20 @@ impl Arm {
         Arm::of(&source, &shown, plan, load)
     }
 
-    /// Loads the arm of a robot file's text, or of a URDF's; messages call it by a name.
+    /// Loads the arm of a robot file's text, or of a URDF's; messages call it by a name. The
+    /// programs of a [`plan`](Arm::plan) are proved, and not searched for.
     ///
     /// # Errors
     /// As [`Arm::load`].
-    pub fn parse(source: &str, name: &str, load: &Load) -> Result<Arm, LoadError> {
-        Arm::of(source, name, None, load)
+    pub fn parse(
+        source: &str,
+        name: &str,
+        plan: Option<&str>,
+        load: &Load,
+    ) -> Result<Arm, LoadError> {
+        let plan = plan.map(Plan::parse).transpose();
+        let plan = plan.map_err(|error| LoadError::Robot(format!("error: {name}: {error}")))?;
+        Arm::of(source, name, plan, load)
     }
 
     fn of(source: &str, name: &str, plan: Option<Plan>, load: &Load) -> Result<Arm, LoadError> {
@@ -116,24 +125,35 @@ impl Arm {
             Cache::At(path) => Some(Folder::at(path)),
             Cache::User => Folder::of_user(),
         };
+        let (folder, note) = match folder.map(Folder::trusted).transpose() {
+            Ok(folder) => (folder, None),
+            Err(note) => (None, Some(note)),
+        };
         let plan_text = plan.as_ref().map(Plan::write);
         let key = cache::key(source, name, plan_text.as_deref(), load);
         let kept = folder.as_ref().and_then(|folder| folder.entry(&key));
         // What is kept and damaged, or of a version that reads otherwise, is made anew.
-        if let Some(arm) = kept.and_then(|entry| Arm::of_entry(entry, load, true).ok()) {
+        let again = |entry| Arm::of_entry(entry, source, load, true).ok();
+        if let Some(arm) = kept.and_then(again) {
             return Ok(arm);
         }
-        let entry = made(source, name, plan, load, folder.as_ref())?;
+        let mut entry = made(source, name, plan, load, folder.as_ref())?;
+        entry.notes.extend(note);
         if let Some(folder) = &folder
             && !entry.ended
         {
             folder.keep(&key, &entry);
         }
-        Arm::of_entry(entry, load, false)
+        Arm::of_entry(entry, source, load, false)
     }
 
     /// Compiles what was generated.
-    fn of_entry(entry: Entry, load: &Load, is_from_cache: bool) -> Result<Arm, LoadError> {
+    fn of_entry(
+        entry: Entry,
+        source: &str,
+        load: &Load,
+        is_from_cache: bool,
+    ) -> Result<Arm, LoadError> {
         let reading = read_robot(&entry.robot, "the arm's robot file")?;
         let functions: Result<Vec<Function>, LoadError> = entry
             .functions
@@ -142,6 +162,7 @@ impl Arm {
             .collect();
         Ok(Arm {
             robot: reading.robot,
+            source: source.to_owned(),
             functions: functions?,
             entry,
             load: load.clone(),
@@ -152,6 +173,11 @@ impl Arm {
     /// Returns the robot.
     pub fn robot(&self) -> &Robot {
         &self.robot
+    }
+
+    /// Returns the text that it was loaded from, a robot file's or a URDF's.
+    pub fn source(&self) -> &str {
+        &self.source
     }
 
     /// Returns the functions, scalar by scalar.

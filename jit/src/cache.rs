@@ -4,9 +4,13 @@
 //! an entry that was damaged, or cut off, is none. A writer writes into a file of its own
 //! and renames it, so that readers see one whole entry or another, whoever else writes.
 //! What cannot be written is not kept, and nobody is told: it is made anew the next time.
+//!
+//! An entry is run without another proof. So a folder, or a file in it, that another user may
+//! write or owns is not read, and nothing is kept there; notes of the arm tell it.
 
 use std::env;
-use std::fs;
+use std::fs::{self, File, Metadata};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -74,6 +78,22 @@ impl Folder {
         Folder(path.to_owned())
     }
 
+    /// Returns the folder if the user alone may write it.
+    ///
+    /// # Errors
+    /// A note that says why nothing is read from it or kept in it.
+    pub(crate) fn trusted(self) -> Result<Folder, String> {
+        match fs::metadata(&self.0) {
+            Ok(about) if !is_private(&about) => Err(format!(
+                "note: nothing is read from the cache `{}` or kept there, since other users may \
+                 write it: they could change the code that runs; `chmod go-w` on a folder of your \
+                 own ends this",
+                self.0.display()
+            )),
+            _ => Ok(self),
+        }
+    }
+
     /// Returns the user's folder, if the environment tells where that is.
     pub(crate) fn of_user() -> Option<Folder> {
         let set = |name| {
@@ -119,7 +139,7 @@ impl Folder {
     fn read(&self, name: &str) -> Option<String> {
         let path = self.0.join(name);
         let about = fs::metadata(&path).ok()?;
-        if !about.is_file() || about.len() > MAX_BYTES {
+        if !about.is_file() || about.len() > MAX_BYTES || !is_private(&about) {
             return None;
         }
         let text = fs::read_to_string(path).ok()?;
@@ -129,13 +149,14 @@ impl Folder {
 
     fn write(&self, name: &str, text: &str) -> Option<()> {
         static WRITES: AtomicUsize = AtomicUsize::new(0);
-        fs::create_dir_all(&self.0).ok()?;
+        private_folder(&self.0).ok()?;
         let number = WRITES.fetch_add(1, Ordering::Relaxed);
         let unfinished = self
             .0
             .join(format!("{name}.{}.{number}.tmp", process::id()));
         let hash = hexadecimal(Hash::hash(text.as_bytes()));
-        let written = fs::write(&unfinished, format!("{hash}\n{text}"))
+        let written = private_file(&unfinished)
+            .and_then(|mut file| file.write_all(format!("{hash}\n{text}").as_bytes()))
             .and_then(|()| fs::rename(&unfinished, self.0.join(name)));
         if written.is_err() {
             // Best effort: the folder may be gone.
@@ -145,7 +166,49 @@ impl Folder {
     }
 }
 
-#[cfg(test)]
+/// Tells whether a folder or file is the user's, or the system's, and nobody else may write it.
+#[cfg(unix)]
+fn is_private(about: &Metadata) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let owners = [0, rustix::process::geteuid().as_raw()];
+    about.mode() & 0o022 == 0 && owners.contains(&about.uid())
+}
+
+/// Makes a folder that the user alone may read and write.
+#[cfg(unix)]
+fn private_folder(path: &Path) -> io::Result<()> {
+    use std::os::unix::fs::DirBuilderExt;
+    fs::DirBuilder::new()
+        .recursive(true)
+        .mode(0o700)
+        .create(path)
+}
+
+/// Makes a file that the user alone may read and write.
+#[cfg(unix)]
+fn private_file(path: &Path) -> io::Result<File> {
+    use std::os::unix::fs::OpenOptionsExt;
+    let mut options = File::options();
+    options.write(true).create(true).truncate(true).mode(0o600);
+    options.open(path)
+}
+
+/// Elsewhere the user's folders are taken to be the user's alone.
+#[cfg(not(unix))]
+fn is_private(_: &Metadata) -> bool {
+    true
+}
+
+#[cfg(not(unix))]
+fn private_folder(path: &Path) -> io::Result<()> {
+    fs::create_dir_all(path)
+}
+
+#[cfg(not(unix))]
+fn private_file(path: &Path) -> io::Result<File> {
+    File::create(path)
+}
+
 #[cfg(test)]
 #[path = "../sources.rs"]
 mod sources;

@@ -1,4 +1,4 @@
-//! The registry of outputs: what there is, and identities of its formulas that
+//! The table of outputs: what there is, and identities of its formulas that
 //! hold for every arm, checked exactly in the prime field.
 
 mod frames;

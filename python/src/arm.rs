@@ -31,6 +31,12 @@ impl Arm {
         &self.0.robot().name
     }
 
+    /// Returns the text that the arm was loaded from.
+    #[getter]
+    fn source(&self) -> &str {
+        self.0.source()
+    }
+
     /// Returns the joints: their names and kinds.
     #[getter]
     fn joints(&self) -> Vec<(String, &'static str)> {

@@ -2,7 +2,7 @@
 
 use dalembert_jit::{CallError, Function as Compiled, MOST_ARGUMENTS, Real};
 use numpy::{Element, PyArrayDyn, PyUntypedArrayMethods};
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -49,7 +49,11 @@ impl Call<'_> {
             return results;
         }
         let (arrays, batch) = self.arguments::<T>(given)?;
-        let states = batch.iter().product();
+        let product = |states: usize, &axis: &usize| states.checked_mul(axis);
+        let states = batch.iter().try_fold(1, product).ok_or_else(|| {
+            let (name, batch) = (self.name(), shown(&batch));
+            PyMemoryError::new_err(format!("{name}: nobody can count the states of {batch}"))
+        })?;
         let read = arrays.iter().map(|array| argument(array, &batch, states));
         let (read, _copies): (Vec<Layout<T>>, Vec<Copy<'py, T>>) =
             read.collect::<PyResult<Vec<_>>>()?.into_iter().unzip();
@@ -119,9 +123,11 @@ impl Call<'_> {
             }
         }
         if let ([(_, shape)], None) = (self.quantities, out) {
-            let array = memory::filled(py, shape, |result| native.call(slices, result));
-            let results = array.map(|array| vec![array]);
-            return Some(results.map_err(|error| self.failed(&error)));
+            let array = memory::filled(py, shape, |result| {
+                let done = native.call(slices, result);
+                done.map_err(|error| self.failed(&error))
+            });
+            return Some(array.map(|array| vec![array]));
         }
         let mut values = vec![T::default(); native.program().outputs.len()];
         if let Err(error) = native.call(slices, &mut values) {
@@ -132,14 +138,14 @@ impl Call<'_> {
             return Some(Ok(vec![array.clone()]));
         }
         let mut rest = values.as_slice();
-        let array = |(_, shape): &Quantity| {
+        let array = |(_, shape): &Quantity| -> PyResult<_> {
             let (own, others) = rest.split_at(shape.iter().product());
             rest = others;
-            let array = memory::zeros(py, shape);
+            let array = memory::zeros(py, shape)?;
             memory::write(&array, own);
-            array
+            Ok(array)
         };
-        Some(Ok(self.quantities.iter().map(array).collect()))
+        Some(self.quantities.iter().map(array).collect())
     }
 
     fn refuse_nan<T: Real + Element>(&self, arguments: &[Layout<T>]) -> PyResult<()> {
@@ -236,7 +242,7 @@ fn result<'py, 'l, T: Real + Element>(
     {
         return Ok((layout, None));
     }
-    copied(memory::zeros(array.py(), &[&[states], shape].concat()))
+    copied(memory::zeros(array.py(), &[&[states], shape].concat())?)
 }
 
 /// Takes a copy, states first.

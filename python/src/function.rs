@@ -18,6 +18,16 @@ use crate::xla;
 ///
 /// Call it with NumPy arrays: one state, ``(n,)``, or many, ``(N, n)``, which may be
 /// broadcast against each other. Results have the same leading axes.
+///
+/// Arguments, by place or name, are those of ``arguments``: ``q``, ``qd``, ``qdd``, ``tau``
+/// (positions, velocities, accelerations, torques: rad or m, a second, N·m or N), ``v`` and
+/// ``a`` of a controller, ``g`` (3,) in m/s², ``load``, which ``arm.load(payload)`` returns.
+///
+/// ``payload`` (10,) is mass, com x y z, inertia xx yy zz xy yz xz, in kg, m and kg·m²: the
+/// centre of mass in the last link's frame, the inertia about the centre of mass in the axes of
+/// that frame. It is the frame behind the last row of a table in standard DH, the last joint's
+/// own in modified DH, the last moving link's in a URDF, unless the robot file's
+/// ``payload_frame`` says otherwise; the tool's pose has no part in it.
 #[pyclass(frozen, module = "dalembert")]
 pub struct Function {
     arm: Arc<dalembert_jit::Arm>,

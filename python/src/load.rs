@@ -61,14 +61,15 @@ impl Waiting {
     }
 }
 
-/// Loads an arm from a file, or from the text of a robot file with a name for messages;
-/// `options` are those of `dalembert.load`.
+/// Loads an arm from a file, or from its text with a name for messages, and with a plan's if
+/// there is one; `options` are those of `dalembert.load`.
 #[pyfunction]
-#[pyo3(signature = (path, text, options, progress))]
+#[pyo3(signature = (path, text, plan, options, progress))]
 pub fn load(
     py: Python<'_>,
     path: PathBuf,
     text: Option<String>,
+    plan: Option<String>,
     options: &Bound<'_, PyDict>,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<Arm> {
@@ -81,7 +82,10 @@ pub fn load(
     let receiver = Mutex::new(receiver);
     let work = move || {
         let arm = match text {
-            Some(text) => dalembert_jit::Arm::parse(&text, &path.display().to_string(), &load),
+            Some(text) => {
+                let name = path.display().to_string();
+                dalembert_jit::Arm::parse(&text, &name, plan.as_deref(), &load)
+            }
             None => dalembert_jit::Arm::load(path, &load),
         };
         // Nobody may wait any more.

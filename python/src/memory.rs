@@ -20,6 +20,7 @@ use std::ptr::null_mut;
 
 use dalembert_jit::{Place, Real, Rows, RowsMut, Scalar};
 use numpy::npyffi::flags::NPY_ARRAY_WRITEABLE;
+use numpy::npyffi::{PY_ARRAY_API, npy_intp};
 use numpy::{Element, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
@@ -132,11 +133,23 @@ impl<T: Element> Layout<T> {
 }
 
 /// Makes an array of zeros for results: what is left out is nothing.
+///
+/// # Errors
+/// NumPy's, of arrays that no memory holds.
 pub(crate) fn zeros<'py, T: Element>(
     py: Python<'py>,
     shape: &[usize],
-) -> Bound<'py, PyArrayDyn<T>> {
-    PyArrayDyn::zeros(py, shape.to_vec(), false)
+) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
+    let lengths: Result<Vec<npy_intp>, _> = shape.iter().map(|&x| x.try_into()).collect();
+    let mut lengths = lengths?;
+    let dtype = T::get_dtype(py).into_ptr().cast();
+    // SAFETY: the lengths are as many as is said, and the call takes the reference to the dtype.
+    let array = unsafe {
+        let axes = lengths.len() as i32;
+        let zeros = PY_ARRAY_API.PyArray_Zeros(py, axes, lengths.as_mut_ptr(), dtype, 0);
+        Bound::from_owned_ptr_or_err(py, zeros)?
+    };
+    Ok(array.cast_into()?)
 }
 
 /// Returns the numbers of an array with one axis, one after the other.
@@ -149,12 +162,12 @@ pub(crate) fn entries<'a, T: Element>(array: &'a Bound<'_, PyArrayDyn<T>>) -> Op
 }
 
 /// Makes an array and fills it.
-pub(crate) fn filled<'py, T: Element, E>(
+pub(crate) fn filled<'py, T: Element>(
     py: Python<'py>,
     shape: &[usize],
-    fill: impl FnOnce(&mut [T]) -> Result<(), E>,
-) -> Result<Bound<'py, PyArrayDyn<T>>, E> {
-    let array = zeros(py, shape);
+    fill: impl FnOnce(&mut [T]) -> PyResult<()>,
+) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
+    let array = zeros(py, shape)?;
     // SAFETY: it was made here, and nobody else has it; its entries are in one piece.
     fill(unsafe { std::slice::from_raw_parts_mut(array.data(), array.len()) })?;
     Ok(array)

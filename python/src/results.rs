@@ -26,7 +26,7 @@ pub(crate) fn arrays<'py, T: Real + Element>(
         let new = quantities
             .iter()
             .map(|quantity| zeros(py, &whole(quantity)));
-        return Ok(new.collect());
+        return new.collect();
     };
     let given: Vec<Bound<'py, PyAny>> = match quantities.len() {
         1 => vec![out.clone()],

@@ -1,7 +1,11 @@
 """Arms: how they are loaded, and what they know."""
 
+import copy
 import ctypes
 import os
+import pickle
+import pydoc
+import re
 import shutil
 import subprocess
 import sys
@@ -128,9 +132,13 @@ def test_urdf_and_locks(tmp_path):
     assert again.is_from_cache
     every = dalembert.load(urdf("so101"), lock="*", **options)
     assert_array_equal(every.gravity(q), arm.gravity(q))
-    with pytest.raises(ValueError, match="gripper"):
+    # Messages speak of keywords, as a caller writes them.
+    with pytest.raises(ValueError, match='lock={"gripper": ') as error:
         dalembert.load(urdf("so101"), **options)
-    with pytest.raises(ValueError, match="nowhere"):
+    assert not re.search(r"--\w", str(error.value)) and 'lock="*"' in str(error.value)
+    with pytest.raises(ValueError, match='lock={"gripper": 9}: the joint'):
+        dalembert.load(urdf("so101"), lock={"gripper": 9}, **options)
+    with pytest.raises(ValueError, match="tip=: there is no link `nowhere`"):
         dalembert.load(urdf("so101"), **{**options, "tip": "nowhere"})
     with pytest.raises(ValueError, match="expected ... or a dictionary"):
         dalembert.load(urdf("so101"), lock="all")
@@ -148,6 +156,9 @@ def test_a_dictionary(planar):
     }
     arm = dalembert.load(pendulum, outputs="gravity")
     assert_allclose(arm.gravity([0.3]), [2 * 9.81 * 0.5 * np.cos(0.3)], rtol=1e-14)
+    joint = pendulum["joint"][0] | {"a": np.float32(1), "mass": np.float64(2), "d": np.int64(0)}
+    same = dalembert.load({**pendulum, "joint": [joint]}, outputs="gravity")
+    assert_array_equal(same.gravity([0.3]), arm.gravity([0.3]))
     with pytest.raises(ValueError, match="mass"):
         dalembert.load({**pendulum, "joint": [{"kind": "revolute", "mass": -1}]})
     with pytest.raises(TypeError, match="joint.com"):
@@ -165,6 +176,27 @@ def test_parameters_are_arguments():
     fixed = dalembert.load(robot("planar2r"), outputs="gravity")
     assert_allclose(arm.gravity(q, g, none), fixed.gravity(q), atol=1e-12)
     assert np.abs(arm.gravity(q, g, carried) - fixed.gravity(q)).max() > 1
+
+
+def test_arms_are_pickled_and_copied(tmp_path):
+    shutil.copy(urdf("so101"), tmp_path / "arm.urdf")
+    options = {"tip": "gripper_frame_link", "lock": "*", "scalar": ["f64", "f32"], "cache": False}
+    arm = dalembert.load(tmp_path / "arm.urdf", outputs="inertia", nan="raise", **options)
+    # The file itself need not be there any more.
+    (tmp_path / "arm.urdf").unlink()
+    q = np.random.default_rng(3).normal(size=(4, 5))
+    for again in (pickle.loads(pickle.dumps(arm)), copy.deepcopy(arm)):
+        assert (again.joints, again.counts, again.notes) == (arm.joints, arm.counts, arm.notes)
+        for given in (q, q.astype(np.float32)):
+            assert_array_equal(again.inertia(given), arm.inertia(given))
+        with pytest.raises(ValueError, match="not a number"):
+            again.inertia(np.full(5, np.nan))
+
+
+def test_help_says_what_a_payload_holds():
+    said = " ".join(pydoc.render_doc(dalembert.Function).split())
+    assert "mass, com x y z, inertia xx yy zz xy yz xz" in said, said
+    assert "about the centre of mass" in said and "last link" in said and "payload_frame" in said
 
 
 def test_wrong_options():

@@ -108,6 +108,17 @@ def test_out_may_be_an_argument(planar):
     assert_array_equal(same, planar.manipulator_equation(q, q).c)
 
 
+def test_arrays_that_no_memory_holds(planar):
+    """NumPy's own error, and no panic."""
+    q = np.broadcast_to(np.zeros(3), (2**40, 3))
+    with pytest.raises(MemoryError):
+        planar.gravity(q)
+    with pytest.raises(MemoryError):
+        planar.manipulator_equation(q, np.zeros(3))
+    with pytest.raises((MemoryError, ValueError)):
+        planar.inverse_dynamics(q[:, None], q, q)
+
+
 def test_threads_change_no_bit(planar):
     arrays = states((20_001, 3))
     expected = planar.inverse_dynamics(*arrays)

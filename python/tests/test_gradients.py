@@ -66,6 +66,42 @@ def test_torch(planar, name):
         assert_allclose(own.grad.numpy() / scale, other / scale, atol=1e-8)
 
 
+@pytest.mark.parametrize("name", NAMES)
+def test_torch_twice(name):
+    torch = pytest.importorskip("torch")
+    from conftest import robot
+
+    outputs = [name, f"{name}_derivatives", f"{name}_second_derivatives"]
+    arm = dalembert.load(robot("planar3r"), outputs=outputs)
+    own = importlib.import_module("dalembert.torch")
+    of = getattr(own, name)(arm)
+    tensors = [torch.tensor(x, requires_grad=True) for x in states(2)]
+    assert torch.autograd.gradcheck(of, tensors)
+    assert torch.autograd.gradgradcheck(of, tensors)
+    one = [x[0].detach() for x in tensors]
+    hessian = torch.autograd.functional.hessian(lambda q: of(q, *one[1:]).sum() + (q**2).sum(), one[0])
+    rows = [np.eye(3)[k] * 1e-6 for k in range(3)]
+    first = getattr(arm, f"{name}_derivatives")
+    names = first.arguments
+
+    def slope(q):
+        given = dict(zip(of_names, (q, *(x.numpy() for x in one[1:]))))
+        return first(*(given[key] for key in names))[0].sum(axis=0) + 2 * q
+
+    of_names = getattr(arm, name).arguments
+    q = one[0].numpy()
+    expected = np.array([(slope(q + row) - slope(q - row)) / 2e-6 for row in rows])
+    assert_allclose(hessian.numpy(), expected, atol=1e-6 * np.abs(expected).max())
+    # No third derivatives, and no second ones without their output: errors, not zeros.
+    with pytest.raises(RuntimeError, match="third derivatives"):
+        (third,) = torch.autograd.grad(of(*tensors).sum(), tensors[0], create_graph=True)
+        (third,) = torch.autograd.grad(third.sum(), tensors[0], create_graph=True)
+        third.sum().backward()
+    less = dalembert.load(robot("planar3r"), outputs=outputs[:2])
+    with pytest.raises(AttributeError, match=f"without '{name}_second_derivatives'"):
+        torch.autograd.functional.hessian(lambda q: getattr(own, name)(less)(q, *one[1:]).sum(), one[0])
+
+
 def test_jax_broadcasts_and_says_what_it_lacks(planar):
     jax = pytest.importorskip("jax")
     jax.config.update("jax_enable_x64", True)

@@ -33,20 +33,43 @@ pub(super) fn types(scene_robot: &SceneRobot, scalar: ScalarType) -> String {
     if !scene_robot.has(RuntimeParameter::Payload) {
         return text;
     }
-    let n = scene_robot.joints().len();
-    let frame = match scene_robot.robot().payload_frame.as_ref() {
-        None => format!("that of joint {n} in the table"),
-        Some(frame) => {
-            let at = placed(frame);
-            format!("which is in that of joint {n} in the table\n/// at {at}")
-        }
-    };
-    text += &payload_type(scalar, &frame);
+    text += &payload_type(
+        scalar,
+        &payload_frame(scene_robot).replace(" at ", "\n/// at "),
+    );
     text += "/// The regrouped parameters that a payload changes: what [`load`] returns, and what the other\n\
              /// functions take. Compute it once for each tool; its numbers are this module's own.\n";
     let length = Argument::Load.length(scene_robot.sizes(Function::Load));
     newtype(&mut text, LOAD, scalar, length);
     text
+}
+
+/// Returns where the frame that payloads are given in is.
+fn payload_frame(scene_robot: &SceneRobot) -> String {
+    let n = scene_robot.joints().len();
+    match scene_robot.robot().payload_frame.as_ref() {
+        None => format!("that of joint {n} in the table"),
+        Some(frame) => format!(
+            "which is in that of joint {n} in the table at {}",
+            placed(frame)
+        ),
+    }
+}
+
+/// Describes an argument of C, of a payload each of its numbers.
+pub(super) fn described(argument: Argument, scene_robot: &SceneRobot) -> Vec<String> {
+    if argument != Argument::Payload {
+        return vec![argument.meaning().to_owned()];
+    }
+    let frame = payload_frame(scene_robot);
+    let text = format!(
+        "A body fixed to the last link, beside what the robot file has there; zeros: none.\n  \
+         [0] its mass, kg; [1] to [3] its centre of mass x, y, z, m, in the last link's frame,\n  \
+         {frame}\n  \
+         (a tool's pose moves poses and Jacobians only); [4] to [9] its inertia Ixx, Iyy, Izz,\n  \
+         Ixy, Iyz, Ixz, kg·m², about its centre of mass, in the axes of that frame."
+    );
+    text.lines().map(str::to_owned).collect()
 }
 
 /// The type of gravity.

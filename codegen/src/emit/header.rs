@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
+use super::arguments::described;
 use super::module::{function_doc, header};
 use super::state_box::StateBox;
 use super::{GeneratedFunction, acsl, c_sines, fused, parameters};
@@ -182,13 +183,16 @@ pub(crate) fn write(
             doc.push(String::new());
             for argument in printed.arguments {
                 let (name, length) = (argument.name(), argument.length(printed.sizes));
-                doc.push(format!("{name}[{length}]: {}", argument.meaning()));
+                let mut lines = described(*argument, scene_robot).into_iter();
+                let first = lines.next().unwrap_or_default();
+                doc.push(format!("{name}[{length}]: {first}"));
+                doc.extend(lines);
             }
             for quantity in function.quantities() {
                 let rows = scene_robot.rows();
                 let count = quantity.len(printed.sizes);
                 let units = (0..count).map(|i| quantity.unit(i, rows, printed.sizes, robot));
-                let mut units: Vec<&str> = units.collect();
+                let mut units: Vec<String> = units.collect();
                 units.dedup();
                 units.truncate(4);
                 let units = match units.iter().any(|unit| !unit.is_empty()) {

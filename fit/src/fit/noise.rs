@@ -14,7 +14,7 @@ const LEAST_NOISE: f64 = 1e-13;
 const DEPENDENT: f64 = 1e-8;
 
 /// Returns σ_i of every joint.
-pub(super) fn noise(data: &Accumulator) -> Result<Vec<f64>, Error> {
+pub(crate) fn noise(data: &Accumulator) -> Result<Vec<f64>, Error> {
     let each = data.factors().into_iter().enumerate().map(|(joint, row)| {
         let needed = row.columns.len() as u64;
         if data.states() <= needed {

@@ -106,6 +106,38 @@ fn an_entry_of_another_kind_is_made_anew() {
     }
 }
 
+/// Another user's code is not run: neither from a folder nor from a file that others may write,
+/// though its hash is right; and the arm says so.
+#[cfg(unix)]
+#[test]
+fn what_others_may_write_is_not_trusted() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = Folder::new("others");
+    let expected = gravity(&arm(&folder.load()));
+    let entry = files(&folder, "json").pop().unwrap();
+    let text = fs::read_to_string(&entry).unwrap();
+    let (_, json) = text.split_once('\n').unwrap();
+    let forged = json.replacen("c2", "s2", 1);
+    let hash = hmac_sha256::Hash::hash(forged.as_bytes());
+    let hash: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
+    let forged = format!("{hash}\n{forged}");
+    let allow = |path: &PathBuf, mode| {
+        fs::set_permissions(path, fs::Permissions::from_mode(mode)).unwrap();
+    };
+    for (folder_mode, file_mode) in [(0o770, 0o600), (0o707, 0o600), (0o700, 0o666)] {
+        fs::write(&entry, &forged).unwrap();
+        allow(&folder.0, folder_mode);
+        allow(&entry, file_mode);
+        let found = arm(&folder.load());
+        assert_eq!(gravity(&found), expected);
+        assert!(!found.is_from_cache());
+        let note = found.notes().iter().any(|note| note.contains("chmod go-w"));
+        assert_eq!(note, folder_mode != 0o700, "{:?}", found.notes());
+    }
+    // What was made anew is the user's alone.
+    assert!(arm(&folder.load()).is_from_cache());
+}
+
 #[test]
 fn writers_at_once_leave_whole_entries() {
     let folder = Folder::new("writers");
@@ -149,6 +181,9 @@ fn a_urdf_is_loaded() {
         .unwrap()
         .to_string();
     assert!(error.contains("there is no file"), "{error}");
-    let error = Arm::parse("<robot", "it", &load).err().unwrap().to_string();
+    let error = Arm::parse("<robot", "it", None, &load)
+        .err()
+        .unwrap()
+        .to_string();
     assert!(error.contains("error"), "{error}");
 }

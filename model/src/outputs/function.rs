@@ -3,17 +3,15 @@
 use alloc::vec::Vec;
 use core::fmt;
 
-use super::quantity::Choice;
 use super::{
     Argument, Axis, Function, Motion, PayloadDependence, Quantity, RuntimeParameter, Sizes, Written,
 };
 use crate::equations::chain::Form;
-use crate::equations::chain::HandChoice;
 use crate::equations::regressor::Column;
 use crate::equations::{Arm, Formulation};
 use crate::scalar::Divide;
 
-/// The definition of a function by its file, or of a bundle.
+/// The row of a function, or of a bundle.
 #[derive(Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct Definition {
     /// Its name in generated code, on the command line and in the macro.
@@ -24,23 +22,20 @@ pub(super) struct Definition {
     pub results: &'static [Quantity],
     /// The struct it returns, if it returns several quantities.
     pub structure: Option<&'static str>,
-    /// True if it is generated where nobody says which functions are wanted.
-    pub by_default: bool,
     /// The functions whose results these are; none if it is no bundle of others.
     pub parts: &'static [Function],
 }
 
-impl Definition {
-    /// The definition that most functions share; a file states the rest, and what differs.
-    pub(super) const PLAIN: Definition = Definition {
-        name: "",
-        summary: "",
-        results: &[],
-        structure: None,
-        by_default: false,
-        parts: &[],
-    };
-}
+/// The functions that are generated where nobody says which are wanted.
+const BY_DEFAULT: [Function; 7] = [
+    Function::InverseDynamics,
+    Function::Gravity,
+    Function::Inertia,
+    Function::Coriolis,
+    Function::ForwardKinematics,
+    Function::Jacobian,
+    Function::ForwardDynamics,
+];
 
 /// Which columns of a regressor a function's results are over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -56,8 +51,7 @@ pub enum Columns {
 impl Function {
     /// Returns the functions that are generated where nobody says which are wanted.
     pub fn by_default() -> Vec<Function> {
-        let wanted = |function: &Function| function.definition().by_default;
-        Function::ALL.into_iter().filter(wanted).collect()
+        BY_DEFAULT.to_vec()
     }
 
     /// Returns its name in generated code, on the command line and in the macro.
@@ -199,22 +193,10 @@ impl Function {
     /// Returns the associations of the chain formulas that differ for it, the usually
     /// cheapest first.
     pub fn forms(self) -> Vec<Form> {
-        let quantities = || self.quantities().iter();
-        let matters = |choice| {
-            let mut choices = quantities().filter_map(|q| q.facts().choices).flatten();
-            choices.any(|own| *own == choice)
-        };
-        let hand = quantities().map(|q| q.facts().hand).max();
-        let mut forms = Form::all(
-            matters(Choice::Recursion),
-            matters(Choice::Travel),
-            matters(Choice::Flows),
-            hand.unwrap_or(HandChoice::None),
-        );
-        if quantities().any(|q| q.facts().has_shoulder) {
-            forms.extend(Form::with_shoulder(&forms));
-        }
-        forms
+        Form::all(|choice| {
+            let choices = self.quantities().iter().filter_map(|q| q.row().choices);
+            choices.flatten().any(|own| *own == choice)
+        })
     }
 }
 

@@ -1,11 +1,12 @@
-//! What a result is.
+//! The facts of a result: its row of the table, and what follows from that.
 
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::{Argument, Axis, PayloadDependence, Quantity, Shape, Sizes};
-use crate::equations::chain::HandChoice;
+use super::unit::{Index, Unit};
+use super::{Argument, Axis, Function, PayloadDependence, Quantity, Shape, Sizes};
+use crate::equations::chain::Choice;
 use crate::equations::regressor::LinkParameter;
 use crate::robot::{JointKind, Robot};
 
@@ -23,16 +24,18 @@ pub(super) enum FrameChoice {
 }
 
 /// The conversion of a result's entries, with q̇, into those of given states.
-pub(in crate::outputs) type FromEntries = fn(&[f64], &[f64]) -> Vec<f64>;
+type FromEntries = fn(&[f64], &[f64]) -> Vec<f64>;
 
-/// The facts that a quantity's file states, beside its formulas.
+/// The row of a quantity: what is known of it beside its formulas.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Facts {
+pub(super) struct Row {
+    /// The function that defines it, of the hand, where others may return it too.
+    pub function: Function,
     /// Its field in the structs that generated functions return.
     pub field: &'static str,
     /// Its letter in the equations and in the names of its entries.
     pub letter: &'static str,
-    /// Its name where the letter by itself would be another quantity's.
+    /// Its name where the letter by itself would be another quantity's; else empty.
     pub symbol: &'static str,
     /// A line of documentation for its field.
     pub summary: &'static str,
@@ -40,11 +43,11 @@ pub(super) struct Facts {
     pub arguments: &'static [Argument],
     /// The arrangement of its numbers.
     pub shape: Shape,
+    /// The unit of its entries.
+    pub unit: Unit,
     /// For a quantity over base parameters: what it gives with their values, and the
     /// constant of generated code that has these.
     pub linear: Option<(&'static str, &'static str)>,
-    /// The unit of an entry, given its place along each axis.
-    pub unit: fn(&[Index]) -> &'static str,
     /// The scale of an error where actuators are the measure.
     pub scale: ErrorScale,
     /// Its key in files of given states.
@@ -59,8 +62,8 @@ pub(super) struct Facts {
     /// True if recursions give it only by differences of torques, which costs
     /// digits and n² recursions.
     pub by_differences: bool,
-    /// The parts of a hand's form that it reads.
-    pub hand: HandChoice,
+    /// True if it exists only where D has an inverse.
+    pub inverts_inertia: bool,
     /// True if it is a matrix that is positive definite.
     pub definite: bool,
     /// True if it depends on lengths that no torque depends on: where the
@@ -70,67 +73,64 @@ pub(super) struct Facts {
     pub payload_dependence: PayloadDependence,
     /// True if it depends on gravity.
     pub gravity: bool,
-    /// True if joints whose axes meet at the base may be solved for as one.
-    pub has_shoulder: bool,
-    /// What may be chosen of the frame that it is of.
+    /// The choices of the frame that it is of.
     pub frame: FrameChoice,
     /// True if an entry a joint is of the link by itself: where joints follow others there
     /// are more links than coordinates.
     pub of_links: bool,
 }
 
-impl Facts {
-    /// The facts of most quantities; a file states the rest, and what differs.
-    pub(super) const PLAIN: Facts = Facts {
+impl Row {
+    /// The row of a quantity that the chain formulas do not give; the table states the rest,
+    /// and what differs.
+    pub(super) const PLAIN: Row = Row {
+        function: Function::Load,
         field: "",
         letter: "",
         symbol: "",
         summary: "",
         arguments: &[],
         shape: Shape::SCALAR,
+        unit: Unit::None,
         linear: None,
-        unit: |_| "",
         scale: ErrorScale::None,
         given: None,
         given_as: None,
         choices: None,
         starts_from_recursion: false,
         by_differences: false,
-        hand: HandChoice::None,
+        inverts_inertia: false,
         definite: false,
         depends_on_base: false,
         payload_dependence: PayloadDependence::None,
         gravity: false,
-        has_shoulder: false,
         frame: FrameChoice::None,
         of_links: false,
     };
-}
 
-/// An association of the chain formulas that matters to a quantity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Choice {
-    /// It comes out of the recursion over velocities.
-    Recursion,
-    /// It may travel outward or inward.
-    Travel,
-    /// It may come from composite momenta, which then travel.
-    Flows,
-}
+    /// One that the chain formulas give.
+    pub(super) const CHAIN: Row = Row {
+        choices: Some(&[]),
+        payload_dependence: PayloadDependence::Torque,
+        ..Row::PLAIN
+    };
 
-/// The place of an entry along one axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Index {
-    /// A joint that turns.
-    Turning,
-    /// A joint that slides.
-    Sliding,
-    /// A place on an axis that is the same for every arm.
-    Fixed(usize),
-    /// An inertial parameter of a link.
-    Parameter(LinkParameter),
-    /// A base parameter: a combination, whose unit its terms share.
-    Base,
+    /// A regressor, whose columns no payload changes.
+    pub(super) const REGRESSOR: Row = Row {
+        choices: Some(&[]),
+        gravity: true,
+        ..Row::PLAIN
+    };
+
+    /// One of the dynamics in the space of the hand.
+    pub(super) const HAND: Row = Row {
+        choices: Some(&[Choice::HandAxes]),
+        inverts_inertia: true,
+        depends_on_base: true,
+        payload_dependence: PayloadDependence::Torque,
+        frame: FrameChoice::Rows,
+        ..Row::PLAIN
+    };
 }
 
 /// The scale that an error of an entry is held against where the actuators' torque
@@ -150,13 +150,13 @@ pub enum ErrorScale {
 impl Quantity {
     /// Returns how its numbers are arranged.
     pub fn shape(self) -> Shape {
-        self.facts().shape
+        self.row().shape
     }
 
     /// Returns, if it is over base parameters, what it gives with their values, and the constant
     /// of generated code that has these.
     pub fn linear(self) -> Option<(&'static str, &'static str)> {
-        self.facts().linear
+        self.row().linear
     }
 
     /// Returns how many numbers it has.
@@ -166,38 +166,42 @@ impl Quantity {
 
     /// Returns what it depends on.
     pub fn arguments(self) -> &'static [Argument] {
-        self.facts().arguments
+        self.row().arguments
     }
 
     /// Returns its field in the structs that generated functions return.
     pub fn field(self) -> &'static str {
-        self.facts().field
+        self.row().field
     }
 
     /// Returns a line of documentation for its field.
     pub fn summary(self) -> &'static str {
-        self.facts().summary
+        self.row().summary
     }
 
     /// Returns its letter in the equations; `h_ikm` for the symbols that make up h.
     pub fn symbol(self) -> &'static str {
-        self.facts().symbol
+        let row = self.row();
+        match row.symbol {
+            "" => row.letter,
+            symbol => symbol,
+        }
     }
 
     /// Returns what an error is held against where actuators are the measure.
     pub fn scale(self) -> ErrorScale {
-        self.facts().scale
+        self.row().scale
     }
 
     /// Returns its key in files of given states.
     pub fn given(self) -> Option<&'static str> {
-        self.facts().given
+        self.row().given
     }
 
     /// Returns what given states have of it, from its entries at a state of
     /// these velocities.
     pub fn as_given(self, values: &[f64], qd: &[f64]) -> (Quantity, Vec<f64>) {
-        match self.facts().given_as {
+        match self.row().given_as {
             Some((quantity, convert)) => (quantity, convert(values, qd)),
             None => (self, values.to_vec()),
         }
@@ -206,48 +210,63 @@ impl Quantity {
     /// Returns whether the textbook recursion is a start that may be the
     /// cheapest.
     pub fn starts_from_recursion(self) -> bool {
-        self.facts().starts_from_recursion
+        self.row().starts_from_recursion
     }
 
     /// Returns whether recursions give it only by differences of torques.
     pub fn by_differences(self) -> bool {
-        self.facts().by_differences
+        self.row().by_differences
+    }
+
+    /// Returns the function that defines it, of the hand, where others may return it too.
+    pub fn function(self) -> Function {
+        self.row().function
+    }
+
+    /// Returns its place among all of them; none of one at a frame.
+    pub fn index(self) -> Option<usize> {
+        Quantity::ALL.iter().position(|quantity| *quantity == self)
+    }
+
+    /// Returns whether it exists only where D has an inverse.
+    pub fn inverts_inertia(self) -> bool {
+        self.row().inverts_inertia
     }
 
     /// Returns whether it is a matrix that is positive definite.
     pub fn is_definite(self) -> bool {
-        self.facts().definite
+        self.row().definite
     }
 
     /// Returns whether the chain formulas give it.
     pub fn is_regrouped(self) -> bool {
-        self.facts().choices.is_some()
+        self.row().choices.is_some()
     }
 
     /// Returns whether it depends on where the first joints stand.
     pub fn depends_on_base(self) -> bool {
-        self.facts().depends_on_base
+        self.row().depends_on_base
     }
 
     /// Returns what it has to do with a payload.
     pub fn payload_dependence(self) -> PayloadDependence {
-        self.facts().payload_dependence
+        self.row().payload_dependence
     }
 
     /// Returns whether it can be had at any frame.
     pub fn is_of_frame(self) -> bool {
-        self.facts().frame != FrameChoice::None
+        self.row().frame != FrameChoice::None
     }
 
     /// Returns whether it has something of each link by itself, which no joint that moves
     /// others stands for.
     pub fn is_of_links(self) -> bool {
-        self.facts().of_links || self.shape().0.contains(&Axis::LinkParameters)
+        self.row().of_links || self.shape().0.contains(&Axis::LinkParameters)
     }
 
     /// Returns whether it depends on gravity.
     pub fn feels_gravity(self) -> bool {
-        self.facts().gravity
+        self.row().gravity
     }
 
     /// Returns the joints of an entry over these rows, one for each axis over joints.
@@ -262,7 +281,7 @@ impl Quantity {
     }
 
     /// Returns the unit of an entry over these rows of a robot.
-    pub fn unit(self, index: usize, rows: &[usize], sizes: Sizes, robot: &Robot) -> &'static str {
+    pub fn unit(self, index: usize, rows: &[usize], sizes: Sizes, robot: &Robot) -> String {
         let places = self.shape().places(index, sizes.over(rows.len()));
         let turns = |place: usize| {
             let joint = rows.get(place).and_then(|&joint| robot.joints.get(joint));
@@ -278,13 +297,13 @@ impl Quantity {
             }
             Axis::BaseParameters | Axis::Load => Index::Base,
         });
-        (self.facts().unit)(&indices.collect::<Vec<_>>())
+        self.row().unit.at(&indices.collect::<Vec<_>>())
     }
 
     /// Returns the place among six of a component of a quantity at a frame, if some were chosen.
     fn component(self, place: usize) -> usize {
         let rows = match self {
-            Quantity::At(at) if self.facts().frame >= FrameChoice::Rows => at.view().rows,
+            Quantity::At(at) if self.row().frame >= FrameChoice::Rows => at.view().rows,
             _ => return place,
         };
         rows.indices().nth(place).unwrap_or(place)
@@ -299,7 +318,7 @@ impl Quantity {
 
     /// Returns the name of one entry of a quantity that is over these joints.
     pub fn entry_over(self, index: usize, rows: &[usize], sizes: Sizes) -> String {
-        let letter = self.facts().letter;
+        let letter = self.row().letter;
         let sizes = sizes.over(rows.len());
         let places = self.shape().places(index, sizes);
         let digit = |(axis, place): (&Axis, usize)| match axis {
@@ -315,28 +334,4 @@ impl Quantity {
             digits => format!("{letter}_{}", digits.join(if is_long { "," } else { "" })),
         }
     }
-}
-
-/// Returns a force along a joint's axis, or a torque about it.
-pub(super) fn load(at: &[Index]) -> &'static str {
-    match turns(at) {
-        0 => "N",
-        _ => "N·m",
-    }
-}
-
-/// Kilograms times metres, so many powers above those of the joints.
-pub(super) fn kilograms(metres: i32) -> &'static str {
-    match metres {
-        ..0 => "kg/m",
-        0 => "kg",
-        1 => "kg·m",
-        _ => "kg·m²",
-    }
-}
-
-/// Returns how many of the joints turn: a force over an axis is a torque, one
-/// metre more.
-pub(super) fn turns(at: &[Index]) -> i32 {
-    at.iter().map(|at| i32::from(*at == Index::Turning)).sum()
 }

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
 
 from . import _dalembert
+from ._keywords import keywords
 from ._progress import Line, is_watched
 from ._toml import text
 
@@ -47,8 +48,10 @@ class Arm:
     many, ``(N, n)``, broadcast against each other; see :class:`dalembert.Function`.
     """
 
-    def __init__(self, native: _dalembert.Arm, nan: str) -> None:
+    def __init__(self, native: _dalembert.Arm, name: str, options: dict[str, Any]) -> None:
         self._native = native
+        self._loaded = (name, options)
+        nan = options["nan"]
         self._functions: dict[str, _dalembert.Function] = {}
         for name in dict.fromkeys(about["name"] for about in native.functions):
             function = native.function(name, None, nan == "raise")
@@ -68,6 +71,11 @@ class Arm:
                 f"this arm was loaded without {name!r}: add it to outputs=, which were {functions}"
             )
         raise AttributeError(f"an arm has no {name!r}")
+
+    def __reduce__(self) -> Any:
+        """Pickle and copy by source, programs and options: they are proved and compiled again."""
+        name, options = self._loaded
+        return _load, (name, self._native.source, self._native.plan, options)
 
     @property
     def functions(self) -> Mapping[str, _dalembert.Function]:
@@ -117,7 +125,7 @@ class Arm:
     @property
     def notes(self) -> list[str]:
         """What there is to know of the robot: warnings, and numbers taken for others."""
-        return self._native.notes
+        return [keywords(note) for note in self._native.notes]
 
     @property
     def is_from_cache(self) -> bool:
@@ -201,6 +209,20 @@ def _locked(lock: Mapping[str, float | str] | str | None) -> list[tuple[str, str
             raise ValueError(f'lock: expected "*" or a dictionary of positions, found {lock!r}')
         return [("*", "0")]
     return [(joint, str(at)) for joint, at in lock.items()]
+
+
+def _load(
+    name: str,
+    source: str | None,
+    plan: str | None,
+    options: dict[str, Any],
+    show: Line | None = None,
+) -> Arm:
+    try:
+        native = _dalembert.load(name, source, plan, options, show)
+    except (RuntimeError, ValueError) as error:
+        raise type(error)(keywords(str(error))) from None
+    return Arm(native, name, options)
 
 
 def _words(option: str, value: str | Iterable[str] | None) -> list[str] | None:
@@ -294,6 +316,7 @@ def load(
         "prefer": prefer,
         "fma": fma,
         "sincos": sincos,
+        "nan": nan,
         "cache": bool(cache),
         "cache_folder": None if isinstance(cache, bool) else os.fspath(cache),
     }
@@ -302,13 +325,11 @@ def load(
     show = Line() if progress else None
     try:
         if isinstance(source, Mapping):
-            native = _dalembert.load("the dictionary", text(source), options, show)
-        else:
-            path = os.fspath(source)
-            if not os.path.exists(path):
-                raise FileNotFoundError(f"there is no file {path!r}")
-            native = _dalembert.load(path, None, options, show)
+            return _load("the dictionary", text(source), None, options, show)
+        path = os.fspath(source)
+        if not os.path.exists(path):
+            raise FileNotFoundError(f"there is no file {path!r}")
+        return _load(path, None, None, options, show)
     finally:
         if show is not None:
             show.end()
-    return Arm(native, nan)

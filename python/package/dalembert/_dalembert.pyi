@@ -11,7 +11,13 @@ class Function:
 
     Arguments, by place or name, are those of ``arguments``: ``q``, ``qd``, ``qdd``, ``tau``
     (positions, velocities, accelerations, torques: rad or m, a second, N·m or N), ``v`` and
-    ``a`` of a controller, ``g`` (3,) in m/s², ``load``.
+    ``a`` of a controller, ``g`` (3,) in m/s², ``load``, which ``arm.load(payload)`` returns.
+
+    ``payload`` (10,) is mass, com x y z, inertia xx yy zz xy yz xz, in kg, m and kg·m²: the
+    centre of mass in the last link's frame, the inertia about the centre of mass in the axes of
+    that frame. It is the frame behind the last row of a table in standard DH, the last joint's
+    own in modified DH, the last moving link's in a URDF, unless the robot file's
+    ``payload_frame`` says otherwise; the tool's pose has no part in it.
 
     ``out`` is an array, or a tuple of several, of the result's shape and dtype; ``threads``
     share many states among them. Arrays of float32 are computed as such where the arm was
@@ -36,6 +42,8 @@ class Function:
 class Arm:
     @property
     def name(self) -> str: ...
+    @property
+    def source(self) -> str: ...
     @property
     def joints(self) -> list[tuple[str, str]]: ...
     @property
@@ -63,6 +71,7 @@ class Arm:
 def load(
     path: str,
     text: str | None,
+    plan: str | None,
     options: dict[str, Any],
     progress: Callable[[str, float | None], None] | None,
 ) -> Arm: ...

@@ -46,10 +46,11 @@ def _value(value: Any, place: str) -> str:
         return "true" if value else "false"
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False)
+    if hasattr(value, "tolist"):
+        # NumPy's own numbers are Python's as well, but are not written like them.
+        return _value(value.tolist(), place)
     if isinstance(value, (int, float)):
         return repr(value)
-    if hasattr(value, "tolist"):
-        return _value(value.tolist(), place)
     if isinstance(value, Sequence):
         return "[" + ", ".join(_value(each, place) for each in value) + "]"
     raise TypeError(f"{place}: expected a number, a text, a list or a table, found {value!r}")

@@ -3,8 +3,9 @@
 >>> tau = dalembert.torch.inverse_dynamics(arm)(q, qd, qdd)     # doctest: +SKIP
 
 The arm is loaded with the function and with its derivatives, such as
-``outputs=["inverse_dynamics", "inverse_dynamics_derivatives"]``. Tensors are on the CPU,
-``(n,)`` or ``(N, n)``, of one shape.
+``outputs=["inverse_dynamics", "inverse_dynamics_derivatives"]``; second derivatives
+(``create_graph=True``, ``hessian``) need ``"inverse_dynamics_second_derivatives"`` too.
+Tensors are on the CPU, ``(n,)`` or ``(N, n)``, of one shape.
 """
 
 from __future__ import annotations
@@ -31,9 +32,18 @@ def _differentiated(arm: Arm, name: str) -> Callable[[Any, Any, Any], Any]:
     function, slopes = getattr(arm, name), getattr(arm, f"{name}_derivatives")
     if len(function.arguments) != 3:
         raise ValueError(f"{name}: parameters that are arguments are not supported here")
-    arguments = [function.arguments.index(argument) for argument in slopes.arguments]
+
+    def called(of: Any, tensors: Any, **more: Any) -> list[Any]:
+        given = dict(zip(function.arguments, tensors), **more)
+        found = of(*(given[argument].detach().numpy() for argument in of.arguments))
+        return [torch.from_numpy(own).to(tensors[0].dtype) for own in found]
+
+    def product(matrix: Any, vector: Any) -> Any:
+        return torch.einsum("...ij,...j->...i", matrix, vector)
 
     class Dynamics(torch.autograd.Function):  # type: ignore[misc, unused-ignore]
+        """The results x of three arguments."""
+
         @staticmethod
         def forward(ctx: Any, *tensors: Any) -> Any:
             if len({tensor.shape for tensor in tensors}) > 1:
@@ -44,11 +54,37 @@ def _differentiated(arm: Arm, name: str) -> Callable[[Any, Any, Any], Any]:
             return torch.from_numpy(found).to(tensors[0].dtype)
 
         @staticmethod
-        @torch.autograd.function.once_differentiable
         def backward(ctx: Any, gradient: Any) -> Any:
-            arrays = [tensor.detach().numpy() for tensor in ctx.saved_tensors]
-            found = slopes(*(arrays[place] for place in arguments))
-            slope = (torch.from_numpy(own).to(gradient.dtype) for own in found)
-            return tuple(torch.einsum("...i,...ij->...j", gradient, own) for own in slope)
+            return Gradient.apply(gradient, *ctx.saved_tensors)
+
+    class Gradient(torch.autograd.Function):  # type: ignore[misc, unused-ignore]
+        """The gradient λᵀ ∂x/∂y of λᵀx by each argument y, which is differentiated once more."""
+
+        @staticmethod
+        def forward(ctx: Any, gradient: Any, *tensors: Any) -> Any:
+            ctx.save_for_backward(gradient, *tensors)
+            found = called(slopes, tensors)
+            return tuple(product(slope.transpose(-1, -2), gradient) for slope in found)
+
+        @staticmethod
+        def backward(ctx: Any, *directions: Any) -> Any:
+            return Curvature.apply(*directions, *ctx.saved_tensors)
+
+    class Curvature(torch.autograd.Function):  # type: ignore[misc, unused-ignore]
+        """The slopes of λᵀ Σ ∂x/∂y v_y, for directions v, by λ and by each argument."""
+
+        @staticmethod
+        def forward(ctx: Any, v: Any, w: Any, u: Any, gradient: Any, *tensors: Any) -> Any:
+            by_gradient = sum(map(product, called(slopes, tensors), (v, w, u)))
+            # What the function is linear in, its last argument, has no block of its own.
+            second = getattr(arm, f"{name}_second_derivatives")
+            qq, qv, vv, lq = called(second, tensors, multiplier=gradient)
+            by_q = product(qq, v) + product(qv, w) + product(lq.transpose(-1, -2), u)
+            by_qd = product(qv.transpose(-1, -2), v) + product(vv, w)
+            return by_gradient, by_q, by_qd, product(lq, v)
+
+        @staticmethod
+        def backward(ctx: Any, *_: Any) -> Any:
+            raise RuntimeError(f"{name}: third derivatives are not supported")
 
     return Dynamics.apply  # type: ignore[no-any-return, unused-ignore]

@@ -19,6 +19,8 @@
 //! - `extremes`, `magnitudes`: the largest |value| and |adjoint| of each node
 //!   over the box, written out as trigonometric polynomials; their products,
 //!   and what mixed adjoints can be off
+//! - `together`: in place of the products' first order, the largest sum of
+//!   |value|·|adjoint| at one state
 //! - `intervals`: interval arithmetic over sub-boxes; for programs that are
 //!   too large to be written out, narrow boxes and large errors
 //!
@@ -28,6 +30,7 @@ mod extremes;
 mod gradient;
 mod intervals;
 mod magnitudes;
+mod together;
 
 use crate::bound::distinct::Distinct;
 use crate::bound::input_box::InputBox;
@@ -47,6 +50,8 @@ pub struct BoundEffort {
     pub boxes: usize,
     /// Points of a grid for each value and adjoint that rounding counts with.
     pub points: usize,
+    /// Points of a grid for the sum of all their products, for each output.
+    pub together: usize,
 }
 
 impl BoundEffort {
@@ -55,6 +60,7 @@ impl BoundEffort {
         budget: BoxEffort::CERTIFY,
         boxes: 512,
         points: 1 << 14,
+        together: 1 << 22,
     };
     /// For who waits, as a compiler does.
     pub const QUICK: BoundEffort = BoundEffort {
@@ -64,6 +70,7 @@ impl BoundEffort {
         },
         boxes: 64,
         points: 1 << 8,
+        together: 1 << 14,
     };
 }
 
@@ -131,7 +138,7 @@ impl Sensitivity {
             ..program.clone()
         };
         Sensitivity {
-            extremes: Extremes::of(&once, limits, bound_effort.points),
+            extremes: Extremes::of(&once, limits, bound_effort.points, bound_effort.together),
             of: program.clone(),
             program: once,
             distinct,

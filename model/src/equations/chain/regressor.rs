@@ -14,9 +14,8 @@
 
 use alloc::vec::Vec;
 
-use super::composite::CompositeOrder;
 use super::probe::Probed;
-use super::recursion::{AccelerationForm, MomentForm, Motion};
+use super::recursion::Motion;
 use super::twist::Twist;
 use super::{Chain, ChainLink, Displacement, unit_z};
 use crate::equations::matrix::{Vector, cross, difference, dot, sum, times, zero_vector, zeros};
@@ -31,17 +30,11 @@ struct Centre<S> {
 }
 
 impl<S: Scalar> Chain<S> {
-    /// Returns the columns that the probes are, a row a joint; by twists that travel
-    /// outward alone, or by wrenches about points where axes meet.
-    pub fn regressor(
-        &self,
-        at: &[Displacement<S>],
-        qd: &[S],
-        qdd: &[S],
-        travel: CompositeOrder,
-    ) -> Vec<Vec<S>> {
-        let motions = self.motions(at, qd, qdd, AccelerationForm::Column);
-        self.powers(at, &motions, [qd, qdd], travel)
+    /// Returns the columns that the probes are, a row a joint, by wrenches about
+    /// points where axes meet.
+    pub fn regressor(&self, at: &[Displacement<S>], qd: &[S], qdd: &[S]) -> Vec<Vec<S>> {
+        let motions = self.motions(at, &self.gravity, [qd, qdd]);
+        self.powers(at, &motions, [qd, qdd])
     }
 
     /// Computes the regressor of D a + C v + c + b∘v.
@@ -50,10 +43,9 @@ impl<S: Scalar> Chain<S> {
         at: &[Displacement<S>],
         qd: &[S],
         [v, a]: [&[S]; 2],
-        travel: CompositeOrder,
     ) -> Vec<Vec<S>> {
         let motions = self.mixed_motions(at, qd, [v, a]);
-        self.powers(at, &motions, [v, a], travel)
+        self.powers(at, &motions, [v, a])
     }
 
     /// Returns the powers of the probes' wrenches, at the motions of the links and with
@@ -63,7 +55,6 @@ impl<S: Scalar> Chain<S> {
         at: &[Displacement<S>],
         motions: &[Motion<S>],
         [rates, accelerations]: [&[S]; 2],
-        travel: CompositeOrder,
     ) -> Vec<Vec<S>> {
         let n = self.links.len();
         let mut rows: Vec<Vec<S>> = (0..n).map(|_| zeros(self.columns)).collect();
@@ -77,9 +68,7 @@ impl<S: Scalar> Chain<S> {
                 let lever = link.lever(&at[i]);
                 centre.at = link.inward(&at[i], &difference(&centre.at, &lever));
             }
-            if travel == CompositeOrder::Inward {
-                centres.extend(meeting(&twists));
-            }
+            centres.extend(meeting(&twists));
             for probe in &link.probes {
                 let body = match &probe.of {
                     Probed::Armature => {
@@ -92,7 +81,7 @@ impl<S: Scalar> Chain<S> {
                     }
                     Probed::Body(body) => body,
                 };
-                let (force, moment) = motions[i].wrench(body, MomentForm::SecondMoments);
+                let (force, moment) = motions[i].wrench(body);
                 let moments: Vec<Vector<S>> = centres
                     .iter()
                     .map(|centre| sum(&moment, &cross(&force, &centre.at)))
