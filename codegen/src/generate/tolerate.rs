@@ -225,8 +225,10 @@ fn chosen(
         let all: Result<_, GenerateError> = admitted.certificates.iter().map(with).collect();
         admitted.certificates = all?;
     }
+    let library = request.math.library;
     for certificate in &mut admitted.certificates {
-        *certificate = certificate.calling(request.math.library);
+        let found = budget.calling(certificate, library, &tolerances, bound_effort);
+        *certificate = found.map_err(fail)?;
     }
     Ok(admitted)
 }

@@ -34,4 +34,6 @@ dalembert::dynamics! {
     outputs: alone = gravity;
 }
 
-fn main() {}
+fn main() {
+    let _ = bundle_part::still(&[0.0, 0.0]);
+}

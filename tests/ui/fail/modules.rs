@@ -6,22 +6,24 @@ dalembert::dynamics! {
     outputs: gravity;
 }
 
-// The text of a robot file has errors of its own, each with its line.
+// A robot in the macro is called after its module.
 dalembert::dynamics! {
-    mod text = r#"
-        name = "PlanarArm"
-        convention = "standard"
-        gravity = [0, nan, 0]
-        [[joint]]
-        kind = "revolut"
-        a = 1
-    "#;
+    mod PlanarArm {
+        convention: standard;
+        gravity: [0, -9.81, 0];
+        joint { kind: revolute, a: 1, mass: 1, com: [-0.5, 0, 0], inertia: [0, 1/12, 1/12, 0, 0, 0] }
+    }
     outputs: gravity;
 }
 
-// A robot is no block.
+// It has its name already.
 dalembert::dynamics! {
-    mod block { convention: standard; }
+    mod named_robot {
+        name: planar;
+        convention: standard;
+        gravity: [0, -9.81, 0];
+        joint { kind: revolute, a: 1, mass: 1, com: [-0.5, 0, 0], inertia: [0, 1/12, 1/12, 0, 0, 0] }
+    }
     outputs: gravity;
 }
 

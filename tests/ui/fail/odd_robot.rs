@@ -6,4 +6,6 @@ dalembert::dynamics! {
     outputs: gravity;
 }
 
-fn main() {}
+fn main() {
+    let _: [f64; 1] = arm::gravity(&[0.0]);
+}

@@ -3,8 +3,9 @@
 //! **Model** (named in certificates). Every operation gives
 //! (x ∘ y)(1 + δ) + η with |δ| ≤ u, |η| ≤ half the least subnormal for
 //! products and η = 0 for sums; literals are constants rounded once; `sin`
-//! and `cos` are a library's within one ulp, which is at most u·2 relative and u
-//! absolute, or within the errors that are proved of polynomials; nothing is contracted
+//! and `cos` are libm's within one ulp, which is at most u·2 relative and u
+//! absolute, or within the errors that are proved of `dalembert-sines`
+//! ([`library_error`](crate::sincos::library_error)) or of polynomials; nothing is contracted
 //! to a fused multiply-add but what the program fuses: there the product has
 //! neither δ nor η, and the sum that takes it an η as products have.
 //!
@@ -35,7 +36,7 @@ mod together;
 use crate::bound::distinct::Distinct;
 use crate::bound::input_box::InputBox;
 use crate::bound::magnitude::BoxEffort;
-use crate::program::{Operand, Program, ScalarType};
+use crate::program::{AngleSum, Operand, Program, ScalarType};
 use crate::sincos::AngleKernel;
 use extremes::Extremes;
 pub(super) use intervals::{Constants, forward};
@@ -152,10 +153,20 @@ impl Sensitivity {
         self.of == *program && self.limits == *limits && self.bound_effort == bound_effort
     }
 
-    /// Bounds each output's rounding, with polynomials for sines, whose errors are as they are
-    /// claimed; the sines of other angles are a library's, within one ulp.
+    /// Bounds, one an output, with polynomials for sines, whose errors are as
+    /// they are claimed; angles that are not among them are libm's.
     pub fn rounding(&self, scalar: ScalarType, sines: &[AngleKernel]) -> Vec<Rounding> {
-        let constants = Constants::of(&self.program, scalar, sines);
+        self.with(scalar, Constants::of(&self.program, scalar, sines))
+    }
+
+    /// Bounds where sines are called from `dalembert-sines`: of these angles their errors
+    /// are proved, and those of the others within one ulp.
+    pub fn calling(&self, scalar: ScalarType, proved: &[AngleSum]) -> Vec<Rounding> {
+        let constants = Constants::of(&self.program, scalar, &[]);
+        self.with(scalar, constants.calling(scalar, proved))
+    }
+
+    fn with(&self, scalar: ScalarType, constants: Constants) -> Vec<Rounding> {
         let (program, limits) = (&self.program, &self.limits);
         let boxes = self.bound_effort.boxes;
         let coarse = intervals::rounding(program, scalar, &constants, limits, boxes);

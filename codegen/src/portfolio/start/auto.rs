@@ -8,7 +8,6 @@ use super::{Approach, Problem};
 use crate::function::Function;
 use crate::portfolio::tune::Tuned;
 use crate::portfolio::{Form, Source, Variant, has_shoulder, regrouped, textbook, tuned, unmoved};
-use crate::scene::SceneRobot;
 use crate::simplify::WaySource;
 
 /// What is dearer than the cheapest by more than one part in so many before any search
