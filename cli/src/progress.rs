@@ -14,8 +14,8 @@ use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::simplify::Effort;
 use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::watch::{Observer, Progress, Watch};
+use dalembert_report::sweep::Point;
 use dalembert_report::sweep::ladder::Waiting;
-use dalembert_report::sweep::rungs::Rung;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::output;
@@ -96,10 +96,10 @@ pub fn watch(request: &mut Request) -> Session {
 }
 
 /// The steps of a long run, on a terminal.
-pub struct Steps(Arc<RungObserver>);
+pub struct Steps(Arc<StepObserver>);
 
 /// The step that is done at the moment.
-struct RungObserver {
+struct StepObserver {
     name: Mutex<String>,
 }
 
@@ -108,7 +108,7 @@ impl Steps {
     pub fn new(steps: usize) -> Steps {
         bar().set_length(steps as u64);
         let name = Mutex::default();
-        Steps(Arc::new(RungObserver { name }))
+        Steps(Arc::new(StepObserver { name }))
     }
 
     /// Shows how far searches within a step have come.
@@ -126,20 +126,16 @@ impl Waiting for Steps {
     }
 
     /// Prints a line where there is no terminal that shows a bar.
-    fn done(&self, rung: &Rung, resumed: bool) {
-        if resumed {
-            // Its search and its attempts to refute.
-            bar().inc(2);
-        }
+    fn done(&self, tolerance: f64, variants: &[Point]) {
         if !io::stderr().is_terminal() {
-            output::note(&line(rung, resumed));
+            output::note(&line(tolerance, variants));
         }
     }
 }
 
-/// Returns a rung in one line.
-fn line(rung: &Rung, resumed: bool) -> String {
-    let variants = rung.points.iter().map(|point| {
+/// Describes the variants of a tolerance in one line.
+fn line(tolerance: f64, variants: &[Point]) -> String {
+    let variants = variants.iter().map(|point| {
         let certificate = &point.certificate;
         let by = if certificate.sines.is_empty() {
             ""
@@ -158,15 +154,10 @@ fn line(rung: &Rung, resumed: bool) -> String {
         true => "no scalar is that exact".to_owned(),
         false => variants.join(", "),
     };
-    let kept = if resumed {
-        ", kept by an earlier run"
-    } else {
-        ""
-    };
-    format!("tolerance {:e}{kept}: {found}", rung.tolerance)
+    format!("tolerance {tolerance:e}: {found}")
 }
 
-impl Observer for RungObserver {
+impl Observer for StepObserver {
     fn step(&self, progress: &Progress) {
         let name = self.name.lock().unwrap_or_else(PoisonError::into_inner);
         let Progress {
@@ -183,7 +174,7 @@ impl Observer for RungObserver {
         bar().set_message(format!("{name}, {part} {round}{reached}"));
     }
 
-    /// A ladder without some of its rungs is not what was asked for.
+    /// Never ends a search early: every tolerance has its own variants.
     fn stop(&self) -> bool {
         false
     }

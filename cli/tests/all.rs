@@ -13,7 +13,6 @@ mod import;
 mod json;
 mod new;
 mod outputs;
-mod processor;
 mod show;
 mod sines;
 mod stress;

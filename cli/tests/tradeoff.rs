@@ -62,11 +62,10 @@ fn a_tradeoff_with_table_chart_and_certificates() {
     assert_eq!(again.code, 1, "{}", again.err);
     assert!(again.out.contains("above the tolerance"), "{}", again.out);
 
-    // A line a rung where there is no terminal; nothing of the work is left.
+    // A line for each tolerance where there is no terminal.
     for line in ["tolerance 2e-1: ", "tolerance 1e-9: ", "tolerance 0e0: "] {
         assert!(ran.err.contains(line), "{line}: {}", ran.err);
     }
-    assert!(!folder.join("out/rungs").exists());
 
     // The same bytes on every run.
     assert_eq!(run(&arguments).code, 0);
@@ -78,70 +77,6 @@ fn a_tradeoff_with_table_chart_and_certificates() {
         fs::read_to_string(path(&folder, "out/tradeoff.svg")).unwrap(),
         svg
     );
-}
-
-/// A run that ends after two rungs leaves them, the next one goes on from there
-/// to the same bytes; what is damaged or of another run is refused.
-#[test]
-fn a_tradeoff_goes_on_where_it_was() {
-    let (folder, arm) = arm("resumed");
-    let output = path(&folder, "out");
-    let rung = |tolerance: &str| folder.join(format!("out/rungs/{tolerance}.json"));
-    let with = |more: &[&str]| {
-        let arguments = ["tradeoff", &arm, "--scene", "pick", "-o", &output];
-        let arguments = [&arguments[..], &["--tolerances", "0.1,0.2"], more].concat();
-        run(&arguments)
-    };
-    let whole = with(&["--samples", "100"]);
-    assert_eq!(whole.code, 0, "{}", whole.err);
-    let csv = fs::read_to_string(path(&folder, "out/tradeoff.csv")).unwrap();
-    fs::remove_dir_all(&output).unwrap();
-
-    // A folder in the place of the last rung ends the run there.
-    fs::create_dir_all(rung("0e0").with_extension("unfinished")).unwrap();
-    let ended = with(&["--samples", "100"]);
-    assert_eq!(ended.code, 2, "{}", ended.err);
-    assert!(
-        ended.err.contains("0e0.json` cannot be written"),
-        "{}",
-        ended.err
-    );
-    fs::remove_dir(rung("0e0").with_extension("unfinished")).unwrap();
-    let kept = fs::read_to_string(rung("2e-1")).unwrap();
-    assert!(rung("1e-1").exists() && !rung("0e0").exists());
-
-    // Tolerances are climbed upwards: the first rung that is unfit is named.
-    let refused = |words: &str, rung: &str, more: &[&str]| {
-        let ran = with(more);
-        assert_eq!(ran.code, 2, "{words}: {}", ran.err);
-        assert!(ran.err.contains(words), "{words}: {}", ran.err);
-        ran.says(&[rung, "delete it"]);
-    };
-    let other = "is of another robot, scene, plan, version or options";
-    refused(other, "1e-1.json", &["--samples", "99"]);
-    fs::write(rung("2e-1"), &kept[..kept.len() / 2]).unwrap();
-    refused("is damaged", "2e-1.json", &["--samples", "100"]);
-    fs::write(
-        rung("2e-1"),
-        kept.replacen("\"observed\":", "\"observed\":1", 1),
-    )
-    .unwrap();
-    refused("its hash is not that", "2e-1.json", &["--samples", "100"]);
-    fs::write(rung("2e-1"), &kept).unwrap();
-
-    let resumed = with(&["--samples", "100"]);
-    assert_eq!(resumed.code, 0, "{}", resumed.err);
-    for line in [
-        "tolerance 2e-1, kept by an earlier run: ",
-        "tolerance 1e-1, kept by an earlier run: ",
-        "tolerance 0e0: ",
-    ] {
-        assert!(resumed.err.contains(line), "{line}: {}", resumed.err);
-    }
-    assert_eq!(resumed.out, whole.out);
-    let again = fs::read_to_string(path(&folder, "out/tradeoff.csv")).unwrap();
-    assert_eq!(again, csv);
-    assert!(!folder.join("out/rungs").exists());
 }
 
 /// Where nothing is run nothing was observed, not even zero.

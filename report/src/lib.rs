@@ -1,13 +1,12 @@
 //! What is reported about a robot and the code generated for it: nothing that
 //! a user of the macro compiles.
 //!
-//! - [`couplings`]: which coefficients vanish or repeat, and why
+//! - [`couplings`]: the coefficients that vanish or repeat
 //! - [`stress`]: stability at the extremes, against a float of 256 bits
 //! - [`explain`]: what each step brought, and why
 //! - [`drawing`]: the arm in two views, as SVG
-//! - [`states`]: given states compared with the code, and why they disagree
+//! - [`states`]: given states compared with the code
 //! - [`table3`]: the paper's counts beside the formulas'
-//! - [`processor`]: what compilers do not say of functions
 //! - [`sweep`]: certified error against operations, tolerance by tolerance
 #![forbid(unsafe_code)]
 #![warn(missing_docs, clippy::missing_errors_doc)]
@@ -15,7 +14,6 @@
 pub mod couplings;
 pub mod drawing;
 pub mod explain;
-pub mod processor;
 pub mod states;
 pub mod stress;
 pub mod sweep;

@@ -9,7 +9,6 @@ mod extremes_not_finite;
 mod extremes_support;
 mod identities_in_time;
 mod outputs;
-mod processor;
 mod states;
 mod stress_report;
 #[path = "../../codegen/tests/support/mod.rs"]

@@ -2,24 +2,21 @@
 
 use std::path::PathBuf;
 
-use clap::ArgGroup;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::simplify::{Effort, WaySource};
-use dalembert_report::processor::target::Target;
 
 use super::options::Options;
-use super::values::{function_parser, states_parser, target_parser, word_parser};
+use super::values::{function_parser, states_parser, word_parser};
 use super::{Choice, MORE};
 
 /// Arguments of `generate`.
 #[derive(Debug, clap::Args)]
-#[command(group(ArgGroup::new("standard output free").multiple(true)))]
 pub struct GenerateArgs {
     /// The robot file
     pub robot: PathBuf,
     /// Write the code to this file [default: standard output, `-`]; its ending chooses the
     /// language (.rs, .h, .cuh). A link is followed, a device or pipe written into
-    #[arg(short, long, value_name = "FILE", group = "standard output free")]
+    #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Write nothing: compare with FILE and exit with 1 if it differs
     #[arg(long, requires = "output")]
@@ -45,15 +42,8 @@ pub struct GenerateArgs {
     /// 100, fewer above 10 joints; 10000 with --effort thorough]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = states_parser(), help_heading = MORE)]
     pub states: Option<usize>,
-    /// Print what compilers do not say of each function: values alive, the longest chain,
-    /// calls, f64 in software; the code goes to -o, without it nowhere
-    #[arg(long, group = "standard output free", help_heading = MORE)]
-    pub report: bool,
-    /// The processors that the report warns of, separated by commas [default: all]
-    #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "report", value_parser = target_parser(), help_heading = MORE)]
-    pub target: Vec<&'static Target>,
     /// Print the reports as JSON; the code goes to -o
-    #[arg(long, requires = "standard output free", help_heading = MORE)]
+    #[arg(long, requires = "output", help_heading = MORE)]
     pub json: bool,
     #[command(flatten)]
     pub choice: Choice,
@@ -66,7 +56,8 @@ pub struct GenerateArgs {
 pub struct CountArgs {
     /// The robot file
     pub robot: PathBuf,
-    /// Print also what each program was found from, and how sure its proof is
+    /// Print also the longest chain of operations of each program, the calls of its code,
+    /// the formulation that it was found from, and how sure its proof is
     #[arg(short, long)]
     pub verbose: bool,
     /// Print JSON

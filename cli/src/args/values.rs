@@ -12,7 +12,6 @@ use dalembert_codegen::workspace::words::{Word, bundle, parse};
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::robot::suggested_name;
-use dalembert_report::processor::target::{TARGETS, Target};
 use num_traits::Signed;
 
 pub(super) fn lock_parser() -> impl TypedValueParser<Value = (String, String)> {
@@ -112,13 +111,4 @@ pub(super) fn states_parser() -> impl TypedValueParser<Value = usize> {
     clap::value_parser!(i64)
         .range(1..=most)
         .map(|states| states as usize)
-}
-
-pub(super) fn target_parser() -> impl TypedValueParser<Value = &'static Target> {
-    let names = PossibleValuesParser::new(TARGETS.iter().map(|target| target.name));
-    names.try_map(|name| {
-        let mut all = TARGETS.iter();
-        all.find(|target| target.name == name)
-            .ok_or("no such processor")
-    })
 }

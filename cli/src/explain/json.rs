@@ -3,7 +3,7 @@
 use dalembert_codegen::workspace::function::Quantity;
 use dalembert_codegen::workspace::portfolio::Source;
 use dalembert_model::robot::Robot;
-use dalembert_report::couplings::Couplings;
+use dalembert_report::couplings::{Coupling, summary};
 use dalembert_report::explain::Explanation;
 use dalembert_report::explain::errors::Errors;
 use dalembert_report::explain::parameters::{LinkParameters, Parameter, ParameterStatus, Together};
@@ -21,7 +21,9 @@ pub fn write(robot: &Robot, args: &ExplainArgs, explanations: &[Measured]) -> Va
         .iter()
         .map(|(e, errors)| (e.function.to_string(), explanation_json(e, errors)))
         .collect();
-    let couplings = explanations.iter().find_map(|(e, _)| e.couplings.as_ref());
+    let couplings = explanations
+        .iter()
+        .find_map(|(e, _)| e.couplings.as_deref());
     json!({
         "robot": robot.name,
         "input": robot.short_hash(),
@@ -30,7 +32,7 @@ pub fn write(robot: &Robot, args: &ExplainArgs, explanations: &[Measured]) -> Va
         "functions": functions,
         "table3": args.scene.is_none().then(|| table3::comparisons(robot)),
         "coefficients": couplings.map(coefficients_json),
-        "entries": couplings.filter(|_| args.coefficients).map(Couplings::listed),
+        "entries": couplings.filter(|_| args.coefficients),
     })
 }
 
@@ -94,8 +96,8 @@ fn link_json(link: &LinkParameters) -> Value {
     })
 }
 
-fn coefficients_json(couplings: &Couplings) -> Value {
+fn coefficients_json(couplings: &[Coupling]) -> Value {
     let of =
-        |(quantity, key): (Quantity, &str)| (key.to_owned(), json!(couplings.summary(quantity)));
+        |(quantity, key): (Quantity, &str)| (key.to_owned(), json!(summary(couplings, quantity)));
     QUANTITIES.into_iter().map(of).collect::<Map<_, _>>().into()
 }

@@ -3,7 +3,7 @@
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::{JointKind, Robot};
-use dalembert_report::couplings::{Couplings, Tally};
+use dalembert_report::couplings::{Coupling, Value, summary};
 use dalembert_report::explain::Explanation;
 use dalembert_report::explain::errors::Errors;
 use dalembert_report::explain::merged::Merged;
@@ -41,7 +41,10 @@ pub fn write(robot: &Robot, args: &ExplainArgs, explanations: &[Measured]) -> St
     if args.scene.is_none() {
         text += &table3(robot);
     }
-    if let Some(couplings) = explanations.iter().find_map(|(e, _)| e.couplings.as_ref()) {
+    if let Some(couplings) = explanations
+        .iter()
+        .find_map(|(e, _)| e.couplings.as_deref())
+    {
         text += "\ncoefficients\n";
         text += &coefficients(couplings);
         if args.coefficients {
@@ -66,18 +69,17 @@ fn table3(robot: &Robot) -> String {
     format!("\n{}", output::table(&rows, 0))
 }
 
-/// Returns every coefficient, what it is, and why.
-fn entries(couplings: &Couplings) -> String {
-    let rows = couplings.listed().into_iter().map(|listed| {
-        let value = match (listed.zero, listed.equals, listed.opposite_of) {
-            (true, ..) => "0".to_owned(),
-            (_, Some(other), _) => other,
-            (_, _, Some(other)) => format!("−{other}"),
-            _ if listed.constant => "constant".to_owned(),
-            _ => "·".to_owned(),
+/// Returns the table of all coefficients.
+fn entries(couplings: &[Coupling]) -> String {
+    let rows = couplings.iter().map(|Coupling { name, value, .. }| {
+        let value = match value {
+            Value::Zero => "0".to_owned(),
+            Value::Constant => "constant".to_owned(),
+            Value::Distinct => "·".to_owned(),
+            Value::Equals(other) => other.clone(),
+            Value::OppositeOf(other) => format!("−{other}"),
         };
-        let reason = listed.reason.map(|reason| reason.to_string());
-        vec![listed.name, value, reason.unwrap_or_default()]
+        vec![name.clone(), value]
     });
     output::table(&rows.collect::<Vec<_>>(), 2)
 }
@@ -248,25 +250,16 @@ fn figures(value: f64) -> String {
     }
 }
 
-fn coefficients(couplings: &Couplings) -> String {
-    let mut text = String::new();
-    for (quantity, _) in QUANTITIES {
-        let summary = couplings.summary(quantity);
-        text += &format!(
+fn coefficients(couplings: &[Coupling]) -> String {
+    let lines = QUANTITIES.into_iter().map(|(quantity, _)| {
+        let summary = summary(couplings, quantity);
+        format!(
             "  {}: {} of {} vanish, {} distinct up to sign\n",
             quantity.symbol(),
             summary.zero,
             summary.total,
             summary.distinct
-        );
-        for (reason, Tally { zero, repeats }) in summary.reasons {
-            if zero > 0 {
-                text += &format!("    {zero} vanish: {reason}\n");
-            }
-            if repeats > 0 {
-                text += &format!("    {repeats} repeat another: {reason}\n");
-            }
-        }
-    }
-    text
+        )
+    });
+    lines.collect()
 }

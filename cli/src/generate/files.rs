@@ -30,10 +30,7 @@ impl Files {
     /// # Errors
     /// Something cannot be written, or would be written over something else.
     pub fn of(args: &GenerateArgs, request: &Request) -> Result<Files, Failure> {
-        let code = match &args.output {
-            None if args.report => None,
-            file => Some(Target::output(file.as_deref(), args.json || args.report)?),
-        };
+        let code = Some(Target::output(args.output.as_deref(), args.json)?);
         let scene = request.scene.as_ref();
         let certified = scene.is_some_and(|scene| scene.tolerance.is_some());
         if args.certificate.is_some() && !certified {

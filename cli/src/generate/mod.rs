@@ -4,11 +4,9 @@
 //! - [`files`]: what goes where, and what is there already
 //! - [`report`]: what a person wants to know about the code
 //! - [`json`]: the same for programs
-//! - [`processor`]: what the functions take of processors
 
 mod files;
 pub mod json;
-mod processor;
 pub mod report;
 
 use dalembert_codegen::workspace::certificate::format;
@@ -45,23 +43,13 @@ pub fn run(args: &GenerateArgs) -> Outcome {
     if measured && states > affordable_states(robot.joints.len()) {
         output::note(&format!("measuring rounding errors at {states} states"));
     }
-    let footprints = args
-        .report
-        .then(|| processor::Report::of(&generated, &args.target));
     if args.json {
-        let mut said = json::json(&robot, &request, &generated, states);
-        if let Some(footprints) = &footprints {
-            said["processors"] = processor::json(footprints);
-        }
-        output::print_json(&said)?;
+        output::print_json(&json::json(&robot, &request, &generated, states))?;
     } else {
         output::note(&match args.verbose {
             true => report::text(&robot, &request, &generated, states),
             false => report::brief(&robot, &request, &generated),
         });
-    }
-    if let Some(footprints) = footprints.filter(|_| !args.json) {
-        output::print(&processor::text(&robot, &request, &generated, &footprints))?;
     }
     let plan = args.save_plan.then(|| {
         let kept = keep(&robot, &request, &generated, kept);

@@ -5,8 +5,9 @@ use dalembert_codegen::workspace::approximate::admitted::Admitted;
 use dalembert_codegen::workspace::approximate::prune::omissions;
 use dalembert_codegen::workspace::certificate::Certificate;
 use dalembert_codegen::workspace::emit::figures::bound_of;
+use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::{Generated, GeneratedFunction};
-use dalembert_codegen::workspace::program::Counts;
+use dalembert_codegen::workspace::program::{Counts, Library};
 use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::exact::Proof;
 use dalembert_codegen::workspace::verify::reference::Reference;
@@ -210,8 +211,8 @@ pub fn scene(request: &Request) -> String {
     scene.map_or_else(String::new, |scene| format!(", scene {}", scene.name))
 }
 
-/// The table of operation counts; `whole` adds what each was found from, and how sure its
-/// proof is.
+/// Returns the table of operation counts; `whole` adds the longest chain of operations, the
+/// calls, the formulation that each was found from, and how sure its proof is.
 pub fn counts(generated: &Generated, whole: bool) -> String {
     let any = |of: fn(&Counts) -> usize| generated.functions.iter().any(|f| of(&f.counts()) > 0);
     let (fuses, roots) = (any(|counts| counts.fma), any(|counts| counts.sqrt));
@@ -221,7 +222,7 @@ pub fn counts(generated: &Generated, whole: bool) -> String {
     head.extend(fma("fma".to_owned()));
     head.push("div".to_owned());
     let tail: &[&str] = match whole {
-        true => &["sincos", "from", "proof"],
+        true => &["sincos", "depth", "calls", "from", "proof"],
         false => &["sincos"],
     };
     let tail = tail.iter().map(|name| (*name).to_owned());
@@ -243,6 +244,8 @@ pub fn counts(generated: &Generated, whole: bool) -> String {
             continue;
         }
         row.extend([
+            function.program.depth().to_string(),
+            calls(generated, function.function).to_string(),
             match function.planned {
                 true => format!("{}, plan", function.source.name()),
                 false => function.source.name().to_owned(),
@@ -252,6 +255,26 @@ pub fn counts(generated: &Generated, whole: bool) -> String {
         rows.push(row);
     }
     output::table(&rows, if whole { 2 } else { 0 })
+}
+
+/// Returns the number of library calls of a function's code, in its first scalar: one for each
+/// angle and each root by libm, one for all angles together, none for polynomials.
+fn calls(generated: &Generated, function: Function) -> usize {
+    let mut emitted = generated.emitted.iter();
+    let Some(emitted) = emitted.find(|emitted| emitted.function == function) else {
+        return 0;
+    };
+    let text = &emitted.text;
+    let angles = text
+        .trig
+        .iter()
+        .filter(|trig| trig.kernel.is_none())
+        .count();
+    let angles = match text.library {
+        Library::Libm => angles,
+        Library::Together => angles.min(1),
+    };
+    angles + text.speeds.len()
 }
 
 /// Returns the table of the polynomials that give sines, if any do.

@@ -16,13 +16,12 @@ use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::{GenerateError, generate};
 use dalembert_codegen::workspace::plan::{self, Plan};
 use dalembert_codegen::workspace::program::{Program, ScalarType};
-use dalembert_codegen::workspace::scene::{SceneKey, SceneRobot, input_hash};
+use dalembert_codegen::workspace::scene::{SceneKey, SceneRobot};
 use dalembert_codegen::workspace::task::Request;
 use dalembert_model::read::Reading;
 use dalembert_model::scene::{Scale, Scene};
 use dalembert_report::sweep::ladder::{Ladder, Options};
-use dalembert_report::sweep::rungs::Rungs;
-use dalembert_report::sweep::{Point, SweepError, mark};
+use dalembert_report::sweep::{Point, mark};
 use serde_json::json;
 
 use crate::args::TradeoffArgs;
@@ -39,8 +38,6 @@ const CSV: &str = "tradeoff.csv";
 const SVG: &str = "tradeoff.svg";
 const TIME: &str = "time.svg";
 const CERTIFICATES: &str = "certificates";
-/// The folder of what a run that is ended leaves for the next one.
-const RUNGS: &str = "rungs";
 
 /// Runs the subcommand.
 pub fn run(args: &TradeoffArgs) -> Outcome {
@@ -54,9 +51,7 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
         None => None,
         Some(folder) => {
             let output = Folder::at(folder, &[CSV, SVG, TIME], Some(&args.robot))?;
-            for inner in [CERTIFICATES, RUNGS] {
-                Folder::at(&folder.join(inner), &[], None)?;
-            }
+            Folder::at(&folder.join(CERTIFICATES), &[], None)?;
             Some(output)
         }
     };
@@ -82,17 +77,10 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
         climbs: args.climbs,
         effort: args.effort,
     };
-    let rungs = output.as_ref().map(|folder| {
-        let identity = identity(&reading, bare.as_ref(), &exact, relative_to, options);
-        Rungs::new(&folder.path().join(RUNGS), &identity)
-    });
     let ladder = Ladder::new(options, &frame, &steps);
     let mut points = ladder
-        .climb(&tolerances, rungs.as_ref())
-        .map_err(|error| match error {
-            SweepError::Text(why) => Failure::Check(format!("error: {why}")),
-            SweepError::Rung(why) => Failure::Input(format!("error: {why}")),
-        })?;
+        .climb(&tolerances)
+        .map_err(|error| Failure::Check(format!("error: {error}")))?;
     drop(steps);
     let processor = match compiler {
         Some(compiler) => {
@@ -133,9 +121,6 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
             processor,
         );
         folder.write(&files(charts, &points))?;
-        if let Some(rungs) = &rungs {
-            rungs.forget(tolerances.iter().copied().chain([0.0]));
-        }
         output::note(&format!("wrote {}", folder.path().display()));
     }
     let violated = points.iter().filter_map(|point| {
@@ -147,19 +132,6 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
         true => Ok(()),
         false => Err(Failure::Check(violated.join("\n"))),
     }
-}
-
-/// Returns what tells this run apart from others, but for the list of tolerances.
-fn identity(
-    reading: &Reading,
-    scene: Option<&Scene>,
-    exact: &Program,
-    relative_to: Scale,
-    options: Options,
-) -> String {
-    let scene = scene.map(SceneKey::of);
-    let robot = input_hash(&reading.robot);
-    format!("{robot}\n{scene:?}\n{relative_to:?}\n{options:?}\n{exact:?}")
 }
 
 /// Returns the table, the charts and the certificates, by name.

@@ -1,4 +1,4 @@
-//! Given states: what can be compared, what was, and why it disagrees.
+//! Given states compared with generated code.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -10,20 +10,20 @@ use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::verify::floating::Runtime;
 use dalembert_model::robot::Robot;
 use dalembert_report::states::compare::{Compared, compare, quantities};
-use dalembert_report::states::diagnose::{Diagnosis, diagnose};
 use dalembert_report::states::{BOUND, GivenState};
 use serde_json::{Value, json};
 
 use crate::input;
 use crate::outcome::Failure;
 
+/// An error of every value below this is one of digits, not of units or signs.
+const FEW_DIGITS: f64 = 1e-4;
+
 /// The states of a file, before and after they were compared.
 pub struct Given<'a> {
     file: &'a Path,
     states: Vec<GivenState>,
     pub compared: Vec<Compared>,
-    /// Where something disagrees.
-    diagnosis: Option<Diagnosis>,
 }
 
 impl<'a> Given<'a> {
@@ -37,7 +37,6 @@ impl<'a> Given<'a> {
             file,
             states: input::states(file, robot.joints.len())?,
             compared: Vec::new(),
-            diagnosis: None,
         };
         let fail = |why: String| {
             let file = file.display();
@@ -67,15 +66,12 @@ impl<'a> Given<'a> {
 
     /// Runs the code at them; only double precision, since a state rounded to
     /// f32 is another state.
-    pub fn compare(&mut self, robot: &Robot, runtime: &Runtime, generated: &Generated) {
+    pub fn compare(&mut self, runtime: &Runtime, generated: &Generated) {
         let double = generated.emitted.iter();
         let double = double.filter(|emitted| emitted.scalar == ScalarType::F64);
         self.compared = double
             .flat_map(|emitted| compare(emitted, runtime, &self.states))
             .collect();
-        if !self.compared.iter().all(Compared::agrees) {
-            self.diagnosis = Some(diagnose(robot, &self.states));
-        }
     }
 
     /// Returns what the states give, and how many of them give it.
@@ -144,7 +140,7 @@ impl<'a> Given<'a> {
         })
     }
 
-    /// Writes it for programs: what was compared, and what explains a disagreement.
+    /// Returns the comparison and its disagreements as JSON.
     pub fn json(&self, robot: &Robot) -> Value {
         let keys = self.keys().into_iter();
         let compared = self.compared.iter().map(|one| one.quantity);
@@ -175,18 +171,37 @@ impl<'a> Given<'a> {
             "compared": object(used),
             "not_compared": object(unused),
             "disagreements": disagreements.collect::<Vec<_>>(),
-            "explained_by": self.diagnosis.as_ref().map(|found| &found.explained_by),
-            "help": self.diagnosis.as_ref().map(Diagnosis::help),
+            "help": (!self.agrees()).then(|| self.help()),
         })
     }
 
     pub fn agrees(&self) -> bool {
-        self.diagnosis.is_none()
+        self.compared.iter().all(Compared::agrees)
     }
 
-    /// Returns what disagrees, and why.
+    /// Names the usual causes of a disagreement, or the digits that agree where most do.
+    fn help(&self) -> String {
+        let errors = self.compared.iter().map(|one| one.worst.error);
+        let worst = errors.fold(0.0, f64::max);
+        if worst < FEW_DIGITS {
+            return format!(
+                "all values agree to {:.1} digits: were they written with fewer than 17, \
+                 or with another value of a parameter?",
+                -worst.log10()
+            );
+        }
+        "the usual causes are units (degrees, mm, g), signs and axes of gravity, the DH convention, \
+         inertia about the origin instead of the centre of mass, products of inertia, axes and \
+         zeros of single joints, damping and armature; compare `c` at q = 0 first, then `D`, \
+         then `h`"
+            .into()
+    }
+
+    /// Lists the quantities that disagree, each at its worst state.
     pub fn disagreement(&self, robot: &Robot) -> Option<String> {
-        let diagnosis = self.diagnosis.as_ref()?;
+        if self.agrees() {
+            return None;
+        }
         let mut text = format!(
             "error: {}: the robot disagrees with the states",
             self.file.display()
@@ -204,7 +219,7 @@ impl<'a> Given<'a> {
                 );
             }
         }
-        Some(text + "\n  = help: " + &diagnosis.help())
+        Some(text + "\n  = help: " + &self.help())
     }
 }
 

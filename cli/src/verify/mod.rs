@@ -82,7 +82,7 @@ pub fn run(args: &VerifyArgs) -> Outcome {
         }
     }
     if let Some(given) = &mut given {
-        given.compare(&robot, &runtime, &generated);
+        given.compare(&runtime, &generated);
     }
     let sines = sines::checks(&generated, &states);
     let found = Found {

@@ -14,7 +14,7 @@ use dalembert_model::equations::Formulation;
 use dalembert_model::equations::chain::Chain;
 use dalembert_model::robot::Robot;
 
-use crate::couplings::Couplings;
+use crate::couplings::{Coupling, couplings};
 use dalembert_codegen::workspace::function::{Columns, Function};
 use dalembert_codegen::workspace::generate::{GenerateError, tolerate};
 use dalembert_codegen::workspace::graph::Graph;
@@ -45,9 +45,9 @@ pub struct Explanation {
     pub merged: Vec<(Formulation, Merged)>,
     /// The fate of the parameters.
     pub parameters: Parameters,
-    /// Which coefficients of the whole robot vanish or repeat, unless there are
+    /// The coefficients of the whole robot that vanish or repeat, unless there are
     /// too many.
-    pub couplings: Option<Couplings>,
+    pub couplings: Option<Vec<Coupling>>,
 }
 
 /// Explains one function, as if nothing else were asked for.
@@ -155,7 +155,7 @@ fn exact(
         &tuned.regrouping,
     );
     let couplings = match scene_robot.scene() {
-        None => Couplings::of(robot),
+        None => couplings(robot),
         Some(_) => None,
     };
     let explanation = Explanation {

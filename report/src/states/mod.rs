@@ -3,21 +3,14 @@
 //!
 //! - [`mod@file`]: reading them, strictly: an unknown key is an error
 //! - [`compare`]: the code's results beside the given ones
-//! - [`diagnose`]: which usual mistake explains a disagreement
-//! - `case`: a robot and states that may be changed, and how far they are apart
-//! - `causes`: the usual mistakes
 
-mod case;
-mod causes;
 pub mod compare;
-pub mod diagnose;
 pub mod file;
 
 use std::collections::BTreeMap;
 
 use dalembert_codegen::workspace::function::Quantity;
 use dalembert_codegen::workspace::states::JointState;
-use dalembert_model::number::{Rational, Rounded};
 
 /// The largest disagreement that counts as agreement: the largest error of an
 /// entry at a state, relative to the largest entry given at that state.
@@ -30,11 +23,6 @@ pub struct GivenState {
     pub state: JointState,
     /// τ, D (row by row), h and c, as far as they are known.
     pub known: BTreeMap<Quantity, Vec<f64>>,
-}
-
-/// Returns the nearest double.
-fn float(value: &Rational) -> f64 {
-    f64::nearest_rational(value)
 }
 
 /// Returns the largest size of an entry.

@@ -4,18 +4,18 @@
 //! before, which its tolerance admits as well. So none is dearer than one before it. A search
 //! with other settings may still find less for one tolerance alone.
 
-use dalembert_codegen::workspace::approximate::admitted::{Admitted, Claim};
+use dalembert_codegen::workspace::approximate::admitted::Admitted;
 use dalembert_codegen::workspace::approximate::choose::ErrorBudget;
 use dalembert_codegen::workspace::approximate::prune::PruneSettings;
 use dalembert_codegen::workspace::bound::sensitivity::BoundEffort;
 use dalembert_codegen::workspace::certificate::Certificate;
 use dalembert_codegen::workspace::falsify::falsify;
+use dalembert_codegen::workspace::language::read::TextError;
 use dalembert_codegen::workspace::parallel;
 use dalembert_codegen::workspace::program::{Program, ScalarType};
 use dalembert_codegen::workspace::simplify::Effort;
 
-use super::rungs::{Kept, Rung, Rungs};
-use super::{Point, SweepError};
+use super::Point;
 
 /// The options of a sweep.
 #[derive(Clone, Copy, Debug)]
@@ -28,12 +28,12 @@ pub struct Options {
     pub effort: Effort,
 }
 
-/// Who waits for a sweep.
+/// Observes the progress of a sweep.
 pub trait Waiting {
-    /// Tells that something begins that takes long.
-    fn begin(&self, what: &str);
-    /// Tells that a rung is certified, or was kept by an earlier run.
-    fn done(&self, rung: &Rung, resumed: bool);
+    /// Called where a step begins that takes long.
+    fn begin(&self, name: &str);
+    /// Called where the variants of a tolerance are certified.
+    fn done(&self, tolerance: f64, variants: &[Point]);
 }
 
 /// A scalar may share the others' variant if rounding takes less than this
@@ -67,60 +67,22 @@ impl<'a> Ladder<'a> {
         }
     }
 
-    /// Returns the points of all tolerances, which ascend; the exact program's first.
+    /// Returns the variants of all tolerances, which ascend; the exact program's first.
     ///
     /// # Errors
-    /// A rung cannot be used or kept, or a variant cannot be run.
-    pub fn climb(
-        &self,
-        tolerances: &[f64],
-        rungs: Option<&Rungs>,
-    ) -> Result<Vec<Point>, SweepError> {
-        let all = tolerances.iter().copied().chain([0.0]);
-        let mut kept = Vec::new();
-        // Before the work: what cannot be used is no news an hour later.
-        for tolerance in all {
-            let certified = |kept: Kept<'_>| self.certified(tolerance, kept);
-            let rung = rungs.map(|rungs| rungs.kept(tolerance, certified));
-            let rung = rung.transpose()?;
-            kept.push((tolerance, rung.flatten()));
-        }
-        let mut points = Vec::new();
-        for (tolerance, kept) in kept {
-            let resumed = kept.is_some();
-            let rung = match kept {
-                Some(rung) => rung,
-                None => self.rung(tolerance, points.last())?,
-            };
-            if let (false, Some(rungs)) = (resumed, rungs) {
-                rungs.keep(&rung)?;
-            }
-            self.waiting.done(&rung, resumed);
-            points.extend(rung.points);
+    /// A variant cannot be run.
+    pub fn climb(&self, tolerances: &[f64]) -> Result<Vec<Point>, TextError> {
+        let mut points: Vec<Point> = Vec::new();
+        for tolerance in tolerances.iter().copied().chain([0.0]) {
+            let variants = self.rung(tolerance, points.last())?;
+            self.waiting.done(tolerance, &variants);
+            points.extend(variants);
         }
         points.sort_by(|a, b| {
             let order = a.tolerance.total_cmp(&b.tolerance);
             order.then(a.kind().cmp(&b.kind()))
         });
         Ok(points)
-    }
-
-    /// Returns the claim of a variant that a rung kept: proved to be one, as a plan's is.
-    fn certified(&self, tolerance: f64, kept: Kept<'_>) -> Option<Certificate> {
-        match kept {
-            Kept::Variant(entry) => {
-                let edited = entry.edited.as_ref()?;
-                let claim = Claim {
-                    scalar: entry.scalar,
-                    bounds: edited.bounds.clone(),
-                    lambda_min: edited.lambda_min,
-                };
-                let (stages, program) = (&edited.stages, &edited.program);
-                let found = self.frame.replayed(stages, program, &[claim]).ok()?;
-                found.certificates.into_iter().next()
-            }
-            Kept::Polynomials(certificate) => self.polynomials(tolerance, certificate),
-        }
     }
 
     /// Returns a variant with polynomials for its sines, if the tolerance admits any.
@@ -132,7 +94,8 @@ impl<'a> Ladder<'a> {
         found.ok().filter(|found| !found.sines.is_empty())
     }
 
-    fn rung(&self, tolerance: f64, before: Option<&Point>) -> Result<Rung, SweepError> {
+    /// Returns the variants of one tolerance; `before` is one that a smaller tolerance admits.
+    fn rung(&self, tolerance: f64, before: Option<&Point>) -> Result<Vec<Point>, TextError> {
         self.waiting.begin(&format!("tolerance {tolerance:e}"));
         let exact = tolerance == 0.0;
         let variants = match exact {
@@ -154,8 +117,7 @@ impl<'a> Ladder<'a> {
         let points = parallel::each(&certificates, |certificate| {
             point(options, tolerance, certificate)
         });
-        let points = points.into_iter().collect::<Result<_, _>>()?;
-        Ok(Rung { tolerance, points })
+        points.into_iter().collect()
     }
 
     /// Returns the cheapest variants that a tolerance admits, in each scalar that can
@@ -199,7 +161,7 @@ impl<'a> Ladder<'a> {
 }
 
 /// Runs a variant at states that try to refute its claim.
-fn point(options: Options, tolerance: f64, certificate: &Certificate) -> Result<Point, SweepError> {
+fn point(options: Options, tolerance: f64, certificate: &Certificate) -> Result<Point, TextError> {
     let (observed, mut violation) = falsified(options, certificate)?;
     let mut rounding_observed = None;
     if certificate.scalar == ScalarType::F32 {
@@ -219,9 +181,8 @@ fn point(options: Options, tolerance: f64, certificate: &Certificate) -> Result<
 fn falsified(
     options: Options,
     certificate: &Certificate,
-) -> Result<(Option<f64>, Option<String>), SweepError> {
-    let falsification =
-        falsify(certificate, options.samples, options.climbs, 1).map_err(SweepError::Text)?;
+) -> Result<(Option<f64>, Option<String>), TextError> {
+    let falsification = falsify(certificate, options.samples, options.climbs, 1)?;
     let largest = || falsification.observed.iter().copied().fold(0.0, f64::max);
     let observed = (falsification.states > 0).then(largest);
     let violation = falsification.violation.map(|(index, state)| {

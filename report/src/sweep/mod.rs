@@ -3,20 +3,12 @@
 //!
 //! - this file: a variant, and which variants another one beats
 //! - [`ladder`]: the variants, tolerance by tolerance
-//! - [`rungs`]: the variants of a tolerance kept, so that a run that was ended
-//!   goes on where it was; [`fault`]: why they cannot be
 
-pub mod fault;
 pub mod ladder;
-pub mod rungs;
-
-use std::fmt;
 
 use dalembert_codegen::workspace::certificate::Certificate;
-use dalembert_codegen::workspace::language::read::TextError;
 use dalembert_codegen::workspace::program::{Counts, ScalarType};
 use dalembert_codegen::workspace::sincos;
-use fault::RungError;
 
 /// One variant.
 pub struct Point {
@@ -137,23 +129,3 @@ pub fn mark(points: &mut [Point]) {
         });
     }
 }
-
-/// Why a sweep ends early.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum SweepError {
-    /// A variant's text cannot be run.
-    Text(TextError),
-    /// A kept rung cannot be used, or not be kept.
-    Rung(RungError),
-}
-
-impl fmt::Display for SweepError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            SweepError::Text(error) => error.fmt(f),
-            SweepError::Rung(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for SweepError {}

@@ -4,40 +4,11 @@
 use dalembert_model::equations::Formulation;
 use dalembert_model::outputs::RuntimeParameter;
 
-use super::{Approach, Beginning, Problem};
+use super::{Approach, Problem};
 use crate::function::Function;
-use crate::graph::Graph;
 use crate::portfolio::tune::Tuned;
-use crate::portfolio::{
-    Form, Source, Sums, Variant, angle_sums, has_shoulder, regrouped, textbook, tuned, unmoved,
-};
-use crate::scene::SceneRobot;
+use crate::portfolio::{Form, Source, Variant, has_shoulder, regrouped, textbook, tuned, unmoved};
 use crate::simplify::WaySource;
-
-/// The start `auto`.
-pub(super) struct Auto;
-
-impl Beginning for Auto {
-    fn name(&self) -> &'static str {
-        "auto"
-    }
-
-    fn approaches(&self, problem: &Problem<'_>) -> Vec<Approach> {
-        approaches(problem)
-    }
-
-    fn helpers(&self, scene_robot: &SceneRobot) -> Vec<Graph> {
-        vec![angle_sums(scene_robot, Sums::Products)]
-    }
-
-    fn has_chain(&self) -> bool {
-        true
-    }
-
-    fn may_regroup(&self) -> bool {
-        true
-    }
-}
 
 /// What is dearer than the cheapest by more than one part in so many before any search
 /// is not searched from.

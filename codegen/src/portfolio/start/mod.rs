@@ -1,119 +1,90 @@
-//! What a function's search starts from: a file a start.
+//! Starts: the formulations that a function's search begins with.
 //!
-//! - `auto`: the cheapest, with the others' values at hand
-//! - `angle_sums`: the same, where sines of sums of angles may be evaluated
-//! - `only`: a textbook formulation alone
-//!
-//! Command, macro, plans and searches ask here; none of them knows a start by name. To
-//! add one: write its file, and add its line to the list below.
+//! - this file: [`Start`], the choices by name
+//! - `auto`: the approaches of the cheapest, with the others' values at hand
 
-mod angle_sums;
 mod auto;
-mod only;
 
 use dalembert_model::equations::Formulation;
 use dalembert_model::equations::chain::Regrouping;
 use dalembert_model::number::Exact;
 
-use super::{Limit, Variant, tune::Tuned};
+use super::{Limit, Source, Sums, Variant, angle_sums, textbook, tune::Tuned};
 use crate::function::Function;
 use crate::graph::Graph;
 use crate::scene::SceneRobot;
 use crate::simplify::{Effort, WaySource};
 use crate::watch::FunctionWatch;
 use crate::words::Word;
-use only::Only;
-pub(super) use only::TEXTBOOK;
 
-/// What a start's file says.
-trait Beginning {
-    /// Returns its name on the command line, in the macro and in plans.
-    fn name(&self) -> &'static str;
+/// The formulations that can be asked for by name. Of the recursion in link axes it is
+/// the one that is cheapest.
+pub(super) const TEXTBOOK: [Formulation; 3] = [
+    Formulation::LagrangeEuler,
+    Formulation::Dalembert,
+    Formulation::NewtonEulerLink,
+];
 
-    /// Returns what to search from, each by itself: the cheapest that is found is taken.
-    fn approaches(&self, problem: &Problem<'_>) -> Vec<Approach>;
-
-    /// Values that no formula forms but that may shorten it.
-    fn helpers(&self, _: &SceneRobot) -> Vec<Graph> {
-        Vec::new()
-    }
-
-    /// Returns whether it has the chain formulas: a load is numbers of these.
-    fn has_chain(&self) -> bool {
-        false
-    }
-
-    /// Returns whether a tolerance may be met in another regrouping than that which is
-    /// cheapest without one.
-    fn may_regroup(&self) -> bool {
-        false
-    }
-}
-
-/// A line a start: its documentation, its file, its name in Rust.
-macro_rules! starts {
-    ($($(#[$doc:meta])* $file:ident: $start:ident,)*) => {
-        /// Which formulation a function starts from.
-        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-        #[non_exhaustive]
-        pub enum Start {
-            $($(#[$doc])* $start,)*
-            /// One textbook formulation only.
-            Only(Formulation),
-        }
-
-        impl Start {
-            /// Returns the choices of the command line and the macro.
-            pub fn all() -> impl Iterator<Item = Start> {
-                let textbook = TEXTBOOK.into_iter().map(Start::Only);
-                [$(Start::$start),*].into_iter().chain(textbook)
-            }
-
-            fn beginning(self) -> Box<dyn Beginning> {
-                match self {
-                    $(Start::$start => Box::new($file::$start),)*
-                    Start::Only(formulation) => Box::new(Only(formulation)),
-                }
-            }
-        }
-    };
-}
-
-starts! {
+/// Which formulation a function starts from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Start {
     /// The cheapest, with the others' values at hand.
     #[default]
-    auto: Auto,
+    Auto,
     /// As [`Start::Auto`], where the sines and cosines of angle sums of
     /// parallel joints may be evaluated instead of formed: fewer operations,
     /// a pair more, and an error of |q| u in the sum.
-    angle_sums: AngleSums,
+    AngleSums,
+    /// One textbook formulation only.
+    Only(Formulation),
 }
 
 impl Start {
-    /// Returns its name.
-    pub fn name(self) -> &'static str {
-        self.beginning().name()
+    /// Returns the choices of the command line and the macro.
+    pub fn all() -> impl Iterator<Item = Start> {
+        let textbook = TEXTBOOK.into_iter().map(Start::Only);
+        [Start::Auto, Start::AngleSums].into_iter().chain(textbook)
     }
 
-    /// Returns whether functions that it starts can take a load.
+    /// Returns its name on the command line, in the macro and in plans.
+    pub fn name(self) -> &'static str {
+        match self {
+            Start::Auto => "auto",
+            Start::AngleSums => "angle_sums",
+            Start::Only(formulation) => Source::Textbook(formulation).name(),
+        }
+    }
+
+    /// Returns whether functions that it starts can take a load: numbers of the chain formulas.
     pub fn has_chain(self) -> bool {
-        self.beginning().has_chain()
+        !matches!(self, Start::Only(_))
     }
 
     /// Returns whether a tolerance may be met in another regrouping than that which is
     /// cheapest without one.
     pub fn may_regroup(self) -> bool {
-        self.beginning().may_regroup()
+        self == Start::Auto
     }
 
-    /// Values that no formula forms but that may shorten it.
+    /// Returns graphs whose values no formula forms but that may shorten one.
     pub(crate) fn helpers(self, scene_robot: &SceneRobot) -> Vec<Graph> {
-        self.beginning().helpers(scene_robot)
+        match self {
+            Start::Auto => vec![angle_sums(scene_robot, Sums::Products)],
+            Start::AngleSums => vec![angle_sums(scene_robot, Sums::Inputs)],
+            Start::Only(_) => Vec::new(),
+        }
     }
 
-    /// Returns what to search from, each by itself: the cheapest that is found is taken.
+    /// Returns the approaches, each searched by itself: the cheapest that is found is taken.
     pub(crate) fn approaches(self, problem: &Problem<'_>) -> Vec<Approach> {
-        self.beginning().approaches(problem)
+        match self {
+            Start::Auto | Start::AngleSums => auto::approaches(problem),
+            Start::Only(formulation) => {
+                let variant = textbook(problem.scene_robot, problem.function, formulation);
+                vec![Approach::of(variant)]
+            }
+        }
     }
 }
 
