@@ -5,6 +5,35 @@ use super::Sizes;
 use crate::equations::load::PAYLOAD;
 use crate::robot::Limit;
 
+/// An argument of a generated function: an array, of most with an entry a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Argument {
+    /// q
+    Position,
+    /// q̇
+    Velocity,
+    /// q̈
+    Acceleration,
+    /// τ
+    Torque,
+    /// A velocity v that a controller wishes for.
+    ReferenceVelocity,
+    /// An acceleration a that a controller wishes for.
+    ReferenceAcceleration,
+    /// The acceleration of gravity, where it is an argument.
+    Gravity,
+    /// The regrouped parameters that a payload changes.
+    Load,
+    /// A payload's mass, centre of mass and inertia.
+    Payload,
+    /// A wrench that acts on the hand.
+    Wrench,
+    /// λ², which keeps an inverse finite where the arm is singular.
+    Damping,
+    /// λ: by how much each torque, or acceleration, counts in what is differentiated twice.
+    Multiplier,
+}
+
 /// The number of entries of an argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Length {
@@ -28,94 +57,149 @@ struct Facts {
     reach: f64,
 }
 
-/// A row an argument: its documentation and its name in Rust; its name in generated code, its
-/// symbol and a noun for its entries; its key in files of given states; a line of documentation;
-/// its length; the limit of a joint that says how far its entries reach, and how far they are
-/// taken to reach without one.
-macro_rules! arguments {
-    ($(
-        $(#[$doc:meta])* $argument:ident $name:literal $symbol:literal $noun:literal, $given:expr,
-        $meaning:literal, $length:expr, $limit:expr, $reach:literal;
-    )*) => {
-        /// An argument of a generated function: an array, of most with an entry a joint.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-        pub enum Argument {
-            $($(#[$doc])* $argument,)*
-        }
-
-        /// In the order of [`Argument::ALL`].
-        const TABLE: [Facts; Argument::COUNT] = [$(Facts {
-            name: $name,
-            symbol: $symbol,
-            noun: $noun,
-            given: $given,
-            meaning: $meaning,
-            length: $length,
-            limit: $limit,
-            reach: $reach,
-        },)*];
-
-        impl Argument {
-            /// Every argument, in the order of signatures.
-            pub const ALL: [Argument; Argument::COUNT] = [$(Argument::$argument),*];
-        }
-    };
-}
-
-arguments! {
-    /// q
-    Position "q" "q" "position", Some("q"),
-        "Positions, rad or m.",
-        Length::Joints, Some(Limit::Position), 1.0;
-    /// q̇
-    Velocity "qd" "q̇" "velocity", Some("qd"),
-        "Velocities, rad/s or m/s.",
-        Length::Joints, Some(Limit::Velocity), 3.0;
-    /// q̈
-    Acceleration "qdd" "q̈" "acceleration", Some("qdd"),
-        "Accelerations, rad/s² or m/s².",
-        Length::Joints, Some(Limit::Acceleration), 10.0;
-    /// τ
-    Torque "tau" "τ" "torque", Some("torque"),
-        "Torques, N·m or N.",
-        Length::Joints, Some(Limit::Torque), 100.0;
-    /// A velocity v that a controller wishes for.
-    ReferenceVelocity "v" "v" "reference velocity", None,
-        "Velocities wished for, rad/s or m/s.",
-        Length::Joints, Some(Limit::Velocity), 3.0;
-    /// An acceleration a that a controller wishes for.
-    ReferenceAcceleration "a" "a" "reference acceleration", None,
-        "Accelerations wished for, rad/s² or m/s².",
-        Length::Joints, Some(Limit::Acceleration), 10.0;
-    /// The acceleration of gravity, where it is an argument.
-    Gravity "g" "g" "gravity", None,
-        "Acceleration of gravity in base axes, m/s²; where the base moves, less that of the base.",
-        Length::Fixed(3), None, 9.81;
-    /// The regrouped parameters that a payload changes.
-    Load "load" "load" "load", None,
-        "What `load` returns of what the hand carries.",
-        Length::Load, None, 1.0;
-    /// A payload's mass, centre of mass and inertia.
-    Payload "payload" "payload" "payload", None,
-        "Mass, centre of mass and inertia of what the hand carries.",
-        Length::Fixed(PAYLOAD), None, 1.0;
-    /// A wrench that acts on the hand.
-    Wrench "wrench" "w" "wrench", Some("hand_wrench"),
-        "Force in N over moment in N·m that act on the frame, in its axes and about its point.",
-        Length::Fixed(6), None, 100.0;
-    /// λ², which keeps an inverse finite where the arm is singular.
-    Damping "damping" "λ²" "damping", Some("damping"),
-        "λ², zero or more, which is added to the diagonal before an inverse is taken.",
-        Length::Fixed(1), None, 1.0;
-    /// λ: by how much each torque, or acceleration, counts in what is differentiated twice.
-    Multiplier "multiplier" "λ" "multiplier", Some("multiplier"),
-        "λ, by how much each joint counts: Lagrange multipliers, or the slope of a cost to go.",
-        Length::Joints, None, 1.0;
-}
+/// In the order of [`Argument::ALL`].
+const TABLE: [Facts; Argument::COUNT] = [
+    Facts {
+        name: "q",
+        symbol: "q",
+        noun: "position",
+        given: Some("q"),
+        meaning: "Positions, rad or m.",
+        length: Length::Joints,
+        limit: Some(Limit::Position),
+        reach: 1.0,
+    },
+    Facts {
+        name: "qd",
+        symbol: "q̇",
+        noun: "velocity",
+        given: Some("qd"),
+        meaning: "Velocities, rad/s or m/s.",
+        length: Length::Joints,
+        limit: Some(Limit::Velocity),
+        reach: 3.0,
+    },
+    Facts {
+        name: "qdd",
+        symbol: "q̈",
+        noun: "acceleration",
+        given: Some("qdd"),
+        meaning: "Accelerations, rad/s² or m/s².",
+        length: Length::Joints,
+        limit: Some(Limit::Acceleration),
+        reach: 10.0,
+    },
+    Facts {
+        name: "tau",
+        symbol: "τ",
+        noun: "torque",
+        given: Some("torque"),
+        meaning: "Torques, N·m or N.",
+        length: Length::Joints,
+        limit: Some(Limit::Torque),
+        reach: 100.0,
+    },
+    Facts {
+        name: "v",
+        symbol: "v",
+        noun: "reference velocity",
+        given: None,
+        meaning: "Velocities wished for, rad/s or m/s.",
+        length: Length::Joints,
+        limit: Some(Limit::Velocity),
+        reach: 3.0,
+    },
+    Facts {
+        name: "a",
+        symbol: "a",
+        noun: "reference acceleration",
+        given: None,
+        meaning: "Accelerations wished for, rad/s² or m/s².",
+        length: Length::Joints,
+        limit: Some(Limit::Acceleration),
+        reach: 10.0,
+    },
+    Facts {
+        name: "g",
+        symbol: "g",
+        noun: "gravity",
+        given: None,
+        meaning: "Acceleration of gravity in base axes, m/s²; where the base moves, less that of the base.",
+        length: Length::Fixed(3),
+        limit: None,
+        reach: 9.81,
+    },
+    Facts {
+        name: "load",
+        symbol: "load",
+        noun: "load",
+        given: None,
+        meaning: "What `load` returns of what the hand carries.",
+        length: Length::Load,
+        limit: None,
+        reach: 1.0,
+    },
+    Facts {
+        name: "payload",
+        symbol: "payload",
+        noun: "payload",
+        given: None,
+        meaning: "Mass, centre of mass and inertia of what the hand carries.",
+        length: Length::Fixed(PAYLOAD),
+        limit: None,
+        reach: 1.0,
+    },
+    Facts {
+        name: "wrench",
+        symbol: "w",
+        noun: "wrench",
+        given: Some("hand_wrench"),
+        meaning: "Force in N over moment in N·m that act on the frame, in its axes and about its point.",
+        length: Length::Fixed(6),
+        limit: None,
+        reach: 100.0,
+    },
+    Facts {
+        name: "damping",
+        symbol: "λ²",
+        noun: "damping",
+        given: Some("damping"),
+        meaning: "λ², zero or more, which is added to the diagonal before an inverse is taken.",
+        length: Length::Fixed(1),
+        limit: None,
+        reach: 1.0,
+    },
+    Facts {
+        name: "multiplier",
+        symbol: "λ",
+        noun: "multiplier",
+        given: Some("multiplier"),
+        meaning: "λ, by how much each joint counts: Lagrange multipliers, or the slope of a cost to go.",
+        length: Length::Joints,
+        limit: None,
+        reach: 1.0,
+    },
+];
 
 impl Argument {
     /// The number of arguments.
     pub const COUNT: usize = 12;
+
+    /// Every argument, in the order of signatures.
+    pub const ALL: [Argument; Argument::COUNT] = [
+        Argument::Position,
+        Argument::Velocity,
+        Argument::Acceleration,
+        Argument::Torque,
+        Argument::ReferenceVelocity,
+        Argument::ReferenceAcceleration,
+        Argument::Gravity,
+        Argument::Load,
+        Argument::Payload,
+        Argument::Wrench,
+        Argument::Damping,
+        Argument::Multiplier,
+    ];
 
     /// Those with an entry a joint, which a motion is made of.
     pub const JOINTS: [Argument; 6] = [

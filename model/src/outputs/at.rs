@@ -15,10 +15,12 @@ use core::hash::{Hash, Hasher};
 
 use super::bundle::{BundleError, check_name, kept};
 use super::function::Definition;
-use super::quantity::{FrameChoice, Row};
-use super::{Axis, Function, Quantity, Shape, Written};
+use super::quantity::{Facts, FrameChoice};
+use super::{Axis, Function, Quantity, Regrouped, Shape, Written};
+use crate::equations::Arm;
 use crate::equations::frames::{Axes, Rows, View};
 use crate::robot::Robot;
+use crate::scalar::Divide;
 
 /// The sign before a frame's name.
 const AT: char = '@';
@@ -35,7 +37,7 @@ pub struct QuantityAt(&'static Viewed);
 struct Viewed {
     quantity: Quantity,
     view: View,
-    row: Row,
+    facts: Facts,
 }
 
 impl QuantityAt {
@@ -53,19 +55,49 @@ impl QuantityAt {
         self.0.view
     }
 
-    pub(super) fn row(self) -> &'static Row {
-        &self.0.row
+    pub(super) fn facts(self) -> &'static Facts {
+        &self.0.facts
     }
 
-    /// Computes something of the quantity at the hand of the arm whose hand is the frame; nothing
-    /// where the robot has no such frame, which a generator refuses before.
-    pub(super) fn seen<S: Clone, R>(
-        self,
-        own: &Written<'_, S>,
-        of: impl FnOnce(Quantity, &Written<'_, S>) -> R,
-    ) -> Option<R> {
-        let arm = own.arm.seen(&self.0.view)?;
-        Some(of(self.0.quantity, &Written { arm: &arm, ..*own }))
+    /// Returns the arm whose hand is the frame; none where the robot has no such frame, which
+    /// whoever generates refuses before.
+    fn seen<S: Clone>(self, arm: &Arm<S>) -> Option<Arm<S>> {
+        arm.seen(&self.0.view)
+    }
+
+    pub(super) fn written<S: Divide>(self, at: &Written<'_, S>) -> Vec<S> {
+        let arm = self.seen(at.arm);
+        arm.map_or_else(Vec::new, |arm| {
+            self.0.quantity.written(&Written { arm: &arm, ..*at })
+        })
+    }
+
+    pub(super) fn residual<S: Divide>(self, at: &Written<'_, S>, values: &[S]) -> Vec<S> {
+        let arm = self.seen(at.arm);
+        arm.map_or_else(Vec::new, |arm| {
+            let at = Written { arm: &arm, ..*at };
+            self.0.quantity.residual(&at, values)
+        })
+    }
+
+    pub(super) fn divisor<S: Divide>(self, at: &Written<'_, S>) -> Vec<S> {
+        let arm = self.seen(at.arm);
+        arm.map_or_else(Vec::new, |arm| {
+            self.0.quantity.divisor(&Written { arm: &arm, ..*at })
+        })
+    }
+
+    pub(super) fn regrouped<S: Divide>(self, at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let textbook = at.textbook.as_ref()?;
+        let arm = self.seen(textbook.arm)?;
+        let textbook = Written {
+            arm: &arm,
+            ..*textbook
+        };
+        self.0.quantity.regrouped(&Regrouped {
+            textbook: Some(textbook),
+            ..at.clone()
+        })
     }
 }
 
@@ -119,7 +151,7 @@ impl Function {
     /// # Errors
     /// [`BundleError`]: the output has no frame or no axes, or the name is none.
     pub fn at(function: Function, view: View) -> Result<Function, BundleError> {
-        let choice = |quantity: &Quantity| quantity.row().frame;
+        let choice = |quantity: &Quantity| quantity.facts().frame;
         let most = function.quantities().iter().map(choice).min();
         let asked = match view {
             View { rows, .. } if rows != Rows::ALL => FrameChoice::Rows,
@@ -143,8 +175,7 @@ impl Function {
             name: kept(name),
             summary: kept(format!("{} {}", of.summary, described(view))),
             results: Box::leak(results.into_boxed_slice()),
-            structure: None,
-            parts: &[],
+            ..Definition::PLAIN
         })))))
     }
 
@@ -236,16 +267,16 @@ fn described(view: View) -> String {
 
 /// Returns a quantity at a frame.
 fn seen(quantity: Quantity, view: View) -> Quantity {
-    let of = quantity.row();
+    let of = quantity.facts();
     let at = format!("{}{}", view.frame, suffix(view, OF));
     let components = |axis: &Axis| match axis {
         Axis::Fixed(6) if of.frame >= FrameChoice::Rows => Axis::Fixed(view.rows.count()),
         other => *other,
     };
     let axes: Vec<Axis> = of.shape.0.iter().map(components).collect();
-    let row = Row {
+    let facts = Facts {
         field: kept(format!("{}_{}{}", of.field, view.frame, suffix(view, '_'))),
-        symbol: kept(format!("{} at {at}", quantity.symbol())),
+        symbol: kept(format!("{} at {at}", of.symbol)),
         summary: kept(format!("{} {}", of.summary, described(view))),
         shape: Shape(Box::leak(axes.into_boxed_slice())),
         given: of.given.map(|key| kept(format!("{key}{AT}{at}"))),
@@ -255,7 +286,7 @@ fn seen(quantity: Quantity, view: View) -> Quantity {
     Quantity::At(QuantityAt(Box::leak(Box::new(Viewed {
         quantity,
         view,
-        row,
+        facts,
     }))))
 }
 

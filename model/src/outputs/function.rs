@@ -11,7 +11,7 @@ use crate::equations::regressor::Column;
 use crate::equations::{Arm, Formulation};
 use crate::scalar::Divide;
 
-/// The row of a function, or of a bundle.
+/// The definition of a function by its file, or of a bundle.
 #[derive(Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct Definition {
     /// Its name in generated code, on the command line and in the macro.
@@ -22,20 +22,23 @@ pub(super) struct Definition {
     pub results: &'static [Quantity],
     /// The struct it returns, if it returns several quantities.
     pub structure: Option<&'static str>,
+    /// True if it is generated where nobody says which functions are wanted.
+    pub by_default: bool,
     /// The functions whose results these are; none if it is no bundle of others.
     pub parts: &'static [Function],
 }
 
-/// The functions that are generated where nobody says which are wanted.
-const BY_DEFAULT: [Function; 7] = [
-    Function::InverseDynamics,
-    Function::Gravity,
-    Function::Inertia,
-    Function::Coriolis,
-    Function::ForwardKinematics,
-    Function::Jacobian,
-    Function::ForwardDynamics,
-];
+impl Definition {
+    /// The definition that most functions share; a file states the rest, and what differs.
+    pub(super) const PLAIN: Definition = Definition {
+        name: "",
+        summary: "",
+        results: &[],
+        structure: None,
+        by_default: false,
+        parts: &[],
+    };
+}
 
 /// Which columns of a regressor a function's results are over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -51,7 +54,8 @@ pub enum Columns {
 impl Function {
     /// Returns the functions that are generated where nobody says which are wanted.
     pub fn by_default() -> Vec<Function> {
-        BY_DEFAULT.to_vec()
+        let wanted = |function: &Function| function.definition().by_default;
+        Function::ALL.into_iter().filter(wanted).collect()
     }
 
     /// Returns its name in generated code, on the command line and in the macro.
@@ -194,7 +198,7 @@ impl Function {
     /// cheapest first.
     pub fn forms(self) -> Vec<Form> {
         Form::all(|choice| {
-            let choices = self.quantities().iter().filter_map(|q| q.row().choices);
+            let choices = self.quantities().iter().filter_map(|q| q.facts().choices);
             choices.flatten().any(|own| *own == choice)
         })
     }

@@ -1,11 +1,10 @@
-//! The facts of a result: its row of the table, and what follows from that.
+//! What a result is.
 
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::unit::{Index, Unit};
-use super::{Argument, Axis, Function, PayloadDependence, Quantity, Shape, Sizes};
+use super::{Argument, Axis, PayloadDependence, Quantity, Shape, Sizes};
 use crate::equations::chain::Choice;
 use crate::equations::regressor::LinkParameter;
 use crate::robot::{JointKind, Robot};
@@ -24,18 +23,16 @@ pub(super) enum FrameChoice {
 }
 
 /// The conversion of a result's entries, with q̇, into those of given states.
-type FromEntries = fn(&[f64], &[f64]) -> Vec<f64>;
+pub(in crate::outputs) type FromEntries = fn(&[f64], &[f64]) -> Vec<f64>;
 
-/// The row of a quantity: what is known of it beside its formulas.
+/// The facts that a quantity's file states, beside its formulas.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Row {
-    /// The function that defines it, of the hand, where others may return it too.
-    pub function: Function,
+pub(super) struct Facts {
     /// Its field in the structs that generated functions return.
     pub field: &'static str,
     /// Its letter in the equations and in the names of its entries.
     pub letter: &'static str,
-    /// Its name where the letter by itself would be another quantity's; else empty.
+    /// Its name where the letter by itself would be another quantity's.
     pub symbol: &'static str,
     /// A line of documentation for its field.
     pub summary: &'static str,
@@ -43,11 +40,11 @@ pub(super) struct Row {
     pub arguments: &'static [Argument],
     /// The arrangement of its numbers.
     pub shape: Shape,
-    /// The unit of its entries.
-    pub unit: Unit,
     /// For a quantity over base parameters: what it gives with their values, and the
     /// constant of generated code that has these.
     pub linear: Option<(&'static str, &'static str)>,
+    /// The unit of an entry, given its place along each axis.
+    pub unit: fn(&[Index]) -> &'static str,
     /// The scale of an error where actuators are the measure.
     pub scale: ErrorScale,
     /// Its key in files of given states.
@@ -62,8 +59,6 @@ pub(super) struct Row {
     /// True if recursions give it only by differences of torques, which costs
     /// digits and n² recursions.
     pub by_differences: bool,
-    /// True if it exists only where D has an inverse.
-    pub inverts_inertia: bool,
     /// True if it is a matrix that is positive definite.
     pub definite: bool,
     /// True if it depends on lengths that no torque depends on: where the
@@ -73,33 +68,30 @@ pub(super) struct Row {
     pub payload_dependence: PayloadDependence,
     /// True if it depends on gravity.
     pub gravity: bool,
-    /// The choices of the frame that it is of.
+    /// What may be chosen of the frame that it is of.
     pub frame: FrameChoice,
     /// True if an entry a joint is of the link by itself: where joints follow others there
     /// are more links than coordinates.
     pub of_links: bool,
 }
 
-impl Row {
-    /// The row of a quantity that the chain formulas do not give; the table states the rest,
-    /// and what differs.
-    pub(super) const PLAIN: Row = Row {
-        function: Function::Load,
+impl Facts {
+    /// The facts of most quantities; a file states the rest, and what differs.
+    pub(super) const PLAIN: Facts = Facts {
         field: "",
         letter: "",
         symbol: "",
         summary: "",
         arguments: &[],
         shape: Shape::SCALAR,
-        unit: Unit::None,
         linear: None,
+        unit: |_| "",
         scale: ErrorScale::None,
         given: None,
         given_as: None,
         choices: None,
         starts_from_recursion: false,
         by_differences: false,
-        inverts_inertia: false,
         definite: false,
         depends_on_base: false,
         payload_dependence: PayloadDependence::None,
@@ -107,30 +99,21 @@ impl Row {
         frame: FrameChoice::None,
         of_links: false,
     };
+}
 
-    /// One that the chain formulas give.
-    pub(super) const CHAIN: Row = Row {
-        choices: Some(&[]),
-        payload_dependence: PayloadDependence::Torque,
-        ..Row::PLAIN
-    };
-
-    /// A regressor, whose columns no payload changes.
-    pub(super) const REGRESSOR: Row = Row {
-        choices: Some(&[]),
-        gravity: true,
-        ..Row::PLAIN
-    };
-
-    /// One of the dynamics in the space of the hand.
-    pub(super) const HAND: Row = Row {
-        choices: Some(&[Choice::HandAxes]),
-        inverts_inertia: true,
-        depends_on_base: true,
-        payload_dependence: PayloadDependence::Torque,
-        frame: FrameChoice::Rows,
-        ..Row::PLAIN
-    };
+/// The place of an entry along one axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Index {
+    /// A joint that turns.
+    Turning,
+    /// A joint that slides.
+    Sliding,
+    /// A place on an axis that is the same for every arm.
+    Fixed(usize),
+    /// An inertial parameter of a link.
+    Parameter(LinkParameter),
+    /// A base parameter: a combination, whose unit its terms share.
+    Base,
 }
 
 /// The scale that an error of an entry is held against where the actuators' torque
@@ -150,13 +133,13 @@ pub enum ErrorScale {
 impl Quantity {
     /// Returns how its numbers are arranged.
     pub fn shape(self) -> Shape {
-        self.row().shape
+        self.facts().shape
     }
 
     /// Returns, if it is over base parameters, what it gives with their values, and the constant
     /// of generated code that has these.
     pub fn linear(self) -> Option<(&'static str, &'static str)> {
-        self.row().linear
+        self.facts().linear
     }
 
     /// Returns how many numbers it has.
@@ -166,42 +149,38 @@ impl Quantity {
 
     /// Returns what it depends on.
     pub fn arguments(self) -> &'static [Argument] {
-        self.row().arguments
+        self.facts().arguments
     }
 
     /// Returns its field in the structs that generated functions return.
     pub fn field(self) -> &'static str {
-        self.row().field
+        self.facts().field
     }
 
     /// Returns a line of documentation for its field.
     pub fn summary(self) -> &'static str {
-        self.row().summary
+        self.facts().summary
     }
 
     /// Returns its letter in the equations; `h_ikm` for the symbols that make up h.
     pub fn symbol(self) -> &'static str {
-        let row = self.row();
-        match row.symbol {
-            "" => row.letter,
-            symbol => symbol,
-        }
+        self.facts().symbol
     }
 
     /// Returns what an error is held against where actuators are the measure.
     pub fn scale(self) -> ErrorScale {
-        self.row().scale
+        self.facts().scale
     }
 
     /// Returns its key in files of given states.
     pub fn given(self) -> Option<&'static str> {
-        self.row().given
+        self.facts().given
     }
 
     /// Returns what given states have of it, from its entries at a state of
     /// these velocities.
     pub fn as_given(self, values: &[f64], qd: &[f64]) -> (Quantity, Vec<f64>) {
-        match self.row().given_as {
+        match self.facts().given_as {
             Some((quantity, convert)) => (quantity, convert(values, qd)),
             None => (self, values.to_vec()),
         }
@@ -210,63 +189,48 @@ impl Quantity {
     /// Returns whether the textbook recursion is a start that may be the
     /// cheapest.
     pub fn starts_from_recursion(self) -> bool {
-        self.row().starts_from_recursion
+        self.facts().starts_from_recursion
     }
 
     /// Returns whether recursions give it only by differences of torques.
     pub fn by_differences(self) -> bool {
-        self.row().by_differences
-    }
-
-    /// Returns the function that defines it, of the hand, where others may return it too.
-    pub fn function(self) -> Function {
-        self.row().function
-    }
-
-    /// Returns its place among all of them; none of one at a frame.
-    pub fn index(self) -> Option<usize> {
-        Quantity::ALL.iter().position(|quantity| *quantity == self)
-    }
-
-    /// Returns whether it exists only where D has an inverse.
-    pub fn inverts_inertia(self) -> bool {
-        self.row().inverts_inertia
+        self.facts().by_differences
     }
 
     /// Returns whether it is a matrix that is positive definite.
     pub fn is_definite(self) -> bool {
-        self.row().definite
+        self.facts().definite
     }
 
     /// Returns whether the chain formulas give it.
     pub fn is_regrouped(self) -> bool {
-        self.row().choices.is_some()
+        self.facts().choices.is_some()
     }
 
     /// Returns whether it depends on where the first joints stand.
     pub fn depends_on_base(self) -> bool {
-        self.row().depends_on_base
+        self.facts().depends_on_base
     }
 
     /// Returns what it has to do with a payload.
     pub fn payload_dependence(self) -> PayloadDependence {
-        self.row().payload_dependence
+        self.facts().payload_dependence
     }
 
     /// Returns whether it can be had at any frame.
     pub fn is_of_frame(self) -> bool {
-        self.row().frame != FrameChoice::None
+        self.facts().frame != FrameChoice::None
     }
 
     /// Returns whether it has something of each link by itself, which no joint that moves
     /// others stands for.
     pub fn is_of_links(self) -> bool {
-        self.row().of_links || self.shape().0.contains(&Axis::LinkParameters)
+        self.facts().of_links || self.shape().0.contains(&Axis::LinkParameters)
     }
 
     /// Returns whether it depends on gravity.
     pub fn feels_gravity(self) -> bool {
-        self.row().gravity
+        self.facts().gravity
     }
 
     /// Returns the joints of an entry over these rows, one for each axis over joints.
@@ -281,7 +245,7 @@ impl Quantity {
     }
 
     /// Returns the unit of an entry over these rows of a robot.
-    pub fn unit(self, index: usize, rows: &[usize], sizes: Sizes, robot: &Robot) -> String {
+    pub fn unit(self, index: usize, rows: &[usize], sizes: Sizes, robot: &Robot) -> &'static str {
         let places = self.shape().places(index, sizes.over(rows.len()));
         let turns = |place: usize| {
             let joint = rows.get(place).and_then(|&joint| robot.joints.get(joint));
@@ -297,13 +261,13 @@ impl Quantity {
             }
             Axis::BaseParameters | Axis::Load => Index::Base,
         });
-        self.row().unit.at(&indices.collect::<Vec<_>>())
+        (self.facts().unit)(&indices.collect::<Vec<_>>())
     }
 
     /// Returns the place among six of a component of a quantity at a frame, if some were chosen.
     fn component(self, place: usize) -> usize {
         let rows = match self {
-            Quantity::At(at) if self.row().frame >= FrameChoice::Rows => at.view().rows,
+            Quantity::At(at) if self.facts().frame >= FrameChoice::Rows => at.view().rows,
             _ => return place,
         };
         rows.indices().nth(place).unwrap_or(place)
@@ -318,7 +282,7 @@ impl Quantity {
 
     /// Returns the name of one entry of a quantity that is over these joints.
     pub fn entry_over(self, index: usize, rows: &[usize], sizes: Sizes) -> String {
-        let letter = self.row().letter;
+        let letter = self.facts().letter;
         let sizes = sizes.over(rows.len());
         let places = self.shape().places(index, sizes);
         let digit = |(axis, place): (&Axis, usize)| match axis {
@@ -334,4 +298,28 @@ impl Quantity {
             digits => format!("{letter}_{}", digits.join(if is_long { "," } else { "" })),
         }
     }
+}
+
+/// Returns a force along a joint's axis, or a torque about it.
+pub(super) fn load(at: &[Index]) -> &'static str {
+    match turns(at) {
+        0 => "N",
+        _ => "N·m",
+    }
+}
+
+/// Kilograms times metres, so many powers above those of the joints.
+pub(super) fn kilograms(metres: i32) -> &'static str {
+    match metres {
+        ..0 => "kg/m",
+        0 => "kg",
+        1 => "kg·m",
+        _ => "kg·m²",
+    }
+}
+
+/// Returns how many of the joints turn: a force over an axis is a torque, one
+/// metre more.
+pub(super) fn turns(at: &[Index]) -> i32 {
+    at.iter().map(|at| i32::from(*at == Index::Turning)).sum()
 }

@@ -95,6 +95,7 @@ impl Function {
             summary: kept(summary(&parts)),
             results: Box::leak(results.into_boxed_slice()),
             structure: Some(kept(name::camel(name))),
+            by_default: false,
             parts: Box::leak(parts.into_boxed_slice()),
         })))))
     }
@@ -195,16 +196,22 @@ pub(super) fn kept(text: String) -> &'static str {
 mod tests {
     use super::*;
 
-    /// The table's own bundle could as well have been left to a user: but for its name and its
-    /// line of documentation, nothing is special about it.
+    /// What the registry bundles it could as well have left to a user:
+    /// but for its name and its line of documentation, nothing is special about
+    /// it.
     #[test]
-    fn a_bundle_of_the_table_is_like_any_other() {
-        let own = Function::ManipulatorEquation;
-        let parts = [Function::Inertia, Function::Coriolis, Function::Gravity];
-        let made = Function::bundle("made", parts).unwrap();
-        assert_eq!(own.quantities(), made.quantities());
-        assert_eq!(own.arguments(), made.arguments());
-        assert_eq!(own.forms(), made.forms());
+    fn the_registrys_bundles_are_like_any_other() {
+        let is_bundle = |function: &Function| !function.definition().parts.is_empty();
+        let own: Vec<Function> = Function::ALL.into_iter().filter(is_bundle).collect();
+        assert_eq!(own, [Function::ManipulatorEquation]);
+        for own in own {
+            let parts = own.definition().parts.iter().copied();
+            let made = Function::bundle("made", parts).unwrap();
+            assert_eq!(own.quantities(), made.quantities());
+            assert_eq!(own.arguments(), made.arguments());
+            assert_eq!(own.forms(), made.forms());
+            assert_eq!(own.structure(), Some(own.camel().as_str()));
+        }
     }
 
     #[test]

@@ -1,12 +1,49 @@
-//! The arguments of functions in the scalar of a computation.
+//! What a quantity's file says, and what its formulas are given.
 
 use alloc::vec::Vec;
+use core::cell::OnceCell;
 
 use super::Argument;
-use crate::equations::JointPosition;
-use crate::equations::following::Following;
+use super::quantity::Facts;
+use crate::equations::chain::composite::Composite;
+use crate::equations::chain::second_derivatives::SecondDerivatives;
+use crate::equations::chain::{Chain, Displacement, Form};
+use crate::equations::following::{Following, gathered_square};
 use crate::equations::load::Loading;
-use crate::scalar::Scalar;
+use crate::equations::regressor::Column;
+use crate::equations::{Arm, DhVariables, Formulation, JointPosition};
+use crate::scalar::{Divide, Scalar};
+
+/// A quantity: what it is, and its formulas, each over any scalar.
+pub(super) trait Formula {
+    /// The value itself.
+    const FACTS: Facts;
+
+    /// Computes it by a textbook formulation: what everything else is proved against.
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S>;
+
+    /// Computes it by the chain formulas with regrouped parameters; `None` if these do not give
+    /// it: then [`Formula::written`] is where a search starts.
+    fn regrouped<S: Divide>(_: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        None
+    }
+
+    /// True if it exists only where D has an inverse.
+    const INVERTS_INERTIA: bool = false;
+
+    /// Returns the symmetric matrix that it inverts beside D, row by row, of which the condition
+    /// says how far rounding may move it; nothing if it inverts no other.
+    fn divisor<S: Divide>(_: &Written<'_, S>) -> Vec<S> {
+        Vec::new()
+    }
+
+    /// Returns what vanishes if these entries over all joints are the
+    /// quantity's, by an equation that it solves; nothing where
+    /// [`Formula::written`] says what it is.
+    fn residual<S: Divide>(_: &Written<'_, S>, _: &[S]) -> Vec<S> {
+        Vec::new()
+    }
+}
 
 /// The arguments in the scalar of a computation.
 #[derive(Clone, Debug)]
@@ -151,5 +188,74 @@ impl<S: Scalar> Motion<S> {
             }
         }
         self
+    }
+}
+
+/// An arm in motion, and the formulation that is asked.
+#[derive(Clone, Copy, Debug)]
+pub struct Written<'a, S> {
+    /// Which of the textbook's.
+    pub formulation: Formulation,
+    /// The arm.
+    pub arm: &'a Arm<S>,
+    /// Where it is.
+    pub at: &'a [DhVariables<S>],
+    /// The motion of the arm.
+    pub motion: &'a Motion<S>,
+    /// The columns of a regressor; none where nothing asked is one.
+    pub columns: &'a [Column<S>],
+}
+
+/// A chain in motion, and how its formulas are associated.
+#[derive(Clone, Debug)]
+pub struct Regrouped<'a, S> {
+    /// The chain at its position.
+    pub chain: &'a Chain<S>,
+    /// Where its joints are.
+    pub at: &'a [Displacement<S>],
+    /// Its composite bodies.
+    pub composite: Composite<'a, S>,
+    /// The motion of its joints.
+    pub motion: &'a Motion<S>,
+    /// The association.
+    pub form: Form,
+    /// The whole arm in motion, where something asked is of a frame: the chain has none.
+    pub textbook: Option<Written<'a, S>>,
+    /// The joints of the chain among those of the arm.
+    pub joints: &'a [usize],
+    /// Those of the chain that follow others, by their places in it.
+    pub following: &'a [Following<S>],
+    /// What several quantities are read off.
+    pub shared: Shared<S>,
+}
+
+/// What several quantities of one function are read off, computed where it is first asked for.
+#[derive(Clone, Debug)]
+pub struct Shared<S> {
+    /// The second derivatives of λᵀτ.
+    pub(super) of_torques: OnceCell<SecondDerivatives<S>>,
+    /// The second derivatives of λᵀq̈.
+    pub(super) of_accelerations: OnceCell<SecondDerivatives<S>>,
+}
+
+impl<S> Default for Shared<S> {
+    fn default() -> Self {
+        Shared {
+            of_torques: OnceCell::new(),
+            of_accelerations: OnceCell::new(),
+        }
+    }
+}
+
+impl<S: Scalar> Regrouped<'_, S> {
+    /// Returns D of the chain, gathered at the leaders of joints that follow.
+    pub(super) fn gathered_inertia(&self) -> Vec<Vec<S>> {
+        gathered_square(self.following, self.composite.inertia())
+    }
+
+    /// Values over all joints of the arm, over those of the chain.
+    pub(super) fn pick(&self, values: &[S]) -> Vec<S> {
+        let joints = self.joints.iter();
+        joints.map(|&joint| values[joint].clone()).collect()
     }
 }

@@ -1,0 +1,120 @@
+//! D^rot, D^tran, h^rot, h^tran and c of generalized D'Alembert (eqs. 4.2–4.5).
+
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::function::Definition;
+use super::quantity::{Facts, kilograms, load, turns};
+use super::{Argument, ErrorScale, PayloadDependence, Quantity, Shape, Written};
+use crate::equations::dalembert::Part;
+use crate::scalar::Divide;
+
+pub(super) const FUNCTION: Definition = Definition {
+    name: "dalembert_terms",
+    summary: "What rotation and translation of the links contribute: D^rot, D^tran, h^rot, h^tran, and c; armature in neither D.",
+    results: &[
+        Quantity::RotationInertia,
+        Quantity::TranslationInertia,
+        Quantity::RotationCoriolis,
+        Quantity::TranslationCoriolis,
+        Quantity::Gravity,
+    ],
+    structure: Some("DalembertTerms"),
+    ..Definition::PLAIN
+};
+
+/// D^rot_ik
+pub(super) struct RotationInertia;
+
+impl Formula for RotationInertia {
+    const FACTS: Facts = Facts {
+        field: "d_rot",
+        letter: "Drot",
+        symbol: "Drot",
+        summary: "Inertia matrix of the links' rotation D^rot.",
+        arguments: &[Argument::Position],
+        shape: Shape::MATRIX,
+        unit: |at| kilograms(turns(at)),
+        scale: ErrorScale::Inertia,
+        payload_dependence: PayloadDependence::Full,
+        ..Facts::PLAIN
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let d = at.formulation.inertia_part(Part::Rotation, at.arm, at.at);
+        d.into_iter().flatten().collect()
+    }
+}
+
+/// D^tran_ik
+pub(super) struct TranslationInertia;
+
+impl Formula for TranslationInertia {
+    const FACTS: Facts = Facts {
+        field: "d_tran",
+        letter: "Dtran",
+        symbol: "Dtran",
+        summary: "Inertia matrix of the links' translation D^tran.",
+        arguments: &[Argument::Position],
+        shape: Shape::MATRIX,
+        unit: |at| kilograms(turns(at)),
+        scale: ErrorScale::Inertia,
+        payload_dependence: PayloadDependence::Full,
+        ..Facts::PLAIN
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let d = at
+            .formulation
+            .inertia_part(Part::Translation, at.arm, at.at);
+        d.into_iter().flatten().collect()
+    }
+}
+
+/// h^rot_i
+pub(super) struct RotationCoriolis;
+
+impl Formula for RotationCoriolis {
+    const FACTS: Facts = Facts {
+        field: "h_rot",
+        letter: "hrot",
+        symbol: "hrot",
+        summary: "Coriolis and centripetal load of the links' rotation h^rot.",
+        arguments: &[Argument::Position, Argument::Velocity],
+        shape: Shape::VECTOR,
+        unit: load,
+        scale: ErrorScale::Load,
+        payload_dependence: PayloadDependence::Full,
+        ..Facts::PLAIN
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let qd = &at.motion.qd;
+        at.formulation
+            .velocity_part(Part::Rotation, at.arm, at.at, qd)
+    }
+}
+
+/// h^tran_i
+pub(super) struct TranslationCoriolis;
+
+impl Formula for TranslationCoriolis {
+    const FACTS: Facts = Facts {
+        field: "h_tran",
+        letter: "htran",
+        symbol: "htran",
+        summary: "Coriolis and centripetal load of the links' translation h^tran.",
+        arguments: &[Argument::Position, Argument::Velocity],
+        shape: Shape::VECTOR,
+        unit: load,
+        scale: ErrorScale::Load,
+        payload_dependence: PayloadDependence::Full,
+        ..Facts::PLAIN
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let qd = &at.motion.qd;
+        at.formulation
+            .velocity_part(Part::Translation, at.arm, at.at, qd)
+    }
+}

@@ -1,0 +1,180 @@
+//! ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ = D⁻¹: what q̈(q, q̇, τ) is linearised by.
+//!
+//! With q̈ in the place of the free argument, D q̈ + h + c + b∘q̇ = τ holds for
+//! all q and q̇, so that D ∂q̈/∂q = −∂τ/∂q at that q̈, and likewise for q̇.
+
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::forward_dynamics::accelerations;
+use super::function::Definition;
+use super::inertia_inverse::{InertiaInverse, inverse};
+use super::quantity::{Facts, Index};
+use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
+use crate::equations::chain::Unknowns;
+use crate::equations::following::{gathered_columns, spread};
+use crate::equations::forward::{against, free};
+use crate::scalar::Divide;
+
+pub(super) const FUNCTION: Definition = Definition {
+    name: "forward_dynamics_derivatives",
+    summary: "Derivatives of the forward dynamics: ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ = D⁻¹.",
+    results: &[
+        Quantity::AccelerationByPosition,
+        Quantity::AccelerationByVelocity,
+        Quantity::AccelerationByTorque,
+    ],
+    structure: Some("ForwardDynamicsDerivatives"),
+    ..Definition::PLAIN
+};
+
+const STATE: &[Argument] = &[Argument::Position, Argument::Velocity, Argument::Torque];
+
+/// ∂q̈_i/∂q_k
+pub(super) struct AccelerationByPosition;
+
+/// ∂q̈_i/∂q̇_k
+pub(super) struct AccelerationByVelocity;
+
+/// ∂q̈_i/∂τ_k
+pub(super) struct AccelerationByTorque;
+
+/// Computes them by position and by velocity, of the joints that move.
+fn slopes<S: Divide>(at: &Regrouped<'_, S>) -> [Vec<S>; 2] {
+    let motion = at.motion;
+    let qdd = spread(at.following, accelerations(at, Unknowns::Joints));
+    let inverse = inverse(at);
+    let slopes = at.composite.slopes(&motion.qd, &qdd);
+    [slopes.position, slopes.velocity]
+        .map(|slopes| flat(against(&inverse, &gathered_columns(at.following, slopes))))
+}
+
+fn flat<S>(rows: Vec<Vec<S>>) -> Vec<S> {
+    rows.into_iter().flatten().collect()
+}
+
+fn written<S: Divide>(at: &Written<'_, S>) -> [Vec<S>; 2] {
+    let motion = at.motion;
+    let slopes =
+        at.formulation
+            .acceleration_slopes(at.arm, at.at, &motion.qd, &motion.tau, &motion.moves);
+    slopes.map(flat)
+}
+
+/// Returns D X + S over the joints that move, for the slopes X of q̈ and S of τ.
+pub(super) fn defect<S: Divide>(at: &Written<'_, S>, x: &[S], slopes: &[Vec<S>]) -> Vec<S> {
+    let d = at.formulation.gathered_inertia(at.arm, at.at);
+    let slopes = gathered_columns(&at.arm.following, slopes.to_vec());
+    let (free, n) = (free(&at.motion.moves), d.len());
+    let entry = |i: usize, k: usize| {
+        let products = free.iter().map(|&j| d[i][j].mul(&x[j * n + k]));
+        products.fold(slopes[i][k].clone(), |sum, product| sum.add(&product))
+    };
+    let rows = free.iter();
+    rows.flat_map(|&i| (0..n).map(move |k| (i, k)))
+        .map(|(i, k)| entry(i, k))
+        .collect()
+}
+
+impl Formula for AccelerationByPosition {
+    const FACTS: Facts = Facts {
+        field: "dqdd_dq",
+        letter: "q̈q",
+        symbol: "∂q̈/∂q",
+        summary: "∂q̈/∂q: row i has the slopes of q̈_i.",
+        arguments: STATE,
+        shape: Shape::MATRIX,
+        unit: |at| match at {
+            [Index::Turning, Index::Sliding] => "1/(m·s²)",
+            [Index::Sliding, Index::Turning] => "m/s²",
+            _ => "1/s²",
+        },
+        given: Some("dqdd_dq"),
+        choices: Some(&[]),
+        payload_dependence: PayloadDependence::Torque,
+        gravity: true,
+        ..Facts::PLAIN
+    };
+
+    const INVERTS_INERTIA: bool = true;
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let [position, _] = written(at);
+        position
+    }
+
+    /// Returns D ∂q̈/∂q + ∂τ/∂q at the motion that τ brings about.
+    fn residual<S: Divide>(at: &Written<'_, S>, values: &[S]) -> Vec<S> {
+        let (form, motion) = (at.formulation, at.motion);
+        let qdd = form.forward_dynamics(at.arm, at.at, &motion.qd, &motion.tau, &motion.moves);
+        let qdd = spread(&at.arm.following, qdd);
+        let slopes = form.torque_by_position(at.arm, at.at, &motion.qd, &qdd);
+        defect(at, values, &slopes)
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let [position, _] = slopes(at);
+        Some(position)
+    }
+}
+
+impl Formula for AccelerationByVelocity {
+    const FACTS: Facts = Facts {
+        field: "dqdd_dqd",
+        letter: "q̈v",
+        symbol: "∂q̈/∂q̇",
+        summary: "∂q̈/∂q̇: row i has the slopes of q̈_i.",
+        unit: |at| match at {
+            [Index::Turning, Index::Sliding] => "1/(m·s)",
+            [Index::Sliding, Index::Turning] => "m/s",
+            _ => "1/s",
+        },
+        given: Some("dqdd_dqd"),
+        gravity: false,
+        ..AccelerationByPosition::FACTS
+    };
+
+    const INVERTS_INERTIA: bool = true;
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let [_, velocity] = written(at);
+        velocity
+    }
+
+    /// Returns D ∂q̈/∂q̇ + ∂τ/∂q̇
+    fn residual<S: Divide>(at: &Written<'_, S>, values: &[S]) -> Vec<S> {
+        let form = at.formulation;
+        let slopes = form.torque_by_velocity(at.arm, at.at, &at.motion.qd);
+        defect(at, values, &slopes)
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let [_, velocity] = slopes(at);
+        Some(velocity)
+    }
+}
+
+impl Formula for AccelerationByTorque {
+    const FACTS: Facts = Facts {
+        field: "dqdd_dtau",
+        letter: "q̈τ",
+        symbol: "∂q̈/∂τ",
+        summary: "∂q̈/∂τ = D⁻¹.",
+        given: None,
+        ..InertiaInverse::FACTS
+    };
+
+    const INVERTS_INERTIA: bool = true;
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        InertiaInverse::written(at)
+    }
+
+    fn residual<S: Divide>(at: &Written<'_, S>, values: &[S]) -> Vec<S> {
+        InertiaInverse::residual(at, values)
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        InertiaInverse::regrouped(at)
+    }
+}
