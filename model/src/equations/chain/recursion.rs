@@ -118,10 +118,14 @@ impl<S: Scalar> Motion<S> {
                 &part(zz, u(0, 2), xx, u(2, 0), xz, u(0, 0), u(2, 2)),
                 &mixed(yz, u(0, 1), xy, u(2, 1)),
             ),
-            plus(
-                &part(xx, u(1, 0), yy, u(0, 1), xy, u(1, 1), u(0, 0)),
-                &mixed(xz, u(1, 2), yz, u(0, 2)),
-            ),
+            match u(2, 2).is_zero() {
+                // It turns about z alone: U_12 = −U_21, and the others vanish.
+                true => times(&plus(xx, yy), u(1, 0)),
+                false => plus(
+                    &part(xx, u(1, 0), yy, u(0, 1), xy, u(1, 1), u(0, 0)),
+                    &mixed(xz, u(1, 2), yz, u(0, 2)),
+                ),
+            },
         ]
     }
 }
@@ -180,14 +184,7 @@ impl<S: Scalar> Chain<S> {
         let mut loads = Vec::with_capacity(self.links.len());
         let (mut force, mut moment) = (zero_vector(), exerted.clone());
         for (i, motion) in motions.iter().enumerate().rev() {
-            let body = &self.links[i].body;
-            let (own, mut own_moment) = motion.wrench(body);
-            if motion.u[2][2].is_zero() {
-                // A link that turns about z alone: U_12 = −U_21, and U_11 = U_22.
-                let second = plus(&body.second.xx, &body.second.yy);
-                let lifted = cross(&body.first, &motion.acceleration);
-                own_moment[2] = plus(&times(&second, &motion.u[0][1]), &lifted[2]);
-            }
+            let (own, own_moment) = motion.wrench(&self.links[i].body);
             force = sum(&force, &own);
             moment = sum(&moment, &own_moment);
             loads.push(self.load(i, &force, &moment));
