@@ -4,7 +4,8 @@
 
 use crate::equations_support::known::Known;
 use crate::equations_support::random;
-use dalembert_model::equations::chain::composite::Composite;
+use dalembert_model::equations::chain::composite::{Composite, CompositeOrder};
+use dalembert_model::equations::chain::recursion::{AccelerationForm, MomentForm};
 use dalembert_model::equations::chain::{Chain, Regrouping, Skeleton};
 use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};
 use dalembert_model::robot::{Convention, JointKind};
@@ -83,20 +84,25 @@ fn compare(arm: &Arm<Known>, points: &mut Points) -> usize {
             link.axes = axes;
         }
         let (posed, at) = chain.posed(&position);
-        let found = posed.inverse_dynamics(&at, &qd, &qdd);
-        assert_eq!(found, torque, "{choice:?}");
+        for (spin, couple) in [
+            (AccelerationForm::Column, MomentForm::SecondMoments),
+            (AccelerationForm::Rates, MomentForm::Euler),
+        ] {
+            let found = posed.inverse_dynamics(&at, &qd, &qdd, spin, couple);
+            assert_eq!(found, torque, "{choice:?}");
+        }
         assert_eq!(posed.passivity(&at, &qd, &v, &a), passivity, "{choice:?}");
         let composite = Composite::new(&posed, &at);
-        assert_eq!(composite.inertia(), inertia, "{choice:?}");
-        for by_composites in [false, true] {
-            assert_eq!(composite.gravity(by_composites), gravity, "{choice:?}");
+        for travel in [CompositeOrder::Outward, CompositeOrder::Inward] {
+            assert_eq!(composite.inertia(travel), inertia, "{choice:?}");
+            assert_eq!(composite.gravity(travel), gravity, "{choice:?}");
+            let slopes = composite.slopes(&qd, &qdd, travel);
+            assert_eq!(slopes.position, by_position, "{choice:?}");
+            assert_eq!(slopes.velocity, by_velocity, "{choice:?}");
+            let own = composite.second_derivatives(state, travel);
+            let own = [own.position, own.mixed, own.velocity, own.driven];
+            assert_eq!(own, second, "{choice:?}");
         }
-        let slopes = composite.slopes(&qd, &qdd);
-        assert_eq!(slopes.position, by_position, "{choice:?}");
-        assert_eq!(slopes.velocity, by_velocity, "{choice:?}");
-        let own = composite.second_derivatives(state);
-        let own = [own.position, own.mixed, own.velocity, own.driven];
-        assert_eq!(own, second, "{choice:?}");
         assert_eq!(composite.christoffel(), christoffel, "{choice:?}");
     }
     choices.len()

@@ -5,7 +5,7 @@ use crate::equations_support::known::Known;
 use crate::equations_support::random;
 use dalembert_model::equations::chain::composite::Composite;
 use dalembert_model::equations::chain::{
-    Chain, Choice, EliminatedTip, Form, Regrouping, Skeleton, Unknowns,
+    Chain, EliminatedTip, Form, HandChoice, Regrouping, Skeleton, Unknowns,
 };
 use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};
 use dalembert_model::robot::{Convention, JointKind};
@@ -33,7 +33,12 @@ fn arm(n: usize, slides: u32, four: bool, points: &mut Points) -> Arm<Known> {
     arm.map(|x| Known(*x))
 }
 
-/// Finds q̈ for the shoulder as one, by itself or with the tip eliminated before, and compares torques.
+/// The forms that solve for a shoulder as one.
+fn forms() -> Vec<Form> {
+    Form::with_shoulder(&Form::all(true, true, false, HandChoice::None))
+}
+
+/// Finds q̈ in each form, by itself or with the tip eliminated before, and compares torques.
 fn compare(arm: &Arm<Known>, moves: &[bool], by_tip: bool, points: &mut Points) {
     let position: Vec<_> = arm
         .links
@@ -51,11 +56,10 @@ fn compare(arm: &Arm<Known>, moves: &[bool], by_tip: bool, points: &mut Points) 
     assert!(chain.has_shoulder());
     let (posed, at) = chain.posed(&position);
     let composite = Composite::new(&posed, &at);
-    let forms = Form::all(|choice| choice == Choice::Shoulder);
-    for form in forms.into_iter().filter(|form| form.shoulder) {
+    for form in forms() {
         let given = [&qd[..], &tau];
         let found = match by_tip {
-            false => composite.forward_dynamics_by_shoulder(given, moves),
+            false => composite.forward_dynamics_by_shoulder(given, moves, form),
             true => EliminatedTip::new(&composite, moves)
                 .map(|tip| tip.forward_dynamics(given, moves, form, Unknowns::Joints)),
         };

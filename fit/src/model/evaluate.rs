@@ -1,6 +1,7 @@
 //! The regressor at a state, and its derivatives.
 
 use dalembert_model::equations::chain::Chain;
+use dalembert_model::equations::chain::composite::CompositeOrder;
 use dalembert_model::equations::friction::per_speed;
 use dalembert_model::equations::{JointPosition, SinCosPair};
 use dalembert_model::robot::JointKind;
@@ -107,7 +108,7 @@ fn rows<S: Scalar>(
     qdd: &[S],
 ) -> Vec<Vec<S>> {
     let (chain, at) = chain.posed(position);
-    chain.regressor(&at, qd, qdd)
+    chain.regressor(&at, qd, qdd, CompositeOrder::Outward)
 }
 
 fn pair(angle: f64) -> SinCosPair<f64> {

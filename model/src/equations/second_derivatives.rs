@@ -11,7 +11,7 @@
 
 use alloc::vec::Vec;
 
-use super::chain::composite::Composite;
+use super::chain::composite::{Composite, CompositeOrder};
 use super::chain::second_derivatives::SecondDerivatives;
 use super::chain::{Chain, Regrouping, Skeleton};
 use super::derivatives::columns;
@@ -71,7 +71,7 @@ fn by_composites<S: Scalar>(
     let position: Vec<JointPosition<S>> = position.collect();
     let skeleton = Skeleton::new(&arm, &[]);
     let (chain, at) = Chain::new(&skeleton, &Regrouping::base(&skeleton)).posed(&position);
-    Composite::new(&chain, &at).second_derivatives(given)
+    Composite::new(&chain, &at).second_derivatives(given, CompositeOrder::Inward)
 }
 
 impl Formulation {

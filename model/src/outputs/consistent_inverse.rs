@@ -8,7 +8,7 @@ use super::operational_inertia::damped_mobility;
 use super::operational_inertia_inverse::{OF_HAND, hand, normal, space, written_space};
 use super::quantity::Facts;
 use super::{Argument, Axis, Index, Quantity, Regrouped, Shape, Written};
-use crate::equations::chain::Choice;
+use crate::equations::chain::HandChoice;
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -35,7 +35,7 @@ impl Formula for ConsistentInverse {
             _ => "1",
         },
         given: Some("consistent_inverse"),
-        choices: Some(&[Choice::HandAxes, Choice::NormalEquations]),
+        hand: HandChoice::Normal,
         ..OF_HAND
     };
 

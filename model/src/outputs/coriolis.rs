@@ -4,10 +4,8 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::inverse_dynamics::loads;
-use super::quantity::{Facts, load};
+use super::quantity::{Choice, Facts, load};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
-use crate::equations::chain::Choice;
 use crate::equations::matrix::{zero_vector, zeros};
 use crate::scalar::Divide;
 
@@ -33,7 +31,7 @@ impl Formula for Coriolis {
         unit: load,
         scale: ErrorScale::Load,
         given: Some("h"),
-        choices: Some(&[Choice::CompositeH]),
+        choices: Some(&[Choice::Recursion]),
         payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN
     };
@@ -43,7 +41,16 @@ impl Formula for Coriolis {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        let rest = zeros(at.chain.links.len());
-        Some(loads(at, &zero_vector(), &rest))
+        let (chain, form) = (at.chain, at.form);
+        let rest = zeros(chain.links.len());
+        if form.composite_h {
+            let still = zero_vector();
+            let (qd, exerted) = (&at.motion.qd, zero_vector());
+            let torques = at.composite.torques(&still, qd, &rest, form.spin, &exerted);
+            return Some(torques);
+        }
+        let mut still = chain.clone().without_friction();
+        still.gravity = zero_vector();
+        Some(still.inverse_dynamics(at.at, &at.motion.qd, &rest, form.spin, form.couple))
     }
 }

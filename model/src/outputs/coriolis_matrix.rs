@@ -4,9 +4,8 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Facts, turns};
+use super::quantity::{Choice, Facts, turns};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
-use crate::equations::chain::Choice;
 use crate::equations::energy::contracted;
 use crate::scalar::Divide;
 
@@ -47,7 +46,7 @@ impl Formula for CoriolisMatrix {
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let qd = &at.motion.qd;
         let c = match at.form.flows {
-            true => at.composite.coriolis_matrix(qd),
+            true => at.composite.coriolis_matrix(qd, at.form.travel),
             false => contracted(&at.composite.christoffel(), qd),
         };
         Some(c.into_iter().flatten().collect())

@@ -250,7 +250,7 @@ impl<S> Default for Shared<S> {
 impl<S: Scalar> Regrouped<'_, S> {
     /// Returns D of the chain, gathered at the leaders of joints that follow.
     pub(super) fn gathered_inertia(&self) -> Vec<Vec<S>> {
-        gathered_square(self.following, self.composite.inertia())
+        gathered_square(self.following, self.composite.inertia(self.form.travel))
     }
 
     /// Values over all joints of the arm, over those of the chain.

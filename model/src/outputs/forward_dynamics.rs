@@ -6,9 +6,9 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::inverse_dynamics::torques;
 use super::inverse_dynamics_with_wrench::less;
-use super::quantity::{Facts, turns};
+use super::quantity::{Choice, Facts, turns};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
-use crate::equations::chain::{Choice, EliminatedTip, Unknowns};
+use crate::equations::chain::{EliminatedTip, Unknowns};
 use crate::equations::following::{gathered, spread};
 use crate::equations::forward::solved;
 use crate::equations::matrix::zeros;
@@ -28,25 +28,28 @@ pub(super) struct Acceleration;
 /// Returns q̈ of a chain: a last joint that nothing depends on first, D of the others.
 pub(super) fn accelerations<S: Divide>(at: &Regrouped<'_, S>, unknowns: Unknowns) -> Vec<S> {
     let motion = at.motion;
-    let (given, moves) = ([motion.qd.as_slice(), &motion.tau], &motion.moves);
-    let bias = || torques(at, &zeros(motion.qd.len()));
     if !at.following.is_empty() {
-        let [bias, tau] = [bias(), motion.tau.clone()].map(|loads| gathered(at.following, loads));
-        return solved(&at.gathered_inertia(), &bias, &tau, moves);
+        let bias = torques(at, &zeros(motion.qd.len()));
+        let [bias, tau] = [bias, motion.tau.clone()].map(|loads| gathered(at.following, loads));
+        return solved(&at.gathered_inertia(), &bias, &tau, &motion.moves);
     }
-    if let Some(unspun) = EliminatedTip::new(&at.composite, moves) {
-        return unspun.forward_dynamics(given, moves, at.form, unknowns);
+    if let Some(unspun) = EliminatedTip::new(&at.composite, &motion.moves) {
+        let given = [motion.qd.as_slice(), &motion.tau];
+        return unspun.forward_dynamics(given, &motion.moves, at.form, unknowns);
     }
-    let shoulder = at.form.shoulder.then_some(&at.composite);
-    let by_shoulder = shoulder.and_then(|all| all.forward_dynamics_by_shoulder(given, moves));
+    let given = [motion.qd.as_slice(), &motion.tau];
+    let by_shoulder = (at.composite).forward_dynamics_by_shoulder(given, &motion.moves, at.form);
     if let Some(accelerations) = by_shoulder {
         return accelerations;
     }
-    let d = at.composite.inertia();
-    match at.form.composite_h {
-        true => (at.chain).accelerations(&d, [&bias(), &motion.tau], moves, unknowns),
-        false => (at.chain).forward_dynamics((at.at, &d), given, moves, unknowns),
+    let d = at.composite.inertia(at.form.travel);
+    if !at.form.composite_h {
+        let chain = (at.at, d.as_slice());
+        return (at.chain).forward_dynamics(chain, given, &motion.moves, at.form, unknowns);
     }
+    let bias = torques(at, &zeros(motion.qd.len()));
+    at.chain
+        .accelerations(&d, [&bias, &motion.tau], &motion.moves, unknowns)
 }
 
 /// Returns inverse dynamics of a motion less τ, of the joints that move by themselves.
@@ -73,9 +76,10 @@ impl Formula for Acceleration {
             _ => "rad/s²",
         },
         given: Some("forward_dynamics"),
-        choices: Some(&[Choice::CompositeH, Choice::Shoulder]),
+        choices: Some(&[Choice::Recursion, Choice::Travel]),
         payload_dependence: PayloadDependence::Torque,
         gravity: true,
+        has_shoulder: true,
         ..Facts::PLAIN
     };
 

@@ -9,7 +9,7 @@ use super::formula::Formula;
 use super::forward_dynamics::accelerations;
 use super::function::Definition;
 use super::inertia_inverse::{InertiaInverse, inverse};
-use super::quantity::{Facts, Index};
+use super::quantity::{Choice, Facts, Index};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::Unknowns;
 use crate::equations::following::{gathered_columns, spread};
@@ -41,10 +41,10 @@ pub(super) struct AccelerationByTorque;
 
 /// Computes them by position and by velocity, of the joints that move.
 fn slopes<S: Divide>(at: &Regrouped<'_, S>) -> [Vec<S>; 2] {
-    let motion = at.motion;
+    let (motion, form) = (at.motion, at.form);
     let qdd = spread(at.following, accelerations(at, Unknowns::Joints));
     let inverse = inverse(at);
-    let slopes = at.composite.slopes(&motion.qd, &qdd);
+    let slopes = at.composite.slopes(&motion.qd, &qdd, form.travel);
     [slopes.position, slopes.velocity]
         .map(|slopes| flat(against(&inverse, &gathered_columns(at.following, slopes))))
 }
@@ -90,7 +90,7 @@ impl Formula for AccelerationByPosition {
             _ => "1/s²",
         },
         given: Some("dqdd_dq"),
-        choices: Some(&[]),
+        choices: Some(&[Choice::Travel]),
         payload_dependence: PayloadDependence::Torque,
         gravity: true,
         ..Facts::PLAIN

@@ -73,7 +73,7 @@ impl<S: Divide> Inverted<S> {
 
 /// Returns all four of the chain.
 fn regrouped<'a, S: Divide>(at: &'a Regrouped<'_, S>) -> &'a SecondDerivatives<S> {
-    let motion = at.motion;
+    let (motion, travel) = (at.motion, at.form.travel);
     let all = || {
         let (factor, free) = (factor(at), free(&motion.moves));
         let by_inverse = |values: &[S]| {
@@ -83,8 +83,8 @@ fn regrouped<'a, S: Divide>(at: &'a Regrouped<'_, S>) -> &'a SecondDerivatives<S
         let qdd = accelerations(at, Unknowns::Joints);
         let raised = by_inverse(&motion.multiplier);
         let given = [&motion.qd[..], &qdd, &raised];
-        let own = at.composite.second_derivatives(given);
-        let slopes = at.composite.slopes(&motion.qd, &qdd);
+        let own = at.composite.second_derivatives(given, travel);
+        let slopes = at.composite.slopes(&motion.qd, &qdd, travel);
         let all = OfAccelerations::new(&own.driven, by_inverse, &motion.moves);
         SecondDerivatives {
             position: all.by_positions(&own.position, &slopes.position),

@@ -7,9 +7,10 @@ use super::forward_dynamics::{accelerations, rest};
 use super::function::Definition;
 use super::inverse_dynamics_with_wrench::of_wrench;
 use super::operational_inertia_inverse::OF_HAND;
-use super::quantity::{Facts, FrameChoice, turns};
+use super::quantity::{Choice, Facts, FrameChoice, turns};
 use super::{Argument, Motion, Quantity, Regrouped, Shape, Written};
-use crate::equations::chain::{Choice, Unknowns};
+use crate::equations::chain::HandChoice;
+use crate::equations::chain::Unknowns;
 use crate::equations::matrix::plus;
 use crate::scalar::{Divide, Scalar};
 
@@ -46,9 +47,11 @@ impl Formula for ContactAcceleration {
             _ => "rad/s²",
         },
         given: Some("qdd_with_wrench"),
-        choices: Some(&[Choice::CompositeH, Choice::Shoulder]),
+        choices: Some(&[Choice::Recursion, Choice::Travel]),
         gravity: true,
+        has_shoulder: true,
         frame: FrameChoice::Axes,
+        hand: HandChoice::None,
         ..OF_HAND
     };
 

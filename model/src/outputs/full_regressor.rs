@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::Facts;
+use super::quantity::{Choice, Facts};
 use super::regressor::{regrouped, unit, written};
 use super::{Argument, Axis, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
@@ -29,7 +29,7 @@ impl Formula for LinkRegressor {
         shape: Shape(&[Axis::Joints, Axis::LinkParameters]),
         unit,
         given: Some("regressor"),
-        choices: Some(&[]),
+        choices: Some(&[Choice::Travel]),
         // What it shares with what the chain formulas give saves a few.
         starts_from_recursion: true,
         gravity: true,

@@ -3,10 +3,12 @@
 use alloc::vec::Vec;
 use core::fmt;
 
+use super::quantity::Choice;
 use super::{
     Argument, Axis, Function, Motion, PayloadDependence, Quantity, RuntimeParameter, Sizes, Written,
 };
 use crate::equations::chain::Form;
+use crate::equations::chain::HandChoice;
 use crate::equations::regressor::Column;
 use crate::equations::{Arm, Formulation};
 use crate::scalar::Divide;
@@ -197,10 +199,22 @@ impl Function {
     /// Returns the associations of the chain formulas that differ for it, the usually
     /// cheapest first.
     pub fn forms(self) -> Vec<Form> {
-        Form::all(|choice| {
-            let choices = self.quantities().iter().filter_map(|q| q.facts().choices);
-            choices.flatten().any(|own| *own == choice)
-        })
+        let quantities = || self.quantities().iter();
+        let matters = |choice| {
+            let mut choices = quantities().filter_map(|q| q.facts().choices).flatten();
+            choices.any(|own| *own == choice)
+        };
+        let hand = quantities().map(|q| q.facts().hand).max();
+        let mut forms = Form::all(
+            matters(Choice::Recursion),
+            matters(Choice::Travel),
+            matters(Choice::Flows),
+            hand.unwrap_or(HandChoice::None),
+        );
+        if quantities().any(|q| q.facts().has_shoulder) {
+            forms.extend(Form::with_shoulder(&forms));
+        }
+        forms
     }
 }
 

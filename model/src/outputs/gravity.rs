@@ -4,9 +4,8 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Facts, load};
+use super::quantity::{Choice, Facts, load};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
-use crate::equations::chain::Choice;
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -31,7 +30,7 @@ impl Formula for Gravity {
         unit: load,
         scale: ErrorScale::Load,
         given: Some("c"),
-        choices: Some(&[Choice::CompositeH]),
+        choices: Some(&[Choice::Travel]),
         payload_dependence: PayloadDependence::Torque,
         gravity: true,
         ..Facts::PLAIN
@@ -42,6 +41,6 @@ impl Formula for Gravity {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        Some(at.composite.gravity(at.form.composite_h))
+        Some(at.composite.gravity(at.form.travel))
     }
 }

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Facts, kilograms, turns};
+use super::quantity::{Choice, Facts, kilograms, turns};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 
@@ -30,7 +30,7 @@ impl Formula for Inertia {
         unit: |at| kilograms(turns(at)),
         scale: ErrorScale::Inertia,
         given: Some("D"),
-        choices: Some(&[]),
+        choices: Some(&[Choice::Travel]),
         definite: true,
         payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN
@@ -42,7 +42,7 @@ impl Formula for Inertia {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        let d = at.composite.inertia();
+        let d = at.composite.inertia(at.form.travel);
         Some(d.into_iter().flatten().collect())
     }
 }

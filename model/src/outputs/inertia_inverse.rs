@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Facts, turns};
+use super::quantity::{Choice, Facts, turns};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::EliminatedTip;
 use crate::equations::forward::{free, inverted};
@@ -22,9 +22,9 @@ pub(super) struct InertiaInverse;
 
 /// Returns D⁻¹ of a chain: a last joint that nothing depends on first, D of the others.
 pub(super) fn inverse<S: Divide>(at: &Regrouped<'_, S>) -> Vec<Vec<S>> {
-    let moves = &at.motion.moves;
+    let (moves, travel) = (&at.motion.moves, at.form.travel);
     match EliminatedTip::new(&at.composite, moves).filter(|_| at.following.is_empty()) {
-        Some(unspun) => unspun.inertia_inverse(moves),
+        Some(unspun) => unspun.inertia_inverse(moves, travel),
         None => inverted(&at.gathered_inertia(), moves),
     }
 }
@@ -43,7 +43,7 @@ impl Formula for InertiaInverse {
             _ => "1/(kg·m²)",
         },
         given: Some("inertia_inverse"),
-        choices: Some(&[]),
+        choices: Some(&[Choice::Travel]),
         payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN
     };

@@ -4,10 +4,9 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Facts, load};
+use super::quantity::{Choice, Facts, load};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
-use crate::equations::chain::Choice;
-use crate::equations::matrix::{Vector, zero_vector};
+use crate::equations::matrix::{plus, times, zero_vector};
 use crate::scalar::{Divide, Scalar};
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -21,17 +20,23 @@ pub(super) const FUNCTION: Definition = Definition {
 /// τ_i
 pub(super) struct Torque;
 
-/// Returns the part of τ that the links of a chain take under this gravity.
-pub(super) fn loads<S: Scalar>(at: &Regrouped<'_, S>, gravity: &Vector<S>, qdd: &[S]) -> Vec<S> {
-    let motion = [&at.motion.qd[..], qdd];
-    (at.composite).loads(gravity, motion, &zero_vector(), at.form.composite_h)
-}
-
 /// Returns τ of a chain at its velocities and these accelerations.
 pub(super) fn torques<S: Scalar>(at: &Regrouped<'_, S>, qdd: &[S]) -> Vec<S> {
-    let motion = [&at.motion.qd[..], qdd];
-    at.chain
-        .with_drives(&loads(at, &at.chain.gravity, qdd), motion)
+    let (chain, qd, form) = (at.chain, &at.motion.qd, at.form);
+    if !form.composite_h {
+        return chain.inverse_dynamics(at.at, qd, qdd, form.spin, form.couple);
+    }
+    let (gravity, exerted) = (&chain.gravity, zero_vector());
+    let torques = at.composite.torques(gravity, qd, qdd, form.spin, &exerted);
+    let links = chain.links.iter().zip(torques).enumerate();
+    let torques = links.map(|(i, (link, torque))| {
+        let drive = plus(
+            &times(&link.armature, &qdd[i]),
+            &link.friction.torque(&qd[i]),
+        );
+        plus(&torque, &drive)
+    });
+    torques.collect()
 }
 
 impl Formula for Torque {
@@ -45,7 +50,7 @@ impl Formula for Torque {
         unit: load,
         scale: ErrorScale::Load,
         given: Some("tau"),
-        choices: Some(&[Choice::CompositeH]),
+        choices: Some(&[Choice::Recursion]),
         starts_from_recursion: true,
         payload_dependence: PayloadDependence::Torque,
         gravity: true,

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Facts, turns};
+use super::quantity::{Choice, Facts, turns};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 
@@ -37,7 +37,7 @@ impl Formula for TorqueByPosition {
             _ => "N·m",
         },
         given: Some("dtau_dq"),
-        choices: Some(&[]),
+        choices: Some(&[Choice::Travel]),
         payload_dependence: PayloadDependence::Torque,
         gravity: true,
         ..Facts::PLAIN
@@ -53,7 +53,7 @@ impl Formula for TorqueByPosition {
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let motion = at.motion;
-        let slopes = at.composite.slopes(&motion.qd, &motion.qdd);
+        let slopes = at.composite.slopes(&motion.qd, &motion.qdd, at.form.travel);
         Some(slopes.position.into_iter().flatten().collect())
     }
 }
@@ -75,7 +75,7 @@ impl Formula for TorqueByVelocity {
             _ => "N·m·s",
         },
         given: Some("dtau_dqd"),
-        choices: Some(&[]),
+        choices: Some(&[Choice::Travel]),
         payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN
     };
@@ -89,7 +89,7 @@ impl Formula for TorqueByVelocity {
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let motion = at.motion;
-        let slopes = at.composite.slopes(&motion.qd, &motion.qdd);
+        let slopes = at.composite.slopes(&motion.qd, &motion.qdd, at.form.travel);
         Some(slopes.velocity.into_iter().flatten().collect())
     }
 }

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Facts, kilograms, turns};
+use super::quantity::{Choice, Facts, kilograms, turns};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
 use crate::equations::chain::second_derivatives::SecondDerivatives;
 use crate::scalar::Divide;
@@ -39,14 +39,14 @@ pub(super) struct TorqueByAccelerationAndPosition;
 fn regrouped<'a, S: Divide>(at: &'a Regrouped<'_, S>) -> &'a SecondDerivatives<S> {
     let motion = at.motion;
     let given = [&motion.qd[..], &motion.qdd, &motion.multiplier];
-    let all = || at.composite.second_derivatives(given);
+    let all = || at.composite.second_derivatives(given, at.form.travel);
     at.shared.of_torques.get_or_init(all)
 }
 
 /// The facts of all second derivatives, as far as they are the same.
 pub(super) const SHARED: Facts = Facts {
     shape: Shape::MATRIX,
-    choices: Some(&[]),
+    choices: Some(&[Choice::Travel]),
     payload_dependence: PayloadDependence::Torque,
     ..Facts::PLAIN
 };

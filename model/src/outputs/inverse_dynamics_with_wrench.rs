@@ -6,9 +6,9 @@ use super::formula::Formula;
 use super::function::Definition;
 use super::inverse_dynamics::torques;
 use super::operational_inertia_inverse::OF_HAND;
-use super::quantity::{Facts, FrameChoice, load};
+use super::quantity::{Choice, Facts, FrameChoice, load};
 use super::{Argument, ErrorScale, Quantity, Regrouped, Shape, Written};
-use crate::equations::chain::Choice;
+use crate::equations::chain::HandChoice;
 use crate::equations::matrix::minus;
 use crate::scalar::{Divide, Scalar};
 
@@ -49,9 +49,10 @@ impl Formula for ContactTorque {
         unit: load,
         scale: ErrorScale::Load,
         given: Some("tau_with_wrench"),
-        choices: Some(&[Choice::CompositeH]),
+        choices: Some(&[Choice::Recursion]),
         gravity: true,
         frame: FrameChoice::Axes,
+        hand: HandChoice::None,
         ..OF_HAND
     };
 

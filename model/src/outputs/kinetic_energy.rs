@@ -5,8 +5,10 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::Facts;
+use super::quantity::{Choice, Facts};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
+use crate::equations::chain::composite::CompositeOrder;
+use crate::equations::matrix::{halved, times, total};
 use crate::scalar::Divide;
 
 pub(super) const FUNCTION: Definition = Definition {
@@ -29,7 +31,7 @@ impl Formula for KineticEnergy {
         shape: Shape::SCALAR,
         unit: |_| "J",
         given: Some("kinetic"),
-        choices: Some(&[]),
+        choices: Some(&[Choice::Travel]),
         payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN
     };
@@ -40,6 +42,14 @@ impl Formula for KineticEnergy {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        Some(vec![at.chain.kinetic_energy(at.at, &at.motion.qd)])
+        // Link by link, or from the momenta.
+        let (chain, qd) = (at.chain, &at.motion.qd);
+        Some(vec![match at.form.travel {
+            CompositeOrder::Outward => chain.kinetic_energy(at.at, qd),
+            CompositeOrder::Inward => {
+                let [p, _] = chain.momentum(at.at, qd);
+                halved(&total(p.iter().zip(qd).map(|(p, qd)| times(p, qd))))
+            }
+        }])
     }
 }

@@ -6,9 +6,8 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Facts, load};
+use super::quantity::{Choice, Facts, load};
 use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
-use crate::equations::chain::Choice;
 use crate::equations::friction::Friction;
 use crate::equations::matrix::minus;
 use crate::scalar::{Divide, Scalar};
@@ -47,7 +46,7 @@ impl Formula for MomentumDrift {
         shape: Shape::VECTOR,
         unit: load,
         given: Some("momentum_drift"),
-        choices: Some(&[Choice::CompositeH]),
+        choices: Some(&[Choice::Travel]),
         payload_dependence: PayloadDependence::Torque,
         gravity: true,
         ..Facts::PLAIN
@@ -64,7 +63,7 @@ impl Formula for MomentumDrift {
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let qd = &at.motion.qd;
         let [_, slope] = at.chain.momentum(at.at, qd);
-        let gravity = at.composite.gravity(at.form.composite_h);
+        let gravity = at.composite.gravity(at.form.travel);
         let friction = at.chain.links.iter().map(|link| &link.friction);
         Some(drift(slope, gravity, friction, qd))
     }

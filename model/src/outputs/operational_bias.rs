@@ -5,12 +5,11 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::inverse_dynamics::loads;
+use super::inverse_dynamics::torques;
 use super::operational_inertia::damped_mobility;
 use super::operational_inertia_inverse::{OF_HAND, chain_jacobian, factor, hand};
-use super::quantity::Facts;
+use super::quantity::{Choice, Facts};
 use super::{Argument, Axis, Index, Quantity, Regrouped, Shape, Written};
-use crate::equations::chain::Choice;
 use crate::equations::following::gathered;
 use crate::equations::matrix::zeros;
 use crate::equations::operational::{TaskSpace, driven_by};
@@ -39,7 +38,7 @@ impl Formula for OperationalBias {
             _ => "N·m",
         },
         given: Some("operational_bias"),
-        choices: Some(&[Choice::CompositeH, Choice::HandAxes]),
+        choices: Some(&[Choice::Recursion, Choice::Travel]),
         gravity: true,
         ..OF_HAND
     };
@@ -60,8 +59,12 @@ impl Formula for OperationalBias {
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let motion = at.motion;
         let (hand, qd) = (hand(at)?, &at.textbook.as_ref()?.motion.qd);
-        let loads = loads(at, &at.chain.gravity, &zeros(motion.qd.len()));
-        let loads = gathered(at.following, loads);
+        let chain = at.chain.clone().without_friction();
+        let free = Regrouped {
+            chain: &chain,
+            ..at.clone()
+        };
+        let loads = gathered(at.following, torques(&free, &zeros(motion.qd.len())));
         let (jacobian, factor) = (chain_jacobian(at, &hand), factor(at));
         let driven = driven_by(&jacobian, &factor, &loads, &motion.moves);
         let space = TaskSpace::by_factor(jacobian, &factor, &motion.moves);

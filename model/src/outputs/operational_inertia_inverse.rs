@@ -4,9 +4,9 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::{Facts, FrameChoice};
+use super::quantity::{Choice, Facts, FrameChoice};
 use super::{Argument, Axis, Index, PayloadDependence, Quantity, Regrouped, Shape, Written};
-use crate::equations::chain::Choice;
+use crate::equations::chain::HandChoice;
 use crate::equations::factor::{Factor, submatrix};
 use crate::equations::following::gathered_rows;
 use crate::equations::forward::free;
@@ -26,7 +26,8 @@ pub(super) struct OperationalInertiaInverse;
 
 /// The facts of most quantities of the hand.
 pub(super) const OF_HAND: Facts = Facts {
-    choices: Some(&[Choice::HandAxes]),
+    choices: Some(&[Choice::Travel]),
+    hand: HandChoice::Axes,
     depends_on_base: true,
     payload_dependence: PayloadDependence::Torque,
     frame: FrameChoice::Rows,

@@ -11,7 +11,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::function::Definition;
 use super::passivity::ARGUMENTS;
-use super::quantity::Facts;
+use super::quantity::{Choice, Facts};
 use super::{Axis, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 
@@ -34,7 +34,7 @@ impl Formula for PassivityRegressor {
         arguments: ARGUMENTS,
         shape: Shape(&[Axis::Joints, Axis::BaseParameters]),
         linear: Some(("D a + C v + c + b∘v", "PASSIVITY_PARAMETERS")),
-        choices: Some(&[]),
+        choices: Some(&[Choice::Travel]),
         by_differences: true,
         gravity: true,
         ..Facts::PLAIN
@@ -48,9 +48,9 @@ impl Formula for PassivityRegressor {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        let motion = at.motion;
+        let (motion, travel) = (at.motion, at.form.travel);
         let wished = [&motion.v[..], &motion.a[..]];
-        let rows = (at.chain).passivity_regressor(at.at, &motion.qd, wished);
+        let rows = (at.chain).passivity_regressor(at.at, &motion.qd, wished, travel);
         Some(rows.into_iter().flatten().collect())
     }
 }

@@ -5,7 +5,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::{Argument, Axis, PayloadDependence, Quantity, Shape, Sizes};
-use crate::equations::chain::Choice;
+use crate::equations::chain::HandChoice;
 use crate::equations::regressor::LinkParameter;
 use crate::robot::{JointKind, Robot};
 
@@ -59,6 +59,8 @@ pub(super) struct Facts {
     /// True if recursions give it only by differences of torques, which costs
     /// digits and n² recursions.
     pub by_differences: bool,
+    /// The parts of a hand's form that it reads.
+    pub hand: HandChoice,
     /// True if it is a matrix that is positive definite.
     pub definite: bool,
     /// True if it depends on lengths that no torque depends on: where the
@@ -68,6 +70,8 @@ pub(super) struct Facts {
     pub payload_dependence: PayloadDependence,
     /// True if it depends on gravity.
     pub gravity: bool,
+    /// True if joints whose axes meet at the base may be solved for as one.
+    pub has_shoulder: bool,
     /// What may be chosen of the frame that it is of.
     pub frame: FrameChoice,
     /// True if an entry a joint is of the link by itself: where joints follow others there
@@ -92,13 +96,26 @@ impl Facts {
         choices: None,
         starts_from_recursion: false,
         by_differences: false,
+        hand: HandChoice::None,
         definite: false,
         depends_on_base: false,
         payload_dependence: PayloadDependence::None,
         gravity: false,
+        has_shoulder: false,
         frame: FrameChoice::None,
         of_links: false,
     };
+}
+
+/// An association of the chain formulas that matters to a quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Choice {
+    /// It comes out of the recursion over velocities.
+    Recursion,
+    /// It may travel outward or inward.
+    Travel,
+    /// It may come from composite momenta, which then travel.
+    Flows,
 }
 
 /// The place of an entry along one axis.

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::function::Definition;
-use super::quantity::Facts;
+use super::quantity::{Choice, Facts};
 use super::{Argument, Axis, Index, Quantity, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 
@@ -28,7 +28,7 @@ impl Formula for BaseRegressor {
         shape: Shape(&[Axis::Joints, Axis::BaseParameters]),
         linear: Some(("τ", "BASE_PARAMETERS")),
         unit: |_| "",
-        choices: Some(&[]),
+        choices: Some(&[Choice::Travel]),
         // What it shares with what the chain formulas give saves a few.
         starts_from_recursion: true,
         gravity: true,
@@ -53,8 +53,8 @@ pub(super) fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
 
 /// Returns the columns by the chain formulas.
 pub(super) fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Vec<S> {
-    let motion = at.motion;
-    let rows = at.chain.regressor(at.at, &motion.qd, &motion.qdd);
+    let (motion, travel) = (at.motion, at.form.travel);
+    let rows = at.chain.regressor(at.at, &motion.qd, &motion.qdd, travel);
     rows.into_iter().flatten().collect()
 }
 

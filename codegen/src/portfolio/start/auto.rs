@@ -7,7 +7,7 @@ use dalembert_model::outputs::RuntimeParameter;
 use super::{Approach, Problem};
 use crate::function::Function;
 use crate::portfolio::tune::Tuned;
-use crate::portfolio::{Form, Source, Variant, has_shoulder, regrouped, textbook, tuned, unmoved};
+use crate::portfolio::{Form, Source, has_shoulder, regrouped, textbook, tuned, unmoved};
 use crate::simplify::WaySource;
 
 /// What is dearer than the cheapest by more than one part in so many before any search
@@ -33,47 +33,32 @@ pub(super) fn approaches(problem: &Problem<'_>) -> Vec<Approach> {
 }
 
 /// Returns what the chain formulas do not give: from the recursion or Lagrange–Euler, whichever
-/// is cheaper; of functions of the hand also from forms that turn fewer axes or see levers in
-/// the joints' axes, each with Lagrange–Euler's values and those of products of axes at hand.
-/// These are small, and what is dearer by itself often ends lower: all are searched from.
+/// is cheaper, and from forms that turn fewer axes or see levers in the joints' axes, each with
+/// Lagrange–Euler's values and those of products of axes at hand. These are small, and what is
+/// dearer by itself often ends lower: all are searched from.
 fn by_textbook(problem: &Problem<'_>) -> Vec<Approach> {
     let textbook = |form| textbook(problem.scene_robot, problem.function, form);
     let recursion = textbook(Formulation::NewtonEulerLink);
     let products = textbook(Formulation::LagrangeEuler);
-    let mut quantities = problem.function.quantities().iter();
-    let others = match quantities.any(|quantity| quantity.is_of_frame()) {
-        true => turned_less(&recursion, &products, textbook),
-        false => Vec::new(),
-    };
+    let printed = textbook(Formulation::NewtonEulerLinkAsPrinted);
+    let helpers = vec![products.graph.clone(), printed.graph.clone()];
+    let mut others = vec![
+        printed,
+        textbook(Formulation::Dalembert),
+        textbook(Formulation::NewtonEulerBase),
+    ];
+    others.retain(|variant| variant.graph != recursion.graph);
+    others.dedup_by(|second, first| second.graph == first.graph);
+    let others = others.into_iter().map(|variant| Approach {
+        others: helpers.clone(),
+        ..Approach::of(variant)
+    });
     let both = Approach {
         tuned: None,
         variants: vec![recursion, products],
         others: Vec::new(),
     };
     [both].into_iter().chain(others).collect()
-}
-
-/// Returns the forms of functions of the hand that turn fewer axes or see levers in the joints'
-/// axes, those that differ, each with the values of products of poses and of axes at hand.
-fn turned_less(
-    recursion: &Variant,
-    products: &Variant,
-    textbook: impl Fn(Formulation) -> Variant,
-) -> Vec<Approach> {
-    let printed = textbook(Formulation::NewtonEulerLinkAsPrinted);
-    let helpers = vec![products.graph.clone(), printed.graph.clone()];
-    let mut forms = vec![
-        printed,
-        textbook(Formulation::Dalembert),
-        textbook(Formulation::NewtonEulerBase),
-    ];
-    forms.retain(|variant| variant.graph != recursion.graph);
-    forms.dedup_by(|second, first| second.graph == first.graph);
-    let forms = forms.into_iter().map(|variant| Approach {
-        others: helpers.clone(),
-        ..Approach::of(variant)
-    });
-    forms.collect()
 }
 
 /// Returns the chain formulas in all of their forms, and C by the h_ikm alone: that is cheapest

@@ -6,6 +6,7 @@
 //! lever, and a column costs less. So the operations of all columns are counted
 //! as they are written, for the points where frames are anyway.
 
+use dalembert_model::equations::chain::composite::CompositeOrder;
 use dalembert_model::equations::chain::{Body, Chain, Probe, Probed, Regrouping, Skeleton};
 use dalembert_model::equations::matrix::{Vector, opposite, zero_vector};
 use dalembert_model::equations::{JointPosition, SinCosPair};
@@ -94,6 +95,6 @@ fn cost(frames: &Skeleton<Exact>, regrouping: &Regrouping<Exact>) -> u64 {
     let position: Vec<JointPosition<Count<'_>>> = position.collect();
     let rates: Vec<Count<'_>> = position.iter().map(|_| value()).collect();
     let (chain, at) = chain.posed(&position);
-    chain.regressor(&at, &rates, &rates);
+    chain.regressor(&at, &rates, &rates, CompositeOrder::Outward);
     counter.multiplications() + counter.additions()
 }

@@ -8,15 +8,25 @@
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 
-use super::recursion::Motion;
+use super::recursion::{AccelerationForm, MomentForm, Motion};
 use super::twist::Twist;
 use super::{Body, Chain, Displacement};
 use crate::equations::matrix::{
-    Vector, cross, negative, plus, scaled, sum, symmetric, times, twice, zero_vector, zeros,
+    Vector, cross, dot, minus, negative, plus, scaled, sum, symmetric, times, twice, zero_vector,
+    zeros,
 };
 use crate::equations::newton_euler::Wrench;
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
+
+/// Which way the products for D travel; the values are the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum CompositeOrder {
+    /// Joint twists go out to the composite bodies.
+    Outward,
+    /// Composite momenta come in to the joints.
+    Inward,
+}
 
 /// Composite bodies and joint twists at one position.
 #[derive(Clone, Debug)]
@@ -88,24 +98,28 @@ impl<'a, S: Scalar> Composite<'a, S> {
     }
 
     /// Returns D, n×n, armature on the diagonal.
-    pub fn inertia(&self) -> Vec<Vec<S>> {
+    pub fn inertia(&self, travel: CompositeOrder) -> Vec<Vec<S>> {
         let n = self.chain.links.len();
-        let columns: Vec<Vec<S>> = (0..n).map(|k| self.inertia_column(k)).collect();
+        let columns: Vec<Vec<S>> = (0..n).map(|k| self.inertia_column(k, travel)).collect();
         symmetric(n, |i, k| columns[i][k].clone())
     }
 
-    /// Returns D_0k … D_kk: what the joints feel of composite body k as its wrench comes in.
-    fn inertia_column(&self, k: usize) -> Vec<S> {
+    /// Returns D_0k … D_kk.
+    fn inertia_column(&self, k: usize, travel: CompositeOrder) -> Vec<S> {
         let (mut force, mut moment) = self.momentum(k);
         let mut column = Vec::with_capacity(k + 1);
         for i in (0..=k).rev() {
-            let load = self.in_metres(k, self.chain.load(i, &force, &moment));
+            let load = match travel {
+                CompositeOrder::Inward => self.chain.load(i, &force, &moment),
+                CompositeOrder::Outward => self.project(i, k, &force, &moment),
+            };
+            let load = self.in_metres(k, load);
             column.push(if i == k {
                 plus(&load, &self.chain.links[i].armature)
             } else {
                 load
             });
-            if i > 0 {
+            if travel == CompositeOrder::Inward && i > 0 {
                 (force, moment) = self.chain.to_previous(i, &self.at[i], &force, &moment);
             }
         }
@@ -140,35 +154,51 @@ impl<'a, S: Scalar> Composite<'a, S> {
             .collect()
     }
 
-    /// Returns c, length n: the weight of composite bodies, or of all links summed.
-    pub fn gravity(&self, by_composites: bool) -> Vec<S> {
-        let rest: Vec<S> = zeros(self.chain.links.len());
-        let gravity = &self.chain.gravity;
-        self.loads(gravity, [&rest, &rest], &zero_vector(), by_composites)
-    }
-
-    /// Returns the part of τ that the links take, with a moment that the last one exerts on
-    /// something else: from composite bodies, or link by link.
-    pub fn loads(
-        &self,
-        gravity: &Vector<S>,
-        motion: [&[S]; 2],
-        exerted: &Vector<S>,
-        by_composites: bool,
-    ) -> Vec<S> {
-        if by_composites {
-            return self.composite_loads(gravity, motion, exerted);
+    /// Returns c, length n.
+    pub fn gravity(&self, travel: CompositeOrder) -> Vec<S> {
+        let mut c = Vec::with_capacity(self.chain.links.len());
+        match travel {
+            CompositeOrder::Outward => {
+                let mut gravity = self.chain.gravity.clone();
+                for (i, link) in self.chain.links.iter().enumerate() {
+                    gravity = link.inward(&self.at[i], &gravity);
+                    let body = &self.bodies[i];
+                    c.push(match link.kind {
+                        JointKind::Revolute => {
+                            let [x, y, _] = &body.first;
+                            minus(&times(y, &gravity[0]), &times(x, &gravity[1]))
+                        }
+                        JointKind::Prismatic => {
+                            let pull = dot(&scaled(&body.mass, &link.axis), &gravity);
+                            negative(&times(&pull, &self.chain.per_unit))
+                        }
+                    });
+                }
+            }
+            CompositeOrder::Inward => {
+                // The weight of all links about each origin, links summed.
+                let rest = zeros(self.chain.links.len());
+                return self.chain.inverse_dynamics(
+                    self.at,
+                    &rest,
+                    &rest,
+                    AccelerationForm::Column,
+                    MomentForm::SecondMoments,
+                );
+            }
         }
-        let motions = self.chain.motions(self.at, gravity, motion);
-        self.chain.loads(self.at, &motions, exerted)
+        c
     }
 
-    /// Returns the loads as a joint's wrench on the joints before it and on its own composite,
-    /// plus that of the motion of the joints before, and of gravity, on that composite.
-    fn composite_loads(
+    /// Returns τ, length n, without armature and damping: what a joint does to the
+    /// joints before it and to its own composite, plus what the motion of the
+    /// joints before, and gravity, do to that composite.
+    pub fn torques(
         &self,
         gravity: &Vector<S>,
-        [qd, qdd]: [&[S]; 2],
+        qd: &[S],
+        qdd: &[S],
+        spin: AccelerationForm,
         exerted: &Vector<S>,
     ) -> Vec<S> {
         let chain = self.chain;
@@ -179,9 +209,9 @@ impl<'a, S: Scalar> Composite<'a, S> {
         let mut own = Vec::with_capacity(n);
         for (i, link) in chain.links.iter().enumerate() {
             // The motion of frame i with its own joint at rest.
-            let still = before.next(link, &self.at[i], &S::zero(), &S::zero());
+            let still = before.next(link, &self.at[i], &S::zero(), &S::zero(), spin);
             let body = &self.bodies[i];
-            let (force, moment) = still.wrench(body);
+            let (force, moment) = still.wrench(body, MomentForm::SecondMoments);
             own.push(chain.load(i, &force, &moment));
             // Σ_k (2 − δ_km) Δ_k q̇_k for k ≤ m.
             let mut turn = still.omega.clone().map(|x| twice(&x));
@@ -200,7 +230,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
                     &scaled(&accelerations[i], &twist),
                 ),
             ));
-            before = before.next(link, &self.at[i], &rates[i], &accelerations[i]);
+            before = before.next(link, &self.at[i], &rates[i], &accelerations[i], spin);
         }
         let mut torques = Vec::with_capacity(n);
         let (mut force, mut moment) = (zero_vector(), exerted.clone());
@@ -273,6 +303,12 @@ impl<'a, S: Scalar> Composite<'a, S> {
             .chain
             .to_previous(m, &self.at[m], &wrench.force, &wrench.moment);
         Wrench { force, moment }
+    }
+
+    /// Returns a twist in the axes of frame j, seen from frame i ≥ j.
+    pub(super) fn twist_outward(&self, twist: &Twist<S>, j: usize, i: usize) -> Twist<S> {
+        let out = |seen: Twist<S>, m: usize| seen.outward(&self.chain.links[m], &self.at[m]);
+        (j + 1..=i).fold(twist.clone(), out)
     }
 }
 

@@ -7,7 +7,7 @@
 
 use alloc::vec::Vec;
 
-use super::composite::Composite;
+use super::composite::{Composite, CompositeOrder};
 use super::derivatives::{Flow, inertial, rate};
 use super::twist::Twist;
 use crate::equations::matrix::{dot, plus};
@@ -29,13 +29,16 @@ struct Joint<S> {
 
 impl<S: Scalar> Composite<'_, S> {
     /// Returns C, n×n, by composite momenta.
-    pub fn coriolis_matrix(&self, qd: &[S]) -> Vec<Vec<S>> {
+    pub fn coriolis_matrix(&self, qd: &[S], travel: CompositeOrder) -> Vec<Vec<S>> {
         let joints = self.velocity_parts(qd);
         let n = joints.len();
         let mut matrix = alloc::vec![alloc::vec![S::zero(); n]; n];
         for (i, own) in joints.iter().enumerate() {
             matrix[i][i] = own.felt.along(&self.twist(i, i));
-            self.inward(i, &joints, &mut matrix);
+            match travel {
+                CompositeOrder::Inward => self.inward(i, &joints, &mut matrix),
+                CompositeOrder::Outward => self.outward(i, &joints, &mut matrix),
+            }
         }
         self.matrix_in_metres(&mut matrix);
         matrix
@@ -51,6 +54,17 @@ impl<S: Scalar> Composite<'_, S> {
             let ([felt, push], twist) = (&wrenches, self.twist(j, j));
             matrix[j][i] = felt.along(&twist);
             matrix[i][j] = plus(&dot(&swing, &twist.turn), &push.along(&joints[j].rate));
+        }
+    }
+
+    /// Twists of the joints before i, and how they change, go out to frame i.
+    fn outward(&self, i: usize, joints: &[Joint<S>], matrix: &mut [Vec<S>]) {
+        let own = &joints[i];
+        for (j, joint) in joints.iter().enumerate().take(i) {
+            let twist = self.twist(j, i);
+            let rate = self.twist_outward(&joint.rate, j, i);
+            matrix[j][i] = own.felt.along(&twist);
+            matrix[i][j] = plus(&dot(&own.swing, &twist.turn), &own.push.along(&rate));
         }
     }
 

@@ -8,9 +8,9 @@
 
 use alloc::vec::Vec;
 
-use super::composite::Composite;
+use super::composite::{Composite, CompositeOrder};
 use super::momentum::Velocity;
-use super::recursion::Motion;
+use super::recursion::{AccelerationForm, MomentForm, Motion};
 use super::twist::Twist;
 use super::{Body, ChainLink, Displacement, Rotation};
 use crate::equations::matrix::{
@@ -56,7 +56,7 @@ pub(super) struct Joint<S> {
 
 impl<S: Scalar> Composite<'_, S> {
     /// Returns ∂τ/∂q and ∂τ/∂q̇, each n×n.
-    pub fn slopes(&self, qd: &[S], qdd: &[S]) -> Slopes<S> {
+    pub fn slopes(&self, qd: &[S], qdd: &[S], travel: CompositeOrder) -> Slopes<S> {
         let joints = self.own_slopes(qd, qdd);
         let n = joints.len();
         let blank = || alloc::vec![alloc::vec![S::zero(); n]; n];
@@ -67,7 +67,10 @@ impl<S: Scalar> Composite<'_, S> {
         for (i, joint) in joints.iter().enumerate() {
             slopes.position[i][i] = joint.position.0.clone();
             slopes.velocity[i][i] = joint.velocity.0.clone();
-            self.inward_slopes(i, &joints, &mut slopes);
+            match travel {
+                CompositeOrder::Inward => self.inward_slopes(i, &joints, &mut slopes),
+                CompositeOrder::Outward => self.outward_slopes(i, &joints, &mut slopes),
+            }
         }
         for matrix in [&mut slopes.position, &mut slopes.velocity] {
             self.matrix_in_metres(matrix);
@@ -96,11 +99,28 @@ impl<S: Scalar> Composite<'_, S> {
         }
     }
 
+    /// Twists of the joints before i, and how they change, go out to frame i.
+    fn outward_slopes(&self, i: usize, joints: &[Joint<S>], slopes: &mut Slopes<S>) {
+        let own = &joints[i];
+        for (j, joint) in joints.iter().enumerate().take(i) {
+            let twist = self.twist(j, i);
+            let drift = joint.drift.each_ref();
+            let [first, second] = drift.map(|drift| self.twist_outward(drift, j, i));
+            slopes.position[j][i] = own.position.1.along(&twist);
+            slopes.velocity[j][i] = own.velocity.1.along(&twist);
+            slopes.position[i][j] = plus(&dot(&own.swing, &first.turn), &own.push.along(&second));
+            slopes.velocity[i][j] = plus(
+                &dot(&own.swing, &twist.turn),
+                &twice(&own.push.along(&first)),
+            );
+        }
+    }
+
     /// Returns what each joint contributes by itself, from the hand inward.
     pub(super) fn own_slopes(&self, qd: &[S], qdd: &[S]) -> Vec<Joint<S>> {
         let chain = self.chain;
         let velocities = chain.velocities(self.at, qd);
-        let motions = chain.motions(self.at, &chain.gravity, [qd, qdd]);
+        let motions = chain.motions(self.at, qd, qdd, AccelerationForm::Column);
         let mut flow = Flow::nothing();
         let mut load = Wrench {
             force: zero_vector(),
@@ -109,7 +129,7 @@ impl<S: Scalar> Composite<'_, S> {
         let mut joints = Vec::with_capacity(chain.links.len());
         for (i, link) in chain.links.iter().enumerate().rev() {
             flow = flow.with(&Flow::of(&link.body, &velocities[i]));
-            let (force, moment) = motions[i].wrench(&link.body);
+            let (force, moment) = motions[i].wrench(&link.body, MomentForm::SecondMoments);
             load = load.with(&Wrench { force, moment });
             joints.push(self.own(i, &velocities[i], &motions[i], &flow, &load));
             flow = flow.carried(link, &self.at[i]);

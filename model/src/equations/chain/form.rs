@@ -2,11 +2,19 @@
 
 use alloc::vec::Vec;
 
+use super::composite::CompositeOrder;
+use super::recursion::{AccelerationForm, MomentForm};
 use crate::equations::link_axes::HandAxes;
 
 /// One association of the chain formulas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Form {
+    /// The form of U.
+    pub spin: AccelerationForm,
+    /// The form of a link's own moment.
+    pub couple: MomentForm,
+    /// Which way D and c travel.
+    pub travel: CompositeOrder,
     /// True if h comes from composite bodies, or from the recursion.
     pub composite_h: bool,
     /// True if C comes from composite momenta, or from the h_ikm.
@@ -26,49 +34,82 @@ pub struct HandForm {
     pub normal: bool,
 }
 
-/// A part of a form that a quantity reads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Choice {
-    /// [`Form::composite_h`]
-    CompositeH,
-    /// [`Form::flows`]
-    Flows,
-    /// [`Form::shoulder`]
-    Shoulder,
-    /// [`HandForm::axes`]
-    HandAxes,
-    /// [`HandForm::normal`]
-    NormalEquations,
+/// The parts of a hand's form that a quantity reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum HandChoice {
+    /// Nothing.
+    None,
+    /// The axes.
+    Axes,
+    /// The axes, and where J̄ and N come from.
+    Normal,
+}
+
+impl HandForm {
+    /// Returns the forms that differ.
+    fn all(choice: HandChoice) -> Vec<HandForm> {
+        let axes = [HandAxes::Asked, HandAxes::FirstAndLast, HandAxes::Last];
+        let axes = &axes[..if choice == HandChoice::None { 1 } else { 3 }];
+        let normals = &[false, true][..if choice == HandChoice::Normal { 2 } else { 1 }];
+        let of = |&normal: &bool| axes.iter().map(move |&axes| HandForm { axes, normal });
+        normals.iter().flat_map(of).collect()
+    }
 }
 
 impl Form {
-    /// Returns the forms that differ in what is read, the usually cheapest first.
-    pub fn all(is_read: impl Fn(Choice) -> bool) -> Vec<Form> {
-        let values = |choice| &[false, true][..if is_read(choice) { 2 } else { 1 }];
-        let axes = [HandAxes::Asked, HandAxes::FirstAndLast, HandAxes::Last];
-        let axes = &axes[..if is_read(Choice::HandAxes) { 3 } else { 1 }];
+    /// Returns the forms that differ where the recursion over velocities is read, or not, where
+    /// something travels, or not, where C is wanted, or not, and by what is read of the hand;
+    /// the usually cheapest first.
+    pub fn all(recursion: bool, travels: bool, flows: bool, hand: HandChoice) -> Vec<Form> {
+        let hands = HandForm::all(hand).into_iter();
+        let of = |hand| {
+            let forms = Form::of_joints(recursion, travels, flows).into_iter();
+            forms.map(move |form| Form { hand, ..form })
+        };
+        hands.flat_map(of).collect()
+    }
+
+    /// Returns the same where joints whose axes meet at the base are solved for as one, from
+    /// torques of the recursion.
+    pub fn with_shoulder(forms: &[Form]) -> Vec<Form> {
+        let forms = forms.iter().filter(|form| !form.composite_h && !form.flows);
+        let shoulder = true;
+        forms.map(|&form| Form { shoulder, ..form }).collect()
+    }
+
+    fn of_joints(recursion: bool, travels: bool, flows: bool) -> Vec<Form> {
         let mut forms = Vec::new();
-        for &normal in values(Choice::NormalEquations) {
-            for hand in axes.iter().map(|&axes| HandForm { axes, normal }) {
-                for &flows in values(Choice::Flows) {
-                    forms.extend(values(Choice::CompositeH).iter().map(|&composite_h| Form {
-                        composite_h,
-                        flows,
-                        shoulder: false,
-                        hand,
-                    }));
+        for flows in [false, true].into_iter().take(1 + usize::from(flows)) {
+            for travel in [CompositeOrder::Outward, CompositeOrder::Inward] {
+                for composite_h in [false, true] {
+                    for spin in [AccelerationForm::Column, AccelerationForm::Rates] {
+                        for couple in [MomentForm::SecondMoments, MomentForm::Euler] {
+                            forms.push(Form {
+                                spin,
+                                couple,
+                                travel,
+                                composite_h,
+                                flows,
+                                shoulder: false,
+                                hand: HandForm::default(),
+                            });
+                        }
+                    }
                 }
             }
         }
-        if is_read(Choice::Shoulder) {
-            // From torques of the recursion.
-            let plain = forms.iter().filter(|form| !form.composite_h && !form.flows);
-            let shoulder = plain.map(|&form| Form {
-                shoulder: true,
-                ..form
-            });
-            forms.extend(shoulder.collect::<Vec<Form>>());
-        }
+        forms.retain(|form| !form.is_idle(recursion, travels));
         forms
+    }
+
+    /// Returns whether it has a choice that nothing reads, made otherwise than
+    /// the first.
+    fn is_idle(self, recursion: bool, travels: bool) -> bool {
+        let rates = self.spin == AccelerationForm::Rates;
+        let euler = self.couple == MomentForm::Euler;
+        let inward = self.travel == CompositeOrder::Inward;
+        (!recursion && (rates || euler || self.composite_h))
+            || (!travels && !self.flows && inward)
+            || (self.composite_h && euler)
     }
 }

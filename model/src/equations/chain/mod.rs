@@ -50,7 +50,7 @@ mod twist;
 use alloc::vec::Vec;
 
 pub use body::Body;
-pub use form::{Choice, Form, HandForm};
+pub use form::{Form, HandChoice, HandForm};
 pub use parallel::Unknowns;
 pub use pose::Displacement;
 pub use probe::{Column, Probe, Probed};
@@ -162,6 +162,15 @@ impl<S: Scalar> Chain<S> {
                 && last.probes.is_empty()
                 && last.body.is_axisymmetric();
         }
+    }
+
+    /// Returns the same chain without friction.
+    #[must_use]
+    pub fn without_friction(mut self) -> Chain<S> {
+        for link in &mut self.links {
+            link.friction = Friction::none();
+        }
+        self
     }
 
     /// Returns a rate in the chain's unit: slides are scaled.

@@ -14,7 +14,7 @@
 
 use alloc::vec::Vec;
 
-use super::{Chain, Displacement};
+use super::{Chain, Displacement, Form};
 use crate::equations::forward::solved;
 use crate::equations::matrix::{minus, plus, zero_vector};
 use crate::scalar::{Divide, Scalar};
@@ -100,12 +100,13 @@ impl<S: Divide> Chain<S> {
         (at, d): (&[Displacement<S>], &[Vec<S>]),
         [qd, tau]: [&[S]; 2],
         moves: &[bool],
+        form: Form,
         unknowns: Unknowns,
     ) -> Vec<S> {
-        let motion = self.reference_motion(at, qd, moves);
+        let motion = self.reference_motion(at, qd, moves, form.spin);
         let reference = &motion.accelerations;
-        let taken = self.loads(at, &motion.links, &zero_vector());
-        let taken = self.with_drives(&taken, [qd, reference]);
+        let drive = |i: usize| self.drive(i, qd, reference);
+        let taken = self.torques(at, &motion.links, form.couple, &zero_vector(), drive);
         let rest = self.accelerations(d, [&taken, tau], moves, unknowns);
         let sums = rest.iter().zip(reference);
         sums.map(|(rest, reference)| plus(rest, reference))

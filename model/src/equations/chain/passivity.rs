@@ -9,7 +9,7 @@
 
 use alloc::vec::Vec;
 
-use super::recursion::{Motion, from_column};
+use super::recursion::{MomentForm, Motion, from_column};
 use super::{Chain, ChainLink, Displacement};
 use crate::equations::matrix::{
     Vector, cross, dot, halved, plus, scaled, sum, times, twice, zero_vector,
@@ -90,7 +90,12 @@ impl<S: Scalar> Chain<S> {
     /// Returns D a + C v + c + (b + F∘r)∘v, length n.
     pub fn passivity(&self, at: &[Displacement<S>], qd: &[S], v: &[S], a: &[S]) -> Vec<S> {
         let motions = self.mixed_motions(at, qd, [v, a]);
-        self.with_drives(&self.loads(at, &motions, &zero_vector()), [v, a])
+        let drive = |i: usize| {
+            let link = &self.links[i];
+            plus(&times(&link.armature, &a[i]), &link.friction.torque(&v[i]))
+        };
+        let exerted = zero_vector();
+        self.torques(at, &motions, MomentForm::SecondMoments, &exerted, drive)
     }
 
     /// Computes how the links move with both velocities at once: U and v̇,

@@ -13,6 +13,25 @@ use crate::equations::matrix::{
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
+/// The form of a link's U; the values are the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum AccelerationForm {
+    /// The column along a revolute axis is the one before, turned: it does
+    /// not depend on the joint's own motion. It gives ω̇_x, ω̇_y and ω_y².
+    Column,
+    /// ω̇ is propagated and U formed from it.
+    Rates,
+}
+
+/// The form of the moment of a link's own motion; the values are the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum MomentForm {
+    /// The antisymmetric part of U Σ.
+    SecondMoments,
+    /// I ω̇ + ω × (I ω).
+    Euler,
+}
+
 /// The motion of one link, in its own axes.
 #[derive(Clone, Debug)]
 pub(super) struct Motion<S> {
@@ -48,6 +67,7 @@ impl<S: Scalar> Motion<S> {
         at: &Displacement<S>,
         rate: &S,
         acceleration: &S,
+        spin: AccelerationForm,
     ) -> Self {
         match link.kind {
             JointKind::Prismatic => {
@@ -61,7 +81,7 @@ impl<S: Scalar> Motion<S> {
             }
             JointKind::Revolute => {
                 let carried = dot(&link.axis_before(), &self.omega_dot);
-                self.next_along(link, at, rate, &plus(&carried, acceleration))
+                self.next_along(link, at, rate, &plus(&carried, acceleration), spin)
             }
         }
     }
@@ -73,13 +93,27 @@ impl<S: Scalar> Motion<S> {
         at: &Displacement<S>,
         rate: &S,
         along: &S,
+        spin: AccelerationForm,
     ) -> Self {
         let carried = sum(&self.acceleration, &self.u_times(&link.lever(at)));
-        let [x, y, z] = link.inward(at, &self.omega);
-        let omega = [x, y, plus(&z, rate)];
-        let column = link.inward(at, &self.u_times(&link.axis_before()));
-        let product = |i: usize, j: usize| times(&omega[i], &omega[j]);
-        let (omega_dot, u) = from_column(product, along, column);
+        let turned = link.inward(at, &self.omega);
+        let omega = [turned[0].clone(), turned[1].clone(), plus(&turned[2], rate)];
+        let (omega_dot, u) = match spin {
+            AccelerationForm::Column => {
+                let column = link.inward(at, &self.u_times(&link.axis_before()));
+                from_column(|i, j| times(&omega[i], &omega[j]), along, column)
+            }
+            AccelerationForm::Rates => {
+                let turned_dot = link.inward(at, &self.omega_dot);
+                let omega_dot = [
+                    plus(&turned_dot[0], &times(&omega[1], rate)),
+                    minus(&turned_dot[1], &times(&omega[0], rate)),
+                    along.clone(),
+                ];
+                let u = from_rates(&omega, &omega_dot);
+                (omega_dot, u)
+            }
+        };
         Motion {
             omega,
             omega_dot,
@@ -89,49 +123,59 @@ impl<S: Scalar> Motion<S> {
     }
 
     /// Computes force and moment of a body in this motion.
-    pub(super) fn wrench(&self, body: &Body<S>) -> (Vector<S>, Vector<S>) {
+    pub(super) fn wrench(&self, body: &Body<S>, couple: MomentForm) -> (Vector<S>, Vector<S>) {
         let force = sum(
             &scaled(&body.mass, &self.acceleration),
             &self.u_times(&body.first),
         );
-        let moment = sum(&self.couple(body), &cross(&body.first, &self.acceleration));
+        let moment = sum(
+            &self.couple(body, couple),
+            &cross(&body.first, &self.acceleration),
+        );
         (force, moment)
     }
 
-    /// Returns ∫ r × (U r) dm, the antisymmetric part of U Σ.
-    fn couple(&self, body: &Body<S>) -> Vector<S> {
-        let sigma = &body.second;
-        let u = |row: usize, column: usize| &self.u[column][row];
-        let part = |a: &S, x: &S, b: &S, y: &S, c: &S, p: &S, q: &S| {
-            let squares = minus(&times(a, x), &times(b, y));
-            plus(&squares, &times(c, &minus(p, q)))
-        };
-        let mixed = |a: &S, x: &S, b: &S, y: &S| minus(&times(a, x), &times(b, y));
-        let (xx, yy, zz) = (&sigma.xx, &sigma.yy, &sigma.zz);
-        let (xy, yz, xz) = (&sigma.xy, &sigma.yz, &sigma.xz);
-        [
-            plus(
-                &part(yy, u(2, 1), zz, u(1, 2), yz, u(2, 2), u(1, 1)),
-                &mixed(xy, u(2, 0), xz, u(1, 0)),
-            ),
-            plus(
-                &part(zz, u(0, 2), xx, u(2, 0), xz, u(0, 0), u(2, 2)),
-                &mixed(yz, u(0, 1), xy, u(2, 1)),
-            ),
-            match u(2, 2).is_zero() {
-                // It turns about z alone: U_12 = −U_21, and the others vanish.
-                true => times(&plus(xx, yy), u(1, 0)),
-                false => plus(
-                    &part(xx, u(1, 0), yy, u(0, 1), xy, u(1, 1), u(0, 0)),
-                    &mixed(xz, u(1, 2), yz, u(0, 2)),
-                ),
-            },
-        ]
+    /// Returns ∫ r × (U r) dm
+    fn couple(&self, body: &Body<S>, form: MomentForm) -> Vector<S> {
+        match form {
+            MomentForm::SecondMoments => {
+                let sigma = &body.second;
+                let u = |row: usize, column: usize| &self.u[column][row];
+                let part = |a: &S, x: &S, b: &S, y: &S, c: &S, p: &S, q: &S| {
+                    let squares = minus(&times(a, x), &times(b, y));
+                    plus(&squares, &times(c, &minus(p, q)))
+                };
+                let mixed = |a: &S, x: &S, b: &S, y: &S| minus(&times(a, x), &times(b, y));
+                let (xx, yy, zz) = (&sigma.xx, &sigma.yy, &sigma.zz);
+                let (xy, yz, xz) = (&sigma.xy, &sigma.yz, &sigma.xz);
+                [
+                    plus(
+                        &part(yy, u(2, 1), zz, u(1, 2), yz, u(2, 2), u(1, 1)),
+                        &mixed(xy, u(2, 0), xz, u(1, 0)),
+                    ),
+                    plus(
+                        &part(zz, u(0, 2), xx, u(2, 0), xz, u(0, 0), u(2, 2)),
+                        &mixed(yz, u(0, 1), xy, u(2, 1)),
+                    ),
+                    plus(
+                        &part(xx, u(1, 0), yy, u(0, 1), xy, u(1, 1), u(0, 0)),
+                        &mixed(xz, u(1, 2), yz, u(0, 2)),
+                    ),
+                ]
+            }
+            MomentForm::Euler => {
+                let tensor = body.tensor();
+                let times = crate::equations::matrix::tensor_times;
+                sum(
+                    &times(&tensor, &self.omega_dot),
+                    &cross(&self.omega, &times(&tensor, &self.omega)),
+                )
+            }
+        }
     }
 }
 
-/// Returns ω̇ and U from ω, ω̇_z and the third column of U, which is that of the link before,
-/// turned: it does not depend on the joint's own motion.
+/// Returns ω̇ and U from ω, ω̇_z and the third column of U.
 ///
 /// Nothing of ω is needed but its products, so those of two velocities do as
 /// well where U is to be bilinear in them.
@@ -166,60 +210,79 @@ pub(super) fn from_column<S: Scalar>(
     (omega_dot, u)
 }
 
+/// Returns U r = ω̇ × r + ω × (ω × r)
+fn from_rates<S: Scalar>(omega: &Vector<S>, omega_dot: &Vector<S>) -> [Vector<S>; 3] {
+    let [x, y, z] = omega;
+    let [dx, dy, dz] = omega_dot;
+    let (xx, yy, zz) = (times(x, x), times(y, y), times(z, z));
+    let (xy, yz, xz) = (times(x, y), times(y, z), times(x, z));
+    [
+        [negative(&plus(&yy, &zz)), plus(&xy, dz), minus(&xz, dy)],
+        [minus(&xy, dz), negative(&plus(&xx, &zz)), plus(&yz, dx)],
+        [plus(&xz, dy), minus(&yz, dx), negative(&plus(&xx, &yy))],
+    ]
+}
+
 impl<S: Scalar> Chain<S> {
     /// Returns τ, length n.
-    pub fn inverse_dynamics(&self, at: &[Displacement<S>], qd: &[S], qdd: &[S]) -> Vec<S> {
-        let motions = self.motions(at, &self.gravity, [qd, qdd]);
-        self.with_drives(&self.loads(at, &motions, &zero_vector()), [qd, qdd])
+    pub fn inverse_dynamics(
+        &self,
+        at: &[Displacement<S>],
+        qd: &[S],
+        qdd: &[S],
+        spin: AccelerationForm,
+        couple: MomentForm,
+    ) -> Vec<S> {
+        let motions = self.motions(at, qd, qdd, spin);
+        let drive = |i: usize| {
+            let link = &self.links[i];
+            plus(
+                &times(&link.armature, &qdd[i]),
+                &link.friction.torque(&qd[i]),
+            )
+        };
+        self.torques(at, &motions, couple, &zero_vector(), drive)
     }
 
-    /// Returns the part of τ that links in motion take, with a moment that the last one exerts
-    /// on something else.
-    pub(super) fn loads(
+    /// Returns τ of links in motion, with a moment that the last one exerts on something
+    /// else and with what the drive of each joint adds.
+    pub(super) fn torques(
         &self,
         at: &[Displacement<S>],
         motions: &[Motion<S>],
+        couple: MomentForm,
         exerted: &Vector<S>,
+        drive: impl Fn(usize) -> S,
     ) -> Vec<S> {
-        let mut loads = Vec::with_capacity(self.links.len());
+        let mut torques = Vec::with_capacity(self.links.len());
         let (mut force, mut moment) = (zero_vector(), exerted.clone());
-        for (i, motion) in motions.iter().enumerate().rev() {
-            let (own, own_moment) = motion.wrench(&self.links[i].body);
+        for (i, link) in self.links.iter().enumerate().rev() {
+            let (body, motion) = (&link.body, &motions[i]);
+            let (own, own_moment) = motion.wrench(body, couple);
             force = sum(&force, &own);
             moment = sum(&moment, &own_moment);
-            loads.push(self.load(i, &force, &moment));
+            let load = self.load(i, &force, &moment);
+            torques.push(plus(&load, &drive(i)));
             (force, moment) = self.to_previous(i, &at[i], &force, &moment);
         }
-        loads.reverse();
-        loads
+        torques.reverse();
+        torques
     }
 
-    /// Returns the torque that the drive of a joint takes: its rotor's inertia and friction.
-    pub(super) fn drive(&self, joint: usize, qd: &S, qdd: &S) -> S {
-        let link = &self.links[joint];
-        plus(&times(&link.armature, qdd), &link.friction.torque(qd))
-    }
-
-    /// Returns τ from the loads of the links.
-    pub fn with_drives(&self, loads: &[S], [qd, qdd]: [&[S]; 2]) -> Vec<S> {
-        let loads = loads.iter().enumerate();
-        let torques = loads.map(|(i, load)| plus(load, &self.drive(i, &qd[i], &qdd[i])));
-        torques.collect()
-    }
-
-    /// Returns the motion of every link under this gravity.
+    /// Returns the motion of every link.
     pub(super) fn motions(
         &self,
         at: &[Displacement<S>],
-        gravity: &Vector<S>,
-        [qd, qdd]: [&[S]; 2],
+        qd: &[S],
+        qdd: &[S],
+        spin: AccelerationForm,
     ) -> Vec<Motion<S>> {
         let (rates, accelerations) = (self.rates(qd), self.rates(qdd));
         let mut motions: Vec<Motion<S>> = Vec::with_capacity(self.links.len());
-        let base = Motion::base(gravity);
+        let base = Motion::base(&self.gravity);
         for (i, link) in self.links.iter().enumerate() {
             let before = motions.last().unwrap_or(&base);
-            motions.push(before.next(link, &at[i], &rates[i], &accelerations[i]));
+            motions.push(before.next(link, &at[i], &rates[i], &accelerations[i], spin));
         }
         motions
     }

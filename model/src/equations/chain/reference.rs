@@ -13,9 +13,9 @@
 
 use alloc::vec::Vec;
 
-use super::recursion::Motion;
+use super::recursion::{AccelerationForm, Motion};
 use super::{Chain, Displacement};
-use crate::equations::matrix::{dot, minus, times};
+use crate::equations::matrix::{dot, minus, plus, times};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
@@ -32,6 +32,7 @@ impl<S: Scalar> Chain<S> {
         at: &[Displacement<S>],
         qd: &[S],
         moves: &[bool],
+        spin: AccelerationForm,
     ) -> ReferenceMotion<S> {
         let rates = self.rates(qd);
         let n = self.links.len();
@@ -48,17 +49,24 @@ impl<S: Scalar> Chain<S> {
                     let along = times(&x, &y);
                     let carried = dot(&link.axis_before(), &before.omega_dot);
                     let acceleration = minus(&along, &carried);
-                    let next = before.next_along(link, &at[i], &rates[i], &along);
+                    let next = before.next_along(link, &at[i], &rates[i], &along, spin);
                     (next, acceleration)
                 }
                 _ => {
                     let rest = S::zero();
-                    (before.next(link, &at[i], &rates[i], &rest), rest)
+                    (before.next(link, &at[i], &rates[i], &rest, spin), rest)
                 }
             };
             motion.links.push(next);
             motion.accelerations.push(acceleration);
         }
         motion
+    }
+
+    /// Returns what the drive of a joint takes at its velocity and at this acceleration.
+    pub(super) fn drive(&self, joint: usize, qd: &[S], accelerations: &[S]) -> S {
+        let link = &self.links[joint];
+        let inertial = times(&link.armature, &accelerations[joint]);
+        plus(&inertial, &link.friction.torque(&qd[joint]))
     }
 }

@@ -14,8 +14,9 @@
 
 use alloc::vec::Vec;
 
+use super::composite::CompositeOrder;
 use super::probe::Probed;
-use super::recursion::Motion;
+use super::recursion::{AccelerationForm, MomentForm, Motion};
 use super::twist::Twist;
 use super::{Chain, ChainLink, Displacement, unit_z};
 use crate::equations::matrix::{Vector, cross, difference, dot, sum, times, zero_vector, zeros};
@@ -30,11 +31,17 @@ struct Centre<S> {
 }
 
 impl<S: Scalar> Chain<S> {
-    /// Returns the columns that the probes are, a row a joint, by wrenches about
-    /// points where axes meet.
-    pub fn regressor(&self, at: &[Displacement<S>], qd: &[S], qdd: &[S]) -> Vec<Vec<S>> {
-        let motions = self.motions(at, &self.gravity, [qd, qdd]);
-        self.powers(at, &motions, [qd, qdd])
+    /// Returns the columns that the probes are, a row a joint; by twists that travel
+    /// outward alone, or by wrenches about points where axes meet.
+    pub fn regressor(
+        &self,
+        at: &[Displacement<S>],
+        qd: &[S],
+        qdd: &[S],
+        travel: CompositeOrder,
+    ) -> Vec<Vec<S>> {
+        let motions = self.motions(at, qd, qdd, AccelerationForm::Column);
+        self.powers(at, &motions, [qd, qdd], travel)
     }
 
     /// Computes the regressor of D a + C v + c + b∘v.
@@ -43,9 +50,10 @@ impl<S: Scalar> Chain<S> {
         at: &[Displacement<S>],
         qd: &[S],
         [v, a]: [&[S]; 2],
+        travel: CompositeOrder,
     ) -> Vec<Vec<S>> {
         let motions = self.mixed_motions(at, qd, [v, a]);
-        self.powers(at, &motions, [v, a])
+        self.powers(at, &motions, [v, a], travel)
     }
 
     /// Returns the powers of the probes' wrenches, at the motions of the links and with
@@ -55,6 +63,7 @@ impl<S: Scalar> Chain<S> {
         at: &[Displacement<S>],
         motions: &[Motion<S>],
         [rates, accelerations]: [&[S]; 2],
+        travel: CompositeOrder,
     ) -> Vec<Vec<S>> {
         let n = self.links.len();
         let mut rows: Vec<Vec<S>> = (0..n).map(|_| zeros(self.columns)).collect();
@@ -68,7 +77,9 @@ impl<S: Scalar> Chain<S> {
                 let lever = link.lever(&at[i]);
                 centre.at = link.inward(&at[i], &difference(&centre.at, &lever));
             }
-            centres.extend(meeting(&twists));
+            if travel == CompositeOrder::Inward {
+                centres.extend(meeting(&twists));
+            }
             for probe in &link.probes {
                 let body = match &probe.of {
                     Probed::Armature => {
@@ -81,7 +92,7 @@ impl<S: Scalar> Chain<S> {
                     }
                     Probed::Body(body) => body,
                 };
-                let (force, moment) = motions[i].wrench(body);
+                let (force, moment) = motions[i].wrench(body, MomentForm::SecondMoments);
                 let moments: Vec<Vector<S>> = centres
                     .iter()
                     .map(|centre| sum(&moment, &cross(&force, &centre.at)))

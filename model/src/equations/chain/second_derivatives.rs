@@ -9,7 +9,7 @@
 use alloc::vec::Vec;
 
 use super::Body;
-use super::composite::Composite;
+use super::composite::{Composite, CompositeOrder};
 use super::derivatives::{Flow, Joint, inertial, rate};
 use super::momentum::Velocity;
 use super::twist::Twist;
@@ -61,7 +61,11 @@ struct Later<S> {
 
 impl<S: Scalar> Composite<'_, S> {
     /// Returns the second derivatives of λᵀτ; `driven` is ∂(D λ)/∂q, row i that of entry i.
-    pub fn second_derivatives(&self, [qd, qdd, multiplier]: [&[S]; 3]) -> SecondDerivatives<S> {
+    pub fn second_derivatives(
+        &self,
+        [qd, qdd, multiplier]: [&[S]; 3],
+        travel: CompositeOrder,
+    ) -> SecondDerivatives<S> {
         let (earlier, later) = self.pairs([qd, qdd, multiplier]);
         let n = earlier.len();
         let blank = || alloc::vec![alloc::vec![S::zero(); n]; n];
@@ -71,11 +75,21 @@ impl<S: Scalar> Composite<'_, S> {
             velocity: blank(),
             driven: blank(),
         };
-        for (k, mut wrenches) in later.into_iter().enumerate() {
-            all.enter(k, k, &earlier[k], &wrenches);
-            for i in (0..k).rev() {
-                wrenches = self.carried_inward(i + 1, &wrenches);
-                all.enter(i, k, &earlier[i], &wrenches);
+        for (k, own) in later.into_iter().enumerate() {
+            all.enter(k, k, &earlier[k], &own);
+            match travel {
+                CompositeOrder::Inward => {
+                    let mut wrenches = own;
+                    for i in (0..k).rev() {
+                        wrenches = self.carried_inward(i + 1, &wrenches);
+                        all.enter(i, k, &earlier[i], &wrenches);
+                    }
+                }
+                CompositeOrder::Outward => {
+                    for (i, twists) in earlier.iter().enumerate().take(k) {
+                        all.enter(i, k, &self.carried_outward(twists, i, k), &own);
+                    }
+                }
             }
         }
         let matrices = [&mut all.position, &mut all.mixed, &mut all.velocity];
@@ -127,6 +141,16 @@ impl<S: Scalar> Composite<'_, S> {
             push: wrench(&own.push),
             couple: turned(&own.couple),
             swing: turned(&own.swing),
+        }
+    }
+
+    fn carried_outward(&self, own: &Earlier<S>, from: usize, to: usize) -> Earlier<S> {
+        let out = |twist| self.twist_outward(twist, from, to);
+        Earlier {
+            own: self.twist(from, to),
+            virtually: out(&own.virtually),
+            first: out(&own.first),
+            second: out(&own.second),
         }
     }
 }

@@ -17,10 +17,10 @@
 
 use alloc::vec::Vec;
 
-use super::composite::Composite;
+use super::composite::{Composite, CompositeOrder};
 use super::hinged::{Hinged, Solved};
 use super::reference::ReferenceMotion;
-use super::{Chain, ChainLink, Displacement, apply, apply_transposed};
+use super::{Chain, ChainLink, Displacement, Form, apply, apply_transposed};
 use crate::equations::factor::Partial;
 use crate::equations::forward::free;
 use crate::equations::matrix::{
@@ -92,15 +92,17 @@ impl<S: Scalar> Chain<S> {
 }
 
 impl<S: Divide> Composite<'_, S> {
-    /// Returns q̈ under τ, zero of joints that do not move, if the chain has a shoulder.
+    /// Returns q̈ under τ, zero of joints that do not move, if the form asks for it and the chain
+    /// has a shoulder.
     pub fn forward_dynamics_by_shoulder(
         &self,
         [qd, tau]: [&[S]; 2],
         moves: &[bool],
+        form: Form,
     ) -> Option<Vec<S>> {
-        let heights = self.chain.shoulder()?;
-        let motion = (self.chain).reference_motion(self.at, qd, moves);
-        let exerted = &zero_vector();
+        let heights = form.shoulder.then(|| self.chain.shoulder()).flatten()?;
+        let motion = (self.chain).reference_motion(self.at, qd, moves, form.spin);
+        let exerted = (form, &zero_vector());
         let rest = self.accelerations_by_shoulder(&heights, &motion, exerted, [qd, tau], moves);
         let sums = rest.iter().zip(&motion.accelerations);
         Some(sums.map(|(rest, own)| plus(rest, own)).collect())
@@ -113,15 +115,15 @@ impl<S: Divide> Composite<'_, S> {
         &self,
         heights: &[S],
         reference: &ReferenceMotion<S>,
-        exerted: &Vector<S>,
+        (form, exerted): (Form, &Vector<S>),
         [qd, tau]: [&[S]; 2],
         moves: &[bool],
     ) -> Vec<S> {
         let chain = self.chain;
         let (first, n) = (heights.len(), chain.links.len());
         let lever = chain.lever_beyond(heights, self.at);
-        let drive = |i: usize| chain.drive(i, &qd[i], &reference.accelerations[i]);
-        let wrench = |i: usize| reference.links[i].wrench(&chain.links[i].body);
+        let drive = |i: usize| chain.drive(i, qd, &reference.accelerations);
+        let wrench = |i: usize| reference.links[i].wrench(&chain.links[i].body, form.couple);
 
         // What τ leaves of the joints beyond, and the moment about the point.
         let (mut force, mut moment) = (zero_vector(), exerted.clone());
@@ -142,7 +144,7 @@ impl<S: Divide> Composite<'_, S> {
             // Along its axis the joint passes on what it is given.
             moment[2] = plus(&lifted[2], &minus(&tau[first], &drive(first)));
         }
-        let matrix = self.beyond(first, &lever, moves);
+        let matrix = self.beyond(first, &lever, moves, form.travel);
         let beyond = match is_taken_back {
             true => Partial::new(&taken_back(matrix), 3),
             false => Partial::new(&matrix, 3),
@@ -202,7 +204,13 @@ impl<S: Divide> Composite<'_, S> {
 
     /// Returns I, N and D of the joints from the first beyond a shoulder that move; the lever is
     /// that of the first frame's origin.
-    fn beyond(&self, first: usize, lever: &Vector<S>, moves: &[bool]) -> Vec<Vec<S>> {
+    fn beyond(
+        &self,
+        first: usize,
+        lever: &Vector<S>,
+        moves: &[bool],
+        travel: CompositeOrder,
+    ) -> Vec<Vec<S>> {
         let chain = self.chain;
         let tensor = self.bodies[first].moved(lever).tensor();
         let mut lower: Vec<Vec<S>> = alloc::vec![
@@ -211,10 +219,15 @@ impl<S: Divide> Composite<'_, S> {
             alloc::vec![tensor.xz.clone(), tensor.yz.clone(), tensor.zz.clone()],
         ];
         for k in (first..chain.links.len()).filter(|&k| moves[k]) {
-            let (mut force, mut moment) = self.momentum(k);
+            let own = self.momentum(k);
+            let (mut force, mut moment) = own.clone();
             let mut row = Vec::new();
             for i in (first..=k).rev() {
-                let load = self.in_metres(k, chain.load(i, &force, &moment));
+                let load = match travel {
+                    CompositeOrder::Inward => chain.load(i, &force, &moment),
+                    CompositeOrder::Outward => self.project(i, k, &own.0, &own.1),
+                };
+                let load = self.in_metres(k, load);
                 if i == k {
                     row.push(plus(&load, &chain.links[k].armature));
                 } else if moves[i] {

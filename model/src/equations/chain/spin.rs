@@ -24,7 +24,7 @@
 
 use alloc::vec::Vec;
 
-use super::composite::Composite;
+use super::composite::{Composite, CompositeOrder};
 use super::reference::ReferenceMotion;
 use super::{Body, Chain, ChainLink, Displacement, Form, Unknowns};
 use crate::equations::SinCosPair;
@@ -149,10 +149,10 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         let link = &self.whole.chain.links[last];
         let before = &qd[..last];
         let motion = match form.composite_h {
-            false => chain.reference_motion(at, before, &moves[..last]),
+            false => chain.reference_motion(at, before, &moves[..last], form.spin),
             true => ReferenceMotion {
                 accelerations: zeros(last),
-                links: chain.motions(at, &chain.gravity, [before, &zeros(last)]),
+                links: chain.motions(at, before, &zeros(last), form.spin),
             },
         };
         let (motions, reference) = (&motion.links, &motion.accelerations);
@@ -167,21 +167,27 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         let couple = link.outward(&unturned, &couple);
         let left = minus(&left, &own);
         let composite = Composite::new(chain, at);
+        let drive = |i: usize| chain.drive(i, qd, reference);
         // What is beyond the reference.
         let rest = match form.shoulder.then(|| chain.shoulder()).flatten() {
             None => {
-                let given = [before, reference];
-                let loads = match form.composite_h {
-                    false => chain.loads(at, motions, &couple),
-                    true => composite.loads(&chain.gravity, given, &couple, true),
+                let bias = match form.composite_h {
+                    false => chain.torques(at, motions, form.couple, &couple, drive),
+                    true => {
+                        let rest = zeros(last);
+                        let torques =
+                            composite.torques(&chain.gravity, before, &rest, form.spin, &couple);
+                        let torques = torques.iter().enumerate();
+                        torques.map(|(i, torque)| plus(torque, &drive(i))).collect()
+                    }
                 };
-                let bias = chain.with_drives(&loads, given);
-                let d = composite.inertia();
+                let d = composite.inertia(form.travel);
                 chain.accelerations(&d, [&bias, &tau[..last]], &moves[..last], unknowns)
             }
             Some(heights) => {
-                let (loads, moves) = ([before, &tau[..last]], &moves[..last]);
-                composite.accelerations_by_shoulder(&heights, &motion, &couple, loads, moves)
+                let (exerted, loads) = ((form, &couple), [before, &tau[..last]]);
+                let moves = &moves[..last];
+                composite.accelerations_by_shoulder(&heights, &motion, exerted, loads, moves)
             }
         };
         let products = self.brought();
@@ -198,9 +204,9 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
     }
 
     /// Returns D⁻¹; zero in the rows and columns of joints that do not move.
-    pub fn inertia_inverse(&self, moves: &[bool]) -> Vec<Vec<S>> {
+    pub fn inertia_inverse(&self, moves: &[bool], travel: CompositeOrder) -> Vec<Vec<S>> {
         let last = self.chain.links.len();
-        let d = Composite::new(&self.chain, self.at()).inertia();
+        let d = Composite::new(&self.chain, self.at()).inertia(travel);
         let inner = inverted(&d, &moves[..last]);
         let brought = self.brought();
         let along = |row: &[S]| total(row.iter().zip(&brought).map(|(x, y)| times(x, y)));
