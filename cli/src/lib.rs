@@ -21,6 +21,7 @@
 #![forbid(unsafe_code)]
 
 mod args;
+mod bar;
 mod certify;
 mod count;
 mod explain;
@@ -53,7 +54,7 @@ use outcome::{Failure, Outcome};
 pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
     let args = Args::parse_from(args);
     output::begin(args.deny_warnings);
-    let waiting = progress::begin();
+    let waiting = bar::begin();
     let outcome = match args.command {
         Command::Generate(args) => generate::run(&args),
         Command::Import(args) => import::run(&args),

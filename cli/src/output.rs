@@ -8,14 +8,14 @@ use dalembert_codegen::workspace::program::Counts;
 use dalembert_model::read::{Diagnostic, RobotWarning};
 use serde_json::{Value, json};
 
+use crate::bar;
 use crate::outcome::{Failure, Outcome};
-use crate::progress;
 
 /// Prints to standard output. A reader that has gone away, as in `… | head`,
 /// is no failure.
 pub fn print(text: &str) -> Outcome {
     let mut out = io::stdout().lock();
-    match progress::aside(|| out.write_all(text.as_bytes()).and_then(|()| out.flush())) {
+    match bar::aside(|| out.write_all(text.as_bytes()).and_then(|()| out.flush())) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Input(format!(
             "error: standard output cannot be written: {error}"
         ))),
@@ -102,7 +102,7 @@ pub fn note(text: &str) {
         _ => line.to_owned(),
     };
     let lines: Vec<String> = text.split('\n').map(coloured).collect();
-    progress::aside(|| {
+    bar::aside(|| {
         // There is nowhere left to complain to.
         let _ = writeln!(io::stderr().lock(), "{}", lines.join("\n"));
     });

@@ -1,5 +1,4 @@
-//! A long run: after two seconds a bar on a terminal, and Ctrl-C to end a thorough search with
-//! the best so far.
+//! A long run: its steps on the bar, and Ctrl-C to end a thorough search with the best so far.
 //!
 //! Only the command knows clocks, terminals and signals; the library is told
 //! through an [`Observer`].
@@ -16,57 +15,12 @@ use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::watch::{Observer, Progress, Watch};
 use dalembert_report::sweep::Point;
 use dalembert_report::sweep::ladder::Waiting;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use crate::bar::bar;
 use crate::output;
 
 /// The exit code of a process that Ctrl-C ended: 128 + SIGINT.
 const INTERRUPTED: i32 = 130;
-
-/// The time that a run takes without a bar.
-const QUIET: Duration = Duration::from_secs(2);
-
-/// The bar of the run: there is one terminal.
-static BAR: Mutex<Option<ProgressBar>> = Mutex::new(None);
-
-/// Shows a bar as long as it lives.
-pub struct Shown;
-
-/// Begins a run, whose bar appears on a terminal when it has taken two seconds.
-pub fn begin() -> Shown {
-    let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::hidden());
-    if let Ok(style) = ProgressStyle::with_template("{elapsed} {bar:24} {wide_msg}") {
-        bar.set_style(style);
-    }
-    *BAR.lock().unwrap_or_else(PoisonError::into_inner) = Some(bar.clone());
-    if io::stderr().is_terminal() {
-        thread::spawn(move || {
-            thread::sleep(QUIET);
-            if !bar.is_finished() {
-                bar.set_draw_target(ProgressDrawTarget::stderr());
-                bar.enable_steady_tick(Duration::from_millis(500));
-            }
-        });
-    }
-    Shown
-}
-
-/// Returns the bar of the run.
-fn bar() -> ProgressBar {
-    let bar = BAR.lock().unwrap_or_else(PoisonError::into_inner).clone();
-    bar.unwrap_or_else(ProgressBar::hidden)
-}
-
-/// Prints while the bar is away.
-pub fn aside<R>(print: impl FnOnce() -> R) -> R {
-    bar().suspend(print)
-}
-
-impl Drop for Shown {
-    fn drop(&mut self) {
-        bar().finish_and_clear();
-    }
-}
 
 /// Watches a search while it lives.
 pub struct Session(Arc<Terminal>);

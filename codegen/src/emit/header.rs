@@ -192,7 +192,7 @@ pub(crate) fn write(
                 let rows = scene_robot.rows();
                 let count = quantity.len(printed.sizes);
                 let units = (0..count).map(|i| quantity.unit(i, rows, printed.sizes, robot));
-                let mut units: Vec<String> = units.collect();
+                let mut units: Vec<&str> = units.collect();
                 units.dedup();
                 units.truncate(4);
                 let units = match units.iter().any(|unit| !unit.is_empty()) {

@@ -49,7 +49,7 @@ fn actuators(quantities: &[Quantity]) -> Vec<String> {
 }
 
 /// Returns the unit of each output.
-pub(super) fn units(program: &Program, robot: &Robot) -> Vec<String> {
+pub(super) fn units(program: &Program, robot: &Robot) -> Vec<&'static str> {
     let (rows, sizes) = (&program.rows, program.sizes());
     let mut units = Vec::new();
     for quantity in program.function.quantities() {

@@ -9,7 +9,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::parse::{self, NumberError};
 use super::small::compare;
-use super::{Rational, trig};
+use super::{Rational, pi};
 
 /// An angle as the robot file gives it.
 ///
@@ -273,5 +273,5 @@ impl Snap {
 /// to order any two that are not absurdly close.
 fn pi() -> Rational {
     const BITS: usize = 400;
-    Rational::new(trig::pi(BITS), BigInt::one() << BITS)
+    Rational::new(pi::pi(BITS), BigInt::one() << BITS)
 }

@@ -5,6 +5,8 @@ use alloc::vec::Vec;
 
 use toml_span::Value;
 
+use super::outputs::outputs;
+use super::placement::placement;
 use super::report::quote;
 use super::table::{Table, locate};
 use super::value::Context;
@@ -96,17 +98,6 @@ fn robot<'v>(cx: &mut Context, keys: &mut Table<'v>) -> (Robot, Vec<Finding>) {
     (mimic::split(cx, robot, &mimics), findings)
 }
 
-/// Returns the placement of an optional key.
-pub(super) fn placement(
-    cx: &mut Context,
-    keys: &mut Table,
-    key: &'static str,
-) -> Option<Placement> {
-    let help = format!("{key} = {{ xyz = [0, 0, 0.1], rpy = [0, \"pi/2\", 0] }}");
-    let placement = keys.table(cx, key, &help, Context::placement);
-    placement.and_then(Placement::unless_identity)
-}
-
 /// Reads the names of warnings, and silences them. An unknown name is an error: it silences
 /// nothing, and its author thinks it does.
 fn allow(cx: &mut Context, value: &Value) -> Option<()> {
@@ -128,36 +119,6 @@ fn allow(cx: &mut Context, value: &Value) -> Option<()> {
         cx.refuse(item, message, &help)
     })?;
     Some(())
-}
-
-/// Reads a list of outputs by name, bundles among them; `whose` is the owner of the list in
-/// messages.
-pub(super) fn outputs(cx: &mut Context, value: &Value, whose: &str) -> Option<Vec<Function>> {
-    let items = cx.list(value, "a list", "outputs = [\"inverse_dynamics\"]")?;
-    if items.is_empty() {
-        let message = format!("{whose} wants one output at least");
-        return cx.refuse(value, message, "leave `outputs` out for the request's");
-    }
-    let words = Function::ALL.map(|function| (function.name(), function));
-    let mut outputs: Vec<Function> = Vec::new();
-    cx.each(items, |cx, _, item| {
-        let is_bundle = |text: &&str| text.contains(['=', '+', '@', ':']);
-        let output = match item.as_str().filter(is_bundle).map(Function::parse) {
-            None => cx.word(item, &words, "")?,
-            Some(Ok(bundle)) => bundle,
-            Some(Err(error)) => {
-                let error = error.among(&outputs);
-                return cx.refuse(item, error.message(), &suggest::for_bundle(&error));
-            }
-        };
-        if outputs.iter().any(|other| output.is_namesake(*other)) {
-            let message = format!("`{}` is in the list already", output.name());
-            return cx.refuse(item, message, "once is enough");
-        }
-        outputs.push(output);
-        Some(())
-    })?;
-    Some(outputs)
 }
 
 fn joints<'v>(cx: &mut Context, list: &'v Value<'v>) -> Option<Vec<joint::Read<'v>>> {

@@ -6,7 +6,7 @@ use core::ops::Range;
 use num_traits::Zero;
 use toml_span::Value;
 
-use super::file::placement;
+use super::placement::placement;
 use super::table::Table;
 use super::value::Context;
 use crate::number::{Angle, Rational};

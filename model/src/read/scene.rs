@@ -10,7 +10,7 @@ use toml_span::Value;
 use super::report::quote;
 use super::table::{Table, locate, span_of_key};
 use super::value::Context;
-use super::{file, link};
+use super::{link, outputs};
 use crate::robot::{Follower, Joint, JointKind, Position, Robot};
 use crate::scene::{Float, MotionBox, Payload, Scale, Scene, Tolerance};
 
@@ -55,7 +55,7 @@ fn scene(cx: &mut Context, robot: &Robot, name: &str, keys: &mut Table) -> Scene
     const JOINTS: &str = "joints = [1, 2, \"elbow\"]: numbers from 1, or names";
     const GRAVITY: &str = "gravity = [0, 0, -9.81], or [0, 0, 0] for none";
     let outputs = keys.optional(cx, "outputs", |cx, value| {
-        file::outputs(cx, value, "a scene")
+        outputs::outputs(cx, value, "a scene")
     });
     Scene {
         name: name.to_string(),

@@ -12,11 +12,10 @@ use toml_span::Value;
 use toml_span::value::ValueInner;
 
 use super::report::{Sink, quote};
-use super::table::Table;
 use super::{RobotWarning, foreign, suggest};
 use crate::number::parse::{parse_decimal, parse_fraction};
 use crate::number::{Angle, Rational, Snap, Snapped};
-use crate::robot::{Inertia, JointKind, Placement, Position};
+use crate::robot::{Inertia, JointKind, Position};
 
 /// The diagnostics and the options of a reading.
 pub(super) struct Context {
@@ -296,24 +295,6 @@ impl Context {
         let comma = foreign::decimal_comma_in(&self.literal(value));
         let comma = comma.map(|meant| format!("decimals have a point: {meant}"));
         self.wanted(value, expected, comma.as_deref().unwrap_or(help))
-    }
-
-    /// Reads the placement that a table says, among other keys.
-    pub(super) fn placement(&mut self, table: &mut Table) -> Option<Placement> {
-        const XYZ: &str = "xyz = [x, y, z], in m";
-        const RPY: &str = "rpy = [roll, pitch, yaw], turns about the fixed axes x, y and z, e.g. [0, \"pi/2\", 0]";
-        let xyz = match table.get("xyz") {
-            None => Some(Placement::default().xyz),
-            Some(value) => self.array(value, XYZ, Self::length),
-        };
-        let rpy = match table.get("rpy") {
-            None => Some(Placement::default().rpy),
-            Some(value) => self.array(value, RPY, Self::angle),
-        };
-        Some(Placement {
-            xyz: xyz?,
-            rpy: rpy?,
-        })
     }
 
     /// Reads an inertia tensor: six entries or three rows.

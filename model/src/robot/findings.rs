@@ -1,6 +1,7 @@
 //! Findings about robots and scenes: errors and warnings, each at a place of the robot file.
 
 use alloc::borrow::ToOwned;
+use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
@@ -92,4 +93,9 @@ impl Findings {
             help: help.to_owned(),
         });
     }
+}
+
+/// Returns the place of a key of the joint with this zero-based index.
+pub(super) fn of_joint(index: usize, key: &str) -> String {
+    format!("joint/#{}/{key}", index + 1)
 }

@@ -5,9 +5,8 @@ use alloc::string::String;
 
 use num_traits::{Signed, Zero};
 
-use super::findings::Findings;
+use super::findings::{Findings, of_joint};
 use super::units::{shown, whole};
-use super::validate::of_joint;
 use super::{Inertia, Joint, Placement, Position, Robot, RobotWarning};
 use crate::number::{Rational, Rounded};
 

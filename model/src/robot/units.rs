@@ -10,8 +10,7 @@ use alloc::string::{String, ToString};
 
 use num_traits::{Signed, Zero};
 
-use super::findings::Findings;
-use super::validate::of_joint;
+use super::findings::{Findings, of_joint};
 use super::{Joint, JointKind, Placement, Position, RobotWarning};
 use crate::number::parse::write_decimal;
 use crate::number::{Angle, Rational, Rounded};

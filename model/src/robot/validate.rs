@@ -13,7 +13,7 @@ use core::cmp::Ordering;
 use num_traits::{Signed, Zero};
 
 use super::body::Defect;
-use super::findings::{Finding, Findings};
+use super::findings::{Finding, Findings, of_joint};
 use super::frame::{HAND, is_frame_name};
 use super::{Convention, Joint, JointKind, Placement, Position, Robot, RobotWarning, reach, units};
 use crate::number::parse::in_range;
@@ -84,11 +84,6 @@ impl Robot {
         findings.frames(self);
         findings.0
     }
-}
-
-/// Returns the place of a key of the joint with this zero-based index.
-pub(super) fn of_joint(index: usize, key: &str) -> String {
-    format!("joint/#{}/{key}", index + 1)
 }
 
 impl Findings {
