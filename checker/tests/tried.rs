@@ -30,7 +30,6 @@ fn what_is_bounded_and_what_is_tried() {
     for (source, robot) in [("hand.rs", robot()), ("oblique-hand.rs", oblique)] {
         let report = check(&generated(source), &robot, None).unwrap();
         assert!(report.is_shown(), "{report:?}");
-        let is_tried = |line: &Line| line.result.as_ref().is_ok_and(|found| found.tried > 0);
         let tried = [
             "passivity",
             "forward_dynamics",
@@ -45,6 +44,10 @@ fn what_is_bounded_and_what_is_tried() {
             assert!(units < 1000.0, "{}: {units}", line.name);
         }
     }
+}
+
+fn is_tried(line: &Line) -> bool {
+    line.result.as_ref().is_ok_and(|found| found.tried > 0)
 }
 
 /// A header has the bounds of the text in Rust; functions that are tried are so at states of their own text.
