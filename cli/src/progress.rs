@@ -4,10 +4,9 @@
 //! through an [`Observer`].
 
 use std::io::{self, IsTerminal};
+use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
-use std::{process, thread};
 
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::simplify::Effort;

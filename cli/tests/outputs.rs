@@ -246,7 +246,7 @@ fn folders_are_made_at_the_end() {
     refused(&ran, "joints 1, 2 have no limit", &folder, &before);
     let ran = tradeoff(&path("arm.toml/deep"));
     refused(&ran, "arm.toml` is no folder", &folder, &before);
-    let ran = run(&["stress", &arm, "-o", &arm]);
+    let ran = tradeoff(&arm);
     refused(&ran, "is no folder", &folder, &before);
     fs::create_dir_all(folder.join("full/tradeoff.csv")).unwrap();
     let before = names(&folder);
@@ -391,6 +391,6 @@ fn a_hyphen_is_standard_output() {
         let both = run(&[command, &["-o", "-", "--json"]].concat());
         both.ends(2, &["the report goes to standard output"]);
     }
-    run(&["stress", &arm, "-o", "-"]).ends(2, &["a folder is needed"]);
+    run(&["tradeoff", &arm, "-o", "-"]).ends(2, &["a folder is needed"]);
     assert_eq!(names(&folder), before);
 }
