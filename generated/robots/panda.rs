@@ -25,10 +25,10 @@
 /// | `dynamic_coefficients` | 651 | 507 | 6 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod panda {
@@ -38,7 +38,7 @@ pub const N: usize = 7;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 261 mul, 257 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 40, coefficients of at most 259 bits, a wrong program passes with probability below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics(q: &[f64; 7], qd: &[f64; 7], qdd: &[f64; 7]) -> [f64; 7] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -571,7 +571,7 @@ pub fn inverse_dynamics(q: &[f64; 7], qd: &[f64; 7], qdd: &[f64; 7]) -> [f64; 7]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 46 mul, 30 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 12, coefficients of at most 137 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn gravity(q: &[f64; 7]) -> [f64; 7] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -662,7 +662,7 @@ pub fn gravity(q: &[f64; 7]) -> [f64; 7] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 144 mul, 152 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 28, coefficients of at most 221 bits, a wrong program passes with probability below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inertia(q: &[f64; 7]) -> [[f64; 7]; 7] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -981,7 +981,7 @@ pub fn inertia(q: &[f64; 7]) -> [[f64; 7]; 7] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 251 mul, 237 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 40, coefficients of at most 401 bits, a wrong program passes with probability below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn coriolis(q: &[f64; 7], qd: &[f64; 7]) -> [f64; 7] {
     let (s2, c2) = libm::sincos(q[1]);
@@ -1495,7 +1495,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 392 mul, 362 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 34, coefficients of at most 292 bits, a wrong program passes with probability below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn manipulator_equation(q: &[f64; 7], qd: &[f64; 7]) -> ManipulatorEquation {
     let (s2, c2) = libm::sincos(q[1]);
@@ -2287,7 +2287,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 651 mul, 507 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 28, coefficients of at most 482 bits, a wrong program passes with probability below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f64; 7]) -> DynamicCoefficients {
     let (s2, c2) = libm::sincos(q[1]);
@@ -3568,10 +3568,10 @@ pub fn dynamic_coefficients(q: &[f64; 7]) -> DynamicCoefficients {
 /// | `dynamic_coefficients` | 651 | 507 | 6 | regrouped |
 ///
 /// Every function was proved before it was printed: with exact constants it equals
-/// the equations of motion at random points modulo random primes, and this text, read
+/// the equations of motion at random points modulo 2⁶¹ − 1, and this text, read
 /// back, is the proved program with each constant rounded once.
-/// Primes and points follow from the SHA-256 of robot, scene and program, so that nobody
-/// can choose them. A miss is a wrong program that passes; its probability is for one program.
+/// The points follow from the SHA-256 of robot, scene and program. The probability that a
+/// wrong program passes is for one program.
 #[rustfmt::skip]
 #[allow(dead_code, unreachable_pub, clippy::all, clippy::pedantic, clippy::nursery)]
 pub mod panda_f32 {
@@ -3581,7 +3581,7 @@ pub const N: usize = 7;
 /// Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.
 ///
 /// 261 mul, 257 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 40, coefficients of at most 259 bits, a wrong program passes with probability below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inverse_dynamics(q: &[f32; 7], qd: &[f32; 7], qdd: &[f32; 7]) -> [f32; 7] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -4114,7 +4114,7 @@ pub fn inverse_dynamics(q: &[f32; 7], qd: &[f32; 7], qdd: &[f32; 7]) -> [f32; 7]
 /// Gravity load c(q): the torques that hold the arm still.
 ///
 /// 46 mul, 30 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 12, coefficients of at most 137 bits, a wrong program passes with probability below 1e-64).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn gravity(q: &[f32; 7]) -> [f32; 7] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -4205,7 +4205,7 @@ pub fn gravity(q: &[f32; 7]) -> [f32; 7] {
 /// Inertia matrix D(q), symmetric; armature is on its diagonal.
 ///
 /// 144 mul, 152 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 28, coefficients of at most 221 bits, a wrong program passes with probability below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn inertia(q: &[f32; 7]) -> [[f32; 7]; 7] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -4524,7 +4524,7 @@ pub fn inertia(q: &[f32; 7]) -> [[f32; 7]; 7] {
 /// Coriolis and centripetal load h(q, q̇), damping not included.
 ///
 /// 251 mul, 237 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 40, coefficients of at most 401 bits, a wrong program passes with probability below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn coriolis(q: &[f32; 7], qd: &[f32; 7]) -> [f32; 7] {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -5038,7 +5038,7 @@ pub struct ManipulatorEquation {
 /// D(q), h(q, q̇) and c(q), with shared work.
 ///
 /// 392 mul, 362 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 34, coefficients of at most 292 bits, a wrong program passes with probability below 1e-63).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn manipulator_equation(q: &[f32; 7], qd: &[f32; 7]) -> ManipulatorEquation {
     let (s2, c2) = libm::sincosf(q[1]);
@@ -5830,7 +5830,7 @@ pub struct DynamicCoefficients {
 /// D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.
 ///
 /// 651 mul, 507 add, 6 sincos.
-/// Checked: equals Lagrange–Euler as written at 4 random points, each modulo a random prime of 63 bits (degree at most 28, coefficients of at most 482 bits, a wrong program passes with probability below 1e-62).
+/// Checked: equals Lagrange–Euler as written at 4 random points modulo 2⁶¹ − 1 (a wrong program passes with probability below 1e-36).
 #[must_use]
 pub fn dynamic_coefficients(q: &[f32; 7]) -> DynamicCoefficients {
     let (s2, c2) = libm::sincosf(q[1]);
