@@ -16,20 +16,20 @@ fn log(name: &str) -> ([Vec<f64>; 4], usize) {
     let mut log = [(); 4].map(|()| vec![0.0; n * ROWS]);
     let mut random = Random::new(7);
     for row in 0..ROWS {
-        let mut state = [(); 3].map(|()| vec![0.0; n]);
+        let [mut q, mut qd, mut qdd] = [(); 3].map(|()| vec![0.0; n]);
         for i in 0..n {
             for (size, speed) in [(0.8, 1.3), (0.3, 3.7)] {
                 let speed = speed + 0.37 * i as f64;
                 let (sin, cos) = (speed * row as f64 * 2e-3 + i as f64).sin_cos();
-                state[0][i] += size * sin;
-                state[1][i] += size * speed * cos;
-                state[2][i] -= size * speed * speed * sin;
+                q[i] += size * sin;
+                qd[i] += size * speed * cos;
+                qdd[i] -= size * speed * speed * sin;
             }
         }
-        let y = model.regressor(&state[0], &state[1], &state[2]).unwrap();
+        let y = model.regressor(&q, &qd, &qdd).unwrap();
         let tau = torques(&y, &right);
         for i in 0..n {
-            for (column, own) in log.iter_mut().zip(&state) {
+            for (column, own) in log.iter_mut().zip([&q, &qd, &qdd]) {
                 column[i * ROWS + row] = own[i];
             }
             log[3][i * ROWS + row] = tau[i] + 0.1 * noise(i) * normal(&mut random);
