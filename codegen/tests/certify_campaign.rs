@@ -24,7 +24,6 @@ const CLIMBS: usize = 6;
 const FINENESS: BoundEffort = BoundEffort {
     budget: BoxEffort::QUICK,
     boxes: 512,
-    together: 1 << 18,
     ..BoundEffort::QUICK
 };
 

@@ -6,7 +6,6 @@
 use std::collections::HashMap;
 
 use dalembert_checker::{Claim, Verdict, audit, read as claims};
-use dalembert_codegen::workspace::bound::sensitivity::{BoundEffort, Sensitivity};
 use dalembert_codegen::workspace::certificate::Certificate;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::{Generated, generate};
@@ -91,12 +90,7 @@ fn certificate(generated: &Generated) -> &Certificate {
 fn honest() -> Vec<Certificate> {
     let all = [SinCos::Libm, SinCos::Polynomial { error: None }];
     let all = all.map(|sincos| certificate(&generated(sincos).1).clone());
-    let scene_robot = SceneRobot::new(
-        &reading(ROBOT).unwrap().robot,
-        &reading(ROBOT).unwrap().scenes[0],
-    );
-    let sensitivity = Sensitivity::of(&all[0].emitted, &all[0].limits, BoundEffort::QUICK);
-    let together = all[0].calling(&scene_robot.unwrap(), Library::Together, &sensitivity);
+    let together = all[0].calling(Library::Together);
     all.into_iter().chain([together]).collect()
 }
 

@@ -401,26 +401,6 @@ impl<'a> ErrorBudget<'a> {
         Ok(found)
     }
 
-    /// Returns the claim of a variant whose sines this library computes, unless polynomials do.
-    ///
-    /// # Errors
-    /// [`ToleranceError::Above`], as of any variant.
-    pub fn calling(
-        &self,
-        certificate: &Certificate,
-        library: Library,
-        tolerances: &[f64],
-        bound_effort: BoundEffort,
-    ) -> Result<Certificate, ToleranceError> {
-        if !certificate.sines.is_empty() || certificate.library == library {
-            return Ok(certificate.clone());
-        }
-        let sensitivity = self.sensitivity(&certificate.emitted, bound_effort);
-        let found = certificate.calling(self.scene_robot, library, &sensitivity);
-        within(&found, tolerances)?;
-        Ok(found)
-    }
-
     /// Returns what is left for edits, in each output's unit; `None` if that is
     /// nothing.
     fn allowances(

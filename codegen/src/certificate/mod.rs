@@ -204,34 +204,18 @@ impl Certificate {
         other.with_sines(scene_robot, &self.sines, sensitivity)
     }
 
-    /// Returns the claim about the text that calls this library, with what is known of its
-    /// sines; the edits' bounds stay, and so does the least eigenvalue, for which they are
-    /// within one ulp.
+    /// Returns the claim about the text that calls this library, unless polynomials give its
+    /// sines. The bounds stay: the sines of every library are taken to be within one ulp.
     #[must_use]
-    pub fn calling(
-        &self,
-        scene_robot: &SceneRobot,
-        library: Library,
-        sensitivity: &Sensitivity,
-    ) -> Certificate {
+    pub fn calling(&self, library: Library) -> Certificate {
         if !self.sines.is_empty() || self.library == library {
             return self.clone();
         }
-        let mut other = Certificate {
+        Certificate {
             library,
             text: printed(&self.emitted, self.scalar, library, &self.sines),
             ..self.clone()
-        };
-        let found = other
-            .subject(scene_robot, &[])
-            .rounding(self.scalar, sensitivity);
-        for (bound, found) in other.bounds.iter_mut().zip(found) {
-            *bound = ErrorByCause {
-                model: bound.model,
-                ..found
-            };
         }
-        other
     }
 
     /// Returns E·T of each output.
@@ -243,9 +227,8 @@ impl Certificate {
             .collect()
     }
 
-    /// Returns what its bounds rest on besides arithmetic. Where sines are polynomials,
-    /// nothing is taken for granted of them: their errors are proved. Of called ones it
-    /// is said what is proved and what is assumed.
+    /// Returns the assumptions that its bounds rest on besides arithmetic. The errors of
+    /// polynomials for sines are proved; sines that are called are assumed to be within one ulp.
     pub fn assumptions(&self) -> Vec<&'static str> {
         let mut all = match self.emitted.fuses() {
             true => FUSED_ASSUMPTIONS.to_vec(),

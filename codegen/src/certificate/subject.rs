@@ -7,14 +7,12 @@ use crate::bound::definite::least_eigenvalue;
 use crate::bound::input_box::InputBox;
 use crate::bound::magnitude::{magnitudes, magnitudes_within, relative};
 use crate::bound::sensitivity::{BoundEffort, Sensitivity};
-use crate::bound::turns::turns_freely;
 use crate::edits::{Stage, deviation, difference, has_edits};
 use crate::graph::Graph;
 use crate::language::{MathPath, Printed, function};
-use crate::program::{AngleSum, Library, Program, ScalarType, has_inertia};
+use crate::program::{Library, Program, ScalarType, has_inertia};
 use crate::scene::SceneRobot;
 use crate::scene::{SceneKey, input_hash};
-use crate::sincos::library_error::Called;
 use crate::sincos::{self, AngleKernel, Sines};
 use crate::split::ErrorByCause;
 use crate::verify::exact::prove_same;
@@ -108,10 +106,7 @@ impl Subject<'_> {
         scalar: ScalarType,
         sensitivity: &Sensitivity,
     ) -> Vec<ErrorByCause> {
-        let found = match (self.library, self.sines(scalar)) {
-            (Library::Together, []) => sensitivity.calling(scalar, &self.proved(scalar)),
-            (_, sines) => sensitivity.rounding(scalar, sines),
-        };
+        let found = sensitivity.rounding(scalar, self.sines(scalar));
         let pairs = found.iter().zip(self.scales);
         pairs
             .map(|(rounding, &scale)| ErrorByCause {
@@ -119,27 +114,6 @@ impl Subject<'_> {
                 sincos: relative(rounding.sincos, scale),
                 rounding: relative(rounding.arithmetic, scale),
             })
-            .collect()
-    }
-
-    /// Returns the angles that are never beyond what `dalembert-sines` computes itself. What turns
-    /// freely may stand anywhere.
-    fn proved(&self, scalar: ScalarType) -> Vec<AngleSum> {
-        let trig = &self.emitted.trig;
-        let reach = |angle: AngleSum| {
-            let joints = angle.terms().map(|(joint, _)| joint);
-            joints.fold(0.0, |sum, joint| {
-                match turns_freely(self.scene_robot.robot(), trig, joint) {
-                    true => f64::INFINITY,
-                    false => sum + self.limits.position[joint].magnitude(),
-                }
-            })
-        };
-        let largest = Called::largest(scalar);
-        let angles = trig.iter().map(|trig| trig.angle);
-        // A sum of angles is rounded.
-        angles
-            .filter(|&angle| reach(angle) * (1.0 + 1e-5) <= largest)
             .collect()
     }
 

@@ -2,14 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use dalembert_sines::text::{Angle, Rounded};
+use dalembert_sines::text::Angle;
 
 use crate::language::Printed;
 use crate::language::c99::{Names, float, largest};
 use crate::language::called::Called;
 use crate::program::kernel::{Kernel, Term};
 use crate::program::{Library, Literal, ScalarType};
-use crate::sincos::library_error::trace::trace;
+use crate::sincos::routine::routine;
 
 /// Writes what the functions call: of a number of angles each, a loop that compilers make vectors
 /// of; of one angle for functions that are called at many states.
@@ -53,7 +53,7 @@ struct Words {
 impl Words {
     fn of(names: &Names) -> Words {
         let dialect = names.dialect();
-        let kernel: Kernel = trace::<Rounded>(dialect.scalar);
+        let kernel: Kernel = routine(dialect.scalar);
         let term = |term: Term| match term {
             Term::Input(_) => "x0".to_owned(),
             Term::Constant(value) => dialect.literal(value),

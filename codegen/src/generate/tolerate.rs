@@ -225,10 +225,8 @@ fn chosen(
         let all: Result<_, GenerateError> = admitted.certificates.iter().map(with).collect();
         admitted.certificates = all?;
     }
-    let library = request.math.library;
     for certificate in &mut admitted.certificates {
-        let found = budget.calling(certificate, library, &tolerances, bound_effort);
-        *certificate = found.map_err(fail)?;
+        *certificate = certificate.calling(request.math.library);
     }
     Ok(admitted)
 }

@@ -1,8 +1,8 @@
-//! Who computes the sines and cosines that code calls.
+//! The library of the sines and cosines that code calls.
 
 use super::machine::Machine;
 
-/// Who computes the sines and cosines that emitted code calls.
+/// The library of the sines and cosines that emitted code calls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Library {
     /// libm, an angle a call.
@@ -20,10 +20,7 @@ impl Library {
     pub fn assumption(self) -> &'static str {
         match self {
             Library::Libm => "sin and cos are libm's, within one ulp",
-            Library::Together => {
-                "sin and cos are dalembert-sines': proved of its operations up to 8192 rad (f32: 100), \
-                 within 0.9 u; beyond, and of joints without limits, assumed within one ulp, as libm's"
-            }
+            Library::Together => "sin and cos are dalembert-sines', within one ulp",
         }
     }
 

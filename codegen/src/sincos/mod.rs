@@ -5,7 +5,7 @@
 //! - [`choose`]: the cheapest kernel of [`forms`] that is near enough
 //! - [`series`]: Taylor's series and near-minimax fits
 //! - [`reduction`]: whole turns taken off where the range is wider than one
-//! - [`library_error`]: the proof of the sines that emitted code calls by default
+//! - [`routine`]: the operations of the sines that emitted code calls by default
 //! - [`poly`]: exact polynomials
 //!
 //! A robot's joints have limits, so most angles need none of what a library's
@@ -13,10 +13,10 @@
 
 pub(crate) mod choose;
 pub(crate) mod forms;
-pub(crate) mod library_error;
 pub(crate) mod poly;
 pub(crate) mod proof;
 pub(crate) mod reduction;
+pub(crate) mod routine;
 pub(crate) mod series;
 #[cfg(test)]
 mod tests;

@@ -25,7 +25,7 @@ pub(crate) struct Rest {
 }
 
 /// Returns the significand bits.
-pub(super) fn digits(scalar: ScalarType) -> i32 {
+fn digits(scalar: ScalarType) -> i32 {
     match scalar {
         ScalarType::F64 => f64::MANTISSA_DIGITS as i32,
         ScalarType::F32 => f32::MANTISSA_DIGITS as i32,
@@ -33,7 +33,7 @@ pub(super) fn digits(scalar: ScalarType) -> i32 {
 }
 
 /// Returns 1.5·2^(p−1)
-pub(super) fn magic(scalar: ScalarType) -> f64 {
+fn magic(scalar: ScalarType) -> f64 {
     1.5 * libm::exp2(f64::from(digits(scalar) - 1))
 }
 
@@ -159,20 +159,13 @@ pub(crate) fn rest(
 }
 
 /// Returns whether a float times any integer up to `turns` is a float.
-pub(super) fn is_exact(x: f64, turns: f64, scalar: ScalarType) -> bool {
+fn is_exact(x: f64, turns: f64, scalar: ScalarType) -> bool {
     let (mantissa, exponent, _) = FloatCore::integer_decode(x);
     let bits = 64 - (mantissa >> mantissa.trailing_zeros().min(63)).leading_zeros() as i32;
     let spare = digits(scalar) - bits;
     // Far from the ends of the exponents: neither overflow nor subnormals.
     let plain = (-100..100).contains(&(i32::from(exponent) + 53));
     plain && spare >= 0 && turns <= libm::exp2(f64::from(spare))
-}
-
-/// Returns the value of a normal number's last bit that is not zero.
-pub(super) fn last_bit(x: f64) -> f64 {
-    let (mantissa, exponent, _) = FloatCore::integer_decode(x);
-    let zeros = mantissa.trailing_zeros().min(63) as i32;
-    libm::exp2(f64::from(i32::from(exponent) + zeros))
 }
 
 #[cfg(test)]

@@ -29,8 +29,6 @@ pub(super) struct Cells<'a> {
     /// True if the values are terms of one polynomial: something is known of it before all
     /// of its angles are put in.
     pub is_sum: bool,
-    /// Whether what is bounded is nowhere negative.
-    pub is_positive: bool,
     /// F, if the box is a part of the circles.
     whole: Option<f64>,
     ranges: Vec<Interval>,
@@ -65,7 +63,6 @@ impl<'a> Cells<'a> {
             buffers,
             accept,
             is_sum: false,
-            is_positive: false,
             whole,
             ranges: layout.joints.iter().map(|&j| limits.position[j]).collect(),
             points: 0,
@@ -145,7 +142,6 @@ impl<'a> Cells<'a> {
             None => (0.0, 2.0 * PI),
         };
         let rounded = 4.0 * f64::EPSILON * (from.abs() + width);
-        let is_positive = self.is_positive;
         let lost = |half: f64| {
             // Half widths and middles are rounded; a little more covers that.
             let half = half * (1.0 + 1e-12) + rounded;
@@ -153,7 +149,6 @@ impl<'a> Cells<'a> {
             let known = match part {
                 Some((_, whole)) => 0.5 * reach * reach * whole,
                 None if reach > FRAC_PI_2 => f64::INFINITY,
-                None if is_positive => bound * (libm::sin(0.5 * reach).powi(2) + 1e-15),
                 None => bound * (1.0 - libm::cos(reach) + 1e-15),
             };
             bent.min(known) * (1.0 + 1e-12)

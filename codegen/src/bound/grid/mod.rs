@@ -8,8 +8,6 @@
 //!
 //! - *Whole circle.* M. Riesz: |T(c, x₀₂, …)| ≥ M·cos(d·δ) for d·δ ≤ π/2. So
 //!   M ≤ m(c)/cos(d·δ), m(c) being the maximum over the other angles at c.
-//!   Of a T that is nowhere negative M ≤ m(c)/cos²(d·δ/2): T − M/2 is nowhere
-//!   larger than at x₀, where it is M/2.
 //! - *Anywhere.* M ≤ m(c) + ½δ²·K with K ≥ |∂²T|: each multiple k of the
 //!   angle by itself, k² times what it is without looking at the angles that are
 //!   left. Most multiples are small, and of those angles that were put in K
@@ -28,7 +26,6 @@
 //!
 //! - `narrow`: angles of small ranges, written in multiples of another that
 //!   goes round
-//! - `squares`: the largest sum of products of two polynomials
 //! - `harmonics`: multiples of angles in place of powers
 //! - `layout`: terms regrouped so that points are quick
 //! - `cells`: the bound; where sines cannot make up the difference any more, no
@@ -40,7 +37,6 @@ mod definite;
 mod harmonics;
 mod layout;
 mod narrow;
-mod squares;
 
 use std::f64::consts::PI;
 
@@ -56,7 +52,6 @@ pub(super) use definite::{Wanted, least_eigenvalue};
 pub(super) use harmonics::harmonics;
 use layout::Layout;
 use narrow::narrowed;
-pub(super) use squares::{Largest, Product, Squares};
 
 /// Terms smaller than this part of the largest are not looked at one by one:
 /// most are what rounding left of terms that cancel, and would make the degree
@@ -151,38 +146,6 @@ pub(super) fn magnitude(
     bound(&layout, limits, aim, closeness)
 }
 
-/// Returns the largest value over whole circles of a polynomial that is nowhere negative.
-fn largest(
-    polynomial: &Polynomial,
-    limits: &InputBox,
-    sliding: &[bool],
-    closeness: GridEffort,
-) -> f64 {
-    let layout = Layout::new(polynomial, limits, sliding, &|key| range(key, limits), 0.0);
-    let value = |values: &[f64]| layout.value(values);
-    let accept = |values: &[f64], bound| layout.is_below(values, bound);
-    let mut cells = Cells::new(&layout, limits, None, &accept);
-    cells.is_positive = true;
-    cells.is_sum = true;
-    cells.points = closeness.points;
-    let taken = climb(&mut cells, closeness.starts, &value);
-    let crude = layout.crude(0, &layout.coefficients).most;
-    let mut shown = |bound: f64| {
-        cells.points = closeness.points;
-        cells.below(0, bound)
-    };
-    let (mut least, mut held) = (taken.max(LEAST * crude), crude);
-    while held.is_finite() && held > least * (1.0 + closeness.close) {
-        let middle = least * (held / least).sqrt();
-        if shown(middle) {
-            held = middle;
-        } else {
-            least = middle;
-        }
-    }
-    held
-}
-
 /// Returns a bound over the box.
 fn bound(layout: &Layout, limits: &InputBox, aim: Aim, closeness: GridEffort) -> f64 {
     let points = closeness.points;
@@ -259,31 +222,8 @@ fn least_shown(tries: &[f64], not: usize, shown: &mut dyn FnMut(f64) -> bool) ->
     tries.get(held).copied()
 }
 
-/// Returns the angles of about the largest value over whole circles, by joint.
-fn peak(
-    polynomial: &Polynomial,
-    limits: &InputBox,
-    sliding: &[bool],
-    closeness: GridEffort,
-) -> Vec<f64> {
-    let layout = Layout::new(polynomial, limits, sliding, &|key| range(key, limits), 0.0);
-    let mut cells = Cells::new(&layout, limits, None, &|_, _| false);
-    cells.points = closeness.points;
-    let (_, found) = climbed(&mut cells, closeness.starts, &|values| layout.value(values));
-    let mut angles = vec![0.0; limits.joints()];
-    for (joint, angle) in layout.joints.iter().zip(found) {
-        angles[*joint] = angle;
-    }
-    angles
-}
-
-/// Returns a value that is taken: the largest of a coarse grid, climbed from.
+/// Returns a value that is taken: the largest of some places, each climbed from.
 fn climb(cells: &mut Cells<'_>, starts: usize, value: &dyn Fn(&[f64]) -> f64) -> f64 {
-    climbed(cells, starts, value).0
-}
-
-/// Returns the same, and the angles, level by level.
-fn climbed(cells: &mut Cells<'_>, starts: usize, value: &dyn Fn(&[f64]) -> f64) -> (f64, Vec<f64>) {
     let count = cells.layout.joints.len();
     let span = |level: usize, cells: &Cells<'_>| match cells.part(level) {
         Some((range, _)) => (range.low(), range.high()),
@@ -300,7 +240,7 @@ fn climbed(cells: &mut Cells<'_>, starts: usize, value: &dyn Fn(&[f64]) -> f64) 
         }
         value(cells.values(count))
     };
-    let mut best = (0.0, vec![0.0; count]);
+    let mut best = 0.0;
     let mut random = Random::new(0x9d1d);
     for _ in 0..starts {
         let mut angles: Vec<f64> = (0..count)
@@ -333,9 +273,7 @@ fn climbed(cells: &mut Cells<'_>, starts: usize, value: &dyn Fn(&[f64]) -> f64) 
                 step *= 0.4;
             }
         }
-        if highest > best.0 {
-            best = (highest, angles);
-        }
+        best = f64::max(best, highest);
     }
     best
 }

@@ -21,7 +21,6 @@ use crate::program::fused::underflows;
 use crate::program::scalar_type::underflow;
 use crate::program::{AngleSum, Input, Operand, Operation, Program, ScalarType, Speed, Step};
 use crate::sincos::AngleKernel;
-use crate::sincos::library_error::Called;
 use crate::sincos::proof::Errors;
 
 /// Bounds over a box, one an output: the worst of at most `boxes` sub-boxes,
@@ -48,8 +47,6 @@ pub(super) fn rounding(
 pub(in crate::bound) struct Constants {
     steps: Vec<[Option<(Interval, f64)>; 2]>,
     sines: Vec<(AngleSum, Errors)>,
-    /// Of which angles the called sines' errors are proved, and these.
-    called: (Vec<AngleSum>, Option<&'static Called>),
     /// What 1/√(q̇² + w²) of a joint may be, as it is computed.
     speeds: Vec<(usize, Interval)>,
 }
@@ -68,21 +65,11 @@ impl Constants {
         Constants {
             steps: steps.map(|s| [found(&s.left), found(&s.right)]).collect(),
             sines: sines.iter().map(|sine| (sine.angle, sine.errors)).collect(),
-            called: (Vec::new(), None),
             speeds: program
                 .speeds
                 .iter()
                 .map(|own| speed(own, scalar))
                 .collect(),
-        }
-    }
-
-    /// Returns the same where the sines of these angles are called from `dalembert-sines`, in
-    /// the range that it is proved in.
-    pub(super) fn calling(self, scalar: ScalarType, proved: &[AngleSum]) -> Constants {
-        Constants {
-            called: (proved.to_vec(), Called::of(scalar)),
-            ..self
         }
     }
 
@@ -97,19 +84,14 @@ impl Constants {
         found.map_or(Interval::ALL, |(_, range)| *range)
     }
 
-    /// Returns what a sine that is at most so large is proved to be off: a polynomial's or a
-    /// called one's; `None` for libm's.
-    fn sine(&self, input: Input, size: f64) -> Option<f64> {
+    /// Returns the proved error of a polynomial for a sine or cosine; `None` for a library's.
+    fn sine(&self, input: Input) -> Option<f64> {
         let angle = input.angle()?;
-        let found = self.sines.iter().find(|(known, _)| *known == angle);
-        match (found, &self.called) {
-            (Some((_, errors)), _) => Some(match input {
-                Input::Sin(_) => errors.sin,
-                _ => errors.cos,
-            }),
-            (None, (angles, Some(called))) if angles.contains(&angle) => Some(called.error(size)),
-            (None, _) => None,
-        }
+        let (_, errors) = self.sines.iter().find(|(known, _)| *known == angle)?;
+        Some(match input {
+            Input::Sin(_) => errors.sin,
+            _ => errors.cos,
+        })
     }
 }
 
@@ -203,7 +185,7 @@ pub(super) fn read(
             let sum = 1.01 * additions * u * reach;
             let size = exact.magnitude();
             let one_ulp = u * size.min(0.5) * 2.0;
-            let error = match constants.sine(*input, (size + sum).next_up()) {
+            let error = match constants.sine(*input) {
                 Some(error) => (error + sum).next_up(),
                 None if size == 0.0 => 0.0,
                 None => (one_ulp + sum).next_up(),

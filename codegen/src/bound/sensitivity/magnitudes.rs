@@ -11,10 +11,7 @@
 //! - D_x grows by D·V_y
 //! - D_y grows by D·V_x + (A + D)·E_x
 //!
-//! and a sum passes D on. The error of an output is at most Σ (A + D)·r. Of
-//! this the first order, u·|x|·|a|, is bounded for all nodes together if that
-//! is known (`together`), and the rest is small: what r has beyond u·|x|, or
-//! beyond the cap in |x|'s place, with A, and all of r with D.
+//! and a sum passes D on. The error of an output is at most Σ (A + D)·r.
 //! Sums here have no negative terms: a few thousand roundings are made up for
 //! by a factor.
 
@@ -49,7 +46,6 @@ pub(super) fn rounding(
     let u = scalar.unit_roundoff();
     let mut errors: Vec<f64> = Vec::with_capacity(program.steps.len());
     let mut own = Vec::with_capacity(program.steps.len());
-    let mut moves = Vec::with_capacity(program.steps.len());
     let known = |operand: &Operand, literal: Option<(Interval, f64)>, errors: &[f64]| {
         let (interval, error) = match (operand, literal) {
             (Operand::Step(index), _) => {
@@ -86,13 +82,9 @@ pub(super) fn rounding(
         };
         errors.push((moved + rounding) * ROUNDINGS);
         own.push(rounding * ROUNDINGS);
-        moves.push(u * moved + eta);
     }
     let mut bounds = Vec::with_capacity(program.outputs.len());
-    let all = program.outputs.iter().zip(&extremes.adjoints);
-    for ((output, adjoints), together) in all.zip(&extremes.together) {
-        // What the first order of all nodes together leaves.
-        let mut rest = Rounding::default();
+    for (output, adjoints) in program.outputs.iter().zip(&extremes.adjoints) {
         let mut bound = Rounding::default();
         let mut off = vec![0.0; program.steps.len()];
         // What the adjoints of sines can be off.
@@ -100,7 +92,6 @@ pub(super) fn rounding(
         if let Operand::Constant(_) = output.value {
             let error = known(&output.value, None, &errors).error;
             note(&mut bound, &output.value, error);
-            note(&mut rest, &output.value, error);
         }
         for index in (0..program.steps.len()).rev() {
             let (exact, off_here) = (adjoints.steps[index], off[index]);
@@ -109,11 +100,6 @@ pub(super) fn rounding(
                 continue;
             }
             bound.arithmetic += mixed * own[index];
-            let beyond = match together.caps.get(index) {
-                Some(Some(cap)) => (own[index] - u * cap).max(0.0),
-                _ => moves[index],
-            };
-            rest.arithmetic += exact * beyond.min(own[index]) + off_here * own[index];
             let step = &program.steps[index];
             let [left, right] = constants.steps()[index];
             let x = known(&step.left, left, &errors);
@@ -133,10 +119,7 @@ pub(super) fn rounding(
             {
                 match operand {
                     Operand::Step(before) => off[*before] += off_there,
-                    Operand::Constant(_) => {
-                        bound.arithmetic += part * of.error;
-                        rest.arithmetic += off_there * of.error;
-                    }
+                    Operand::Constant(_) => bound.arithmetic += part * of.error,
                     Operand::Input(input) => {
                         let sines = adjoints.sines.iter().position(|(known, _)| known == input);
                         if let Some(sine) = sines {
@@ -146,22 +129,9 @@ pub(super) fn rounding(
                 }
             }
         }
-        // The errors of sines against those that their sum has.
-        let mut ratio = 0.0;
-        for (place, ((input, exact), off)) in adjoints.sines.iter().zip(inputs).enumerate() {
+        for ((input, exact), off) in adjoints.sines.iter().zip(inputs) {
             let (_, error) = read(&Operand::Input(*input), &[], scalar, constants, limits);
             bound.sincos += (exact + off) * error;
-            rest.sincos += off * error;
-            if error > 0.0 {
-                let weight = together.weights.get(place).copied().unwrap_or(0.0);
-                ratio = f64::max(ratio, error / weight);
-            }
-        }
-        if let Some(sum) = together.arithmetic {
-            bound.arithmetic = bound.arithmetic.min(u * sum + rest.arithmetic);
-        }
-        if let Some(sum) = together.sines {
-            bound.sincos = bound.sincos.min(ratio * sum + rest.sincos);
         }
         bound.arithmetic *= ROUNDINGS;
         bound.sincos *= ROUNDINGS;

@@ -3,9 +3,8 @@
 //! **Model** (named in certificates). Every operation gives
 //! (x ∘ y)(1 + δ) + η with |δ| ≤ u, |η| ≤ half the least subnormal for
 //! products and η = 0 for sums; literals are constants rounded once; `sin`
-//! and `cos` are libm's within one ulp, which is at most u·2 relative and u
-//! absolute, or within the errors that are proved of `dalembert-sines`
-//! ([`library_error`](crate::sincos::library_error)) or of polynomials; nothing is contracted
+//! and `cos` are a library's within one ulp, which is at most u·2 relative and u
+//! absolute, or within the errors that are proved of polynomials; nothing is contracted
 //! to a fused multiply-add but what the program fuses: there the product has
 //! neither δ nor η, and the sum that takes it an η as products have.
 //!
@@ -20,8 +19,6 @@
 //! - `extremes`, `magnitudes`: the largest |value| and |adjoint| of each node
 //!   over the box, written out as trigonometric polynomials; their products,
 //!   and what mixed adjoints can be off
-//! - `together`: in place of the products' first order, the largest sum of
-//!   |value|·|adjoint| at one state
 //! - `intervals`: interval arithmetic over sub-boxes; for programs that are
 //!   too large to be written out, narrow boxes and large errors
 //!
@@ -31,12 +28,11 @@ mod extremes;
 mod gradient;
 mod intervals;
 mod magnitudes;
-mod together;
 
 use crate::bound::distinct::Distinct;
 use crate::bound::input_box::InputBox;
 use crate::bound::magnitude::BoxEffort;
-use crate::program::{AngleSum, Operand, Program, ScalarType};
+use crate::program::{Operand, Program, ScalarType};
 use crate::sincos::AngleKernel;
 use extremes::Extremes;
 pub(super) use intervals::{Constants, forward};
@@ -51,8 +47,6 @@ pub struct BoundEffort {
     pub boxes: usize,
     /// Points of a grid for each value and adjoint that rounding counts with.
     pub points: usize,
-    /// Points of a grid for the sum of all their products, for each output.
-    pub together: usize,
 }
 
 impl BoundEffort {
@@ -61,7 +55,6 @@ impl BoundEffort {
         budget: BoxEffort::CERTIFY,
         boxes: 512,
         points: 1 << 14,
-        together: 1 << 22,
     };
     /// For who waits, as a compiler does.
     pub const QUICK: BoundEffort = BoundEffort {
@@ -71,7 +64,6 @@ impl BoundEffort {
         },
         boxes: 64,
         points: 1 << 8,
-        together: 1 << 14,
     };
 }
 
@@ -139,7 +131,7 @@ impl Sensitivity {
             ..program.clone()
         };
         Sensitivity {
-            extremes: Extremes::of(&once, limits, bound_effort.points, bound_effort.together),
+            extremes: Extremes::of(&once, limits, bound_effort.points),
             of: program.clone(),
             program: once,
             distinct,
@@ -153,20 +145,10 @@ impl Sensitivity {
         self.of == *program && self.limits == *limits && self.bound_effort == bound_effort
     }
 
-    /// Bounds, one an output, with polynomials for sines, whose errors are as
-    /// they are claimed; angles that are not among them are libm's.
+    /// Bounds each output's rounding, with polynomials for sines, whose errors are as they are
+    /// claimed; the sines of other angles are a library's, within one ulp.
     pub fn rounding(&self, scalar: ScalarType, sines: &[AngleKernel]) -> Vec<Rounding> {
-        self.with(scalar, Constants::of(&self.program, scalar, sines))
-    }
-
-    /// Bounds where sines are called from `dalembert-sines`: of these angles their errors
-    /// are proved, and those of the others within one ulp.
-    pub fn calling(&self, scalar: ScalarType, proved: &[AngleSum]) -> Vec<Rounding> {
-        let constants = Constants::of(&self.program, scalar, &[]);
-        self.with(scalar, constants.calling(scalar, proved))
-    }
-
-    fn with(&self, scalar: ScalarType, constants: Constants) -> Vec<Rounding> {
+        let constants = Constants::of(&self.program, scalar, sines);
         let (program, limits) = (&self.program, &self.limits);
         let boxes = self.bound_effort.boxes;
         let coarse = intervals::rounding(program, scalar, &constants, limits, boxes);
