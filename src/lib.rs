@@ -3,12 +3,25 @@
 //! ```
 //! dalembert::dynamics! {
 //!     /// Two links in a vertical plane.
-//!     pub mod planar {
-//!         convention: standard;
-//!         gravity: [0, -9.81, 0];
-//!         joint { name: shoulder, kind: revolute, a: 1, mass: 1, com: [-0.5, 0, 0], inertia: [0, 1/12, 1/12, 0, 0, 0] }
-//!         joint { name: elbow, kind: revolute, a: 1, mass: 1, com: [-0.5, 0, 0], inertia: [0, 1/12, 1/12, 0, 0, 0] }
-//!     }
+//!     pub mod planar = r#"
+//!         name = "planar"
+//!         convention = "standard"
+//!         gravity = [0, -9.81, 0]
+//!         [[joint]]
+//!         name = "shoulder"
+//!         kind = "revolute"
+//!         a = 1
+//!         mass = 1
+//!         com = [-0.5, 0, 0]
+//!         inertia = [0, "1/12", "1/12", 0, 0, 0]
+//!         [[joint]]
+//!         name = "elbow"
+//!         kind = "revolute"
+//!         a = 1
+//!         mass = 1
+//!         com = [-0.5, 0, 0]
+//!         inertia = [0, "1/12", "1/12", 0, 0, 0]
+//!     "#;
 //!     outputs: inverse_dynamics, gravity;
 //!     scalar: f64;
 //! }
@@ -69,49 +82,55 @@ pub mod matrices;
 /// expands the macro again, and so does a plan that `dalembert generate
 /// --save-plan` puts beside it. (A first plan that comes with a checkout is
 /// noticed once the robot file is newer than the last build: touch it.) Or the
-/// robot itself, in braces:
+/// text of a robot file, several lines of TOML in a raw string:
 ///
 /// ```
 /// dalembert::dynamics! {
-///     mod gantry {
-///         convention: standard;                   // or modified (Craig)
-///         gravity: [0, 0, -9.81];                 // m/s², in base axes
-///         joint {
-///             name: lift,                         // optional
-///             kind: prismatic,                    // or revolute
-///             alpha: -pi/2, a: 0, offset: 0.1,    // DH; the offset is added to q
-///             theta: 90deg,                       // `d` of a revolute joint
-///             mass: 4.5,                          // kg
-///             com: [0, 0.01, 0],                  // m, in the link frame
-///             inertia: [0.1, 0.1, 0.05, 0, 0, 0], // xx yy zz xy yz xz about the com, kg·m²
-///             viscous: 0.5, armature: 0.2,        // optional
-///             coulomb: 3, coulomb_width: 0.01,    // optional
-///             limits: { position: [-0.5, 0.5], velocity: 1 },
-///         }
-///     }
+///     mod gantry = r#"
+///         name = "gantry"
+///         convention = "standard"             # or "modified" (Craig)
+///         gravity = [0, 0, -9.81]             # m/s², in base axes
+///         [[joint]]
+///         name = "lift"                       # optional
+///         kind = "prismatic"                  # or "revolute"
+///         alpha = "-pi/2"                     # DH; a is 0 if left out
+///         offset = 0.1                        # added to q
+///         theta = "90deg"                     # `d` of a revolute joint
+///         mass = 4.5                          # kg
+///         com = [0, 0.01, 0]                  # m, in the link frame
+///         inertia = [0.1, 0.1, 0.05, 0, 0, 0] # xx yy zz xy yz xz about the com, kg·m²
+///         viscous = 0.5                       # optional
+///         armature = 0.2
+///         coulomb = 3
+///         coulomb_width = 0.01
+///         limits = { position = [-0.5, 0.5], velocity = 1 }
+///     "#;
 ///     outputs: gravity;
 /// }
 /// assert_eq!(gantry::gravity(&[0.0]), [4.5 * 9.81]);
 /// ```
 ///
-/// Keys and meanings are those of the robot file. Numbers are exact, as they
-/// are written: `0.3` is 3/10, `1/3` a third, `pi/2` a right angle, and so is
-/// `90deg`.
+/// Numbers are exact, as they are written: `0.3` is 3/10, `"1/3"` a third, `"pi/2"` a right
+/// angle, and so is `"90deg"`.
 ///
 /// What is odd about a robot, such as an inertia that no body has or lengths that
 /// look like millimetres, is a warning of the compiler. Whoever knows better
-/// silences it by its name, which its help says: `allow = ["impossible_inertia"]` in
-/// a robot file, and in braces
+/// silences it by its name, which its help says:
 ///
 /// ```
 /// #![deny(deprecated)]
 /// dalembert::dynamics! {
-///     mod turntable {
-///         convention: standard;
-///         gravity: [0, 0, -9.81];
-///         allow: [impossible_inertia];
-///         joint { kind: revolute, mass: 2, com: [0, 0, 0], inertia: [0, 0, 0.5, 0, 0, 0] }
-///     }
+///     mod turntable = r#"
+///         name = "turntable"
+///         convention = "standard"
+///         gravity = [0, 0, -9.81]
+///         allow = ["impossible_inertia"]
+///         [[joint]]
+///         kind = "revolute"
+///         mass = 2
+///         com = [0, 0, 0]
+///         inertia = [0, 0, 0.5, 0, 0, 0]
+///     "#;
 ///     outputs: inertia;
 /// }
 /// assert_eq!(turntable::inertia(&[0.3]), [[0.5]]);
@@ -162,9 +181,8 @@ pub mod matrices;
 ///   generic over robots.
 /// - `parameters: payload;`, `gravity` or both make arguments of what are constants
 ///   of the robot otherwise ([below](#parameters-at-run-time)).
-/// - `scene: NAME;` generates only what that scene of the robot needs, or
-///   `scene: NAME { … };` what is said here. Then `outputs` and `scalar` may
-///   be left out: they are the scene's.
+/// - `scene: NAME;` generates only what that scene of the robot file needs. Then `outputs`
+///   and `scalar` may be left out: they are the scene's.
 /// - `crate = path;` is where this crate is, if not at `::dalembert`.
 ///
 /// # Several at once
@@ -274,49 +292,61 @@ pub mod matrices;
 ///
 /// # Scenes
 ///
-/// What a robot is used for, so that nothing else is computed. A scene stands
-/// in the robot file (`[scene.NAME]`), in the robot's block (`scene NAME { … }`)
-/// or in the clause, with the same keys. All of them may be left out:
+/// What a robot is used for, so that nothing else is computed. A scene is a
+/// table `[scene.NAME]` of the robot file, and a clause names it. All of its keys may be left out:
 ///
 /// ```
 /// dalembert::dynamics! {
 ///     /// An arm that picks, in a vertical plane.
-///     mod arm {
-///         convention: standard;
-///         gravity: [0, -9.81, 0];
-///         joint {
-///             name: shoulder, kind: revolute, a: 0.5, mass: 2, com: [-0.25, 0, 0], inertia: [0, 0.1, 0.1, 0, 0, 0],
-///             limits: { position: [-2.2, 2.2], velocity: 3, acceleration: 20, torque: 60 },
-///         }
-///         joint {
-///             name: elbow, kind: revolute, a: 0.4, mass: 1, com: [-0.2, 0, 0], inertia: [0, 0.1, 0.1, 0, 0, 0],
-///             limits: { position: [-2.2, 2.2], velocity: 3, acceleration: 20, torque: 30 },
-///         }
-///         joint {
-///             name: wrist, kind: revolute, a: 0.1, mass: 0.2, com: [0, 0, 0], inertia: [0, 0, 0, 0, 0, 0],
-///             limits: { position: [-2.2, 2.2], velocity: 3, acceleration: 20, torque: 5 },
-///         }
-///     }
-///     scene: pick {
-///         outputs: [inverse_dynamics],
-///         // Torques wanted, by number from 1 or by name: all that are not locked, if left out.
-///         joints: [1, elbow],
-///         // Joints that stay where they are.
-///         lock: { wrist: pi/6 },
-///         // Instead of the robot's.
-///         gravity: [0, -9.81, 0],
-///         // These terms and their argument are gone; or acceleration: zero.
-///         velocity: zero,
-///         // What the last link carries, in its frame; a point without `inertia`.
-///         payload: { mass: 0.5, com: [0, 0, 0.05], inertia: [0.01, 0.01, 0.01, 0, 0, 0] },
-///         // Where bounds hold: an entry a joint. What is left out is the joints' limits.
-///         box: { position: [[-1, 1], [0, 2], [0, 1]], acceleration: [5, 10, 10] },
-///         // Of the actuators' torque limits, or `range`: of a torque that the model attains
-///         // in the box, at or just below its largest. A value, or a list of them, one a joint.
-///         tolerance: { value: 1e-2, relative_to: actuator },
-///         // Without it, the cheapest that the tolerance admits.
-///         scalar: f64,
-///     };
+///     mod arm = r#"
+///         name = "arm"
+///         convention = "standard"
+///         gravity = [0, -9.81, 0]
+///         [[joint]]
+///         name = "shoulder"
+///         kind = "revolute"
+///         a = 0.5
+///         mass = 2
+///         com = [-0.25, 0, 0]
+///         inertia = [0, 0.1, 0.1, 0, 0, 0]
+///         limits = { position = [-2.2, 2.2], velocity = 3, acceleration = 20, torque = 60 }
+///         [[joint]]
+///         name = "elbow"
+///         kind = "revolute"
+///         a = 0.4
+///         mass = 1
+///         com = [-0.2, 0, 0]
+///         inertia = [0, 0.1, 0.1, 0, 0, 0]
+///         limits = { position = [-2.2, 2.2], velocity = 3, acceleration = 20, torque = 30 }
+///         [[joint]]
+///         name = "wrist"
+///         kind = "revolute"
+///         a = 0.1
+///         mass = 0.2
+///         com = [0, 0, 0]
+///         inertia = [0, 0, 0, 0, 0, 0]
+///         limits = { position = [-2.2, 2.2], velocity = 3, acceleration = 20, torque = 5 }
+///         [scene.pick]
+///         outputs = ["inverse_dynamics"]
+///         # Torques wanted, by number from 1 or by name: all that are not locked, if left out.
+///         joints = [1, "elbow"]
+///         # Joints that stay where they are.
+///         lock = { wrist = "pi/6" }
+///         # Instead of the robot's.
+///         gravity = [0, -9.81, 0]
+///         # These terms and their argument are gone; or acceleration = "zero".
+///         velocity = "zero"
+///         # What the last link carries, in its frame; a point without `inertia`.
+///         payload = { mass = 0.5, com = [0, 0, 0.05], inertia = [0.01, 0.01, 0.01, 0, 0, 0] }
+///         # Where bounds hold: an entry a joint. What is left out is the joints' limits.
+///         box = { position = [[-1, 1], [0, 2], [0, 1]], acceleration = [5, 10, 10] }
+///         # Of the actuators' torque limits, or `range`: of a torque that the model attains
+///         # in the box, at or just below its largest. A value, or a list of them, one a joint.
+///         tolerance = { value = 1e-2, relative_to = "actuator" }
+///         # Without it, the cheapest that the tolerance admits.
+///         scalar = "f64"
+///     "#;
+///     scene: pick;
 /// }
 /// let (q, qdd) = ([0.3, 0.5, 0.0], [1.0, 2.0, 0.0]);
 /// let tau: [f64; 2] = arm::inverse_dynamics(&q, &qdd);

@@ -17,13 +17,34 @@ use generated::{puma560, puma560_f32};
 macro_rules! arm {
     ($name:ident, [$($output:tt)*], $($clause:tt)*) => {
         dalembert::dynamics! {
-            mod $name {
-                convention: standard;
-                gravity: [0, -9.81, 0];
-                joint { kind: revolute, a: 1, mass: 1, com: [-0.5, 0, 0], inertia: [0, 1/12, 1/12, 0, 0, 0] }
-                joint { kind: revolute, a: 1, alpha: pi/2, mass: 2, com: [-0.5, 0, 0], inertia: [0, 1/12, 1/12, 0, 0, 0], coulomb: 2.5, coulomb_width: 0.01 }
-                joint { kind: prismatic, mass: 1, com: [0, 0, 0.1], inertia: [0.1, 0.1, 0.1, 0, 0, 0], viscous: 3, coulomb: 14, coulomb_width: 1/300 }
-            }
+            mod $name = r#"
+                name = "arm"
+                convention = "standard"
+                gravity = [0, -9.81, 0]
+                [[joint]]
+                kind = "revolute"
+                a = 1
+                mass = 1
+                com = [-0.5, 0, 0]
+                inertia = [0, "1/12", "1/12", 0, 0, 0]
+                [[joint]]
+                kind = "revolute"
+                a = 1
+                alpha = "pi/2"
+                mass = 2
+                com = [-0.5, 0, 0]
+                inertia = [0, "1/12", "1/12", 0, 0, 0]
+                coulomb = 2.5
+                coulomb_width = 0.01
+                [[joint]]
+                kind = "prismatic"
+                mass = 1
+                com = [0, 0, 0.1]
+                inertia = [0.1, 0.1, 0.1, 0, 0, 0]
+                viscous = 3
+                coulomb = 14
+                coulomb_width = "1/300"
+            "#;
             outputs: $($output)*;
             entries: batch;
             scalar: f64, f32;

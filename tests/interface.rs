@@ -26,9 +26,40 @@ dalembert::dynamics! {
 // Of this scene `gravity` has an argument an entry a joint, and a row less: no trait
 // has its signature.
 dalembert::dynamics! {
-    mod locked = "generated/robots/planar3r.toml";
+    mod locked = r#"
+        name = "planar3r"
+        convention = "standard"
+        gravity = [0, -9.81, 0]
+        outputs = ["inverse_dynamics", "gravity", "inertia", "coriolis", "manipulator_equation", "dynamic_coefficients"]
+        [[joint]]
+        name = "shoulder"
+        kind = "revolute"
+        a = 1
+        mass = 1
+        com = [-0.5, 0, 0]
+        inertia = [0, 0.08333333333333333, 0.08333333333333333, 0, 0, 0]
+        limits = { position = ["-pi", "pi"] }
+        [[joint]]
+        name = "elbow"
+        kind = "revolute"
+        a = 1
+        mass = 1
+        com = [-0.5, 0, 0]
+        inertia = [0, 0.08333333333333333, 0.08333333333333333, 0, 0, 0]
+        limits = { position = ["-pi", "pi"] }
+        [[joint]]
+        name = "wrist"
+        kind = "revolute"
+        a = 1
+        mass = 1
+        com = [-0.5, 0, 0]
+        inertia = [0, 0.08333333333333333, 0.08333333333333333, 0, 0, 0]
+        limits = { position = ["-pi", "pi"] }
+        [scene.reach]
+        lock = { 2 = 0 }
+    "#;
     outputs: gravity, coriolis;
-    scene: reach { lock: { 2: 0 } };
+    scene: reach;
     interface: traits;
 }
 

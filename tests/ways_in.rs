@@ -17,20 +17,27 @@ dalembert::dynamics! {
 }
 
 dalembert::dynamics! {
-    mod planar2r {
-        convention: standard;
-        gravity: [0, -9.81, 0];
-        joint {
-            name: shoulder, kind: revolute, a: 1, mass: 1, com: [-0.5, 0, 0],
-            inertia: [0, 0.08333333333333333, 0.08333333333333333, 0, 0, 0],
-            limits: { position: [-pi, pi] },
-        }
-        joint {
-            name: elbow, kind: revolute, a: 1, mass: 1, com: [-0.5, 0, 0],
-            inertia: [0, 0.08333333333333333, 0.08333333333333333, 0, 0, 0],
-            limits: { position: [-180deg, 180deg] },
-        }
-    }
+    mod planar2r = r#"
+        name = "planar2r"
+        convention = "standard"
+        gravity = [0, -9.81, 0]
+        [[joint]]
+        name = "shoulder"
+        kind = "revolute"
+        a = 1
+        mass = 1
+        com = [-0.5, 0, 0]
+        inertia = [0, 0.08333333333333333, 0.08333333333333333, 0, 0, 0]
+        limits = { position = ["-pi", "pi"] }
+        [[joint]]
+        name = "elbow"
+        kind = "revolute"
+        a = 1
+        mass = 1
+        com = [-0.5, 0, 0]
+        inertia = [0, 0.08333333333333333, 0.08333333333333333, 0, 0, 0]
+        limits = { position = ["-180deg", "180deg"] }
+    "#;
     outputs: inverse_dynamics;
 }
 

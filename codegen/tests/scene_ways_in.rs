@@ -1,4 +1,4 @@
-//! Scenes by `dynamics!`: of the robot file, beside it and in the robot's block.
+//! Scenes by `dynamics!`: of a robot file, and of the text of one.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -34,7 +34,7 @@ fn plain(text: &str) -> String {
 }
 
 #[test]
-fn a_clause_names_a_scene_of_the_file() {
+fn a_clause_names_a_scene_of_a_file() {
     let folder = folder("scene_clause");
     let text = plain(&expanded(
         "pub mod arm = \"arm.toml\"; scene: swing;",
@@ -50,83 +50,34 @@ fn a_clause_names_a_scene_of_the_file() {
     assert!(text.contains("did you mean `swing`?"), "{text}");
 }
 
-/// A scene that stands in the macro, of a robot that does not.
 #[test]
-fn a_scene_beside_a_file() {
-    let folder = folder("scene_beside");
-    let with = |scene: &str| {
-        let text = format!("mod arm = \"arm.toml\"; scene: {scene};");
-        expanded(&text, &folder)
+fn a_clause_names_a_scene_of_a_text() {
+    let arm = |scene: &str, clause: &str| {
+        let joint = "kind = 'revolute'\na = 1\nmass = 1\ncom = [-0.5, 0, 0]\n\
+                     inertia = [0, 0.1, 0.1, 0, 0, 0]";
+        let robot = format!(
+            "name = 'arm'\nconvention = 'standard'\ngravity = [0, -9.81, 0]\n\
+             [[joint]]\nname = 'hip'\n{joint}\n[[joint]]\nname = 'knee'\n{joint}\n\
+             [scene.pick]\n{scene}\n"
+        );
+        let text = format!("mod arm = {robot:?}; outputs: gravity; scalar: f64; scene: {clause};");
+        expanded(&text, Path::new("."))
     };
-    let text = plain(&with(
-        "reach { outputs: [gravity], lock: { elbow: pi/2, 1: 0 } }",
-    ));
+    let text = plain(&arm("lock = { knee = '90deg' }", "pick"));
     assert!(!text.contains("compile_error"), "{text}");
-    assert!(text.contains("fngravity(q:&[f64;3])->[f64;1]"), "{text}");
-    // The tolerance too: what was left out is in the documentation.
-    let tolerant = with(
-        "rough { outputs: [inverse_dynamics], lock: { 1: 0 }, \
-         box: { velocity: [1, 1, 1], acceleration: [1, 2, 2] }, \
-         tolerance: { value: 0.1, relative_to: range } }",
-    );
-    assert!(!tolerant.contains("compile_error"), "{tolerant}");
-    assert!(tolerant.contains("Left out"), "{tolerant}");
-    for (wrong, message) in [
-        ("swing { velocity: zero }", "swing"),
-        ("reach { lock: { 4: 0 } }", "there is no joint `4`"),
-        ("reach { lock: { elbw: 0 } }", "did you mean `elbow`?"),
-        ("reach { box: { velocity: [1] } }", "one entry a joint"),
-        ("reach { speed: zero }", "unknown key `speed`"),
+    assert!(text.contains("fngravity(q:&[f64;2])->[f64;1]"), "{text}");
+    for (scene, clause, message) in [
+        ("lock = { 3 = 0 }", "pick", "there is no joint `3`"),
+        ("speed = 'zero'", "pick", "unknown key `speed`"),
+        ("", "[pick]", "expected the name of a scene"),
         (
-            "reach { tolerance: { value: 0, relative_to: range } }",
-            "a tolerance is above zero",
-        ),
-        (
-            "reach { outputs: [gravity], tolerance: { value: 1e-3, relative_to: actuator } }",
-            "needs the torque limit of joint 1",
-        ),
-        ("[reach]", "expected the name of a scene"),
-        (
-            "reach { velocity: zero } gravity",
+            "",
+            "pick { velocity: zero }",
             "expected the name of a scene",
         ),
     ] {
-        let text = with(wrong);
-        assert!(text.contains("compile_error"), "{wrong}: {text}");
-        assert!(text.contains(message), "{wrong}: {text}");
-    }
-}
-
-#[test]
-fn a_block_is_a_scene() {
-    let arm = |scene: &str| {
-        let text = format!(
-            "mod arm {{
-                convention: standard;
-                gravity: [0, -9.81, 0];
-                joint {{ name: hip, kind: revolute, a: 1, mass: 1, com: [-0.5, 0, 0], inertia: [0, 0.1, 0.1, 0, 0, 0] }}
-                joint {{ name: knee, kind: revolute, a: 1, mass: 1, com: [-0.5, 0, 0], inertia: [0, 0.1, 0.1, 0, 0, 0] }}
-                scene pick {{ {scene} }}
-            }}
-            outputs: gravity; scalar: f64; scene: pick;"
-        );
-        expanded(&text, Path::new("."))
-    };
-    for lock in ["lock: { 2: pi/2 }", "lock: { knee: 90deg }, joints: [hip]"] {
-        let text = plain(&arm(lock));
-        assert!(!text.contains("compile_error"), "{text}");
-        assert!(text.contains("fngravity(q:&[f64;2])->[f64;1]"), "{text}");
-    }
-    for (wrong, message) in [
-        ("lock: { 3: 0 }", "there is no joint `3`"),
-        ("lock: { nee: 0 }", "did you mean `knee`?"),
-        ("lock: { 2 }", "expected `joint: position`"),
-        ("lock: { 2: 0, knee: 1 }", "is locked already"),
-        ("velocity: none", "expected"),
-        ("speed: zero", "unknown key `speed`"),
-    ] {
-        let text = arm(wrong);
-        assert!(text.contains("compile_error"), "{wrong}: {text}");
-        assert!(text.contains(message), "{wrong}: {text}");
+        let text = arm(scene, clause);
+        assert!(text.contains("compile_error"), "{scene}: {text}");
+        assert!(text.contains(message), "{scene}: {text}");
     }
 }

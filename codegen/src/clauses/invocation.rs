@@ -1,6 +1,6 @@
 //! The grammar of `dynamics!`: a module with its robot, then clauses.
 
-use proc_macro2::{Delimiter, Group, Ident, TokenStream, TokenTree};
+use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
 use syn::ext::IdentExt;
 use syn::parse::{ParseStream, Parser};
@@ -12,7 +12,7 @@ use dalembert_model::read::closest;
 use super::errors::Errors;
 use super::list;
 use super::messages as m;
-use super::statement::{self, Pair, pairs_of, trees};
+use super::statement::{self, Pair, pairs, trees};
 use crate::function::Function;
 use crate::program::ScalarType;
 use crate::sincos::SinCos;
@@ -26,9 +26,9 @@ pub(super) struct Invocation {
     pub(super) attributes: Vec<Attribute>,
     pub(super) visibility: Visibility,
     pub(super) name: Ident,
-    pub(super) robot: RobotSource,
-    /// With the tokens that asked for them; after an error those that were
-    /// probably meant. The scene's or the robot file's if none were chosen.
+    /// The path of a robot file, or the text of one.
+    pub(super) robot: LitStr,
+    /// With the tokens that asked for them. The scene's or the robot file's if none were chosen.
     pub(super) outputs: Option<Vec<(Function, TokenStream)>>,
     pub(super) scalars: Option<Vec<ScalarType>>,
     /// What options of one word say.
@@ -37,16 +37,10 @@ pub(super) struct Invocation {
     pub(super) entries_at: TokenStream,
     /// With the tokens that asked for them.
     pub(super) parameters: Vec<(RuntimeParameter, TokenStream)>,
-    /// The scene's name, and what it is if that stands here.
-    pub(super) scene: Option<(Ident, Option<Group>)>,
+    /// The scene's name.
+    pub(super) scene: Option<Ident>,
     /// The path of the facade crate.
     pub(super) facade: TokenStream,
-}
-
-/// Where the robot is.
-pub(super) enum RobotSource {
-    File(LitStr),
-    Table(Group),
 }
 
 /// Returns the options of one word that have a clause.
@@ -107,9 +101,9 @@ pub(super) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation
     Some(invocation)
 }
 
-type Head = (Vec<Attribute>, Visibility, Ident, RobotSource);
+type Head = (Vec<Attribute>, Visibility, Ident, LitStr);
 
-/// Returns `/// … pub mod name = "file";` or `/// … pub mod name { … }`.
+/// Reads `/// … pub mod name = "file";`.
 fn head(input: ParseStream<'_>, errors: &mut Errors) -> syn::Result<Head> {
     let attributes = input.call(Attribute::parse_outer)?;
     let visibility = input.parse()?;
@@ -122,12 +116,6 @@ fn head(input: ParseStream<'_>, errors: &mut Errors) -> syn::Result<Head> {
         return Err(wanted(&m::NO_MODULE));
     }
     let name: Ident = input.parse()?;
-    if input.peek(syn::token::Brace) {
-        let tree: TokenTree = input.parse()?;
-        if let TokenTree::Group(group) = tree {
-            return Ok((attributes, visibility, name, RobotSource::Table(group)));
-        }
-    }
     if !input.peek(Token![=]) {
         return Err(wanted(&m::NO_ROBOT));
     }
@@ -135,13 +123,13 @@ fn head(input: ParseStream<'_>, errors: &mut Errors) -> syn::Result<Head> {
     if !input.peek(LitStr) {
         return Err(wanted(&m::NO_ROBOT));
     }
-    let path: LitStr = input.parse()?;
+    let robot: LitStr = input.parse()?;
     if input.peek(Token![;]) {
         input.parse::<Token![;]>()?;
     } else if !input.is_empty() {
         errors.syntax(wanted(&m::NO_SEMICOLON));
     }
-    Ok((attributes, visibility, name, RobotSource::File(path)))
+    Ok((attributes, visibility, name, robot))
 }
 
 fn clauses(rest: TokenStream, errors: &mut Errors) -> Vec<Pair> {
@@ -156,7 +144,7 @@ fn clauses(rest: TokenStream, errors: &mut Errors) -> Vec<Pair> {
         }
         None => trees.len(),
     };
-    pairs_of(&trees[..end], ';', may_stand, errors)
+    pairs(&trees[..end], may_stand, errors)
 }
 
 /// Returns what may stand behind a clause's name, for who wrote nothing there.
@@ -176,11 +164,16 @@ fn may_stand(clause: &str) -> String {
 }
 
 impl Invocation {
-    /// Returns where to report what is about the robot as a whole.
-    pub(super) fn place(&self) -> TokenStream {
-        match &self.robot {
-            RobotSource::File(path) => path.to_token_stream(),
-            RobotSource::Table(_) => self.name.to_token_stream(),
+    /// Returns whether the literal is the text of a robot file: it has more lines than a path.
+    pub(super) fn has_text(&self) -> bool {
+        self.robot.value().contains('\n')
+    }
+
+    /// Returns the name of the robot file in messages: its path, or the module's name.
+    pub(super) fn shown(&self) -> String {
+        match self.has_text() {
+            true => self.name.to_string(),
+            false => self.robot.value(),
         }
     }
 
@@ -219,10 +212,7 @@ impl Invocation {
                 }
             }
             Some("scene") => match value {
-                [TokenTree::Ident(name)] => self.scene = Some((name.clone(), None)),
-                [TokenTree::Ident(name), body] if braces(body).is_some() => {
-                    self.scene = Some((name.clone(), braces(body).cloned()));
-                }
+                [TokenTree::Ident(name)] => self.scene = Some(name.clone()),
                 [] => {}
                 [other, ..] => errors.push(other, &m::SCENE_CLAUSE),
             },
@@ -242,10 +232,6 @@ impl Invocation {
             None => {}
         }
     }
-}
-
-fn braces(tree: &TokenTree) -> Option<&Group> {
-    statement::group(tree, Delimiter::Brace)
 }
 
 /// Returns the name of a clause; an unknown one counts as the one that was probably

@@ -14,12 +14,10 @@ use crate::task::Request;
 use crate::task::options::WordOption;
 use crate::words::{self, UnknownWord, Word};
 
-/// Words with commas between, in brackets as a scene has them or without; an
-/// unknown one counts as the one that was probably meant, so that its users are
-/// not told that it is missing.
+/// Reads words with commas between, in brackets as a scene has them or without.
 pub(super) fn words<W: Word>(value: &[TokenTree], errors: &mut Errors) -> Vec<(W, TokenStream)> {
     read(W::WHAT, W::known, value, errors, |item, _, errors| {
-        meant(item, errors, words::parse)
+        word(item, errors, words::parse)
     })
 }
 
@@ -32,7 +30,7 @@ pub(super) fn set(
 ) {
     let mut set = |text: &str| (option.set)(request, text);
     let one = |item: &[TokenTree], before: &[((), TokenStream)], errors: &mut Errors| match before {
-        [] => meant(item, errors, &mut set),
+        [] => word(item, errors, &mut set),
         _ => {
             errors.push(tokens(item), &m::ONE_WORD);
             None
@@ -94,18 +92,18 @@ fn read<T>(
     read
 }
 
-/// Returns the value of a word, or of the word that was probably meant.
-fn meant<T>(
+/// Returns the value of a word.
+fn word<T>(
     item: &[TokenTree],
     errors: &mut Errors,
-    mut parse: impl FnMut(&str) -> Result<T, UnknownWord>,
+    parse: impl FnOnce(&str) -> Result<T, UnknownWord>,
 ) -> Option<T> {
     match item {
         [TokenTree::Ident(ident)] => match parse(&ident.to_string()) {
             Ok(value) => Some(value),
             Err(error) => {
                 errors.say(ident, &error.message(), &error.help());
-                error.meant.and_then(|meant| parse(meant).ok())
+                None
             }
         },
         [TokenTree::Ident(_), next, ..] => {
@@ -123,7 +121,7 @@ fn meant<T>(
 fn output(item: &[TokenTree], errors: &mut Errors) -> Option<Function> {
     let sign = |tree: &TokenTree| is_punct(tree, '@') || is_punct(tree, ':');
     if !item.iter().any(sign) {
-        return meant(item, errors, words::parse);
+        return word(item, errors, words::parse);
     }
     let text: String = item.iter().map(TokenTree::to_string).collect();
     match Function::parse(&text) {
@@ -164,7 +162,7 @@ fn bundle(
                 }
             }
             [TokenTree::Ident(_)] => {
-                read.extend(meant(part, errors, words::parse).map(|output| (output, part)))
+                read.extend(word(part, errors, words::parse).map(|output| (output, part)))
             }
             [TokenTree::Ident(_), at, ..] if is_punct(at, '@') || is_punct(at, ':') => {
                 read.extend(output(part, errors).map(|output| (output, part)));

@@ -1,6 +1,5 @@
-//! Everything that can be wrong with the form of an invocation, in one table.
-//! What can be wrong with a robot is the reader's to say, which words there
-//! are is [`words`](crate::words)'.
+//! The errors of an invocation's form, in one table. Those of a robot are the reader's, those
+//! of words are of [`words`](crate::words).
 
 /// A message: the fault, and what would be right.
 pub(super) struct Message {
@@ -13,8 +12,8 @@ const fn message(text: &'static str, help: &'static str) -> Message {
 }
 
 pub(super) const NO_ROBOT: Message = message(
-    "expected the path of a robot file in quotes, or a robot in braces",
-    "pub mod puma560 = \"robots/puma560.toml\"; or pub mod arm { convention: standard; … }",
+    "expected the path of a robot file in quotes, or its text",
+    "pub mod puma560 = \"robots/puma560.toml\"; or pub mod arm = r#\"name = …\"#; with line breaks",
 );
 pub(super) const NO_MODULE: Message = message(
     "expected `mod` and the name of the module",
@@ -33,8 +32,6 @@ pub(super) const NO_COLON: Message = message(
     "expected `:` after the clause's name",
     "a clause is `name: value;`",
 );
-pub(super) const NO_KEY_COLON: Message =
-    message("expected `:` after the key", "a key is `name: value`");
 pub(super) const NO_VALUE: Message = message("expected a value", "");
 pub(super) const NO_OUTPUTS: Message = message(
     "there is no clause `outputs`",
@@ -71,39 +68,10 @@ pub(super) const CRATE_RELATIVE: Message = message(
     "the path would be taken from inside the generated module",
     "start with `crate::` or with the name of a crate",
 );
-pub(super) const NO_ITEM: Message = message(
-    "expected `key: value;`, `joint { … }`, `frame { … }` or `scene NAME { … }`",
-    "a robot has: convention, gravity, base, tool, payload_frame, allow, joint, frame, scene",
-);
-pub(super) const SCENE_NAME: Message = message(
-    "expected the scene's name after `scene`",
-    "scene pick { lock: { 4: 0 }, velocity: zero }",
-);
 pub(super) const SCENE_CLAUSE: Message = message(
     "expected the name of a scene",
-    "scene: pick; of the robot file or the robot's block, or here: scene: pick { velocity: zero };",
+    "scene: pick; of the robot file's [scene.pick]",
 );
-pub(super) const NO_LOCK: Message = message(
-    "expected `joint: position`",
-    "lock: { 4: 0, elbow: pi/2 }: joints by number, from 1, or by name",
-);
-pub(super) const NAMED: Message = message(
-    "the robot is called after its module",
-    "leave `name` out here; a joint may have one",
-);
-pub(super) const JOINT_BRACES: Message = message(
-    "expected `{` after `joint`",
-    "joint { kind: revolute, mass: 1, com: [0, 0, 0], inertia: [0, 0, 1, 0, 0, 0] }",
-);
-pub(super) const SUFFIX: Message = message(
-    "a number has no suffix here, but `deg`",
-    "numbers are exact and have no type: write the digits alone",
-);
-pub(super) const NO_NUMBER: Message = message(
-    "this is not a decimal number",
-    "write a number like 0.5, -3 or 1.2e-4",
-);
-
 impl Message {
     /// Returns both, as the compiler shows them.
     pub(super) fn with_help(&self) -> String {

@@ -1,15 +1,12 @@
-//! What users ask for, in whichever way they ask: the words of a request,
-//! the robot file, and `dynamics!` as a whole.
+//! The ways in: the words of a request, the robot file, and `dynamics!` as a whole.
 //!
 //! - [`words`]: outputs, scalars, formulations, efforts, preferences, sources of sines
 //! - [`robot_file`]: a robot file from a path, with errors fit to show
 //! - [`expand`]: the tokens of `dynamics!` to the tokens of its modules, by
-//!   way of `invocation` (the grammar), `list` (words and bundles), `table` (a robot written in the
-//!   macro), `module` (the generated text as tokens) and `stub` (what stands
-//!   there instead after an error)
-//! - `warnings`: what is odd about a robot, as warnings of the compiler
-//! - `messages`, `errors`: what can be wrong with an invocation, and the list
-//!   of what is
+//!   way of `invocation` (the grammar), `list` (words and bundles) and `module` (the generated
+//!   text as tokens)
+//! - `warnings`: warnings about a robot, as warnings of the compiler
+//! - `messages`, `errors`: the table of errors of an invocation, and the list of those found
 //!
 //! The command and the build script's builder use the first two.
 
@@ -21,8 +18,6 @@ mod messages;
 mod module;
 pub(crate) mod robot_file;
 mod statement;
-mod stub;
-mod table;
 mod warnings;
 
 pub use expand::{expand, expand_from};

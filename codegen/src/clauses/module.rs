@@ -35,13 +35,11 @@ pub(super) fn math(sincos: SinCos) -> MathPath {
 }
 
 /// Dresses every module of the text; the warnings end its documentation, and
-/// the compiler gives those of the first module. `has_batch` says whether the facade has
-/// what batches run by.
+/// the compiler gives those of the first module.
 pub(super) fn assemble(
     text: &str,
     invocation: &Invocation,
     warnings: &[Warning],
-    has_batch: bool,
 ) -> Result<TokenStream, LexError> {
     let Invocation {
         attributes,
@@ -56,17 +54,9 @@ pub(super) fn assemble(
     };
     let batches = (invocation.request.entries == Entries::Batch).then(|| {
         let batch = Ident::new(BATCH, Span::call_site());
-        match has_batch {
-            true => quote! {
-                #[allow(unused_imports)]
-                use #facade::batch as #batch;
-            },
-            // The error is ours alone: functions without bodies name this type, and no more.
-            false => quote! {
-                mod #batch {
-                    pub type Unequal = ::core::convert::Infallible;
-                }
-            },
+        quote! {
+            #[allow(unused_imports)]
+            use #facade::batch as #batch;
         }
     });
     let traits = (invocation.request.interface == Interface::Traits).then(|| {

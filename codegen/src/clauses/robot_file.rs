@@ -44,16 +44,29 @@ impl RobotFile {
     /// As [`RobotFile::read`].
     pub fn read_as(path: &Path, shown: &str) -> Result<RobotFile, RobotFileError> {
         let bytes = bytes(path).map_err(|error| RobotFileError::of_system(path, shown, &error))?;
-        let source = String::from_utf8_lossy(&bytes).into_owned();
         let plan = plan::file::beside(path).map_err(RobotFileError::Plan)?;
-        match read::parse_bytes(&bytes, &Options::default()) {
+        let file = Self::parse_bytes(&bytes, shown)?;
+        Ok(RobotFile { plan, ..file })
+    }
+
+    /// Reads the text of a robot file, which has no plan; messages call it by this name.
+    ///
+    /// # Errors
+    /// [`RobotFileError::Wrong`], with every error of the text.
+    pub fn parse(text: &str, shown: &str) -> Result<RobotFile, RobotFileError> {
+        Self::parse_bytes(text.as_bytes(), shown)
+    }
+
+    fn parse_bytes(bytes: &[u8], shown: &str) -> Result<RobotFile, RobotFileError> {
+        let source = String::from_utf8_lossy(bytes).into_owned();
+        match read::parse_bytes(bytes, &Options::default()) {
             Ok(reading) => Ok(RobotFile {
                 robot: reading.robot,
                 outputs: reading.outputs,
                 scenes: reading.scenes,
                 notes: reading.notes,
                 source,
-                plan,
+                plan: None,
             }),
             Err(diagnostics) => Err(RobotFileError::Wrong {
                 shown: shown.to_owned(),
@@ -145,19 +158,6 @@ impl RobotFileError {
                 diagnostics.0.iter().map(render).collect()
             }
         }
-    }
-
-    /// Returns how many joints the file seems to have. A file with an error in it has
-    /// no robot to ask, and what users wrote calls functions of some size.
-    pub fn joints(&self) -> Option<usize> {
-        let RobotFileError::Wrong { source, .. } = self else {
-            return None;
-        };
-        let heads = source.lines().filter(|line| {
-            let head: String = line.split_whitespace().collect();
-            head.starts_with("[[joint]]")
-        });
-        Some(heads.count()).filter(|n| (1..=Robot::MAX_JOINTS).contains(n))
     }
 }
 

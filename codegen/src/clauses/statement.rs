@@ -1,8 +1,6 @@
-//! `key: value` pairs with separators between them: the one form that
-//! clauses, a robot's keys and a joint's keys have.
+//! Clauses: `key: value` pairs, each with a semicolon behind it.
 //!
-//! What is wrong with one pair is reported, and the next is read all the
-//! same.
+//! An error of one pair is reported, and the next is read all the same.
 
 use proc_macro2::{Delimiter, Group, Ident, Spacing, TokenStream, TokenTree};
 
@@ -15,15 +13,10 @@ pub(super) struct Pair {
     pub(super) value: Vec<TokenTree>,
 }
 
-/// Reads pairs. A key that is there twice counts the first time.
-pub(super) fn pairs(trees: &[TokenTree], separator: char, errors: &mut Errors) -> Vec<Pair> {
-    pairs_of(trees, separator, |_| String::new(), errors)
-}
-
-/// Reads the pairs where somebody knows what may stand behind a key.
-pub(super) fn pairs_of(
+/// Reads pairs; `may_stand` says what may stand behind a key. A key that is there twice counts
+/// the first time.
+pub(super) fn pairs(
     trees: &[TokenTree],
-    separator: char,
     may_stand: impl Fn(&str) -> String,
     errors: &mut Errors,
 ) -> Vec<Pair> {
@@ -31,24 +24,24 @@ pub(super) fn pairs_of(
     let mut rest = trees;
     while let Some((first, after)) = rest.split_first() {
         if is_separator(first) {
-            if !is_punct(first, separator) {
-                wanted(first, separator, errors);
+            if !is_punct(first, ';') {
+                wanted(first, errors);
             }
             rest = after;
             continue;
         }
         let TokenTree::Ident(key) = first else {
             errors.push(first, &m::NO_KEY);
-            rest = &rest[length(rest, separator)..];
+            rest = &rest[length(rest)..];
             continue;
         };
-        let after = colon(key, after, separator, errors);
-        let (value, next) = after.split_at(length(after, separator));
+        let after = colon(key, after, errors);
+        let (value, next) = after.split_at(length(after));
         if value.is_empty() {
             errors.say(key, m::NO_VALUE.text, &may_stand(&key.to_string()));
         }
         if let Some(TokenTree::Ident(next)) = next.first() {
-            wanted(next, separator, errors);
+            wanted(next, errors);
         }
         rest = next;
         if pairs.iter().any(|pair| pair.key == *key) {
@@ -63,51 +56,38 @@ pub(super) fn pairs_of(
     pairs
 }
 
-fn wanted(at: impl quote::ToTokens, separator: char, errors: &mut Errors) {
-    let place = if separator == ';' { "clause" } else { "key" };
-    let text = format!("expected `{separator}` before the next {place}");
-    errors.say(at, &text, "");
+fn wanted(at: impl quote::ToTokens, errors: &mut Errors) {
+    errors.say(at, "expected `;` before the next clause", "");
 }
 
 /// Skips the colon. `crate = path` is written as in attributes.
-fn colon<'t>(
-    key: &Ident,
-    after: &'t [TokenTree],
-    separator: char,
-    errors: &mut Errors,
-) -> &'t [TokenTree] {
-    let message = match separator {
-        ';' => &m::NO_COLON,
-        _ => &m::NO_KEY_COLON,
-    };
+fn colon<'t>(key: &Ident, after: &'t [TokenTree], errors: &mut Errors) -> &'t [TokenTree] {
     match after.split_first() {
         Some((first, rest)) if is_punct(first, ':') => rest,
         Some((first, rest)) if is_punct(first, '=') => {
             if key != "crate" {
-                errors.push(first, message);
+                errors.push(first, &m::NO_COLON);
             }
             rest
         }
         Some((first, _)) => {
-            errors.push(first, message);
+            errors.push(first, &m::NO_COLON);
             after
         }
         None => after,
     }
 }
 
-/// Returns how many trees belong to a value: up to a separator, or to the next key
-/// where the separator was forgotten.
-fn length(trees: &[TokenTree], separator: char) -> usize {
+/// Returns the number of trees of a value: up to a semicolon, or to the next key where the
+/// semicolon was forgotten.
+fn length(trees: &[TokenTree]) -> usize {
     let ends = |index: &usize| {
         let (tree, next) = (&trees[*index], trees.get(index + 1));
-        // A list of words has commas of its own.
-        let separates = is_separator(tree) && !(separator == ';' && is_punct(tree, ','));
         let colon = |tree: &TokenTree| matches!(tree, TokenTree::Punct(p) if p.as_char() == ':' && p.spacing() == Spacing::Alone);
         let key = *index > 0 && matches!(tree, TokenTree::Ident(_)) && next.is_some_and(colon);
         // The second half of `::` is no colon of a key.
         let path = *index > 0 && is_punct(&trees[index - 1], ':');
-        separates || (key && !path)
+        is_punct(tree, ';') || (key && !path)
     };
     (0..trees.len()).find(ends).unwrap_or(trees.len())
 }

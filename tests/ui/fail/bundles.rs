@@ -34,6 +34,4 @@ dalembert::dynamics! {
     outputs: alone = gravity;
 }
 
-fn main() {
-    let _ = bundle_part::still(&[0.0, 0.0]);
-}
+fn main() {}

@@ -6,24 +6,22 @@ dalembert::dynamics! {
     outputs: gravity;
 }
 
-// A robot in the macro is called after its module.
+// The text of a robot file has errors of its own, each with its line.
 dalembert::dynamics! {
-    mod PlanarArm {
-        convention: standard;
-        gravity: [0, -9.81, 0];
-        joint { kind: revolute, a: 1, mass: 1, com: [-0.5, 0, 0], inertia: [0, 1/12, 1/12, 0, 0, 0] }
-    }
+    mod text = r#"
+        name = "PlanarArm"
+        convention = "standard"
+        gravity = [0, nan, 0]
+        [[joint]]
+        kind = "revolut"
+        a = 1
+    "#;
     outputs: gravity;
 }
 
-// It has its name already.
+// A robot is no block.
 dalembert::dynamics! {
-    mod named_robot {
-        name: planar;
-        convention: standard;
-        gravity: [0, -9.81, 0];
-        joint { kind: revolute, a: 1, mass: 1, com: [-0.5, 0, 0], inertia: [0, 1/12, 1/12, 0, 0, 0] }
-    }
+    mod block { convention: standard; }
     outputs: gravity;
 }
 

@@ -1,23 +1,15 @@
-//! Scenes in the macro.
+//! Scenes by the clause.
 
-// A scene in the macro: its mistakes are at its tokens.
+// The robot file has none, and the clause takes a name alone.
 dalembert::dynamics! {
-    mod scene_beside_file = "robots/planar2r.toml";
-    outputs: inverse_dynamics;
-    scalar: f64;
-    scene: hold {
-        lock: { elbw: pi/2 },
-        tolerance: { value: -1e-3, relative_to: range },
-        box: { velocity: [1, 2, 3] },
-    };
+    mod no_scene = "robots/planar2r.toml";
+    scene: pick;
 }
 
-// A bound needs a box, and T needs limits: the file has neither.
 dalembert::dynamics! {
-    mod scene_without_box = "robots/planar2r.toml";
+    mod scene_in_the_clause = "robots/planar2r.toml";
     outputs: inverse_dynamics;
-    scalar: f64;
-    scene: hold { outputs: [inverse_dynamics], tolerance: { value: 1e-3, relative_to: actuator } };
+    scene: hold { lock: { elbow: pi/2 } };
 }
 
 fn main() {}

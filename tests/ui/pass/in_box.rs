@@ -3,15 +3,24 @@
 //! limits turns without end. A list of outputs may stand in brackets.
 dalembert::dynamics! {
     /// A joint with limits and one without.
-    pub mod arm {
-        convention: standard;
-        gravity: [0, -9.81, 0];
-        joint {
-            kind: revolute, a: 1, mass: 1, com: [-0.5, 0, 0], inertia: [0, 1/12, 1/12, 0, 0, 0],
-            limits: { position: [-2, 2] },
-        }
-        joint { kind: revolute, a: 1, mass: 1, com: [-0.5, 0, 0], inertia: [0, 1/12, 1/12, 0, 0, 0] }
-    }
+    pub mod arm = r#"
+        name = "arm"
+        convention = "standard"
+        gravity = [0, -9.81, 0]
+        [[joint]]
+        kind = "revolute"
+        a = 1
+        mass = 1
+        com = [-0.5, 0, 0]
+        inertia = [0, "1/12", "1/12", 0, 0, 0]
+        limits = { position = [-2, 2] }
+        [[joint]]
+        kind = "revolute"
+        a = 1
+        mass = 1
+        com = [-0.5, 0, 0]
+        inertia = [0, "1/12", "1/12", 0, 0, 0]
+    "#;
     outputs: [gravity, inertia];
     sincos: polynomial;
 }

@@ -1,13 +1,17 @@
 //! Polynomials for sines: by the clause, over the joint's limits.
 dalembert::dynamics! {
-    mod arm {
-        convention: standard;
-        gravity: [0, -9.81, 0];
-        joint {
-            kind: revolute, a: 1, mass: 1, com: [-0.5, 0, 0], inertia: [0, 1/12, 1/12, 0, 0, 0],
-            limits: { position: [-2, 2] },
-        }
-    }
+    mod arm = r#"
+        name = "arm"
+        convention = "standard"
+        gravity = [0, -9.81, 0]
+        [[joint]]
+        kind = "revolute"
+        a = 1
+        mass = 1
+        com = [-0.5, 0, 0]
+        inertia = [0, "1/12", "1/12", 0, 0, 0]
+        limits = { position = [-2, 2] }
+    "#;
     outputs: gravity;
     sincos: polynomial;
     sincos_error: 1e-3;
