@@ -328,22 +328,22 @@ pub mod matrices;
 ///         limits = { position = [-2.2, 2.2], velocity = 3, acceleration = 20, torque = 5 }
 ///         [scene.pick]
 ///         outputs = ["inverse_dynamics"]
-///         # Torques wanted, by number from 1 or by name: all that are not locked, if left out.
+///         ## Torques wanted, by number from 1 or by name: all that are not locked, if left out.
 ///         joints = [1, "elbow"]
-///         # Joints that stay where they are.
+///         ## Joints that stay where they are.
 ///         lock = { wrist = "pi/6" }
-///         # Instead of the robot's.
+///         ## Instead of the robot's.
 ///         gravity = [0, -9.81, 0]
-///         # These terms and their argument are gone; or acceleration = "zero".
+///         ## These terms and their argument are gone; or acceleration = "zero".
 ///         velocity = "zero"
-///         # What the last link carries, in its frame; a point without `inertia`.
+///         ## What the last link carries, in its frame; a point without `inertia`.
 ///         payload = { mass = 0.5, com = [0, 0, 0.05], inertia = [0.01, 0.01, 0.01, 0, 0, 0] }
-///         # Where bounds hold: an entry a joint. What is left out is the joints' limits.
+///         ## Where bounds hold: an entry a joint. What is left out is the joints' limits.
 ///         box = { position = [[-1, 1], [0, 2], [0, 1]], acceleration = [5, 10, 10] }
-///         # Of the actuators' torque limits, or `range`: of a torque that the model attains
-///         # in the box, at or just below its largest. A value, or a list of them, one a joint.
+///         ## Of the actuators' torque limits, or `range`: of a torque that the model attains
+///         ## in the box, at or just below its largest. A value, or a list of them, one a joint.
 ///         tolerance = { value = 1e-2, relative_to = "actuator" }
-///         # Without it, the cheapest that the tolerance admits.
+///         ## Without it, the cheapest that the tolerance admits.
 ///         scalar = "f64"
 ///     "#;
 ///     scene: pick;
