@@ -1,6 +1,5 @@
-//! One function by all its entries in one run, f64 and f32: a state a call, the
-//! same with sines given, and batches of 1024 states, in rows and in columns; in the vectors that
-//! the processor has, in those of AVX2 and in those of a plain build. Beside each stands how many
+//! One function in one run, f64 and f32: a state a call, and batches of 1024 states in columns,
+//! in the vectors that the processor has, in those of AVX2 and in those of a plain build. Beside each stands how many
 //! times the limit of the processor's ports it takes (`ports.rs`), and what gcc -O3 makes of the
 //! same functions in C, if there is a gcc.
 //!
@@ -13,7 +12,7 @@ mod rounds;
 
 use std::hint::black_box;
 
-use dalembert::batch::{Function, Vectors, columns_in, parallel, states_in};
+use dalembert::batch::{Function, Vectors, columns_in, parallel};
 use dalembert_codegen::workspace::task::Fma;
 use dalembert_model::scalar::field::Points;
 
@@ -27,13 +26,13 @@ use rounds::Rounds;
 dalembert::dynamics! {
     mod derivatives = "generated/robots/puma560.toml";
     outputs: inverse_dynamics_derivatives, forward_dynamics_derivatives;
-    entries: batch;
+    batch: on;
     scalar: f64, f32;
 }
 dalembert::dynamics! {
     mod fused = "generated/robots/puma560.toml";
     outputs: inverse_dynamics, forward_dynamics;
-    entries: batch;
+    batch: on;
     scalar: f64, f32;
     fma: on;
 }
@@ -98,18 +97,10 @@ macro_rules! bench {
                 .collect::<Vec<_>>()
         });
         let [a, b, c] = rows.each_ref().map(|rows| &rows[..]);
-        let state = |k: usize| $module::$function(&a[k], &b[k], &c[k]);
-        let mut found: Vec<_> = (0..STATES).map(state).collect();
-        if <Kind as Function<3, 6, $results, 4>>::FUSED {
-            // Batches have sines of their own, which are the same in all vectors.
-            let all =
-                states_in::<Kind, 3, 6, $results, 4>(Vectors::Portable, [a, b, c], &mut found);
-            assert!(all.is_ok());
-        }
-        let expected = found.clone();
         let mut in_columns: [Vec<$scalar>; $results] =
             std::array::from_fn(|_| vec![0.0; STATES + LINE]);
         let mut rounds = Rounds::of(STATES);
+        let mut expected = None;
         for _ in 0..ROUNDS {
             if $is_alone {
                 rounds.time("a call a state", || {
@@ -118,40 +109,22 @@ macro_rules! bench {
                     }
                 });
             }
-            for (vectors, rows, in_rows, gcc) in [
-                (
-                    Vectors::Avx512,
-                    "columns, AVX-512",
-                    "rows, AVX-512",
-                    "gcc -O3, AVX-512",
-                ),
-                (
-                    Vectors::Avx2,
-                    "columns, AVX2",
-                    "rows, AVX2",
-                    "gcc -O3, AVX2",
-                ),
-                (Vectors::Portable, "columns, plain", "rows, plain", ""),
+            for (vectors, name, gcc) in [
+                (Vectors::Avx512, "columns, AVX-512", "gcc -O3, AVX-512"),
+                (Vectors::Avx2, "columns, AVX2", "gcc -O3, AVX2"),
+                (Vectors::Portable, "columns, plain", ""),
             ] {
                 if !vectors.are_there() {
                     continue;
                 }
                 let mut slices = in_columns.each_mut().map(|column| aligned(column, STATES));
                 let arguments = black_box(columns.each_ref());
-                rounds.time(rows, || {
+                rounds.time(name, || {
                     assert!(
                         columns_in::<Kind, 3, 6, $results, 4>(vectors, arguments, &mut slices)
                             .is_ok()
                     );
                 });
-                rounds.time(in_rows, || {
-                    let arguments = black_box([a, b, c]);
-                    assert!(
-                        states_in::<Kind, 3, 6, $results, 4>(vectors, arguments, &mut found)
-                            .is_ok()
-                    );
-                });
-                assert!(found == expected);
                 let program = match vectors {
                     Vectors::Avx512 => &mut $compiled.wide,
                     _ => &mut $compiled.narrow,
@@ -160,10 +133,10 @@ macro_rules! bench {
                 if let Some(time) = time.and_then(|program| program.run($place)) {
                     rounds.note(gcc, time);
                 }
-                for (k, expected) in expected.iter().enumerate() {
-                    let own = slices.each_ref().map(|column| column[k]);
-                    assert!(<Kind as Function<3, 6, $results, 4>>::state(own) == *expected);
-                }
+                // The same bits in all vectors.
+                let own = slices.each_ref().map(|column| column.to_vec());
+                let expected = expected.get_or_insert_with(|| own.clone());
+                assert!(own == *expected);
             }
         }
         let operations = ports::operations::<Kind, 3, 6, $results, 4>();

@@ -7,7 +7,7 @@ use std::process::{Child, ChildStdout, Command, Stdio};
 
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::language::{Entries, Language, MathPath};
+use dalembert_codegen::workspace::language::Language;
 use dalembert_codegen::workspace::plan;
 use dalembert_codegen::workspace::program::Library;
 use dalembert_codegen::workspace::sincos::SinCos;
@@ -29,8 +29,7 @@ impl Gcc {
         let reading = read::parse(&source, &read::Options::default()).ok()?;
         let request = Request {
             sincos: SinCos::Together,
-            math: MathPath::of(Library::Together),
-            entries: Entries::Batch,
+            batch: true,
             language: Language::C,
             plan: plan::file::beside(&robot).ok()?,
             fma,

@@ -49,7 +49,6 @@ pub use dalembert_model::read;
 #[cfg(feature = "batch")]
 pub use dalembert_batch as batch;
 
-pub mod interface;
 #[cfg(feature = "nalgebra")]
 pub mod matrices;
 
@@ -153,32 +152,25 @@ pub mod matrices;
 ///   operations less.
 /// - `prefer: operations;` takes the cheapest code even where its rounding error
 ///   is more than four times the textbook form's, which `accuracy`, the default,
-///   does not. It says nothing about code that a plan keeps. `latency` is as `accuracy`
-///   and then takes sums and products, a plan's too, in the order in which the longest
-///   chain of operations is shortest, and says how long that is.
+///   does not. It says nothing about code that a plan keeps.
 /// - `fma: on;` makes one operation of a product and the sum that alone reads it:
 ///   `t1.mul_add(t2, t3)`, rounded once. It needs `std`, and a build for a processor
 ///   that has it: `-C target-cpu=native`, or `-C target-feature=+fma` on x86-64; aarch64
 ///   always does. Any other calls a function of C for each, slower by far than the
 ///   two operations are. With `off`, the default, every operation is rounded.
 /// - `sincos: auto;` takes polynomials for sines and cosines where a scene's
-///   tolerance admits them, else computes those of all angles together, within
-///   0.90 ulp, in vectors up to 8192 rad (f32: 100) and by libm beyond;
-///   `together` always does. `libm` calls libm angle by angle: three to five
-///   times as long, but less where nothing is optimised. `polynomial`
+///   tolerance admits them, else calls libm angle by angle, as `libm` always does.
+///   `together` computes those of all angles together, within 0.90 ulp, in vectors up to
+///   8192 rad (f32: 100) and by libm beyond: in a third to a fifth of libm's time, where
+///   code is optimised. `polynomial`
 ///   takes polynomials over the joints' limits, or the scene's box; outside
 ///   they are wrong. For a joint without limits, whole turns are taken off first:
 ///   they hold to ±1e6 rad, in f32 to ±1e3.
 /// - `sincos_error: 1e-9;` is the largest error of each sine and cosine, for
 ///   `sincos: polynomial;` alone. The default is `1e-6`; in a scene with a
 ///   tolerance that decides, and no error is given.
-/// - `entries: single;`, or more ways to call each function, which share its
-///   arithmetic: `with_sincos` adds `NAME_with_sincos` for who has the sines
-///   already, `lanes` also `NAME_lanes`, several states at once, and `batch` also
-///   `NAME_batch` and `NAME_columns`, slices of states ([below](#many-states)).
-/// - `interface: functions;`, or `traits`: besides its functions the module has a
-///   `Robot` with the traits of [`interface`](mod@interface), for code that is
-///   generic over robots.
+/// - `batch: on;` adds `NAME_columns` to each function, for any number of states
+///   ([below](#many-states)).
 /// - `parameters: payload;`, `gravity` or both make arguments of what are constants
 ///   of the robot otherwise ([below](#parameters-at-run-time)).
 /// - `scene: NAME;` generates only what that scene of the robot file needs. Then `outputs`
@@ -194,7 +186,6 @@ pub mod matrices;
 /// dalembert::dynamics! {
 ///     mod arm = "generated/robots/planar2r.toml";
 ///     outputs: servo = inverse_dynamics + jacobian + forward_kinematics;
-///     interface: traits;
 /// }
 /// let (q, qd, qdd) = ([0.3, -0.5], [0.7, 0.2], [0.0, 0.0]);
 /// let arm::Servo { tau, jacobian, pose } = arm::servo(&q, &qd, &qdd);
@@ -247,48 +238,32 @@ pub mod matrices;
 /// constants stood, so that a payload costs a call little. Every function is proved
 /// with the payload's ten numbers as variables. Kinematics take none; what depends
 /// on more of a payload than joints feel (`potential_energy`, `reaction_wrenches`,
-/// `dalembert_terms`) is refused, as are scenes with a tolerance and `entries: batch;`.
+/// `dalembert_terms`) is refused, as are scenes with a tolerance and `batch: on;`.
 /// A plan keeps their programs beside those of the robot's own parameters.
 ///
 /// # Many states
 ///
-/// Whoever has many states at once has them computed in the lanes of vectors:
+/// Many states at once are computed in the vectors that the processor has:
 ///
 #[cfg_attr(feature = "batch", doc = "```")]
 #[cfg_attr(not(feature = "batch"), doc = "```ignore (needs the feature batch)")]
 /// dalembert::dynamics! {
 ///     mod arm = "generated/robots/planar2r.toml";
 ///     outputs: gravity;
-///     entries: batch;
+///     batch: on;
 /// }
-/// // An array of structures: an entry a state.
-/// let q = vec![[0.3, -0.5]; 1000];
-/// let mut load = vec![[0.0; 2]; 1000];
-/// arm::gravity_batch(&q, &mut load)?;
-/// assert_eq!(load[999], arm::gravity(&q[999]));
-///
-/// // A structure of arrays: a slice a joint, which is faster.
+/// // A slice for each joint.
 /// let (shoulder, elbow) = (vec![0.3; 1000], vec![-0.5; 1000]);
 /// let (mut first, mut second) = (vec![0.0; 1000], vec![0.0; 1000]);
 /// arm::gravity_columns(&[&shoulder, &elbow], &mut [&mut first, &mut second])?;
-/// assert_eq!([first[0], second[0]], load[0]);
-///
-/// // Eight states, by arrays alone: entry [i][l] is joint i's in state l.
-/// let lanes: [[f64; 8]; 2] = arm::gravity_lanes(&[[0.3; 8], [-0.5; 8]]);
-/// assert_eq!([lanes[0][7], lanes[1][7]], load[0]);
-///
-/// // One state, of which somebody has the sines: those of `angles`.
-/// let (sin, cos) = (q[0].map(f64::sin), q[0].map(f64::cos));
-/// let same = arm::gravity_with_sincos(&q[0], &sin, &cos);
-/// assert!((same[0] - load[0][0]).abs() < 1e-14);
+/// assert_eq!([first[999], second[999]], arm::gravity(&[0.3, -0.5]));
 /// # Ok::<(), dalembert::batch::Unequal>(())
 /// ```
 ///
 /// Batches need the feature `batch` of this crate; with `std` too they take the
 /// vectors that the processor has, whatever the build is for. Every state has
-/// the results that it has alone, to the last bit. `sincos: together`, the
-/// default, and `polynomial` are computed in lanes; libm's sines are called for
-/// one state after the other.
+/// the results that it has alone, to the last bit. With `sincos: together` and `polynomial`
+/// sines are computed in vectors; libm's are called for one state after the other.
 ///
 /// # Scenes
 ///
@@ -386,9 +361,6 @@ pub use dalembert_macros::dynamics;
 /// For generated code only.
 #[doc(hidden)]
 pub mod __private {
-    /// The functions that generated bodies call, by one name whichever library they are from.
-    pub mod math {
-        pub use dalembert_sines as together;
-        pub use libm::{cos, cosf, sin, sincos, sincosf, sinf, sqrt, sqrtf};
-    }
+    pub use dalembert_sines;
+    pub use libm;
 }

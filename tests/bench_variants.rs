@@ -1,8 +1,7 @@
 //! The functions that the bench of sines compares are what the generator
 //! writes: one program, certified with polynomials to stay within 1e-6 of the
 //! actuators' limits, printed with them, with libm's sines, with std's, and with
-//! those of all angles together; those of the bench of batches, by all their
-//! entries; and the recursion in symbols that nothing simplified.
+//! those of all angles together; those of the bench of batches; and the recursion in symbols that nothing simplified.
 //!
 //! What differs is written anew before the test fails.
 
@@ -17,7 +16,7 @@ use dalembert_codegen::workspace::certificate::Certificate;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::language::function::write;
-use dalembert_codegen::workspace::language::{Entries, MathPath, Printed};
+use dalembert_codegen::workspace::language::Printed;
 use dalembert_codegen::workspace::plan;
 use dalembert_codegen::workspace::program::{Library, Program, ScalarType};
 use dalembert_codegen::workspace::scene::SceneRobot;
@@ -65,16 +64,18 @@ fn the_bench_of_sines_is_up_to_date() {
         robot.name,
         robot.short_hash()
     );
-    for (name, math, sines) in [
-        ("libm_sines", MathPath::libm("libm"), &[][..]),
-        ("std_sines", MathPath::libm("crate::std_math"), &[][..]),
-        ("together", MathPath::together("dalembert_sines"), &[][..]),
-        ("polynomials", MathPath::libm(""), sines.as_slice()),
+    let std_sines = "use crate::std_math as libm;\n";
+    for (name, library, sines, before) in [
+        ("libm_sines", Library::Libm, &[][..], ""),
+        ("std_sines", Library::Libm, &[][..], std_sines),
+        ("together", Library::Together, &[][..], ""),
+        ("polynomials", Library::Libm, sines.as_slice(), ""),
     ] {
-        let code = sincos::lowered(program, scalar, math.library, sines);
-        let code = write(&Printed::of(program, &code), &math.path, &[]);
-        text +=
-            &format!("\n#[allow(clippy::all, clippy::pedantic)]\npub mod {name} {{\n{code}}}\n");
+        let code = sincos::lowered(program, scalar, library, sines);
+        let code = write(&Printed::of(program, &code), library, &[]);
+        text += &format!(
+            "\n#[allow(clippy::all, clippy::pedantic)]\npub mod {name} {{\n{before}{code}}}\n"
+        );
     }
     keep("benches/generated/puma560_sines.rs", &text);
 }
@@ -86,8 +87,7 @@ fn the_bench_of_batches_is_up_to_date() {
     let reading = read::parse(&source, &read::Options::default()).unwrap();
     let request = Request {
         sincos: SinCos::Together,
-        math: MathPath::of(Library::Together),
-        entries: Entries::Batch,
+        batch: true,
         plan: plan::file::beside(&file).unwrap(),
         ..Request::of(&[Function::InverseDynamics, Function::ForwardDynamics])
     };
@@ -108,9 +108,8 @@ fn the_recursion_in_symbols_is_up_to_date() {
         let function = Function::InverseDynamics;
         let traced = trace(&scene_robot, function, Formulation::NewtonEulerLink);
         let program = Program::in_scene(&scene_robot, function, &traced.graph);
-        let math = MathPath::libm("libm");
-        let code = sincos::lowered(&program, ScalarType::F64, math.library, &[]);
-        let code = write(&Printed::of(&program, &code), &math.path, &[]);
+        let code = sincos::lowered(&program, ScalarType::F64, Library::Libm, &[]);
+        let code = write(&Printed::of(&program, &code), Library::Libm, &[]);
         text +=
             &format!("\n#[allow(clippy::all, clippy::pedantic)]\npub mod {name} {{\n{code}}}\n");
     }

@@ -10,7 +10,7 @@ use core::marker::PhantomData;
 use pulp::x86::{V3, V4};
 
 use crate::block::ending;
-use crate::slices::{check_columns, check_states, run_columns, run_states};
+use crate::slices::{check_columns, run_columns};
 use crate::vector::BLOCK;
 use crate::{Float, Function, Unequal, Vector};
 
@@ -47,55 +47,6 @@ impl Vectors {
             Vectors::Avx2 | Vectors::Avx512 => false,
         }
     }
-}
-
-/// Computes the function at every state.
-///
-/// # Errors
-/// [`Unequal`]; then nothing is computed.
-pub fn states<F, const A: usize, const N: usize, const M: usize, const K: usize>(
-    arguments: [&[[F::Scalar; N]]; A],
-    results: &mut [F::State],
-) -> Result<(), Unequal>
-where
-    F: Function<A, N, M, K>,
-{
-    states_in::<F, A, N, M, K>(Vectors::widest(), arguments, results)
-}
-
-/// [`states`] in vectors of the caller's choice; where the processor lacks them, in portable
-/// ones. The bits are the same.
-///
-/// # Errors
-/// [`Unequal`]; then nothing is computed.
-pub fn states_in<F, const A: usize, const N: usize, const M: usize, const K: usize>(
-    vectors: Vectors,
-    arguments: [&[[F::Scalar; N]]; A],
-    results: &mut [F::State],
-) -> Result<(), Unequal>
-where
-    F: Function<A, N, M, K>,
-{
-    check_states(&arguments, results.len())?;
-    if results.is_empty() {
-        return Ok(());
-    }
-    let from = BLOCK.saturating_sub(results.len());
-    let mut arguments = arguments;
-    let blocks: [[[F::Scalar; N]; BLOCK]; A];
-    if from > 0 {
-        blocks = arguments.map(ending);
-        arguments = blocks.each_ref().map(|rows| &rows[..]);
-    }
-    run(
-        vectors,
-        States::<F, A, N, M, K> {
-            arguments,
-            results,
-            from,
-        },
-    );
-    Ok(())
 }
 
 /// Computes the function at every state, whose numbers stand in columns.
@@ -210,29 +161,6 @@ impl<W: Work, V: Vector<W::Scalar>> pulp::NullaryFnOnce for In<W, V::Token, V> {
     #[inline(always)]
     fn call(self) {
         self.0.with::<V>(self.1);
-    }
-}
-
-struct States<'a, F, const A: usize, const N: usize, const M: usize, const K: usize>
-where
-    F: Function<A, N, M, K>,
-{
-    arguments: [&'a [[F::Scalar; N]]; A],
-    results: &'a mut [F::State],
-    /// The first state of which there is a result, of at least a block.
-    from: usize,
-}
-
-impl<F, const A: usize, const N: usize, const M: usize, const K: usize> Work
-    for States<'_, F, A, N, M, K>
-where
-    F: Function<A, N, M, K>,
-{
-    type Scalar = F::Scalar;
-
-    #[inline(always)]
-    fn with<V: Vector<F::Scalar>>(self, token: V::Token) {
-        run_states::<F, V, A, N, M, K>(token, self.arguments, self.results, self.from);
     }
 }
 

@@ -12,8 +12,6 @@ use crate::{Float, Vector};
 pub trait Function<const A: usize, const N: usize, const M: usize, const K: usize> {
     /// f64 or f32.
     type Scalar: Float;
-    /// The results of one state.
-    type State;
     /// Says whether the sines fuse their products as well, as the function's text does.
     const FUSED: bool = false;
 
@@ -26,7 +24,4 @@ pub trait Function<const A: usize, const N: usize, const M: usize, const K: usiz
         sin: &[V; K],
         cos: &[V; K],
     ) -> [V; M];
-
-    /// Returns the results of a state by their numbers.
-    fn state(results: [Self::Scalar; M]) -> Self::State;
 }

@@ -1,10 +1,9 @@
 //! Generated dynamics at any number of states, with the vectors that the
 //! processor has.
 //!
-//! A generator that is asked for `entries: batch` prints two functions beside
-//! each of its own, which end here: `NAME_batch` takes an array of structures,
-//! a slice of states; `NAME_columns` a structure of arrays, a slice for each
-//! joint. The latter is the faster one: nothing has to be moved.
+//! A generator that is asked for `batch: on` prints a function `NAME_columns` beside
+//! each of its own, which ends here. States stand in columns: a slice for each joint of an
+//! argument, and one for each number of the result.
 //!
 //! ```
 //! use dalembert_batch::{Floats, Vector};
@@ -13,25 +12,22 @@
 //! pub struct GravityBatch;
 //! impl dalembert_batch::Function<1, 1, 1, 1> for GravityBatch {
 //!     type Scalar = f64;
-//!     type State = [f64; 1];
 //!     fn angles<V: Floats<f64>>([q]: &[[V; 1]; 1]) -> [V; 1] {
 //!         [q[0]]
 //!     }
 //!     fn vectors<V: Vector<f64>>(_: &[[V; 1]; 1], _sin: &[V; 1], cos: &[V; 1]) -> [V; 1] {
 //!         [cos[0] * 9.81]
 //!     }
-//!     fn state(results: [f64; 1]) -> [f64; 1] {
-//!         results
-//!     }
 //! }
 //!
-//! let q = [[0.0], [0.5], [1.0]];
-//! let mut tau = [[0.0]; 3];
-//! dalembert_batch::states::<GravityBatch, 1, 1, 1, 1>([&q], &mut tau)?;
-//! assert_eq!(tau[1], [9.81 * 0.5f64.cos()]);
+//! let q = [0.0, 0.5, 1.0];
+//! let mut tau = [0.0; 3];
+//! dalembert_batch::columns::<GravityBatch, 1, 1, 1, 1>([&[&q]], &mut [&mut tau])?;
+//! assert_eq!(tau[1], 9.81 * 0.5f64.cos());
 //!
-//! let error = dalembert_batch::states::<GravityBatch, 1, 1, 1, 1>([&q[..2]], &mut tau);
-//! assert_eq!(error.unwrap_err().to_string(), "argument 1 has 2 states, the results have 3");
+//! let error = dalembert_batch::columns::<GravityBatch, 1, 1, 1, 1>([&[&q[..2]]], &mut [&mut tau]);
+//! let said = error.unwrap_err().to_string();
+//! assert_eq!(said, "entry 1 of argument 1 has 2 states, the results have 3");
 //! # Ok::<(), dalembert_batch::Unequal>(())
 //! ```
 //!
@@ -50,8 +46,8 @@
 //! - `function`: what a generator says of a function
 //! - `unequal`: slices of different lengths
 //! - `vector`: floats side by side, `x86` and `portable`: those of a processor; `float`: which
-//!   there are of a float; `quads`: numbers that move among vectors
-//! - `block`: so many states of slices; `slices`: from slices to vectors and back
+//!   there are of a float
+//! - `block`: so many states of columns; `slices`: from columns to vectors and back
 //! - `dispatch`: as wide as the processor's vectors are
 //! - `parallel`: on all cores
 #![no_std]
@@ -66,8 +62,6 @@ mod vector;
 
 mod portable;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
-mod quads;
-#[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod x86;
 
 mod block;
@@ -80,7 +74,7 @@ pub mod parallel;
 
 #[doc(no_inline)]
 pub use dalembert_sines::text::Floats;
-pub use dispatch::{Vectors, columns, columns_in, states, states_in};
+pub use dispatch::{Vectors, columns, columns_in};
 pub use float::Float;
 pub use function::Function;
 pub use unequal::{Slice, Unequal};

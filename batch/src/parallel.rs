@@ -9,7 +9,7 @@ use core::array::from_fn;
 use core::mem::take;
 use std::sync::Mutex;
 
-use crate::slices::{check_columns, check_states};
+use crate::slices::check_columns;
 use crate::vector::BLOCK;
 use crate::{Function, Unequal};
 
@@ -20,37 +20,6 @@ const TASK: usize = 1 << 19;
 /// Less is computed at once: a thread would wake up, which takes ten microseconds and on a virtual
 /// machine more, when nothing is left.
 const LEAST: usize = 3 << 20;
-
-/// Runs [`states`](crate::states) on all cores.
-///
-/// # Errors
-/// [`Unequal`]; then nothing is computed.
-pub fn states<F, const A: usize, const N: usize, const M: usize, const K: usize>(
-    arguments: [&[[F::Scalar; N]]; A],
-    results: &mut [F::State],
-) -> Result<(), Unequal>
-where
-    F: Function<A, N, M, K>,
-    F::Scalar: Sync,
-    F::State: Send,
-{
-    check_states(&arguments, results.len())?;
-    let Some(task) = task::<F, A, N, M, K>(results.len()) else {
-        return crate::states::<F, A, N, M, K>(arguments, results);
-    };
-    share(
-        (arguments, results),
-        |(arguments, results)| {
-            let count = task.min(results.len());
-            let (own, others) = take(results).split_at_mut(count);
-            *results = others;
-            let own_arguments = arguments.map(|argument| &argument[..count]);
-            *arguments = arguments.map(|argument| &argument[count..]);
-            (count > 0).then_some((own_arguments, own))
-        },
-        |(arguments, results)| crate::states::<F, A, N, M, K>(arguments, results),
-    )
-}
 
 /// Runs [`columns`](crate::columns) on all cores.
 ///

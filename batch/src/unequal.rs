@@ -5,8 +5,6 @@ use core::fmt;
 /// The slice of a call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Slice {
-    /// An argument, counted from one.
-    Argument(usize),
     /// The column of an argument's entry, both counted from one.
     Entry(usize, usize),
     /// The column of a number of the result, counted from one.
@@ -20,7 +18,7 @@ pub struct Unequal {
     pub slice: Slice,
     /// The number of states of the slice.
     pub found: usize,
-    /// The number of states of the results; of columns, the first of them.
+    /// The number of states of the first column of the results.
     pub expected: usize,
 }
 
@@ -44,7 +42,6 @@ impl fmt::Display for Unequal {
             found, expected, ..
         } = self;
         match self.slice {
-            Slice::Argument(a) => write!(f, "argument {a} has {found} states")?,
             Slice::Entry(a, i) => write!(f, "entry {i} of argument {a} has {found} states")?,
             Slice::Result(k) => {
                 return write!(

@@ -7,8 +7,7 @@ use dalembert_sines::text::{self, Floats, Number, Products};
 use pulp::x86::{V3, V4};
 use pulp::{Simd, cast, f32x8, f32x16, f64x4, f64x8, u32x8, u32x16, u64x4, u64x8};
 
-use crate::quads::{Quads, quads};
-use crate::vector::{BLOCK, Vector, columns_by_numbers, lanes, rows_by_numbers};
+use crate::vector::{BLOCK, Vector, lanes};
 
 macro_rules! operation {
     ($vector:ident, $operation:ident, $method:ident, $by:ident) => {
@@ -119,8 +118,6 @@ macro_rules! vector {
                 |vector| vector.0,
                 |token, from| $vector(token, cast(from))
             );
-
-            quads!($float, $vector);
 
             #[inline(always)]
             fn sqrt(self) -> Self {

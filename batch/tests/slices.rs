@@ -1,7 +1,9 @@
-//! From slices to vectors and back: every state once, in its place, whatever the
+//! From columns to vectors and back: every state once, in its place, whatever the
 //! length and the vectors.
 
-use dalembert_batch::{Floats, Function, Vector, Vectors, columns, columns_in, states, states_in};
+use std::array::from_fn;
+
+use dalembert_batch::{Floats, Function, Unequal, Vector, Vectors, columns, columns_in};
 
 /// x y, x − 2 y and x/y of the first entry of one argument and the second of the
 /// other.
@@ -9,7 +11,6 @@ struct Three;
 
 impl Function<2, 2, 3, 0> for Three {
     type Scalar = f32;
-    type State = (f32, [f32; 2]);
 
     #[inline(always)]
     fn angles<V: Floats<f32>>(_: &[[V; 2]; 2]) -> [V; 0] {
@@ -21,11 +22,6 @@ impl Function<2, 2, 3, 0> for Three {
         let (x, y) = (x[0], y[1]);
         [x * y, x - y * 2.0, x / y]
     }
-
-    #[inline(always)]
-    fn state([product, difference, quotient]: [f32; 3]) -> (f32, [f32; 2]) {
-        (product, [difference, quotient])
-    }
 }
 
 /// Every operation of a vector on angles of every size, one of which is NaN.
@@ -33,7 +29,6 @@ struct Operations;
 
 impl Function<1, 1, 8, 2> for Operations {
     type Scalar = f64;
-    type State = [f64; 8];
 
     #[inline(always)]
     fn angles<V: Floats<f64>>([x]: &[[V; 1]; 1]) -> [V; 2] {
@@ -49,14 +44,25 @@ impl Function<1, 1, 8, 2> for Operations {
             .mul_add(x.all(1.0 / 3.0), -x.each(f64::abs) * (1.0 / 3.0));
         [sin[0], cos[0], sin[1], cos[1], floor, fraction, root, -x]
     }
-
-    #[inline(always)]
-    fn state(results: [f64; 8]) -> [f64; 8] {
-        results
-    }
 }
 
 const ALL: [Vectors; 3] = [Vectors::Portable, Vectors::Avx2, Vectors::Avx512];
+
+/// Computes a function of one argument in columns; returns the columns of its results.
+fn computed<F, const N: usize, const M: usize, const K: usize>(
+    vectors: Vectors,
+    x: &[Vec<F::Scalar>; N],
+    count: usize,
+) -> [Vec<F::Scalar>; M]
+where
+    F: Function<1, N, M, K>,
+{
+    let x = x.each_ref().map(|column| &column[..count]);
+    let mut found = from_fn(|_| vec![F::Scalar::default(); count]);
+    let mut slices = found.each_mut().map(Vec::as_mut_slice);
+    columns_in::<F, 1, N, M, K>(vectors, [&x], &mut slices).unwrap();
+    found
+}
 
 /// All vectors compute what one number after the other does.
 #[test]
@@ -66,81 +72,25 @@ fn every_operation_in_all_vectors() {
         6 => odd[k / 7 % odd.len()],
         _ => (k as f64 - 90.0) * 0.0371,
     };
-    let x: Vec<[f64; 1]> = (0..200).map(|k| [value(k)]).collect();
+    let x = [(0..200).map(value).collect()];
     for vectors in ALL {
         for count in [1, 7, 64, 65, 200] {
-            let mut found = vec![[0.5; 8]; count];
-            states_in::<Operations, 1, 1, 8, 2>(vectors, [&x[..count]], &mut found).unwrap();
-            for (found, [x]) in found.iter().zip(&x) {
-                let (sin, cos) = dalembert_sines::sincos(&[*x, x * 1e4]);
+            let found: [_; 8] = computed::<Operations, 1, 8, 2>(vectors, &x, count);
+            for (k, &x) in x[0][..count].iter().enumerate() {
+                let (sin, cos) = dalembert_sines::sincos(&[x, x * 1e4]);
                 let root = f64::mul_add((x * x).sqrt(), 1.0 / 3.0, -x.abs() * (1.0 / 3.0));
                 let rest = [x.floor(), x - x.floor(), root, -x];
                 let expected = [sin[0], cos[0], sin[1], cos[1]].into_iter().chain(rest);
-                for (found, expected) in found.iter().zip(expected) {
-                    let same = found.to_bits() == expected.to_bits();
+                for (column, expected) in found.iter().zip(expected) {
+                    let same = column[k].to_bits() == expected.to_bits();
                     assert!(
-                        same || (found.is_nan() && expected.is_nan()),
+                        same || (column[k].is_nan() && expected.is_nan()),
                         "{vectors:?}: {x:e}"
                     );
                 }
             }
         }
     }
-}
-
-/// Rows that are moved in vectors, four numbers at a time: five to read, six to write.
-macro_rules! moved {
-    ($kind:ident, $float:ident) => {
-        struct $kind;
-
-        impl Function<2, 5, 6, 0> for $kind {
-            type Scalar = $float;
-            type State = [$float; 6];
-
-            #[inline(always)]
-            fn angles<V: Floats<$float>>(_: &[[V; 5]; 2]) -> [V; 0] {
-                []
-            }
-
-            #[inline(always)]
-            fn vectors<V: Vector<$float>>([x, y]: &[[V; 5]; 2], _: &[V; 0], _: &[V; 0]) -> [V; 6] {
-                [x[4], y[3], x[2], y[1], x[0], x[1] + y[4]]
-            }
-
-            #[inline(always)]
-            fn state(results: [$float; 6]) -> [$float; 6] {
-                results
-            }
-        }
-    };
-}
-moved!(MovedDoubles, f64);
-moved!(MovedFloats, f32);
-
-/// Every row comes back in its place, whatever the length and the vectors.
-#[test]
-fn rows_of_every_length_in_all_vectors() {
-    macro_rules! check {
-        ($kind:ident, $float:ident) => {
-            for count in (0..=2 * 64 + 17).chain([1000]) {
-                let number = |at: usize| (at as $float).sqrt();
-                let row = |k: usize, from: usize| [0, 1, 2, 3, 4].map(|i| number(from + 5 * k + i));
-                let x: Vec<[$float; 5]> = (0..count).map(|k| row(k, 0)).collect();
-                let y: Vec<[$float; 5]> = (0..count).map(|k| row(k, 7777)).collect();
-                for vectors in ALL {
-                    // One more behind the results: nobody writes there.
-                    let mut found = vec![[-1.0; 6]; count + 1];
-                    states_in::<$kind, 2, 5, 6, 0>(vectors, [&x, &y], &mut found[..count]).unwrap();
-                    for ((x, y), found) in x.iter().zip(&y).zip(&found) {
-                        assert_eq!(*found, [x[4], y[3], x[2], y[1], x[0], x[1] + y[4]]);
-                    }
-                    assert_eq!(found[count], [-1.0; 6]);
-                }
-            }
-        };
-    }
-    check!(MovedDoubles, f64);
-    check!(MovedFloats, f32);
 }
 
 /// Sines in which products are fused, of one angle more than stand side by side.
@@ -150,7 +100,6 @@ macro_rules! fused {
 
         impl Function<1, 5, 10, 5> for $kind {
             type Scalar = $float;
-            type State = [$float; 10];
             const FUSED: bool = true;
 
             #[inline(always)]
@@ -161,11 +110,6 @@ macro_rules! fused {
             #[inline(always)]
             fn vectors<V: Vector<$float>>(_: &[[V; 5]; 1], s: &[V; 5], c: &[V; 5]) -> [V; 10] {
                 [s[0], s[1], s[2], s[3], s[4], c[0], c[1], c[2], c[3], c[4]]
-            }
-
-            #[inline(always)]
-            fn state(results: [$float; 10]) -> [$float; 10] {
-                results
             }
         }
 
@@ -182,14 +126,12 @@ macro_rules! fused {
                         96 if has_odd => odd[k / 97 % odd.len()],
                         _ => (k as $float - 500.0) * 0.0371,
                     };
-                    let x: Vec<[$float; 5]> = (0..200)
-                        .map(|k| [0, 1, 2, 3, 4].map(|i| angle(5 * k + i)))
-                        .collect();
-                    let mut found = vec![[0.5; 10]; 200];
-                    states_in::<$kind, 1, 5, 10, 5>(vectors, [&x], &mut found).unwrap();
-                    for (x, found) in x.iter().zip(&found) {
-                        for (i, &x) in x.iter().enumerate() {
-                            let own = [found[i], found[5 + i]];
+                    let x = from_fn(|i| (0..200).map(|k| angle(5 * k + i)).collect());
+                    let found: [_; 10] = computed::<$kind, 5, 10, 5>(vectors, &x, 200);
+                    for k in 0..200 {
+                        for i in 0..5 {
+                            let x: $float = x[i][k];
+                            let own = [found[i][k], found[5 + i][k]];
                             let pair: [$float; 2] = alone::<$float, Fused>(x).into();
                             let same = own.map($float::to_bits) == pair.map($float::to_bits);
                             assert!(same || x.is_nan() || x.is_infinite(), "{vectors:?}: {x:e}");
@@ -212,54 +154,31 @@ fused!(
     fused_sines_of_floats_are_those_of_their_text
 );
 
-fn arguments(count: usize) -> [Vec<[f32; 2]>; 2] {
-    let first = (0..count).map(|k| [k as f32 + 0.5, f32::NAN]).collect();
-    let second = (0..count).map(|k| [f32::NAN, 3.0 - k as f32]).collect();
-    [first, second]
-}
-
-fn expected(count: usize) -> Vec<(f32, [f32; 2])> {
-    let state = |k: usize| {
-        let (x, y) = (k as f32 + 0.5, 3.0 - k as f32);
-        (x * y, [x - 2.0 * y, x / y])
-    };
-    (0..count).map(state).collect()
-}
-
-/// By either driver: `$states` and `$columns` take arguments and results.
-macro_rules! check {
-    ($count:expr, $states:expr, $columns:expr) => {{
-        let [first, second] = arguments($count);
-        // One more behind the results: nobody writes there.
-        let mut results = vec![(7.0, [7.0; 2]); $count + 1];
-        $states([&first, &second], &mut results[..$count]).unwrap();
-        assert_eq!(results[..$count], expected($count));
-        assert_eq!(results[$count], (7.0, [7.0; 2]));
-
-        let column = |from: &[[f32; 2]], i: usize| from.iter().map(|x| x[i]).collect::<Vec<_>>();
-        let first = [column(&first, 0), column(&first, 1)];
-        let second = [column(&second, 0), column(&second, 1)];
-        let first = first.each_ref().map(|column| column.as_slice());
-        let second = second.each_ref().map(|column| column.as_slice());
-        let mut results = [(); 3].map(|()| vec![7.0; $count + 1]);
-        let mut slices = results.each_mut().map(|column| &mut column[..$count]);
-        $columns([&first, &second], &mut slices).unwrap();
-        for (k, (x, [y, z])) in expected($count).into_iter().enumerate() {
-            assert_eq!([results[0][k], results[1][k], results[2][k]], [x, y, z]);
-        }
-        assert!(results.iter().all(|column| column[$count] == 7.0));
-    }};
+/// Checks a driver at so many states; what stands behind the results stays.
+fn check(
+    count: usize,
+    run: impl FnOnce([&[&[f32]; 2]; 2], &mut [&mut [f32]; 3]) -> Result<(), Unequal>,
+) {
+    let x: Vec<f32> = (0..count).map(|k| k as f32 + 0.5).collect();
+    let y: Vec<f32> = (0..count).map(|k| 3.0 - k as f32).collect();
+    let unread = vec![f32::NAN; count];
+    let mut results = [(); 3].map(|()| vec![7.0; count + 1]);
+    let mut slices = results.each_mut().map(|column| &mut column[..count]);
+    run([&[&x, &unread], &[&unread, &y]], &mut slices).unwrap();
+    for (k, (x, y)) in x.iter().zip(&y).enumerate() {
+        let expected = [x * y, x - 2.0 * y, x / y];
+        assert_eq!([results[0][k], results[1][k], results[2][k]], expected);
+    }
+    assert!(results.iter().all(|column| column[count] == 7.0));
 }
 
 #[test]
 fn every_length_in_all_vectors() {
     for vectors in ALL {
-        for count in 0..=2 * 64 + 17 {
-            check!(
-                count,
-                |arguments, results| states_in::<Three, 2, 2, 3, 0>(vectors, arguments, results),
-                |arguments, results| columns_in::<Three, 2, 2, 3, 0>(vectors, arguments, results)
-            );
+        for count in (0..=2 * 64 + 17).chain([1000]) {
+            check(count, |arguments, results| {
+                columns_in::<Three, 2, 2, 3, 0>(vectors, arguments, results)
+            });
         }
     }
 }
@@ -267,24 +186,18 @@ fn every_length_in_all_vectors() {
 #[test]
 fn every_length_as_the_processor_has_it() {
     for count in 0..=67 {
-        check!(
-            count,
-            states::<Three, 2, 2, 3, 0>,
-            columns::<Three, 2, 2, 3, 0>
-        );
+        check(count, columns::<Three, 2, 2, 3, 0>);
     }
 }
 
 #[cfg(feature = "rayon")]
 #[test]
 fn every_length_on_all_cores() {
-    use dalembert_batch::parallel;
     // Tasks begin at 3 MiB, and a state has 28 bytes.
     for count in [0, 1, 112_347, 112_348, 200_001] {
-        check!(
+        check(
             count,
-            parallel::states::<Three, 2, 2, 3, 0>,
-            parallel::columns::<Three, 2, 2, 3, 0>
+            dalembert_batch::parallel::columns::<Three, 2, 2, 3, 0>,
         );
     }
 }

@@ -83,8 +83,6 @@ use std::env;
 use std::path::{Path, PathBuf};
 
 use dalembert_codegen::workspace::generate::generate_anew;
-use dalembert_codegen::workspace::language::MathPath;
-use dalembert_codegen::workspace::program::Library;
 use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::task::in_scene::find;
 use dalembert_model::robot::Severity;
@@ -100,7 +98,7 @@ pub use dalembert_codegen::workspace::function::RuntimeParameter as Parameter;
 #[doc(inline)]
 pub use dalembert_codegen::workspace::generate::GenerateError;
 #[doc(inline)]
-pub use dalembert_codegen::workspace::language::{Entries, Language};
+pub use dalembert_codegen::workspace::language::Language;
 #[doc(inline)]
 pub use dalembert_codegen::workspace::portfolio::Start as Formulation;
 #[doc(inline)]
@@ -113,7 +111,7 @@ pub use dalembert_codegen::workspace::sincos::SinCos;
 pub use dalembert_codegen::workspace::task::in_scene::UnknownScene;
 pub use dalembert_codegen::workspace::task::{Fma, Prefer};
 #[doc(inline)]
-pub use dalembert_codegen::workspace::task::{Interface, Layout};
+pub use dalembert_codegen::workspace::task::Layout;
 pub use error::BuildError;
 
 /// A request for generated code: a robot file, and the functions that are wanted.
@@ -127,7 +125,6 @@ pub struct Generator {
     bundles: Vec<Result<Output, BundleError>>,
     scalars: Option<Vec<Scalar>>,
     scene: Option<String>,
-    math: Option<String>,
     /// Everything else.
     request: Request,
 }
@@ -204,16 +201,6 @@ impl Generator {
         self
     }
 
-    /// Returns where the code finds `sincos`, `sin` and `cos` (`sincosf`, … for f32), and `sqrt`
-    /// of robots with Coulomb friction:
-    /// a path, by default `libm`, or `dalembert_sines` with
-    /// [`SinCos::Together`]. A target with its own sines has a module of them.
-    #[must_use]
-    pub fn math(mut self, path: impl Into<String>) -> Self {
-        self.math = Some(path.into());
-        self
-    }
-
     /// Makes arguments of what are constants of the robot otherwise:
     /// [`Parameter::Payload`] by the regrouped parameters of a type `Load`, which a
     /// function `load` computes once for each tool, and [`Parameter::Gravity`] as
@@ -270,10 +257,6 @@ impl Generator {
         let mut request = self.request.clone();
         request.plan = file.plan.clone();
         request.work = Request::work_while_compiling(request.effort);
-        request.math = MathPath::of(request.sincos.library(Library::Libm));
-        if let Some(path) = &self.math {
-            request.math.path.clone_from(path);
-        }
         let request = request.for_file(&file.outputs);
         let request = request.choose(self.chosen()?, self.scalars.clone(), scene);
         let key = output::key(&file.source, &request);

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use dalembert_build::{
-    BuildError, Entries, Generator, Interface, Layout, Output, Parameter, Scalar, SinCos,
+    BuildError, Generator, Layout, Output, Parameter, Scalar, SinCos,
 };
 use dalembert_codegen::workspace::clauses::RobotFile;
 use dalembert_codegen::workspace::generate::generate;
@@ -89,54 +89,32 @@ fn writes_again_only_if_something_changed() {
     assert!(fs::read_to_string(&path).unwrap().contains("1.62"));
 }
 
-/// The words of the choice are the paths of its crate, or who chooses says
-/// where it is.
+/// The words of the choice are the paths of its crate.
 #[test]
 fn sines_are_called_where_they_are() {
     let folder = folder("sines");
     let path = folder.join("arm.rs");
-    for (sincos, math, call) in [
-        (SinCos::Auto, None, "libm::"),
-        (SinCos::Libm, Some("crate::sines"), "crate::sines::"),
-        (SinCos::Together, None, "dalembert_sines::sincosf(&["),
-        (
-            SinCos::Together,
-            Some("crate::own"),
-            "crate::own::sincosf(&[",
-        ),
+    for (sincos, call) in [
+        (SinCos::Auto, "libm::"),
+        (SinCos::Together, "dalembert_sines::sincosf(&["),
     ] {
-        let generator = generator(&folder).sincos(sincos);
-        let generator = match math {
-            Some(math) => generator.math(math),
-            None => generator,
-        };
-        generator.write_to(&path).unwrap();
+        generator(&folder).sincos(sincos).write_to(&path).unwrap();
         let text = fs::read_to_string(&path).unwrap();
         assert!(text.contains(&format!(" = {call}")), "{sincos:?} {text}");
     }
 }
 
-/// Another choice writes another file, and nobody has more entries who did not
-/// ask for them.
+/// Nobody has columns who did not ask for them.
 #[test]
-fn more_entries_are_asked_for() {
-    let folder = folder("entries");
+fn batches_are_asked_for() {
+    let folder = folder("batches");
     let path = folder.join("arm.rs");
-    for (head, least) in [
-        ("pub fn gravity_with_sincos(", Entries::WithSincos),
-        ("pub fn gravity_lanes<", Entries::Lanes),
-        ("pub fn gravity_batch(", Entries::Batch),
-    ] {
-        for chosen in Entries::ALL {
-            generator(&folder).entries(chosen).write_to(&path).unwrap();
-            let text = fs::read_to_string(&path).unwrap();
-            assert_eq!(text.contains(head), chosen >= least, "{chosen:?}");
-            assert_eq!(text.contains("dalembert_batch::"), chosen == Entries::Batch);
-        }
+    for chosen in [true, false] {
+        generator(&folder).batch(chosen).write_to(&path).unwrap();
+        let text = fs::read_to_string(&path).unwrap();
+        assert_eq!(text.contains("pub fn gravity_columns("), chosen);
+        assert_eq!(text.contains("dalembert_batch::"), chosen);
     }
-    generator(&folder).write_to(&path).unwrap();
-    let single = fs::read_to_string(&path).unwrap();
-    assert!(!single.contains("with_sincos") && !single.contains("pub fn angles"));
 }
 
 #[test]
@@ -262,7 +240,7 @@ fn parameters_are_arguments() {
 /// A bundle besides what is chosen, and alone; what is wrong with it is said before
 /// anything is read.
 #[test]
-fn bundles_and_traits() {
+fn bundles_beside_outputs() {
     let folder = folder("bundle");
     let path = folder.join("arm.rs");
     let parts = [Output::Inertia, Output::Gravity];
@@ -270,14 +248,12 @@ fn bundles_and_traits() {
         generator.bundle("hold", parts).write_to(&path).unwrap();
         fs::read_to_string(&path).unwrap()
     };
-    let both = of(generator(&folder).interface(Interface::Traits));
+    let both = of(generator(&folder));
     assert!(both.contains("pub fn gravity(q: &[f32; 2]) -> [f32; 2] {"));
     assert!(both.contains("pub fn hold(q: &[f32; 2]) -> Hold {"));
-    assert!(both.contains("impl dalembert::interface::Gravity<f32, 2> for Robot {"));
-    assert!(both.contains("/// [`hold`] returns what is this module's own"));
     let robot = folder.join("arm.toml");
     let alone = of(Generator::new().robot(&robot).scalars([Scalar::F64]));
-    assert!(!alone.contains("pub fn gravity(") && !alone.contains("Robot"));
+    assert!(!alone.contains("pub fn gravity(") );
     assert!(alone.contains("pub fn hold("));
     let twice = [Output::Gravity, Output::ManipulatorEquation];
     let error = generator(&folder).bundle("hold", twice).write_to(&path);
@@ -301,13 +277,12 @@ fn friction_is_smoothed_where_sines_are() {
         fs::write(folder.join("arm.toml"), text).unwrap();
     };
     let generator = || {
-        let generator = generator(&folder).outputs([Output::InverseDynamics]);
-        generator.math("crate::own")
+        generator(&folder).outputs([Output::InverseDynamics])
     };
     with("coulomb = 2.5\ncoulomb_width = 0.01");
     generator().write_to(&path).unwrap();
     let text = fs::read_to_string(&path).unwrap();
-    let line = "let r1 = 1.0 / crate::own::sqrtf(qd[0] * qd[0] + 0.0001);";
+    let line = "let r1 = 1.0 / libm::sqrtf(qd[0] * qd[0] + 0.0001);";
     assert_eq!(text.matches(line).count(), 1, "{text}");
     with("coulomb = 2.5");
     let error = generator().write_to(&path).unwrap_err().to_string();

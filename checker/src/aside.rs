@@ -1,9 +1,9 @@
-//! Constants and `impl`s beside the functions of a file in Rust. Each line is compared with the one
-//! that follows from the functions' heads and from the robot, so that whoever calls a
-//! function by a trait, or asks for the number of joints, gets what was checked.
+//! Constants beside the functions of a file in Rust. Each line is compared with the one that
+//! follows from the functions and from the robot, so that whoever asks for the number of joints gets
+//! what was checked.
 
 use crate::fault::Fault;
-use crate::file::{Found, between, results, structure};
+use crate::file::{Found, between};
 use crate::scene::Setting;
 use crate::verdict::BOX_SLACK;
 
@@ -42,10 +42,8 @@ fn expected(lines: &[&str], functions: &[&Found], setting: &Setting) -> Vec<Stri
     } else if between(head, "pub struct ", " {").is_some() {
         // A compiler compares its fields with those that functions return.
         Some(lines.iter().map(|line| line.to_string()).collect())
-    } else if head.starts_with("impl ") {
-        implementation(head, functions, joints)
     } else {
-        Some(vec!["pub struct Robot;".to_owned()])
+        None
     };
     known.unwrap_or_default()
 }
@@ -76,54 +74,4 @@ fn within(lines: &[&str], functions: &[&Found], setting: &Setting) -> Option<Vec
     let lines = lines.iter().skip(1).map(|line| line.to_string());
     let head = "pub const BOX: StateBox = StateBox {".to_owned();
     Some([head].into_iter().chain(lines).collect())
-}
-
-/// Returns the lines of an `impl`, by which the robot as a value calls a function.
-fn implementation(head: &str, functions: &[&Found], joints: usize) -> Option<Vec<String>> {
-    let asked = between(head, "impl ", " for Robot {")?;
-    let (path, question) = asked.split_once('<')?.0.rsplit_once("::")?;
-    let found = functions
-        .iter()
-        .find(|own| structure(own.name) == question)?;
-    let first = found.text.lines().next()?;
-    let (list, result) = first.split_once('(')?.1.split_once(") -> ")?;
-    let (list, result) = (list.replace("_q", "q"), result.strip_suffix(" {")?);
-    let names = list
-        .split(", ")
-        .map(|part| part.split_once(": ").map(|(name, _)| name));
-    let call = format!(
-        "{}({})",
-        found.name,
-        names.collect::<Option<Vec<&str>>>()?.join(", ")
-    );
-    let scalar = if list.contains("f32") { "f32" } else { "f64" };
-    let (answer, body) = match result == question {
-        false => (result.to_owned(), vec![call]),
-        true => {
-            let fields = results(found.name, &found.text)
-                .into_iter()
-                .map(|(name, _)| name);
-            let fields = fields.collect::<Vec<&str>>().join(", ");
-            let taken = format!("let {question} {{ {fields} }} = {call};");
-            let given = format!("{path}::answers::{question} {{ {fields} }}");
-            (
-                format!("{path}::answers::{question}<{scalar}, {joints}>"),
-                vec![taken, given],
-            )
-        }
-    };
-    // Of a regressor the trait has the number of columns beside that of joints.
-    let columns = result
-        .trim_matches('[')
-        .split([';', ']'])
-        .nth(1)
-        .unwrap_or("")
-        .trim();
-    let plain = format!("impl {path}::{question}<{scalar}, {joints}> for Robot {{");
-    let counted = plain.replace("> for", &format!(", {columns}> for"));
-    let mut lines = vec![if head == counted { counted } else { plain }];
-    lines.push(format!("fn {}(&self, {list}) -> {answer} {{", found.name));
-    lines.extend(body);
-    lines.extend(["}", "}"].map(String::from));
-    Some(lines)
 }

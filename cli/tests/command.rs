@@ -16,10 +16,9 @@ fn code_goes_to_stdout_and_the_report_to_stderr() {
     assert!(ran.err.contains("gravity") && ran.err.contains("proved"));
 }
 
-/// More ways to call a function are the file's, not the plan's: what is printed
-/// without them stays.
+/// Batches are the file's, not the plan's: what is printed without them stays.
 #[test]
-fn entries_are_asked_for() {
+fn batches_are_asked_for() {
     let planar = robot("planar2r");
     let plain = [
         "generate",
@@ -30,21 +29,17 @@ fn entries_are_asked_for() {
         "f64",
     ];
     let single = good(&plain);
-    assert_eq!(
-        run(&[&plain[..], &["--entries", "single"]].concat()).out,
-        single.out
-    );
-    let lanes = good(&[&plain[..], &["--entries", "lanes"]].concat());
-    assert!(lanes.out.contains("pub fn gravity_lanes<const L: usize>("));
-    assert!(lanes.out.contains("pub fn gravity_with_sincos(") && !lanes.out.contains("_batch"));
-    assert!(lanes.err.contains("the text was read back"));
-    assert!(!lanes.err.contains("p(wrong)"), "{}", lanes.err);
+    let batches = good(&[&plain[..], &["--batch"]].concat());
+    assert!(batches.out.contains("pub fn gravity_columns("));
+    assert!(!single.out.contains("_columns"));
+    assert!(batches.err.contains("the text was read back"));
+    assert!(!batches.err.contains("p(wrong)"), "{}", batches.err);
     let whole = run(&[&plain[..], &["--verbose"]].concat());
     assert!(whole.err.contains("p(wrong) < ") && whole.out == single.out);
     assert!(whole.err.contains("worst rounding errors"), "{}", whole.err);
-    let wrong = run(&[&plain[..], &["--entries", "lane"]].concat());
+    let wrong = run(&[&plain[..], &["--batch=of"]].concat());
     assert_eq!(wrong.code, 2);
-    assert!(wrong.err.contains("'lanes'"), "{}", wrong.err);
+    assert!(wrong.err.contains("'off'"), "{}", wrong.err);
 }
 
 /// The command has every option of the table that macro and build script share.
@@ -222,18 +217,8 @@ fn bundles_by_their_text() {
     let json: Value = serde_json::from_str(&ran.out).unwrap();
     let names: Vec<&String> = json["functions"].as_object().unwrap().keys().collect();
     assert_eq!(names, ["gravity", "servo"]);
-    let traits = [
-        "--outputs",
-        outputs,
-        "--interface",
-        "traits",
-        "--scalar",
-        "f32",
-    ];
-    let ran = run(&[&["generate", &planar][..], &traits].concat());
+    let ran = run(&["generate", &planar, "--outputs", outputs, "--scalar", "f32"]);
     ran.prints(&["-> Servo {"]);
-    let traits = "impl dalembert::interface::Gravity<f32, 2> for Robot {";
-    ran.prints(&[traits]);
     let verify = ["verify", &planar, "--outputs", "servo=gravity+jacobian"];
     let ran = good(&verify);
     // Each quantity against its own runtime, in both scalars.

@@ -85,7 +85,7 @@ pub use function::Function;
 #[doc(inline)]
 pub use generate::{GenerateError, Generated, generate};
 #[doc(inline)]
-pub use language::{Entries, Language, MathPath};
+pub use language::Language;
 #[doc(inline)]
 pub use plan::{Plan, PlanError};
 #[doc(inline)]
@@ -99,6 +99,6 @@ pub use sincos::SinCos;
 #[doc(inline)]
 pub use task::in_scene::UnknownScene;
 #[doc(inline)]
-pub use task::{Fma, Interface, Layout, Prefer, Request};
+pub use task::{Fma, Layout, Prefer, Request};
 #[doc(inline)]
 pub use watch::Watch;

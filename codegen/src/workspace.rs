@@ -18,21 +18,12 @@ pub mod approximate {
 }
 
 pub mod language {
-    pub use crate::language::{Entries, Language, MathPath, Printed};
+    pub use crate::language::{Language, Printed};
     pub mod c99 {
         pub use crate::language::names::Names;
     }
-    pub mod entries {
-        pub use crate::language::entries::{Around, places};
-        pub mod angles {
-            pub use crate::language::entries::angles::Angles;
-        }
-    }
     pub mod function {
         pub use crate::language::function::write;
-    }
-    pub mod parts {
-        pub use crate::language::parts::{LONG, PART};
     }
     pub mod read {
         pub use crate::language::read::TextError;
@@ -88,9 +79,6 @@ pub mod edits {
 pub mod emit {
     pub mod figures {
         pub use crate::emit::figures::{bound_of, inside};
-    }
-    pub mod interface {
-        pub use crate::emit::interface::question;
     }
 }
 
@@ -166,9 +154,6 @@ pub mod program {
     pub mod run {
         pub use crate::program::run::State;
     }
-    pub mod shallow {
-        pub use crate::program::shallow::Cycles;
-    }
 }
 
 pub mod random {
@@ -205,7 +190,7 @@ pub mod states {
 
 pub mod task {
     pub use crate::task::options::{Purpose, WordOption};
-    pub use crate::task::{Fma, Interface, Layout, Prefer, Request, Task};
+    pub use crate::task::{Fma, Layout, Prefer, Request, Task};
     pub mod in_scene {
         pub use crate::task::in_scene::{UnknownScene, find};
     }

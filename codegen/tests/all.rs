@@ -1,7 +1,6 @@
 //! One program of all test files: they share what they link, and both cores.
 
 mod accuracy_limit;
-mod acsl;
 mod arguments;
 mod bars;
 mod bundles;
@@ -14,9 +13,9 @@ mod certify_mutations;
 mod certify_plans;
 mod certify_random;
 mod certify_sines;
+mod columns;
 mod coulomb;
 mod cuda;
-mod entries;
 mod extremes;
 mod floating;
 mod frames;
@@ -37,7 +36,6 @@ mod scene_counts;
 mod scene_exact;
 mod scene_ways_in;
 mod second_derivatives;
-mod shallow;
 mod shown;
 mod sincos;
 mod sources;

@@ -7,7 +7,6 @@ use dalembert_codegen::workspace::clauses::expand;
 use dalembert_codegen::workspace::function::{Argument, Function, RuntimeParameter};
 use dalembert_codegen::workspace::generate::Generated;
 use dalembert_codegen::workspace::generate::keep::keep;
-use dalembert_codegen::workspace::language::Entries;
 use dalembert_codegen::workspace::plan::Plan;
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::{Input, Operand, Program, ScalarType};
@@ -401,10 +400,10 @@ fn refusals() {
         ),
         (
             Request {
-                entries: Entries::Batch,
+                batch: true,
                 ..torques.clone()
             },
-            "batches take arguments with an entry a joint, and payload is none",
+            "batches in Rust take arguments with an entry a joint, and payload is none",
         ),
         (
             Request {
@@ -493,19 +492,15 @@ fn plans_keep_programs_by_what_is_an_argument() {
     }
 }
 
-/// Other ways to call, in both scalars, are read back like others.
+/// The heads of both scalars' functions have the arguments, each of a type of its own.
 #[test]
-fn entries_have_the_arguments() {
-    let request = Request {
-        entries: Entries::Lanes,
-        ..request(&[Function::InverseDynamics, Function::Gravity], BOTH)
-    };
+fn functions_have_the_arguments() {
+    let request = request(&[Function::InverseDynamics, Function::Gravity], BOTH);
     let text = generate(&support::robot("planar2r"), &request).text;
     for expected in [
-        "pub struct Payload<T = f64>(pub [T; 10]);",
+        "pub struct Payload(pub [f64; 10]);",
         "pub fn load(payload: &Payload) -> Load {",
         "pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2], g: &Gravity, load: &Load) -> [f64; 2] {",
-        "pub fn gravity_lanes<const L: usize>(q: &[[f64; L]; 2], g: &Gravity<[f64; L]>, load: &Load<[f64; L]>) -> [[f64; L]; 2] {",
         "pub fn gravity(q: &[f32; 2], g: &Gravity, load: &Load) -> [f32; 2] {",
     ] {
         assert!(text.contains(expected), "{expected}\n{text}");

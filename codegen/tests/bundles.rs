@@ -4,7 +4,6 @@
 
 use std::path::Path;
 
-use dalembert_codegen::Entries;
 use dalembert_codegen::workspace::clauses::expand;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::keep::keep;
@@ -23,9 +22,9 @@ fn bundle(text: &str) -> Function {
     Function::parse(text).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn of(robot: &Robot, functions: &[Function], entries: Entries) -> Generated {
+fn of(robot: &Robot, functions: &[Function], batch: bool) -> Generated {
     let request = Request {
-        entries,
+        batch,
         ..Request::of(functions)
     };
     generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
@@ -36,7 +35,7 @@ fn operations(robot: &Robot, function: Function) -> usize {
     generated.functions[0].counts().operations()
 }
 
-/// Every quantity against its own runtime, in both scalars and by every entry;
+/// Every quantity against its own runtime, in both scalars;
 /// what divides among them, and what is over parameters.
 #[test]
 fn each_quantity_is_what_its_runtime_says() {
@@ -48,7 +47,7 @@ fn each_quantity_is_what_its_runtime_says() {
         "adapt=regressor+momentum",
     ]
     .map(bundle);
-    let generated = of(&planar, &functions, Entries::Lanes);
+    let generated = of(&planar, &functions, true);
     let runtime = Runtime::new(&planar);
     let states = states::seeded(&planar, 100, 7);
     let mut quantities = 0;
@@ -62,7 +61,7 @@ fn each_quantity_is_what_its_runtime_says() {
     assert_eq!(quantities, 2 * each);
     // π is the module's, whoever needs it.
     let both = [functions[3], Function::Regressor];
-    let text = of(&planar, &both, Entries::Single).text;
+    let text = of(&planar, &both, false).text;
     assert_eq!(text.matches("pub const BASE_PARAMETERS").count(), 2);
 }
 
@@ -101,12 +100,11 @@ fn the_manipulator_equation_is_a_bundle() {
 fn one_struct_in_the_written_order() {
     let planar = support::robot("planar2r");
     let load = bundle("servo_load=jacobian+manipulator_equation");
-    let text = of(&planar, &[load], Entries::Batch).text;
+    let text = of(&planar, &[load], true).text;
     for expected in [
         "/// `jacobian`, `manipulator_equation` in one",
         "pub struct ServoLoad {",
         "pub fn servo_load(q: &[f64; 2], qd: &[f64; 2]) -> ServoLoad {",
-        "pub struct ServoLoadLanes<const L: usize> {",
         "for ServoLoadBatch {",
         "pub fn servo_load_columns(",
     ] {
@@ -126,7 +124,7 @@ fn the_text_is_read_back_field_by_field() {
     use dalembert_codegen::workspace::program::{Library, Lowered};
     let planar = support::robot("planar2r");
     let loads = bundle("loads=gravity+coriolis");
-    let generated = of(&planar, &[loads], Entries::Single);
+    let generated = of(&planar, &[loads], false);
     let program = &generated.functions[0].program;
     let read = |text: &str| {
         let read = Lowered::parse(text, loads, ScalarType::F64).map_err(|e| e.to_string())?;

@@ -10,7 +10,7 @@ use dalembert_codegen::workspace::clauses::RobotFile;
 use dalembert_codegen::workspace::function::{Function, RuntimeParameter};
 use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::language::c99::Names;
-use dalembert_codegen::workspace::language::{Entries, Language, MathPath, Printed};
+use dalembert_codegen::workspace::language::{Language, Printed};
 use dalembert_codegen::workspace::program::{Library, Lowered, ScalarType};
 use dalembert_codegen::workspace::sincos::SinCos;
 use dalembert_codegen::workspace::task::{Fma, Request};
@@ -29,12 +29,11 @@ const STRICT: [&str; 7] = [
     "-Werror",
 ];
 
-fn request(sincos: SinCos, entries: Entries) -> Request {
+fn request(sincos: SinCos, batch: bool) -> Request {
     Request {
         language: Language::C,
         sincos,
-        math: MathPath::of(sincos.library(Default::default())),
-        entries,
+        batch,
         ..Request::default()
     }
 }
@@ -46,15 +45,15 @@ fn compare(name: &str, functions: &[Function], states: usize) {
     let file = format!("../generated/robots/{name}.toml");
     let file = RobotFile::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).unwrap();
     let polynomial = SinCos::Polynomial { error: None };
-    for (sines, sincos, entries) in [
-        ("together", SinCos::Together, Entries::Single),
-        ("together", SinCos::Together, Entries::Batch),
-        ("polynomial", polynomial, Entries::Batch),
+    for (sines, sincos, batch) in [
+        ("together", SinCos::Together, false),
+        ("together", SinCos::Together, true),
+        ("polynomial", polynomial, true),
     ] {
         let request = Request {
             functions: functions.to_vec(),
             plan: file.plan.clone(),
-            ..request(sincos, entries)
+            ..request(sincos, batch)
         };
         let flags: [&[&str]; 3] = [&["-std=c99", "-O0"], &["-O2"], &["-O3", "-march=native"]];
         same_bits(&format!("{name}_{sines}"), &robot, &request, states, &flags);
@@ -93,7 +92,7 @@ fn framed() -> (Robot, Vec<Function>) {
 pub fn changes() -> Vec<(&'static str, Robot, Request)> {
     let of = |functions: &[Function], sincos| Request {
         functions: functions.to_vec(),
-        ..request(sincos, Entries::Batch)
+        ..request(sincos, true)
     };
     let (torques, inertia) = (Function::InverseDynamics, Function::Inertia);
     let planar = support::robot("planar2r");
@@ -165,9 +164,9 @@ fn whatever_is_printed_has_the_bits_of_the_program() {
             &["-std=c99", "-O3", "-march=native"],
             &["-std=gnu99", "-O3", "-march=native"],
         ];
-        for (entries, flags) in [(Entries::Single, standard), (Entries::Batch, gnu)] {
+        for (batch, flags) in [(false, standard), (true, gnu)] {
             let request = Request {
-                entries,
+                batch,
                 ..request.clone()
             };
             same_bits(what, &robot, &request, 100, &[flags]);
@@ -175,7 +174,7 @@ fn whatever_is_printed_has_the_bits_of_the_program() {
     }
 }
 
-/// Headers of all that changes what is printed, of every source of sines and with contracts.
+/// Headers of all that changes what is printed, of every source of sines.
 fn headers() -> Vec<String> {
     let mut all = changes();
     for sincos in [
@@ -183,16 +182,9 @@ fn headers() -> Vec<String> {
         SinCos::Together,
         SinCos::Polynomial { error: None },
     ] {
-        let request = request(sincos, Entries::Batch);
+        let request = request(sincos, true);
         all.push(("sines", support::robot("planar2r"), request));
     }
-    let contracts = Request {
-        functions: vec![Function::InverseDynamics, Function::ForwardDynamics],
-        entries: Entries::Single,
-        acsl: true,
-        ..all[0].2.clone()
-    };
-    all.push(("contracts", support::robot("planar2r"), contracts));
     let texts = all
         .iter()
         .map(|(_, robot, request)| generate(robot, request).unwrap().text);
@@ -205,7 +197,7 @@ fn headers() -> Vec<String> {
 fn headers_say_what_a_payload_holds() {
     let flange = "payload_frame = { xyz = [0, 0, 0.05] }\n\n[[joint]]";
     let plain = support::source("planar2r", "");
-    let mut request = request(SinCos::Together, Entries::Single);
+    let mut request = request(SinCos::Together, false);
     request.functions = vec![Function::Gravity];
     request.parameters = vec![RuntimeParameter::Payload];
     for (source, frame) in [
@@ -273,7 +265,7 @@ fn batches_are_vectors() {
     let folder = folder("vectors");
     let robot = support::robot("planar2r");
     for sincos in [SinCos::Libm, SinCos::Together] {
-        let mut request = request(sincos, Entries::Batch);
+        let mut request = request(sincos, true);
         request.functions = vec![Function::InverseDynamics];
         let text = generate(&robot, &request).unwrap().text;
         fs::write(folder.join("arm.h"), text).unwrap();
@@ -341,7 +333,7 @@ fn misra_is_kept_but_for_what_the_guide_says() {
 fn names_are_short_and_distinct() {
     let robot = support::robot("planar2r");
     for (library, sincos) in [(false, SinCos::Together), (true, SinCos::Libm)] {
-        let mut request = request(sincos, Entries::Batch);
+        let mut request = request(sincos, true);
         request.functions = Function::ALL.to_vec();
         request.module = library.then(|| "stanford".to_owned());
         let text = generate(&robot, &request).unwrap().text;
@@ -360,7 +352,7 @@ fn names_are_short_and_distinct() {
     }
     // Two bundles, the one called as what the other's batch calls.
     let bundle = |name| Function::bundle(name, [Function::Gravity, Function::Inertia]).unwrap();
-    let mut request = request(SinCos::Together, Entries::Batch);
+    let mut request = request(SinCos::Together, true);
     request.functions = vec![bundle("servo"), bundle("servo_any")];
     let error = generate(&robot, &request).unwrap_err().to_string();
     assert!(error.contains("`planar2r_servo_any`"), "{error}");
@@ -372,7 +364,7 @@ fn what_a_language_lacks_is_refused() {
     let robot = support::robot("planar2r");
     let refused = |change: fn(&mut Request), words: &str| {
         for language in [Language::C, Language::Cuda] {
-            let mut request = request(SinCos::Together, Entries::Single);
+            let mut request = request(SinCos::Together, false);
             request.language = language;
             change(&mut request);
             let error = generate(&robot, &request).unwrap_err().to_string();
@@ -380,12 +372,6 @@ fn what_a_language_lacks_is_refused() {
             assert!(error.starts_with(&name) && error.contains(words), "{error}");
         }
     };
-    refused(|r| r.entries = Entries::Lanes, "`lanes`");
-    refused(|r| r.entries = Entries::WithSincos, "`with_sincos`");
-    refused(
-        |r| r.interface = dalembert_codegen::workspace::task::Interface::Traits,
-        "traits",
-    );
     refused(
         |r| r.layout = dalembert_codegen::workspace::task::Layout::Contents,
         "contents",
@@ -395,26 +381,6 @@ fn what_a_language_lacks_is_refused() {
         |r| r.module = Some("an_arm_with_a_very_long_name".into()),
         "at most 31",
     );
-}
-
-/// Contracts are of functions of one state in C.
-#[test]
-fn contracts_are_refused_by_name() {
-    let robot = support::robot("planar2r");
-    for (language, entries) in [
-        (Language::Rust, Entries::Single),
-        (Language::Cuda, Entries::Single),
-        (Language::C, Entries::Batch),
-    ] {
-        let request = Request {
-            language,
-            acsl: true,
-            ..request(SinCos::Together, entries)
-        };
-        let error = generate(&robot, &request).unwrap_err().to_string();
-        let name = format!("`{}`: it has no contracts here", language.name());
-        assert!(error.starts_with(&name), "{error}");
-    }
 }
 
 /// No line of the arithmetic can go, trade places with the next one that differs in what it
@@ -429,7 +395,7 @@ fn every_change_of_a_line_is_found() {
         (Language::Cuda, SinCos::Together, Fma::Off),
         (Language::Cuda, SinCos::Polynomial { error: None }, Fma::Off),
     ] {
-        let mut request = request(sincos, Entries::Single);
+        let mut request = request(sincos, false);
         request.language = language;
         request.functions = vec![Function::InverseDynamics];
         request.scalars = vec![ScalarType::F32];
@@ -440,7 +406,7 @@ fn every_change_of_a_line_is_found() {
         let printed = Printed::of(&function.program, &code);
         let names = Names::new("planar2r", language, ScalarType::F32);
         let is_same = |lines: &[String]| {
-            let read = Lowered::parse_c(&lines.join("\n"), &printed, Entries::Single, &names);
+            let read = Lowered::parse_c(&lines.join("\n"), &printed, false, &names);
             read.is_ok_and(|read| read.difference(&code).is_none())
         };
         let lines: Vec<String> = generated.text.lines().map(String::from).collect();

@@ -4,11 +4,9 @@
 
 use crate::support;
 use crate::support::draw::Draw;
-use dalembert_codegen::Entries;
 use dalembert_codegen::workspace::function::{Function, RuntimeParameter};
 use dalembert_codegen::workspace::generate::keep::keep;
 use dalembert_codegen::workspace::generate::{Generated, generate};
-use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::plan::Plan;
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::{Library, Lowered, ScalarType};
@@ -222,8 +220,8 @@ fn scenes_drop_what_does_not_move() {
     }
 }
 
-/// What is printed, for lanes and all kinds of sines: the root stands where the
-/// arithmetic does, by the path of the sines.
+/// The root stands where the arithmetic does, by the library of the sines; in columns once more,
+/// by the crate of batches.
 #[test]
 fn roots_are_printed_once() {
     let robot = arm();
@@ -231,11 +229,10 @@ fn roots_are_printed_once() {
         (SinCos::Libm, "libm"),
         (SinCos::Together, "dalembert_sines"),
     ] {
-        for entries in Entries::ALL {
+        for batch in [false, true] {
             let request = Request {
                 sincos,
-                math: MathPath::of(sincos.library(Library::Libm)),
-                entries,
+                batch,
                 ..request(&RUBBED[..1])
             };
             let text = of(&robot, &request).text;
@@ -246,7 +243,7 @@ fn roots_are_printed_once() {
                 assert_eq!(
                     text.matches(&line).count(),
                     1,
-                    "{entries:?}: {line}\n{text}"
+                    "{batch}: {line}\n{text}"
                 );
             }
         }

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::language::{Entries, Language};
+use dalembert_codegen::workspace::language::Language;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::sincos::SinCos;
 use dalembert_codegen::workspace::task::Request;
@@ -19,10 +19,10 @@ use crate::support::compiled::{folder, same_bits, there};
 #[test]
 fn functions_and_kernels_have_the_bits_of_the_program() {
     for (what, robot, request) in changes() {
-        for entries in [Entries::Single, Entries::Batch] {
+        for batch in [false, true] {
             let request = Request {
                 language: Language::Cuda,
-                entries,
+                batch,
                 ..request.clone()
             };
             same_bits(what, &robot, &request, 100, &[&["-O3", "-march=native"]]);
@@ -39,7 +39,7 @@ fn the_device_rounds_every_operation() {
         let request = Request {
             language: Language::Cuda,
             sincos: SinCos::Polynomial { error: None },
-            entries: Entries::Batch,
+            batch: true,
             ..Request::of(&[Function::InverseDynamics, Function::Inertia])
         };
         let generated = generate(&robot, &request).unwrap();

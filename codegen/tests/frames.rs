@@ -8,7 +8,7 @@ use std::path::Path;
 use dalembert_codegen::workspace::function::{Argument, Function, Quantity};
 use dalembert_codegen::workspace::generate::keep::keep;
 use dalembert_codegen::workspace::generate::{GenerateError, Generated, generate};
-use dalembert_codegen::workspace::language::{Entries, Language};
+use dalembert_codegen::workspace::language::Language;
 use dalembert_codegen::workspace::plan::Plan;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::states::{JointState, seeded};
@@ -275,15 +275,15 @@ fn every_language_has_them() {
         "task=operational_inertia@elbow:linear+null_space_projector@elbow:linear",
     ]
     .map(of);
-    for (language, entries) in [
-        (Language::Rust, Entries::Lanes),
-        (Language::Rust, Entries::Batch),
-        (Language::C, Entries::Single),
-        (Language::Cuda, Entries::Single),
+    for (language, batch) in [
+        (Language::Rust, false),
+        (Language::Rust, true),
+        (Language::C, false),
+        (Language::Cuda, false),
     ] {
         let request = Request {
             language,
-            entries,
+            batch,
             module: Some("d".to_owned()),
             scalars: vec![ScalarType::F64],
             ..Request::of(&functions)

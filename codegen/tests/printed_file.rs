@@ -6,7 +6,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use dalembert_codegen::Entries;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::program::ScalarType;
@@ -30,13 +29,12 @@ fn robot() -> Robot {
 }
 
 /// Arrays, structs and blocks of polynomials.
-fn text(layout: Layout, scalars: &[ScalarType], entries: Entries) -> String {
+fn text(layout: Layout, scalars: &[ScalarType]) -> String {
     let request = Request {
         scalars: scalars.to_vec(),
         sincos: SinCos::Polynomial { error: Some(1e-4) },
         module: Some("arm".into()),
         layout,
-        entries,
         ..Request::of(&[Function::InverseDynamics, Function::DynamicCoefficients])
     };
     generate(&robot(), &request).unwrap().text
@@ -46,10 +44,9 @@ fn text(layout: Layout, scalars: &[ScalarType], entries: Entries) -> String {
 fn files() -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("printed_file");
     fs::create_dir_all(&folder).unwrap();
-    let modules = text(Layout::Modules, &ScalarType::ALL, Entries::Single);
-    let contents = text(Layout::Contents, &[ScalarType::F64], Entries::Lanes);
+    let modules = text(Layout::Modules, &ScalarType::ALL);
+    let contents = text(Layout::Contents, &[ScalarType::F64]);
     assert!(contents.contains("\npub const N: usize = 3;\n") && !contents.contains("pub mod"));
-    assert!(contents.contains("pub struct DynamicCoefficientsLanes<const L: usize> {"));
     fs::write(folder.join("modules.rs"), modules).unwrap();
     fs::write(folder.join("contents.rs"), contents).unwrap();
     let main = "//! A program.\n\n/// Its module.\npub mod contents;\nmod modules;\n\nfn main() {\n    \

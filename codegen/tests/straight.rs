@@ -2,7 +2,7 @@
 
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::language::{Language, MathPath};
+use dalembert_codegen::workspace::language::Language;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::sincos::SinCos;
 use dalembert_codegen::workspace::task::Request;
@@ -54,7 +54,6 @@ fn functions_are_straight_lines() {
             functions: Function::ALL.to_vec(),
             language,
             sincos,
-            math: MathPath::of(sincos.library(Default::default())),
             scalars: vec![ScalarType::F64],
             ..Request::default()
         };

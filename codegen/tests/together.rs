@@ -3,7 +3,6 @@
 
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::{Generated, generate};
-use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::program::Library;
 use dalembert_codegen::workspace::sincos::SinCos;
 use dalembert_codegen::workspace::states::seeded;
@@ -13,10 +12,9 @@ use dalembert_model::robot::Robot;
 use crate::shown::shown;
 use crate::support;
 
-fn with(robot: &Robot, library: Library, sincos: SinCos) -> Generated {
+fn with(robot: &Robot, sincos: SinCos) -> Generated {
     let request = Request {
         sincos,
-        math: MathPath::of(library),
         ..Request::of(&[Function::InverseDynamics, Function::Inertia])
     };
     generate(robot, &request).unwrap()
@@ -35,8 +33,8 @@ fn different<'a>(text: &'a str, other: &str) -> Vec<&'a str> {
 fn only_the_calls_differ() {
     for name in ["planar3r", "stanford"] {
         let robot = support::robot(name);
-        let alone = with(&robot, Library::Libm, SinCos::Libm);
-        let together = with(&robot, Library::Together, SinCos::Together);
+        let alone = with(&robot, SinCos::Libm);
+        let together = with(&robot, SinCos::Together);
         assert!(!together.text.contains("libm"));
         let calls = different(&together.text, &alone.text);
         assert!(
@@ -71,7 +69,6 @@ fn certificates_name_the_library() {
     let reading = support::reading_with("planar2r", scene);
     let request = Request {
         sincos: SinCos::Together,
-        math: MathPath::of(Library::Together),
         ..Request::default().in_scene(&reading.scenes[0])
     };
     let generated = generate(&reading.robot, &request).unwrap();

@@ -5,7 +5,6 @@
 use std::fmt;
 use std::path::Path;
 
-use dalembert::interface::InverseDynamics;
 use dalembert_fit::{Accumulator, Model, Options};
 use dalembert_jit::{Arm, Load, Native, Output, Place, Rows, RowsMut, Scalar};
 use dalembert_model::robot::{Robot, write};
@@ -257,37 +256,41 @@ fn call(
     called.map_err(Error::new)
 }
 
-/// A generated type, by its trait: `interface: traits;` of `dynamics!` and of robot files.
-pub struct Generated<R, const N: usize> {
-    robot: R,
+/// A generated function of torques, such as `arm::inverse_dynamics`.
+pub struct Generated<F, const N: usize> {
+    torques: F,
     model: Option<Model>,
 }
 
-impl<R, const N: usize> Generated<R, N> {
-    /// Returns the robot; with a model of the same robot file, parameters can be identified.
+impl<F, const N: usize> Generated<F, N>
+where
+    F: Fn(&[f64; N], &[f64; N], &[f64; N]) -> [f64; N],
+{
+    /// Returns the robot whose torques at q, q̇ and q̈ the function computes, in N·m and N; with a
+    /// model of the same robot file, parameters can be identified.
     ///
     /// # Errors
     /// A model of another number of joints.
-    pub fn new(robot: R, model: Option<Model>) -> Result<Generated<R, N>, Error> {
+    pub fn new(torques: F, model: Option<Model>) -> Result<Generated<F, N>, Error> {
         match &model {
             Some(model) if model.joints() != N => Err(Error::new(format!(
                 "the model has {} joints and the generated robot {N}",
                 model.joints()
             ))),
-            _ => Ok(Generated { robot, model }),
+            _ => Ok(Generated { torques, model }),
         }
     }
 }
 
-impl<R, const N: usize> fmt::Debug for Generated<R, N> {
+impl<F, const N: usize> fmt::Debug for Generated<F, N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "Generated({})", std::any::type_name::<R>())
+        write!(f, "Generated({})", std::any::type_name::<F>())
     }
 }
 
-impl<R, const N: usize> Dynamics for Generated<R, N>
+impl<F, const N: usize> Dynamics for Generated<F, N>
 where
-    R: InverseDynamics<f64, N> + Send + Sync + 'static,
+    F: Fn(&[f64; N], &[f64; N], &[f64; N]) -> [f64; N] + Send + Sync + 'static,
 {
     fn joints(&self) -> usize {
         N
@@ -298,7 +301,7 @@ where
         for s in 0..count {
             let of = |from: &[f64]| std::array::from_fn(|i| from[i * count + s]);
             let (q, qd, qdd) = (of(states.q), of(states.qd), of(states.qdd));
-            let torques = self.robot.inverse_dynamics(&q, &qd, &qdd);
+            let torques = (self.torques)(&q, &qd, &qdd);
             for (i, torque) in torques.into_iter().enumerate() {
                 tau[i * count + s] = torque;
             }

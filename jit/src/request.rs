@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use dalembert_codegen::workspace::function::{Function, RuntimeParameter};
-use dalembert_codegen::workspace::language::MathPath;
 use dalembert_codegen::workspace::program::{Library, ScalarType};
 use dalembert_codegen::workspace::task::{Request, in_scene};
 use dalembert_codegen::workspace::watch::Watch;
@@ -55,7 +54,7 @@ impl Load {
         let request = Request {
             scalars: vec![ScalarType::F64],
             parameters: self.parameters.clone(),
-            math: MathPath::of(self.options.sincos.library(Library::Together)),
+            auto: Library::Together,
             watch: self.watch.clone(),
             work: Request::work_while_compiling(self.options.effort),
             ..self.options.clone()

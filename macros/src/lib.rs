@@ -6,7 +6,7 @@ use proc_macro::TokenStream;
 
 /// Generates verified dynamics of one robot: see the crate `dalembert`, which
 /// re-exports this, for the robot, the clauses (`outputs`, `scalar`,
-/// `formulation`, `effort`, `prefer`, `fma`, `sincos`, `sincos_error`, `entries`, `interface`,
+/// `formulation`, `effort`, `prefer`, `fma`, `sincos`, `sincos_error`, `batch`,
 /// `parameters`, `scene`, `crate`) and the keys of a scene.
 #[proc_macro]
 pub fn dynamics(input: TokenStream) -> TokenStream {

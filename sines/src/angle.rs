@@ -137,50 +137,6 @@ where
     (sines, cosines, usual)
 }
 
-/// Sines and cosines of any number of angles in every lane of a caller: a loop
-/// over scalars, which a compiler makes vectors of as wide as the processor that
-/// the caller is compiled for has.
-#[inline(always)]
-pub fn across<T: Angle, const N: usize, const L: usize>(
-    angles: &[[T; L]; N],
-) -> ([[T; L]; N], [[T; L]; N])
-where
-    Pair<T>: Number<T>,
-    Pair<Pair<T>>: Number<T>,
-{
-    let (mut sines, mut cosines) = ([[T::default(); L]; N], [[T::default(); L]; N]);
-    let mut usual = true;
-    let mut angle = 0;
-    while angle < N {
-        let other = if angle + 1 < N { angle + 1 } else { angle };
-        let mut lane = 0;
-        while lane < L {
-            let two = [angles[angle][lane], angles[other][lane]];
-            let (sin, cos, both) = together::<T, Rounded, T, 2>(&two);
-            [sines[angle][lane], sines[other][lane]] = sin;
-            [cosines[angle][lane], cosines[other][lane]] = cos;
-            usual &= both;
-            lane += 1;
-        }
-        angle += 2;
-    }
-    match usual {
-        true => (sines, cosines),
-        false => one_by_one(*angles),
-    }
-}
-
-/// Computes all lanes one after the other, where an angle needs libm. By value: an array
-/// whose address is taken on the rare path would stay in memory on the usual one.
-#[cold]
-#[inline(never)]
-fn one_by_one<T: Angle, const N: usize, const L: usize>(
-    angles: [[T; L]; N],
-) -> ([[T; L]; N], [[T; L]; N]) {
-    let pairs = angles.map(|lanes| singly(&lanes));
-    (pairs.map(|pair| pair.0), pairs.map(|pair| pair.1))
-}
-
 /// Computes the angles that the polynomials are not for.
 #[cold]
 #[inline(never)]

@@ -203,36 +203,3 @@ pub fn sincos<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
 pub fn sincosf<const N: usize>(angles: &[f32; N]) -> ([f32; N], [f32; N]) {
     vectors::all(angles)
 }
-
-/// Returns [`sincos`] in lanes: `angles[i][l]` is angle i of lane l, and so is what
-/// comes back, with the bits that [`sincos`] gives.
-///
-/// It is inlined, to be compiled for the vectors of its caller.
-///
-/// ```
-/// let (sin, cos) = dalembert_sines::sincos_lanes(&[[0.5, 1e22]]);
-/// let (one, other) = (dalembert_sines::sincos(&[0.5]), dalembert_sines::sincos(&[1e22]));
-/// assert_eq!(sin, [[one.0[0], other.0[0]]]);
-/// assert_eq!(cos, [[one.1[0], other.1[0]]]);
-/// ```
-#[inline(always)]
-#[must_use]
-pub fn sincos_lanes<const N: usize, const L: usize>(
-    angles: &[[f64; L]; N],
-) -> ([[f64; L]; N], [[f64; L]; N]) {
-    angle::across(angles)
-}
-
-/// Returns [`sincos_lanes`] in f32.
-///
-/// ```
-/// let ([[sin, _]], [[cos, _]]) = dalembert_sines::sincosf_lanes(&[[100.5f32, 0.0]]);
-/// assert_eq!((sin, cos), libm::sincosf(100.5));
-/// ```
-#[inline(always)]
-#[must_use]
-pub fn sincosf_lanes<const N: usize, const L: usize>(
-    angles: &[[f32; L]; N],
-) -> ([[f32; L]; N], [[f32; L]; N]) {
-    angle::across(angles)
-}

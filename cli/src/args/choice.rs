@@ -1,8 +1,7 @@
 //! Which functions to generate, and from what.
 
 use dalembert_codegen::workspace::function::{Function, RuntimeParameter};
-use dalembert_codegen::workspace::language::MathPath;
-use dalembert_codegen::workspace::program::{Library, ScalarType};
+use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::sincos::SinCos;
 use dalembert_codegen::workspace::task::Request;
 
@@ -52,7 +51,6 @@ impl Choice {
         if let SinCos::Polynomial { error } = &mut request.sincos {
             *error = self.sincos_error;
         }
-        request.math = MathPath::of(request.sincos.library(Library::Libm));
         request
     }
 }

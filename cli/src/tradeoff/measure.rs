@@ -4,9 +4,7 @@
 //! All of them are in one program, which calls each in turn, many times over:
 //! whatever slows the machine down for a while slows all of them down. What
 //! counts is the median over the rounds of the ratio to the first variant in
-//! the same round. It is compiled for the processor that it runs on. Where no sine
-//! is called, the lanes of a loop over [`LANES`] states become vectors, as the
-//! `lanes` of generated modules do.
+//! the same round. It is compiled for the processor that it runs on.
 
 use std::env;
 use std::fmt::Write;
@@ -15,14 +13,10 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use dalembert_codegen::workspace::function::Argument;
-use dalembert_codegen::workspace::language::entries::places;
 use dalembert_codegen::workspace::language::result::structure;
 use dalembert_report::sweep::{Point, Time};
 
 use crate::outcome::Failure;
-
-/// States at once, as many f64 as the widest vectors have.
-pub const LANES: usize = 8;
 
 /// A compiler that was found.
 pub struct Compiler {
@@ -61,18 +55,15 @@ fn state<const N: usize>(seed: u64, reach: f64) -> [f64; N] {
 }
 
 fn main() {
-    let mut rounds = vec![[Vec::new(), Vec::new()]; VARIANTS.len()];
+    let mut rounds = vec![Vec::new(); VARIANTS.len()];
     for round in 0..ROUNDS + 2 {
-        for (variant, times) in VARIANTS.iter().zip(&mut rounds) {
-            for (run, times) in variant.iter().zip(times) {
-                let Some(run) = run else { continue };
-                let start = std::time::Instant::now();
-                run();
-                let time = start.elapsed().as_secs_f64() * 1e9 / CALLS as f64;
-                // Caches and clocks settle in the first two.
-                if round >= 2 {
-                    times.push(time);
-                }
+        for (run, times) in VARIANTS.iter().zip(&mut rounds) {
+            let start = std::time::Instant::now();
+            run();
+            let time = start.elapsed().as_secs_f64() * 1e9 / CALLS as f64;
+            // Caches and clocks settle in the first two.
+            if round >= 2 {
+                times.push(time);
             }
         }
     }
@@ -80,13 +71,9 @@ fn main() {
         values.sort_by(f64::total_cmp);
         values[values.len() / 2]
     };
-    for [times, lanes] in &rounds {
-        let ratios = times.iter().zip(&rounds[0][0]).map(|(a, b)| a / b).collect();
-        print!(\"{} {}\", median(times.clone()), median(ratios));
-        match lanes.is_empty() {
-            true => println!(),
-            false => println!(\" {}\", median(lanes.clone())),
-        }
+    for times in &rounds {
+        let ratios = times.iter().zip(&rounds[0]).map(|(a, b)| a / b).collect();
+        println!(\"{} {}\", median(times.clone()), median(ratios));
     }
 }
 ";
@@ -128,7 +115,6 @@ impl Compiler {
             Some(Time {
                 nanoseconds: numbers.next()?,
                 ratio: numbers.next()?,
-                in_lanes: numbers.next(),
             })
         });
         for point in points {
@@ -213,25 +199,14 @@ fn source(points: &[Point]) -> String {
         let _ = writeln!(
             text,
             "mod v{index} {{\n{}{}}}",
-            function(point, "never"),
+            function(point),
             calls(point)
         );
-        let calls_sines = !point.certificate.emitted.trig.is_empty();
-        if calls_sines && point.certificate.sines.is_empty() {
-            names.push(format!("[Some(v{index}::run), None]"));
-            continue;
-        }
-        let _ = writeln!(
-            text,
-            "mod l{index} {{\n{}{}}}",
-            function(point, "always"),
-            lanes(point)
-        );
-        names.push(format!("[Some(v{index}::run), Some(l{index}::run)]"));
+        names.push(format!("v{index}::run"));
     }
     let _ = writeln!(
         text,
-        "const LANES: usize = {LANES};\nconst VARIANTS: [[Option<fn()>; 2]; {}] = [{}];",
+        "const VARIANTS: [fn(); {}] = [{}];",
         names.len(),
         names.join(", ")
     );
@@ -240,11 +215,11 @@ fn source(points: &[Point]) -> String {
 
 /// Returns a variant's text after the struct that it returns, if it does, and the states
 /// of its arguments.
-fn function(point: &Point, inline: &str) -> String {
+fn function(point: &Point) -> String {
     let certificate = &point.certificate;
     let (program, scalar) = (&certificate.emitted, certificate.scalar);
     let mut text = structure(program.function, program.sizes(), scalar).unwrap_or_default();
-    let _ = write!(text, "#[inline({inline})]\n{}", certificate.text);
+    let _ = write!(text, "#[inline(never)]\n{}", certificate.text);
     for argument in &program.arguments {
         let name = argument.name();
         let (seed, reach) = match argument {
@@ -279,44 +254,4 @@ fn calls(point: &Point) -> String {
         program.function,
         states.join(", ")
     )
-}
-
-/// Returns a loop over states in columns, some at once.
-fn lanes(point: &Point) -> String {
-    let program = &point.certificate.emitted;
-    let scalar = point.certificate.scalar;
-    let mut text = String::from("pub fn run() {\nuse std::hint::black_box;\nuse crate::LANES;\n");
-    let mut states = Vec::new();
-    for argument in &program.arguments {
-        let (name, n) = (argument.name(), program.joints);
-        let _ = writeln!(
-            text,
-            "let {name} = all_{name}();\n\
-             let {name}: [[[{scalar}; LANES]; {n}]; crate::STATES / LANES] = \
-             std::array::from_fn(|k| std::array::from_fn(|i| std::array::from_fn(|l| {name}[k * LANES + l][i])));"
-        );
-        let entries: Vec<String> = (0..n).map(|i| format!("{name}[{i}][l]")).collect();
-        states.push(format!("&[{}]", entries.join(", ")));
-    }
-    let places = places(program.function, program.sizes());
-    let _ = writeln!(
-        text,
-        "for call in 0..crate::CALLS / LANES {{\nlet k = call % (crate::STATES / LANES);\n\
-         let mut results = [[0.0; LANES]; {}];",
-        places.len()
-    );
-    for argument in &program.arguments {
-        let name = argument.name();
-        let _ = writeln!(text, "let {name} = black_box(&{name}[k]);");
-    }
-    let _ = writeln!(
-        text,
-        "for l in 0..LANES {{\nlet result = {}({});",
-        program.function,
-        states.join(", ")
-    );
-    for (index, place) in places.iter().enumerate() {
-        let _ = writeln!(text, "results[{index}][l] = result{place};");
-    }
-    text + "}\nblack_box(&results);\n}\n}\n"
 }

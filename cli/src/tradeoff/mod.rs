@@ -104,9 +104,7 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
             output::print(&report::table(&points))?;
             if let Some(processor) = &processor {
                 output::print(&format!(
-                    "\nns: a call in a loop, and of a state where {} are run at once and no sine is called,\n\
-                     compiled for this processor: {processor}\n",
-                    measure::LANES
+                    "\nns: a call in a loop, compiled for this processor: {processor}\n"
                 ))?;
             }
         }

@@ -31,7 +31,7 @@ fn rows(points: &[Point], all: bool) -> Vec<Vec<String>> {
     }
     let timed = points.iter().any(|point| point.time.is_some());
     if timed {
-        head.extend(["ns", "time", "ns in lanes"]);
+        head.extend(["ns", "time"]);
     }
     head.push("front");
     let mut rows = vec![head.into_iter().map(String::from).collect()];
@@ -57,10 +57,6 @@ fn rows(points: &[Point], all: bool) -> Vec<Vec<String>> {
         if let Some(time) = point.time {
             row.push(format!("{:.1}", time.nanoseconds));
             row.push(format!("{:.3}", time.ratio));
-            row.push(
-                time.in_lanes
-                    .map_or_else(|| none.to_owned(), |time| format!("{time:.1}")),
-            );
         }
         row.push(if point.dominated { "" } else { "yes" }.into());
         rows.push(row);
@@ -81,7 +77,6 @@ pub fn json(point: &Point) -> Value {
         "rounding_observed": point.rounding_observed,
         "nanoseconds": point.time.map(|time| time.nanoseconds),
         "time": point.time.map(|time| time.ratio),
-        "nanoseconds_in_lanes": point.time.and_then(|time| time.in_lanes),
         "front": !point.dominated,
         "certificate": point.file(),
         "violation": point.violation,

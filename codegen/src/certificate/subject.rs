@@ -9,7 +9,7 @@ use crate::bound::magnitude::{magnitudes, magnitudes_within, relative};
 use crate::bound::sensitivity::{BoundEffort, Sensitivity};
 use crate::edits::{Stage, deviation, difference, has_edits};
 use crate::graph::Graph;
-use crate::language::{MathPath, Printed, function};
+use crate::language::{Printed, function};
 use crate::program::{Library, Program, ScalarType, has_inertia};
 use crate::scene::SceneRobot;
 use crate::scene::{SceneKey, input_hash};
@@ -188,6 +188,5 @@ pub(super) fn printed(
     sines: &[AngleKernel],
 ) -> String {
     let code = sincos::lowered(program, scalar, library, sines);
-    let path = MathPath::of(library).path;
-    function::write(&Printed::of(program, &code), &path, &[])
+    function::write(&Printed::of(program, &code), library, &[])
 }

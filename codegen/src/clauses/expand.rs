@@ -14,7 +14,6 @@ use super::messages as m;
 use super::warnings::Warning;
 use super::{RobotFile, RobotFileError, module};
 use crate::generate::{GenerateError, Generated, generate_anew};
-use crate::language::Entries;
 use crate::plan;
 use crate::program::ScalarType;
 use crate::task::Request;
@@ -34,8 +33,8 @@ pub fn expand_from(input: TokenStream, folders: &[&Path], has_batch: bool) -> To
     let Some(invocation) = invocation::read(input, &mut errors) else {
         return errors.into_tokens();
     };
-    if invocation.request.entries == Entries::Batch && !has_batch {
-        errors.push(&invocation.entries_at, &m::NO_BATCH);
+    if invocation.request.batch && !has_batch {
+        errors.push(&invocation.batch_at, &m::NO_BATCH);
     }
     let (file, watch) = robot(&invocation, folders, &mut errors);
     let modules = file.and_then(|file| modules(&file, &invocation, &mut errors));
@@ -149,10 +148,7 @@ fn functions(file: &RobotFile, invocation: &Invocation, errors: &mut Errors) -> 
     let request = Request {
         scalars: vec![ScalarType::F64],
         plan: file.plan.clone(),
-        math: module::math(asked.sincos),
-        traits: module::TRAITS.to_owned(),
         parameters: invocation.parameters.iter().map(|(p, _)| *p).collect(),
-        batch: module::BATCH.to_owned(),
         module: Some(invocation.name.to_string()),
         work: Request::work_while_compiling(asked.effort),
         ..asked.clone()

@@ -33,8 +33,8 @@ pub(super) struct Invocation {
     pub(super) scalars: Option<Vec<ScalarType>>,
     /// What options of one word say.
     pub(super) request: Request,
-    /// The word that asked for entries.
-    pub(super) entries_at: TokenStream,
+    /// The word that asked for batches.
+    pub(super) batch_at: TokenStream,
     /// With the tokens that asked for them.
     pub(super) parameters: Vec<(RuntimeParameter, TokenStream)>,
     /// The scene's name.
@@ -80,7 +80,7 @@ pub(super) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation
         outputs: None,
         scalars: None,
         request: Request::default(),
-        entries_at: TokenStream::new(),
+        batch_at: TokenStream::new(),
         parameters: Vec::new(),
         scene: None,
         facade: quote!(::dalembert),
@@ -225,8 +225,8 @@ impl Invocation {
                 if let Some(option) = options().find(|option| option.word == word) {
                     list::set(option, &mut self.request, value, errors);
                 }
-                if word == "entries" {
-                    self.entries_at = value.iter().cloned().collect();
+                if word == "batch" {
+                    self.batch_at = value.iter().cloned().collect();
                 }
             }
             None => {}

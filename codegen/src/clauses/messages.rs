@@ -38,7 +38,7 @@ pub(super) const NO_OUTPUTS: Message = message(
     "outputs: inverse_dynamics, gravity;",
 );
 pub(super) const NO_BATCH: Message = message(
-    "`entries: batch` needs the feature `batch` of the crate dalembert",
+    "`batch: on` needs the feature `batch` of the crate dalembert",
     "in Cargo.toml: dalembert = { version = \"0.1\", features = [\"batch\"] }",
 );
 pub(super) const NO_WORD: Message = message("expected a word", "");

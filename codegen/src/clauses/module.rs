@@ -10,30 +10,6 @@ use syn::Attribute;
 
 use super::invocation::Invocation;
 use super::warnings::{self, Warning};
-use crate::language::{Entries, MathPath};
-use crate::program::Library;
-use crate::sincos::SinCos;
-use crate::task::Interface;
-
-/// Where the bodies find sine and cosine: an import of the module, so that a
-/// wrong path to the facade is one error and not one a call.
-const MATH: &str = "__math";
-
-/// Where the robot's type finds its traits.
-pub(super) const TRAITS: &str = "__traits";
-
-/// Where batches find the crate that runs them.
-pub(super) const BATCH: &str = "__batch";
-
-/// Returns whose sines the bodies call: by default those of all angles together, which the facade
-/// has with it.
-pub(super) fn math(sincos: SinCos) -> MathPath {
-    match sincos.library(Library::Together) {
-        Library::Together => MathPath::together(format!("{MATH}::together")),
-        Library::Libm => MathPath::libm(MATH),
-    }
-}
-
 /// Dresses every module of the text; the warnings end its documentation, and
 /// the compiler gives those of the first module.
 pub(super) fn assemble(
@@ -47,23 +23,14 @@ pub(super) fn assemble(
         facade,
         ..
     } = invocation;
-    let math = Ident::new(MATH, Span::call_site());
     let import = quote! {
         #[allow(unused_imports)]
-        use #facade::__private::math as #math;
+        use #facade::__private::{dalembert_sines, libm};
     };
-    let batches = (invocation.request.entries == Entries::Batch).then(|| {
-        let batch = Ident::new(BATCH, Span::call_site());
+    let batches = invocation.request.batch.then(|| {
         quote! {
             #[allow(unused_imports)]
-            use #facade::batch as #batch;
-        }
-    });
-    let traits = (invocation.request.interface == Interface::Traits).then(|| {
-        let traits = Ident::new(TRAITS, Span::call_site());
-        quote! {
-            #[allow(unused_imports)]
-            use #facade::interface as #traits;
+            use #facade::batch as dalembert_batch;
         }
     });
     let is_doc = |attribute: &Attribute| attribute.path().is_ident("doc");
@@ -94,7 +61,7 @@ pub(super) fn assemble(
                 let warnings = std::mem::take(&mut warnings);
                 let whole = Group::new(
                     Delimiter::Brace,
-                    quote!(#import #batches #traits #warnings #inner),
+                    quote!(#import #batches #warnings #inner),
                 );
                 whole.to_tokens(&mut tokens);
                 start = true;

@@ -106,15 +106,15 @@ pub(crate) fn payload_type(scalar: ScalarType, frame: &str) -> String {
     text
 }
 
-/// A type of so many numbers, or of so many arrays of lanes.
+/// Writes a type of so many numbers.
 fn newtype(text: &mut String, name: &str, scalar: ScalarType, length: usize) {
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
         "#[derive(Clone, Copy, Debug, PartialEq)]\n#[repr(transparent)]\n\
-         pub struct {name}<T = {scalar}>(pub [T; {length}]);\n\
-         impl<T> ::core::ops::Deref for {name}<T> {{\n    type Target = [T; {length}];\n    \
-         #[inline(always)]\n    fn deref(&self) -> &[T; {length}] {{\n        &self.0\n    }}\n}}"
+         pub struct {name}(pub [{scalar}; {length}]);\n\
+         impl ::core::ops::Deref for {name} {{\n    type Target = [{scalar}; {length}];\n    \
+         #[inline(always)]\n    fn deref(&self) -> &[{scalar}; {length}] {{\n        &self.0\n    }}\n}}"
     );
 }
 

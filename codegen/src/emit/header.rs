@@ -6,10 +6,10 @@ use std::fmt::Write;
 use super::arguments::described;
 use super::module::{function_doc, header};
 use super::state_box::StateBox;
-use super::{GeneratedFunction, acsl, c_sines, fused, parameters};
+use super::{GeneratedFunction, c_sines, fused, parameters};
 use crate::function::Function;
 use crate::language::c99::{self, LONGEST, Names};
-use crate::language::{Entries, Language, Printed, columns, cuda};
+use crate::language::{Language, Printed, columns, cuda};
 use crate::program::{Library, Lowered, ScalarType};
 use crate::task::Task;
 
@@ -25,7 +25,7 @@ const GCC: &str = "defined(__GNUC__) && !defined(__clang__)";
 pub(crate) fn misnamed(
     base: &str,
     functions: &[Function],
-    entries: Entries,
+    has_batches: bool,
     scalars: &[ScalarType],
 ) -> Option<String> {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
@@ -35,7 +35,7 @@ pub(crate) fn misnamed(
     let mut words: Vec<String> = ["sincos_t", "in_box"].map(String::from).into();
     for function in functions {
         words.push(function.name().to_owned());
-        if entries == Entries::Batch {
+        if has_batches {
             words.extend(["any", "batch"].map(|word| format!("{function}_{word}")));
         }
         if c99::is_bundle(*function) {
@@ -86,13 +86,13 @@ pub(crate) fn write(
         codes_of().any(|code| calls(&code) || is_fused(&code) || !code.speeds.is_empty());
     let includes = [
         ("math", needs_math),
-        ("stddef", request.entries == Entries::Batch),
+        ("stddef", request.batch),
     ];
     let includes = includes.into_iter().filter(|(_, needed)| *needed);
     let includes: String = includes
         .map(|(name, _)| format!("#include <{name}.h>\n"))
         .collect();
-    let has_loops = request.entries == Entries::Batch && request.language == Language::C;
+    let has_loops = request.batch && request.language == Language::C;
     let (when, options) = match has_loops {
         true => (GCC, ", \"no-tree-pre\""),
         false => (FUSES, ""),
@@ -142,15 +142,11 @@ pub(crate) fn write(
         let scalar = *scalar;
         let names = Names::new(&name, request.language, scalar);
         comment(&mut text, &header(robot, scene_robot, functions, scalar));
-        let is_batch = request.entries == Entries::Batch;
+        let is_batch = request.batch;
         let printed = functions.iter().zip(codes);
         let printed = printed.map(|(own, code)| Printed::of(&own.program, code));
         c_sines::write(&mut text, printed, &names, is_batch);
         if let Some(state_box) = StateBox::of(functions, scene_robot, scalar) {
-            if request.acsl {
-                text.push('\n');
-                text.push_str(&acsl::in_box(&state_box, scalar));
-            }
             state_box.write_c(&mut text, scalar, &names);
         }
         for (index, (generated, code)) in functions.iter().zip(codes).enumerate() {
@@ -202,9 +198,6 @@ pub(crate) fn write(
                 doc.push(format!("{}{units}", c99::shaped(*quantity, &printed)));
             }
             comment(&mut text, &doc);
-            if request.acsl {
-                text.push_str(&acsl::contract(generated, &printed, scene_robot, &names));
-            }
             let is_told = is_batch && c99::is_told(code, &names);
             text.push_str(&c99::write(&printed, &names, is_told));
             if is_told {

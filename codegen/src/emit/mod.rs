@@ -9,11 +9,9 @@
 //!   are relative to; `sines`: polynomials for sines;
 //!   `fused`: products fused with sums; [`figures`]: numbers
 //!   rounded to the side that stays true
-//! - [`interface`]: the robot as a value with traits
 //! - `parameters`: what the columns of a regressor are; `arguments`: what a payload and
 //!   its load are, and gravity where it is an argument; `friction`: Coulomb friction
 
-mod acsl;
 pub(crate) mod arguments;
 mod c_sines;
 mod escape;
@@ -22,7 +20,6 @@ mod friction;
 mod fused;
 mod generated;
 pub(crate) mod header;
-pub(crate) mod interface;
 pub(crate) mod module;
 mod parameters;
 mod scale;

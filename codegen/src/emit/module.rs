@@ -9,14 +9,12 @@ use super::figures::{decimal, placed};
 use super::friction;
 use super::scene::describe;
 use super::state_box::StateBox;
-use super::{arguments, fused, interface, parameters, sines, variant};
+use super::{arguments, fused, parameters, sines, variant};
 use crate::emit::GeneratedFunction;
-use crate::language::entries::angles::Angles;
-use crate::language::entries::{self, Around};
-use crate::language::{Entries, Printed, function, result};
+use crate::language::{Printed, columns, function, result};
 use crate::program::{Lowered, ScalarType};
 use crate::scene::SceneRobot;
-use crate::task::{Interface, Layout, Task};
+use crate::task::{Layout, Task};
 
 /// What generated code must not be told: that not every function is called or
 /// seen from outside, that literals carry all the digits they need, that names
@@ -111,10 +109,6 @@ fn module(
     if let Some(state_box) = StateBox::of(functions, scene_robot, scalar) {
         state_box.write(&mut text, scalar);
     }
-    let angles = angles(n, functions);
-    if request.entries > Entries::Single {
-        angles.write(&mut text, scalar);
-    }
     for (index, (generated, code)) in functions.iter().zip(codes).enumerate() {
         text.push('\n');
         let sizes = generated.program.sizes();
@@ -134,30 +128,16 @@ fn module(
         }
         let doc = function_doc(task, generated, scalar);
         let printed = Printed::of(&generated.program, code);
-        text.push_str(&match request.entries {
-            Entries::Single => function::write(&printed, &request.math.path, &doc),
-            more => {
-                let around = Around {
-                    path: &request.math.path,
-                    batch: &request.batch,
-                    angles: &angles,
-                };
-                entries::write(&printed, &around, more, &doc)
-            }
-        });
-    }
-    if request.interface == Interface::Traits {
-        text.push_str(&interface::write(functions, scalar, &request.traits));
+        text.push_str(&function::write(&printed, request.library(), &doc));
+        if request.batch {
+            text.push('\n');
+            text.push_str(&columns::columns(&printed));
+        }
     }
     if request.layout == Layout::Modules {
         text.push_str("}\n");
     }
     text
-}
-
-/// Returns the angles of a robot's functions.
-pub(crate) fn angles(joints: usize, functions: &[GeneratedFunction]) -> Angles {
-    Angles::of(joints, functions.iter().map(|generated| &generated.program))
 }
 
 /// Returns the position of a joint that follows, from the number of the one that leads.
@@ -352,9 +332,6 @@ pub(super) fn function_doc(
             ),
         },
     ];
-    if let Some(depth) = task.depth(&generated.program) {
-        lines.push(format!("The longest chain is of {depth} operations."));
-    }
     lines.extend(fused::doc(&generated.program));
     if generated.program.divides() {
         lines.push(String::new());

@@ -37,8 +37,6 @@ use crate::emit::header;
 use crate::emit::module;
 use crate::function::{Columns, Function};
 use crate::language::c99::Names;
-use crate::language::entries::Around;
-use crate::language::entries::angles::Angles;
 use crate::language::{Language, Printed};
 use crate::parallel;
 use crate::program::{Lowered, Program, ScalarType, has_inertia};
@@ -119,7 +117,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     // What is printed, and what the text is compared with once it is read back.
     let in_scalar = |&scalar: &ScalarType| -> (ScalarType, Vec<Lowered>) {
         let all = functions.iter();
-        let code = all.map(|generated| generated.code(scalar, request.math.library));
+        let code = all.map(|generated| generated.code(scalar, request.library()));
         (scalar, code.collect())
     };
     let codes: Vec<(ScalarType, Vec<Lowered>)> = scalars.iter().map(in_scalar).collect();
@@ -127,7 +125,6 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
         Language::Rust => module::write(task, &functions, &codes),
         Language::C | Language::Cuda => header::write(task, &functions, &codes),
     };
-    let angles = module::angles(robot.joints.len(), &functions);
     let name = task.module_name();
     let mut emitted = Vec::new();
     for (scalar, codes) in &codes {
@@ -138,7 +135,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
             }
         };
         for (generated, code) in functions.iter().zip(codes) {
-            emitted.push(read_back(task, section, generated, code, &angles)?);
+            emitted.push(read_back(task, section, generated, code)?);
         }
     }
     contradiction::check(scene_robot, &functions, &emitted)?;
@@ -340,23 +337,17 @@ fn read_back(
     section: Option<&str>,
     generated: &GeneratedFunction,
     code: &Lowered,
-    angles: &Angles,
 ) -> Result<Emitted, GenerateError> {
     let request = task.request;
     let scalar = code.scalar;
     let fail = |why| GenerateError::Defect(generated.function, Some(scalar), why);
     let section = section.ok_or_else(|| fail("its module is not in the text".to_owned()))?;
     let printed = Printed::of(&generated.program, code);
-    let around = Around {
-        path: &request.math.path,
-        batch: &request.batch,
-        angles,
-    };
     let read = match request.language {
-        Language::Rust => Lowered::parse_entries(section, &printed, request.entries, &around),
+        Language::Rust => Lowered::parse_rust(section, &printed, request.batch),
         Language::C | Language::Cuda => {
             let names = Names::new(&task.module_name(), request.language, scalar);
-            Lowered::parse_c(section, &printed, request.entries, &names)
+            Lowered::parse_c(section, &printed, request.batch, &names)
         }
     };
     let read = read.map_err(|error| fail(error.to_string()))?;

@@ -6,7 +6,7 @@ use dalembert_model::outputs::{PayloadDependence, RuntimeParameter};
 
 use crate::approximate::error::Unbounded;
 use crate::function::{Argument, Function};
-use crate::language::{Entries, Language};
+use crate::language::Language;
 use crate::portfolio::Start;
 use crate::task::Task;
 
@@ -59,8 +59,8 @@ impl fmt::Display for ParameterError {
             ),
             ParameterError::Batch(parameter) => write!(
                 f,
-                "batches take arguments with an entry a joint, and {} is none: ask for the \
-                 entries `lanes`",
+                "batches in Rust take arguments with an entry a joint, and {} is none: leave \
+                 `batch` out",
                 parameter.name()
             ),
             ParameterError::Gravity { scene } => write!(
@@ -101,7 +101,7 @@ pub(super) fn check(task: &Task<'_>) -> Result<(), ParameterError> {
         }
     }
     // In other languages a batch has columns of any argument.
-    if request.language == Language::Rust && request.entries == Entries::Batch {
+    if request.language == Language::Rust && request.batch {
         return Err(ParameterError::Batch(first));
     }
     let given = scene.filter(|scene| scene.gravity.is_some());

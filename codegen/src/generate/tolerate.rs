@@ -226,7 +226,7 @@ fn chosen(
         admitted.certificates = all?;
     }
     for certificate in &mut admitted.certificates {
-        *certificate = certificate.calling(request.math.library);
+        *certificate = certificate.calling(request.library());
     }
     Ok(admitted)
 }

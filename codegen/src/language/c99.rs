@@ -23,7 +23,7 @@ use super::called::Called;
 use super::dialect::Dialect;
 use super::function::reads;
 pub(crate) use super::names::{LONGEST, Names, float};
-use super::scope::Scope;
+use super::angles;
 use super::{Language, Printed, speed};
 use crate::function::{Argument, Function, Quantity};
 use crate::program::kernel::{Kernel, Term, Value};
@@ -211,14 +211,14 @@ pub(crate) fn write(printed: &Printed<'_>, names: &Names, is_told: bool) -> Stri
     line(&names.constant("UNFUSED"));
     let called = Called::of(code, printed.sizes.joints, names, is_told);
     for trig in &code.trig {
-        let (angle, state) = (trig.angle, Scope::STATE);
+        let angle = trig.angle;
         if angle.additions() > 0 {
-            line(&dialect.declare(&format!("a{angle}"), &state.sum(angle)));
+            line(&dialect.declare(&format!("a{angle}"), &angles::sum(angle)));
         }
         if called.is_some() && Called::is_of(trig) {
             continue;
         }
-        let (argument, pair) = (state.angle(angle), format!("p{angle}"));
+        let (argument, pair) = (angles::operand(angle), format!("p{angle}"));
         if let (None, Library::Together) = (&trig.kernel, code.library) {
             let [kind, function] = ["sincos_t", "sincos"].map(|word| names.of(word));
             line(&format!(

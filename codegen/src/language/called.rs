@@ -12,7 +12,7 @@
 
 use super::Language;
 use super::names::{Names, float};
-use super::scope::Scope;
+use super::angles;
 use crate::program::{AngleSum, Library, Lowered, LoweredTrig};
 
 /// The angles of a call, in the order of their sines.
@@ -91,7 +91,7 @@ impl Called {
         let given = match self.first {
             Some(joint) => format!("&q[{joint}]"),
             None => {
-                let angles = self.angles.iter().map(|&angle| Scope::STATE.angle(angle));
+                let angles = self.angles.iter().map(|&own| angles::operand(own));
                 let angles: Vec<String> = angles.collect();
                 lines.push(format!(
                     "const {float} angles[{count}] = {{{}}};",

@@ -2,17 +2,16 @@
 //!
 //! One operation a line, so that the printed text can be read back and
 //! compared with the program operation by operation. Long functions are cut
-//! into blocks (see [`BLOCK`]), very long ones into functions ([`parts`]);
-//! names stay unique.
+//! into blocks (see [`BLOCK`]); names stay unique.
 
 use std::fmt::Write;
 
 use crate::function::{Argument, Function, Sizes};
 use crate::language::dialect::Dialect;
 use crate::language::result::{self, array_type};
-use crate::language::{Printed, parts, speed, trig};
+use crate::language::{Printed, speed, trig};
 use crate::program::fused::pieces;
-use crate::program::{Input, Literal, Lowered, Operand, Output, ScalarType};
+use crate::program::{Input, Library, Literal, Lowered, Operand, Output, ScalarType};
 
 /// A function of more operations than this is printed in blocks.
 pub(crate) const FLAT: usize = 1000;
@@ -44,34 +43,25 @@ pub(crate) fn own_type(argument: Argument) -> Option<&'static str> {
     }
 }
 
-/// Prints the function; `path` is where the sines and roots are that it calls, and `doc`
-/// stands above it, one line an item.
-pub fn write(printed: &Printed<'_>, path: &str, doc: &[String]) -> String {
+/// Prints the function, whose roots are this library's; `doc` stands above it, one line an item.
+pub fn write(printed: &Printed<'_>, library: Library, doc: &[String]) -> String {
     let mut text = String::new();
     write_doc(&mut text, doc);
     push(&mut text, format_args!("#[must_use]"));
     push(&mut text, format_args!("{} {{", signature(printed)));
-    trig::write(&mut text, printed.code, path);
-    write_body(&mut text, printed, path);
+    let dialect = Dialect::rust(printed.code.scalar);
+    trig::write(&mut text, printed.code);
+    speed::write(&mut text, dialect, printed.code, library.path());
+    write_steps(&mut text, printed.code, dialect);
+    let (function, sizes) = (printed.function, printed.sizes);
+    let items = printed.code.outputs.iter().map(|o| result_item(o, dialect));
+    result::write(&mut text, function, function.structure(), sizes, items);
     text.push_str("}\n");
     text
 }
 
-/// Writes what follows the sines: what is read of speeds, the arithmetic and the result.
-pub(super) fn write_body(text: &mut String, printed: &Printed<'_>, path: &str) {
-    let dialect = Dialect::rust(printed.code.scalar);
-    speed::write(text, dialect, printed.code, path);
-    match printed.code.steps.len() > parts::LONG {
-        true => parts::write(text, printed),
-        false => write_steps(text, printed.code, dialect),
-    }
-    let (function, sizes) = (printed.function, printed.sizes);
-    let items = printed.code.outputs.iter().map(|o| result_item(o, dialect));
-    result::write(text, function, function.structure(), sizes, items);
-}
-
 /// Writes documentation, one line an item.
-pub(super) fn write_doc(text: &mut String, doc: &[String]) {
+fn write_doc(text: &mut String, doc: &[String]) {
     for line in doc {
         let space = if line.is_empty() { "" } else { " " };
         push(text, format_args!("///{space}{line}"));
@@ -88,7 +78,7 @@ pub(super) fn write_steps(text: &mut String, code: &Lowered, dialect: Dialect) {
         }
         return;
     }
-    let last_use = parts::last_uses(code);
+    let last_use = last_uses(code);
     for block in pieces(&code.steps, BLOCK) {
         let end = block.end;
         // A block hands on what is read after it: that much is live.
@@ -103,6 +93,24 @@ pub(super) fn write_steps(text: &mut String, code: &Lowered, dialect: Dialect) {
         push(text, format_args!("        ({})", live.trim_end()));
         push(text, format_args!("    }};"));
     }
+}
+
+/// Returns the last step that reads each step; past the end for results.
+fn last_uses(code: &Lowered) -> Vec<usize> {
+    let mut last = vec![0; code.steps.len()];
+    for (index, step) in code.steps.iter().enumerate() {
+        for operand in [&step.left, &step.right] {
+            if let Operand::Step(read) = operand {
+                last[*read] = index;
+            }
+        }
+    }
+    for output in &code.outputs {
+        if let Operand::Step(read) = output.value {
+            last[read] = usize::MAX;
+        }
+    }
+    last
 }
 
 /// Returns the signature, without a brace.
@@ -132,7 +140,7 @@ fn signature(printed: &Printed<'_>) -> String {
 
 /// Returns the type of an argument: an array, which has a name where it is no joint vector
 /// of as many numbers as users would count.
-pub(super) fn argument_type(argument: Argument, sizes: Sizes, scalar: ScalarType) -> String {
+fn argument_type(argument: Argument, sizes: Sizes, scalar: ScalarType) -> String {
     match own_type(argument) {
         Some(name) => name.to_owned(),
         None => format!("[{scalar}; {}]", argument.length(sizes)),

@@ -6,17 +6,11 @@ use crate::function::{Function, Quantity, Sizes};
 use crate::program::ScalarType;
 
 /// Returns the array type of a quantity: `[[f64; 6]; 6]` for a matrix over the joints.
-/// An entry is of a type of its own, such as `[f64; L]`.
-pub(super) fn array_of(entry: &str, quantity: Quantity, sizes: Sizes) -> String {
+pub(crate) fn array_type(quantity: Quantity, sizes: Sizes, scalar: ScalarType) -> String {
     let lengths = quantity.shape().lengths(sizes).rev();
-    lengths.fold(entry.to_owned(), |inner, length| {
+    lengths.fold(scalar.name().to_owned(), |inner, length| {
         format!("[{inner}; {length}]")
     })
-}
-
-/// Returns the array type of a quantity.
-pub(crate) fn array_type(quantity: Quantity, sizes: Sizes, scalar: ScalarType) -> String {
-    array_of(scalar.name(), quantity, sizes)
 }
 
 /// Returns the struct that a function returns, if it does.
@@ -26,18 +20,13 @@ pub fn structure(function: Function, sizes: Sizes, scalar: ScalarType) -> Option
     text.push_str("#[derive(Clone, Copy, Debug, PartialEq)]\n");
     // Writing to a string cannot fail.
     let _ = writeln!(text, "pub struct {name} {{");
-    fields(&mut text, function, scalar.name(), sizes);
-    text.push_str("}\n");
-    Some(text)
-}
-
-/// Writes the fields of the struct that a function returns, a line and its documentation each.
-pub(super) fn fields(text: &mut String, function: Function, entry: &str, sizes: Sizes) {
     for &quantity in function.quantities() {
         let (doc, field) = (quantity.summary(), quantity.field());
-        let array = array_of(entry, quantity, sizes);
+        let array = array_type(quantity, sizes, scalar);
         let _ = writeln!(text, "    /// {doc}\n    pub {field}: {array},");
     }
+    text.push_str("}\n");
+    Some(text)
 }
 
 /// Prints a result of these entries, in their order, as the last expression of

@@ -11,14 +11,12 @@
 use std::fmt::Write;
 
 use crate::language::dialect::Dialect;
-use crate::language::scope::Scope;
 use crate::program::kernel::{Kernel, Term, Value};
 
 /// Writes the block that computes one angle's sine and cosine; `argument` is how the code names
 /// the angle.
 pub(super) fn write(
     text: &mut String,
-    scope: Scope,
     names: &str,
     argument: &str,
     kernel: &Kernel,
@@ -33,20 +31,17 @@ pub(super) fn write(
         let sign = if value.negative { "-" } else { "" };
         format!("{sign}{}", term(value.value))
     };
-    let Scope {
-        indent, binding, ..
-    } = scope;
     // Writing to a string cannot fail.
-    let _ = writeln!(text, "{indent}{binding}{names} = {{");
+    let _ = writeln!(text, "    let {names} = {{");
     for (index, step) in kernel.steps.iter().enumerate() {
         let (left, right) = (term(step.left), term(step.right));
         let (number, symbol) = (index + 1, step.operation.symbol());
-        let _ = writeln!(text, "{indent}    let x{number} = {left} {symbol} {right};");
+        let _ = writeln!(text, "        let x{number} = {left} {symbol} {right};");
     }
     let result = match (kernel.sin, kernel.cos) {
         (Some(sin), Some(cos)) => format!("({}, {})", value(sin), value(cos)),
         (Some(only), None) | (None, Some(only)) => value(only),
         (None, None) => "()".to_owned(),
     };
-    let _ = writeln!(text, "{indent}    {result}\n{indent}}};");
+    let _ = writeln!(text, "        {result}\n    }};");
 }

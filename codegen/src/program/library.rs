@@ -16,6 +16,14 @@ impl Library {
     /// Both.
     pub const ALL: [Library; 2] = [Library::Libm, Library::Together];
 
+    /// Returns the name of its crate.
+    pub fn path(self) -> &'static str {
+        match self {
+            Library::Libm => "libm",
+            Library::Together => "dalembert_sines",
+        }
+    }
+
     /// Returns the assumption about called sines that bounds rest on.
     pub fn assumption(self) -> &'static str {
         match self {

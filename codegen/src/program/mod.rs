@@ -9,7 +9,6 @@
 //!   library or by the polynomials of a [`kernel`]; `difference`: where two differ
 //! - [`library`]: who computes the sines that are called
 //! - [`fused`]: products that are fused with a sum
-//! - [`shallow`]: the order of least depth
 //! - `evaluate`: runs either in any scalar; [`run`]: as emitted code runs, bit
 //!   for bit, [`columns`]: at many states at once
 //! - `map`: the same over other constants and inputs, or with steps elsewhere
@@ -32,7 +31,6 @@ pub(crate) mod machine;
 mod map;
 pub(crate) mod run;
 pub(crate) mod scalar_type;
-pub(crate) mod shallow;
 pub(crate) mod speed;
 pub(crate) mod text;
 

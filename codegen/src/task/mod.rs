@@ -13,9 +13,8 @@ use dalembert_model::robot::Robot;
 use dalembert_model::scene::Tolerance;
 
 use crate::program::Program;
-use crate::program::shallow::Cycles;
 use crate::scene::SceneRobot;
-pub use options::{Fma, Interface, Layout, Prefer};
+pub use options::{Fma, Layout, Prefer};
 pub use request::Request;
 
 /// A request for a robot in its scene.
@@ -44,23 +43,13 @@ impl<'a> Task<'a> {
         self.scene_robot.scene()?.tolerance.as_ref()
     }
 
-    /// Returns what is emitted of a program that was found: in another order, or with its
-    /// products fused, where that was asked for.
+    /// Returns what is emitted of a program that was found: with its products fused, where that
+    /// was asked for.
     pub(crate) fn finished(&self, program: &Program) -> Program {
-        let program = match self.request.prefer {
-            Prefer::Latency => program.shallow(Cycles::DESKTOP),
-            Prefer::Accuracy | Prefer::Operations => program.clone(),
-        };
         match self.request.fma {
             Fma::On => program.fused(),
-            Fma::Off => program,
+            Fma::Off => program.clone(),
         }
-    }
-
-    /// Returns the length of a program's longest chain of operations, if a short one was
-    /// asked for.
-    pub(crate) fn depth(&self, program: &Program) -> Option<usize> {
-        (self.request.prefer == Prefer::Latency).then(|| program.depth())
     }
 
     /// Returns whether cheaper programs may round as they like.

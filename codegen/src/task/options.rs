@@ -15,10 +15,6 @@ words! {
         Accuracy = "accuracy",
         /// Take the cheapest.
         Operations = "operations",
-        /// As `Accuracy`, then take sums and products in the order in which the longest
-        /// chain is shortest: for who waits for one
-        /// state's result, rather than for many.
-        Latency = "latency",
     }
 }
 
@@ -32,18 +28,6 @@ words! {
         /// A product and its sum are one operation, `mul_add`, and rounded once. It
         /// needs `std`, and a processor that has it.
         On = "on",
-    }
-}
-
-words! {
-    /// How code meets a module.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-    pub enum Interface: "interface" {
-        /// By its functions.
-        #[default]
-        Functions = "functions",
-        /// Also by a type with the traits of `dalembert`, which every robot can have.
-        Traits = "traits",
     }
 }
 
@@ -79,8 +63,7 @@ macro_rules! each_option {
 
             /// What programs are chosen by: `accuracy`, the cheapest whose rounding error is at
             /// most four times the textbook form's; `operations`, the cheapest even if it costs
-            /// digits; `latency`, as `accuracy`, with sums and products, a plan's too, in the
-            /// order in which the longest chain of operations is shortest
+            /// digits
             prefer(prefer): $crate::Prefer, Search;
 
             /// Whether a product and the sum that alone reads it are one operation, `mul_add`,
@@ -94,25 +77,15 @@ macro_rules! each_option {
             /// `auto`, polynomials where a scene's tolerance admits them, else the library
             sincos(sincos): $crate::SinCos, Code;
 
-            /// Which variants of each function to print, each choice with those before it:
-            /// `single`; `with_sincos`, which takes sines and cosines as arguments; `lanes`, for
-            /// several states at once; `batch`, for slices of states (needs the crate
-            /// dalembert-batch)
-            entries(entries): $crate::Entries, Text;
-
-            /// What the module has besides functions: `traits` adds a type `Robot` that
-            /// implements the traits of `dalembert::interface`, for code that is generic over
-            /// robots
-            interface(interface): $crate::Interface, Text;
+            /// Whether each function has a second one for any number of states in columns:
+            /// `NAME_columns` in Rust, by the crate dalembert-batch; `NAME_batch` in C and, as a
+            /// kernel, in CUDA
+            batch(batch): bool, Text;
 
             /// The language of the code: `rust`, a module for each scalar; `c`, one header of C99
             /// that C++ reads too; `cuda`, one header of functions for host and device, and
-            /// kernels with the entries `batch`
+            /// kernels with `batch`
             language(language): $crate::Language, File;
-
-            /// Whether functions in C have contracts in ACSL, for Frama-C: the box, what is
-            /// written, and the certified bounds
-            acsl(acsl): bool, File;
 
             /// What the file holds: `modules`, one for each scalar, for `include!`; `contents`,
             /// what is inside the one module, for a file that is a module of your crate
@@ -177,7 +150,7 @@ mod tests {
 
     use super::*;
     use crate::function::Function;
-    use crate::language::{Entries, Language};
+    use crate::language::Language;
     use crate::portfolio::Start;
     use crate::program::ScalarType;
     use crate::simplify::Effort;
@@ -202,8 +175,6 @@ mod tests {
         check::<ScalarType>();
         check::<Effort>();
         check::<Prefer>();
-        check::<Entries>();
-        check::<Interface>();
         check::<RuntimeParameter>();
         check::<Start>();
         check::<SinCos>();

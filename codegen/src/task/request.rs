@@ -6,10 +6,9 @@ use dalembert_model::scene::Scene;
 
 use crate::each_option;
 use crate::function::Function;
-use crate::language::MathPath;
 use crate::plan::Plan;
 use crate::portfolio::load;
-use crate::program::ScalarType;
+use crate::program::{Library, ScalarType};
 use crate::scene::{SceneError, SceneRobot};
 use crate::simplify::{Effort, WaySource};
 use crate::watch::Watch;
@@ -31,12 +30,8 @@ macro_rules! request {
             pub plan: Option<Plan>,
             /// Who waits, if anybody does.
             pub watch: Watch,
-            /// Where emitted code finds sine and cosine, if it calls them.
-            pub math: MathPath,
-            /// Where emitted code finds `dalembert-batch`, if batches are asked for.
-            pub batch: String,
-            /// Where emitted code finds the traits, if they are asked for.
-            pub traits: String,
+            /// Whose sines are called where `sincos` leaves the choice open.
+            pub auto: Library,
             /// The module's name; the robot's and the scene's if `None`. The f32
             /// module of a pair has `_f32` appended.
             pub module: Option<String>,
@@ -65,9 +60,7 @@ macro_rules! request {
                     scalars: ScalarType::ALL.to_vec(),
                     plan: None,
                     watch: Watch::default(),
-                    math: MathPath::default(),
-                    batch: "dalembert_batch".to_owned(),
-                    traits: "dalembert::interface".to_owned(),
+                    auto: Library::default(),
                     module: None,
                     parameters: Vec::new(),
                     scene: None,
@@ -88,6 +81,11 @@ impl Request {
             functions: functions.to_vec(),
             ..Request::default()
         }
+    }
+
+    /// Returns the library whose sines are called, if any are.
+    pub fn library(&self) -> Library {
+        self.sincos.library(self.auto)
     }
 
     /// Returns the units of [`work`](Request::work) of the ways in that keep a compiler

@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use dalembert_codegen::workspace::function::{Argument, Function};
 use dalembert_codegen::workspace::generate::{Generated, generate};
 use dalembert_codegen::workspace::language::c99::Names;
-use dalembert_codegen::workspace::language::{Entries, Language};
+use dalembert_codegen::workspace::language::Language;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::program::run::State;
 use dalembert_codegen::workspace::random::Random;
@@ -57,7 +57,7 @@ fn call(base: &str, generated: &Generated, emitted: &Emitted, request: &Request)
         ScalarType::F64 => "double",
         ScalarType::F32 => "float",
     };
-    let batch = request.entries == Entries::Batch;
+    let batch = request.batch;
     let states = if batch { STATES } else { 1 };
     let suffix = if batch { "_batch" } else { "" };
     let names = Names::new(base, request.language, emitted.scalar);
@@ -132,9 +132,9 @@ fn main_of(base: &str, generated: &Generated, request: &Request) -> String {
         .map(|emitted| call(base, generated, emitted, request))
         .collect();
     let outputs = generated.emitted.iter().map(|own| own.text.outputs.len());
-    let (states, device) = match (request.entries, request.language) {
-        (Entries::Batch, Language::Cuda) => (STATES, DEVICE),
-        (Entries::Batch, _) => (STATES, ""),
+    let (states, device) = match (request.batch, request.language) {
+        (true, Language::Cuda) => (STATES, DEVICE),
+        (true, _) => (STATES, ""),
         (_, Language::Cuda) => (1, DEVICE),
         _ => (1, ""),
     };

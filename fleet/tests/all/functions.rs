@@ -3,8 +3,8 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use dalembert::interface::InverseDynamics;
 use dalembert_fit::{Accumulator, Model, Prior, fit};
+use dalembert_generated::planar2r;
 use dalembert_fleet::{Dynamics, Error, Generated, Residuals, States, register};
 use datafusion::arrow::array::{
     Array, ArrayRef, AsArray, FixedSizeListArray, Float32Array, Float64Array, Int64Array,
@@ -338,21 +338,13 @@ fn fits_by_machine_code_are_those_of_the_library() {
     }
 }
 
-/// A generated type, by its trait.
-struct Planar2r;
-
-impl InverseDynamics<f64, 2> for Planar2r {
-    fn inverse_dynamics(&self, q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> [f64; 2] {
-        dalembert_generated::planar2r::inverse_dynamics(q, qd, qdd)
-    }
-}
-
+/// What `dynamics!` and the command write is registered as it is.
 #[test]
-fn generated_types_are_registered_by_their_traits() {
+fn generated_functions_are_registered() {
     let loaded = robot("planar2r", true);
     let model = loaded.model().unwrap().clone();
     let generated: Arc<dyn Dynamics> =
-        Arc::new(Generated::<_, 2>::new(Planar2r, Some(model.clone())).unwrap());
+        Arc::new(Generated::new(planar2r::inverse_dynamics, Some(model.clone())).unwrap());
     let loaded: Arc<dyn Dynamics> = loaded;
     let sample = Sample::new(loaded.as_ref(), 700, 7);
     let values = [&generated, &loaded].map(|robot| {
@@ -375,7 +367,7 @@ fn generated_types_are_registered_by_their_traits() {
         assert!((x - y).abs() < 1e-9 * (1.0 + y.abs()), "{x} {y}");
     }
     let three: Model = robot("planar3r", true).model().unwrap().clone();
-    let why = Generated::<_, 2>::new(Planar2r, Some(three))
+    let why = Generated::new(planar2r::inverse_dynamics, Some(three))
         .unwrap_err()
         .to_string();
     assert!(why.contains("3 joints"), "{why}");

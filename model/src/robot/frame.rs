@@ -7,7 +7,7 @@ pub const HAND: &str = "hand";
 const MAX_BYTES: usize = 48;
 
 /// The endings of the other ways to call a function.
-pub(crate) const ENDINGS: [&str; 4] = ["_with_sincos", "_lanes", "_batch", "_columns"];
+pub(crate) const ENDINGS: [&str; 2] = ["_batch", "_columns"];
 
 /// Returns whether a frame may have this name: small letters, digits and single `_`
 /// between them, and no ending that is one of functions' own.

@@ -286,7 +286,7 @@ def load(
         A scene of the robot file, with its tolerance, if it has one.
     formulation, effort, prefer, fma, sincos
         Words that ``dalembert generate --help`` explains: ``"quick"`` or ``"thorough"``;
-        ``"accuracy"``, ``"operations"`` or ``"latency"``; ``"auto"``, ``"together"``,
+        ``"accuracy"`` or ``"operations"``; ``"auto"``, ``"together"``,
         ``"libm"`` or ``"polynomial"``; with ``fma="on"`` results are not those of other
         machines.
     nan

@@ -40,8 +40,6 @@ pub struct Time {
     pub nanoseconds: f64,
     /// To the exact f64 variant in the same run.
     pub ratio: f64,
-    /// Nanoseconds of a state where some are run at once, of a variant that calls no sines.
-    pub in_lanes: Option<f64>,
 }
 
 impl Point {

@@ -7,17 +7,17 @@ dalembert::dynamics! {
     scalar: f32, f32;
 }
 
-// A slip in the entries.
+// A slip in a choice.
 dalembert::dynamics! {
     mod unknown_entries = "robots/planar2r.toml";
     outputs: gravity, manipulator_equation;
-    entries: lane;
+    batch: onn;
 }
 
 dalembert::dynamics! {
     mod unknown_entries_other = "robots/planar2r.toml";
     outputs: gravity;
-    entries: simd;
+    batch: simd;
 }
 
 // A word that is no choice.

@@ -3,7 +3,6 @@ dalembert::dynamics! {
     mod arm = "robots/planar2r.toml";
     outputs: gravity, inertia, forward_kinematics;
     parameters: payload, gravity;
-    entries: lanes;
 }
 
 fn main() {
@@ -24,9 +23,4 @@ fn main() {
     // D takes no gravity, poses take nothing.
     assert!(arm::inertia(&q, &heavy)[1][1] > arm::inertia(&q, &load)[1][1]);
     let _ = arm::forward_kinematics(&q);
-    let g = arm::Gravity([0.0, -9.81, 0.0].map(|x| [x; 2]));
-    let lanes = arm::gravity_lanes(&q.map(|x| [x; 2]), &g, &arm::Load(heavy.map(|x| [x; 2])));
-    let loads = arm::load_lanes(&arm::Payload(kilogram.map(|x| [x; 2])));
-    assert_eq!(loads.map(|lanes| lanes[1]), *heavy);
-    assert_eq!([lanes[0][1], lanes[1][1]], more);
 }

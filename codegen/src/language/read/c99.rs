@@ -2,15 +2,13 @@
 //! writes sines, unread arguments and results.
 
 use super::block::{Block, output, trig};
-use super::entries::same;
 use super::reader::Reader;
-use super::{TextError, at, expect, index_of};
+use super::{TextError, at, expect, index_of, same};
 use crate::language::c99::{FAR, Names, float, head, single, targets};
 use crate::language::called::Called;
 use crate::language::columns::batch;
 use crate::language::dialect::holes;
-use crate::language::scope::Scope;
-use crate::language::{Entries, Printed};
+use crate::language::{Printed, angles};
 use crate::program::{AngleSum, Library, Lowered};
 
 impl Lowered {
@@ -22,7 +20,7 @@ impl Lowered {
     pub fn parse_c(
         text: &str,
         printed: &Printed<'_>,
-        entries: Entries,
+        has_columns: bool,
         names: &Names,
     ) -> Result<Lowered, TextError> {
         let all: Vec<&str> = text.lines().map(str::trim).collect();
@@ -57,7 +55,7 @@ impl Lowered {
         for (number, line) in lines {
             if line == "}" {
                 let read = reader.finish(&items, &targets).map_err(at(number))?;
-                if entries == Entries::Batch {
+                if has_columns {
                     let text = batch(
                         &Printed {
                             code: &read,
@@ -104,7 +102,7 @@ impl Lowered {
 }
 
 struct CReader<'n> {
-    reader: Reader<'n>,
+    reader: Reader,
     names: &'n Names,
     /// How long `q` is.
     joints: usize,
@@ -210,7 +208,7 @@ impl CReader<'_> {
             .is_none_or(|block| block.trig.angle != angle)
         {
             self.close();
-            let argument = Scope::STATE.angle(angle);
+            let argument = angles::operand(angle);
             self.begin(angle, &argument)?;
             self.block = Some(Block::new(
                 trig(angle, false, false),
@@ -261,7 +259,7 @@ impl CReader<'_> {
             Library::Together if is_new => return Err(format!("`{value}` is of no call")),
             Library::Together => expect(value, &format!("p{angle}.{function}"))?,
             Library::Libm => {
-                let argument = Scope::STATE.angle(angle);
+                let argument = angles::operand(angle);
                 expect(value, &dialect.call("", function, &argument))?;
                 if is_new {
                     self.begin(angle, &argument)?;
@@ -285,7 +283,7 @@ impl CReader<'_> {
 
     /// Takes the sum that the line before formed, of an angle that is one.
     fn begin(&mut self, angle: AngleSum, argument: &str) -> Result<(), String> {
-        expect(argument, &Scope::STATE.angle(angle))?;
+        expect(argument, &angles::operand(angle))?;
         if angle.additions() > 0 && self.reader.sums.pop_if(|sum| *sum == angle).is_none() {
             return Err(format!("`{argument}` is no angle"));
         }

@@ -3,15 +3,13 @@
 //! - this file: what a text says, and whether it is the program
 //! - `reader`: the statements, line by line, by the table of the dialect
 //! - `block`: sines and cosines by polynomials
-//! - `sines`: sines and cosines by calls and from a caller
+//! - `sines`: sines and cosines by calls
 //! - `wrap`: what wraps the statements of long functions
 //! - `result`: the arrays and the struct at the end
-//! - `entries`: functions that can be called in several ways
 //! - `c99`: what C writes in its own way
 
 mod block;
 mod c99;
-mod entries;
 mod reader;
 mod result;
 mod sines;
@@ -21,6 +19,7 @@ use std::fmt;
 
 use crate::function::Function;
 use crate::language::dialect::Dialect;
+use crate::language::{Printed, columns};
 use crate::program::{Difference, Library, Lowered, Program, ScalarType};
 use crate::sincos::{AngleKernel, lowered};
 use reader::Reader;
@@ -61,6 +60,36 @@ impl Lowered {
         read.map_err(at(end))
     }
 
+    /// Reads a function out of a module's text, and compares the function of columns, if it has
+    /// one, with the one that follows. Nothing is taken from the code of `printed`, which says what
+    /// the function is.
+    ///
+    /// # Errors
+    /// The first line that is not of an emitted function, or not of its columns.
+    pub fn parse_rust(
+        module: &str,
+        printed: &Printed<'_>,
+        has_columns: bool,
+    ) -> Result<Lowered, TextError> {
+        let read = Lowered::parse(module, printed.function, printed.code.scalar)?;
+        if has_columns {
+            let lines: Vec<&str> = module.lines().map(str::trim).collect();
+            let code = Printed {
+                code: &read,
+                ..*printed
+            };
+            let text = columns::columns(&code);
+            let own: Vec<&str> = text.lines().filter(|line| is_code(line)).collect();
+            let kind = own.iter().find(|line| line.starts_with("pub struct "));
+            let first = lines.iter().position(|line| Some(line) == kind);
+            let missing = || at(0)(format!("there are no columns of `{}`", printed.function));
+            let first = first.ok_or_else(missing)?;
+            let start = text.find("pub struct ").unwrap_or_default();
+            same(&lines, first, &text[start..])?;
+        }
+        Ok(read)
+    }
+
     /// Compares with the program and its sines, in the text's scalar: every
     /// operation, every literal with its exact value rounded once, polynomials
     /// literal by literal; angles that are not among `sines` are the library's.
@@ -96,6 +125,24 @@ fn expect(found: &str, expected: &str) -> Result<(), String> {
     }
 }
 
+/// Returns whether a line is no documentation, which is for people.
+fn is_code(line: &str) -> bool {
+    !line.is_empty() && !line.starts_with("///")
+}
+
+/// Compares the lines from `first` with what they must be.
+fn same(lines: &[&str], first: usize, expected: &str) -> Result<(), TextError> {
+    let expected = expected.lines().map(str::trim);
+    let expected = expected.filter(|line| is_code(line));
+    let mut found = lines.iter().enumerate().skip(first);
+    for expected in expected {
+        let next = found.by_ref().find(|(_, line)| is_code(line));
+        let (number, line) = next.unwrap_or((lines.len(), &""));
+        expect(line, expected).map_err(at(number))?;
+    }
+    Ok(())
+}
+
 /// Finds the head of a function; lines are counted from zero.
 fn head(lines: &[&str], name: &str) -> Result<usize, TextError> {
     let starts = |line: &&str| {
@@ -110,7 +157,7 @@ fn head(lines: &[&str], name: &str) -> Result<usize, TextError> {
 /// Reads the statements after a head into the reader; returns what the function ends with,
 /// and the line of its brace.
 fn statements(
-    reader: &mut Reader<'_>,
+    reader: &mut Reader,
     lines: &[&str],
     head: usize,
 ) -> Result<(String, usize), TextError> {

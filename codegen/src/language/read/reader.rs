@@ -5,29 +5,25 @@ use super::wrap::Wrap;
 use super::{expect, index_of};
 use crate::function::Argument;
 use crate::language::dialect::{Dialect, holes};
-use crate::language::entries::angles::Angles;
 use crate::program::text::input_name;
 use crate::program::{AngleSum, Input, Library, Literal, Lowered, Operand, Operation, Speed, Step};
 
 /// Reads one function.
-pub(super) struct Reader<'a> {
+pub(super) struct Reader {
     pub(super) dialect: Dialect,
-    /// Where a caller's sines stand, if none is computed here.
-    pub(super) given: Option<&'a Angles>,
     pub(super) program: Lowered,
     /// The sums of angles that lines before formed, and that none has read.
     pub(super) sums: Vec<AngleSum>,
-    /// The block or part that is open.
+    /// The block that is open.
     wrap: Wrap,
     /// The polynomials of an angle that are open.
     block: Option<Block>,
 }
 
-impl<'a> Reader<'a> {
-    pub(super) fn new(dialect: Dialect) -> Reader<'a> {
+impl Reader {
+    pub(super) fn new(dialect: Dialect) -> Reader {
         Reader {
             dialect,
-            given: None,
             program: Lowered {
                 scalar: dialect.scalar,
                 library: Library::Libm,
@@ -39,14 +35,6 @@ impl<'a> Reader<'a> {
             sums: Vec::new(),
             wrap: Wrap::default(),
             block: None,
-        }
-    }
-
-    /// Reads a function whose sines are its caller's.
-    pub(super) fn given(dialect: Dialect, angles: &'a Angles) -> Reader<'a> {
-        Reader {
-            given: Some(angles),
-            ..Reader::new(dialect)
         }
     }
 
@@ -84,7 +72,7 @@ impl<'a> Reader<'a> {
             return self.fused(name, value, words);
         }
         let is_operation = self.dialect.read_operation(value).is_some();
-        if !is_operation && self.is_of_sines(value) {
+        if !is_operation && value.contains('(') {
             return self.sines(name, value);
         }
         self.next(name, 1)?;

@@ -1,32 +1,14 @@
-//! Sines and cosines: by a call for one angle or for all, or from a caller.
+//! Sines and cosines: by a call for one angle or for all.
 
-use super::block::{list, pair, shown, trig};
+use super::block::{shown, trig};
 use super::reader::Reader;
 use super::{expect, index_of};
 use crate::language::dialect::holes;
 use crate::program::{AngleSum, Library};
 
-impl Reader<'_> {
-    /// Returns whether [`sines`](Self::sines) reads this value.
-    pub(super) fn is_of_sines(&self, value: &str) -> bool {
-        value.contains('(') || value.starts_with("sin[") || value.starts_with("cos[")
-    }
-
+impl Reader {
     /// Takes sines and cosines and their names.
     pub(super) fn sines(&mut self, names: &str, value: &str) -> Result<(), String> {
-        if let Some(angles) = self.given {
-            let name = list(names)[0];
-            let angle = name.strip_prefix(['s', 'c']).and_then(|n| n.parse().ok());
-            let trig = angle.and_then(|angle| pair(names, angle));
-            let place = trig.as_ref().and_then(|trig| angles.place(trig.angle));
-            let (trig, place) = trig
-                .zip(place)
-                .ok_or_else(|| format!("`{names}` are no sine and cosine of a caller's"))?;
-            let [sin, cos] = ["sin", "cos"].map(|array| format!("{array}[{place}]"));
-            expect(value, &shown(&trig, &sin, &cos))?;
-            self.program.trig.push(trig);
-            return Ok(());
-        }
         if self.program.library == Library::Together {
             return Err("a call after that of all angles together".into());
         }

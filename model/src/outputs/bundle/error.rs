@@ -71,7 +71,7 @@ impl BundleError {
             }
             BundleError::Ending(name, ending) => {
                 let of = name.strip_suffix(ending).unwrap_or(name);
-                format!("`{name}` would end as the other ways to call `{of}` do, `{ending}`")
+                format!("`{name}` would end as the other way to call `{of}` does, `{ending}`")
             }
             BundleError::Nameless(parts) => format!("`{parts}` has no name"),
             BundleError::Unknown(word) => format!("unknown output `{word}`"),

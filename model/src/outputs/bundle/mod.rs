@@ -261,8 +261,8 @@ robot=inertia+jacobian
 `robot` has a meaning of its own in generated modules: call the bundle otherwise
 match=inertia+jacobian
 `match` is a word of Rust: call the bundle otherwise
-my_lanes=inertia+jacobian
-`my_lanes` would end as the other ways to call `my` do, `_lanes`: call the bundle otherwise
+my_columns=inertia+jacobian
+`my_columns` would end as the other way to call `my` does, `_columns`: call the bundle otherwise
 Servo=inertia+jacobian
 `Servo` is no name of a function: small letters, digits and single `_` between them, such as `servo_2`
 =inertia+jacobian

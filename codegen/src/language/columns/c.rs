@@ -3,8 +3,8 @@
 
 use std::fmt::Write;
 
-use super::c99::{Names, float, is_bundle, is_number, is_told, largest, structure_name};
-use super::{Language, Printed};
+use crate::language::c99::{Names, float, is_bundle, is_number, is_told, largest, structure_name};
+use crate::language::{Language, Printed};
 use crate::program::Literal;
 
 /// The parts of a function of any number of states.

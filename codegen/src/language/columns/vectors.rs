@@ -1,4 +1,4 @@
-//! The arithmetic of a function over vectors: what `NAME_batch` and `NAME_columns` run.
+//! The arithmetic of a function over vectors: what `NAME_columns` runs.
 //!
 //! ```text
 //! fn angles<V: dalembert_batch::Floats<f64>>([q]: &[[V; 2]; 1]) -> [V; 1] {
@@ -13,16 +13,13 @@
 //! ```
 //!
 //! It is a text of its own, since one that both took would slow down the other: unoptimised, each
-//! operator of a type that nobody knows is a call. And of a loop over lanes compilers make
-//! vectors as wide as they like.
+//! operator of a type that nobody knows is a call.
 
 use std::fmt::Write;
 
-use super::Around;
 use crate::function::Argument;
 use crate::language::dialect::Dialect;
-use crate::language::scope::Scope;
-use crate::language::{Printed, function, sines, speed, trig};
+use crate::language::{Printed, angles, function, sines, speed, trig};
 use crate::program::{Lowered, LoweredTrig, Operation, Step};
 
 /// Returns the angles whose sines are given.
@@ -39,9 +36,9 @@ pub(super) fn fuses_sines(code: &Lowered) -> bool {
 }
 
 /// Prints the methods that compute in vectors.
-pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_>) {
-    write_angles(text, printed, around);
-    let (code, batch) = (printed.code, around.batch);
+pub(super) fn write(text: &mut String, printed: &Printed<'_>) {
+    write_angles(text, printed);
+    let code = printed.code;
     let dialect = Dialect::vectors(code.scalar);
     let mut body = String::new();
     for trig in code
@@ -49,9 +46,9 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_
         .iter()
         .filter(|trig| !trig::is_together(trig, code))
     {
-        write_sines(&mut body, trig, dialect, around.path);
+        write_sines(&mut body, trig, dialect);
     }
-    speed::write(&mut body, dialect, code, batch);
+    speed::write(&mut body, dialect, code, "dalembert_batch");
     function::write_steps(&mut body, code, dialect);
     let outputs = code.outputs.iter();
     let results: Vec<String> = outputs.map(|o| function::result_item(o, dialect)).collect();
@@ -87,7 +84,7 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_
     let _ = writeln!(
         text,
         "\n    #[inline(always)]\n    \
-         fn vectors<V: {batch}::Vector<{}>>([{}]: &[[V; {n}]; {count}], \
+         fn vectors<V: dalembert_batch::Vector<{}>>([{}]: &[[V; {n}]; {count}], \
          &[{}]: &[V; {taken}], &[{}]: &[V; {taken}]) -> [V; {entries}] {{",
         code.scalar,
         arguments.join(", "),
@@ -99,11 +96,11 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>, around: &Around<'_
     for line in body.lines() {
         let _ = writeln!(text, "    {line}");
     }
-    let _ = writeln!(text, "        [{results}]\n    }}\n");
+    let _ = writeln!(text, "        [{results}]\n    }}");
 }
 
 /// Prints which angles sines are given of.
-fn write_angles(text: &mut String, printed: &Printed<'_>, around: &Around<'_>) {
+fn write_angles(text: &mut String, printed: &Printed<'_>) {
     let (code, n, count) = (printed.code, printed.sizes.joints, printed.arguments.len());
     let angles: Vec<_> = taken(code).map(|trig| trig.angle).collect();
     let arguments = printed.arguments.iter().map(|argument| argument.name());
@@ -115,31 +112,26 @@ fn write_angles(text: &mut String, printed: &Printed<'_>, around: &Around<'_>) {
     let _ = writeln!(
         text,
         "    #[inline(always)]\n    \
-         fn angles<V: {}::Floats<{}>>([{}]: &[[V; {n}]; {count}]) -> [V; {}] {{",
-        around.batch,
+         fn angles<V: dalembert_batch::Floats<{}>>([{}]: &[[V; {n}]; {count}]) -> [V; {}] {{",
         code.scalar,
         arguments.join(", "),
         angles.len()
     );
-    let angles: Vec<String> = angles
-        .iter()
-        .map(|&angle| Scope::STATE.sum(angle))
-        .collect();
+    let angles: Vec<String> = angles.iter().map(|&own| angles::sum(own)).collect();
     let _ = writeln!(text, "        [{}]\n    }}", angles.join(", "));
 }
 
 /// Prints the sines of an angle that are computed for themselves.
-fn write_sines(text: &mut String, trig: &LoweredTrig, dialect: Dialect, path: &str) {
-    let scope = Scope::STATE;
+fn write_sines(text: &mut String, trig: &LoweredTrig, dialect: Dialect) {
     if trig.angle.additions() > 0 {
-        let _ = writeln!(text, "    let a{} = {};", trig.angle, scope.sum(trig.angle));
+        let _ = writeln!(text, "    let a{} = {};", trig.angle, angles::sum(trig.angle));
     }
-    let (pair, angle) = (scope.pair(trig), scope.angle(trig.angle));
+    let (pair, angle) = (angles::pair(trig), angles::operand(trig.angle));
     if let Some(kernel) = &trig.kernel {
-        return sines::write(text, scope, &pair, &angle, kernel, dialect);
+        return sines::write(text, &pair, &angle, kernel, dialect);
     }
     let called = trig::called(trig);
     let method = if called == "sincos" { "both" } else { "each" };
-    let library = format!("{path}::{called}{}", dialect.scalar.math_suffix());
+    let library = format!("libm::{called}{}", dialect.scalar.math_suffix());
     let _ = writeln!(text, "    let {pair} = {angle}.{method}({library});");
 }

@@ -1,5 +1,5 @@
-//! Functions by all their entries, compiled: one state, with given sines, in any
-//! number of lanes, in batches of any length, on all cores. The bits are the same.
+//! Functions of one state and of columns of states, compiled: of any length, in all vectors, on
+//! all cores. The bits are the same.
 
 use std::array::from_fn;
 
@@ -46,7 +46,7 @@ macro_rules! arm {
                 coulomb_width = "1/300"
             "#;
             outputs: $($output)*;
-            entries: batch;
+            batch: on;
             scalar: f64, f32;
             $($clause)*
         }
@@ -90,53 +90,6 @@ macro_rules! same {
 }
 same!(f64, f32);
 
-impl<T: Same, const N: usize> Same for [T; N] {
-    fn same(&self, other: &Self) -> bool {
-        self.iter().zip(other).all(|(a, b)| a.same(b))
-    }
-}
-
-macro_rules! same_equation {
-    ($($module:ident),*) => {$(
-        impl Same for $module::ManipulatorEquation {
-            fn same(&self, other: &Self) -> bool {
-                self.d.same(&other.d) && self.h.same(&other.h) && self.c.same(&other.c)
-            }
-        }
-    )*};
-}
-same_equation!(
-    together,
-    together_f32,
-    alone,
-    alone_f32,
-    polynomial,
-    polynomial_f32,
-    sums,
-    sums_f32,
-    fused,
-    fused_f32
-);
-
-macro_rules! same_bundles {
-    ($($module:ident),*) => {$(
-        impl Same for $module::Servo {
-            fn same(&self, other: &Self) -> bool {
-                self.tau.same(&other.tau)
-                    && self.jacobian.same(&other.jacobian)
-                    && self.pose.same(&other.pose)
-            }
-        }
-
-        impl Same for $module::Task {
-            fn same(&self, other: &Self) -> bool {
-                self.qdd.same(&other.qdd) && self.kinetic.same(&other.kinetic) && self.d.same(&other.d)
-            }
-        }
-    )*};
-}
-same_bundles!(bundled, bundled_f32);
-
 /// Returns seeded numbers; every ninth is unusual: angles beyond what polynomials are for,
 /// zeros, infinities, NaN.
 fn numbers(count: usize, seed: u64) -> Vec<f64> {
@@ -168,14 +121,14 @@ fn array<T: std::fmt::Debug, const M: usize>(numbers: Vec<T>) -> [T; M] {
     numbers.try_into().unwrap()
 }
 
-/// Everything about a function of these arguments: `$numbers` are those of a result in the order
-/// of its text, of one state or with lanes.
+/// Compares a function of columns with the function of one state; `$numbers` are those of a result
+/// in the order of its text.
 macro_rules! check {
-    ($module:ident, $scalar:ty, $function:ident, $lanes:ident, $batch:ident,
-     $columns:ident, $kind:ident, [$($argument:ident),*], |$result:ident| $numbers:expr) => {{
+    ($module:ident, $scalar:ty, $function:ident, $columns:ident, $kind:ident,
+     [$($argument:ident),*], |$result:ident| $numbers:expr) => {{
         type Kind = $module::$kind;
         const N: usize = $module::N;
-        const MOST: usize = 2 * 16 + 1;
+        const MOST: usize = 2 * 64 + 17;
         let mut seed = 1;
         $(
             seed += 1;
@@ -183,80 +136,61 @@ macro_rules! check {
             let $argument: Vec<[$scalar; N]> =
                 (0..MOST).map(|k| from_fn(|i| values[k * N + i] as $scalar)).collect();
         )*
-        let single: Vec<_> =
-            (0..MOST).map(|k| $module::$function($(&$argument[k]),*)).collect();
+        let single = |k: usize| -> Vec<$scalar> {
+            let found = $module::$function($(&$argument[k]),*);
+            let $result = &found;
+            $numbers
+        };
+        let single: Vec<Vec<$scalar>> = (0..MOST).map(single).collect();
         // Some of it are numbers, or nothing would be compared.
-        assert!(single.iter().any(|$result| $numbers.iter().all(|x| x.is_finite())));
+        assert!(single.iter().any(|numbers| numbers.iter().all(|x| x.is_finite())));
+        let of = |vectors: Option<Vectors>, count: usize| -> Vec<Vec<$scalar>> {
+            $(let $argument = columns(&$argument[..count]);
+              let $argument = $argument.each_ref().map(|column| column.as_slice());)*
+            let mut found = array(single[0].iter().map(|_| vec![0.0; count]).collect());
+            let mut slices = found.each_mut().map(|column| column.as_mut_slice());
+            match vectors {
+                None => $module::$columns($(&$argument,)* &mut slices),
+                Some(vectors) => {
+                    batch::columns_in::<Kind, _, N, _, _>(vectors, [$(&$argument),*], &mut slices)
+                }
+            }
+            .unwrap();
+            (0..count).map(|k| found.iter().map(|column| column[k]).collect()).collect()
+        };
 
         // Where products are fused, batches have sines of their own: those of the portable vectors,
         // of numbers one after the other, next to those of a state alone.
         let mut many = single.clone();
-        if <Kind as Function<_, _, _, _>>::FUSED {
-            let arguments = [$(&$argument[..]),*];
-            batch::states_in::<Kind, _, _, _, _>(Vectors::Portable, arguments, &mut many).unwrap();
+        if <Kind as Function<_, N, _, _>>::FUSED {
+            many = of(Some(Vectors::Portable), MOST);
             for (k, (single, many)) in single.iter().zip(&many).enumerate() {
                 let is_usual = [$($argument[k]),*].as_flattened().iter().all(|x| x.abs() < 4.0);
-                let [single, many] = [single, many].map(|$result| -> Vec<$scalar> { $numbers });
                 let most = single.iter().fold(1.0, |most: $scalar, x| most.max(x.abs()));
-                for (single, many) in single.iter().zip(&many) {
+                for (single, many) in single.iter().zip(many) {
                     let near = (single - many).abs() <= 500.0 * <$scalar>::EPSILON * most;
                     assert!(near || !is_usual, "{single} {many}");
                 }
             }
         }
-
-        // Lanes, of every width that the drivers take and others.
-        macro_rules! width {
-            ($width:literal) => {
-                for start in 0..MOST - $width {
-                    let states = start..start + $width;
-                    $(let $argument: [[$scalar; $width]; N] =
-                        columns(&$argument[states.clone()]).map(|c| from_fn(|l| c[l]));)*
-                    let found = $module::$lanes::<$width>($(&$argument),*);
-                    let $result = &found;
-                    let lanes: Vec<[$scalar; $width]> = $numbers;
-                    for l in 0..$width {
-                        let numbers: Vec<$scalar> = lanes.iter().map(|lanes| lanes[l]).collect();
-                        let state = <Kind as Function<_, _, _, _>>::state(array(numbers));
-                        assert!(state.same(&single[start + l]), "{} lanes", $width);
-                    }
-                }
-            };
-        }
-        width!(1); width!(3); width!(4); width!(8); width!(16);
-
-        for count in 0..=MOST {
-            $(let $argument = &$argument[..count];)*
-            let mut found = many.clone();
-            found.reverse();
-            found.truncate(count);
-            $module::$batch($($argument,)* &mut found).unwrap();
-            assert!(found.iter().zip(&many).all(|(a, b)| a.same(b)), "{count}");
-
-            $(let $argument = columns($argument);
-              let $argument = $argument.each_ref().map(|column| column.as_slice());)*
-            let $result = &many[0];
-            let mut found = array($numbers.iter().map(|_| vec![0.0; count]).collect());
-            let mut slices = found.each_mut().map(|column| column.as_mut_slice());
-            $module::$columns($(&$argument,)* &mut slices).unwrap();
-            for (k, $result) in many[..count].iter().enumerate() {
-                for (column, expected) in found.iter().zip($numbers.iter()) {
-                    assert!(column[k].same(expected), "{count}");
+        for count in (0..=33).chain([63, 64, 65, 127, 128, MOST]) {
+            let all = [Vectors::Portable, Vectors::Avx2, Vectors::Avx512].map(Some);
+            for vectors in all.into_iter().chain([None]) {
+                for (found, expected) in of(vectors, count).iter().zip(&many) {
+                    assert!(found.iter().zip(expected).all(|(a, b)| a.same(b)), "{count}");
                 }
             }
         }
     }};
 }
 
-/// Checks the entries that every arm here has, from torques to accelerations and back.
+/// Checks the functions that every arm here has, from torques to accelerations and back.
 macro_rules! check_dynamics {
     ($module:ident, $scalar:ty) => {{
         check!(
             $module,
             $scalar,
             inverse_dynamics,
-            inverse_dynamics_lanes,
-            inverse_dynamics_batch,
             inverse_dynamics_columns,
             InverseDynamicsBatch,
             [q, qd, qdd],
@@ -266,8 +200,6 @@ macro_rules! check_dynamics {
             $module,
             $scalar,
             forward_dynamics,
-            forward_dynamics_lanes,
-            forward_dynamics_batch,
             forward_dynamics_columns,
             ForwardDynamicsBatch,
             [q, qd, tau],
@@ -283,8 +215,6 @@ macro_rules! check_arm {
             $module,
             $scalar,
             gravity,
-            gravity_lanes,
-            gravity_batch,
             gravity_columns,
             GravityBatch,
             [q],
@@ -294,8 +224,6 @@ macro_rules! check_arm {
             $module,
             $scalar,
             kinetic_energy,
-            kinetic_energy_lanes,
-            kinetic_energy_batch,
             kinetic_energy_columns,
             KineticEnergyBatch,
             [q, qd],
@@ -305,8 +233,6 @@ macro_rules! check_arm {
             $module,
             $scalar,
             manipulator_equation,
-            manipulator_equation_lanes,
-            manipulator_equation_batch,
             manipulator_equation_columns,
             ManipulatorEquationBatch,
             [q, qd],
@@ -321,8 +247,6 @@ macro_rules! check_bundles {
             $module,
             $scalar,
             servo,
-            servo_lanes,
-            servo_batch,
             servo_columns,
             ServoBatch,
             [q, qd, qdd],
@@ -332,8 +256,6 @@ macro_rules! check_bundles {
             $module,
             $scalar,
             task,
-            task_lanes,
-            task_batch,
             task_columns,
             TaskBatch,
             [q, qd, tau],
@@ -386,55 +308,20 @@ fn sines_of_sums() {
 fn a_whole_arm() {
     check_dynamics!(puma560, f64);
     check_dynamics!(puma560_f32, f32);
-    // What calls the arithmetic is the function that is checked in but for the
-    // sines.
-    let (q, qd, qdd) = ([0.3, -0.5, 1.1, 0.7, -2.0, 0.1], [0.4; 6], [-0.9; 6]);
-    let (sin, cos) = (q.map(libm::sin), q.map(libm::cos));
-    assert_eq!(
-        puma560::inverse_dynamics_with_sincos(&q, &qd, &qdd, &sin, &cos),
-        dalembert_generated::puma560::inverse_dynamics(&q, &qd, &qdd)
-    );
-}
-
-/// A caller's sines, in the places that `angles` says.
-#[test]
-fn sines_that_a_caller_has() {
-    for k in 0..50 {
-        let q: [f64; 3] = from_fn(|i| numbers(9, k)[i]);
-        let (qd, qdd) = ([0.3, -1.0, 0.7], [1.0, 0.2, -0.4]);
-        let angles = sums::angles(&q);
-        assert!(angles.len() > 3 && angles[..3] == q && angles[3..].contains(&(q[0] + q[1])));
-        let (sin, cos) = dalembert_sines::sincos(&angles);
-        let found = sums::gravity_with_sincos(&q, &sin, &cos);
-        assert!(found.same(&sums::gravity(&q)));
-        let found = sums::inverse_dynamics_with_sincos(&q, &qd, &qdd, &sin, &cos);
-        assert!(found.same(&sums::inverse_dynamics(&q, &qd, &qdd)));
-        // Nobody reads the sine of a length.
-        let (mut sin, cos) = dalembert_sines::sincos(&together::angles(&q));
-        sin[2] = f64::NAN;
-        let found = together::inverse_dynamics_with_sincos(&q, &qd, &qdd, &sin, &cos);
-        assert!(found.same(&together::inverse_dynamics(&q, &qd, &qdd)));
-    }
 }
 
 #[test]
 fn slices_of_different_lengths_are_refused() {
-    let (q, mut tau) = ([[0.5; 3]; 5], [[7.0; 3]; 5]);
-    let error = together::inverse_dynamics_batch(&q, &q[..4], &q, &mut tau).unwrap_err();
-    assert_eq!(
-        (error.slice, error.found, error.expected),
-        (Slice::Argument(2), 4, 5)
-    );
-    assert_eq!(
-        error.to_string(),
-        "argument 2 has 4 states, the results have 5"
-    );
     let (column, short) = ([0.5; 5], [0.5; 2]);
     let q = [&column[..]; 3];
     let mut results = [[7.0; 5]; 3];
     let mut slices = results.each_mut().map(|x| x.as_mut_slice());
     let qd = [&column[..], &column, &short];
     let error = together::inverse_dynamics_columns(&q, &qd, &q, &mut slices).unwrap_err();
+    assert_eq!(
+        (error.slice, error.found, error.expected),
+        (Slice::Entry(2, 3), 2, 5)
+    );
     assert_eq!(
         error.to_string(),
         "entry 3 of argument 2 has 2 states, the results have 5"
@@ -446,7 +333,7 @@ fn slices_of_different_lengths_are_refused() {
         "column 2 of the results has 0 states, the first has 5"
     );
     // Nothing was computed.
-    assert_eq!((tau, results), ([[7.0; 3]; 5], [[7.0; 5]; 3]));
+    assert_eq!(results, [[7.0; 5]; 3]);
 }
 
 /// Halves of halves: who computes a state does not matter.
@@ -455,16 +342,12 @@ fn all_cores_have_the_same_bits() {
     for count in [0, 1, 8192, 8193, 20_000] {
         let values = numbers(3 * count, 11);
         let q: Vec<[f64; 3]> = (0..count).map(|k| from_fn(|i| values[3 * k + i])).collect();
-        let (mut one, mut all) = (vec![[0.0; 3]; count], vec![[1.0; 3]; count]);
-        together::inverse_dynamics_batch(&q, &q, &q, &mut one).unwrap();
-        let arguments = [&q[..]; 3];
-        batch::parallel::states::<together::InverseDynamicsBatch, 3, 3, 3, _>(arguments, &mut all)
-            .unwrap();
-        assert!(one.iter().zip(&all).all(|(a, b)| a.same(b)), "{count}");
-
         let q = columns(&q);
         let q = q.each_ref().map(|column| column.as_slice());
-        let mut all = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
+        let mut one = [(); 3].map(|()| vec![0.0; count]);
+        let mut slices = one.each_mut().map(|column| column.as_mut_slice());
+        together::inverse_dynamics_columns(&q, &q, &q, &mut slices).unwrap();
+        let mut all = [(); 3].map(|()| vec![1.0; count]);
         let mut slices = all.each_mut().map(|column| column.as_mut_slice());
         let arguments = [&q, &q, &q];
         batch::parallel::columns::<together::InverseDynamicsBatch, 3, 3, 3, _>(
@@ -472,9 +355,8 @@ fn all_cores_have_the_same_bits() {
             &mut slices,
         )
         .unwrap();
-        for (k, one) in one.iter().enumerate() {
-            assert!([all[0][k], all[1][k], all[2][k]].same(one), "{count}");
-        }
+        let mut pairs = one.iter().flatten().zip(all.iter().flatten());
+        assert!(pairs.all(|(one, all)| one.same(all)), "{count}");
     }
 }
 

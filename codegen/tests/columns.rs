@@ -1,0 +1,187 @@
+//! Functions of any number of states beside those of one: the same program over vectors, read
+//! back. What brings a wrong value is refused.
+
+use dalembert_codegen::workspace::clauses::expand_from;
+use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::generate::keep::keep;
+use dalembert_codegen::workspace::generate::{Generated, GeneratedFunction, generate};
+use dalembert_codegen::workspace::language::Printed;
+use dalembert_codegen::workspace::language::read::TextError;
+use dalembert_codegen::workspace::plan::Plan;
+use dalembert_codegen::workspace::portfolio::Start;
+use dalembert_codegen::workspace::program::{Library, Lowered, ScalarType};
+use dalembert_codegen::workspace::sincos::SinCos;
+use dalembert_codegen::workspace::task::Layout;
+use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::words::parse;
+
+use crate::support;
+
+fn request(batch: bool, sincos: SinCos, start: Start) -> Request {
+    Request {
+        scalars: vec![ScalarType::F64],
+        start,
+        sincos,
+        batch,
+        layout: Layout::Contents,
+        ..Request::of(&[
+            Function::InverseDynamics,
+            Function::ManipulatorEquation,
+            Function::KineticEnergy,
+            Function::ForwardKinematics,
+            Function::ForwardDynamics,
+        ])
+    }
+}
+
+/// Reads τ and its columns back out of a text.
+fn read(text: &str, generated: &Generated, sincos: SinCos) -> Result<Lowered, TextError> {
+    let torques = |f: &&GeneratedFunction| f.function == Function::InverseDynamics;
+    let function = generated.functions.iter().find(torques).unwrap();
+    let library = sincos.library(Library::Libm);
+    let code = function.code(ScalarType::F64, library);
+    Lowered::parse_rust(text, &Printed::of(&function.program, &code), true)
+}
+
+/// Arms that turn and slide, sums of angles, every kind of sines: with columns or without, the
+/// same program is read.
+#[test]
+fn the_same_program_in_columns() {
+    let sums = parse::<Start>("angle_sums").unwrap();
+    let torques = [Function::InverseDynamics];
+    for (name, start, functions) in [
+        ("planar2r", Start::Auto, None),
+        ("planar3r", sums, Some(&torques)),
+        ("stanford", Start::Auto, Some(&torques)),
+    ] {
+        let robot = support::robot(name);
+        let all = [
+            SinCos::Together,
+            SinCos::Libm,
+            SinCos::Polynomial { error: None },
+        ];
+        let of = |batch, sincos, plan: Option<Plan>| {
+            let mut request = request(batch, sincos, start);
+            if let Some(functions) = functions {
+                request.functions = functions.to_vec();
+            }
+            request.plan = plan;
+            let generated = generate(&robot, &request).unwrap();
+            (request, generated)
+        };
+        // Programs are searched for once, and proved and printed for each.
+        let (request, found) = of(false, SinCos::Libm, None);
+        let plan = keep(&robot, &request, &found, None).plan;
+        for sincos in all {
+            let of = |batch| of(batch, sincos, Some(plan.clone())).1;
+            let (single, more) = (of(false), of(true));
+            assert!(single.functions.iter().all(|function| function.planned));
+            assert!(!single.text.contains("_columns"));
+            for (a, b) in single.emitted.iter().zip(&more.emitted) {
+                assert_eq!(a.text.difference(&b.text), None, "{name} {sincos:?}");
+            }
+            // The arithmetic is there once more, over vectors.
+            let lines = |text: &str| text.matches("    let t").count();
+            assert_eq!(lines(&more.text), 2 * lines(&single.text));
+            assert!(more.text.contains("pub fn inverse_dynamics_columns("));
+        }
+    }
+}
+
+/// Nearly all of these compile, and give wrong numbers.
+#[test]
+fn what_brings_the_wrong_value_is_refused() {
+    let robot = support::robot("planar2r");
+    for sincos in [SinCos::Together, SinCos::Libm] {
+        let generated = generate(&robot, &request(true, sincos, Start::Auto)).unwrap();
+        let own = generated.text.find("pub fn inverse_dynamics(").unwrap();
+        let (before, own) = generated.text.split_at(own);
+        read(&generated.text, &generated, sincos).unwrap();
+        let sines = match sincos {
+            SinCos::Libm => vec![
+                ("(s1, c1) =", "(s2, c2) ="),
+                ("(s1, c1) =", "(c1, s1) ="),
+                ("sincos(q[1])", "sincos(q[0])"),
+                ("libm::sincos(q[0])", "crate::tancot(q[0])"),
+                ("q[1].both(libm::sincos)", "q[0].both(libm::sincos)"),
+            ],
+            _ => vec![
+                ("sincos(&[q[0], q[1]])", "sincos(&[q[1], q[0]])"),
+                (
+                    "let ([s1, s2], [c1, c2]) = dalembert_sines::sincos",
+                    "let ([c1, c2], [s1, s2]) = dalembert_sines::sincos",
+                ),
+                ("dalembert_sines::sincos(", "dalembert_sines::cossin("),
+                (
+                    "([q, _qd, _qdd]: &[[V; 2]; 3])",
+                    "([_qd, q, _qdd]: &[[V; 2]; 3])",
+                ),
+                ("&[s1, s2]: &[V; 2]", "&[s2, s1]: &[V; 2]"),
+                ("&[c1, c2]: &[V; 2]", "&[c1, s2]: &[V; 2]"),
+                ("        [q[0], q[1]]\n", "        [q[1], q[0]]\n"),
+            ],
+        };
+        let columns = [
+            ("([q, qd, qdd], results)", "([q, qdd, qd], results)"),
+            (
+                "_columns(q: &[&[f64]; 2], qd: &[&[f64]; 2], qdd:",
+                "_columns(q: &[&[f64]; 2], qdd: &[&[f64]; 2], qd:",
+            ),
+            ("Vector<f64>>([q, qd, qdd]:", "Vector<f64>>([q, qdd, qd]:"),
+            ("of.all(9.81)", "of.all(9.82)"),
+            (
+                "columns::<InverseDynamicsBatch",
+                "columns::<ForwardDynamicsBatch",
+            ),
+        ];
+        for (from, to) in sines.into_iter().chain(columns) {
+            let changed = own.replacen(from, to, 1);
+            assert_ne!(changed, own, "{from}");
+            let error = read(&format!("{before}{changed}"), &generated, sincos);
+            assert!(error.is_err(), "{sincos:?}: {from} -> {to}");
+        }
+    }
+}
+
+/// No line of the arithmetic or of a call can go.
+#[test]
+fn every_line_counts() {
+    let robot = support::robot("planar2r");
+    let mut request = request(true, SinCos::Together, Start::Auto);
+    request.functions = vec![Function::InverseDynamics];
+    let generated = generate(&robot, &request).unwrap();
+    let lines: Vec<&str> = generated.text.lines().collect();
+    let mut tried = 0;
+    for (index, line) in lines.iter().enumerate() {
+        if !line.starts_with("    ") && *line != "}" {
+            continue;
+        }
+        let rest: Vec<&str> = [&lines[..index], &lines[index + 1..]].concat();
+        let read = read(&rest.join("\n"), &generated, SinCos::Together);
+        let same = read.is_ok_and(|read| {
+            let (program, library) = (&generated.functions[0].program, Library::Together);
+            read.matches(program, library, &[]).is_ok()
+        });
+        assert!(!same, "{line}");
+        tried += 1;
+    }
+    assert!(tried > 35, "{tried}");
+}
+
+/// Without the crate's feature, batches are refused in a sentence of ours that says what to
+/// write, and nothing reads a crate that is not there: rustc has nothing to add.
+#[test]
+fn batches_without_the_feature_are_one_sentence() {
+    let invocation = "mod arm = \"../generated/robots/planar2r.toml\"; \
+                      outputs: gravity; scalar: f64; batch: on;";
+    let expanded = |has_batch| {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+        expand_from(invocation.parse().unwrap(), &[folder], has_batch).to_string()
+    };
+    let (without, with) = (expanded(false), expanded(true));
+    assert_eq!(without.matches("compile_error").count(), 1, "{without}");
+    assert!(without.contains("needs the feature `batch` of the crate dalembert"));
+    assert!(without.contains("features = [\\\"batch\\\"]"), "{without}");
+    assert!(!without.contains("dalembert :: batch"), "{without}");
+    assert!(!with.contains("compile_error") && with.contains("dalembert :: batch"));
+}
