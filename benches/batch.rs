@@ -12,27 +12,29 @@ mod rounds;
 
 use std::hint::black_box;
 
-use dalembert::batch::{Function, Vectors, columns_in, parallel};
+use dalembert::batch::{Vectors, columns_in, parallel};
 use dalembert_codegen::workspace::task::Fma;
 use dalembert_model::scalar::field::Points;
 
-#[rustfmt::skip] // As the generator writes it.
 #[path = "generated/puma560_batch.rs"]
-mod generated;
+mod puma560;
+#[path = "generated/puma560_batch_f32.rs"]
+mod puma560_f32;
 use gcc::Gcc;
-use generated::{puma560, puma560_f32};
 use rounds::Rounds;
 
 dalembert::dynamics! {
     mod derivatives = "generated/robots/puma560.toml";
     outputs: inverse_dynamics_derivatives, forward_dynamics_derivatives;
     batch: on;
+    sincos: together;
     scalar: f64, f32;
 }
 dalembert::dynamics! {
     mod fused = "generated/robots/puma560.toml";
     outputs: inverse_dynamics, forward_dynamics;
     batch: on;
+    sincos: together;
     scalar: f64, f32;
     fma: on;
 }

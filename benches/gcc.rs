@@ -9,7 +9,6 @@ use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::language::Language;
 use dalembert_codegen::workspace::plan;
-use dalembert_codegen::workspace::program::Library;
 use dalembert_codegen::workspace::sincos::SinCos;
 use dalembert_codegen::workspace::task::{Fma, Request};
 use dalembert_model::read;
@@ -35,7 +34,7 @@ impl Gcc {
             fma,
             ..Request::of(functions)
         };
-        let text = generate(&reading.robot, &request).ok()?.text;
+        let text = generate(&reading.robot, &request).ok()?.text();
         // In the order of the functions, f64 and then f32.
         let heads = text
             .lines()

@@ -303,10 +303,6 @@ macro_rules! number {
                 Counted
             }
             fn store(self, _: &mut [$float], _: usize) {}
-            fn columns<const N: usize>((): (), _: &[[$float; N]]) -> [Counted; N] {
-                [Counted; N]
-            }
-            fn rows<const N: usize>(_: &[Counted; N], _: &mut [[$float; N]]) {}
             fn sqrt(self) -> Counted {
                 count(8);
                 Counted

@@ -43,7 +43,7 @@
 #[cfg(feature = "model")]
 pub use dalembert_model::{equations, number, reference, robot, scalar};
 
-#[cfg(feature = "std")]
+#[cfg(all(feature = "model", feature = "std"))]
 pub use dalembert_model::read;
 
 #[cfg(feature = "batch")]
@@ -361,6 +361,7 @@ pub use dalembert_macros::dynamics;
 /// For generated code only.
 #[doc(hidden)]
 pub mod __private {
+    #[cfg(feature = "sines")]
     pub use dalembert_sines;
     pub use libm;
 }

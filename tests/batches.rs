@@ -6,10 +6,10 @@ use std::array::from_fn;
 use dalembert::batch::{self, Function, Slice, Vectors};
 use dalembert_model::scalar::field::Points;
 
-#[rustfmt::skip] // As the generator writes it.
 #[path = "../benches/generated/puma560_batch.rs"]
-mod generated;
-use generated::{puma560, puma560_f32};
+mod puma560;
+#[path = "../benches/generated/puma560_batch_f32.rs"]
+mod puma560_f32;
 
 /// A joint slides, another turns for ever, and both have Coulomb friction, whose root
 /// stands where the arithmetic does; a struct, a number and a quotient.
@@ -62,8 +62,8 @@ macro_rules! arm {
 arm!(together, sincos: together;);
 arm!(alone, sincos: libm;);
 arm!(polynomial, sincos: polynomial; sincos_error: 1e-5;);
-arm!(sums, formulation: angle_sums;);
-arm!(fused, fma: on;);
+arm!(sums, formulation: angle_sums; sincos: together;);
+arm!(fused, fma: on; sincos: together;);
 // Bundles: structs of the user's, with matrices of other shapes, a number and quotients.
 arm!(
     bundled,

@@ -15,8 +15,8 @@ use dalembert_codegen::workspace::bound::sensitivity::{BoundEffort, Sensitivity}
 use dalembert_codegen::workspace::certificate::Certificate;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::language::function::write;
 use dalembert_codegen::workspace::language::Printed;
+use dalembert_codegen::workspace::language::function::write;
 use dalembert_codegen::workspace::plan;
 use dalembert_codegen::workspace::program::{Library, Program, ScalarType};
 use dalembert_codegen::workspace::scene::SceneRobot;
@@ -92,7 +92,13 @@ fn the_bench_of_batches_is_up_to_date() {
         ..Request::of(&[Function::InverseDynamics, Function::ForwardDynamics])
     };
     let generated = generate(&reading.robot, &request).unwrap();
-    keep("benches/generated/puma560_batch.rs", &generated.text);
+    let files = generated.files(&request, "../../generated/robots/puma560.toml", &source);
+    for (suffix, text) in generated.suffixes().iter().zip(files) {
+        keep(
+            &format!("benches/generated/puma560_batch{suffix}.rs"),
+            &text,
+        );
+    }
 }
 
 /// The Newton–Euler recursion run with symbols: zeros and ones of the robot are folded

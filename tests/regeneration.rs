@@ -53,9 +53,13 @@ fn checked_in_code_is_up_to_date() {
             ..Request::default().for_file(&reading.outputs)
         };
         let generated = generate(&reading.robot, &request).unwrap();
-        let output = file.with_extension("rs");
-        if !keep(&output, &generated.text) {
-            stale.push(output);
+        let robot = format!("{name}.toml");
+        let files = generated.files(&request, &robot, &source);
+        for (suffix, text) in generated.suffixes().iter().zip(files) {
+            let output = file.with_file_name(format!("{name}{suffix}.rs"));
+            if !keep(&output, &text) {
+                stale.push(output);
+            }
         }
         let mut functions = generated.functions;
         functions.extend(others(&reading.robot, &request));

@@ -4,8 +4,6 @@ use std::env;
 use std::fs;
 use std::path::Path;
 
-use dalembert_codegen::workspace::plan;
-
 /// Makes cargo run the script again when the robot file changes, or its plan.
 ///
 /// A plan that is not there yet cannot be named: cargo would run the script at
@@ -13,7 +11,7 @@ use dalembert_codegen::workspace::plan;
 /// unless the build itself writes somewhere in it.
 pub(crate) fn watch(robot: &Path, output: &Path) {
     tell(&format!("rerun-if-changed={}", robot.display()));
-    let plan = plan::file::path(robot);
+    let plan = robot.with_extension("plan");
     if plan.is_file() {
         tell(&format!("rerun-if-changed={}", plan.display()));
     } else if let Some(folder) = quiet_folder(robot, output) {
@@ -37,9 +35,9 @@ fn quiet_folder<'r>(robot: &'r Path, output: &Path) -> Option<&'r Path> {
 }
 
 /// Prints a warning of cargo's, on one line as it wants it.
-pub(crate) fn warn(place: &str, message: &str, help: Option<&str>) {
-    let help = help.map(|help| format!(" ({help})")).unwrap_or_default();
-    tell(&format!("warning={place}: {message}{help}"));
+#[cfg(feature = "search")]
+pub(crate) fn warn(message: &str) {
+    tell(&format!("warning={}", message.replace('\n', " ")));
 }
 
 /// Tells cargo; outside a build script nobody would listen.

@@ -1,280 +1,306 @@
 //! Verified robot dynamics in a build script: a robot file in, a Rust file out.
 //!
-//! In `Cargo.toml`, with `libm` for the generated code:
-//!
-//! ```toml
-//! [dependencies]
-//! libm = "0.2"
-//!
-//! [build-dependencies]
-//! dalembert-build = "0.1"
-//!
-//! # The generator is a compiler: optimised, it takes a tenth of the time.
-//! [profile.dev.build-override]
-//! opt-level = 3
-//! ```
-//!
 //! In `build.rs`:
 //!
 //! ```no_run
-//! use dalembert_build::{BuildError, Generator, Output, Scalar};
+//! use dalembert_build::{BuildError, Generator};
 //!
 //! fn main() -> Result<(), BuildError> {
-//!     Generator::new()
-//!         .robot("robots/puma560.toml")
-//!         .outputs([Output::InverseDynamics, Output::Gravity])
-//!         .scalars([Scalar::F64])
-//!         .write_to_out_dir("puma560.rs")
+//!     Generator::new("robots/puma560.toml")
+//!         .ask("outputs", "inverse_dynamics, gravity")
+//!         .write_to("src/puma560.rs")
 //! }
 //! ```
 //!
-//! And in the crate:
+//! And in the crate, which needs `libm` for the generated code:
 //!
 //! ```text
-//! include!(concat!(env!("OUT_DIR"), "/puma560.rs"));
+//! mod puma560;
 //!
 //! let tau = puma560::inverse_dynamics(&q, &qd, &qdd);
 //! ```
 //!
-//! # A file that is checked in
+//! The file can be checked in. Its first lines say of which robot file it was generated and what was
+//! asked, so that nothing is generated as long as both are the same, and the text is as it was
+//! written. Without the feature `search`, which is on by default, the script compiles in a second and
+//! refuses a stale file by the command that makes it new.
 //!
-//! [`Generator::write_to`] writes the file into the sources, where it can be read
-//! in review. The file as it comes holds a module called after the robot. Taken
-//! by `mod puma560;` that would be `puma560::puma560`; so for a file that is to
-//! be a module itself, ask for what is inside:
+//! # Options
+//!
+//! The options are those of `dynamics!` and of the command: a name and a list of items.
 //!
 //! ```no_run
-//! # use dalembert_build::{BuildError, Generator, Layout, Output, Scalar};
+//! # use dalembert_build::{BuildError, Generator};
 //! # fn main() -> Result<(), BuildError> {
-//! Generator::new()
-//!     .robot("robots/puma560.toml")
-//!     .outputs([Output::Gravity])
-//!     .scalars([Scalar::F64])
-//!     .layout(Layout::Contents)
+//! Generator::new("robots/puma560.toml")
+//!     .ask("outputs", "servo = inverse_dynamics + jacobian, gravity")
+//!     .ask("scalar", "f64, f32")
+//!     .ask("sincos", "together")
+//!     .ask("parameters", "payload")
 //!     .write_to("src/puma560.rs")
 //! # }
 //! ```
 //!
-//! `cargo fmt` leaves both kinds as they are.
+//! Two scalars are two files, `puma560.rs` and `puma560_f32.rs`. `.ask("scene", "pick")` takes a scene
+//! of the robot file, with its outputs and its scalar. A file that ends in `.h` is C, one in `.cuh` CUDA.
 //!
-//! # Scenes
+//! # A file that nobody sees
 //!
-//! A scene of the robot file brings its locked joints, payload, box, tolerance,
-//! outputs and scalar; sines may be polynomials:
+//! [`Generator::write_to_out_dir`] writes modules for `include!`, called after the file:
 //!
-//! ```no_run
-//! # use dalembert_build::{BuildError, Generator, SinCos};
-//! # fn main() -> Result<(), BuildError> {
-//! Generator::new()
-//!     .robot("robots/puma560.toml")
-//!     .scene("pick")
-//!     .sincos(SinCos::Polynomial { error: None })
-//!     .write_to_out_dir("puma560_pick.rs")
-//! # }
+//! ```text
+//! include!(concat!(env!("OUT_DIR"), "/arm.rs"));
+//!
+//! let tau = arm::inverse_dynamics(&q, &qd, &qdd);
 //! ```
 #![forbid(unsafe_code)]
 #![warn(missing_docs, clippy::missing_errors_doc)]
 
 mod cargo;
-mod error;
-mod output;
+mod write;
 
 use std::env;
+use std::fmt;
+use std::fs;
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::workspace::generate::generate_anew;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::task::in_scene::find;
-use dalembert_model::robot::Severity;
+pub use dalembert_stamp::Asked;
+#[cfg(feature = "search")]
+use dalembert_stamp::relative;
+use dalembert_stamp::{Comment, Stale, Stamp, hash};
 
-#[doc(inline)]
-pub use dalembert_codegen::workspace::clauses::RobotFileError;
-#[doc(inline)]
-pub use dalembert_codegen::workspace::function::BundleError;
-#[doc(inline)]
-pub use dalembert_codegen::workspace::function::Function as Output;
-#[doc(inline)]
-pub use dalembert_codegen::workspace::function::RuntimeParameter as Parameter;
-#[doc(inline)]
-pub use dalembert_codegen::workspace::generate::GenerateError;
-#[doc(inline)]
-pub use dalembert_codegen::workspace::language::Language;
-#[doc(inline)]
-pub use dalembert_codegen::workspace::portfolio::Start as Formulation;
-#[doc(inline)]
-pub use dalembert_codegen::workspace::program::ScalarType as Scalar;
-#[doc(inline)]
-pub use dalembert_codegen::workspace::simplify::Effort;
-#[doc(inline)]
-pub use dalembert_codegen::workspace::sincos::SinCos;
-#[doc(inline)]
-pub use dalembert_codegen::workspace::task::in_scene::UnknownScene;
-pub use dalembert_codegen::workspace::task::{Fma, Prefer};
-#[doc(inline)]
-pub use dalembert_codegen::workspace::task::Layout;
-pub use error::BuildError;
-
-/// A request for generated code: a robot file, and the functions that are wanted.
-///
-/// Nothing chosen, it is the outputs that the robot file names, or the seven that a controller calls, in
-/// both scalars. Each function costs compile time, so most crates choose.
-#[derive(Clone, Debug, Default)]
+/// What is to be generated: a robot file, and the options that were asked for.
+#[derive(Clone, Debug)]
 pub struct Generator {
-    robot: Option<PathBuf>,
-    outputs: Option<Vec<Output>>,
-    bundles: Vec<Result<Output, BundleError>>,
-    scalars: Option<Vec<Scalar>>,
-    scene: Option<String>,
-    /// Everything else.
-    request: Request,
+    robot: PathBuf,
+    asked: Asked,
+    /// Options that there are not.
+    unknown: Vec<String>,
 }
 
-macro_rules! setters {
-    ($($(#[doc = $doc:literal])* $word:ident($field:ident): $type:ty, $purpose:ident;)*) => {
-        /// Options of one word.
-        impl Generator {
-            $($(#[doc = $doc])*
-            #[must_use]
-            pub fn $word(mut self, $word: $type) -> Self {
-                self.request.$field = $word;
-                self
-            })*
+/// Why nothing was written: each mistake, with the likely fix.
+pub struct BuildError(pub Vec<String>);
+
+impl fmt::Display for BuildError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, message) in self.0.iter().enumerate() {
+            let gap = if index > 0 { "\n\n" } else { "" };
+            write!(f, "{gap}error: {message}")?;
         }
-    };
+        Ok(())
+    }
 }
-dalembert_codegen::each_option!(setters);
+
+/// As [`Display`](fmt::Display): `main` and `unwrap` print errors with this,
+/// and that is where a build script's errors end.
+impl fmt::Debug for BuildError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "\n{self}")
+    }
+}
+
+impl std::error::Error for BuildError {}
+
+fn one(message: String) -> BuildError {
+    BuildError(vec![message])
+}
 
 impl Generator {
-    /// Returns a generator with nothing chosen but the defaults.
-    pub fn new() -> Self {
-        Self::default()
+    /// Begins with a robot file, relative to the package, and nothing asked: the outputs that the
+    /// file names, or the seven that a controller calls, in f64.
+    pub fn new(robot: impl Into<PathBuf>) -> Generator {
+        Generator {
+            robot: robot.into(),
+            asked: Asked::default(),
+            unknown: Vec::new(),
+        }
     }
 
-    /// Sets the robot file, relative to the package. There is no default.
+    /// Asks for an option: its name, and a word or a list of items with commas between.
     #[must_use]
-    pub fn robot(mut self, path: impl Into<PathBuf>) -> Self {
-        self.robot = Some(path.into());
+    pub fn ask(mut self, option: &str, value: &str) -> Generator {
+        if let Err(error) = self.asked.set(option, value) {
+            self.unknown.push(error.to_string());
+        }
         self
     }
 
-    /// Generates only these functions: the others need not be searched, proved and compiled.
-    #[must_use]
-    pub fn outputs(mut self, outputs: impl IntoIterator<Item = Output>) -> Self {
-        self.outputs = Some(outputs.into_iter().collect());
-        self
-    }
-
-    /// Sets one function of this name that returns what all of these do, in a struct,
-    /// and shares their work: for a control loop that wants them at one state.
-    /// `.bundle("servo", [Output::InverseDynamics, Output::Jacobian])` returns a
-    /// `Servo`; its arguments are all that one of its parts reads. It comes besides
-    /// the [`outputs`](Generator::outputs) that are chosen.
-    #[must_use]
-    pub fn bundle(mut self, name: &str, parts: impl IntoIterator<Item = Output>) -> Self {
-        self.bundles.push(Output::bundle(name, parts));
-        self
-    }
-
-    /// Generates only these scalars: `f32` where the hardware has no doubles, `f64` where
-    /// accuracy matters. Of two, the f32 module is called `NAME_f32`.
-    #[must_use]
-    pub fn scalars(mut self, scalars: impl IntoIterator<Item = Scalar>) -> Self {
-        self.scalars = Some(scalars.into_iter().collect());
-        self
-    }
-
-    /// Generates only what a scene of the robot file needs: locked joints, rates that are zero
-    /// and joints that nobody asks for are gone from the code. Its outputs and scalar count where
-    /// none were chosen here, and the module is called `ROBOT_SCENE`. If it has a tolerance, the
-    /// cheapest code found that is certified to stay within it: in each scalar that was chosen,
-    /// or else in the cheapest that it admits.
-    #[must_use]
-    pub fn scene(mut self, name: impl Into<String>) -> Self {
-        self.scene = Some(name.into());
-        self
-    }
-
-    /// Sets the name of the module, if the robot's is taken or says too little.
-    #[must_use]
-    pub fn module(mut self, name: impl Into<String>) -> Self {
-        self.request.module = Some(name.into());
-        self
-    }
-
-    /// Makes arguments of what are constants of the robot otherwise:
-    /// [`Parameter::Payload`] by the regrouped parameters of a type `Load`, which a
-    /// function `load` computes once for each tool, and [`Parameter::Gravity`] as
-    /// `g`, for an arm whose base is tilted or moves. Searched for at every build:
-    /// a plan keeps programs of the robot's own parameters.
-    #[must_use]
-    pub fn parameters(mut self, parameters: impl IntoIterator<Item = Parameter>) -> Self {
-        self.request.parameters = parameters.into_iter().collect();
-        self
-    }
-
-    /// Returns the outputs that were chosen, if any were.
-    fn chosen(&self) -> Result<Option<Vec<Output>>, BuildError> {
-        let bundles: Result<Vec<Output>, BundleError> = self.bundles.iter().cloned().collect();
-        let bundles = bundles.map_err(BuildError::Bundle)?;
-        Ok(match (&self.outputs, bundles.as_slice()) {
-            (None, []) => None,
-            (outputs, bundles) => {
-                let outputs = outputs.iter().flatten().copied();
-                Some(outputs.chain(bundles.iter().copied()).collect())
-            }
-        })
-    }
-
-    /// Writes the file into `OUT_DIR`, for `include!`.
+    /// Writes the file into `OUT_DIR`, with a module for each scalar, for `include!`.
     ///
     /// # Errors
     /// [`BuildError`]; a file that was there stays as it was.
     pub fn write_to_out_dir(&self, file_name: impl AsRef<Path>) -> Result<(), BuildError> {
-        let folder = env::var_os("OUT_DIR").ok_or(BuildError::NoOutDir)?;
-        self.write_to(Path::new(&folder).join(file_name))
+        let folder = env::var_os("OUT_DIR").ok_or_else(|| {
+            one("`OUT_DIR` is not set: call this from a build script, or `write_to`".into())
+        })?;
+        let path = Path::new(&folder).join(file_name);
+        let source = self.source(&path)?;
+        let found = fs::read_to_string(&path).unwrap_or_default();
+        let Err(_) = Stamp::check(&found, VERSION, &source, &self.asked) else {
+            return Ok(());
+        };
+        let base = path.file_stem().unwrap_or_default().to_string_lossy();
+        let mut text = String::new();
+        for (suffix, code) in self.generated(&path)?.texts {
+            let name = format!("{base}{suffix}");
+            text += &format!("#[rustfmt::skip]\npub mod {name} {{\n{code}}}\n");
+        }
+        let stamp = Stamp {
+            version: VERSION.to_owned(),
+            robot: self.robot.display().to_string(),
+            robot_hash: hash(&source),
+            asked: self.asked.clone(),
+        };
+        write::whole(&path, &stamp.write(Comment::Line, &text))
+            .map_err(|error| cannot_write(&path, &error))
     }
 
-    /// Writes the file to a path, so that it can be checked in and read in
-    /// review, and builds need no generator.
-    ///
-    /// Nothing is generated if the file is there already, unchanged, from the
-    /// same robot file, the same choices and the same version of this crate.
+    /// Writes the file to a path, so that it can be checked in and read in review; the second of two
+    /// scalars to one that ends in `_f32`. Nothing is generated if the files are there already,
+    /// unchanged, from the same robot file and with what is asked.
     ///
     /// # Errors
     /// [`BuildError`]; a file that was there stays as it was.
     pub fn write_to(&self, path: impl AsRef<Path>) -> Result<(), BuildError> {
         let path = path.as_ref();
-        let robot = self.robot.as_deref().ok_or(BuildError::NoRobot)?;
-        cargo::watch(robot, path);
-        let file = dalembert_codegen::workspace::clauses::RobotFile::read(robot)
-            .map_err(BuildError::Robot)?;
-        let scene = match &self.scene {
-            Some(name) => find(&file.scenes, name)
-                .map(Some)
-                .map_err(|error| BuildError::Scene(robot.to_owned(), error))?,
-            None => None,
+        let source = self.source(path)?;
+        let is_rust = path.extension().is_some_and(|ending| ending == "rs");
+        let scalars = self.asked.items("scalar");
+        let by_default = if self.asked.get("scene").is_some() {
+            ""
+        } else {
+            "f64"
         };
-        let mut request = self.request.clone();
-        request.plan = file.plan.clone();
-        request.work = Request::work_while_compiling(request.effort);
-        let request = request.for_file(&file.outputs);
-        let request = request.choose(self.chosen()?, self.scalars.clone(), scene);
-        let key = output::key(&file.source, &request);
-        if output::is_current(path, &key) {
-            return Ok(());
-        }
-        for note in &file.notes {
-            if note.severity == Severity::Warning {
-                let place = format!("{}:{}", robot.display(), note.line);
-                cargo::warn(&place, &note.message, note.help.as_deref());
+        let each: &[&str] = match scalars.as_slice() {
+            [] => &[by_default],
+            scalars if is_rust => scalars,
+            _ => &[""],
+        };
+        let mut stale = None;
+        for scalar in each {
+            let mut asked = self.asked.clone();
+            if is_rust {
+                // It is an option.
+                let _ = asked.set("scalar", scalar);
+            }
+            let is_second = each.len() > 1 && *scalar == "f32";
+            let file = beside(path, if is_second { "_f32" } else { "" });
+            let found = fs::read_to_string(&file);
+            let checked = match &found {
+                Ok(found) => Stamp::check(found, VERSION, &source, &asked).map_err(Some),
+                Err(_) => Err(None),
+            };
+            if let Err(why) = checked {
+                stale.get_or_insert((file, why));
             }
         }
-        let generated = generate_anew(&file.robot, &request, &robot.display().to_string())
-            .map_err(|error| BuildError::Generate(robot.to_owned(), error))?;
-        for warning in &generated.warnings {
-            cargo::warn(&robot.display().to_string(), warning, None);
-        }
-        output::write(path, &key, &generated.text)
-            .map_err(|error| BuildError::Write(path.to_owned(), error))
+        let Some((file, why)) = stale else {
+            return Ok(());
+        };
+        self.renew(path, &file, why)
     }
+
+    /// Returns the robot file's text, and makes cargo run the script again when it changes.
+    fn source(&self, output: &Path) -> Result<String, BuildError> {
+        if !self.unknown.is_empty() {
+            return Err(BuildError(self.unknown.clone()));
+        }
+        cargo::watch(&self.robot, output);
+        let bytes = fs::read(&self.robot);
+        match bytes {
+            Ok(bytes) => Ok(String::from_utf8_lossy(&bytes).into_owned()),
+            // What is wrong with it, the generator says better.
+            #[cfg(feature = "search")]
+            Err(_) => self.generated(output).map(|_| String::new()),
+            #[cfg(not(feature = "search"))]
+            Err(error) => Err(one(format!(
+                "cannot read `{}`: {error}",
+                self.robot.display()
+            ))),
+        }
+    }
+
+    /// Refuses a stale file.
+    #[cfg(not(feature = "search"))]
+    fn renew(&self, path: &Path, file: &Path, why: Option<Stale>) -> Result<(), BuildError> {
+        let (robot, own) = (self.robot.display().to_string(), file.display().to_string());
+        let command = format!(
+            "dalembert generate {robot}{} -o {}",
+            self.asked.arguments(),
+            path.display()
+        );
+        let message = match why {
+            None => format!("there is no generated file `{own}`"),
+            Some(stale) => stale.message(&own, &robot),
+        };
+        Err(one(format!("{message}\n  = help: {command}")))
+    }
+
+    /// Writes the files anew.
+    #[cfg(feature = "search")]
+    fn renew(&self, path: &Path, _: &Path, _: Option<Stale>) -> Result<(), BuildError> {
+        let generated = self.generated(path)?;
+        for (suffix, text) in generated.stamped {
+            let file = beside(path, suffix);
+            write::whole(&file, &text).map_err(|error| cannot_write(&file, &error))?;
+        }
+        Ok(())
+    }
+
+    #[cfg(not(feature = "search"))]
+    fn generated(&self, _: &Path) -> Result<Texts, BuildError> {
+        let robot = self.robot.display();
+        Err(one(format!(
+            "`OUT_DIR` has no code of `{robot}`, and what generates it is the feature `search`\n  = help: \
+             turn it on, or check the file in and call `write_to`"
+        )))
+    }
+
+    /// Generates what is asked; what is odd about the robot is said by cargo.
+    #[cfg(feature = "search")]
+    fn generated(&self, path: &Path) -> Result<Texts, BuildError> {
+        use dalembert_codegen::{Language, RobotFile, ask};
+        let language = Language::of(path).map_err(|known| {
+            one(format!(
+                "`{}` does not end as a file of any language does\n  = help: {known}",
+                path.display()
+            ))
+        })?;
+        let shown = self.robot.display().to_string();
+        let file = RobotFile::read(&self.robot).map_err(|error| BuildError(error.messages()))?;
+        let made = ask(&file, &self.asked, language, &shown).map_err(|problems| {
+            let of = |problem: &dalembert_codegen::Problem| match problem.option.as_str() {
+                "" => format!("{shown}: {}", problem.message),
+                _ => problem.to_string(),
+            };
+            BuildError(problems.iter().map(of).collect())
+        })?;
+        made.warnings.iter().for_each(|said| cargo::warn(said));
+        let robot = relative(&self.robot, path);
+        let files = made.generated.files(&made.request, &robot, &file.source);
+        let suffixes = made.generated.suffixes();
+        let texts = suffixes.iter().copied().zip(made.generated.texts).collect();
+        let stamped = suffixes.iter().copied().zip(files).collect();
+        Ok(Texts { texts, stamped })
+    }
+}
+
+/// Files by what their names end in, `_f32` or nothing.
+#[cfg_attr(not(feature = "search"), allow(dead_code))]
+struct Texts {
+    texts: Vec<(&'static str, String)>,
+    stamped: Vec<(&'static str, String)>,
+}
+
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Returns the path of a file whose name ends in this before its ending.
+fn beside(path: &Path, suffix: &str) -> PathBuf {
+    let base = path.file_stem().unwrap_or_default().to_string_lossy();
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{base}{suffix}.{ending}"))
+}
+
+fn cannot_write(path: &Path, error: &std::io::Error) -> BuildError {
+    one(format!("cannot write {}: {error}", path.display()))
 }

@@ -200,7 +200,11 @@ fn a_comment_that_a_compiler_sees_elsewhere() {
 fn items_beside_functions() {
     let report = found(&own("trait1.rs"), PEND).unwrap();
     let name = "impl dalembert";
-    lost(&report, name, "does not follow from the functions and the robot: `impl dalembert");
+    lost(
+        &report,
+        name,
+        "does not follow from the functions and the robot: `impl dalembert",
+    );
     let report = found(&own("n1.rs"), PEND).unwrap();
     lost(&report, "pub const N", "pub const N: usize = 1;");
 }

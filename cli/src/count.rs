@@ -11,7 +11,10 @@ use crate::{input, output, progress};
 
 /// Runs the subcommand.
 pub fn run(args: &CountArgs) -> Outcome {
-    let (robot, mut request) = input::robot_and_request(&args.robot, &args.choice)?;
+    let wanted = input::wanted(&args.robot, &args.options.0, &ScalarType::ALL)?;
+    let input::Wanted {
+        robot, mut request, ..
+    } = wanted;
     let scene = request.scene.as_ref();
     if scene.is_none_or(|scene| scene.tolerance.is_none()) {
         // Both scalars run the same program: one is enough to count it, and a
@@ -23,7 +26,7 @@ pub fn run(args: &CountArgs) -> Outcome {
         }
     }
     let session = progress::watch(&mut request);
-    let generated = input::generated(&args.robot, &robot, &request, false)?;
+    let generated = input::generated(&args.robot, &robot, &request)?;
     drop(session);
     if args.json {
         // The first that was emitted.

@@ -5,18 +5,18 @@ use std::io::{self, Read};
 use std::path::Path;
 
 use dalembert_codegen::RobotFileError;
-use dalembert_codegen::workspace::generate::{GenerateError, Generated, generate, generate_anew};
+use dalembert_codegen::workspace::generate::{Generated, generate_anew};
 use dalembert_codegen::workspace::plan;
-use dalembert_codegen::workspace::sincos::SinCos;
+use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::task::in_scene::find;
+use dalembert_codegen::{Asked, Problem};
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 use dalembert_report::states::GivenState;
 use dalembert_report::states::file::{self, FileError};
 
-use crate::args::Choice;
 use crate::outcome::Failure;
 use crate::output;
 
@@ -28,17 +28,43 @@ pub fn robot(path: &Path) -> Result<Robot, Failure> {
     Ok(reading(path)?.robot)
 }
 
-/// Reads a robot file and makes the request of a choice, its scene included.
-pub fn robot_and_request(path: &Path, choice: &Choice) -> Result<(Robot, Request), Failure> {
-    let reading = reading(path)?;
-    let name = choice.scene.as_ref();
-    let scene = name.map(|name| self::scene(path, &reading, name));
-    let scene = scene.transpose()?;
-    let outputs = (!choice.outputs.is_empty()).then(|| choice.outputs.clone());
-    let scalars = choice.scalar.map(|scalar| vec![scalar]);
-    let request = request(path, choice)?.for_file(&reading.outputs);
-    let request = request.choose(outputs, scalars, scene);
-    Ok((reading.robot, request))
+/// A robot file, and what is asked of it.
+pub struct Wanted {
+    pub robot: Robot,
+    /// The text of the file.
+    pub source: String,
+    pub request: Request,
+}
+
+/// Reads a robot file and what is asked of it, in these scalars where nobody says which; with the
+/// plan beside the file, unless that is to be left alone.
+pub fn wanted(path: &Path, asked: &Asked, scalars: &[ScalarType]) -> Result<Wanted, Failure> {
+    let (reading, source) = read(path)?;
+    let request = Request::parse(asked, scalars, &reading.outputs, &reading.scenes);
+    let mut request = request.map_err(|problems| Failure::Input(problems_of(&problems)))?;
+    if !request.has_no_plan {
+        request.plan = plan::file::beside(path)
+            .map_err(|message| Failure::Input(format!("error: {message}")))?;
+    }
+    Ok(Wanted {
+        robot: reading.robot,
+        source,
+        request,
+    })
+}
+
+/// Says what is wrong with what was asked, flag by flag.
+fn problems_of(problems: &[Problem]) -> String {
+    let one = |problem: &Problem| {
+        let flag = problem.option.replace('_', "-");
+        let help = match problem.help.as_str() {
+            "" => String::new(),
+            help => format!("\n  = help: {help}"),
+        };
+        format!("error: --{flag}: {}{help}", problem.message)
+    };
+    let each: Vec<String> = problems.iter().map(one).collect();
+    each.join("\n\n")
 }
 
 /// Returns a scene of a robot file.
@@ -55,9 +81,14 @@ pub fn scene<'r>(path: &Path, reading: &'r Reading, name: &str) -> Result<&'r Sc
 
 /// Reads a robot file; its warnings and notes go to standard error.
 pub fn reading(path: &Path) -> Result<Reading, Failure> {
+    Ok(read(path)?.0)
+}
+
+/// Reads a robot file, and returns its text beside it.
+fn read(path: &Path) -> Result<(Reading, String), Failure> {
     // One byte more than allowed: the reader says that it is too long.
     let bytes = begin(path, read::MAX_BYTES as u64 + 1)?;
-    let source = String::from_utf8_lossy(&bytes);
+    let source = String::from_utf8_lossy(&bytes).into_owned();
     let name = path.display().to_string();
     match read::parse_bytes(&bytes, &read::Options::default()) {
         Ok(reading) => {
@@ -65,56 +96,19 @@ pub fn reading(path: &Path) -> Result<Reading, Failure> {
                 output::note(&note.render(&name, &source));
             }
             output::undenied()?;
-            Ok(reading)
+            Ok((reading, source))
         }
         Err(errors) => Err(Failure::Input(errors.render(&name, &source))),
     }
 }
 
-/// Generates for a robot file; a plan that no longer fits it is a warning, and an error
-/// where what is generated is compared.
+/// Generates for a robot file; a plan that no longer fits it is a warning.
 ///
 /// # Errors
 /// Those of generating.
-pub fn generated(
-    path: &Path,
-    robot: &Robot,
-    request: &Request,
-    compared: bool,
-) -> Result<Generated, Failure> {
-    if !compared {
-        let shown = path.display().to_string();
-        return Ok(generate_anew(robot, request, &shown)?);
-    }
-    generate(robot, request).map_err(|error| {
-        let stale = matches!(
-            error,
-            GenerateError::StalePlan { .. } | GenerateError::StaleScene { .. }
-        );
-        match Failure::from(error) {
-            Failure::Input(text) if stale => Failure::Input(format!(
-                "{text}\n --> {}\n  = help: --no-plan searches without it",
-                plan::file::path(path).display()
-            )),
-            other => other,
-        }
-    })
-}
-
-/// Returns the request of a choice, with the plan beside the robot file unless the
-/// choice does without.
-fn request(robot_file: &Path, choice: &Choice) -> Result<Request, Failure> {
-    let mut request = choice.request();
-    if choice.sincos_error.is_some() && !matches!(request.sincos, SinCos::Polynomial { .. }) {
-        return Err(Failure::Input(
-            "error: only polynomials have an error to choose: add --sincos polynomial".into(),
-        ));
-    }
-    if !choice.no_plan {
-        request.plan = plan::file::beside(robot_file)
-            .map_err(|message| Failure::Input(format!("error: {message}")))?;
-    }
-    Ok(request)
+pub fn generated(path: &Path, robot: &Robot, request: &Request) -> Result<Generated, Failure> {
+    let shown = path.display().to_string();
+    Ok(generate_anew(robot, request, &shown)?)
 }
 
 /// Reads the states of a file for a robot of n joints.

@@ -1,7 +1,8 @@
 //! The `dalembert` command: verified flat robot dynamics from a robot file.
 //!
 //! - `args`: the command line
-//! - `generate`: Rust source, written, printed or compared
+//! - `generate`: code, written or printed
+//! - `renew`: generated files made new, or compared with what would be generated
 //! - `import`: a robot file of a URDF
 //! - `show`: the arm in two views
 //! - `new`: a crate to begin with
@@ -35,6 +36,7 @@ mod outcome;
 mod output;
 mod plot;
 mod progress;
+mod renew;
 mod show;
 mod sines;
 mod stress;
@@ -57,6 +59,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
     let waiting = bar::begin();
     let outcome = match args.command {
         Command::Generate(args) => generate::run(&args),
+        Command::Renew(args) => renew::run(&args),
         Command::Import(args) => import::run(&args),
         Command::New(args) => new::run(&args),
         Command::Show(args) => show::run(&args),

@@ -109,7 +109,7 @@ fn a_bar_after_two_seconds() {
         child.wait().unwrap();
         shown
     };
-    let searched = format!("count {} --no-plan --effort thorough", robot("panda"));
+    let searched = format!("count {} --plan off --effort thorough", robot("panda"));
     assert!(shows(&searched));
     assert!(!shows(&format!("show {}", robot("planar2r"))));
 }

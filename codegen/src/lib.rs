@@ -35,7 +35,8 @@
 //! - `generate`: the one function that macro, build script and command call
 //!
 //! And the ways in, which all end in `generate`:
-//! - `clauses`: words, robot files, and `dynamics!` as tokens
+//! - `robot_file`: a robot file from a path, with errors fit to show
+//! - [`ask()`]: what macro and build script ask of one
 //!
 //! The other crates of the workspace, and the tests, use more than what is listed
 //! below, by one door:
@@ -45,10 +46,9 @@
 #![warn(unreachable_pub)]
 
 mod approximate;
-
+mod ask;
 mod bound;
 mod certificate;
-mod clauses;
 mod edits;
 mod emit;
 mod falsify;
@@ -62,6 +62,7 @@ mod plan;
 mod portfolio;
 mod program;
 mod random;
+mod robot_file;
 mod scene;
 mod schedule;
 mod simplify;
@@ -77,7 +78,9 @@ mod words;
 pub mod workspace;
 
 #[doc(inline)]
-pub use clauses::{RobotFile, RobotFileError, expand};
+pub use ask::{Made, ask};
+#[doc(inline)]
+pub use dalembert_stamp::Asked;
 #[doc(inline)]
 pub use emit::GeneratedFunction;
 #[doc(inline)]
@@ -93,12 +96,16 @@ pub use portfolio::Start;
 #[doc(inline)]
 pub use program::{Counts, Program, ScalarType};
 #[doc(inline)]
+pub use robot_file::{RobotFile, RobotFileError};
+#[doc(inline)]
 pub use simplify::Effort;
 #[doc(inline)]
 pub use sincos::SinCos;
 #[doc(inline)]
 pub use task::in_scene::UnknownScene;
 #[doc(inline)]
-pub use task::{Fma, Layout, Prefer, Request};
+pub use task::options::{OPTIONS, OptionRow, Problem, Purpose};
+#[doc(inline)]
+pub use task::{Fma, Prefer, Request};
 #[doc(inline)]
 pub use watch::Watch;

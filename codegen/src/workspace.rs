@@ -65,10 +65,6 @@ pub mod certificate {
     }
 }
 
-pub mod clauses {
-    pub use crate::clauses::{RobotFile, RobotFileError, expand, expand_from};
-}
-
 pub mod edits {
     pub use crate::edits::{Edit, EditSite, Stage, difference};
     pub mod text {
@@ -189,8 +185,8 @@ pub mod states {
 }
 
 pub mod task {
-    pub use crate::task::options::{Purpose, WordOption};
-    pub use crate::task::{Fma, Layout, Prefer, Request, Task};
+    pub use crate::task::options::{OPTIONS, OptionRow, Problem, Purpose};
+    pub use crate::task::{Fma, Prefer, Request, Task};
     pub mod in_scene {
         pub use crate::task::in_scene::{UnknownScene, find};
     }

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use dalembert_codegen::workspace::clauses::RobotFile;
+use dalembert_codegen::RobotFile;
 use dalembert_codegen::workspace::function::{Function, RuntimeParameter};
 use dalembert_codegen::workspace::generate::generate;
 use dalembert_codegen::workspace::language::c99::Names;
@@ -187,7 +187,7 @@ fn headers() -> Vec<String> {
     }
     let texts = all
         .iter()
-        .map(|(_, robot, request)| generate(robot, request).unwrap().text);
+        .map(|(_, robot, request)| generate(robot, request).unwrap().text());
     texts.collect()
 }
 
@@ -209,7 +209,7 @@ fn headers_say_what_a_payload_holds() {
     ] {
         let text = generate(&support::read_robot(&source), &request)
             .unwrap()
-            .text;
+            .text();
         let (before, _) = text.split_once("_load(const double payload[").unwrap();
         let (_, doc) = before.rsplit_once("/*").unwrap();
         let said = doc
@@ -267,7 +267,7 @@ fn batches_are_vectors() {
     for sincos in [SinCos::Libm, SinCos::Together] {
         let mut request = request(sincos, true);
         request.functions = vec![Function::InverseDynamics];
-        let text = generate(&robot, &request).unwrap().text;
+        let text = generate(&robot, &request).unwrap().text();
         fs::write(folder.join("arm.h"), text).unwrap();
         let source = folder.join("arm.c");
         let call = "#include \"arm.h\"\n\
@@ -336,7 +336,7 @@ fn names_are_short_and_distinct() {
         let mut request = request(sincos, true);
         request.functions = Function::ALL.to_vec();
         request.module = library.then(|| "stanford".to_owned());
-        let text = generate(&robot, &request).unwrap().text;
+        let text = generate(&robot, &request).unwrap().text();
         let heads = text
             .lines()
             .filter_map(|line| line.strip_prefix("static inline "));
@@ -372,10 +372,6 @@ fn what_a_language_lacks_is_refused() {
             assert!(error.starts_with(&name) && error.contains(words), "{error}");
         }
     };
-    refused(
-        |r| r.layout = dalembert_codegen::workspace::task::Layout::Contents,
-        "contents",
-    );
     refused(|r| r.module = Some("a-b".into()), "`a-b`");
     refused(
         |r| r.module = Some("an_arm_with_a_very_long_name".into()),
@@ -409,7 +405,7 @@ fn every_change_of_a_line_is_found() {
             let read = Lowered::parse_c(&lines.join("\n"), &printed, false, &names);
             read.is_ok_and(|read| read.difference(&code).is_none())
         };
-        let lines: Vec<String> = generated.text.lines().map(String::from).collect();
+        let lines: Vec<String> = generated.text().lines().map(String::from).collect();
         let head = " void planar2r_f32_inverse_dynamics(";
         let start = lines.iter().position(|line| line.contains(head)).unwrap();
         let end = start + lines[start..].iter().position(|line| line == "}").unwrap();

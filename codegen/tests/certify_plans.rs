@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use dalembert_codegen::workspace::certificate::Refuted;
-use dalembert_codegen::workspace::clauses::expand;
 use dalembert_codegen::workspace::generate::keep::keep;
 use dalembert_codegen::workspace::generate::{GenerateError, generate};
 use dalembert_codegen::workspace::plan::Plan;
 use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::{Language, RobotFile, ask};
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::read::Reading;
 
@@ -69,7 +69,7 @@ fn generated(reading: &Reading, scene: usize, plan: &str) -> Result<String, Gene
         plan: Some(Plan::parse(plan).unwrap()),
         ..request(reading, scene)
     };
-    generate(&reading.robot, &request).map(|generated| generated.text)
+    generate(&reading.robot, &request).map(|generated| generated.text())
 }
 
 /// Each cause by itself, and D's least eigenvalue. Who claims more than can be
@@ -212,20 +212,23 @@ fn folder(name: &str, plan: &str) -> PathBuf {
     folder
 }
 
-/// `dynamics!` prints no bound that a plan claims and nobody can show.
+/// Macro and build script print no bound that a plan claims and nobody can show.
 #[test]
-fn the_macro_finds_the_bounds_of_a_plan_anew() {
+fn the_bounds_of_a_plan_are_found_anew() {
     let (_, plan) = planned(0);
-    let expanded = |plan: &str| {
-        let folder = folder("plan_claims", plan);
-        let invocation = "mod arm = \"arm.toml\"; scene: pick;".parse().unwrap();
-        expand(invocation, &folder).to_string()
+    let made = |plan: &str| {
+        let file = RobotFile::read(&folder("plan_claims", plan).join("arm.toml")).unwrap();
+        ask(
+            &file,
+            &"scene: pick".parse().unwrap(),
+            Language::Rust,
+            "arm.toml",
+        )
     };
-    let text = expanded(&plan);
-    assert!(!text.contains("compile_error"), "{text}");
-    let text = expanded(&forged(&plan, "bound", |_, x| 0.5 * x));
+    assert!(made(&plan).is_ok());
+    let problems = made(&forged(&plan, "bound", |_, x| 0.5 * x)).unwrap_err();
     assert!(
-        text.contains("compile_error") && text.contains("what can be shown is"),
-        "{text}"
+        problems[0].message.contains("what can be shown is"),
+        "{problems:?}"
     );
 }

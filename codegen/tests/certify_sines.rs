@@ -77,7 +77,7 @@ impl Case {
     fn with_other(&self, honest: &Certificate, sines: Sines) -> Certificate {
         let mut other = honest.clone();
         let code = lowered(&self.program, honest.scalar, Library::Libm, &sines);
-        other.text = function::write(&Printed::of(&self.program, &code), "libm", &[]);
+        other.text = function::write(&Printed::of(&self.program, &code), Library::Libm, &[]);
         other.sines = sines;
         other
     }

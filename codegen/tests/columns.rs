@@ -1,7 +1,6 @@
 //! Functions of any number of states beside those of one: the same program over vectors, read
 //! back. What brings a wrong value is refused.
 
-use dalembert_codegen::workspace::clauses::expand_from;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::keep::keep;
 use dalembert_codegen::workspace::generate::{Generated, GeneratedFunction, generate};
@@ -11,7 +10,6 @@ use dalembert_codegen::workspace::plan::Plan;
 use dalembert_codegen::workspace::portfolio::Start;
 use dalembert_codegen::workspace::program::{Library, Lowered, ScalarType};
 use dalembert_codegen::workspace::sincos::SinCos;
-use dalembert_codegen::workspace::task::Layout;
 use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::words::parse;
 
@@ -23,7 +21,6 @@ fn request(batch: bool, sincos: SinCos, start: Start) -> Request {
         start,
         sincos,
         batch,
-        layout: Layout::Contents,
         ..Request::of(&[
             Function::InverseDynamics,
             Function::ManipulatorEquation,
@@ -76,14 +73,14 @@ fn the_same_program_in_columns() {
             let of = |batch| of(batch, sincos, Some(plan.clone())).1;
             let (single, more) = (of(false), of(true));
             assert!(single.functions.iter().all(|function| function.planned));
-            assert!(!single.text.contains("_columns"));
+            assert!(!single.text().contains("_columns"));
             for (a, b) in single.emitted.iter().zip(&more.emitted) {
                 assert_eq!(a.text.difference(&b.text), None, "{name} {sincos:?}");
             }
             // The arithmetic is there once more, over vectors.
             let lines = |text: &str| text.matches("    let t").count();
-            assert_eq!(lines(&more.text), 2 * lines(&single.text));
-            assert!(more.text.contains("pub fn inverse_dynamics_columns("));
+            assert_eq!(lines(&more.text()), 2 * lines(&single.text()));
+            assert!(more.text().contains("pub fn inverse_dynamics_columns("));
         }
     }
 }
@@ -94,9 +91,10 @@ fn what_brings_the_wrong_value_is_refused() {
     let robot = support::robot("planar2r");
     for sincos in [SinCos::Together, SinCos::Libm] {
         let generated = generate(&robot, &request(true, sincos, Start::Auto)).unwrap();
-        let own = generated.text.find("pub fn inverse_dynamics(").unwrap();
-        let (before, own) = generated.text.split_at(own);
-        read(&generated.text, &generated, sincos).unwrap();
+        let text = generated.text();
+        let own = text.find("pub fn inverse_dynamics(").unwrap();
+        let (before, own) = text.split_at(own);
+        read(&generated.text(), &generated, sincos).unwrap();
         let sines = match sincos {
             SinCos::Libm => vec![
                 ("(s1, c1) =", "(s2, c2) ="),
@@ -150,7 +148,8 @@ fn every_line_counts() {
     let mut request = request(true, SinCos::Together, Start::Auto);
     request.functions = vec![Function::InverseDynamics];
     let generated = generate(&robot, &request).unwrap();
-    let lines: Vec<&str> = generated.text.lines().collect();
+    let text = generated.text();
+    let lines: Vec<&str> = text.lines().collect();
     let mut tried = 0;
     for (index, line) in lines.iter().enumerate() {
         if !line.starts_with("    ") && *line != "}" {
@@ -166,22 +165,4 @@ fn every_line_counts() {
         tried += 1;
     }
     assert!(tried > 35, "{tried}");
-}
-
-/// Without the crate's feature, batches are refused in a sentence of ours that says what to
-/// write, and nothing reads a crate that is not there: rustc has nothing to add.
-#[test]
-fn batches_without_the_feature_are_one_sentence() {
-    let invocation = "mod arm = \"../generated/robots/planar2r.toml\"; \
-                      outputs: gravity; scalar: f64; batch: on;";
-    let expanded = |has_batch| {
-        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
-        expand_from(invocation.parse().unwrap(), &[folder], has_batch).to_string()
-    };
-    let (without, with) = (expanded(false), expanded(true));
-    assert_eq!(without.matches("compile_error").count(), 1, "{without}");
-    assert!(without.contains("needs the feature `batch` of the crate dalembert"));
-    assert!(without.contains("features = [\\\"batch\\\"]"), "{without}");
-    assert!(!without.contains("dalembert :: batch"), "{without}");
-    assert!(!with.contains("compile_error") && with.contains("dalembert :: batch"));
 }

@@ -199,7 +199,7 @@ fn scenes_drop_what_does_not_move() {
         let states = states(&scene_robot, 40);
         let runtime = Runtime::in_scene(scene_robot);
         support::rounds_well(&generated.emitted, &runtime, &states, &scene.name);
-        let text = &generated.text;
+        let text = &generated.text();
         match scene.name.as_str() {
             "still" => {
                 assert!(!text.contains("sqrt"), "{text}");
@@ -235,16 +235,12 @@ fn roots_are_printed_once() {
                 batch,
                 ..request(&RUBBED[..1])
             };
-            let text = of(&robot, &request).text;
+            let text = of(&robot, &request).text();
             for line in [
                 format!("    let r1 = 1.0 / {path}::sqrt(qd[0] * qd[0] + 0.0001);\n"),
                 format!("    let r2 = 1.0 / {path}::sqrtf(qd[1] * qd[1] + 1.1111111e-5);\n"),
             ] {
-                assert_eq!(
-                    text.matches(&line).count(),
-                    1,
-                    "{batch}: {line}\n{text}"
-                );
+                assert_eq!(text.matches(&line).count(), 1, "{batch}: {line}\n{text}");
             }
         }
     }
@@ -258,8 +254,8 @@ fn another_line_is_another_program() {
     let function = &generated.functions[0];
     let parse = |text: &str| Lowered::parse(text, function.function, ScalarType::F64);
     let line = "let r1 = 1.0 / libm::sqrt(qd[0] * qd[0] + 0.0001);";
-    assert!(generated.text.contains(line), "{}", generated.text);
-    let own = parse(&generated.text).unwrap();
+    assert!(generated.text().contains(line), "{}", generated.text());
+    let own = parse(&generated.text()).unwrap();
     assert_eq!(own.matches(&function.program, Library::Libm, &[]), Ok(()));
     for other in [
         "let r1 = 1.0 / libm::sqrt(qd[0] * qd[0] + 0.0002);",
@@ -276,7 +272,7 @@ fn another_line_is_another_program() {
         "let r3 = 1.0 / libm::sqrt(qd[0] * qd[0] + 0.0001);",
         "",
     ] {
-        let text = generated.text.replacen(line, other, 1);
+        let text = generated.text().replacen(line, other, 1);
         let is_same = |read: Lowered| {
             let same = read.matches(&function.program, Library::Libm, &[]);
             same.is_ok()
@@ -398,7 +394,7 @@ fn what_cannot_be_is_refused_by_name() {
     assert!(!admitted.certificates.is_empty());
     let full = of(&robot, &request(&[Function::FullRegressor]));
     assert!(
-        full.text
+        full.text()
             .contains("Armature and friction, viscous and Coulomb, have none.")
     );
 }

@@ -192,10 +192,10 @@ fn every_slip_is_noticed() {
         ..fused(&Request::default())
     };
     let generated = generated(&robot, &request);
-    let (text, program) = (&generated.text, &generated.functions[0].program);
+    let (text, program) = (&generated.text(), &generated.functions[0].program);
     let is_program = |text: &str| {
         let read = Lowered::parse(text, Function::InverseDynamics, ScalarType::F64);
-        read.is_ok_and(|read| read.matches(program, request.math.library, &[]).is_ok())
+        read.is_ok_and(|read| read.matches(program, request.library(), &[]).is_ok())
     };
     assert!(is_program(text));
     let mut tried = 0;
@@ -233,7 +233,7 @@ fn every_slip_is_noticed() {
         ..request.clone()
     };
     let plain = self::generated(&robot, &plain);
-    assert!(!is_program(&plain.text) && !plain.text.contains("mul_add"));
+    assert!(!is_program(&plain.text()) && !plain.text().contains("mul_add"));
     assert_eq!(
         generated.functions[0].found.as_ref(),
         Some(&plain.functions[0].program)
@@ -250,7 +250,7 @@ fn no_cut_between_a_product_and_its_sum() {
     };
     // It is read back where it is generated.
     let generated = generated(&robot, &request);
-    assert!(generated.text.contains("let (t") && generated.text.contains(".mul_add("));
+    assert!(generated.text().contains("let (t") && generated.text().contains(".mul_add("));
 }
 
 const SCENE: &str = "\n[scene.hold]\noutputs = [\"gravity\"]\n\

@@ -81,7 +81,7 @@ fn the_code_gives_what_pinocchio_gives() {
     for &function in all.iter().step_by(every) {
         let request = Request::of(&[function]);
         let generated = generated(&robot, request);
-        assert!(generated.text.contains("pub const N: usize = 4;"));
+        assert!(generated.text().contains("pub const N: usize = 4;"));
         assert_eq!(generated.functions[0].program.joints, 4);
         // The runtime's recursion errs more here than the code does.
         for emitted in &generated.emitted {
@@ -235,7 +235,7 @@ fn other_languages_have_as_many_entries() {
             language,
             ..Request::of(&[Function::InverseDynamics])
         };
-        let text = generated(&robot(), request).text;
+        let text = generated(&robot(), request).text();
         assert!(
             text.contains("q[4]") || text.contains("q[static 4]"),
             "{text}"

@@ -137,7 +137,7 @@ fn every_slip_of_the_printer() {
     for (robot, program) in programs() {
         for scalar in ScalarType::ALL {
             let code = program.lower(scalar, |_| None);
-            let text = function::write(&Printed::of(&program, &code), "libm", &[]);
+            let text = function::write(&Printed::of(&program, &code), Library::Libm, &[]);
             assert!(passes(&program, scalar, &text));
             let lines: Vec<&str> = text.lines().collect();
             for (index, line) in lines.iter().enumerate().skip(2).step_by(7) {

@@ -1,5 +1,4 @@
-//! A generated file in somebody's crate, both as modules and as the contents of
-//! one: the formatter leaves it alone, the compiler and the documentation have
+//! Generated files as modules of somebody's crate: the formatter leaves them alone, the compiler and the documentation have
 //! nothing to warn of, whatever the joints are called and whatever is called.
 
 use std::fs;
@@ -8,9 +7,7 @@ use std::process::Command;
 
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::sincos::SinCos;
-use dalembert_codegen::workspace::task::Layout;
 use dalembert_codegen::workspace::task::Request;
 use dalembert_model::robot::Robot;
 
@@ -29,33 +26,29 @@ fn robot() -> Robot {
 }
 
 /// Arrays, structs and blocks of polynomials.
-fn text(layout: Layout, scalars: &[ScalarType]) -> String {
+fn texts() -> Vec<String> {
     let request = Request {
-        scalars: scalars.to_vec(),
         sincos: SinCos::Polynomial { error: Some(1e-4) },
-        module: Some("arm".into()),
-        layout,
         ..Request::of(&[Function::InverseDynamics, Function::DynamicCoefficients])
     };
-    generate(&robot(), &request).unwrap().text
+    generate(&robot(), &request).unwrap().texts
 }
 
-/// Returns a crate that has the file in both ways and calls none of it.
+/// Returns a crate that has the files as modules and calls none of their dynamics.
 fn files() -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("printed_file");
     fs::create_dir_all(&folder).unwrap();
-    let modules = text(Layout::Modules, &ScalarType::ALL);
-    let contents = text(Layout::Contents, &[ScalarType::F64]);
-    assert!(contents.contains("\npub const N: usize = 3;\n") && !contents.contains("pub mod"));
-    fs::write(folder.join("modules.rs"), modules).unwrap();
-    fs::write(folder.join("contents.rs"), contents).unwrap();
-    let main = "//! A program.\n\n/// Its module.\npub mod contents;\nmod modules;\n\nfn main() {\n    \
-                assert!(contents::in_box(&[0.5, -0.5, 700.0]));\n    \
-                assert!(!contents::in_box(&[0.5, 3.5, 0.0]));\n    \
-                assert!(!contents::in_box(&[f64::NAN, 0.0, 0.0]));\n    \
-                let high = modules::arm_f32::BOX.q[0][1];\n    \
-                assert!(modules::arm_f32::in_box(&[high, 0.0, 0.0]));\n    \
-                assert!(!modules::arm_f32::in_box(&[high.next_up(), 0.0, 0.0]));\n}\n";
+    for (name, text) in ["arm.rs", "arm_f32.rs"].iter().zip(texts()) {
+        assert!(text.contains("\npub const N: usize = 3;\n") && !text.contains("pub mod"));
+        fs::write(folder.join(name), text).unwrap();
+    }
+    let main = "//! A program.\n\n/// Its module.\npub mod arm;\nmod arm_f32;\n\nfn main() {\n    \
+                assert!(arm::in_box(&[0.5, -0.5, 700.0]));\n    \
+                assert!(!arm::in_box(&[0.5, 3.5, 0.0]));\n    \
+                assert!(!arm::in_box(&[f64::NAN, 0.0, 0.0]));\n    \
+                let high = arm_f32::BOX.q[0][1];\n    \
+                assert!(arm_f32::in_box(&[high, 0.0, 0.0]));\n    \
+                assert!(!arm_f32::in_box(&[high.next_up(), 0.0, 0.0]));\n}\n";
     fs::write(folder.join("main.rs"), main).unwrap();
     folder
 }

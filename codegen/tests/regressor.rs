@@ -1,9 +1,6 @@
 //! τ = Y π and D a + C v + c + b∘v = Y π: of every arm, in both scalars, in scenes, with
 //! as few columns as there can be; and what a wrong combination is refused with.
 
-use std::path::Path;
-
-use dalembert_codegen::workspace::clauses::expand;
 use dalembert_codegen::workspace::function::{Function, Quantity};
 use dalembert_codegen::workspace::generate::{GenerateError, Generated, ToleranceError, Unbounded};
 use dalembert_codegen::workspace::language::Language;
@@ -99,14 +96,16 @@ fn headers_have_the_same_parameters() {
     for linear in [TORQUES, PASSIVITY] {
         for name in ["planar2r", "stanford"] {
             let robot = support::robot(name);
-            let expected = printed(linear, &generate(linear, &robot, None).text);
+            let expected = printed(linear, &generate(linear, &robot, None).text());
             assert_eq!(expected.len(), 2);
             for language in [Language::C, Language::Cuda] {
                 let request = Request {
                     language,
                     ..Request::of(&[linear.regressor])
                 };
-                let text = dalembert_codegen::generate(&robot, &request).unwrap().text;
+                let text = dalembert_codegen::generate(&robot, &request)
+                    .unwrap()
+                    .text();
                 assert_eq!(printed_in_c(&text), expected, "{name}");
                 let said = format!("and `{name}_{}` is", linear.constant.to_lowercase());
                 assert!(text.contains(&said) && !text.contains(linear.constant));
@@ -180,7 +179,7 @@ fn with_columns(linear: Linear, robot: &Robot, scene: Option<&Scene>, base: usiz
     let generated = generate(linear, robot, scene);
     let scene_robot = SceneRobot::of(robot, scene).unwrap();
     let runtime = Runtime::in_scene(scene_robot.clone());
-    let parameters = printed(linear, &generated.text);
+    let parameters = printed(linear, &generated.text());
     assert_eq!(generated.emitted.len(), 2);
     for (emitted, pi) in generated.emitted.iter().zip(&parameters) {
         assert_eq!(pi.len(), base, "{}", robot.name);
@@ -260,7 +259,11 @@ fn drives_have_columns() {
     for linear in [TORQUES, PASSIVITY] {
         let generated = check(linear, &robot, None, 3);
         for said in ["Izz1 + m2 + armature1 |", "| armature2 |", "| viscous1 |"] {
-            assert!(generated.text.contains(said), "{said}: {}", generated.text);
+            assert!(
+                generated.text().contains(said),
+                "{said}: {}",
+                generated.text()
+            );
         }
     }
 }
@@ -318,7 +321,7 @@ fn wrong_combinations_are_refused() {
     let base = scene_robot.base(TORQUES.quantity).unwrap();
     assert_eq!(prove_base(&scene_robot, TORQUES.regressor, base), Ok(()));
     let arm = Arm::from_robot(&robot, &mut Exact::clone);
-    let printed = &printed(TORQUES, &generate(TORQUES, &robot, None).text)[0];
+    let printed = &printed(TORQUES, &generate(TORQUES, &robot, None).text())[0];
     let values: Vec<f64> = base.values(&arm).iter().map(f64::nearest).collect();
     assert_eq!(*printed, values);
 
@@ -360,30 +363,5 @@ fn tolerances_are_refused() {
         let error = dalembert_codegen::generate(&reading.robot, &request).unwrap_err();
         let why = ToleranceError::Function(Unbounded::Parameters);
         assert_eq!(error, GenerateError::Tolerance(function, why));
-    }
-}
-
-/// By `dynamics!`: Y with its constant.
-#[test]
-fn the_macro_gives_both() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
-    let expanded = |file: &str| {
-        let outputs = "outputs: regressor, full_regressor, passivity_regressor; scalar: f64;";
-        let tokens = format!("pub mod arm = \"{file}\"; {outputs}")
-            .parse()
-            .unwrap();
-        let text = expand(tokens, &folder).to_string();
-        // Spaces depend on the lexer.
-        text.split_whitespace().collect::<String>()
-    };
-    let text = expanded("planar2r.toml");
-    let arguments = "(q:&[f64;2],qd:&[f64;2],qdd:&[f64;2])";
-    for said in [
-        "pubconstBASE_PARAMETERS:[f64;6]=".to_owned(),
-        format!("pubfnregressor{arguments}->[[f64;6];2]"),
-        format!("pubfnfull_regressor{arguments}->[[f64;20];2]"),
-        "pubconstPASSIVITY_PARAMETERS:[f64;6]=".to_owned(),
-    ] {
-        assert!(text.contains(&said), "{said}: {text}");
     }
 }

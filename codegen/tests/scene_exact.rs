@@ -232,7 +232,7 @@ fn the_text_says_what_is_left() {
         ..Scene::default()
     });
     let functions = [Function::InverseDynamics, Function::Inertia];
-    let text = run(&robot, &scene, &functions).text;
+    let text = run(&robot, &scene, &functions).text();
     for part in [
         "pub mod puma560_test {",
         "pub const N: usize = 6;",
@@ -310,7 +310,7 @@ fn plans_tell_scenes_apart() {
     assert_eq!(read, kept);
     wanted.plan = Some(read);
     let again = generate(&robot, &wanted).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(again.text, first.text);
+    assert_eq!(again.text(), first.text());
     // Not the whole robot's.
     let whole = Request {
         scene: None,
@@ -323,7 +323,7 @@ fn plans_tell_scenes_apart() {
         lock: vec![(2, pi_times(1, 3))],
         ..scene
     });
-    let stale = generate(&robot, &wanted).map(|generated| generated.text);
+    let stale = generate(&robot, &wanted).map(|generated| generated.text());
     let stale = stale.expect_err("the plan is of the scene as it was");
     assert_eq!(
         stale,
@@ -342,7 +342,7 @@ fn a_scene_of_another_robot_is_refused() {
         ..Scene::default()
     });
     let error = generate(&robot, &request(&scene, &[Function::Gravity]))
-        .map(|generated| generated.text)
+        .map(|generated| generated.text())
         .expect_err("has two joints");
     assert!(error.to_string().contains("there is no joint 5"), "{error}");
 }

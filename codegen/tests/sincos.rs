@@ -37,7 +37,7 @@ fn polynomials_are_printed_counted_read_back_and_near() {
     for name in ["planar3r", "stanford", "ur10"] {
         let robot = support::robot(name);
         let generated = with(&robot, 1e-5).unwrap();
-        assert!(!generated.text.contains("libm"), "{name}");
+        assert!(!generated.text().contains("libm"), "{name}");
         let states = seeded(&robot, 200, 3);
         let runtime = Runtime::in_scene(SceneRobot::whole(&robot));
         for emitted in &generated.emitted {
@@ -50,7 +50,7 @@ fn polynomials_are_printed_counted_read_back_and_near() {
                 (function.counts().mul, function.counts().add)
             );
             let line = format!("{counts}.");
-            assert!(line.contains("trig_mul") && generated.text.contains(&line));
+            assert!(line.contains("trig_mul") && generated.text().contains(&line));
             // The rest is as exact as with libm's sines.
             for measure in emitted.against_runtime(&runtime, &states) {
                 assert!(measure.in_units() <= BOUND, "{name} {measure:?}");
@@ -121,7 +121,8 @@ fn kernels_of_narrow_ranges_are_read_back() {
                         }];
                         let kernel = |_: AngleSum| Some(&sines[0].kernel);
                         let code = program.lower(scalar, kernel);
-                        let text = function::write(&Printed::of(&program, &code), "libm", &[]);
+                        let text =
+                            function::write(&Printed::of(&program, &code), Library::Libm, &[]);
                         let found = Lowered::parse(&text, program.function, scalar).unwrap();
                         let same = found.matches(&program, Library::Libm, &sines);
                         assert_eq!(same, Ok(()), "{}\n{text}", sines[0].form);
@@ -173,9 +174,9 @@ fn a_text_with_other_sines_is_not_the_function() {
         read.matches(&function.program, Library::Libm, function.sines(scalar))
             .map_err(|difference| difference.to_string())
     };
-    assert_eq!(matches(&generated.text), Ok(()));
-    let block = generated.text.find("let (s1, c1) = {").unwrap();
-    let end = block + generated.text[block..].find("};").unwrap() + 2;
+    assert_eq!(matches(&generated.text()), Ok(()));
+    let block = generated.text().find("let (s1, c1) = {").unwrap();
+    let end = block + generated.text()[block..].find("};").unwrap() + 2;
     for (from, to, why) in [
         ("x1 = q[0] * q[0]", "x1 = q[0] * q[1]", "neither the angle"),
         ("let x2", "let x3", "`x2` expected"),
@@ -183,17 +184,17 @@ fn a_text_with_other_sines_is_not_the_function() {
         ("1.0 -", "1.0 +", "differ"),
         ("};", "", "`};` expected"),
     ] {
-        let changed = generated.text[block..end].replacen(from, to, 1);
-        assert_ne!(changed, generated.text[block..end], "{from}");
-        let text = generated.text[..block].to_owned() + &changed + &generated.text[end..];
+        let changed = generated.text()[block..end].replacen(from, to, 1);
+        assert_ne!(changed, generated.text()[block..end], "{from}");
+        let text = generated.text()[..block].to_owned() + &changed + &generated.text()[end..];
         let found = matches(&text).unwrap_err();
         assert!(found.contains(why), "{found}");
     }
     let called = "let (s1, c1) = libm::sincos(q[0]);";
-    let text = generated.text[..block].to_owned() + called + &generated.text[end..];
+    let text = generated.text()[..block].to_owned() + called + &generated.text()[end..];
     assert!(matches(&text).is_err());
     // Nor is it one of libm's sines.
-    let read = Lowered::parse(&generated.text, FUNCTION, scalar).unwrap();
+    let read = Lowered::parse(&generated.text(), FUNCTION, scalar).unwrap();
     assert!(read.matches(&function.program, Library::Libm, &[]).is_err());
     let called = read.with_libm();
     assert!(
@@ -216,7 +217,7 @@ fn whole_turns_are_taken_off_where_limits_are_missing() {
         ..Request::of(&[FUNCTION])
     };
     let generated = generate(&robot, &request).unwrap();
-    assert!(generated.text.contains("less whole turns"));
+    assert!(generated.text().contains("less whole turns"));
     let mut far = seeded(&robot, 200, 1);
     for state in &mut far {
         for q in &mut state.q {
@@ -305,6 +306,6 @@ fn a_tolerance_says_how_exact_sines_are() {
     let most = |of: fn(&ErrorByCause) -> f64| certificate.bounds.iter().map(of).fold(0.0, f64::max);
     let (all, part) = (most(|b| b.total()), most(|b| b.sincos));
     assert!(all <= 1e-4 && part > 1e-7, "{all:e} {part:e}");
-    let text = &generated.text;
+    let text = &generated.text();
     assert!(!text.contains("libm") && text.contains("Certified") && text.contains("about pi/2"));
 }

@@ -57,7 +57,7 @@ fn functions_are_straight_lines() {
             scalars: vec![ScalarType::F64],
             ..Request::default()
         };
-        let text = generate(&robot, &request).unwrap().text;
+        let text = generate(&robot, &request).unwrap().text();
         let all = functions(&text);
         let is_output =
             |(head, _): &&(&str, _)| !head.contains("_sines_") && !head.contains("in_box");

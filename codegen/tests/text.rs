@@ -185,7 +185,7 @@ fn blocks_hand_on_what_they_say() {
 #[test]
 fn long_functions_are_in_blocks() {
     let panda = support::robot("panda");
-    let text = support::one(&panda, Function::DynamicCoefficients).text;
+    let text = support::one(&panda, Function::DynamicCoefficients).text();
     let most = text
         .split("= {\n")
         .map(|part| part.lines().take_while(|l| l.contains("let t")).count());
@@ -199,7 +199,7 @@ fn long_functions_are_in_blocks() {
 fn a_robot_is_generated_alike_every_time() {
     for name in support::dose(&["puma560", "panda"], 1) {
         let robot = support::robot(name);
-        let text = || generate(&robot, &Request::default()).unwrap().text;
+        let text = || generate(&robot, &Request::default()).unwrap().text();
         assert!(text() == text(), "{name}");
     }
 }

@@ -54,7 +54,7 @@ fn watching_changes_nothing() {
         ..Request::of(&[Function::InverseDynamics, Function::Gravity])
     };
     let alone = generate(&support::robot("planar3r"), &alone).unwrap();
-    assert!(generated.text == alone.text);
+    assert!(generated.text() == alone.text());
     for function in [Function::InverseDynamics, Function::Gravity] {
         let parts = seen.iter().filter(|progress| progress.function == function);
         let mut parts: Vec<Part> = parts.map(|progress| progress.part).collect();

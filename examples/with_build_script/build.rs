@@ -1,12 +1,9 @@
 //! Writes the arm's dynamics before the crate is compiled.
 
-use dalembert_build::{BuildError, Generator, Output, Scalar};
+use dalembert_build::{BuildError, Generator};
 
 fn main() -> Result<(), BuildError> {
-    Generator::new()
-        .robot("robots/arm.toml")
-        .outputs([Output::InverseDynamics, Output::ManipulatorEquation])
-        .scalars([Scalar::F64])
-        .module("arm")
+    Generator::new("robots/arm.toml")
+        .ask("outputs", "inverse_dynamics, manipulator_equation")
         .write_to_out_dir("arm.rs")
 }

@@ -1,8 +1,8 @@
 //! Flat, verified dynamics of six robots, in f64 and f32.
 //!
-//! Each module was generated from the robot file beside its source in
-//! `robots/`; its header has the DH table, the operation counts and how it was
-//! checked. A test of the workspace regenerates every file and compares.
+//! Each module was generated from the robot file beside it in
+//! `robots/`; its documentation has the DH table, the operation counts and how it was
+//! checked. `dalembert renew --check` generates every file again and compares.
 //!
 //! ```
 //! use dalembert_generated::puma560;
@@ -17,21 +17,26 @@
 #![forbid(unsafe_code)]
 
 #[path = "../robots/panda.rs"]
-mod panda_source;
+pub mod panda;
+#[path = "../robots/panda_f32.rs"]
+pub mod panda_f32;
 #[path = "../robots/planar2r.rs"]
-mod planar2r_source;
+pub mod planar2r;
+#[path = "../robots/planar2r_f32.rs"]
+pub mod planar2r_f32;
 #[path = "../robots/planar3r.rs"]
-mod planar3r_source;
+pub mod planar3r;
+#[path = "../robots/planar3r_f32.rs"]
+pub mod planar3r_f32;
 #[path = "../robots/puma560.rs"]
-mod puma560_source;
+pub mod puma560;
+#[path = "../robots/puma560_f32.rs"]
+pub mod puma560_f32;
 #[path = "../robots/stanford.rs"]
-mod stanford_source;
+pub mod stanford;
+#[path = "../robots/stanford_f32.rs"]
+pub mod stanford_f32;
 #[path = "../robots/ur10.rs"]
-mod ur10_source;
-
-pub use panda_source::{panda, panda_f32};
-pub use planar2r_source::{planar2r, planar2r_f32};
-pub use planar3r_source::{planar3r, planar3r_f32};
-pub use puma560_source::{puma560, puma560_f32};
-pub use stanford_source::{stanford, stanford_f32};
-pub use ur10_source::{ur10, ur10_f32};
+pub mod ur10;
+#[path = "../robots/ur10_f32.rs"]
+pub mod ur10_f32;

@@ -1,13 +1,26 @@
-//! `dynamics!`: tokens to `dalembert-codegen`, tokens back.
+//! `dynamics!`: takes the generated file beside a robot file into a module, if it is the robot's
+//! and holds what is asked. With the feature `search` the module is generated where there is no
+//! such file.
+//!
+//! - `invocation`: the grammar
+//! - `module`: the module of a file, or why there is none
+//! - `search`: code that is generated while compiling
 #![forbid(unsafe_code)]
 #![warn(missing_docs, clippy::missing_errors_doc)]
 
+mod invocation;
+mod module;
+#[cfg(feature = "search")]
+mod search;
+#[cfg(test)]
+mod tests;
+
+use std::path::{Path, PathBuf};
+
 use proc_macro::TokenStream;
 
-/// Generates verified dynamics of one robot: see the crate `dalembert`, which
-/// re-exports this, for the robot, the clauses (`outputs`, `scalar`,
-/// `formulation`, `effort`, `prefer`, `fma`, `sincos`, `sincos_error`, `batch`,
-/// `parameters`, `scene`, `crate`) and the keys of a scene.
+/// Takes the generated dynamics of a robot into a module: see the crate `dalembert`, which
+/// re-exports this, for the robot and the clauses.
 #[proc_macro]
 pub fn dynamics(input: TokenStream) -> TokenStream {
     // Cargo sets it; without it, paths are relative to where the compiler runs.
@@ -16,12 +29,7 @@ pub fn dynamics(input: TokenStream) -> TokenStream {
     // macros take relative paths for relative to that file.
     let file = proc_macro::Span::call_site().local_file();
     let file = file.and_then(|file| std::path::absolute(file).ok());
-    let beside = file.as_deref().and_then(std::path::Path::parent);
-    let folders: Vec<&std::path::Path> = std::iter::once(base.as_ref()).chain(beside).collect();
-    dalembert_codegen::workspace::clauses::expand_from(
-        input.into(),
-        &folders,
-        cfg!(feature = "batch"),
-    )
-    .into()
+    let beside = file.as_deref().and_then(Path::parent).map(Path::to_owned);
+    let folders: Vec<PathBuf> = std::iter::once(base.into()).chain(beside).collect();
+    module::expand(input.into(), &folders).into()
 }

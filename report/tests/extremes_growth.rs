@@ -50,9 +50,9 @@ fn long_functions_come_in_parts_and_are_right() {
     let function = Function::ManipulatorEquation;
     let generated = generate(&robot, &request(function, "newton_euler")).unwrap();
     assert!(generated.functions[0].program.steps.len() > 5000);
-    assert!(generated.text.contains("fn part("));
+    assert!(generated.text().contains("fn part("));
     let lines = |text: &str| text.lines().filter(|l| l.contains("inline(never)")).count();
-    assert!(lines(&generated.text) >= 6);
+    assert!(lines(&generated.text()) >= 6);
     let code = Code::Emitted(generated.emitted);
     let measure = Measure::new(&robot, ScalarType::F64, Vec::new());
     let reference = Reference::new(&SceneRobot::whole(&robot));
@@ -78,6 +78,6 @@ fn what_would_explode_is_refused_with_its_size() {
             // 60² + 60³ + 60
             assert!(error.to_string().contains("219660 numbers"), "{error}");
         }
-        other => panic!("{:?}", other.map(|g| g.text.len())),
+        other => panic!("{:?}", other.map(|g| g.text().len())),
     }
 }

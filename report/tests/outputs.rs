@@ -106,7 +106,7 @@ fn check(name: &str, functions: &[Function]) {
         ..request
     };
     let again = generate(&robot, &replayed).unwrap_or_else(|error| panic!("{name}: {error}"));
-    assert_eq!(again.text, generated.text);
+    assert_eq!(again.text(), generated.text());
 }
 
 #[test]

@@ -3,27 +3,28 @@
 use std::path::PathBuf;
 
 use dalembert_codegen::workspace::function::Function;
+use dalembert_codegen::workspace::language::Language;
 use dalembert_codegen::workspace::simplify::{Effort, WaySource};
 
-use super::options::Options;
 use super::values::{function_parser, states_parser, word_parser};
-use super::{Choice, MORE};
+use super::{CODE, MORE, Options};
 
 /// Arguments of `generate`.
 #[derive(Debug, clap::Args)]
 pub struct GenerateArgs {
     /// The robot file
     pub robot: PathBuf,
-    /// Write the code to this file [default: standard output, `-`]; its ending chooses the
-    /// language (.rs, .h, .cuh). A link is followed, a device or pipe written into
+    /// Write the code to this file [default: standard output, `-`], the second of two
+    /// scalars in Rust beside it; its ending chooses the language (.rs, .h, .cuh). A link is
+    /// followed, a device or pipe written into
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Write nothing: compare with FILE and exit with 1 if it differs
-    #[arg(long, requires = "output")]
-    pub check: bool,
     /// Write over files that this command did not write
-    #[arg(long, requires = "output", conflicts_with = "check")]
+    #[arg(long, requires = "output")]
     pub force: bool,
+    /// The language of the code [default: that of the ending of -o, or rust]
+    #[arg(long, value_name = "WORD", value_parser = word_parser::<Language>(), help_heading = CODE)]
+    pub language: Option<Language>,
     /// Print rounding errors, the counts after each stage and the proofs as well
     #[arg(short, long)]
     pub verbose: bool,
@@ -36,7 +37,7 @@ pub struct GenerateArgs {
     /// every later run, macro and build script replays them. After a search
     /// that was ended early, a kept program stays unless that found a cheaper
     /// one
-    #[arg(long, conflicts_with_all = ["check", "no_plan"])]
+    #[arg(long, conflicts_with = "plan")]
     pub save_plan: bool,
     /// Measure errors at this many states inside the robot's limits [default:
     /// 100, fewer above 10 joints; 10000 with --effort thorough]
@@ -46,9 +47,20 @@ pub struct GenerateArgs {
     #[arg(long, requires = "output", help_heading = MORE)]
     pub json: bool,
     #[command(flatten)]
-    pub choice: Choice,
-    #[command(flatten)]
-    pub text: Options<true>,
+    pub options: Options,
+}
+
+/// Arguments of `renew`.
+#[derive(Debug, clap::Args)]
+pub struct RenewArgs {
+    /// The generated files [default: all in this folder and below it]
+    pub files: Vec<PathBuf>,
+    /// Write nothing, and exit with 1 if a file is not what would be generated
+    #[arg(long)]
+    pub check: bool,
+    /// Print the files and what became of each as JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// Arguments of `count`.
@@ -64,7 +76,7 @@ pub struct CountArgs {
     #[arg(long)]
     pub json: bool,
     #[command(flatten)]
-    pub choice: Choice,
+    pub options: Options,
 }
 
 /// Arguments of `explain`.

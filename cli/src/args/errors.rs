@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::simplify::Effort;
 
-use super::Choice;
+use super::Options;
 use super::values::{
     count_parser, function_parser, positive_parser, states_parser, tolerance_parser, word_parser,
 };
@@ -23,7 +23,7 @@ pub struct VerifyArgs {
     #[arg(long)]
     pub json: bool,
     #[command(flatten)]
-    pub choice: Choice,
+    pub options: Options,
 }
 
 /// Arguments of `stress`.

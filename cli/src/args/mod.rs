@@ -1,14 +1,12 @@
 //! The command line.
 //!
 //! - this file: the commands
-//! - `choice`: which functions to generate, and from what
 //! - `files`: arguments of the commands that make and look at robot files
 //! - `code`: of those that generate functions, count and explain their operations
 //! - `errors`: of those that measure and bound errors
-//! - `options`: options of one word
+//! - `options`: the options of a request, from the table
 //! - `values`: how values are read
 
-mod choice;
 mod code;
 mod errors;
 mod files;
@@ -18,10 +16,10 @@ mod values;
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 
-pub use choice::Choice;
-pub use code::{CountArgs, ExplainArgs, GenerateArgs};
+pub use code::{CountArgs, ExplainArgs, GenerateArgs, RenewArgs};
 pub use errors::{CertifyArgs, StressArgs, TradeoffArgs, VerifyArgs};
 pub use files::{ChainArgs, ImportArgs, NewArgs, ShowArgs};
+pub use options::Options;
 
 /// Options that say how code is written.
 const CODE: &str = "How the code is written";
@@ -49,12 +47,14 @@ pub struct Args {
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Make a crate with an arm: robot file, macro, a test against the runtime
+    /// Make a crate with an arm: robot file, generated code, a test of its numbers
     New(NewArgs),
     /// Make a robot file of a chain of a URDF
     Import(ImportArgs),
     /// Generate Rust source for a robot, proved before it is printed
     Generate(GenerateArgs),
+    /// Generate files anew whose robot file or text was edited, each from its own first lines
+    Renew(RenewArgs),
     /// Count the operations of the generated functions
     Count(CountArgs),
     /// Draw the arm in two views, with frames, axes, masses and its table (SVG)

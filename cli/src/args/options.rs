@@ -1,41 +1,19 @@
-//! The options of one word, as arguments: from the table that macro and build script share.
+//! The options of a request as arguments, from the table that macro, build script and files share.
 
-use clap::builder::PossibleValuesParser;
+use std::ffi::OsStr;
+
+use clap::builder::{PossibleValue, StringValueParser, TypedValueParser};
 use clap::parser::ValueSource;
-use clap::{Arg, ArgMatches, Args, Command, Error, FromArgMatches};
-use dalembert_codegen::workspace::task::{Purpose, Request, WordOption};
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches};
+use dalembert_codegen::{Asked, OPTIONS, OptionRow, Purpose};
 
 use super::{CODE, SEARCH};
 
-/// What was chosen of the options that say what a file holds (`OF_TEXT`), or of the others.
+/// What is asked for on the command line.
 #[derive(Clone, Debug, Default)]
-pub struct Options<const OF_TEXT: bool>(Vec<(&'static WordOption, String)>);
+pub struct Options(pub Asked);
 
-impl<const OF_TEXT: bool> Options<OF_TEXT> {
-    /// Sets them in a request.
-    pub fn set(&self, request: &mut Request) {
-        for (option, word) in &self.0 {
-            // Clap has taken no other words.
-            let _ = (option.set)(request, word);
-        }
-    }
-
-    /// Returns whether the option of this word is on the command line.
-    pub fn is_given(&self, word: &str) -> bool {
-        self.0.iter().any(|(option, _)| option.word == word)
-    }
-
-    fn table() -> impl Iterator<Item = &'static WordOption> {
-        let of_text = |option: &WordOption| match option.purpose {
-            Purpose::Text | Purpose::File => true,
-            Purpose::Search | Purpose::Code => false,
-        };
-        let all = WordOption::ALL.iter();
-        all.filter(move |option| of_text(option) == OF_TEXT)
-    }
-}
-
-impl<const OF_TEXT: bool> FromArgMatches for Options<OF_TEXT> {
+impl FromArgMatches for Options {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
         let mut options = Self::default();
         options.update_from_arg_matches(matches)?;
@@ -43,19 +21,24 @@ impl<const OF_TEXT: bool> FromArgMatches for Options<OF_TEXT> {
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
-        for option in Self::table() {
-            // Defaults are those of a request.
-            let is_given = matches.value_source(option.word) == Some(ValueSource::CommandLine);
-            let word = matches.get_one::<String>(option.word).filter(|_| is_given);
-            self.0.extend(word.map(|word| (option, word.clone())));
+        for row in &OPTIONS {
+            if matches.value_source(row.name) != Some(ValueSource::CommandLine) {
+                continue;
+            }
+            let values = matches.get_many::<String>(row.name);
+            let values: Vec<&str> = values.into_iter().flatten().map(String::as_str).collect();
+            // It is an option.
+            let _ = self.0.set(row.name, &values.join(","));
         }
         Ok(())
     }
 }
 
-impl<const OF_TEXT: bool> Args for Options<OF_TEXT> {
+impl Args for Options {
     fn augment_args(command: Command) -> Command {
-        Self::table().fold(command, |command, option| command.arg(arg(option)))
+        OPTIONS
+            .iter()
+            .fold(command, |command, row| command.arg(arg(row)))
     }
 
     fn augment_args_for_update(command: Command) -> Command {
@@ -63,24 +46,61 @@ impl<const OF_TEXT: bool> Args for Options<OF_TEXT> {
     }
 }
 
-fn arg(option: &'static WordOption) -> Arg {
-    let known = (option.known)();
-    let arg = Arg::new(option.word)
-        .long(option.word)
-        .value_name("WORD")
-        .value_parser(PossibleValuesParser::new(&known))
-        .help(option.doc.trim())
-        .help_heading(match option.purpose {
-            Purpose::Search => SEARCH,
-            Purpose::Code | Purpose::Text | Purpose::File => CODE,
-        });
-    match known.as_slice() {
+/// Takes any text, and lists the words for help and completions: what is wrong with a word is said
+/// once, by the parser of requests.
+#[derive(Clone)]
+struct Words(fn() -> Vec<&'static str>);
+
+impl TypedValueParser for Words {
+    type Value = String;
+
+    fn parse_ref(
+        &self,
+        command: &Command,
+        arg: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<String, Error> {
+        StringValueParser::new().parse_ref(command, arg, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let words = (self.0)();
+        (!words.is_empty()).then(|| {
+            Box::new(words.into_iter().map(PossibleValue::new)) as Box<dyn Iterator<Item = _>>
+        })
+    }
+}
+
+fn arg(row: &'static OptionRow) -> Arg {
+    let words = (row.words)();
+    let value = match (row.is_list, words.is_empty()) {
+        (true, _) => "NAMES",
+        (false, true) if row.name.ends_with("error") => "ERROR",
+        (false, true) => "NAME",
+        (false, false) => "WORD",
+    };
+    let arg = Arg::new(row.name)
+        .long(row.name.replace('_', "-"))
+        .value_name(value)
+        .value_parser(Words(row.words))
+        .allow_hyphen_values(row.name == "sincos_error")
+        .help(row.doc);
+    let arg = match row.purpose {
+        Purpose::What => arg,
+        Purpose::Search => arg.help_heading(SEARCH),
+        Purpose::Code => arg.help_heading(CODE),
+    };
+    let arg = match row.is_list {
+        true => arg.action(ArgAction::Append),
+        false => arg,
+    };
+    match words.as_slice() {
         // Named alone it is on, and takes no word that follows.
-        ["off", ..] => arg
+        ["off", "on"] => arg
             .num_args(0..=1)
             .require_equals(true)
             .default_missing_value("on"),
-        [first, ..] => arg.default_value(*first),
-        [] => arg,
+        [first, ..] if !row.is_list => arg.default_value(*first),
+        _ => arg,
     }
 }

@@ -76,13 +76,6 @@ pub(super) fn word_parser<W: Word + Send + Sync + 'static>() -> impl TypedValueP
     PossibleValuesParser::new(W::known()).try_map(|word| parse::<W>(&word))
 }
 
-pub(super) fn error_parser() -> impl TypedValueParser<Value = f64> {
-    StringValueParser::new().try_map(|text| match text.parse::<f64>() {
-        Ok(error) if error > 0.0 && error < 1.0 => Ok(error),
-        _ => Err("an error is a number above 0 and below 1, such as 1e-9"),
-    })
-}
-
 pub(super) fn tolerance_parser() -> impl TypedValueParser<Value = f64> {
     StringValueParser::new().try_map(|text| {
         text.parse::<f64>()

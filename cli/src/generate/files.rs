@@ -2,6 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use dalembert_codegen::workspace::language::Language;
+use dalembert_codegen::workspace::program::ScalarType;
+
 use dalembert_codegen::workspace::plan;
 use dalembert_codegen::workspace::task::Request;
 
@@ -10,12 +13,12 @@ use crate::files::distinct::distinct;
 use crate::files::target::Target;
 use crate::files::write::write;
 use crate::outcome::{Failure, Outcome};
-use crate::{input, output};
+use crate::output;
 
 /// Where the code, the certificates and the plan go.
 pub struct Files {
-    /// Unless a report is what was asked for.
-    code: Option<Target>,
+    /// One for each file.
+    code: Vec<Target>,
     /// With a tolerance, unless the code goes into a device or a pipe.
     certificates: Option<Target>,
     /// If it is to be kept.
@@ -30,7 +33,7 @@ impl Files {
     /// # Errors
     /// Something cannot be written, or would be written over something else.
     pub fn of(args: &GenerateArgs, request: &Request) -> Result<Files, Failure> {
-        let code = Some(Target::output(args.output.as_deref(), args.json)?);
+        let code = code(args, request)?;
         let scene = request.scene.as_ref();
         let certified = scene.is_some_and(|scene| scene.tolerance.is_some());
         if args.certificate.is_some() && !certified {
@@ -39,7 +42,7 @@ impl Files {
                     .into(),
             ));
         }
-        let file = code.as_ref().and_then(Target::file);
+        let file = code.first().and_then(Target::file);
         let beside = file.and(args.output.as_ref());
         let beside = beside.map(|file| file.with_extension("certificate.json"));
         let certificates = args.certificate.clone().or(beside);
@@ -54,27 +57,12 @@ impl Files {
             plan,
             first,
         };
-        match args.check {
-            true => files.comparable()?,
-            false => {
-                files.check(args, &path)?;
-                if !args.force {
-                    let written = [&files.code, &files.certificates];
-                    written.into_iter().flatten().try_for_each(Target::ours)?;
-                }
-            }
+        files.check(args, &path)?;
+        if !args.force {
+            let written = files.code.iter().chain(&files.certificates);
+            written.into_iter().try_for_each(Target::ours)?;
         }
         Ok(files)
-    }
-
-    fn comparable(&self) -> Outcome {
-        match &self.code {
-            Some(code) if code.file().is_none() => Err(Failure::Input(format!(
-                "error: `{}` is no file that --check could compare",
-                code.name.display()
-            ))),
-            _ => Ok(()),
-        }
     }
 
     fn check(&self, args: &GenerateArgs, plan: &Path) -> Outcome {
@@ -87,28 +75,33 @@ impl Files {
             Some(_) => "--certificate",
             None => "the certificate beside the code",
         };
-        let outputs = [
-            ("--output", self.code.as_ref()),
+        let code = self.code.iter().map(|target| ("--output", target));
+        let others = [
             (certificates, self.certificates.as_ref()),
             ("--save-plan", self.plan.as_ref()),
         ];
-        let outputs = outputs.into_iter();
-        let outputs: Vec<_> = outputs.filter_map(|(w, t)| Some((w, t?))).collect();
+        let others = others.into_iter().filter_map(|(w, t)| Some((w, t?)));
+        let outputs: Vec<_> = code.chain(others).collect();
         distinct(&inputs, &outputs)?;
         outputs.iter().try_for_each(|(_, target)| target.check())
     }
 
     /// Writes all of it, or nothing.
-    pub fn write(&self, code: &str, certificates: Option<&str>, plan: Option<&str>) -> Outcome {
+    pub fn write(
+        &self,
+        code: &[String],
+        certificates: Option<&str>,
+        plan: Option<&str>,
+    ) -> Outcome {
         let all = [
             (self.plan.as_ref(), plan),
             (self.certificates.as_ref(), certificates),
-            (self.code.as_ref(), Some(code)),
         ];
         let mut outputs = Vec::new();
         for (target, text) in all {
             outputs.extend(target.zip(text));
         }
+        outputs.extend(self.code.iter().zip(code.iter().map(String::as_str)));
         write(&outputs)?;
         if let Some(robot) = &self.first
             && let Err(error) = plan::file::announce(robot)
@@ -133,43 +126,32 @@ impl Files {
         }
         Ok(())
     }
-
-    /// Compares instead of writing.
-    pub fn compare(&self, code: &str, certificates: Option<&str>) -> Outcome {
-        if let Some((target, text)) = self.certificates.as_ref().zip(certificates) {
-            compare(target, text)?;
-        }
-        self.code
-            .as_ref()
-            .map_or(Ok(()), |file| compare(file, code))
-    }
 }
 
-fn compare(target: &Target, text: &str) -> Outcome {
-    let name = target.name.display();
-    let fail = |why: String| Failure::Check(format!("\nerror: {name} cannot be compared: {why}"));
-    let Some(file) = target.file() else {
-        return Err(fail("it is no file".into()));
+/// Returns where the code goes: the second of two scalars in Rust beside the first.
+fn code(args: &GenerateArgs, request: &Request) -> Result<Vec<Target>, Failure> {
+    let first = Target::output(args.output.as_deref(), args.json)?;
+    let is_pair = request.language == Language::Rust && request.scalars.len() > 1;
+    if !is_pair || request.cheapest_scalar {
+        return Ok(vec![first]);
+    }
+    let Some(path) = args.output.as_deref().filter(|_| first.file().is_some()) else {
+        return Err(Failure::Input(
+            "error: each scalar has a file of its own in Rust\n  = help: ask for one scalar, or give -o the \
+             name of a file: the f32 code goes to one that ends in _f32"
+                .into(),
+        ));
     };
-    // One more byte than wanted is a difference.
-    let bytes = input::first(file, text.len() as u64 + 1);
-    let bytes = bytes.map_err(|error| fail(error.to_string()))?;
-    if bytes == text.as_bytes() {
-        output::note(&format!("\n{name} is up to date"));
-        return Ok(());
-    }
-    let line = first_difference(&bytes, text);
-    Err(Failure::Check(format!(
-        "\nerror: {name}:{line}: the file is not what would be generated; run without --check to write it"
-    )))
+    let target = |scalar: &ScalarType| match scalar {
+        ScalarType::F64 => Target::at(path),
+        ScalarType::F32 => Target::at(&second(path)),
+    };
+    request.scalars.iter().map(target).collect()
 }
 
-/// Returns the first line, from one, in which a file differs from a text.
-fn first_difference(bytes: &[u8], text: &str) -> usize {
-    let same = bytes
-        .iter()
-        .zip(text.as_bytes())
-        .take_while(|(a, b)| a == b)
-        .filter(|(byte, _)| **byte == b'\n');
-    same.count() + 1
+/// Returns the file of the second of two scalars: `arm_f32.rs` beside `arm.rs`.
+fn second(path: &Path) -> PathBuf {
+    let base = path.file_stem().unwrap_or_default().to_string_lossy();
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{base}_f32.{ending}"))
 }

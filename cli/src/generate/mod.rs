@@ -1,4 +1,4 @@
-//! `dalembert generate`: Rust source, written, printed or compared.
+//! `dalembert generate`: code, written or printed.
 //!
 //! - this file: code and certificates
 //! - [`files`]: what goes where, and what is there already
@@ -9,12 +9,15 @@ mod files;
 pub mod json;
 pub mod report;
 
+use std::path::Path;
+
 use dalembert_codegen::workspace::certificate::format;
 use dalembert_codegen::workspace::generate::Generated;
 use dalembert_codegen::workspace::generate::keep::keep;
 use dalembert_codegen::workspace::language::Language;
 use dalembert_codegen::workspace::simplify::Effort;
 use dalembert_report::explain::errors::{MAX_STATES, affordable_states};
+use dalembert_stamp::relative;
 
 use crate::args::GenerateArgs;
 use crate::outcome::{Failure, Outcome};
@@ -23,15 +26,19 @@ use files::Files;
 
 /// Runs the subcommand.
 pub fn run(args: &GenerateArgs) -> Outcome {
-    let (robot, mut request) = input::robot_and_request(&args.robot, &args.choice)?;
-    args.text.set(&mut request);
+    let language = language(args)?;
+    let wanted = input::wanted(&args.robot, &args.options.0, language.scalars())?;
+    let input::Wanted {
+        robot,
+        source,
+        mut request,
+    } = wanted;
+    request.language = language;
     // Before the work: what cannot be written is no news after it.
     let files = Files::of(args, &request)?;
-    request.language = language(args, request.language)?;
     let kept = request.plan.take_if(|_| args.save_plan);
-    // A comparison with what a whole search gives needs a whole search.
-    let session = (!args.check).then(|| progress::watch(&mut request));
-    let generated = input::generated(&args.robot, &robot, &request, args.check)?;
+    let session = progress::watch(&mut request);
+    let generated = input::generated(&args.robot, &robot, &request)?;
     let certificates = certificates(&generated);
     drop(session);
     let measured = args.verbose || args.json;
@@ -60,59 +67,49 @@ pub fn run(args: &GenerateArgs) -> Outcome {
         }
         kept.plan.write()
     });
-    match args.check {
-        true => files.compare(&generated.text, certificates.as_deref()),
-        false => files.write(&generated.text, certificates.as_deref(), plan.as_deref()),
-    }
+    let place = match args.output.as_deref() {
+        Some(file) if file != Path::new("-") => relative(&args.robot, file),
+        // As if it were written beside the robot file.
+        _ => name(&args.robot),
+    };
+    let code = generated.files(&request, &place, &source);
+    files.write(&code, certificates.as_deref(), plan.as_deref())
 }
 
-/// The endings of the languages' files; the first of each is advised.
-const ENDINGS: [(&str, Language); 6] = [
-    ("rs", Language::Rust),
-    ("h", Language::C),
-    ("hpp", Language::C),
-    ("hh", Language::C),
-    ("cuh", Language::Cuda),
-    ("cu", Language::Cuda),
-];
+/// Returns the name of a file, without its folder.
+fn name(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default();
+    name.to_string_lossy().into_owned()
+}
 
 /// Returns the language of the code: that of the ending of `-o`, unless `--language` is given.
 ///
 /// # Errors
 /// The ending is that of another language, or of none while `--language` is not given.
-fn language(args: &GenerateArgs, asked: Language) -> Result<Language, Failure> {
-    let is_asked = args.text.is_given("language");
-    let Some((path, ending)) =
-        (args.output.as_ref()).and_then(|path| Some((path, path.extension()?)))
-    else {
-        return Ok(asked);
+fn language(args: &GenerateArgs) -> Result<Language, Failure> {
+    let path = args.output.as_deref();
+    let Some(path) = path.filter(|path| path.extension().is_some()) else {
+        return Ok(args.language.unwrap_or_default());
     };
-    let known = ENDINGS
-        .iter()
-        .find(|(known, _)| ending.eq_ignore_ascii_case(known));
-    match known {
-        Some((_, language)) if !is_asked || *language == asked => Ok(*language),
-        None if is_asked => Ok(asked),
-        _ => {
-            let endings =
-                ENDINGS.map(|(ending, language)| format!(".{ending} ({})", language.name()));
+    match (Language::of(path), args.language) {
+        (Ok(language), None) => Ok(language),
+        (Ok(language), Some(asked)) if language == asked => Ok(language),
+        (Err(_), Some(asked)) => Ok(asked),
+        (_, asked) => {
+            // What has no ending names them.
+            let known = Language::of(Path::new("")).err().unwrap_or_default();
             Err(Failure::Input(format!(
                 "error: `{}` does not end as a file of {} does\n  = help: the language follows from \
-                 the ending: {}",
+                 the ending: {known}",
                 path.display(),
-                if is_asked {
-                    asked.name()
-                } else {
-                    "any language"
-                },
-                endings.join(", ")
+                asked.map_or("any language", Language::name),
             )))
         }
     }
 }
 
 /// Returns the certificates of a scene with a tolerance.
-fn certificates(generated: &Generated) -> Option<String> {
+pub fn certificates(generated: &Generated) -> Option<String> {
     let admitted = generated
         .functions
         .iter()

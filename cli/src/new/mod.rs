@@ -9,9 +9,12 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use dalembert_codegen::{Asked, Language, RobotFile, ask};
 use dalembert_import::{MAX_BYTES, import_text};
 use dalembert_model::read::{self, Reading};
-use dalembert_model::robot::suggested_name;
+use dalembert_model::reference::Reference;
+use dalembert_model::robot::{Robot, suggested_name};
+use nalgebra::DVector;
 use serde_json::json;
 
 use crate::args::{ChainArgs, NewArgs};
@@ -35,11 +38,13 @@ pub fn run(args: &NewArgs) -> Outcome {
     };
     let reading = reading(&robot_file)?;
     let robot = &reading.robot.name;
-    let source = texts::source(robot, reading.robot.joints.len());
+    let source = texts::source(robot, &states(&reading.robot)?);
+    let code = code(&reading, &robot_file)?;
     let dependency = dependency(args)?;
     let manifest = texts::manifest(&name, &dependency);
     let files = [
         ("Cargo.toml".to_owned(), manifest),
+        (format!("robots/{robot}.rs"), code),
         (format!("robots/{robot}.toml"), robot_file),
         ("src/main.rs".to_owned(), source),
     ];
@@ -65,10 +70,48 @@ pub fn run(args: &NewArgs) -> Outcome {
         ));
     }
     output::note(&format!(
-        "{}: cargo run prints torques, cargo test compares them with the runtime",
+        "{}: cargo run prints torques, cargo test compares them with those of a recursion",
         folder.display()
     ));
     Ok(())
+}
+
+/// Generates the code that is checked in.
+fn code(reading: &Reading, source: &str) -> Result<String, Failure> {
+    let asked = texts::ASKED.parse::<Asked>();
+    let asked = asked.map_err(|error| Failure::Input(error.to_string()))?;
+    let name = &reading.robot.name;
+    let file = RobotFile::parse(source, name);
+    let file = file.map_err(|error| Failure::Input(error.to_string()))?;
+    let made = ask(&file, &asked, Language::Rust, name).map_err(|problems| {
+        let each = problems
+            .iter()
+            .map(|problem| format!("error: {}", problem.message));
+        Failure::Input(each.collect::<Vec<String>>().join("\n\n"))
+    })?;
+    let place = format!("{name}.toml");
+    let files = made.generated.files(&made.request, &place, source);
+    Ok(files.concat())
+}
+
+/// Computes torques by the recursion that serves any arm, at three states.
+fn states(robot: &Robot) -> Result<Vec<texts::State>, Failure> {
+    let n = robot.joints.len();
+    let runtime = Reference::<f64>::from_robot(robot);
+    let state = |step: usize| {
+        // Sines of the library of all platforms, to two digits.
+        let value = |k: usize, size: f64| {
+            let sine = libm::sin((7 * step + 3 * k) as f64);
+            (size * sine * 100.0).round() / 100.0
+        };
+        let q = DVector::from_fn(n, |k, _| value(k, 1.5));
+        let qd = DVector::from_fn(n, |k, _| value(k + 1, 2.0));
+        let qdd = DVector::from_fn(n, |k, _| value(k + 2, 5.0));
+        let tau = runtime.inverse_dynamics(&q, &qd, &qdd);
+        let tau = tau.map_err(|error| Failure::Input(format!("error: {error}")))?;
+        Ok([q, qd, qdd, tau].map(|vector| vector.as_slice().to_vec()))
+    };
+    (1..=3).map(state).collect()
 }
 
 /// Returns the crate's name, which is the folder's; hyphens may be in it.

@@ -28,23 +28,37 @@ limits = { position = [\"-pi\", \"pi\"], velocity = 3, acceleration = 10, torque
 ";
 
 /// The crates that the new one depends on.
-pub(super) const DEPENDENCIES: [&str; 2] = ["dalembert", "nalgebra"];
+pub(super) const DEPENDENCIES: [&str; 1] = ["dalembert"];
+
+/// What is asked of the robot.
+pub(super) const ASKED: &str = "outputs: inverse_dynamics, gravity; scalar: f64; sincos: together";
+
+/// q, q̇, q̈ and the torques there.
+pub(super) type State = [Vec<f64>; 4];
 
 /// Returns Cargo.toml. It is a workspace of its own, wherever it is put.
 pub(super) fn manifest(name: &str, dependency: &str) -> String {
     format!(
         "[package]\nname = \"{name}\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n\
-         [dependencies]\ndalembert = {{ {dependency} }}\n\n\
-         [dev-dependencies]\nnalgebra = {{ version = \"0.35\", default-features = false }}\n\n\
-         # The macro searches and proves while it expands.\n\
-         [profile.dev.build-override]\nopt-level = 3\n\n\
-         [profile.release.build-override]\nopt-level = 3\n\n[workspace]\n"
+         [dependencies]\n\
+         # Without the default feature `search`, the macro takes checked-in code and compiles in seconds.\n\
+         dalembert = {{ {dependency}, default-features = false, features = [\"macros\", \"sines\"] }}\n\n\
+         [workspace]\n"
     )
 }
 
-/// Returns src/main.rs: the macro, torques, and a test against the runtime.
-pub(super) fn source(robot: &str, joints: usize) -> String {
+/// Returns src/main.rs: the macro, torques, and a test against those of a recursion.
+pub(super) fn source(robot: &str, states: &[State]) -> String {
+    let joints = states.first().map_or(0, |[q, ..]| q.len());
+    let rows = states.iter().map(|vectors| {
+        let lines = vectors
+            .each_ref()
+            .map(|own| format!("            {own:?},\n"));
+        format!("        (\n{}        ),\n", lines.concat())
+    });
     SOURCE
+        .replace("STATES\n", &rows.collect::<String>())
+        .replace("COUNT", &states.len().to_string())
         .replace("ROBOT", robot)
         .replace("JOINTS", &joints.to_string())
 }
@@ -53,10 +67,11 @@ const SOURCE: &str = "\
 //! The torques of ROBOT.
 
 dalembert::dynamics! {
-    /// From its robot file.
+    /// Generated in robots/ROBOT.rs: `dalembert renew` makes that new after an edit of the robot.
     pub mod ROBOT = \"robots/ROBOT.toml\";
     outputs: inverse_dynamics, gravity;
     scalar: f64;
+    sincos: together;
 }
 
 fn main() {
@@ -69,29 +84,24 @@ fn main() {
 
 #[cfg(test)]
 mod tests {
-    use dalembert::read;
-    use dalembert::reference::Reference;
-    use nalgebra::DVector;
-
     use super::ROBOT;
 
-    /// The generated code against the recursion that serves any arm.
+    type Vector = [f64; JOINTS];
+
+    /// q, its rates and accelerations, and the torques there by a recursion that serves any arm:
+    /// `dalembert new` computed them. After an edit of the robot they are others.
+    #[rustfmt::skip]
+    const EXPECTED: [(Vector, Vector, Vector, Vector); COUNT] = [
+STATES
+    ];
+
     #[test]
-    fn the_code_agrees_with_the_runtime() {
-        let file = include_str!(\"../robots/ROBOT.toml\");
-        let reading = read::parse(file, &read::Options::default()).expect(\"a robot\");
-        let runtime = Reference::<f64>::from_robot(&reading.robot);
-        for step in 0..20 {
-            let value = |k: usize, size: f64| size * ((7 * step + 3 * k) as f64).sin();
-            let q: [f64; JOINTS] = core::array::from_fn(|k| value(k, 1.5));
-            let qd: [f64; JOINTS] = core::array::from_fn(|k| value(k + 1, 2.0));
-            let qdd: [f64; JOINTS] = core::array::from_fn(|k| value(k + 2, 5.0));
-            let [a, b, c] = [&q, &qd, &qdd].map(|x| DVector::from_column_slice(x));
-            let expected = runtime.inverse_dynamics(&a, &b, &c).expect(\"as many values\");
+    fn the_code_agrees_with_the_recursion() {
+        for (q, qd, qdd, expected) in EXPECTED {
             let found = ROBOT::inverse_dynamics(&q, &qd, &qdd);
             let largest = expected.iter().fold(1.0f64, |most, x| most.max(x.abs()));
-            for (found, expected) in found.iter().zip(expected.iter()) {
-                assert!((found - expected).abs() < 1e-12 * largest);
+            for (found, expected) in found.iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-12 * largest, \"{found} {expected}\");
             }
         }
     }

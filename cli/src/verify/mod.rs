@@ -11,6 +11,7 @@ mod show;
 use dalembert_codegen::workspace::certificate::Certificate;
 use dalembert_codegen::workspace::falsify::{Falsification, falsify};
 use dalembert_codegen::workspace::generate::{GenerateError, Generated};
+use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::states::{SEED, STATES};
 use dalembert_codegen::workspace::verify::floating::{BOUND, Emitted, Measure, Runtime};
 
@@ -55,13 +56,16 @@ const CLIMBS: usize = 2;
 
 /// Runs the subcommand.
 pub fn run(args: &VerifyArgs) -> Outcome {
-    let (robot, mut request) = input::robot_and_request(&args.robot, &args.choice)?;
+    let wanted = input::wanted(&args.robot, &args.options.0, &ScalarType::ALL)?;
+    let input::Wanted {
+        robot, mut request, ..
+    } = wanted;
     let given = args.states.as_deref();
     let given = given.map(|file| Given::read(file, &robot, &request));
     let mut given = given.transpose()?;
     let session = progress::watch(&mut request);
     // What cannot be proved is not generated: this ends with the reason.
-    let generated = input::generated(&args.robot, &robot, &request, false)?;
+    let generated = input::generated(&args.robot, &robot, &request)?;
     drop(session);
     let scene_robot = request.scene_robot(&robot).map_err(GenerateError::Scene)?;
     let states = scene_robot.states(STATES, SEED);

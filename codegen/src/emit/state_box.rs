@@ -101,18 +101,6 @@ impl StateBox {
 }
 
 impl StateBox {
-    /// Returns the ends of an entry of an argument, if anything bounds it.
-    pub(super) fn ends(
-        &self,
-        argument: Argument,
-        index: usize,
-        scalar: ScalarType,
-    ) -> Option<[String; 2]> {
-        let (_, column) = self.columns.iter().find(|(own, _)| *own == argument)?;
-        let range = column.get(index).copied().flatten()?;
-        Some(ends(Some(range), scalar))
-    }
-
     /// Prints the function of C that asks.
     pub(super) fn write_c(&self, text: &mut String, scalar: ScalarType, names: &Names) {
         let (float, restrict) = (float(scalar), names.constant("RESTRICT"));

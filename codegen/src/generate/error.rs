@@ -22,9 +22,6 @@ pub enum GenerateError {
     Empty,
     /// These are not the same, and would have one name or one struct.
     Namesakes(Function, Function),
-    /// More than one scalar was asked for where the text is to be the contents
-    /// of one module.
-    Contents,
     /// There is nothing to explain of a function that regrouping does not reach.
     Unexplained(Function),
     /// The plan is for another robot, or for this one before an edit.
@@ -103,7 +100,6 @@ impl GenerateError {
     pub fn function(&self) -> Option<Function> {
         match self {
             GenerateError::Empty
-            | GenerateError::Contents
             | GenerateError::Unexplained(_)
             | GenerateError::StalePlan { .. }
             | GenerateError::StaleScene { .. }
@@ -161,9 +157,6 @@ impl fmt::Display for GenerateError {
                 "`{function}` has entries of each link, and where joints follow others (`mimic`) \
                  there are more links than coordinates: ask for `forward_kinematics@FRAME` of \
                  frames on links, or `regressor` in place of `full_regressor`"
-            ),
-            GenerateError::Contents => f.write_str(
-                "a file without modules has one scalar: choose f64 or f32, and write a file for each",
             ),
             GenerateError::Unexplained(function) => write!(
                 f,

@@ -7,14 +7,12 @@ use dalembert_model::robot::Robot;
 use crate::emit::header;
 use crate::function::Function;
 use crate::language::Language;
-use crate::task::{Layout, Request};
+use crate::task::Request;
 
 /// A request that a language cannot express.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Lacks {
-    /// The contents of a module: there is one header.
-    Contents,
     /// A name that all compilers take, for this one.
     Name(String),
 }
@@ -22,9 +20,6 @@ pub enum Lacks {
 impl fmt::Display for Lacks {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Lacks::Contents => f.write_str(
-                "it has no modules, and one header for all scalars: leave the layout `contents` out",
-            ),
             Lacks::Name(name) => write!(
                 f,
                 "`{name}` is no name that every compiler takes: letters, digits and `_`, at most 31 \
@@ -38,9 +33,6 @@ impl fmt::Display for Lacks {
 pub(super) fn check(robot: &Robot, request: &Request, functions: &[Function]) -> Result<(), Lacks> {
     if request.language == Language::Rust {
         return Ok(());
-    }
-    if request.layout == Layout::Contents {
-        return Err(Lacks::Contents);
     }
     let name = request.module_name(robot);
     match header::misnamed(&name, functions, request.batch, &request.scalars) {

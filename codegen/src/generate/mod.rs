@@ -28,6 +28,7 @@ pub(crate) mod tolerate;
 
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
+use dalembert_stamp::{Comment, Stamp};
 
 pub use crate::approximate::error::{ToleranceError, Unbounded};
 use crate::bound::definite::is_definite;
@@ -43,7 +44,7 @@ use crate::program::{Lowered, Program, ScalarType, has_inertia};
 use crate::scene::{ParametersKey, SceneRobot, input_hash};
 use crate::simplify::Effort;
 use crate::sincos::{self, SinCos, Sines};
-use crate::task::{Layout, Prefer, Request, Task};
+use crate::task::{Prefer, Request, Task};
 use crate::trace::depends_on_coulomb;
 use crate::verify::exact::prove;
 use crate::verify::floating::Emitted;
@@ -62,8 +63,10 @@ use tolerate::tolerate;
 pub struct Generated {
     /// In the order of [`Function::in_order`], behind that of a load.
     pub functions: Vec<GeneratedFunction>,
-    /// The Rust source: one module a scalar.
-    pub text: String,
+    /// The scalars, in the order in which they were asked for; under a tolerance the cheapest one.
+    pub scalars: Vec<ScalarType>,
+    /// The text of each file, without a stamp: in Rust one for each scalar, in C and CUDA one for all.
+    pub texts: Vec<String>,
     /// The functions as the source says them, scalar by scalar.
     pub emitted: Vec<Emitted>,
     /// What a user should know, such as constants that round to subnormals.
@@ -71,6 +74,52 @@ pub struct Generated {
     /// Whether the observer wanted an end before a thorough search was through:
     /// no function is dearer than the quick search's, but more might be found.
     pub ended: bool,
+}
+
+impl Generated {
+    /// Returns the text of each file behind its stamp, as it is to be written. `robot` is the path
+    /// of the robot file from the folder of the file, `source` its text.
+    pub fn files(&self, request: &Request, robot: &str, source: &str) -> Vec<String> {
+        let comment = match request.language {
+            Language::Rust => Comment::Line,
+            Language::C | Language::Cuda => Comment::Block,
+        };
+        let stamped = |(index, text): (usize, &String)| {
+            let scalars = match request.language {
+                Language::Rust => vec![self.scalars[index]],
+                Language::C | Language::Cuda => self.scalars.clone(),
+            };
+            let asked = Request {
+                scalars,
+                ..request.clone()
+            };
+            let stamp = Stamp {
+                version: env!("CARGO_PKG_VERSION").to_owned(),
+                robot: robot.to_owned(),
+                robot_hash: dalembert_stamp::hash(source),
+                asked: asked.asked(),
+            };
+            stamp.write(comment, text)
+        };
+        self.texts.iter().enumerate().map(stamped).collect()
+    }
+
+    /// Returns what the names of the files end in, before their ending: `_f32` of the second of two
+    /// scalars in Rust.
+    pub fn suffixes(&self) -> Vec<&'static str> {
+        let is_pair = self.texts.len() > 1;
+        let scalars = self.scalars.iter().take(self.texts.len());
+        let suffix = |&scalar: &ScalarType| match is_pair && scalar == ScalarType::F32 {
+            true => "_f32",
+            false => "",
+        };
+        scalars.map(suffix).collect()
+    }
+
+    /// Returns the texts of all files, one after the other.
+    pub fn text(&self) -> String {
+        self.texts.concat()
+    }
 }
 
 /// The most numbers a function may return: beyond, the code that returns
@@ -121,27 +170,28 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
         (scalar, code.collect())
     };
     let codes: Vec<(ScalarType, Vec<Lowered>)> = scalars.iter().map(in_scalar).collect();
-    let text = match request.language {
-        Language::Rust => module::write(task, &functions, &codes),
-        Language::C | Language::Cuda => header::write(task, &functions, &codes),
+    let texts = match request.language {
+        Language::Rust => {
+            let codes = codes.iter();
+            let one =
+                |(scalar, codes): &(_, Vec<_>)| module::write(task, &functions, codes, *scalar);
+            codes.map(one).collect()
+        }
+        Language::C | Language::Cuda => vec![header::write(task, &functions, &codes)],
     };
-    let name = task.module_name();
     let mut emitted = Vec::new();
-    for (scalar, codes) in &codes {
-        let section = match (request.language, request.layout) {
-            (Language::C | Language::Cuda, _) | (_, Layout::Contents) => Some(text.as_str()),
-            (Language::Rust, Layout::Modules) => {
-                module::section(&text, &module::name(&name, *scalar, &scalars))
-            }
-        };
+    for (index, (_, codes)) in codes.iter().enumerate() {
+        // Headers have all scalars in one text.
+        let text = &texts[index.min(texts.len() - 1)];
         for (generated, code) in functions.iter().zip(codes) {
-            emitted.push(read_back(task, section, generated, code)?);
+            emitted.push(read_back(task, text, generated, code)?);
         }
     }
     contradiction::check(scene_robot, &functions, &emitted)?;
     Ok(Generated {
         functions,
-        text,
+        scalars,
+        texts,
         emitted,
         warnings,
         ended,
@@ -168,9 +218,6 @@ fn check(robot: &Robot, request: &Request) -> Result<(), GenerateError> {
     }
     language::check(robot, request, &functions)
         .map_err(|why| GenerateError::Language(request.language, why))?;
-    if request.layout == Layout::Contents && request.scalars.len() > 1 && !request.cheapest_scalar {
-        return Err(GenerateError::Contents);
-    }
     if let Some(plan) = &request.plan
         && plan.input != input_hash(robot)
     {
@@ -334,20 +381,19 @@ fn spoil_inertia(
 
 fn read_back(
     task: &Task<'_>,
-    section: Option<&str>,
+    text: &str,
     generated: &GeneratedFunction,
     code: &Lowered,
 ) -> Result<Emitted, GenerateError> {
     let request = task.request;
     let scalar = code.scalar;
     let fail = |why| GenerateError::Defect(generated.function, Some(scalar), why);
-    let section = section.ok_or_else(|| fail("its module is not in the text".to_owned()))?;
     let printed = Printed::of(&generated.program, code);
     let read = match request.language {
-        Language::Rust => Lowered::parse_rust(section, &printed, request.batch),
+        Language::Rust => Lowered::parse_rust(text, &printed, request.batch),
         Language::C | Language::Cuda => {
             let names = Names::new(&task.module_name(), request.language, scalar);
-            Lowered::parse_c(section, &printed, request.batch, &names)
+            Lowered::parse_c(text, &printed, request.batch, &names)
         }
     };
     let read = read.map_err(|error| fail(error.to_string()))?;

@@ -19,11 +19,11 @@ use std::fmt::Write;
 
 use dalembert_sines::{LARGEST, LARGEST_F32};
 
+use super::angles;
 use super::called::Called;
 use super::dialect::Dialect;
 use super::function::reads;
 pub(crate) use super::names::{LONGEST, Names, float};
-use super::angles;
 use super::{Language, Printed, speed};
 use crate::function::{Argument, Function, Quantity};
 use crate::program::kernel::{Kernel, Term, Value};

@@ -11,8 +11,8 @@
 //! ```
 
 use super::Language;
-use super::names::{Names, float};
 use super::angles;
+use super::names::{Names, float};
 use crate::program::{AngleSum, Library, Lowered, LoweredTrig};
 
 /// The angles of a call, in the order of their sines.

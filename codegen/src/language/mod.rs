@@ -26,8 +26,10 @@ mod sines;
 mod speed;
 mod trig;
 
+use std::path::Path;
+
 use crate::function::{Argument, Function, Sizes};
-use crate::program::{Lowered, Program};
+use crate::program::{Lowered, Program, ScalarType};
 use crate::words::words;
 
 words! {
@@ -41,6 +43,42 @@ words! {
         C = "c",
         /// CUDA: one header of functions for host and device, and of kernels.
         Cuda = "cuda",
+    }
+}
+
+/// The endings of the languages' files; the first of each is advised.
+const ENDINGS: [(&str, Language); 6] = [
+    ("rs", Language::Rust),
+    ("h", Language::C),
+    ("hpp", Language::C),
+    ("hh", Language::C),
+    ("cuh", Language::Cuda),
+    ("cu", Language::Cuda),
+];
+
+impl Language {
+    /// Returns the language of a file, by its ending.
+    ///
+    /// # Errors
+    /// The endings that there are.
+    pub fn of(path: &Path) -> Result<Language, String> {
+        let ending = path.extension().unwrap_or_default();
+        let mut known = ENDINGS.iter();
+        let found = known.find(|(known, _)| ending.eq_ignore_ascii_case(known));
+        found.map(|(_, language)| *language).ok_or_else(|| {
+            let known =
+                ENDINGS.map(|(ending, language)| format!(".{ending} ({})", language.name()));
+            known.join(", ")
+        })
+    }
+
+    /// Returns the scalars that are taken where nobody says which: f64 in Rust, where each has a
+    /// file of its own, else both.
+    pub fn scalars(self) -> &'static [ScalarType] {
+        match self {
+            Language::Rust => &[ScalarType::F64],
+            Language::C | Language::Cuda => &ScalarType::ALL,
+        }
     }
 }
 

@@ -20,7 +20,12 @@ pub(super) fn write(text: &mut String, code: &Lowered) {
     for trig in &code.trig {
         if trig.angle.additions() > 0 {
             // Writing to a string cannot fail.
-            let _ = writeln!(text, "    let a{} = {};", trig.angle, angles::sum(trig.angle));
+            let _ = writeln!(
+                text,
+                "    let a{} = {};",
+                trig.angle,
+                angles::sum(trig.angle)
+            );
         }
         if is_together(trig, code) {
             continue;

@@ -111,6 +111,25 @@ pub(crate) fn pieces<C, I>(steps: &[Step<C, I>], length: usize) -> Vec<std::ops:
 }
 
 impl Program {
+    /// Returns the number of operations of the longest chain, a fused multiply-add counted as one.
+    pub fn depth(&self) -> usize {
+        let mut depths = vec![0usize; self.steps.len()];
+        for (index, step) in self.steps.iter().enumerate() {
+            let of = |operand: &Operand| match operand {
+                Operand::Step(read) => depths.get(*read).copied().unwrap_or(0),
+                Operand::Input(_) | Operand::Constant(_) => 0,
+            };
+            let before = match fusion(&self.steps, index) {
+                None => of(&step.left).max(of(&step.right)),
+                Some(fusion) => of(&fusion.product.left)
+                    .max(of(&fusion.product.right))
+                    .max(of(fusion.addend)),
+            };
+            depths[index] = before + 1;
+        }
+        depths.into_iter().max().unwrap_or(0)
+    }
+
     /// Returns the program with its products fused, as the head of this file says; a fused
     /// program stays as it is.
     #[must_use]

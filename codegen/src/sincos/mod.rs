@@ -59,6 +59,16 @@ impl SinCos {
     /// The error of polynomials for which none is given.
     pub const ERROR: f64 = 1e-6;
 
+    /// Returns its word.
+    pub fn name(self) -> &'static str {
+        match self {
+            SinCos::Auto => "auto",
+            SinCos::Libm => "libm",
+            SinCos::Together => "together",
+            SinCos::Polynomial { .. } => "polynomial",
+        }
+    }
+
     /// Returns the library of what is called, where `auto` is this one.
     pub fn library(self, auto: Library) -> Library {
         match self {

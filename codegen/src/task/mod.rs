@@ -14,7 +14,7 @@ use dalembert_model::scene::Tolerance;
 
 use crate::program::Program;
 use crate::scene::SceneRobot;
-pub use options::{Fma, Layout, Prefer};
+pub use options::{Fma, Prefer};
 pub use request::Request;
 
 /// A request for a robot in its scene.

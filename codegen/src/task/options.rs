@@ -1,13 +1,24 @@
-//! The options that have one word as their value: each is a line of a table, from which
-//! come its field in a [`Request`](super::Request), its clause in `dynamics!`, its argument
-//! of the command and its method on the build script's `Generator`.
+//! The options of a request: one table, one parser. Macro, build script, command, Python and the
+//! first lines of a generated file give the same text (`Asked`), and a mistake names the option and
+//! the item.
 
+use std::fmt;
+
+use dalembert_model::outputs::RuntimeParameter;
+use dalembert_model::read::for_bundle;
+use dalembert_model::scene::Scene;
+use dalembert_stamp::Asked;
+
+use super::in_scene::find;
 use super::request::Request;
-use crate::words::{UnknownWord, Word, parse, words};
+use crate::function::Function;
+use crate::program::ScalarType;
+use crate::sincos::SinCos;
+use crate::words::{Word, parse, words};
 
 words! {
     /// What programs are chosen by: what to do about one whose estimated rounding error is
-    /// more than 4 times that of the textbook form, and in which order its operations are taken.
+    /// more than 4 times that of the textbook form.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
     pub enum Prefer: "preference" {
         /// Take the cheapest that is not that much worse.
@@ -31,137 +42,373 @@ words! {
     }
 }
 
-words! {
-    /// What a generated file holds.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-    #[non_exhaustive]
-    pub enum Layout: "layout" {
-        /// A module for each scalar, for `include!` or a `pub use`.
-        #[default]
-        Modules = "modules",
-        /// What would stand inside the one module, for a file that the user takes
-        /// by `mod NAME;`: the file is the module.
-        Contents = "contents",
-    }
-}
-
-/// Gives the table of options to another macro: documentation, word, field, type, purpose.
-/// The first word of a type is the default.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! each_option {
-    ($then:ident) => {
-        $then! {
-            /// The formulation to start from: `auto`, which is never dearer than another, or one
-            /// alone, to compare formulations
-            formulation(start): $crate::Start, Search;
-
-            /// How long to search for fewer operations. A `thorough` search saves a few more and
-            /// takes minutes: better search once with `dalembert generate --effort thorough
-            /// --save-plan`, whose plan macros, build scripts and the command replay
-            effort(effort): $crate::Effort, Search;
-
-            /// What programs are chosen by: `accuracy`, the cheapest whose rounding error is at
-            /// most four times the textbook form's; `operations`, the cheapest even if it costs
-            /// digits
-            prefer(prefer): $crate::Prefer, Search;
-
-            /// Whether a product and the sum that alone reads it are one operation, `mul_add`,
-            /// rounded once. The code needs std, and a build for a processor that has it
-            /// (-C target-cpu=native): any other calls a slow function for each
-            fma(fma): $crate::Fma, Code;
-
-            /// How sines and cosines are computed: `libm`, one call for each angle; `together`,
-            /// one call of the crate dalembert-sines for all angles of a function, in a third of
-            /// libm's time; `polynomial`, polynomials that hold inside the joints' limits only;
-            /// `auto`, polynomials where a scene's tolerance admits them, else the library
-            sincos(sincos): $crate::SinCos, Code;
-
-            /// Whether each function has a second one for any number of states in columns:
-            /// `NAME_columns` in Rust, by the crate dalembert-batch; `NAME_batch` in C and, as a
-            /// kernel, in CUDA
-            batch(batch): bool, Text;
-
-            /// The language of the code: `rust`, a module for each scalar; `c`, one header of C99
-            /// that C++ reads too; `cuda`, one header of functions for host and device, and
-            /// kernels with `batch`
-            language(language): $crate::Language, File;
-
-            /// What the file holds: `modules`, one for each scalar, for `include!`; `contents`,
-            /// what is inside the one module, for a file that is a module of your crate
-            /// (`mod puma560;`)
-            layout(layout): $crate::Layout, File;
-        }
-    };
+/// An option of a request.
+#[derive(Clone, Copy, Debug)]
+pub struct OptionRow {
+    /// Its name.
+    pub name: &'static str,
+    /// What it decides.
+    pub purpose: Purpose,
+    /// Its documentation.
+    pub doc: &'static str,
+    /// Returns the words that an item may be, the default first; none where other items are possible.
+    pub words: fn() -> Vec<&'static str>,
+    /// Whether it takes several items.
+    pub is_list: bool,
+    /// Takes an item.
+    set: fn(&mut Draft, &str) -> Result<(), Wrong>,
 }
 
 /// What an option decides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
+    /// What is generated.
+    What,
     /// How programs are found.
     Search,
-    /// How they compute.
+    /// How they compute, and what is printed of them.
     Code,
-    /// What is printed of them.
-    Text,
-    /// In which kind of file: `dynamics!` has none.
-    File,
 }
 
-/// An option with one word as its value.
-#[derive(Clone, Copy, Debug)]
-pub struct WordOption {
-    /// The word that it is called by.
-    pub word: &'static str,
-    /// Its documentation.
-    pub doc: &'static str,
-    /// What it decides.
-    pub purpose: Purpose,
-    /// The name of its values in messages.
-    pub what: &'static str,
-    /// Returns its values, the default first.
-    pub known: fn() -> Vec<&'static str>,
-    /// Sets it in a request by the word of a value.
-    pub set: fn(&mut Request, &str) -> Result<(), UnknownWord>,
+/// A mistake in what was asked: the option, the item, what is wrong and the likely fix.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// The option.
+    pub option: String,
+    /// The item of its value; empty where it is about the option as a whole.
+    pub item: String,
+    /// What is wrong.
+    pub message: String,
+    /// What would be right.
+    pub help: String,
 }
 
-macro_rules! table {
-    ($($(#[doc = $doc:literal])* $word:ident($field:ident): $type:ty, $purpose:ident;)*) => {
-        impl WordOption {
-            /// All, in the order of the documentation.
-            pub const ALL: &[WordOption] = &[$(WordOption {
-                word: stringify!($word),
-                doc: concat!($($doc),*),
-                purpose: Purpose::$purpose,
-                what: <$type as Word>::WHAT,
-                known: <$type as Word>::known,
-                set: |request, text| parse::<$type>(text).map(|value| request.$field = value),
-            }),*];
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Problem {
+            option,
+            message,
+            help,
+            ..
+        } = self;
+        write!(f, "{option}: {message}")?;
+        match help.as_str() {
+            "" => Ok(()),
+            help => write!(f, ": {help}"),
         }
-    };
+    }
 }
-each_option!(table);
+
+impl std::error::Error for Problem {}
+
+/// What is wrong with an item, and the likely fix.
+struct Wrong(String, String);
+
+/// What was read so far.
+#[derive(Default)]
+struct Draft {
+    outputs: Option<Vec<Function>>,
+    scalars: Option<Vec<ScalarType>>,
+    scene: Option<String>,
+    error: Option<f64>,
+    has_no_plan: bool,
+    request: Request,
+}
+
+/// Returns the value of a word.
+fn word<W: Word>(item: &str) -> Result<W, Wrong> {
+    parse(item).map_err(|error| Wrong(error.message(), error.help()))
+}
+
+/// Adds to a list what is not in it.
+fn add<T>(
+    list: &mut Vec<T>,
+    item: T,
+    is_same: impl Fn(&T, &T) -> bool,
+    text: &str,
+) -> Result<(), Wrong> {
+    if list.iter().any(|other| is_same(other, &item)) {
+        return Err(Wrong(format!("`{text}` is given twice"), String::new()));
+    }
+    list.push(item);
+    Ok(())
+}
+
+fn output(draft: &mut Draft, item: &str) -> Result<(), Wrong> {
+    let outputs = draft.outputs.get_or_insert_default();
+    let function = Function::parse(item).map_err(|error| {
+        let error = error.among(outputs);
+        Wrong(error.message(), for_bundle(&error))
+    })?;
+    let name = function.name();
+    add(outputs, function, |a, b| a.is_namesake(*b), name)
+}
+
+fn sincos_error(draft: &mut Draft, item: &str) -> Result<(), Wrong> {
+    let error = item.replace('_', "").parse::<f64>().ok();
+    let error = error.filter(|error| *error > 0.0 && *error < 1.0);
+    let wrong = || {
+        Wrong(
+            "expected an error above 0 and below 1".into(),
+            "such as 1e-9".into(),
+        )
+    };
+    draft.error = Some(error.ok_or_else(wrong)?);
+    Ok(())
+}
+
+fn name(draft: &mut Draft, item: &str) -> Result<(), Wrong> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    if !item.starts_with(|c: char| c.is_ascii_alphabetic()) || !item.chars().all(plain) {
+        let help = "letters, digits and `_`, a letter first";
+        return Err(Wrong(format!("`{item}` is no name"), help.into()));
+    }
+    draft.request.module = Some(item.to_owned());
+    Ok(())
+}
+
+/// The options, in the order in which they are written.
+pub static OPTIONS: [OptionRow; 13] = [
+    OptionRow {
+        name: "outputs",
+        purpose: Purpose::What,
+        doc: "The functions, separated by commas [default: the robot file's, or the seven that a \
+              controller calls]; NAME=A+B is one that returns what A and B do, and shares their work",
+        words: Function::known,
+        is_list: true,
+        set: output,
+    },
+    OptionRow {
+        name: "scalar",
+        purpose: Purpose::What,
+        doc: "The scalar that functions compute in, or both, separated by a comma",
+        words: ScalarType::known,
+        is_list: true,
+        set: |draft, item| {
+            let scalars = draft.scalars.get_or_insert_default();
+            add(scalars, word(item)?, PartialEq::eq, item)
+        },
+    },
+    OptionRow {
+        name: "formulation",
+        purpose: Purpose::Search,
+        doc: "The formulation to start from: `auto`, which is never dearer than another, or one \
+              alone, to compare formulations",
+        words: crate::Start::known,
+        is_list: false,
+        set: |draft, item| word(item).map(|value| draft.request.start = value),
+    },
+    OptionRow {
+        name: "effort",
+        purpose: Purpose::Search,
+        doc: "How long to search for fewer operations. A `thorough` search saves a few more and \
+              takes minutes: better search once with `dalembert generate --effort thorough \
+              --save-plan`, whose plan macros, build scripts and the command replay",
+        words: crate::Effort::known,
+        is_list: false,
+        set: |draft, item| word(item).map(|value| draft.request.effort = value),
+    },
+    OptionRow {
+        name: "prefer",
+        purpose: Purpose::Search,
+        doc: "What programs are chosen by: `accuracy`, the cheapest whose rounding error is at \
+              most four times the textbook form's; `operations`, the cheapest even if it costs digits",
+        words: Prefer::known,
+        is_list: false,
+        set: |draft, item| word(item).map(|value| draft.request.prefer = value),
+    },
+    OptionRow {
+        name: "fma",
+        purpose: Purpose::Code,
+        doc: "Whether a product and the sum that alone reads it are one operation, `mul_add`, \
+              rounded once. The code needs std, and a build for a processor that has it \
+              (-C target-cpu=native): any other calls a slow function for each",
+        words: Fma::known,
+        is_list: false,
+        set: |draft, item| word(item).map(|value| draft.request.fma = value),
+    },
+    OptionRow {
+        name: "sincos",
+        purpose: Purpose::Code,
+        doc: "How sines and cosines are computed: `libm`, one call for each angle; `together`, \
+              one call of the crate dalembert-sines for all angles of a function, in a third of \
+              libm's time; `polynomial`, polynomials that hold inside the joints' limits only; \
+              `auto`, polynomials where a scene's tolerance admits them, else libm",
+        words: SinCos::known,
+        is_list: false,
+        set: |draft, item| word(item).map(|value| draft.request.sincos = value),
+    },
+    OptionRow {
+        name: "sincos_error",
+        purpose: Purpose::Code,
+        doc: "The largest error of each sine and cosine by polynomials [default: 1e-6, \
+              or what a scene's tolerance admits]",
+        words: Vec::new,
+        is_list: false,
+        set: sincos_error,
+    },
+    OptionRow {
+        name: "batch",
+        purpose: Purpose::Code,
+        doc: "Whether each function has a second one for any number of states in columns: \
+              `NAME_columns` in Rust, by the crate dalembert-batch; `NAME_batch` in C and, as a \
+              kernel, in CUDA",
+        words: bool::known,
+        is_list: false,
+        set: |draft, item| word(item).map(|value| draft.request.batch = value),
+    },
+    OptionRow {
+        name: "parameters",
+        purpose: Purpose::Code,
+        doc: "Parameters that become arguments of the functions instead of constants: `gravity`, \
+              and `payload`, which a function `load` turns once into the argument `load` of \
+              the others",
+        words: RuntimeParameter::known,
+        is_list: true,
+        set: |draft, item| {
+            add(
+                &mut draft.request.parameters,
+                word(item)?,
+                PartialEq::eq,
+                item,
+            )
+        },
+    },
+    OptionRow {
+        name: "scene",
+        purpose: Purpose::What,
+        doc: "Only what this scene of the robot file needs; its outputs and scalar \
+              are the defaults",
+        words: Vec::new,
+        is_list: false,
+        set: |draft, item| {
+            draft.scene = Some(item.to_owned());
+            Ok(())
+        },
+    },
+    OptionRow {
+        name: "plan",
+        purpose: Purpose::Search,
+        doc: "Whether the programs are replayed that a plan beside the robot file keeps, if there \
+              is one",
+        words: || vec!["on", "off"],
+        is_list: false,
+        set: |draft, item| word::<bool>(item).map(|value| draft.has_no_plan = !value),
+    },
+    OptionRow {
+        name: "name",
+        purpose: Purpose::Code,
+        doc: "The name that functions begin with in C and CUDA [default: the robot's, and the \
+              scene's]",
+        words: Vec::new,
+        is_list: false,
+        set: name,
+    },
+];
+
+impl Request {
+    /// Reads what was asked of a robot whose file names these outputs and has these scenes. What
+    /// was not asked is as the scene has it, or else the file, or else as by default, in `scalars`;
+    /// the plan is the caller's.
+    ///
+    /// # Errors
+    /// Every mistake.
+    pub fn parse(
+        asked: &Asked,
+        scalars: &[ScalarType],
+        outputs: &[Function],
+        scenes: &[Scene],
+    ) -> Result<Request, Vec<Problem>> {
+        let mut draft = Draft::default();
+        draft.request.scalars = scalars.to_vec();
+        let mut problems = Vec::new();
+        let mut report = |option: &str, item: &str, Wrong(message, help): Wrong| {
+            problems.push(Problem {
+                option: option.to_owned(),
+                item: item.to_owned(),
+                message,
+                help,
+            });
+        };
+        for row in &OPTIONS {
+            for (index, item) in asked.items(row.name).into_iter().enumerate() {
+                let wrong = match index > 0 && !row.is_list {
+                    true => Err(Wrong("expected one word only".into(), String::new())),
+                    false => (row.set)(&mut draft, item),
+                };
+                if let Err(wrong) = wrong {
+                    report(row.name, item, wrong);
+                }
+            }
+        }
+        let scene = draft.scene.as_deref().map(|name| find(scenes, name));
+        let scene = scene.transpose().unwrap_or_else(|error| {
+            report("scene", &error.found, Wrong(error.message(), error.help()));
+            None
+        });
+        match (&mut draft.request.sincos, draft.error) {
+            (SinCos::Polynomial { error }, own) => *error = own,
+            (_, Some(_)) => {
+                let message = "only polynomials have an error to choose".into();
+                let help = "add `sincos: polynomial`, or leave this out".into();
+                report("sincos_error", "", Wrong(message, help));
+            }
+            (_, None) => {}
+        }
+        match problems.is_empty() {
+            true => {
+                draft.request.has_no_plan = draft.has_no_plan;
+                let request = draft.request.for_file(outputs);
+                Ok(request.choose(draft.outputs, draft.scalars, scene))
+            }
+            false => Err(problems),
+        }
+    }
+
+    /// Returns what asks for this request, outputs and scalars named.
+    pub fn asked(&self) -> Asked {
+        let mut asked = Asked::default();
+        let outputs: Vec<String> = self.functions.iter().map(|own| own.text()).collect();
+        let scalars: Vec<&str> = self.scalars.iter().map(|own| own.name()).collect();
+        let parameters: Vec<&str> = self.parameters.iter().map(|own| own.name()).collect();
+        let error = match self.sincos {
+            SinCos::Polynomial { error: Some(error) } => format!("{error:?}"),
+            _ => String::new(),
+        };
+        let scene = self.scene.as_ref().map_or("", |scene| &scene.name);
+        for (option, value) in [
+            ("outputs", outputs.join(",").as_str()),
+            ("scalar", &scalars.join(",")),
+            ("formulation", self.start.name()),
+            ("effort", self.effort.name()),
+            ("prefer", self.prefer.name()),
+            ("fma", self.fma.name()),
+            ("sincos", self.sincos.name()),
+            ("sincos_error", &error),
+            ("batch", if self.batch { "on" } else { "off" }),
+            ("parameters", &parameters.join(",")),
+            ("scene", scene),
+            ("plan", if self.has_no_plan { "off" } else { "on" }),
+            ("name", self.module.as_deref().unwrap_or("")),
+        ] {
+            // All of them are options.
+            let _ = asked.set(option, value);
+        }
+        asked
+    }
+}
 
 #[cfg(test)]
 mod tests {
     use std::fmt::Debug;
 
-    use dalembert_model::outputs::RuntimeParameter;
-
     use super::*;
-    use crate::function::Function;
     use crate::language::Language;
     use crate::portfolio::Start;
-    use crate::program::ScalarType;
     use crate::simplify::Effort;
-    use crate::sincos::SinCos;
 
-    #[test]
-    fn a_word_or_the_one_that_was_probably_meant() {
-        assert_eq!(parse("gravity"), Ok(Function::Gravity));
-        let error = parse::<Function>("gravty").unwrap_err();
-        let said = "unknown output `gravty`: did you mean `gravity`?";
-        assert_eq!(error.to_string(), said);
+    fn read(text: &str) -> Result<Request, Vec<Problem>> {
+        Request::parse(&text.parse().unwrap(), &ScalarType::ALL, &[], &[])
     }
 
     #[test]
@@ -180,43 +427,64 @@ mod tests {
         check::<SinCos>();
         check::<Fma>();
         check::<Language>();
-        check::<Layout>();
         check::<bool>();
     }
 
+    /// Each row sets what it says and refuses what it does not know; the table's names and
+    /// defaults are those of the text.
     #[test]
-    fn every_option_takes_its_words_and_the_first_is_the_default() {
-        let of = |option: &WordOption, word: &str| {
-            let mut request = Request::default();
-            (option.set)(&mut request, word).unwrap();
-            format!("{request:?}")
-        };
-        for option in WordOption::ALL {
-            let known = (option.known)();
-            let mut requests: Vec<String> = known.iter().map(|word| of(option, word)).collect();
-            assert_eq!(
-                requests[0],
-                format!("{:?}", Request::default()),
-                "{}",
-                option.word
-            );
+    fn every_option_sets_and_refuses() {
+        let names = OPTIONS.each_ref().map(|row| row.name);
+        assert_eq!(names, dalembert_stamp::OPTIONS.map(|(name, _)| name));
+        for (row, (_, default)) in OPTIONS.iter().zip(dalembert_stamp::OPTIONS) {
+            let words = (row.words)();
+            if !default.is_empty() {
+                assert_eq!(words[0], default, "{}", row.name);
+            }
+            let mut requests = Vec::new();
+            for word in &words {
+                let request = read(&format!("{}: {word}", row.name)).unwrap();
+                // What is asked for asks for it again.
+                let again = Request::parse(&request.asked(), &[], &[], &[]).unwrap();
+                assert_eq!(format!("{again:?}"), format!("{request:?}"), "{word}");
+                requests.push(format!("{request:?}"));
+            }
             requests.sort();
             requests.dedup();
-            assert_eq!(requests.len(), known.len(), "{}", option.word);
-            assert!((option.set)(&mut Request::default(), "nonsense").is_err());
+            assert_eq!(requests.len(), words.len(), "{}", row.name);
+            let problems = read(&format!("{}: non?sense", row.name)).unwrap_err();
+            assert_eq!(problems.len(), 1, "{problems:?}");
+            assert_eq!(
+                (&*problems[0].option, &*problems[0].item),
+                (row.name, "non?sense")
+            );
         }
     }
 
     #[test]
-    fn unknown_words() {
-        for (text, shown) in [
-            ("f46", "unknown scalar `f46`: did you mean `f64`?"),
-            ("double", "unknown scalar `double`: known: f64, f32"),
-        ] {
-            assert_eq!(
-                parse::<ScalarType>(text).map_err(|e| e.to_string()),
-                Err(shown.into())
-            );
-        }
+    fn all_mistakes_are_named_with_their_items() {
+        let text = "outputs: gravty, gravity, gravity, hold = inertia + gravty; scalar: double; \
+                    fma: on, off; sincos_error: 1e-9; parameters: paylod";
+        let problems = read(text).unwrap_err();
+        let said: Vec<String> = problems.iter().map(Problem::to_string).collect();
+        assert_eq!(
+            said,
+            [
+                "outputs: unknown output `gravty`: did you mean `gravity`?",
+                "outputs: `gravity` is given twice",
+                "outputs: unknown output `gravty`: did you mean `gravity`?",
+                "scalar: unknown scalar `double`: known: f64, f32",
+                "fma: expected one word only",
+                "parameters: unknown parameter that can be an argument `paylod`: did you mean `payload`?",
+                "sincos_error: only polynomials have an error to choose: add `sincos: polynomial`, or leave this out",
+            ]
+        );
+        assert_eq!(problems[2].item, "hold=inertia+gravty");
+        let nested =
+            read("outputs: hold = inertia + gravity, servo = hold + jacobian").unwrap_err();
+        assert!(
+            nested[0].message.contains("`hold` is a bundle itself"),
+            "{nested:?}"
+        );
     }
 }

@@ -4,75 +4,94 @@ use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 
-use crate::each_option;
 use crate::function::Function;
+use crate::language::Language;
 use crate::plan::Plan;
-use crate::portfolio::load;
+use crate::portfolio::{Start, load};
 use crate::program::{Library, ScalarType};
 use crate::scene::{SceneError, SceneRobot};
 use crate::simplify::{Effort, WaySource};
+use crate::sincos::SinCos;
 use crate::watch::Watch;
+
+use super::options::{Fma, Prefer};
 
 /// Some minutes where nothing is optimised.
 const WORK_WHILE_COMPILING: u64 = 400_000_000;
 
-macro_rules! request {
-    ($($(#[doc = $doc:literal])* $word:ident($field:ident): $type:ty, $purpose:ident;)*) => {
-        /// What to generate.
-        #[derive(Clone, Debug)]
-        pub struct Request {
-            $($(#[doc = $doc])* pub $field: $type,)*
-            /// The functions, in any order; duplicates count once.
-            pub functions: Vec<Function>,
-            /// The scalars; one module each.
-            pub scalars: Vec<ScalarType>,
-            /// Programs to replay instead of searching.
-            pub plan: Option<Plan>,
-            /// Who waits, if anybody does.
-            pub watch: Watch,
-            /// Whose sines are called where `sincos` leaves the choice open.
-            pub auto: Library,
-            /// The module's name; the robot's and the scene's if `None`. The f32
-            /// module of a pair has `_f32` appended.
-            pub module: Option<String>,
-            /// What functions take as arguments that are the robot's parameters otherwise.
-            pub parameters: Vec<RuntimeParameter>,
-            /// What the robot is used for; everything if `None`. Its outputs and
-            /// scalar are defaults that the ways in apply ([`Request::choose`]).
-            pub scene: Option<Scene>,
-            /// Nobody chose a scalar: of the scalars, a tolerance takes the cheapest
-            /// that it admits.
-            pub cheapest_scalar: bool,
-            /// Units of work that the search for what a tolerance allows may take; it
-            /// is refused where that is not enough. They are counted, never timed: the
-            /// same everywhere. No limit if `None`.
-            pub work: Option<u64>,
-            /// The source that a search leaves out, to see what it earns.
-            #[doc(hidden)]
-            pub without: Option<WaySource>,
-        }
-
-        impl Default for Request {
-            fn default() -> Self {
-                Request {
-                    $($field: <$type>::default(),)*
-                    functions: Function::by_default(),
-                    scalars: ScalarType::ALL.to_vec(),
-                    plan: None,
-                    watch: Watch::default(),
-                    auto: Library::default(),
-                    module: None,
-                    parameters: Vec::new(),
-                    scene: None,
-                    cheapest_scalar: false,
-                    work: None,
-                    without: None,
-                }
-            }
-        }
-    };
+/// What to generate.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// The functions, in any order; duplicates count once.
+    pub functions: Vec<Function>,
+    /// The scalars; one file each in Rust.
+    pub scalars: Vec<ScalarType>,
+    /// The formulation to start from.
+    pub start: Start,
+    /// How long to search.
+    pub effort: Effort,
+    /// What programs are chosen by.
+    pub prefer: Prefer,
+    /// Whether products are fused with sums.
+    pub fma: Fma,
+    /// How sines and cosines are computed.
+    pub sincos: SinCos,
+    /// Whose sines are called where `sincos` leaves the choice open.
+    pub auto: Library,
+    /// Whether there are functions of any number of states, too.
+    pub batch: bool,
+    /// The language of the code.
+    pub language: Language,
+    /// Programs to replay instead of searching.
+    pub plan: Option<Plan>,
+    /// Whether a plan beside the robot file is left alone.
+    pub has_no_plan: bool,
+    /// Who waits, if anybody does.
+    pub watch: Watch,
+    /// The name that functions begin with in C; the robot's and the scene's if `None`.
+    pub module: Option<String>,
+    /// What functions take as arguments that are the robot's parameters otherwise.
+    pub parameters: Vec<RuntimeParameter>,
+    /// What the robot is used for; everything if `None`. Its outputs and
+    /// scalar are defaults that the ways in apply ([`Request::choose`]).
+    pub scene: Option<Scene>,
+    /// Nobody chose a scalar: of the scalars, a tolerance takes the cheapest
+    /// that it admits.
+    pub cheapest_scalar: bool,
+    /// Units of work that the search for what a tolerance allows may take; it
+    /// is refused where that is not enough. They are counted, never timed: the
+    /// same everywhere. No limit if `None`.
+    pub work: Option<u64>,
+    /// The source that a search leaves out, to see what it earns.
+    #[doc(hidden)]
+    pub without: Option<WaySource>,
 }
-each_option!(request);
+
+impl Default for Request {
+    fn default() -> Self {
+        Request {
+            functions: Function::by_default(),
+            scalars: ScalarType::ALL.to_vec(),
+            start: Start::default(),
+            effort: Effort::default(),
+            prefer: Prefer::default(),
+            fma: Fma::default(),
+            sincos: SinCos::default(),
+            auto: Library::default(),
+            batch: false,
+            language: Language::default(),
+            plan: None,
+            has_no_plan: false,
+            watch: Watch::default(),
+            module: None,
+            parameters: Vec::new(),
+            scene: None,
+            cheapest_scalar: false,
+            work: None,
+            without: None,
+        }
+    }
+}
 
 impl Request {
     /// Asks for these functions, and for the rest as nobody says otherwise.

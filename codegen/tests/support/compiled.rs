@@ -7,8 +7,8 @@ use std::process::{Command, Stdio};
 
 use dalembert_codegen::workspace::function::{Argument, Function};
 use dalembert_codegen::workspace::generate::{Generated, generate};
-use dalembert_codegen::workspace::language::c99::Names;
 use dalembert_codegen::workspace::language::Language;
+use dalembert_codegen::workspace::language::c99::Names;
 use dalembert_codegen::workspace::program::ScalarType;
 use dalembert_codegen::workspace::program::run::State;
 use dalembert_codegen::workspace::random::Random;
@@ -218,10 +218,14 @@ fn compiled(folder: &Path, language: Language, flags: &[&[&str]]) -> Vec<(String
 pub fn same_bits(what: &str, robot: &Robot, request: &Request, count: usize, flags: &[&[&str]]) {
     let generated = generate(robot, request).unwrap_or_else(|error| panic!("{what}: {error}"));
     let language = request.language;
-    let what = format!("{what}_{}_{}", language.name(), request.entries.name());
+    let what = format!(
+        "{what}_{}_{}",
+        language.name(),
+        if request.batch { "batch" } else { "single" }
+    );
     let folder = folder(&what);
     let main = main_of(&request.module_name(robot), &generated, request);
-    fs::write(folder.join("arm.h"), &generated.text).unwrap();
+    fs::write(folder.join("arm.h"), &generated.text()).unwrap();
     fs::write(folder.join("main.c"), main).unwrap();
     let programs = compiled(&folder, language, flags);
     let mut states = states();

@@ -10,22 +10,7 @@ use core::panic::PanicInfo;
 
 dalembert::dynamics! {
     /// A pendulum on a turntable.
-    mod arm = r#"
-        name = "arm"
-        convention = "standard"
-        gravity = [0, 0, -9.81]
-        [[joint]]
-        kind = "revolute"
-        alpha = "pi/2"
-        mass = 0
-        inertia = [0.25, 0.5, 0.25, 0, 0, 0]
-        [[joint]]
-        kind = "revolute"
-        a = "1/2"
-        mass = 2
-        com = [0, 0, 0]
-        inertia = [0, 0, 0, 0, 0, 0]
-    "#;
+    mod arm = "robots/arm.toml";
     outputs: inverse_dynamics, inertia;
     scalar: f32;
 }

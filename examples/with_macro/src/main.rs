@@ -1,4 +1,4 @@
-//! The macro, with a robot file and with a robot of its own: how much torque
+//! The macro, which takes the checked-in code beside each robot file: how much torque
 //! each arm needs to hold still, and to start moving.
 
 dalembert::dynamics! {
@@ -10,28 +10,7 @@ dalembert::dynamics! {
 
 dalembert::dynamics! {
     /// A carriage with a pendulum.
-    mod crane = r#"
-        name = "crane"
-        convention = "standard"
-        gravity = [0, -9.81, 0]
-        [[joint]]
-        name = "carriage"
-        kind = "prismatic"
-        alpha = "pi/2"
-        theta = "90deg"
-        mass = 12
-        com = [0, 0, 0]
-        inertia = [0, 0, 0, 0, 0, 0]
-        viscous = 3
-        [[joint]]
-        name = "load"
-        kind = "revolute"
-        a = 2
-        offset = "pi"
-        mass = 50
-        com = [0, 0, 0]
-        inertia = [0, 0, 0, 0, 0, 0]
-    "#;
+    mod crane = "robots/crane.toml";
     outputs: inverse_dynamics, gravity;
     scalar: f64, f32;
 }

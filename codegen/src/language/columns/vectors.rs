@@ -124,7 +124,12 @@ fn write_angles(text: &mut String, printed: &Printed<'_>) {
 /// Prints the sines of an angle that are computed for themselves.
 fn write_sines(text: &mut String, trig: &LoweredTrig, dialect: Dialect) {
     if trig.angle.additions() > 0 {
-        let _ = writeln!(text, "    let a{} = {};", trig.angle, angles::sum(trig.angle));
+        let _ = writeln!(
+            text,
+            "    let a{} = {};",
+            trig.angle,
+            angles::sum(trig.angle)
+        );
     }
     let (pair, angle) = (angles::pair(trig), angles::operand(trig.angle));
     if let Some(kernel) = &trig.kernel {

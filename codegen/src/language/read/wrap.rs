@@ -72,7 +72,12 @@ mod tests {
 
     #[test]
     fn names_that_trade_places_are_noticed() {
-        for (line, text) in [(3, "(t2, t1,)"), (3, "};"), (4, "let t3 = t1 * t1;"), (1, BLOCK[0])] {
+        for (line, text) in [
+            (3, "(t2, t1,)"),
+            (3, "};"),
+            (4, "let t3 = t1 * t1;"),
+            (1, BLOCK[0]),
+        ] {
             let mut block = BLOCK;
             block[line] = text;
             assert!(read(&block).is_err(), "{text}");

@@ -77,7 +77,7 @@ impl RobotFile {
     }
 }
 
-/// Returns one byte more than a robot file may have is enough for the reader to say
+/// Reads at most one byte more than a robot file may have, which is enough for the reader to say
 /// so; the path may be a device without end.
 fn bytes(path: &Path) -> std::io::Result<Vec<u8>> {
     let mut bytes = Vec::new();

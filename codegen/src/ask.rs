@@ -1,0 +1,85 @@
+//! The way in of those that keep a compiler waiting, the macro and build scripts: a robot file
+//! and what is asked, as one text.
+
+use dalembert_model::robot::Severity;
+use dalembert_stamp::Asked;
+
+use crate::generate::{GenerateError, Generated, generate_anew};
+use crate::language::Language;
+use crate::robot_file::RobotFile;
+use crate::task::Request;
+use crate::task::options::Problem;
+
+/// What was asked of a robot file, generated.
+#[derive(Clone, Debug)]
+pub struct Made {
+    /// The request that was read.
+    pub request: Request,
+    /// The code.
+    pub generated: Generated,
+    /// What is odd about the robot or its code, a sentence each.
+    pub warnings: Vec<String>,
+}
+
+/// Generates what is asked of a robot file, by the plan beside it if there is one; messages call
+/// the file by this name. Code that takes minutes to find is refused.
+///
+/// # Errors
+/// Every mistake in what is asked, or why it cannot be had.
+pub fn ask(
+    file: &RobotFile,
+    asked: &Asked,
+    language: Language,
+    shown: &str,
+) -> Result<Made, Vec<Problem>> {
+    let scalars = language.scalars();
+    let mut request = Request::parse(asked, scalars, &file.outputs, &file.scenes)?;
+    request.language = language;
+    request.work = Request::work_while_compiling(request.effort);
+    if !request.has_no_plan {
+        request.plan = file.plan.clone();
+    }
+    let generated = generate_anew(&file.robot, &request, shown);
+    let generated = generated.map_err(|error| vec![Problem::of(&error, &request)])?;
+    let notes = file.notes.iter();
+    let notes = notes.filter(|note| note.severity == Severity::Warning);
+    let mut warnings: Vec<String> = notes
+        .map(|note| {
+            let help = note.help.as_ref().map(|help| format!(" ({help})"));
+            let help = help.unwrap_or_default();
+            format!("{shown}:{}: {}{help}", note.line, note.message)
+        })
+        .collect();
+    let rounding = generated.warnings.iter();
+    warnings.extend(rounding.map(|said| format!("{shown}: {said}")));
+    Ok(Made {
+        request,
+        generated,
+        warnings,
+    })
+}
+
+impl Problem {
+    /// Says why nothing was generated, of the option and the item that it is about.
+    fn of(error: &GenerateError, request: &Request) -> Problem {
+        let (option, item) = match (error, error.function()) {
+            (GenerateError::Parameter(_), _) => {
+                let first = request.parameters.first();
+                (
+                    "parameters",
+                    first.map_or("", |first| first.name()).to_owned(),
+                )
+            }
+            (_, Some(function)) if request.functions.contains(&function) => {
+                ("outputs", function.text())
+            }
+            _ => ("", String::new()),
+        };
+        Problem {
+            option: option.to_owned(),
+            item,
+            message: error.to_string(),
+            help: String::new(),
+        }
+    }
+}

@@ -1,0 +1,316 @@
+//! The grammar of `dynamics!`: a module with its robot, then clauses.
+
+use dalembert_stamp::Asked;
+use proc_macro2::{Delimiter, Ident, Spacing, Span, TokenStream, TokenTree};
+use quote::ToTokens;
+use syn::ext::IdentExt;
+use syn::parse::{ParseStream, Parser};
+use syn::{Attribute, Error, LitStr, Path, Token, Visibility};
+
+/// The content of an invocation.
+pub(crate) struct Invocation {
+    /// Its documentation and other attributes, for each module.
+    pub(crate) attributes: Vec<Attribute>,
+    pub(crate) visibility: Visibility,
+    pub(crate) name: Ident,
+    /// The path of a robot file, or the text of one.
+    pub(crate) robot: LitStr,
+    pub(crate) clauses: Vec<Clause>,
+    /// What the clauses ask for.
+    pub(crate) asked: Asked,
+    /// The path of the facade crate.
+    pub(crate) facade: Path,
+}
+
+/// `name: item, item;`
+pub(crate) struct Clause {
+    pub(crate) key: Ident,
+    pub(crate) items: Vec<TokenStream>,
+}
+
+/// Errors, each at the tokens that it is about, so that all of them are reported at once.
+#[derive(Default)]
+pub(crate) struct Errors(Vec<Error>);
+
+impl Errors {
+    /// Adds an error, with the likely fix if there is one.
+    pub(crate) fn say(&mut self, at: impl ToTokens, text: &str, help: &str) {
+        self.0.push(Error::new_spanned(at, with_help(text, help)));
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Returns one `compile_error!` each.
+    pub(crate) fn tokens(&self) -> TokenStream {
+        self.0.iter().map(Error::to_compile_error).collect()
+    }
+}
+
+fn with_help(text: &str, help: &str) -> String {
+    match help {
+        "" => text.to_owned(),
+        help => format!("{text}\n  = help: {help}"),
+    }
+}
+
+/// Returns the text of an item, as requests have it: without spaces.
+pub(crate) fn text(item: &TokenStream) -> String {
+    let trees = item.clone().into_iter().map(|tree| match tree {
+        TokenTree::Ident(word) => word.unraw().to_string(),
+        tree => tree.to_string(),
+    });
+    let text: String = trees.collect();
+    text.chars().filter(|c| !c.is_whitespace()).collect()
+}
+
+impl Invocation {
+    /// Reads an invocation; `None` if not even the module is there.
+    pub(crate) fn read(input: TokenStream, errors: &mut Errors) -> Option<Invocation> {
+        let mut head = None;
+        let mut late = Vec::new();
+        let parsed = |input: ParseStream<'_>| {
+            head = Some(self::head(input, &mut late)?);
+            input.parse::<TokenStream>()
+        };
+        let rest = match parsed.parse2(input) {
+            Ok(rest) => rest,
+            Err(error) => {
+                errors.0.push(error);
+                return None;
+            }
+        };
+        errors.0.extend(late);
+        let (attributes, visibility, name, robot) = head?;
+        let mut invocation = Invocation {
+            attributes,
+            visibility,
+            name,
+            robot,
+            clauses: Vec::new(),
+            asked: Asked::default(),
+            facade: syn::parse_quote!(::dalembert),
+        };
+        invocation.read_clauses(&trees(rest), errors);
+        Some(invocation)
+    }
+
+    /// Returns whether the literal is the text of a robot file: it has more lines than a path.
+    pub(crate) fn has_text(&self) -> bool {
+        self.robot.value().contains('\n')
+    }
+
+    /// Returns the name of the robot file in messages: its path, or the module's name.
+    pub(crate) fn shown(&self) -> String {
+        match self.has_text() {
+            true => self.name.to_string(),
+            false => self.robot.value(),
+        }
+    }
+
+    /// Returns the clause of an option.
+    pub(crate) fn clause(&self, option: &str) -> Option<&Clause> {
+        self.clauses.iter().find(|clause| clause.key == option)
+    }
+
+    /// Returns the tokens that an item of an option's value was asked for by: the option's, or
+    /// the module's name, where there are none.
+    pub(crate) fn place(&self, option: &str, item: &str) -> TokenStream {
+        let Some(clause) = self.clause(option) else {
+            return self.name.to_token_stream();
+        };
+        let mut items = clause.items.iter();
+        let found = items.rfind(|own| text(own) == item);
+        found
+            .cloned()
+            .unwrap_or_else(|| clause.key.to_token_stream())
+    }
+
+    fn read_clauses(&mut self, trees: &[TokenTree], errors: &mut Errors) {
+        let mut rest = trees;
+        while let Some((first, after)) = rest.split_first() {
+            if is_punct(first, ';') {
+                rest = after;
+                continue;
+            }
+            let length = length(rest);
+            let (clause, next) = rest.split_at(length);
+            rest = next;
+            match clause {
+                [TokenTree::Ident(key), ..] if key == "mod" || key == "pub" => {
+                    let help = "write a second `dynamics!` for the next";
+                    errors.say(key, "an invocation has one robot", help);
+                    return;
+                }
+                [TokenTree::Ident(key), colon, value @ ..]
+                    if is_punct(colon, ':') || key == "crate" && is_punct(colon, '=') =>
+                {
+                    self.read_clause(key, value, errors);
+                }
+                [TokenTree::Ident(key)] => {
+                    errors.say(key, "expected `:` after the clause's name", CLAUSE);
+                }
+                [TokenTree::Ident(_), other, ..] => {
+                    errors.say(other, "expected `:` after the clause's name", CLAUSE);
+                }
+                [first, ..] => errors.say(first, "expected the name of a clause", CLAUSE),
+                [] => {}
+            }
+            if let Some(next) = rest.first()
+                && !is_punct(next, ';')
+            {
+                errors.say(next, "expected `;` before the next clause", "");
+            }
+        }
+    }
+
+    fn read_clause(&mut self, key: &Ident, value: &[TokenTree], errors: &mut Errors) {
+        let tokens = |trees: &[TokenTree]| trees.iter().cloned().collect::<TokenStream>();
+        let option = key.unraw().to_string();
+        if key == "crate" {
+            self.read_facade(key, tokens(value), errors);
+            return;
+        }
+        if self.clause(&option).is_some() {
+            errors.say(key, &format!("`{key}` is given twice"), "");
+            return;
+        }
+        let value = match value {
+            [TokenTree::Group(list)] if list.delimiter() == Delimiter::Bracket => {
+                self::trees(list.stream())
+            }
+            value => value.to_vec(),
+        };
+        if value.is_empty() {
+            errors.say(key, "expected a value", "");
+            return;
+        }
+        let mut items: Vec<TokenStream> = Vec::new();
+        let mut parts = value.split(|tree| is_punct(tree, ',')).peekable();
+        while let Some(part) = parts.next() {
+            // A comma at the end is fine.
+            if part.is_empty() && parts.peek().is_some() {
+                errors.say(key, "expected a word between two commas", "");
+            }
+            if !part.is_empty() {
+                items.push(tokens(part));
+            }
+        }
+        let text = items.iter().map(text).collect::<Vec<String>>().join(",");
+        if let Err(error) = self.asked.set(&option, &text) {
+            errors.say(key, &format!("unknown clause `{option}`"), &error.help());
+        }
+        let key = key.clone();
+        self.clauses.push(Clause { key, items });
+    }
+
+    /// Reads the path of the facade crate, as an import inside the module can take it.
+    fn read_facade(&mut self, key: &Ident, value: TokenStream, errors: &mut Errors) {
+        let path = Path::parse_mod_style.parse2(value.clone());
+        let Ok(path) = path else {
+            let help = "crate = ::my_library::dalembert;";
+            let at = if value.is_empty() {
+                key.to_token_stream()
+            } else {
+                value
+            };
+            errors.say(at, "expected the path of the crate `dalembert`", help);
+            return;
+        };
+        let start = path.segments.first().map(|segment| &segment.ident);
+        if let Some(start) = start.filter(|start| *start == "self" || *start == "super") {
+            let text = "the path would be taken from inside the generated module";
+            errors.say(
+                start,
+                text,
+                "start with `crate::` or with the name of a crate",
+            );
+            return;
+        }
+        self.facade = path;
+    }
+}
+
+const CLAUSE: &str = "a clause is `name: value;`, such as `outputs: inverse_dynamics, gravity;`";
+
+type Head = (Vec<Attribute>, Visibility, Ident, LitStr);
+
+/// Reads `/// … pub mod name = "file";`.
+fn head(input: ParseStream<'_>, late: &mut Vec<Error>) -> syn::Result<Head> {
+    let attributes = input.call(Attribute::parse_outer)?;
+    let visibility = input.parse()?;
+    let wanted = |text: &str, help: &str| input.error(with_help(text, help));
+    let no_module = || {
+        let help = "pub mod puma560 = \"robots/puma560.toml\";";
+        wanted("expected `mod` and the name of the module", help)
+    };
+    let no_robot = || {
+        wanted(
+            "expected the path of a robot file in quotes, or its text",
+            "pub mod puma560 = \"robots/puma560.toml\"; or pub mod arm = r#\"name = …\"#; with line breaks",
+        )
+    };
+    input.parse::<Token![mod]>().map_err(|_| no_module())?;
+    let name: Ident = input.parse().map_err(|_| no_module())?;
+    input.parse::<Token![=]>().map_err(|_| no_robot())?;
+    let robot: LitStr = input.parse().map_err(|_| no_robot())?;
+    if input.parse::<Option<Token![;]>>()?.is_none() && !input.is_empty() {
+        late.push(wanted("expected `;` after the path", ""));
+    }
+    Ok((attributes, visibility, name, robot))
+}
+
+/// Returns the number of trees of a clause: up to a semicolon, or to the next key where the
+/// semicolon was forgotten.
+fn length(trees: &[TokenTree]) -> usize {
+    let is_colon = |tree: &TokenTree| {
+        let TokenTree::Punct(punct) = tree else {
+            return false;
+        };
+        punct.as_char() == ':' && punct.spacing() == Spacing::Alone
+    };
+    let mut has_frame = false;
+    for (index, tree) in trees.iter().enumerate() {
+        // Behind an `@` stands a frame, whose axes have colons.
+        has_frame |= is_punct(tree, '@');
+        has_frame &= !is_punct(tree, ',');
+        let is_key = index > 1
+            && !has_frame
+            && matches!(tree, TokenTree::Ident(_))
+            && trees.get(index + 1).is_some_and(is_colon)
+            && !is_punct(&trees[index - 1], ':')
+            && !is_punct(&trees[index - 1], ',');
+        if is_punct(tree, ';') || is_key {
+            return index;
+        }
+    }
+    trees.len()
+}
+
+/// Returns whether a tree is this punctuation.
+fn is_punct(tree: &TokenTree, c: char) -> bool {
+    matches!(tree, TokenTree::Punct(punct) if punct.as_char() == c)
+}
+
+/// Returns the trees without the invisible groups around what another macro put in.
+fn trees(tokens: TokenStream) -> Vec<TokenTree> {
+    let mut trees = Vec::new();
+    for tree in tokens {
+        match tree {
+            TokenTree::Group(group) if group.delimiter() == Delimiter::None => {
+                trees.extend(self::trees(group.stream()));
+            }
+            tree => trees.push(tree),
+        }
+    }
+    trees
+}
+
+/// Returns a name at the place of another.
+pub(crate) fn named(name: &str, span: Span) -> Ident {
+    match name.strip_prefix("r#") {
+        Some(raw) => Ident::new_raw(raw, span),
+        None => Ident::new(name, span),
+    }
+}

@@ -1,0 +1,339 @@
+//! The module of an invocation: the file beside the robot file, if its stamp is current.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use dalembert_stamp::{Asked, Stale, Stamp};
+use proc_macro2::{Ident, LexError, TokenStream};
+#[cfg(not(feature = "search"))]
+use quote::ToTokens;
+use quote::quote;
+use syn::Attribute;
+
+use crate::invocation::{Errors, Invocation, named};
+
+/// Returns the modules that an invocation asks for, or all of its errors. Paths of robot files are
+/// relative to the first of these folders that has the file.
+pub(crate) fn expand(input: TokenStream, folders: &[PathBuf]) -> TokenStream {
+    let mut errors = Errors::default();
+    let Some(invocation) = Invocation::read(input, &mut errors) else {
+        return errors.tokens();
+    };
+    let (watch, modules) = match errors.is_empty() {
+        true => modules(&invocation, folders, &mut errors),
+        false => Default::default(),
+    };
+    let errors = errors.tokens();
+    quote!(#watch #errors #modules)
+}
+
+/// The module of one scalar.
+struct Wanted {
+    name: Ident,
+    /// What is asked of its file.
+    asked: Asked,
+}
+
+/// A file beside a robot file, and why it is not taken; `None` where there is no file.
+type Refused = (PathBuf, Option<Stale>);
+
+/// Returns what makes an edit of a file expand the macro again, and the modules.
+fn modules(
+    invocation: &Invocation,
+    folders: &[PathBuf],
+    errors: &mut Errors,
+) -> (TokenStream, TokenStream) {
+    let wanted = wanted(invocation);
+    if invocation.has_text() {
+        return (
+            TokenStream::new(),
+            generated(invocation, None, &wanted, &[], errors),
+        );
+    }
+    let (robot, text) = match robot(invocation, folders) {
+        Ok(found) => found,
+        Err((message, help)) => {
+            errors.say(&invocation.robot, &message, &help);
+            return Default::default();
+        }
+    };
+    let mut watch = watched(&robot);
+    let (mut modules, mut refused) = (TokenStream::new(), Vec::new());
+    for own in &wanted {
+        let file = robot.with_file_name(format!("{}.rs", own.name));
+        let Ok(found) = fs::read_to_string(&file) else {
+            refused.push((file, None));
+            continue;
+        };
+        watch.extend(watched(&file));
+        match Stamp::check(&found, env!("CARGO_PKG_VERSION"), &text, &own.asked) {
+            Ok(()) => modules.extend(module(invocation, &own.name, &found, errors)),
+            Err(stale) => refused.push((file, Some(stale))),
+        }
+    }
+    if !refused.is_empty() {
+        watch.extend(watched(&robot.with_extension("plan")));
+        modules = generated(invocation, Some(&robot), &wanted, &refused, errors);
+    }
+    (watch, modules)
+}
+
+/// Returns the modules that are asked for: one a scalar, the second of a pair called `…_f32`.
+fn wanted(invocation: &Invocation) -> Vec<Wanted> {
+    let asked = &invocation.asked;
+    let mut scalars = asked.items("scalar");
+    if scalars.is_empty() {
+        // A scene may have a scalar of its own.
+        scalars.push(if asked.get("scene").is_some() {
+            ""
+        } else {
+            "f64"
+        });
+    }
+    let is_pair = scalars.len() > 1;
+    let one = |scalar: &str| {
+        let suffix = if is_pair && scalar == "f32" {
+            "_f32"
+        } else {
+            ""
+        };
+        let (name, mut asked) = (&invocation.name, asked.clone());
+        // It is an option.
+        let _ = asked.set("scalar", scalar);
+        Wanted {
+            name: named(&format!("{name}{suffix}"), name.span()),
+            asked,
+        }
+    };
+    scalars.into_iter().map(one).collect()
+}
+
+/// Returns the robot file and its text, or why there is none and the likely fix.
+fn robot(
+    invocation: &Invocation,
+    folders: &[PathBuf],
+) -> Result<(PathBuf, String), (String, String)> {
+    let shown = invocation.robot.value();
+    let mut places = folders.iter().map(|folder| folder.join(&shown));
+    // A file that is nowhere is missed where it is looked for first.
+    let first = places.next().unwrap_or_else(|| PathBuf::from(&shown));
+    let path = match first.is_file() {
+        true => first,
+        false => places.find(|path| path.is_file()).unwrap_or(first),
+    };
+    match fs::read(&path) {
+        Ok(bytes) => Ok((path, String::from_utf8_lossy(&bytes).into_owned())),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            let help = match meant(&path) {
+                Some(meant) => format!("did you mean `{}`?", beside(&shown, &meant)),
+                None => {
+                    "the path is relative to the folder of Cargo.toml or of the file with the macro"
+                        .into()
+                }
+            };
+            Err((format!("there is no file `{shown}`"), help))
+        }
+        Err(error) => Err((format!("cannot read `{shown}`: {error}"), String::new())),
+    }
+}
+
+/// Returns the robot file in the folder of a path whose name is the longest part of the path's, or
+/// has it as a part.
+fn meant(path: &Path) -> Option<String> {
+    let own = path.file_stem()?.to_str()?.to_owned();
+    let names = fs::read_dir(path.parent()?).ok()?.filter_map(|entry| {
+        let name = entry.ok()?.file_name().into_string().ok()?;
+        name.ends_with(".toml").then_some(name)
+    });
+    let alike = |name: &String| {
+        let same = own.chars().zip(name.chars()).take_while(|(a, b)| a == b);
+        same.count() * 2 >= own.len()
+    };
+    // The order of a folder differs between machines.
+    let mut names: Vec<String> = names.filter(alike).collect();
+    names.sort();
+    names.into_iter().next()
+}
+
+/// Returns the path of a file in the folder of another, as messages show it.
+fn beside(shown: &str, file: &str) -> String {
+    match shown.rsplit_once('/') {
+        Some((folder, _)) => format!("{folder}/{file}"),
+        None => file.to_owned(),
+    }
+}
+
+/// Returns what makes an edit of a file expand the macro again; nothing where there is none.
+fn watched(path: &Path) -> TokenStream {
+    match path.to_str() {
+        Some(path) if Path::new(path).is_file() => {
+            quote!(
+                const _: &[::core::primitive::u8] = ::core::include_bytes!(#path);
+            )
+        }
+        _ => TokenStream::new(),
+    }
+}
+
+/// Returns a module with the text of a generated file.
+pub(crate) fn module(
+    invocation: &Invocation,
+    name: &Ident,
+    text: &str,
+    errors: &mut Errors,
+) -> TokenStream {
+    let body = match with_attributes(text).parse::<TokenStream>() {
+        Ok(body) => body,
+        Err(error) => {
+            let error: LexError = error;
+            let text = format!("the generated text has no tokens: {error}");
+            errors.say(&invocation.name, &text, "");
+            return TokenStream::new();
+        }
+    };
+    let Invocation {
+        attributes,
+        visibility,
+        facade,
+        ..
+    } = invocation;
+    let is_doc = |attribute: &Attribute| attribute.path().is_ident("doc");
+    let gap = attributes.iter().any(is_doc).then(|| quote!(#![doc = ""]));
+    // What it calls is found in the facade, wherever that is.
+    let import = |is_called: bool, import: TokenStream| is_called.then(|| quote!(use #import;));
+    let libm = import(text.contains("libm::"), quote!(#facade::__private::libm));
+    let sines = text.contains("dalembert_sines::");
+    let sines = import(sines, quote!(#facade::__private::dalembert_sines));
+    let batch = text.contains("dalembert_batch::");
+    let batch = import(batch, quote!(#facade::batch as dalembert_batch));
+    quote! {
+        #(#attributes)*
+        #visibility mod #name {
+            #gap
+            #body
+            #libm
+            #sines
+            #batch
+        }
+    }
+}
+
+/// Returns the text with its comments of documentation as the attributes that they stand for:
+/// an editor that reads tokens itself takes a third slash for a part of the comment.
+fn with_attributes(text: &str) -> String {
+    let mut attributes = String::with_capacity(text.len());
+    for line in text.lines() {
+        let words = line.trim_start();
+        match (words.strip_prefix("///"), words.strip_prefix("//!")) {
+            (Some(said), _) => attributes += &format!("#[doc = {said:?}]"),
+            (_, Some(said)) => attributes += &format!("#![doc = {said:?}]"),
+            _ => attributes += line,
+        }
+        attributes.push('\n');
+    }
+    attributes
+}
+
+/// Generates the modules of an invocation whose files are not taken, or of a robot's text.
+#[cfg(feature = "search")]
+fn generated(
+    invocation: &Invocation,
+    robot: Option<&Path>,
+    wanted: &[Wanted],
+    refused: &[Refused],
+    errors: &mut Errors,
+) -> TokenStream {
+    let shown = invocation.robot.value();
+    for (file, stale) in refused {
+        // Who asks for something else may have no use for the file.
+        if let Some(stale @ (Stale::Robot | Stale::Text | Stale::Version(_))) = stale {
+            let file = shown_file(&shown, file);
+            eprintln!(
+                "note: {}: the module is generated while compiling; `dalembert renew {file}` makes the file new",
+                stale.message(&file, &shown)
+            );
+        }
+    }
+    let texts = crate::search::texts(invocation, robot, errors);
+    let pairs = wanted.iter().zip(&texts);
+    pairs
+        .map(|(own, text)| module(invocation, &own.name, text, errors))
+        .collect()
+}
+
+/// Says why the files of an invocation cannot be taken, and which command makes them.
+#[cfg(not(feature = "search"))]
+fn generated(
+    invocation: &Invocation,
+    robot: Option<&Path>,
+    wanted: &[Wanted],
+    refused: &[Refused],
+    errors: &mut Errors,
+) -> TokenStream {
+    let shown = invocation.robot.value();
+    if robot.is_none() {
+        errors.say(
+            &invocation.robot,
+            "a robot's text is generated while compiling, which needs the feature `search` of dalembert",
+            "write the text to a file, and its path here",
+        );
+    }
+    let outputs = invocation.asked.get("outputs").is_some();
+    for (file, stale) in refused {
+        let own = shown_file(&shown, file);
+        let Some(stale) = stale else {
+            let file = invocation.name.to_string() + ".rs";
+            let mut asked = invocation.asked.clone();
+            if wanted.len() == 1 && asked.get("scalar") == Some("f64") {
+                // It is the default.
+                let _ = asked.set("scalar", "");
+            }
+            let command = format!(
+                "dalembert generate {shown}{} -o {}",
+                asked.arguments(),
+                beside(&shown, &file)
+            );
+            let help = format!(
+                "{command}\n  = help: or let the compiler generate it, in minutes: cargo add dalembert --features search"
+            );
+            errors.say(
+                &invocation.robot,
+                &format!("there is no generated file `{own}`"),
+                &help,
+            );
+            // One command makes all of them.
+            break;
+        };
+        let renew = format!("dalembert renew {own}");
+        let again = || {
+            let file = beside(&shown, &format!("{}.rs", invocation.name));
+            format!(
+                "dalembert generate {shown}{} -o {file}",
+                invocation.asked.arguments()
+            )
+        };
+        let (at, help) = match stale {
+            Stale::Option(option, _) => (invocation.place(option, ""), again()),
+            Stale::Outputs(missing) if outputs => {
+                let first = missing.first().map_or("", String::as_str);
+                (invocation.place("outputs", first), again())
+            }
+            Stale::Foreign => (invocation.robot.to_token_stream(), again() + " --force"),
+            _ => (invocation.robot.to_token_stream(), renew),
+        };
+        errors.say(at, &stale.message(&own, &shown), &help);
+        if let Stale::Outputs(missing) = stale {
+            for output in missing.iter().skip(1) {
+                let at = invocation.place("outputs", output);
+                errors.say(at, &format!("nor `{output}`"), "");
+            }
+        }
+    }
+    TokenStream::new()
+}
+
+/// Returns the path of a file beside the robot file, as messages show it.
+fn shown_file(shown: &str, file: &Path) -> String {
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    beside(shown, &name)
+}

@@ -1,0 +1,197 @@
+//! The options that somebody asked for: `outputs: inverse_dynamics, gravity; scalar: f64`.
+
+use std::fmt;
+
+/// The options by their names, in the order in which they are written, and the word of each that
+/// means as much as leaving it out.
+pub const OPTIONS: [(&str, &str); 13] = [
+    ("outputs", ""),
+    ("scalar", ""),
+    ("formulation", "auto"),
+    ("effort", "quick"),
+    ("prefer", "accuracy"),
+    ("fma", "off"),
+    ("sincos", "auto"),
+    ("sincos_error", ""),
+    ("batch", "off"),
+    ("parameters", ""),
+    ("scene", ""),
+    ("plan", "on"),
+    ("name", ""),
+];
+
+/// The options that were asked for, each with its value, in the order of [`OPTIONS`].
+///
+/// Values are lists of items without spaces; what means as much as nothing is left out, so that
+/// two that ask for the same are equal.
+///
+/// ```
+/// use dalembert_stamp::Asked;
+///
+/// let asked: Asked = "scalar: f64; fma: off; outputs: gravity, hold = inertia + gravity".parse().unwrap();
+/// assert_eq!(asked.to_string(), "outputs: gravity, hold=inertia+gravity; scalar: f64");
+/// assert_eq!(asked.get("scalar"), Some("f64"));
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Asked(Vec<(&'static str, String)>);
+
+/// No option of this name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NotAsked(pub String);
+
+impl NotAsked {
+    /// Returns the likely fix.
+    pub fn help(&self) -> String {
+        let names: Vec<&str> = OPTIONS.iter().map(|(name, _)| *name).collect();
+        match names.iter().find(|name| is_near(name, &self.0)) {
+            Some(meant) => format!("did you mean `{meant}`?"),
+            None => format!("known: {}", names.join(", ")),
+        }
+    }
+}
+
+impl fmt::Display for NotAsked {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "unknown option `{}`: {}", self.0, self.help())
+    }
+}
+
+impl std::error::Error for NotAsked {}
+
+/// Returns `true` for words that differ by one letter, or by a plural's.
+fn is_near(name: &str, found: &str) -> bool {
+    let (one, other) = (name.as_bytes(), found.as_bytes());
+    let before = one.iter().zip(other).take_while(|(a, b)| a == b).count();
+    let behind = one.iter().rev().zip(other.iter().rev());
+    let behind = behind.take_while(|(a, b)| a == b).count();
+    let longest = one.len().max(other.len());
+    longest > 1 && before + behind + 1 >= longest && one.len().abs_diff(other.len()) <= 1
+}
+
+/// Returns the items of a value, without the spaces in them and without empty ones.
+pub fn items(value: &str) -> impl Iterator<Item = String> + '_ {
+    let items = value.split(',');
+    let items = items.map(|item| {
+        item.chars()
+            .filter(|c| !c.is_whitespace())
+            .collect::<String>()
+    });
+    items.filter(|item| !item.is_empty())
+}
+
+impl Asked {
+    /// Sets an option to a list of items with commas between them; to none where there is no item,
+    /// or one that means as much.
+    ///
+    /// # Errors
+    /// There is no option of this name.
+    pub fn set(&mut self, option: &str, value: &str) -> Result<(), NotAsked> {
+        let mut known = OPTIONS.iter().enumerate();
+        let found = known.find(|(_, (name, _))| *name == option);
+        let (place, (name, default)) = found.ok_or_else(|| NotAsked(option.to_owned()))?;
+        let value = items(value).collect::<Vec<String>>().join(", ");
+        self.0.retain(|(own, _)| own != name);
+        if !value.is_empty() && value != *default {
+            let at = |(own, _): &(&str, String)| OPTIONS.iter().position(|(name, _)| name == own);
+            let before = self.0.iter().filter(|own| at(own) < Some(place)).count();
+            self.0.insert(before, (name, value));
+        }
+        Ok(())
+    }
+
+    /// Returns the value of an option; none where it was not asked for.
+    pub fn get(&self, option: &str) -> Option<&str> {
+        let mut all = self.0.iter();
+        all.find_map(|(own, value)| (*own == option).then_some(value.as_str()))
+    }
+
+    /// Returns the items of an option's value.
+    pub fn items(&self, option: &str) -> Vec<&str> {
+        self.get(option)
+            .map_or_else(Vec::new, |value| value.split(", ").collect())
+    }
+
+    /// Returns the options that were asked for, with their values.
+    pub fn iter(&self) -> impl Iterator<Item = (&'static str, &str)> {
+        self.0
+            .iter()
+            .map(|(option, value)| (*option, value.as_str()))
+    }
+
+    /// Returns the options as arguments of the command: ` --outputs gravity,inertia --scalar f64`.
+    pub fn arguments(&self) -> String {
+        let argument = |(option, value): (&str, &str)| {
+            let (flag, value) = (option.replace('_', "-"), value.replace(", ", ","));
+            match value.as_str() {
+                "on" => format!(" --{flag}"),
+                value => format!(" --{flag} {value}"),
+            }
+        };
+        self.iter().map(argument).collect()
+    }
+}
+
+impl fmt::Display for Asked {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, (option, value)) in self.0.iter().enumerate() {
+            let gap = if index > 0 { "; " } else { "" };
+            write!(f, "{gap}{option}: {value}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::str::FromStr for Asked {
+    type Err = NotAsked;
+
+    /// Reads what is written: options with a semicolon between two.
+    fn from_str(text: &str) -> Result<Asked, NotAsked> {
+        let mut asked = Asked::default();
+        for option in text.split(';').map(str::trim).filter(|own| !own.is_empty()) {
+            let (name, value) = option.split_once(':').unwrap_or((option, ""));
+            asked.set(name.trim(), value)?;
+        }
+        Ok(asked)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_reads_back() {
+        let text =
+            "scene: pick; outputs: jacobian @ hand : local , servo = gravity + inertia; fma: on";
+        let asked: Asked = text.parse().unwrap();
+        let written = "outputs: jacobian@hand:local, servo=gravity+inertia; fma: on; scene: pick";
+        assert_eq!(asked.to_string(), written);
+        assert_eq!(written.parse(), Ok(asked.clone()));
+        let arguments = " --outputs jacobian@hand:local,servo=gravity+inertia --fma --scene pick";
+        assert_eq!(asked.arguments(), arguments);
+        assert_eq!(asked.items("outputs").len(), 2);
+    }
+
+    #[test]
+    fn defaults_are_left_out() {
+        for (option, default) in OPTIONS {
+            let mut asked = Asked::default();
+            asked.set(option, default).unwrap();
+            assert_eq!(asked, Asked::default(), "{option}");
+        }
+    }
+
+    #[test]
+    fn unknown_options_are_named() {
+        let said = |text: &str| text.parse::<Asked>().unwrap_err().to_string();
+        assert_eq!(
+            said("output: gravity"),
+            "unknown option `output`: did you mean `outputs`?"
+        );
+        assert_eq!(
+            said("sinc: on"),
+            "unknown option `sinc`: known: outputs, scalar, formulation, \
+            effort, prefer, fma, sincos, sincos_error, batch, parameters, scene, plan, name"
+        );
+    }
+}

@@ -1,0 +1,16 @@
+//! What a generated file says of itself, and whether it may be used as it stands.
+//!
+//! - [`Asked`]: the options that somebody asked for, as one text
+//! - [`Stamp`]: the first lines of a file: version, robot file, what was asked, the text's hash
+//! - [`Stamp::check`]: why a file may not be used
+//!
+//! Macro, build script and command share it. It knows nothing of robots: who takes a file that is
+//! there compiles no generator.
+#![forbid(unsafe_code)]
+#![warn(missing_docs, clippy::missing_errors_doc)]
+
+mod asked;
+mod stamp;
+
+pub use asked::{Asked, NotAsked, OPTIONS, items};
+pub use stamp::{Comment, Stale, Stamp, hash, relative};
