@@ -329,7 +329,8 @@ fn refusals_name_the_joint_and_the_way_out() {
         (ARM.replace("<robot", "<robots").replace("</robot>", "</robots>"), hand.clone(), &["<robots> is no URDF"]),
         ("<mujoco/>".into(), hand.clone(), &["arm.urdf:1:1", "there are no bodies"]),
         ("joints: 3".into(), hand.clone(), &["no XML", "a URDF is XML"]),
-        (ARM.replace("</robot>", ""), hand.clone(), &["no XML"]),
+        (ARM.replace("</robot>", ""), hand.clone(), &["the file ends before its XML does", "a URDF ends in </robot>"]),
+        (ARM[..ARM.len() / 2].into(), hand.clone(), &["arm.urdf:", "the file ends before its XML does", "cut off"]),
         (
             ARM.replace("<link name=\"world\"/>", "<xacro:macro xmlns:xacro=\"http://www.ros.org/wiki/xacro\"/><link name=\"world\"/>"),
             hand.clone(),
