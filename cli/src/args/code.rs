@@ -6,7 +6,7 @@ use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::simplify::{Effort, WaySource};
 
 use super::options::Options;
-use super::values::{function_parser, states_parser, word_parser};
+use super::values::{function_parser, name_parser, states_parser, word_parser};
 use super::{Choice, MORE};
 
 /// Arguments of `generate`.
@@ -24,6 +24,9 @@ pub struct GenerateArgs {
     /// Write over files that this command did not write
     #[arg(long, requires = "output", conflicts_with = "check")]
     pub force: bool,
+    /// The name of the module, with which names in C begin [default: the robot's and the scene's]
+    #[arg(long, value_name = "NAME", value_parser = name_parser())]
+    pub name: Option<String>,
     /// Print rounding errors, the counts after each stage and the proofs as well
     #[arg(short, long)]
     pub verbose: bool,

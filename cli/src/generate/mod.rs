@@ -25,6 +25,7 @@ use files::Files;
 pub fn run(args: &GenerateArgs) -> Outcome {
     let (robot, mut request) = input::robot_and_request(&args.robot, &args.choice)?;
     args.text.set(&mut request);
+    request.module.clone_from(&args.name);
     // Before the work: what cannot be written is no news after it.
     let files = Files::of(args, &request)?;
     request.language = language(args, request.language)?;
@@ -60,6 +61,7 @@ pub fn run(args: &GenerateArgs) -> Outcome {
         }
         kept.plan.write()
     });
+    output::undenied()?;
     match args.check {
         true => files.compare(&generated.text, certificates.as_deref()),
         false => files.write(&generated.text, certificates.as_deref(), plan.as_deref()),
