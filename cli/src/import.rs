@@ -31,6 +31,7 @@ pub fn run(args: &ImportArgs) -> Outcome {
     let source = model::text(&args.urdf, &args.xacro)?;
     let imported = import_text(&source, &args.chain.options(&args.urdf))
         .map_err(|errors| Failure::Input(source.render(&errors.0)))?;
+    let document = args.json.then(|| json(&imported, &name, &source));
     if !args.json {
         notes(&imported, &source);
         args.chain
@@ -38,14 +39,23 @@ pub fn run(args: &ImportArgs) -> Outcome {
             .iter()
             .for_each(|said| output::note(said));
     }
-    output::undenied()?;
+    undenied(document.as_ref())?;
     write::write(&[(&target, &imported.text)])?;
-    match args.json {
-        true => output::print_json(&json(&imported, &name, &source)),
-        false => {
+    match document {
+        Some(document) => output::print_json(&document),
+        None => {
             report(&imported);
             Ok(())
         }
+    }
+}
+
+/// Fails where there are warnings and they are denied; the document that lists them is printed first.
+fn undenied(document: Option<&Value>) -> Outcome {
+    let denied = output::undenied();
+    match document {
+        Some(document) if denied.is_err() => output::print_json(document).and(denied),
+        _ => denied,
     }
 }
 
@@ -79,17 +89,17 @@ fn all(args: &ImportArgs, folder: &Path) -> Outcome {
         .iter()
         .filter(|_| !args.json)
         .for_each(|said| output::note(said));
-    output::undenied()?;
-    into.write(&files)?;
-    if args.json {
+    let document = args.json.then(|| {
         let arms = arms.iter().map(|(_, made)| json(made, &name, &source));
         let shared = shared
             .iter()
             .map(|pair| json!({ "arms": pair.arms, "joints": pair.joints }));
-        return output::print_json(&json!({
-            "arms": arms.collect::<Vec<_>>(),
-            "shared": shared.collect::<Vec<_>>(),
-        }));
+        json!({ "arms": arms.collect::<Vec<_>>(), "shared": shared.collect::<Vec<_>>() })
+    });
+    undenied(document.as_ref())?;
+    into.write(&files)?;
+    if let Some(document) = document {
+        return output::print_json(&document);
     }
     for (arm, made) in &arms {
         let joints = made.robot.joints.len();
@@ -116,7 +126,7 @@ fn all(args: &ImportArgs, folder: &Path) -> Outcome {
     Ok(())
 }
 
-/// Returns the same for programs.
+/// Describes a robot, its notes and its replaced numbers as JSON.
 fn json(imported: &Imported, name: &str, source: &Text) -> Value {
     let robot = &imported.robot;
     let snaps = imported.snaps.iter().map(|snap| {

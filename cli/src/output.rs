@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use anstream::{AutoStream, ColorChoice};
 use dalembert_codegen::workspace::program::Counts;
-use dalembert_model::read::{Diagnostic, RobotWarning};
+use dalembert_model::read::{Diagnostic, RobotWarning, Severity};
 use serde_json::{Value, json};
 
 use crate::bar;
@@ -28,8 +28,9 @@ pub fn print_json(value: &Value) -> Outcome {
     print(&format!("{value:#}\n"))
 }
 
-/// Writes something about a file, as JSON.
+/// Writes a message about a file as JSON; a warning counts as printed.
 pub fn diagnostic(found: &Diagnostic) -> Value {
+    WARNED.fetch_or(found.severity == Severity::Warning, Ordering::Relaxed);
     json!({
         "severity": found.severity.to_string(),
         "warning": found.warning.map(RobotWarning::name),

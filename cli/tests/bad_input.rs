@@ -98,8 +98,14 @@ fn files_that_cannot_be_read_or_written() {
 /// Arguments, and words of what is said.
 const WRONG: &str = "
 generate PUMA --outputs graviti | `gravity`
+count PUMA --outputs M | did you mean `inertia`?
+count PUMA --outputs gravity,C | did you mean `coriolis`?
+count PUMA --outputs= | expected a word, such as `inverse_dynamics`
+certify PUMA | expected a certificate (.json) or a generated file (.rs, .h, .cuh), found a robot
+certify PUMA --robot PUMA | `dalembert certify FILE --robot /
+verify URDF | `dalembert import FILE` makes one of a URDF
 count PUMA --formulation lagrange | did you mean `lagrange_euler`
-count PUMA --scalar f65 | --scalar: unknown scalar `f65`
+count PUMA --scalar f65 | unknown scalar `f65`
 count PUMA --effort quik | did you mean `quick`
 generate PUMA --scalar f64,f32 | each scalar has a file of its own
 generat PUMA | 'generate'
@@ -128,7 +134,11 @@ fn refused(table: &str) {
     for row in table.lines().filter(|row| !row.is_empty()) {
         let (arguments, words) = row.split_once(" | ").unwrap();
         let arguments = arguments.split_whitespace();
-        let arguments = arguments.map(|word| if word == "PUMA" { puma.as_str() } else { word });
+        let arguments = arguments.map(|word| match word {
+            "PUMA" => &puma,
+            "URDF" => concat!(env!("CARGO_MANIFEST_DIR"), "/../gallery/urdf/gen3.urdf"),
+            word => word,
+        });
         run(&arguments.collect::<Vec<_>>()).ends(2, &[words]);
     }
 }

@@ -72,3 +72,43 @@ fn a_whole_file() {
     assert_eq!(ran.code, 2, "{}{}", ran.out, ran.err);
     ran.says(&["--tolerance is for a certificate"]);
 }
+
+/// A file of another robot is said to be so before anything else; one of this robot before an edit, too,
+/// and then checked.
+#[test]
+fn another_robot_is_named_first() {
+    let generated = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated");
+    let path = |name: &str| generated.join(name).to_str().unwrap().to_owned();
+    let certificate = path("certificates/puma560-range-1e-2.json");
+    for (file, name) in [
+        (path("robots/planar2r.rs"), "planar2r"),
+        (certificate, "puma560"),
+    ] {
+        let ran = run(&["certify", &file, "--robot", &path("robots/stanford.toml")]);
+        ran.ends(
+            1,
+            &[
+                "is robot `stanford`, input ",
+                "help: --robot takes the robot file",
+            ],
+        );
+        let first = format!("error: `{file}` is of robot `{name}`, input ");
+        assert!(
+            ran.err.starts_with(&first) && ran.out.is_empty(),
+            "{}{}",
+            ran.out,
+            ran.err
+        );
+    }
+    let edited = temporary("edited").join("arm.toml");
+    let planar = std::fs::read_to_string(path("robots/planar2r.toml")).unwrap();
+    std::fs::write(&edited, planar.replacen("mass = 1", "mass = 1.5", 1)).unwrap();
+    let robot = edited.to_str().unwrap();
+    let ran = run(&["certify", &path("robots/planar2r.rs"), "--robot", robot]);
+    ran.ends(1, &["it was edited since", "not every function"]);
+    assert!(
+        ran.err.starts_with("warning: `") && ran.out.contains("not shown"),
+        "{}",
+        ran.err
+    );
+}

@@ -434,3 +434,51 @@ fn verify_names_the_usual_causes_of_a_disagreement() {
     assert_eq!(ran.code, 1, "{}", ran.err);
     ran.says(&["all values agree to"]);
 }
+
+/// A name that would make others in C too long is shortened, which is said; `--name` gives another.
+#[test]
+fn a_long_name_is_shortened_in_c() {
+    let folder = temporary("long_name");
+    let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    let long = fs::read_to_string(robot("planar2r")).unwrap().replacen(
+        "planar2r",
+        "a_robot_of_nineteen",
+        1,
+    );
+    let (arm, header) = (path("arm.toml"), path("arm.h"));
+    fs::write(&arm, long).unwrap();
+    let denied = run(&["generate", &arm, "-o", &header, "--deny-warnings"]);
+    denied.ends(1, &["--deny-warnings"]);
+    assert!(!folder.join("arm.h").exists());
+    let ran = good(&["generate", &arm, "-o", &header]);
+    ran.says(&[
+        "warning: the module is called `a_rob",
+        "` in C: with `a_robot_of_nineteen`",
+        "the option `name` chooses another",
+    ]);
+    good(&["certify", &header, "--robot", &arm]);
+    let ran = good(&[
+        "generate",
+        &arm,
+        "-o",
+        &header,
+        "--name",
+        "planar",
+        "--deny-warnings",
+    ]);
+    assert!(!ran.err.contains("is called"), "{}", ran.err);
+    assert!(
+        fs::read_to_string(&header)
+            .unwrap()
+            .contains(" planar_gravity(")
+    );
+    let ran = run(&[
+        "generate",
+        &arm,
+        "-o",
+        &header,
+        "--name",
+        "a_name_of_nineteen1",
+    ]);
+    ran.ends(2, &["at most 31", "option `name`"]);
+}

@@ -211,3 +211,30 @@ fn links_lead_somewhere() {
         }
     }
 }
+
+/// Every file of sources that CONTRIBUTING names is there.
+#[test]
+fn files_that_contributing_names_are_there() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let text = fs::read_to_string(root.join("CONTRIBUTING.md")).unwrap();
+    let folders = [
+        "",
+        "codegen/src",
+        "codegen/src/verify",
+        "model/src/equations",
+        "model/src/outputs",
+        "model/src/robot",
+        "src/interface",
+    ];
+    let is_there = |name: &str| {
+        folders
+            .iter()
+            .any(|folder| root.join(folder).join(name).exists())
+    };
+    let prose = text.split("```").step_by(2);
+    let words = prose.flat_map(|part| part.split('`').skip(1).step_by(2));
+    let names: Vec<&str> = words.filter(|word| word.ends_with(".rs")).collect();
+    assert!(names.len() > 10, "{names:?}");
+    let lost = names.iter().filter(|name| !is_there(name));
+    assert_eq!(lost.collect::<Vec<_>>(), Vec::<&&str>::new());
+}

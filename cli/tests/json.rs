@@ -63,6 +63,33 @@ fn import_says_what_it_took_for_others() {
     assert!(both.err.contains("--output"), "{}", both.err);
 }
 
+/// A warning in the document is a warning: denied, it leaves no file, but is still in the document.
+#[test]
+fn import_writes_nothing_for_denied_warnings() {
+    let folder = temporary("json_denied");
+    let file = folder.join("arm.toml");
+    let file = file.to_str().unwrap();
+    let gallery = |name: &str| format!("{}/../gallery/urdf/{name}", env!("CARGO_MANIFEST_DIR"));
+    let urdf = gallery("gen3_lite.urdf");
+    for (all, output) in [(None, file), (Some("--all"), folder.to_str().unwrap())] {
+        let mut arguments = vec!["import", &urdf, "--deny-warnings", "--json", "-o", output];
+        arguments.extend(all);
+        let denied = run(&arguments);
+        denied.ends(1, &["--deny-warnings takes them for errors"]);
+        let document: Value = serde_json::from_str(&denied.out).unwrap();
+        let arm = all.map_or(&document, |_| &document["arms"][0]);
+        let mut notes = arm["notes"].as_array().unwrap().iter();
+        assert!(
+            notes.any(|note| note["severity"] == "warning"),
+            "{document}"
+        );
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
+    }
+    good(&["import", &urdf, "--json", "-o", file]);
+    let quiet = gallery("m1013.urdf");
+    good(&["import", &quiet, "--deny-warnings", "--json", "-o", file]);
+}
+
 #[test]
 fn show_says_where_everything_is() {
     let planar = robot("planar2r");

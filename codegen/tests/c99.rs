@@ -358,6 +358,53 @@ fn names_are_short_and_distinct() {
     assert!(error.contains("`planar2r_servo_any`"), "{error}");
 }
 
+/// A robot's name that makes others too long is cut, and told apart by its hash; one that somebody
+/// chose is not changed.
+#[test]
+fn long_names_are_cut() {
+    let mut robot = support::robot("planar2r");
+    let mut heads = BTreeSet::new();
+    for (name, functions) in [
+        ("a_robot_of_nineteen", Function::by_default()),
+        (
+            "gen3_7dof_novision_for_urdf_arm_v12",
+            Function::by_default(),
+        ),
+        (
+            "gen3_7dof_novision_for_urdf_arm_v13",
+            Function::by_default(),
+        ),
+        (
+            "gen3_7dof_novision_for_urdf_arm_v12",
+            Function::ALL.to_vec(),
+        ),
+    ] {
+        for (language, batch) in [(Language::C, false), (Language::Cuda, true)] {
+            let mut request = request(SinCos::Together, batch);
+            (request.language, request.functions) = (language, functions.clone());
+            robot.name = name.to_owned();
+            let generated = generate(&robot, &request).unwrap();
+            let said = generated.warnings.join("\n");
+            let short = said.split('`').nth(1).unwrap();
+            assert!(said.contains(&format!("with `{name}`")), "{said}");
+            assert!(
+                short.starts_with(&name[..3])
+                    && generated.text().contains(&format!(" {short}_gravity("))
+            );
+            assert!(generated.text().contains(&format!("robot `{name}`")));
+            heads.insert(short.to_owned());
+            // Chosen, the name is the module's, and nothing is said.
+            request.module = Some(short.to_owned());
+            let chosen = generate(&robot, &request).unwrap();
+            assert_eq!(
+                (chosen.texts, chosen.warnings),
+                (generated.texts, Vec::new())
+            );
+        }
+    }
+    assert!(heads.len() >= 4, "{heads:?}");
+}
+
 /// What C and CUDA lack is refused by name.
 #[test]
 fn what_a_language_lacks_is_refused() {

@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use roxmltree::Document;
+use roxmltree::{Document, Error};
 
 use crate::MAX_BYTES;
 use crate::problems::Problems;
@@ -36,6 +36,18 @@ pub(crate) fn parse<'s>(source: &'s str, problems: &mut Problems) -> Option<Docu
         Ok(document) => return Some(document),
         Err(error) => error,
     };
+    if matches!(
+        error,
+        Error::UnexpectedEndOfStream | Error::UnclosedRootNode
+    ) {
+        let end = source.trim_end().len();
+        problems.error(
+            &(end.saturating_sub(1)..end),
+            "the file ends before its XML does".into(),
+            "it was probably cut off: get the whole file; a URDF ends in </robot>, an MJCF in </mujoco>",
+        );
+        return None;
+    }
     let at = error.pos();
     let before = source.lines().take(at.row.saturating_sub(1) as usize);
     let start: usize = before.map(|line| line.len() + 1).sum();

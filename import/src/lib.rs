@@ -116,7 +116,8 @@ pub struct Options {
     pub tip: Option<String>,
     /// Joints that stay where they are, each with its position, within the joint's
     /// limits: a number of the URDF's units, `pi/2` or `90deg`. The name `*` stands for
-    /// every joint that hangs on the chain: each is held there, or at the nearest limit.
+    /// every joint that hangs on the chain: each is held there, or at the nearest limit. A
+    /// number that is no joint's name counts, from 1, those that move, from the root outwards.
     pub lock: Vec<(String, String)>,
     /// Links to leave away, with everything that hangs on them.
     pub without: Vec<String>,

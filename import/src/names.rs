@@ -42,9 +42,16 @@ pub(crate) fn check(urdf: &Urdf, options: &Options, problems: &mut Problems) {
         problems.error(&urdf.span, message, &help);
     }
     for (name, _) in &options.lock {
-        if name != OTHERS && !joints.contains(name) {
-            let message = format!("--lock: there is no joint `{name}`");
-            problems.error(&urdf.span, message, &meant(name, joints));
+        if name == OTHERS || joints.contains(name) || urdf.joint(name).is_some() {
+            continue;
         }
+        let message = format!("--lock: there is no joint `{name}`");
+        let help = match (name.parse::<usize>(), urdf.moving().len()) {
+            (Ok(_), count @ 1..) => {
+                format!("those that move are 1 to {count}, from the root outwards")
+            }
+            _ => meant(name, joints),
+        };
+        problems.error(&urdf.span, message, &help);
     }
 }

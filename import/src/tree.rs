@@ -218,7 +218,7 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
                 self.others = Some(text.clone());
                 continue;
             }
-            let joint = self.urdf.joints.iter().position(|own| own.name == *name)?;
+            let joint = self.urdf.joint(name)?;
             let at = lock::position(&self.urdf.joints[joint], text, self.problems);
             good &= at.is_some();
             self.locks.extend(at.map(|at| (joint, at)));

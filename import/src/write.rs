@@ -49,7 +49,10 @@ pub(crate) fn file(
         },
     );
     let locked = options.lock.iter().filter(|(joint, _)| joint != OTHERS);
-    let locked = locked.map(|(joint, value)| format!("--lock {joint}={value}"));
+    let locked = locked.filter_map(|(joint, value)| {
+        let joint = &urdf.joints[urdf.joint(joint)?].name;
+        Some(format!("--lock {joint}={value}"))
+    });
     let without = options.without.iter();
     let without = without.map(|link| format!("--without {link}"));
     let chosen: Vec<String> = locked.chain(without).collect();

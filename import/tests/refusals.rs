@@ -165,6 +165,11 @@ fn what_is_locked_moves_with_the_link() {
     assert_eq!(joint.mass, ratio(11, 10));
     // (0.1 kg at (0.1, 0.05)) / 1.1 kg, to 20 digits.
     let file = taken(ARM, &lock).text;
+    let by_number = Options {
+        lock: vec![("3".into(), "0.05".into())],
+        ..lock.clone()
+    };
+    assert_eq!(taken(ARM, &by_number).text, file);
     assert!(
         file.contains("com = [0.0090909090909090909091, 0.00454545454545454545455, 0]"),
         "{file}"
@@ -310,6 +315,8 @@ fn refusals_name_the_joint_and_the_way_out() {
         (ARM.into(), with(|o| o.base = Some("hand".into())), &["no joint moves between link `hand` and link `hand`"]),
         (ARM.into(), with(|o| { o.base = Some("thumb".into()); o.without.clear(); }), &["link `hand` does not hang on link `thumb`"]),
         (ARM.into(), with(|o| o.lock = vec![("fingr".into(), "0".into())]), &["--lock: there is no joint `fingr`", "did you mean `finger`?"]),
+        (ARM.into(), with(|o| o.lock = vec![("0".into(), "0".into())]), &["--lock: there is no joint `0`", "those that move are 1 to 3, from the root outwards"]),
+        (ARM.into(), with(|o| o.lock = vec![("4".into(), "0".into())]), &["--lock: there is no joint `4`"]),
         (ARM.into(), with(|o| o.lock = vec![("finger".into(), "90deg".into())]), &["--lock finger: `90deg` is not"]),
         (ARM.into(), with(|o| o.lock = vec![("turn".into(), "90".into())]), &["arm.urdf:11:19", "--lock turn=90: the joint's limits are -1 to 2", "degrees are written as 90deg"]),
         (ARM.into(), with(|o| o.lock = vec![("turn".into(), "-90deg".into())]), &["--lock turn=-90deg: the joint's limits are -1 to 2", "lock it where it can be"]),
@@ -329,7 +336,8 @@ fn refusals_name_the_joint_and_the_way_out() {
         (ARM.replace("<robot", "<robots").replace("</robot>", "</robots>"), hand.clone(), &["<robots> is no URDF"]),
         ("<mujoco/>".into(), hand.clone(), &["arm.urdf:1:1", "there are no bodies"]),
         ("joints: 3".into(), hand.clone(), &["no XML", "a URDF is XML"]),
-        (ARM.replace("</robot>", ""), hand.clone(), &["no XML"]),
+        (ARM.replace("</robot>", ""), hand.clone(), &["the file ends before its XML does", "a URDF ends in </robot>"]),
+        (ARM[..ARM.len() / 2].into(), hand.clone(), &["arm.urdf:", "the file ends before its XML does", "cut off"]),
         (
             ARM.replace("<link name=\"world\"/>", "<xacro:macro xmlns:xacro=\"http://www.ros.org/wiki/xacro\"/><link name=\"world\"/>"),
             hand.clone(),

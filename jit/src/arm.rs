@@ -6,7 +6,7 @@ use std::path::Path;
 
 use dalembert_codegen::RobotFileError;
 use dalembert_codegen::workspace::function::{Argument, Function as Output, Sizes};
-use dalembert_codegen::workspace::generate::generate;
+use dalembert_codegen::workspace::generate::{Generated, generate};
 use dalembert_codegen::workspace::language::Language;
 use dalembert_codegen::workspace::plan::Plan;
 use dalembert_codegen::workspace::program::{Counts, Lowered, ScalarType};
@@ -196,17 +196,22 @@ impl Arm {
         &self.entry.rust
     }
 
-    /// Prints the functions as one header of C99, proved once more.
+    /// Prints the functions as one header of C99, proved once more, and returns it with the warnings
+    /// that [`notes`](Arm::notes) do not have. Names in it begin with `name`, or with the robot's.
     ///
     /// # Errors
     /// [`LoadError`]: among others, a name that no C compiler takes.
-    pub fn c(&self) -> Result<String, LoadError> {
+    pub fn c(&self, name: Option<String>) -> Result<(String, Vec<String>), LoadError> {
         let reading = read_robot(&self.entry.robot, "the arm's robot file")?;
         let mut request = self.load.request(&reading)?;
         request.language = Language::C;
+        request.module = name;
         request.plan = Plan::parse(&self.entry.plan).ok();
-        let generated = generate(&reading.robot, &request).map_err(LoadError::Generate)?;
-        Ok(generated.text)
+        let Generated {
+            text, mut warnings, ..
+        } = generate(&reading.robot, &request).map_err(LoadError::Generate)?;
+        warnings.retain(|warning| !self.notes().contains(warning));
+        Ok((text, warnings))
     }
 
     /// Returns the robot as a robot file.

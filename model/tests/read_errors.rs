@@ -79,7 +79,7 @@ const ROWS: &[Row] = &[
     ("mass = 2", "mass = 0x10", "in another base", "decimal"),
     ("mass = 2", "mass = 1e-301", "too large or too small", "1e-300 to 1e300"),
     ("mass = 2", "mass = 1e301", "too large or too small", "1e-300 to 1e300"),
-    ("mass = 2", "mass = 1e400", "is not a number that TOML can hold", ""),
+    ("mass = 2", "mass = 1e400", "`1e400` is a number too large or too small", "zero, or a size from 1e-300 to 1e300"),
     ("mass = 2", "mass = .5", "expected a value, found a period", ""),
     ("mass = 2", "mass = +-5", "not a decimal number", "0.5"),
     ("mass = 2", "mass = 99999999999999999999", "is not a number that TOML can hold", "1e30"),

@@ -140,9 +140,10 @@ impl Arm {
         self.0.rust()
     }
 
-    /// Returns the functions as one header of C99.
-    fn c(&self, py: Python<'_>) -> PyResult<String> {
-        py.detach(|| self.0.c()).map_err(|error| raised(&error))
+    /// Returns the functions as one header of C99, with warnings about it.
+    fn c(&self, py: Python<'_>, name: Option<String>) -> PyResult<(String, Vec<String>)> {
+        let header = py.detach(|| self.0.c(name));
+        header.map_err(|error| raised(&error))
     }
 
     /// Returns the robot as a robot file.

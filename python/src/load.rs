@@ -9,6 +9,9 @@ use std::time::Duration;
 use dalembert_jit::watch::{Observer, Progress, Watch};
 use dalembert_jit::words::{Word, bundle, parse};
 use dalembert_jit::{Cache, Effort, Load, WordOption};
+use dalembert_model::number::Rational;
+use dalembert_model::number::parse::parse_decimal;
+use dalembert_model::robot::suggested_name;
 use pyo3::conversion::FromPyObjectOwned;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -148,6 +151,29 @@ fn value<W: Word>(option: &str, word: &str) -> PyResult<W> {
     parse(word).map_err(|error| PyValueError::new_err(format!("{option}: {error}")))
 }
 
+/// Reads a limit of acceleration.
+fn acceleration(text: String) -> PyResult<Rational> {
+    let number = parse_decimal(&text).ok();
+    let number = number.filter(|number| *number > Rational::default());
+    number.ok_or_else(|| {
+        PyValueError::new_err(format!(
+            "acceleration: expected a number above zero, such as 10, in rad/s² or m/s²; found {text}"
+        ))
+    })
+}
+
+/// Reads the name of a robot, as robot files have it.
+fn name(text: String) -> PyResult<String> {
+    let good = suggested_name(&text);
+    if good.as_ref() == Some(&text) {
+        return Ok(text);
+    }
+    Err(PyValueError::new_err(format!(
+        "name: expected lower-case letters, digits and `_`, such as {}; found {text}",
+        good.as_deref().unwrap_or("arm")
+    )))
+}
+
 /// Reads the request.
 fn wanted(options: &Options<'_, '_>) -> PyResult<Load> {
     let mut load = Load::default();
@@ -156,6 +182,10 @@ fn wanted(options: &Options<'_, '_>) -> PyResult<Load> {
     load.urdf.lock = options.get("lock")?.unwrap_or_default();
     load.urdf.without = options.get("without")?.unwrap_or_default();
     load.urdf.exact = options.get("exact")?.unwrap_or_default();
+    load.urdf.snap = options.get("snap")?.unwrap_or_default();
+    load.urdf.ignore_ties = options.get("ignore_ties")?.unwrap_or_default();
+    load.urdf.acceleration = options.get("acceleration")?.map(acceleration).transpose()?;
+    load.urdf.name = options.get("name")?.map(name).transpose()?;
     if let Some(names) = options.get::<Vec<String>>("outputs")? {
         let output = |name: &String| match name.contains(['=', '+']) {
             true => {

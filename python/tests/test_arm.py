@@ -9,10 +9,11 @@ import re
 import shutil
 import subprocess
 import sys
+import warnings
 
 import numpy as np
 import pytest
-from conftest import ROBOTS, data, robot, urdf
+from conftest import ROBOTS, ROOT, data, robot, urdf
 from numpy.testing import assert_allclose, assert_array_equal
 
 import dalembert
@@ -140,8 +141,44 @@ def test_urdf_and_locks(tmp_path):
         dalembert.load(urdf("so101"), lock={"gripper": 9}, **options)
     with pytest.raises(ValueError, match="tip=: there is no link `nowhere`"):
         dalembert.load(urdf("so101"), **{**options, "tip": "nowhere"})
+    # A number counts the joints that move from the root outwards, whatever their order in the file.
+    numbered = dalembert.load(urdf("so101"), lock={n + 1: 0}, **options)
+    assert numbered.joints == arm.joints
+    assert_array_equal(numbered.gravity(q), arm.gravity(q))
+    with pytest.raises(ValueError, match="there is no joint `9`(.|\\n)*1 to 6, from the root"):
+        dalembert.load(urdf("so101"), lock={9: 0}, **options)
     with pytest.raises(ValueError, match="expected ... or a dictionary"):
         dalembert.load(urdf("so101"), lock="all")
+
+
+def test_what_else_import_takes(tmp_path):
+    options = {"outputs": "gravity", "cache": tmp_path, "lock": "*"}
+    arm = dalembert.load(urdf("so101"), name="little", acceleration=12.5, **options)
+    assert arm.name == "little"
+    assert_array_equal(arm.limits.acceleration, np.full(len(arm.joints), 12.5))
+    assert np.isinf(dalembert.load(urdf("so101"), **options).limits.acceleration).all()
+    for wrong in (0, -1, float("inf"), "much"):
+        with pytest.raises(ValueError, match="acceleration: expected a number above zero"):
+            dalembert.load(urdf("so101"), acceleration=wrong, **options)
+    with pytest.raises(ValueError, match="name: expected .* such as small_arm"):
+        dalembert.load(urdf("so101"), name="Small arm", **options)
+    with pytest.raises(ValueError, match="exact, snap"):
+        dalembert.load(urdf("so101"), exact=True, snap=True, **options)
+    gen3 = ROOT / "gallery" / "urdf" / "gen3.urdf"
+    said = "\n".join(dalembert.load(gen3, **options).notes)
+    assert "snap= takes the exact ones" in said, said
+    snapped = dalembert.load(gen3, snap=True, **options)
+    assert "is taken for pi/2" in "\n".join(snapped.notes)
+    tied = tmp_path / "tied.xml"
+    body = "<inertial pos='0 0 0.1' mass='1' diaginertia='1 1 1'/><joint name='{0}' axis='{1}'/>"
+    one, two = body.format("turn", "0 0 1"), body.format("bend", "0 1 0")
+    tied.write_text(
+        f"<mujoco><worldbody><body name='upper'>{one}<body name='lower' pos='1 0 0'>{two}</body>"
+        "</body></worldbody><equality><weld body1='lower'/></equality></mujoco>"
+    )
+    with pytest.raises(ValueError, match="ignore_ties="):
+        dalembert.load(tied, **options)
+    dalembert.load(tied, ignore_ties=True, **options)
 
 
 def test_a_dictionary(planar):
@@ -235,6 +272,24 @@ def test_saved_arms_are_loaded_without_a_search(tmp_path, planar):
     assert "pub fn gravity" in (tmp_path / "arm.rs").read_text()
     with pytest.raises(ValueError, match="ends in .toml"):
         arm.save(tmp_path / "arm.txt")
+
+
+def test_a_header_has_names_and_an_ending_of_c(tmp_path):
+    long = robot("planar2r").read_text().replace("planar2r", "a_robot_of_nineteen")
+    (tmp_path / "arm.toml").write_text(long)
+    arm = dalembert.load(tmp_path / "arm.toml", outputs="dynamic_coefficients")
+    for path, write in [("arm.rs", arm.to_c), ("arm.h", arm.to_rust)]:
+        with pytest.raises(ValueError, match="path: the name of a file of .* ends in"):
+            write(tmp_path / path)
+        assert not (tmp_path / path).exists()
+    with pytest.warns(UserWarning, match="called `a_ro.*` in C: with `a_robot_of_nineteen`.*`name=`"):
+        arm.to_c(tmp_path / "arm.h")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        arm.to_c(tmp_path / "named.hpp", name="arm")
+    assert " arm_dynamic_coefficients(" in (tmp_path / "named.hpp").read_text()
+    with pytest.raises(ValueError, match="at most 31"):
+        arm.to_c(tmp_path / "arm.h", name="a_robot_of_nineteen")
 
 
 @pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler")

@@ -7,7 +7,8 @@ use dalembert_codegen::workspace::simplify::Effort;
 
 use super::Options;
 use super::values::{
-    count_parser, function_parser, positive_parser, states_parser, tolerance_parser, word_parser,
+    certified_parser, count_parser, function_parser, positive_parser, states_parser,
+    tolerance_parser, word_parser,
 };
 
 /// Arguments of `verify`.
@@ -49,6 +50,7 @@ pub struct StressArgs {
 #[derive(Debug, clap::Args)]
 pub struct CertifyArgs {
     /// The certificate (JSON), or a generated file (.rs, .h) of which every function is checked
+    #[arg(value_parser = certified_parser())]
     pub certificate: PathBuf,
     /// The robot file that it is for
     #[arg(long, value_name = "FILE")]

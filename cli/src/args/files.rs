@@ -36,8 +36,9 @@ pub struct ChainArgs {
     /// longest chain]
     #[arg(long, value_name = "LINK")]
     pub tip: Option<String>,
-    /// A joint that stays where it is, with its position: a number of rad or m,
-    /// pi/2 or 90deg; may be given again, and for all that hangs on the chain as '*=0'
+    /// A joint that stays where it is, by its name or its number among those that move, with its
+    /// position: a number of rad or m, pi/2 or 90deg; may be given again, and for all that hangs
+    /// on the chain as '*=0'
     #[arg(long, value_name = "JOINT=VALUE", value_parser = lock_parser())]
     pub lock: Vec<(String, String)>,
     /// Hold every other joint that hangs on the chain here, or at its nearest limit

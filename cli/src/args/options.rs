@@ -60,7 +60,15 @@ impl TypedValueParser for Words {
         arg: Option<&Arg>,
         value: &OsStr,
     ) -> Result<String, Error> {
-        StringValueParser::new().parse_ref(command, arg, value)
+        let words = self.0;
+        let text = StringValueParser::new().try_map(move |text| match text.trim() {
+            "" => Err(match words().first() {
+                Some(word) => format!("expected a word, such as `{word}`"),
+                None => "expected a value".to_owned(),
+            }),
+            _ => Ok(text),
+        });
+        text.parse_ref(command, arg, value)
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {

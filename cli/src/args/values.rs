@@ -5,8 +5,11 @@
 //! not know: what a number should be is ours to say.
 
 use std::ffi::OsStr;
+use std::path::PathBuf;
 
-use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser};
+use clap::builder::{
+    PathBufValueParser, PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser,
+};
 use dalembert_codegen::workspace::function::Function;
 use dalembert_codegen::workspace::words::{Word, bundle, parse};
 use dalembert_model::number::Rational;
@@ -32,7 +35,7 @@ pub(super) fn acceleration_parser() -> impl TypedValueParser<Value = Rational> {
     })
 }
 
-/// Returns the name of a robot, as robot files have it.
+/// Reads the name of a robot or a module, as robot files have it.
 pub(super) fn name_parser() -> impl TypedValueParser<Value = String> {
     StringValueParser::new().try_map(|text| match suggested_name(&text) {
         Some(good) if good == text => Ok(text),
@@ -74,6 +77,20 @@ pub(super) fn function_parser() -> FunctionParser {
 /// Returns a value by its word, of which clap lists all and suggests one.
 pub(super) fn word_parser<W: Word + Send + Sync + 'static>() -> impl TypedValueParser<Value = W> {
     PossibleValuesParser::new(W::known()).try_map(|word| parse::<W>(&word))
+}
+
+/// Reads the path of what is certified; a model of a robot is refused, which has an argument of its own.
+pub(super) fn certified_parser() -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(|path| {
+        match path.extension().and_then(OsStr::to_str) {
+            Some("toml" | "urdf" | "xacro" | "xml") => Err(format!(
+                "expected a certificate (.json) or a generated file (.rs, .h, .cuh), found a robot: write \
+                 `dalembert certify FILE --robot {}`",
+                path.display()
+            )),
+            _ => Ok(path),
+        }
+    })
 }
 
 pub(super) fn tolerance_parser() -> impl TypedValueParser<Value = f64> {

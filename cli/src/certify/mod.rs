@@ -2,12 +2,14 @@
 //! shares no code with the generator.
 //!
 //! - this file: the claims of a certificate
+//! - [`origin`]: the robot that a file names
 //! - [`whole_file`]: every function of a generated file
 //! - [`dossier`]: what was found of it, as a checklist for whoever argues that it is safe
 //! - [`body`]: what the text of a function shows
 
 mod body;
 mod dossier;
+mod origin;
 mod whole_file;
 
 use std::path::Path;
@@ -24,9 +26,10 @@ use crate::{input, output};
 pub fn run(args: &CertifyArgs) -> Outcome {
     let source = text(&args.certificate)?;
     let robot = text(&args.robot)?;
+    origin::check(&args.certificate, &source, &args.robot, &robot)?;
     let kind = args.certificate.extension().and_then(|kind| kind.to_str());
     match kind {
-        Some("rs" | "h" | "cuh") => whole_file::run(args, &source, &robot),
+        Some("rs" | "h" | "hpp" | "hh" | "cuh" | "cu") => whole_file::run(args, &source, &robot),
         _ if args.dossier.is_some() => Err(Failure::Input(format!(
             "error: --dossier is of a generated file (.rs, .h), and `{}` is none",
             args.certificate.display()

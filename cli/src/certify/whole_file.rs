@@ -8,7 +8,7 @@ use super::dossier;
 use crate::args::CertifyArgs;
 use crate::files::write;
 use crate::outcome::{Failure, Outcome};
-use crate::{input, output};
+use crate::output;
 
 /// Checks every function of a file and prints what was found.
 pub fn run(args: &CertifyArgs, source: &str, robot: &str) -> Outcome {
@@ -44,29 +44,9 @@ pub fn run(args: &CertifyArgs, source: &str, robot: &str) -> Outcome {
     match report.is_shown() {
         true => Ok(()),
         false => Err(Failure::Check(format!(
-            "error: not every function of {name} is shown to be the robot's{}",
-            other_robot(args, source)?.unwrap_or_default()
+            "error: not every function of {name} is shown to be the robot's"
         ))),
     }
-}
-
-/// Returns a note if the first line of a file names another robot file than the one that is given.
-fn other_robot(args: &CertifyArgs, source: &str) -> Result<Option<String>, Failure> {
-    let robot = input::robot(&args.robot)?;
-    let head = source.lines().next().unwrap_or("");
-    let named = head.split_once(" for `").and_then(|(_, rest)| {
-        let (name, rest) = rest.split_once('`')?;
-        let hash = rest.strip_prefix(", input ")?.split('.').next()?;
-        Some((name, hash))
-    });
-    let other = named.filter(|(_, hash)| *hash != robot.short_hash());
-    Ok(other.map(|(name, hash)| {
-        format!(
-            "\n  = note: the file is of `{name}`, input {hash}; the robot is `{}`, input {}",
-            robot.name,
-            robot.short_hash()
-        )
-    }))
 }
 
 fn of_line(line: &Line) -> Value {

@@ -73,6 +73,7 @@ pub fn run(args: &GenerateArgs) -> Outcome {
         _ => name(&args.robot),
     };
     let code = generated.files(&request, &place, &source);
+    output::undenied()?;
     files.write(&code, certificates.as_deref(), plan.as_deref())
 }
 

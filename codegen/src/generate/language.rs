@@ -1,12 +1,16 @@
-//! Refuses by name, before any search, requests that a language cannot express.
+//! Refuses by name, before any search, requests that a language cannot express, and shortens names
+//! that are too long for a header.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use dalembert_model::robot::Robot;
+use hmac_sha256::Hash;
 
 use crate::emit::header;
 use crate::function::Function;
 use crate::language::Language;
+use crate::language::c99::LONGEST;
 use crate::task::Request;
 
 /// A request that a language cannot express.
@@ -23,7 +27,7 @@ impl fmt::Display for Lacks {
             Lacks::Name(name) => write!(
                 f,
                 "`{name}` is no name that every compiler takes: letters, digits and `_`, at most 31 \
-                 of them, each name once; give the module a short name"
+                 of them, each name once; give the option `name` a short one"
             ),
         }
     }
@@ -39,4 +43,46 @@ pub(super) fn check(robot: &Robot, request: &Request, functions: &[Function]) ->
         Some(name) => Err(Lacks::Name(name)),
         None => Ok(()),
     }
+}
+
+/// Gives the module of a header a short name where nobody chose one and its own is too long: its
+/// beginning, and four digits of its hash, which tell robots apart that begin alike.
+///
+/// The request stays as it is where no such name is short enough: [`check`] refuses that.
+pub(super) fn with_short_name<'a>(robot: &Robot, request: &'a Request) -> Cow<'a, Request> {
+    let misnamed = |name: &str| {
+        header::misnamed(name, &request.functions, request.batch, &request.scalars).is_some()
+    };
+    let name = request.module_name(robot);
+    if request.language == Language::Rust || request.module.is_some() || !misnamed(&name) {
+        return Cow::Borrowed(request);
+    }
+    let [first, second, ..] = Hash::hash(name.as_bytes());
+    let beginnings = (1..name.len())
+        .rev()
+        .filter_map(|length| name.get(..length));
+    let mut shorter = beginnings.map(|beginning| {
+        format!(
+            "{}_{first:02x}{second:02x}",
+            beginning.trim_end_matches('_')
+        )
+    });
+    match shorter.find(|name| !misnamed(name)) {
+        None => Cow::Borrowed(request),
+        short => Cow::Owned(Request {
+            module: short,
+            ..request.clone()
+        }),
+    }
+}
+
+/// Returns what to say of a module whose name was shortened.
+pub(super) fn renamed(robot: &Robot, request: &Request, named: &Request) -> Option<String> {
+    let (name, short) = (request.module_name(robot), named.module_name(robot));
+    (name != short).then(|| {
+        format!(
+            "the module is called `{short}` in C: with `{name}`, names would be longer than {LONGEST} \
+             letters, beyond which compilers need not tell them apart; the option `name` chooses another"
+        )
+    })
 }

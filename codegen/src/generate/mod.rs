@@ -132,6 +132,8 @@ pub const MAX_OUTPUTS: usize = 20_000;
 /// # Errors
 /// Why nothing was generated.
 pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateError> {
+    let asked = request;
+    let request = &*language::with_short_name(robot, asked);
     check(robot, request)?;
     let scene_robot = &request.scene_robot(robot).map_err(GenerateError::Scene)?;
     let task = &Task {
@@ -152,7 +154,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     if ended {
         early::no_dearer_than_quick(task, &mut functions, &scalars);
     }
-    let mut warnings = Vec::new();
+    let mut warnings = Vec::from_iter(language::renamed(robot, asked, request));
     for generated in &mut functions {
         if generated.sines.is_empty() {
             generated.sines = sines(task, generated, &scalars)?;

@@ -102,9 +102,9 @@ impl<'a> Messages<'a> {
                 if values.is_empty() && is_rate && states.is_empty() {
                     continue;
                 }
-                if values.len() != state.names.len() || states.len() != n * (block.len() - 1) {
+                if values.len() != state.joints() || states.len() != n * (block.len() - 1) {
                     let name = super::mapping::QUANTITIES[quantity];
-                    let (count, joints) = (values.len(), state.names.len());
+                    let (count, joints) = (values.len(), state.joints());
                     let why = format!("{count} values of {name} for {joints} joints");
                     return Err(place(Error::new(why)));
                 }
@@ -156,26 +156,42 @@ struct JointState {
 }
 
 impl JointState {
-    /// Returns the place of each of the robot's joints in the message.
+    /// Returns the number of joints in the message, which may have no names for them.
+    fn joints(&self) -> usize {
+        match self.names.len() {
+            0 => self.position.len(),
+            count => count,
+        }
+    }
+
+    /// Returns the place of each of the robot's joints in the message: by its name, or in order where
+    /// the message or the robot has no names.
     fn order(&self, columns: &Columns) -> Result<Vec<usize>, Error> {
         let wanted = &columns.joint_names;
-        if wanted.is_empty() || wanted.iter().all(|name| !self.names.contains(name)) {
-            return match self.names.len() == columns.joints {
-                true => Ok((0..columns.joints).collect()),
+        let own = self.names.join(", ");
+        if wanted.is_empty() || self.names.is_empty() {
+            let count = self.joints();
+            return match count == columns.joints {
+                true => Ok((0..count).collect()),
                 false => Err(Error::new(format!(
-                    "it is of {} joints ({}), and the robot has {}: name those of the robot by \
+                    "it is of {count} joints ({own}), and the robot has {}: name those of the robot by \
                      `--joint-names`",
-                    self.names.len(),
-                    self.names.join(", "),
                     columns.joints
                 ))),
             };
         }
-        let each = wanted.iter().map(|name| {
-            let place = self.names.iter().position(|own| own == name);
-            place.ok_or_else(|| Error::new(format!("it has no joint `{name}`")))
-        });
-        each.collect()
+        let is_lost = |name: &&String| !self.names.contains(name);
+        let lost: Vec<&str> = wanted.iter().filter(is_lost).map(String::as_str).collect();
+        if !lost.is_empty() {
+            return Err(Error::new(format!(
+                "it has no joint {}: its joints are {own}, those of the robot {}; say which of its joints \
+                 are the robot's, in the robot's order, by `--joint-names`",
+                lost.join(", "),
+                wanted.join(", ")
+            )));
+        }
+        let place = |name: &String| self.names.iter().position(|own| own == name);
+        Ok(wanted.iter().filter_map(place).collect())
     }
 }
 

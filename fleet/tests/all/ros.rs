@@ -55,8 +55,11 @@ fn message(time: f64, names: &[&str], values: [&[f64]; 3], is_little: bool) -> V
     cdr.bytes
 }
 
-/// Writes the states of a log as a recording of joints in another order, with a gripper.
-fn record(log: &Path, to: &Path, is_little: bool) {
+/// Joints of a recording: their names, and their places in the robot, of which a gripper has none.
+type Joints = [(&'static str, Option<usize>)];
+
+/// Writes the states of a log as a recording of these joints, whose names may be empty.
+fn record(log: &Path, to: &Path, joints: &Joints, is_little: bool) {
     let mut writer = Writer::new(BufWriter::new(File::create(to).unwrap())).unwrap();
     let mut channel = |topic: &str, schema: &str| {
         let schema = writer.add_schema(schema, "ros2msg", b"").unwrap();
@@ -76,18 +79,54 @@ fn record(log: &Path, to: &Path, is_little: bool) {
         };
         writer.write_to_known_channel(&header, data).unwrap();
     };
-    let names = ["b", "gripper", "a"];
+    let names = joints.iter().map(|(name, _)| *name);
+    let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
     let columns = Columns::canonical(2);
     for block in Blocks::open(log, &columns).unwrap() {
         let block = block.unwrap();
         for (s, time) in block.time.iter().enumerate() {
-            let at = |of| [block.column(of, 1)[s], 0.5, block.column(of, 0)[s]];
+            let at = |of| -> Vec<f64> {
+                let value = |joint| block.column(of, joint)[s];
+                joints
+                    .iter()
+                    .map(|(_, joint)| joint.map_or(0.5, value))
+                    .collect()
+            };
             let data = message(*time, &names, [&at(0), &[], &at(3)], is_little);
             put(other, *time, b"\0\x01\0\0");
             put(states, *time, &data);
         }
     }
     writer.finish().unwrap();
+}
+
+/// Joints of other names are not taken in order, however many there are; those without names are.
+#[test]
+fn joints_of_other_names_are_refused() {
+    let folder = Folder::new();
+    let (arm, logs) = (robot_file("planar2r"), folder.file("logs"));
+    let simulate = ["simulate", "--robot", text(&arm), "-o", text(&logs)];
+    let short = ["--files", "1", "--seconds", "5", "--encoders-only"];
+    succeeds(&[&simulate[..], &short].concat());
+    let (log, path) = (folder.file("logs/log0000.parquet"), folder.file("log.mcap"));
+    let residual = ["residual", text(&path), "--robot", text(&arm)];
+    record(&log, &path, &[("b", Some(1)), ("a", Some(0))], true);
+    let why = fails(&residual);
+    let said =
+        "it has no joint shoulder, elbow: its joints are b, a, those of the robot shoulder, elbow";
+    assert!(why.contains(said) && why.contains("--joint-names"), "{why}");
+    record(&log, &path, &[("", Some(0)), ("", Some(1))], true);
+    let found = rows(&succeeds(&residual), "log.mcap");
+    let named = [
+        "residual",
+        text(&path),
+        "--robot",
+        text(&arm),
+        "--joint-names",
+        "a,b",
+    ];
+    record(&log, &path, &[("b", Some(1)), ("a", Some(0))], true);
+    assert_eq!(found, rows(&succeeds(&named), "log.mcap"));
 }
 
 #[test]
@@ -102,7 +141,12 @@ fn recordings_give_what_parquet_files_give() {
     let wanted = rows(&table, "log0000.parquet");
     for is_little in [true, false] {
         let path = folder.file("log.mcap");
-        record(&log, &path, is_little);
+        record(
+            &log,
+            &path,
+            &[("b", Some(1)), ("gripper", None), ("a", Some(0))],
+            is_little,
+        );
         let base = ["residual", text(&path), "--robot", text(&arm)];
         let named = [&base[..], &["--joint-names", "a,b"]].concat();
         let found = rows(&succeeds(&named), "log.mcap");
@@ -120,7 +164,10 @@ fn recordings_give_what_parquet_files_give() {
         let why = fails(&[&named[..], &["--topic", "/chatter"]].concat());
         assert!(why.contains("std_msgs/msg/String"), "{why}");
         let why = fails(&[&base[..], &["--joint-names", "a,wrist"]].concat());
-        assert!(why.contains("message 1: it has no joint `wrist`"), "{why}");
+        assert!(
+            why.contains("message 1: it has no joint wrist: its joints"),
+            "{why}"
+        );
         let bytes = std::fs::read(&path).unwrap();
         std::fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
         let why = fails(&named);

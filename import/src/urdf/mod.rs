@@ -60,6 +60,32 @@ pub(crate) enum Tied {
 }
 
 impl Urdf {
+    /// Returns the joints that move, by their places: from the root outwards, each branch to its
+    /// ends before the next in the file.
+    pub(crate) fn moving(&self) -> Vec<usize> {
+        let joints = || self.joints.iter().enumerate().rev();
+        let is_root = |link: &str| self.joints.iter().all(|joint| joint.child.0 != link);
+        let roots = joints().filter(|(_, joint)| is_root(&joint.parent.0));
+        let mut open: Vec<(usize, &Joint)> = roots.collect();
+        let (mut seen, mut moving) = (BTreeSet::new(), Vec::new());
+        while let Some((place, joint)) = open.pop() {
+            if seen.insert(place) {
+                moving.extend((joint.kind != Kind::Fixed).then_some(place));
+                open.extend(joints().filter(|(_, next)| next.parent.0 == joint.child.0));
+            }
+        }
+        moving
+    }
+
+    /// Finds a joint by its name, or by its number, from 1, among those that move.
+    pub(crate) fn joint(&self, name: &str) -> Option<usize> {
+        let named = self.joints.iter().position(|joint| joint.name == name);
+        named.or_else(|| {
+            let number: usize = name.parse().ok()?;
+            self.moving().get(number.checked_sub(1)?).copied()
+        })
+    }
+
     /// Leaves out the ties, and followers along curves, after naming them.
     pub(crate) fn untie(&mut self, problems: &mut Problems) {
         let mut ties: Vec<(Range<usize>, String)> = Vec::new();

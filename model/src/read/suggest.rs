@@ -2,13 +2,14 @@
 
 use alloc::format;
 use alloc::string::String;
+use core::iter;
 
 use strsim::osa_distance;
 
 use crate::outputs::{BundleError, Function};
 
 /// Words of other tools and textbooks, with ours.
-const OTHER_WORDS: [(&str, &str); 42] = [
+const OTHER_WORDS: [(&str, &str); 51] = [
     ("m", "mass"),
     ("weight", "mass"),
     ("r", "com"),
@@ -51,6 +52,15 @@ const OTHER_WORDS: [(&str, &str); 42] = [
     ("fk", "forward_kinematics"),
     ("nle", "manipulator_equation"),
     ("nonlinear_effects", "manipulator_equation"),
+    ("m", "inertia"),
+    ("d", "inertia"),
+    ("c", "coriolis"),
+    ("j", "jacobian"),
+    ("t", "forward_kinematics"),
+    ("y", "regressor"),
+    ("tau", "inverse_dynamics"),
+    ("qdd", "forward_dynamics"),
+    ("p", "potential_energy"),
 ];
 
 /// Returns the likely fix of a bundle that cannot be read, with the output that was
@@ -92,9 +102,10 @@ pub fn closest<'c>(word: &str, candidates: &[&'c str]) -> Option<&'c str> {
         return None;
     }
     let word = word.to_ascii_lowercase();
-    let other = OTHER_WORDS.iter().find(|(other, _)| *other == word);
-    let meant = other.map_or(word.as_str(), |(_, meant)| meant);
-    if let Some(same) = candidates.iter().find(|c| **c == meant) {
+    let others = OTHER_WORDS.iter().filter(|(other, _)| *other == word);
+    let mut words = iter::once(word.as_str()).chain(others.map(|(_, meant)| *meant));
+    let same = words.find_map(|word| candidates.iter().find(|known| **known == word));
+    if let Some(same) = same {
         return Some(same);
     }
     let letters = word.chars().count();

@@ -8,6 +8,7 @@ use toml_span::{Error, ErrorKind};
 use super::foreign;
 use super::report::{Sink, quote};
 use crate::number::Angle;
+use crate::number::parse::NumberError;
 
 /// Reports an error of the TOML parser.
 pub(super) fn report(source: &str, error: &Error, sink: &mut Sink) {
@@ -45,6 +46,10 @@ pub(super) fn report(source: &str, error: &Error, sink: &mut Sink) {
             let (message, help) = foreign::character(*c).unwrap_or_default();
             (message, help.to_string())
         }
+        ErrorKind::InvalidNumber if word.parse().is_ok_and(f64::is_infinite) => (
+            format!("{} is {}", quote(word), NumberError::OutOfRange),
+            NumberError::OutOfRange.help().to_string(),
+        ),
         ErrorKind::InvalidNumber => (
             format!("{} is not a number that TOML can hold", quote(word)),
             "write 0.5 for .5, 5.0 for 5., and integers beyond 64 bits as 1e30".to_string(),

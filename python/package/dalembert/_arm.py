@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections import namedtuple
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
@@ -139,11 +140,20 @@ class Arm:
 
     def to_rust(self, path: Path) -> None:
         """Write the functions as flat Rust, as the command does."""
+        _ends_in(path, [".rs"], "Rust", "to_c writes a header of C")
         _write(path, self._native.rust)
 
-    def to_c(self, path: Path) -> None:
-        """Write the functions as one header of C99, which C++ reads too; proved once more."""
-        _write(path, self._native.c())
+    def to_c(self, path: Path, *, name: str | None = None) -> None:
+        """Write the functions as one header of C99, which C++ reads too; proved once more.
+
+        Names in it begin with ``name``; with the robot's, if ``None``, which is shortened where
+        it is too long for C: a warning says how.
+        """
+        _ends_in(path, [".h", ".hpp", ".hh"], "C", "to_rust writes Rust")
+        header, said = self._native.c(name)
+        for warning in said:
+            warnings.warn(keywords(warning), stacklevel=2)
+        _write(path, header)
 
     def save(self, path: Path) -> None:
         """Write the robot file, and beside it the plan with the programs found.
@@ -196,19 +206,28 @@ class Arm:
 _HEADS = ("function", "scalar", "mul", "add", "sincos", "proved")
 
 
+def _ends_in(path: Path, endings: list[str], language: str, other: str) -> None:
+    extension = os.path.splitext(os.fspath(path))[1]
+    if extension and extension.lower() not in endings:
+        expected = " or ".join(endings)
+        raise ValueError(
+            f"path: the name of a file of {language} ends in {expected}, found {extension!r}: {other}"
+        )
+
+
 def _write(path: Path, text: str) -> None:
     with open(path, "w", encoding="utf-8", newline="\n") as file:
         file.write(text)
 
 
-def _locked(lock: Mapping[str, float | str] | str | None) -> list[tuple[str, str]]:
+def _locked(lock: Mapping[str | int, float | str] | str | None) -> list[tuple[str, str]]:
     if lock is None:
         return []
     if isinstance(lock, str):
         if lock != "*":
             raise ValueError(f'lock: expected "*" or a dictionary of positions, found {lock!r}')
         return [("*", "0")]
-    return [(joint, str(at)) for joint, at in lock.items()]
+    return [(str(joint), str(at)) for joint, at in lock.items()]
 
 
 def _load(
@@ -240,9 +259,13 @@ def load(
     *,
     base: str | None = None,
     tip: str | None = None,
-    lock: Mapping[str, float | str] | Literal["*"] | None = None,
+    lock: Mapping[str | int, float | str] | Literal["*"] | None = None,
     without: str | Sequence[str] = (),
     exact: bool = False,
+    snap: bool = False,
+    ignore_ties: bool = False,
+    acceleration: float | str | None = None,
+    name: str | None = None,
     outputs: str | Sequence[str] | None = None,
     scalar: str | Sequence[str] | None = None,
     parameters: str | Sequence[str] = (),
@@ -266,12 +289,23 @@ def load(
         Of a URDF: the link that stands still, and the one whose frame is the hand.
     lock
         Of a URDF: joints that stay where they are, each with its position, such as
-        ``{"gripper": 0}`` or ``{"elbow": "90deg"}``; ``"*"``: all that hang on the chain, at
-        zero or the limit nearest to it.
+        ``{"gripper": 0}`` or ``{"elbow": "90deg"}``; a number that is no joint's name counts,
+        from 1, those that move, from the root outwards; ``"*"``: all that hang on the chain,
+        at zero or the limit nearest to it.
     without
         Of a URDF: links to leave away, with everything that hangs on them.
     exact
         Of a URDF: take every digit as it stands; else 1.57079632679 is π/2.
+    snap
+        Of a URDF: take rounded numbers for exact ones even where that changes a torque by more
+        than 1e-6 of its limit.
+    ignore_ties
+        Of an MJCF: leave out tendons, loops and equalities, which no chain of joints can have.
+    acceleration
+        Of a URDF: the limit of acceleration of every joint, rad/s² or m/s²; without one, there
+        is none.
+    name
+        Of a URDF: the name of the robot, instead of the model's.
     outputs
         The functions, of those that :func:`dalembert.outputs` lists, or
         ``"NAME=OUTPUT+OUTPUT"``: one that returns what several do and shares their work.
@@ -301,12 +335,18 @@ def load(
     """
     if nan not in ("propagate", "raise"):
         raise ValueError(f'nan: expected "propagate" or "raise", found {nan!r}')
+    if exact and snap:
+        raise ValueError("exact, snap: expected one of the two: they exclude each other")
     options = {
         "base": base,
         "tip": tip,
         "lock": _locked(lock),
         "without": _words("without", without),
         "exact": exact,
+        "snap": snap,
+        "ignore_ties": ignore_ties,
+        "acceleration": None if acceleration is None else str(acceleration),
+        "name": name,
         "outputs": _words("outputs", outputs),
         "scalar": _words("scalar", scalar),
         "parameters": _words("parameters", parameters),

@@ -8,8 +8,8 @@ import re
 _FLAG = re.compile(
     r"(?P<command>`dalembert [^`]*`)|--(?P<others>lock-others) 0"
     r"|--lock (?P<joint>(?!or\b|and\b)[^\s=:,]+)(=(?P<at>[^\s,;:]+))?"
-    r"|--(?P<name>base|tip|without|sincos|scene|effort) (?!or\b|and\b)(?P<value>[^\s,;:`]+)"
-    r"|--(?P<bare>[a-z]+)"
+    r"|--(?P<name>base|tip|without|name|sincos|scene|effort) (?!or\b|and\b)(?P<value>[^\s,;:`]+)"
+    r"|--(?P<bare>[a-z]+(-[a-z]+)*)"
 )
 
 
@@ -25,6 +25,6 @@ def keywords(message: str) -> str:
             return f'lock={{"{found["joint"]}": {found["at"] or "…"}}}'
         if found["name"]:
             return f'{found["name"]}="{found["value"]}"'
-        return found["bare"] + "="
+        return found["bare"].replace("-", "_") + "="
 
     return _FLAG.sub(keyword, message)

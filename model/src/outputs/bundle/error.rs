@@ -74,6 +74,7 @@ impl BundleError {
                 format!("`{name}` would end as the other way to call `{of}` does, `{ending}`")
             }
             BundleError::Nameless(parts) => format!("`{parts}` has no name"),
+            BundleError::Unknown(word) if word.is_empty() => "expected an output".to_string(),
             BundleError::Unknown(word) => format!("unknown output `{word}`"),
             BundleError::Nested(bundle) => format!("`{bundle}` is a bundle itself"),
             BundleError::Few(_) => "a bundle has two parts at least".to_string(),
@@ -112,6 +113,9 @@ impl BundleError {
             | BundleError::Taken(_)
             | BundleError::Ending(..) => "call the bundle otherwise".to_string(),
             BundleError::Nameless(parts) => format!("write NAME = {parts}"),
+            BundleError::Unknown(word) if word.is_empty() => {
+                "write its name, such as `gravity`".to_string()
+            }
             BundleError::Unknown(_) | BundleError::Few(None) => {
                 "a bundle is NAME = OUTPUT + OUTPUT".to_string()
             }
