@@ -128,7 +128,7 @@ def rust_batch(arm, folder: Path):
     """Return the Rust batch of the same arm, compiled for AVX2."""
     n = len(arm.joints)
     arm.save(folder / "arm.toml")
-    generate = "generate arm.toml -o batch.rs --entries batch --sincos together --scalar f64"
+    generate = "generate arm.toml -o batch.rs --batch --sincos together --scalar f64"
     command = [sys.executable, "-m", "dalembert", *generate.split(), "--outputs=inverse_dynamics"]
     subprocess.run(command, cwd=folder, check=True, capture_output=True)
     paths = "".join(
@@ -141,12 +141,16 @@ def rust_batch(arm, folder: Path):
     )
     (folder / "lib.rs").write_text(
         "mod batch;\nuse std::slice::{from_raw_parts, from_raw_parts_mut};\n"
-        f"type State = [f64; {n}];\n#[unsafe(no_mangle)]\n"
-        "unsafe extern \"C\" fn run(q: *const State, qd: *const State, qdd: *const State, "
-        "out: *mut State, count: usize) {\n unsafe {\n"
-        f"  batch::{arm.name}::inverse_dynamics_batch(from_raw_parts(q, count), "
-        "from_raw_parts(qd, count), from_raw_parts(qdd, count), from_raw_parts_mut(out, count))"
-        ".unwrap();\n }\n}\n"
+        f"const N: usize = {n};\n"
+        "unsafe fn columns<'a>(x: *const f64, count: usize) -> [&'a [f64]; N] {\n"
+        " std::array::from_fn(|i| unsafe { from_raw_parts(x.add(i * count), count) })\n}\n"
+        "#[unsafe(no_mangle)]\n"
+        "unsafe extern \"C\" fn run(q: *const f64, qd: *const f64, qdd: *const f64, "
+        "out: *mut f64, count: usize) {\n unsafe {\n"
+        "  let mut out: [&mut [f64]; N] =\n"
+        "   std::array::from_fn(|i| from_raw_parts_mut(out.add(i * count), count));\n"
+        "  let [q, qd, qdd] = [q, qd, qdd].map(|x| columns(x, count));\n"
+        "  batch::inverse_dynamics_columns(&q, &qd, &qdd, &mut out).unwrap();\n }\n}\n"
     )
     subprocess.run(
         ["cargo", "build", "--release", "--quiet"],
@@ -255,11 +259,12 @@ def main() -> None:
             print(f"without dynibo: {error}")
         try:
             run = rust_batch(arm, Path(folder))
-            arrays = [ctypes.c_void_p(x.ctypes.data) for x in (q, qd, qdd, rust)]
+            columns = [np.ascontiguousarray(x.T) for x in (q, qd, qdd, rust)]
+            arrays = [ctypes.c_void_p(x.ctypes.data) for x in columns]
             count = ctypes.c_size_t(STATES)
             many["Rust batch, AVX2"] = (STATES, lambda: run(*arrays, count))
             run(*arrays, count)
-            results["Rust batch"] = rust[0]
+            results["Rust batch"] = columns[3][:, 0]
         except OSError as error:
             print(f"without the Rust batch: {error}")
         for name, other in results.items():

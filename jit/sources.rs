@@ -7,11 +7,12 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// The folders that are hashed, and the versions of what they use.
-pub(crate) const SOURCES: [&str; 6] = [
+pub(crate) const SOURCES: [&str; 7] = [
     "Cargo.lock",
     "src",
     "../codegen/src",
     "../import/src",
+    "../macros/stamp/src",
     "../model/src",
     "../sines/src",
 ];

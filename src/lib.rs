@@ -74,13 +74,23 @@ pub mod matrices;
 /// documentation with the DH table, the operation counts and the proof.
 /// Functions take arrays by reference and return arrays.
 ///
+/// # The generated file
+///
+/// `robots/arm.rs` beside `robots/arm.toml`, called after the module, is taken as it stands if its
+/// first lines say that it was generated from this robot file with what the clauses ask, and its text
+/// is as it was written; more outputs than these may be in it. `dalembert generate` writes it, and
+/// `dalembert renew` makes it new from its own first lines.
+///
+/// Otherwise the feature `search` of this crate, which is on by default, generates while compiling. Without
+/// it there is one error that says what has changed, and the command that helps: a crate then
+/// compiles in seconds.
+///
 /// # The robot
 ///
 /// A robot file by its path, relative to `CARGO_MANIFEST_DIR` or, where there is none,
 /// to the folder of the file with the macro; editing it
-/// expands the macro again, and so does a plan that `dalembert generate
-/// --save-plan` puts beside it. (A first plan that comes with a checkout is
-/// noticed once the robot file is newer than the last build: touch it.) Or the
+/// expands the macro again. With the feature `search` a plan that `dalembert generate
+/// --save-plan` puts beside it is replayed, and there may be the
 /// text of a robot file, several lines of TOML in a raw string:
 ///
 /// ```
@@ -113,30 +123,8 @@ pub mod matrices;
 /// angle, and so is `"90deg"`.
 ///
 /// What is odd about a robot, such as an inertia that no body has or lengths that
-/// look like millimetres, is a warning of the compiler. Whoever knows better
-/// silences it by its name, which its help says:
-///
-/// ```
-/// #![deny(deprecated)]
-/// dalembert::dynamics! {
-///     mod turntable = r#"
-///         name = "turntable"
-///         convention = "standard"
-///         gravity = [0, 0, -9.81]
-///         allow = ["impossible_inertia"]
-///         [[joint]]
-///         kind = "revolute"
-///         mass = 2
-///         com = [0, 0, 0]
-///         inertia = [0, 0, 0.5, 0, 0, 0]
-///     "#;
-///     outputs: inertia;
-/// }
-/// assert_eq!(turntable::inertia(&[0.3]), [[0.5]]);
-/// ```
-///
-/// All of them are silenced by `#[allow(deprecated)]` above the module: that is the
-/// lint which lets a macro warn.
+/// look like millimetres, is a warning of whatever generates. Whoever knows better
+/// silences it by its name, which its help says: `allow = ["impossible_inertia"]` in the robot file.
 ///
 /// # Clauses
 ///

@@ -273,12 +273,13 @@ pub fn inverse_dynamics(q: &[f64; 6], qd: &[f64; 6], qdd: &[f64; 6]) -> [f64; 6]
 
 #[allow(clippy::all, clippy::pedantic)]
 pub mod std_sines {
+use crate::std_math as libm;
 #[must_use]
 pub fn inverse_dynamics(q: &[f64; 6], qd: &[f64; 6], qdd: &[f64; 6]) -> [f64; 6] {
-    let (s2, c2) = crate::std_math::sincos(q[1]);
-    let (s3, c3) = crate::std_math::sincos(q[2]);
-    let (s4, c4) = crate::std_math::sincos(q[3]);
-    let (s5, c5) = crate::std_math::sincos(q[4]);
+    let (s2, c2) = libm::sincos(q[1]);
+    let (s3, c3) = libm::sincos(q[2]);
+    let (s4, c4) = libm::sincos(q[3]);
+    let (s5, c5) = libm::sincos(q[4]);
     let t1 = c2 * s3;
     let t2 = s2 * c3;
     let t3 = t1 + t2;

@@ -37,7 +37,8 @@ fn quiet_folder<'r>(robot: &'r Path, output: &Path) -> Option<&'r Path> {
 /// Prints a warning of cargo's, on one line as it wants it.
 #[cfg(feature = "search")]
 pub(crate) fn warn(message: &str) {
-    tell(&format!("warning={}", message.replace('\n', " ")));
+    let lines: Vec<&str> = message.lines().map(str::trim).collect();
+    tell(&format!("warning={}", lines.join(" ")));
 }
 
 /// Tells cargo; outside a build script nobody would listen.

@@ -15,11 +15,12 @@ pub(crate) fn follows(item: &Found, functions: &[&Found], setting: &Setting) -> 
     let lines = item.text.lines().map(str::trim);
     let lines: Vec<&str> = lines.filter(|line| !line.is_empty()).collect();
     let expected = expected(&lines, functions, setting);
-    let other = lines.iter().zip(&expected).find(|(own, line)| own != line);
+    let mut pairs = lines.iter().enumerate();
+    let other = pairs.find(|(index, own)| expected.get(*index).map(String::as_str) != Some(**own));
     if other.is_none() && lines.len() == expected.len() {
         return Ok(());
     }
-    let own = other.map_or("", |(own, _)| own);
+    let own = other.map_or("", |(_, own)| own);
     let why = format!("it does not follow from the functions and the robot: `{own}`");
     Err(Fault::Text(item.line, why))
 }

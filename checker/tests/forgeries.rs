@@ -106,9 +106,14 @@ fn generated_files_are_read() {
     for name in [
         "planar2r", "planar3r", "puma560", "stanford", "ur10", "panda",
     ] {
-        assert!(list(&format!("generated/robots/{name}.rs")) >= 12, "{name}");
+        for scalar in ["", "_f32"] {
+            let path = format!("generated/robots/{name}{scalar}.rs");
+            assert!(list(&path) >= 6, "{path}");
+        }
     }
-    assert!(list("benches/generated/puma560_batch.rs") >= 2);
+    for scalar in ["", "_f32"] {
+        assert!(list(&format!("benches/generated/puma560_batch{scalar}.rs")) >= 2);
+    }
 }
 
 /// T is reached at a state, or errors relative to it look smaller than they are.

@@ -1,7 +1,7 @@
 //! Generated headers in C99: shown as the Rust text of the same robot is, and planted faults
 //! are found.
 
-use dalembert_checker::exact::{Report, check};
+use dalembert_checker::exact::{Line, Report, check};
 
 use crate::support::file;
 
@@ -18,11 +18,15 @@ fn report(source: &str) -> Report {
 }
 
 /// Compares what is found of each function: the same numbers, whichever language it is in.
-fn is_same(header: &str, rust: &str) {
-    let [header, rust] = [header, rust].map(|path| report(&file(path)));
+fn is_same(header: &str, rust: &[&str]) {
+    let header = report(&file(header));
+    let rust: Vec<Line> = rust
+        .iter()
+        .flat_map(|path| report(&file(path)).lines)
+        .collect();
     assert!(header.is_shown(), "{header:?}");
-    assert_eq!(header.lines.len(), rust.lines.len(), "{header:?}");
-    for (own, other) in header.lines.iter().zip(&rust.lines) {
+    assert_eq!(header.lines.len(), rust.len(), "{header:?}");
+    for (own, other) in header.lines.iter().zip(&rust) {
         let [found, expected] = [own, other].map(|line| *line.result.as_ref().unwrap());
         assert_eq!(own.name, other.name);
         assert_eq!(found.unit, expected.unit, "{}", own.name);
@@ -36,7 +40,10 @@ fn is_same(header: &str, rust: &str) {
 fn verdicts_are_those_of_rust() {
     is_same(
         "checker/tests/data/generated/planar2r.h",
-        "generated/robots/planar2r.rs",
+        &[
+            "generated/robots/planar2r.rs",
+            "generated/robots/planar2r_f32.rs",
+        ],
     );
     let modules: Vec<String> = report(&header())
         .lines
@@ -52,7 +59,7 @@ fn verdicts_are_those_of_rust() {
 fn polynomials_and_fused_products() {
     let [header, rust] =
         ["h", "rs"].map(|kind| format!("checker/tests/data/generated/planar2r-polynomial.{kind}"));
-    is_same(&header, &rust);
+    is_same(&header, &[&rust]);
 }
 
 /// Sines of all angles by one call of a function of the header.
@@ -60,12 +67,12 @@ fn polynomials_and_fused_products() {
 fn sines_of_the_headers_own() {
     let [header, rust] =
         ["h", "rs"].map(|kind| format!("checker/tests/data/generated/planar2r-together.{kind}"));
-    is_same(&header, &rust);
+    is_same(&header, &[&rust]);
     let source = file(&header);
     let listed = "    const double angles[2] = {q[0], q[1]};\n    double sines[2];\n";
     let listed = source.replace("    double sines[2];\n", listed);
     let listed = listed.replace("_sines_2(&q[0], ", "_sines_2(angles, ");
-    let is_double = |line: &&dalembert_checker::exact::Line| line.module == "planar2r";
+    let is_double = |line: &&Line| line.module == "planar2r";
     let shown = |source: &str| {
         let found = report(source).lines;
         let found = found.iter().filter(is_double);
@@ -263,7 +270,7 @@ fn headers_that_are_not_generated() {
 fn bundles() {
     let [header, rust] =
         ["h", "rs"].map(|kind| format!("checker/tests/data/generated/planar2r-bundle.{kind}"));
-    is_same(&header, &rust);
+    is_same(&header, &[&rust]);
     let shown = |source: &str| {
         let lines = report(source).lines;
         let shown = |name: &str| {
@@ -324,7 +331,7 @@ fn bundles() {
 fn batches() {
     let [header, rust] =
         ["h", "rs"].map(|kind| format!("checker/tests/data/generated/planar2r-batch.{kind}"));
-    is_same(&header, &rust);
+    is_same(&header, &[&rust]);
     for name in ["columns", "columns-polynomial"] {
         let found = report(&file(&format!(
             "checker/tests/data/generated/planar2r-{name}.h"

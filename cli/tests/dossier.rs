@@ -52,7 +52,7 @@ fn what_is_found_is_filled_in() {
     );
     let [filled, open] = boxes(&text);
     for said in [
-        "The input hash in the file's first line is that of the robot file.",
+        "The input hash in the file's documentation is that of the robot file.",
         "Every joint has limits of position and rates.",
         "No function has a branch or a loop.",
         "No function calls another: `core` alone, in C without `math.h`.",

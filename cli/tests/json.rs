@@ -125,7 +125,7 @@ fn new_says_what_it_made() {
         (&"my_arm".into(), &"planar".into())
     );
     let files = said["files"].as_array().unwrap();
-    assert_eq!(files.len(), 3);
+    assert_eq!(files.len(), 4);
     for file in files {
         assert!(folder.join(file.as_str().unwrap()).is_file(), "{file}");
     }
@@ -151,7 +151,7 @@ fn generate_and_certify_say_what_is_bounded() {
     let gravity = &exact["functions"]["gravity"];
     assert_eq!(gravity["counts"]["mul"], 4);
     assert_eq!(gravity["proof"]["failure_exponent"], -36);
-    assert!(gravity["errors_in_u"]["f32"]["normwise"].as_f64().unwrap() < 100.0);
+    assert!(gravity["errors_in_u"]["f64"]["normwise"].as_f64().unwrap() < 100.0);
     assert_eq!(gravity["tolerance"], Value::Null);
     assert!(
         fs::read_to_string(at("arm.rs"))

@@ -17,7 +17,7 @@ pub struct Made {
     pub request: Request,
     /// The code.
     pub generated: Generated,
-    /// What is odd about the robot or its code, a sentence each.
+    /// What is odd about the robot or its code, a sentence each, and a line with the likely fix.
     pub warnings: Vec<String>,
 }
 
@@ -45,7 +45,7 @@ pub fn ask(
     let notes = notes.filter(|note| note.severity == Severity::Warning);
     let mut warnings: Vec<String> = notes
         .map(|note| {
-            let help = note.help.as_ref().map(|help| format!(" ({help})"));
+            let help = note.help.as_ref().map(|help| format!("\n  = help: {help}"));
             let help = help.unwrap_or_default();
             format!("{shown}:{}: {}{help}", note.line, note.message)
         })

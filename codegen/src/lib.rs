@@ -36,7 +36,7 @@
 //!
 //! And the ways in, which all end in `generate`:
 //! - `robot_file`: a robot file from a path, with errors fit to show
-//! - [`ask()`]: what macro and build script ask of one
+//! - `ask`: what macro and build script ask of one
 //!
 //! The other crates of the workspace, and the tests, use more than what is listed
 //! below, by one door:

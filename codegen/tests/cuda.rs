@@ -44,7 +44,7 @@ fn the_device_rounds_every_operation() {
         };
         let generated = generate(&robot, &request).unwrap();
         let source = folder.join("arm.cu");
-        fs::write(folder.join("arm.cuh"), &generated.text()).unwrap();
+        fs::write(folder.join("arm.cuh"), generated.text()).unwrap();
         fs::write(&source, "#include \"arm.cuh\"\n").unwrap();
         let ptx = folder.join("arm.ptx");
         let said = Command::new(nvcc)

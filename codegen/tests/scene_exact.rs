@@ -234,7 +234,6 @@ fn the_text_says_what_is_left() {
     let functions = [Function::InverseDynamics, Function::Inertia];
     let text = run(&robot, &scene, &functions).text();
     for part in [
-        "pub mod puma560_test {",
         "pub const N: usize = 6;",
         "pub const JOINTS: [usize; 3] = [0, 1, 2];",
         "pub fn inverse_dynamics(q: &[f64; 6], qdd: &[f64; 6]) -> [f64; 3] {",

@@ -6,7 +6,7 @@ use std::fmt;
 use std::path::Path;
 
 use dalembert_fit::{Accumulator, Model, Options};
-use dalembert_jit::{Arm, Load, Native, Output, Place, Rows, RowsMut, Scalar};
+use dalembert_jit::{Arm, Asked, Load, Native, Output, Place, Rows, RowsMut, Scalar};
 use dalembert_model::robot::{Robot, write};
 
 use crate::error::Error;
@@ -169,10 +169,14 @@ impl Loaded {
 }
 
 fn load(urdf: &dalembert_import::Options, output: Output) -> Load {
+    let mut asked = Asked::default();
+    for (option, value) in [("outputs", output.name()), ("scalar", "f64")] {
+        // Both are options.
+        let _ = asked.set(option, value);
+    }
     Load {
         urdf: urdf.clone(),
-        outputs: Some(vec![output]),
-        scalars: Some(vec![Scalar::F64]),
+        asked,
         ..Load::default()
     }
 }

@@ -10,9 +10,11 @@ use dalembert_codegen::workspace::generate::{Generated, generate};
 use dalembert_codegen::workspace::language::Language;
 use dalembert_codegen::workspace::plan::Plan;
 use dalembert_codegen::workspace::program::{Counts, Lowered, ScalarType};
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::words::parse;
 use dalembert_import::MAX_BYTES;
 use dalembert_model::robot::Robot;
+use dalembert_stamp::{Comment, Stamp};
 
 use crate::cache::{self, Folder};
 use crate::compile::Signature;
@@ -191,9 +193,37 @@ impl Arm {
         all.find(|function| function.name() == name && function.scalar() == scalar)
     }
 
-    /// Returns the functions as Rust.
-    pub fn rust(&self) -> &str {
+    /// Returns the functions as Rust: the text of a file for each scalar, without its stamp.
+    pub fn rust(&self) -> &[String] {
         &self.entry.rust
+    }
+
+    /// Returns the files that the command writes beside the robot file, called after the robot: for
+    /// each scalar what the file's name ends in, `_f32` of the second or nothing, and its text.
+    ///
+    /// # Errors
+    /// [`LoadError`]: what is kept is damaged.
+    pub fn files(&self) -> Result<Vec<(&'static str, String)>, LoadError> {
+        let reading = read_robot(&self.entry.robot, "the arm's robot file")?;
+        let request = self.load.request(&reading)?;
+        let mut scalars: Vec<ScalarType> = self.functions.iter().map(Function::scalar).collect();
+        scalars.dedup();
+        let file = |(scalar, text): (&ScalarType, &String)| {
+            let is_second = scalars.len() > 1 && *scalar == ScalarType::F32;
+            let asked = Request {
+                scalars: vec![*scalar],
+                ..request.clone()
+            };
+            let stamp = Stamp {
+                version: env!("CARGO_PKG_VERSION").to_owned(),
+                robot: format!("{}.toml", self.robot.name),
+                robot_hash: dalembert_stamp::hash(&self.entry.robot),
+                asked: asked.asked(),
+            };
+            let suffix = if is_second { "_f32" } else { "" };
+            (suffix, stamp.write(Comment::Line, text))
+        };
+        Ok(scalars.iter().zip(&self.entry.rust).map(file).collect())
     }
 
     /// Prints the functions as one header of C99, proved once more, and returns it with the warnings
@@ -208,10 +238,12 @@ impl Arm {
         request.module = name;
         request.plan = Plan::parse(&self.entry.plan).ok();
         let Generated {
-            text, mut warnings, ..
+            texts,
+            mut warnings,
+            ..
         } = generate(&reading.robot, &request).map_err(LoadError::Generate)?;
         warnings.retain(|warning| !self.notes().contains(warning));
-        Ok((text, warnings))
+        Ok((texts.concat(), warnings))
     }
 
     /// Returns the robot as a robot file.
@@ -254,9 +286,8 @@ fn compiled(entry: &Entry, proved: &Proved) -> Result<Function, LoadError> {
         false => Output::parse(&proved.function).map_err(|_| damaged())?,
     };
     let scalar = parse::<ScalarType>(&proved.scalar).map_err(|_| damaged())?;
-    let mut sections = entry.rust.split("\npub mod ").skip(1);
-    let section = sections.nth(proved.section).ok_or_else(damaged)?;
-    let program = Lowered::parse(section, output, scalar).map_err(|_| damaged())?;
+    let text = entry.rust.get(proved.file).ok_or_else(damaged)?;
+    let program = Lowered::parse(text, output, scalar).map_err(|_| damaged())?;
     let sizes = proved.sizes();
     let arguments = proved.arguments.iter().map(|name| {
         let argument = Argument::from_name(name)?;

@@ -30,7 +30,7 @@ const MAX_BYTES: u64 = 1 << 28;
 /// A folder with entries and plans.
 pub(crate) struct Folder(PathBuf);
 
-/// Returns names an entry by all that it is made from.
+/// Names an entry by all that it is made from.
 pub(crate) fn key(source: &str, name: &str, plan: Option<&str>, load: &Load) -> String {
     let request = Load {
         // Where it is kept changes nothing.
@@ -47,15 +47,15 @@ pub(crate) fn key(source: &str, name: &str, plan: Option<&str>, load: &Load) -> 
     hash_of(GENERATOR, &parts)
 }
 
-/// Returns names the plan of a robot, by its hash: for all functions and scalars that are searched
+/// Names the plan of a robot, by its hash: for all functions and scalars that are searched
 /// for in the same way.
 pub(crate) fn plan_key(robot: &str, load: &Load) -> String {
-    let search = Load {
-        options: load.options.clone(),
-        cache: Cache::Off,
-        ..Load::default()
-    };
-    hash_of(GENERATOR, &[robot, &format!("{search:?}")])
+    let mut search = load.asked.clone();
+    for option in ["outputs", "scalar", "parameters", "scene", "name"] {
+        // All of them are options.
+        let _ = search.set(option, "");
+    }
+    hash_of(GENERATOR, &[robot, &search.to_string()])
 }
 
 /// Returns the hash of texts, told apart by their lengths.
@@ -218,9 +218,6 @@ mod tests {
     use std::fs;
     use std::path::Path;
 
-    use dalembert_codegen::workspace::simplify::Effort;
-    use dalembert_codegen::workspace::task::Request;
-
     use super::{GENERATOR, hash_of, key, plan_key, sources};
     use crate::request::{Cache, Load};
 
@@ -268,10 +265,7 @@ mod tests {
             ..Load::default()
         };
         let thorough = Load {
-            options: Request {
-                effort: Effort::Thorough,
-                ..Request::default()
-            },
+            asked: "effort: thorough".parse().unwrap(),
             ..Load::default()
         };
         let exact = Load {

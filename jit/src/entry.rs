@@ -14,8 +14,8 @@ pub(crate) struct Entry {
     pub(crate) notes: Vec<String>,
     /// The functions, scalar by scalar.
     pub(crate) functions: Vec<Proved>,
-    /// The functions as Rust: a module a scalar.
-    pub(crate) rust: String,
+    /// The functions as Rust: a file's text for each scalar.
+    pub(crate) rust: Vec<String>,
     /// The certificates, where a scene has a tolerance.
     pub(crate) certificates: Option<String>,
     /// The programs with exact constants.
@@ -31,8 +31,8 @@ pub(crate) struct Proved {
     pub(crate) function: String,
     /// Its scalar.
     pub(crate) scalar: String,
-    /// Which module of the text it is in.
-    pub(crate) section: usize,
+    /// Which of the texts it is in.
+    pub(crate) file: usize,
     /// Its arguments by name, in order.
     pub(crate) arguments: Vec<String>,
     /// Rows, joints, base parameters and load: [`Sizes`].
@@ -42,7 +42,7 @@ pub(crate) struct Proved {
 }
 
 impl Proved {
-    pub(crate) fn of(section: usize, function: &GeneratedFunction, emitted: &Emitted) -> Proved {
+    pub(crate) fn of(file: usize, function: &GeneratedFunction, emitted: &Emitted) -> Proved {
         let Sizes {
             rows,
             joints,
@@ -57,7 +57,7 @@ impl Proved {
         Proved {
             function: function.function.text(),
             scalar: emitted.scalar.name().to_owned(),
-            section,
+            file,
             arguments: arguments
                 .map(|argument| argument.name().to_owned())
                 .collect(),

@@ -60,16 +60,10 @@ pub use request::{Cache, Load};
 pub use rows::{Place, Rows, RowsMut};
 
 #[doc(inline)]
-pub use dalembert_codegen::workspace::function::{Function as Output, Quantity, RuntimeParameter};
+pub use dalembert_codegen::workspace::function::{Function as Output, Quantity};
 #[doc(inline)]
 pub use dalembert_codegen::workspace::program::ScalarType as Scalar;
 #[doc(inline)]
-pub use dalembert_codegen::workspace::simplify::Effort;
-#[doc(inline)]
-pub use dalembert_codegen::workspace::sincos::SinCos;
-#[doc(inline)]
-pub use dalembert_codegen::workspace::task::{Fma, Prefer, Request, WordOption};
+pub use dalembert_codegen::{Asked, OPTIONS};
 #[doc(inline)]
 pub use dalembert_codegen::workspace::watch;
-#[doc(inline)]
-pub use dalembert_codegen::workspace::words;

@@ -86,7 +86,7 @@ pub(crate) fn made(
         functions: proved(&generated),
         certificates: certificates(&generated),
         plan: plan.write(),
-        rust: generated.text,
+        rust: generated.texts,
         ended: generated.ended,
     })
 }
@@ -95,9 +95,9 @@ pub(crate) fn made(
 fn proved(generated: &Generated) -> Vec<Proved> {
     let functions = &generated.functions;
     let emitted = generated.emitted.chunks(functions.len().max(1)).enumerate();
-    let of = |(section, emitted): (usize, &[Emitted])| {
+    let of = |(file, emitted): (usize, &[Emitted])| {
         let both = functions.iter().zip(emitted);
-        both.map(move |(function, emitted)| Proved::of(section, function, emitted))
+        both.map(move |(function, emitted)| Proved::of(file, function, emitted))
             .collect::<Vec<_>>()
     };
     emitted.flat_map(of).collect()

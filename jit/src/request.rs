@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
-use dalembert_codegen::workspace::function::{Function, RuntimeParameter};
-use dalembert_codegen::workspace::program::{Library, ScalarType};
-use dalembert_codegen::workspace::task::{Request, in_scene};
+use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::sincos::SinCos;
+use dalembert_codegen::workspace::task::Request;
 use dalembert_codegen::workspace::watch::Watch;
+use dalembert_codegen::{Asked, Problem};
 use dalembert_model::read::Reading;
 
 use crate::error::LoadError;
@@ -22,23 +23,16 @@ pub enum Cache {
     Off,
 }
 
-/// What to make of a robot: the chain of a URDF, the functions, and how to search for them.
+/// What to make of a robot: the chain of a URDF, and what is asked of it.
 #[derive(Clone, Debug, Default)]
 pub struct Load {
     /// The chain to take of a URDF, and what of it stays where it is.
     pub urdf: dalembert_import::Options,
-    /// The functions; those of the scene, or else of the generator, if `None`.
-    pub outputs: Option<Vec<Function>>,
-    /// The scalars that functions compute in; the scene's, or else f64, if `None`.
-    pub scalars: Option<Vec<ScalarType>>,
-    /// Parameters of the robot that are arguments.
-    pub parameters: Vec<RuntimeParameter>,
-    /// The scene of the robot file, by its name.
-    pub scene: Option<String>,
-    /// How to search and compute: the generator's options of one word. Sines are those of
-    /// `dalembert-sines` unless a scene's tolerance admits polynomials, or others are chosen;
-    /// with fused products results are not those of other machines.
-    pub options: Request,
+    /// The options, by the names that command and macro have for them, such as
+    /// `"outputs: gravity, inertia; scalar: f64, f32"`. By default the scalar is the scene's or f64,
+    /// and sines are those of `dalembert-sines` unless a scene has a tolerance. With fused products
+    /// results are not those of other machines.
+    pub asked: Asked,
     /// Where the work is kept.
     pub cache: Cache,
     /// Who waits for a long search.
@@ -48,18 +42,19 @@ pub struct Load {
 impl Load {
     /// Makes the generator's request for a robot file.
     pub(crate) fn request(&self, reading: &Reading) -> Result<Request, LoadError> {
-        let find = |name: &String| in_scene::find(&reading.scenes, name);
-        let scene = self.scene.as_ref().map(find).transpose();
-        let scene = scene.map_err(|error| LoadError::Request(error.to_string()))?;
-        let request = Request {
-            scalars: vec![ScalarType::F64],
-            parameters: self.parameters.clone(),
-            auto: Library::Together,
-            watch: self.watch.clone(),
-            work: Request::work_while_compiling(self.options.effort),
-            ..self.options.clone()
-        };
-        let request = request.for_file(&reading.outputs);
-        Ok(request.choose(self.outputs.clone(), self.scalars.clone(), scene))
+        let scalars = [ScalarType::F64];
+        let request = Request::parse(&self.asked, &scalars, &reading.outputs, &reading.scenes);
+        let mut request = request.map_err(|problems| {
+            let each: Vec<String> = problems.iter().map(Problem::to_string).collect();
+            LoadError::Request(each.join("\n"))
+        })?;
+        let scene = request.scene.as_ref();
+        let has_tolerance = scene.is_some_and(|scene| scene.tolerance.is_some());
+        if request.sincos == SinCos::Auto && !has_tolerance {
+            request.sincos = SinCos::Together;
+        }
+        request.watch = self.watch.clone();
+        request.work = Request::work_while_compiling(request.effort);
+        Ok(request)
     }
 }

@@ -102,6 +102,7 @@ impl Invocation {
     }
 
     /// Returns the name of the robot file in messages: its path, or the module's name.
+    #[cfg(feature = "search")]
     pub(crate) fn shown(&self) -> String {
         match self.has_text() {
             true => self.name.to_string(),
@@ -112,6 +113,17 @@ impl Invocation {
     /// Returns the clause of an option.
     pub(crate) fn clause(&self, option: &str) -> Option<&Clause> {
         self.clauses.iter().find(|clause| clause.key == option)
+    }
+
+    /// Returns the word that a message quotes first where the tokens of an item have it, the item
+    /// else.
+    #[cfg(feature = "search")]
+    pub(crate) fn word(&self, option: &str, item: &str, message: &str) -> TokenStream {
+        let place = self.place(option, item);
+        let quoted = message.split('`').nth(1).unwrap_or_default();
+        let words = place.clone().into_iter();
+        let found = words.filter(|tree| matches!(tree, TokenTree::Ident(word) if word == quoted));
+        found.last().map_or(place, |word| word.to_token_stream())
     }
 
     /// Returns the tokens that an item of an option's value was asked for by: the option's, or
@@ -138,9 +150,11 @@ impl Invocation {
             let (clause, next) = rest.split_at(length);
             rest = next;
             match clause {
-                [TokenTree::Ident(key), ..] if key == "mod" || key == "pub" => {
+                [first, ..] if is_punct(first, '#') || is_word(first, "mod", "pub") => {
+                    let module = clause.iter().find(|tree| is_word(tree, "mod", "pub"));
                     let help = "write a second `dynamics!` for the next";
-                    errors.say(key, "an invocation has one robot", help);
+                    let at = module.unwrap_or(first);
+                    errors.say(at, "an invocation has one robot", help);
                     return;
                 }
                 [TokenTree::Ident(key), colon, value @ ..]
@@ -183,7 +197,8 @@ impl Invocation {
             value => value.to_vec(),
         };
         if value.is_empty() {
-            errors.say(key, "expected a value", "");
+            let help = format!("write `{key}: word;`, or leave the clause out");
+            errors.say(key, "expected a value", &help);
             return;
         }
         let mut items: Vec<TokenStream> = Vec::new();
@@ -192,6 +207,9 @@ impl Invocation {
             // A comma at the end is fine.
             if part.is_empty() && parts.peek().is_some() {
                 errors.say(key, "expected a word between two commas", "");
+            }
+            if let [.., TokenTree::Ident(_), second @ TokenTree::Ident(_)] = part {
+                errors.say(second, "expected `,` or `;` before it", "");
             }
             if !part.is_empty() {
                 items.push(tokens(part));
@@ -286,6 +304,11 @@ fn length(trees: &[TokenTree]) -> usize {
         }
     }
     trees.len()
+}
+
+/// Returns whether a tree is either word.
+fn is_word(tree: &TokenTree, one: &str, other: &str) -> bool {
+    matches!(tree, TokenTree::Ident(word) if word == one || word == other)
 }
 
 /// Returns whether a tree is this punctuation.

@@ -67,7 +67,13 @@ fn modules(
         };
         watch.extend(watched(&file));
         match Stamp::check(&found, env!("CARGO_PKG_VERSION"), &text, &own.asked) {
-            Ok(()) => modules.extend(module(invocation, &own.name, &found, errors)),
+            Ok(()) => modules.extend(module(
+                invocation,
+                &own.name,
+                &found,
+                TokenStream::new(),
+                errors,
+            )),
             Err(stale) => refused.push((file, Some(stale))),
         }
     }
@@ -175,11 +181,12 @@ fn watched(path: &Path) -> TokenStream {
     }
 }
 
-/// Returns a module with the text of a generated file.
-pub(crate) fn module(
+/// Returns a module with the text of a generated file, and further items.
+fn module(
     invocation: &Invocation,
     name: &Ident,
     text: &str,
+    further: TokenStream,
     errors: &mut Errors,
 ) -> TokenStream {
     let body = match with_attributes(text).parse::<TokenStream>() {
@@ -214,6 +221,7 @@ pub(crate) fn module(
             #libm
             #sines
             #batch
+            #further
         }
     }
 }
@@ -254,10 +262,13 @@ fn generated(
             );
         }
     }
-    let texts = crate::search::texts(invocation, robot, errors);
+    let (texts, mut warnings) = crate::search::texts(invocation, robot, errors);
     let pairs = wanted.iter().zip(&texts);
     pairs
-        .map(|(own, text)| module(invocation, &own.name, text, errors))
+        .map(|(own, text)| {
+            let warnings = std::mem::take(&mut warnings);
+            module(invocation, &own.name, text, warnings, errors)
+        })
         .collect()
 }
 

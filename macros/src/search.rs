@@ -3,16 +3,18 @@
 use std::path::Path;
 
 use dalembert_codegen::{Language, RobotFile, ask};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote, quote_spanned};
 
 use crate::invocation::{Errors, Invocation};
 
-/// Returns the texts of the modules, one a scalar; none after an error. What is odd about the
-/// robot is said on standard error, which cargo shows.
+/// Returns the texts of the modules, one a scalar, none after an error; and what makes the compiler
+/// say in the first of them what is odd about the robot.
 pub(crate) fn texts(
     invocation: &Invocation,
     robot: Option<&Path>,
     errors: &mut Errors,
-) -> Vec<String> {
+) -> (Vec<String>, TokenStream) {
     let shown = invocation.shown();
     let file = match robot {
         Some(path) => RobotFile::read_as(path, &shown),
@@ -24,25 +26,38 @@ pub(crate) fn texts(
             for message in error.messages() {
                 errors.say(&invocation.robot, &message, "");
             }
-            return Vec::new();
+            return Default::default();
         }
     };
     match ask(&file, &invocation.asked, Language::Rust, &shown) {
         Ok(made) => {
-            made.warnings
-                .iter()
-                .for_each(|said| eprintln!("warning: {said}"));
-            made.generated.texts
+            let numbered = (1..).zip(&made.warnings);
+            let warnings = numbered.map(|(number, said)| warning(invocation, number, said));
+            (made.generated.texts, warnings.collect())
         }
         Err(problems) => {
             for problem in problems {
                 let at = match problem.option.as_str() {
                     "" => quote::ToTokens::to_token_stream(&invocation.robot),
-                    option => invocation.place(option, &problem.item),
+                    option => invocation.word(option, &problem.item, &problem.message),
                 };
                 errors.say(at, &problem.message, &problem.help);
             }
-            Vec::new()
+            Default::default()
         }
     }
+}
+
+/// Returns a deprecated constant and its use at the robot's tokens: on a stable compiler a macro can
+/// only say what is an error. Whoever knows better writes `#[allow(deprecated)]` above the module.
+fn warning(invocation: &Invocation, number: usize, said: &str) -> TokenStream {
+    let span = invocation.robot.span();
+    let name = format_ident!("ROBOT_WARNING_{number}", span = span);
+    let constant = quote! {
+        #[doc(hidden)]
+        #[deprecated(note = #said)]
+        const #name: () = ();
+    };
+    let used = quote_spanned!(span => const _: () = #name;);
+    quote!(#constant #used)
 }

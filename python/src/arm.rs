@@ -134,10 +134,9 @@ impl Arm {
         self.0.has_ended_early()
     }
 
-    /// Returns the functions as Rust.
-    #[getter]
-    fn rust(&self) -> &str {
-        self.0.rust()
+    /// Returns the functions as files of Rust: what their names end in, and their texts.
+    fn rust(&self) -> PyResult<Vec<(&'static str, String)>> {
+        self.0.files().map_err(|error| raised(&error))
     }
 
     /// Returns the functions as one header of C99, with warnings about it.

@@ -7,8 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use dalembert_jit::watch::{Observer, Progress, Watch};
-use dalembert_jit::words::{Word, bundle, parse};
-use dalembert_jit::{Cache, Effort, Load, WordOption};
+use dalembert_jit::{Cache, Load, OPTIONS};
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::robot::suggested_name;
@@ -79,7 +78,7 @@ pub fn load(
     let waiting = Arc::new(Waiting::default());
     let mut load = wanted(&Options(options))?;
     load.watch = Watch::by(waiting.clone());
-    let is_thorough = load.options.effort == Effort::Thorough;
+    let is_thorough = load.asked.get("effort") == Some("thorough");
     let (sender, receiver) = channel();
     // Shared with the closure that waits while other threads of Python run.
     let receiver = Mutex::new(receiver);
@@ -138,17 +137,6 @@ impl<'py> Options<'_, 'py> {
         })
     }
 
-    fn words<W: Word>(&self, name: &str) -> PyResult<Option<Vec<W>>> {
-        let words: Option<Vec<String>> = self.get(name)?;
-        words
-            .map(|words| words.iter().map(|word| value(name, word)).collect())
-            .transpose()
-    }
-}
-
-/// Returns the value of a word, which an option has.
-fn value<W: Word>(option: &str, word: &str) -> PyResult<W> {
-    parse(word).map_err(|error| PyValueError::new_err(format!("{option}: {error}")))
 }
 
 /// Reads a limit of acceleration.
@@ -186,22 +174,18 @@ fn wanted(options: &Options<'_, '_>) -> PyResult<Load> {
     load.urdf.ignore_ties = options.get("ignore_ties")?.unwrap_or_default();
     load.urdf.acceleration = options.get("acceleration")?.map(acceleration).transpose()?;
     load.urdf.name = options.get("name")?.map(name).transpose()?;
-    if let Some(names) = options.get::<Vec<String>>("outputs")? {
-        let output = |name: &String| match name.contains(['=', '+']) {
-            true => {
-                bundle(name).map_err(|error| PyValueError::new_err(format!("outputs: {error}")))
-            }
-            false => value("outputs", name),
+    for row in &OPTIONS {
+        // The header of C has a name of its own.
+        if row.name == "name" {
+            continue;
+        }
+        let value = match row.is_list {
+            true => options.get::<Vec<String>>(row.name)?.map(|items| items.join(",")),
+            false => options.get::<String>(row.name)?,
         };
-        load.outputs = Some(names.iter().map(output).collect::<PyResult<_>>()?);
-    }
-    load.scalars = options.words("scalar")?;
-    load.parameters = options.words("parameters")?.unwrap_or_default();
-    load.scene = options.get("scene")?;
-    for option in WordOption::ALL {
-        if let Some(word) = options.get::<String>(option.word)? {
-            let set = (option.set)(&mut load.options, &word);
-            set.map_err(|error| PyValueError::new_err(format!("{}: {error}", option.word)))?;
+        if let Some(value) = value {
+            // It is an option.
+            let _ = load.asked.set(row.name, &value);
         }
     }
     load.cache = match options.get::<PathBuf>("cache_folder")? {

@@ -20,7 +20,7 @@ const OPEN: [&str; 8] = [
     "What calls the functions keeps to the box, or asks `in_box` before it uses a result.",
     "The flags of the compiler allow no other arithmetic (no `-ffast-math`, no `-Ofast`), and its version is",
     "The library that computes sines is within one ulp; it is",
-    "The file is generated anew in continuous integration and compared (`dalembert generate --check`).",
+    "The file is generated anew in continuous integration and compared (`dalembert renew --check`).",
     "A test on the machine compared torques with measured ones.",
     "The known problems of the guide's page on safety were read for this version.",
 ];
@@ -64,7 +64,7 @@ pub fn write(
     let first = head
         .trim_start_matches(['/', '*', ' '])
         .trim_end_matches([' ', '*', '/']);
-    let is_of_robot = first.contains(&format!("input {}.", robot.short_hash()));
+    let is_of_robot = source.contains(&format!("Input hash {}.", robot.short_hash()));
     let file = args.certificate.file_name().unwrap_or_default();
     let mut text = format!("# Dossier of `{}`\n\n", file.to_string_lossy());
     let scene = args.scene.as_ref();
@@ -147,8 +147,8 @@ pub fn write(
     };
     item(
         is_of_robot,
-        "The input hash in the file's first line is that of the robot file.",
-        "The input hash in the file's first line is not that of the robot file: generate it anew, or say why.",
+        "The input hash in the file's documentation is that of the robot file.",
+        "The input hash in the file's documentation is not that of the robot file: generate it anew, or say why.",
     );
     item(
         !report.is_unlimited,

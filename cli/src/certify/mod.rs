@@ -26,16 +26,20 @@ use crate::{input, output};
 pub fn run(args: &CertifyArgs) -> Outcome {
     let source = text(&args.certificate)?;
     let robot = text(&args.robot)?;
-    origin::check(&args.certificate, &source, &args.robot, &robot)?;
+    let edited = origin::check(&args.certificate, &source, &args.robot, &robot)?;
     let kind = args.certificate.extension().and_then(|kind| kind.to_str());
-    match kind {
+    let outcome = match kind {
         Some("rs" | "h" | "hpp" | "hh" | "cuh" | "cu") => whole_file::run(args, &source, &robot),
         _ if args.dossier.is_some() => Err(Failure::Input(format!(
             "error: --dossier is of a generated file (.rs, .h), and `{}` is none",
             args.certificate.display()
         ))),
         _ => certificates(args, &source, &robot),
+    };
+    if let (Some(note), Err(Failure::Check(_))) = (edited, &outcome) {
+        output::note(&note);
     }
+    outcome
 }
 
 /// Checks the claims of a certificate and prints what was found.

@@ -6,26 +6,31 @@ use std::slice;
 use dalembert_model::read::{Options, parse};
 use serde_json::Value;
 
-use crate::outcome::{Failure, Outcome};
-use crate::output;
+use crate::outcome::Failure;
 
-/// Refuses a file that names another robot, and warns where it names this one before an edit.
+/// Refuses a file that names another robot; returns a note where it names this one before an edit.
 ///
 /// # Errors
 /// The file names another robot.
-pub fn check(file: &Path, source: &str, path: &Path, robot: &str) -> Outcome {
+pub fn check(
+    file: &Path,
+    source: &str,
+    path: &Path,
+    robot: &str,
+) -> Result<Option<String>, Failure> {
     // The checker says what is wrong with a robot file.
     let Ok(reading) = parse(robot, &Options::default()) else {
-        return Ok(());
+        return Ok(None);
     };
     let robot = reading.robot;
     let hash: String = (robot.input_hash().iter())
         .map(|byte| format!("{byte:02x}"))
         .collect();
-    let mut origins = named(source).into_iter();
-    let other = origins.find(|(_, input)| input.len() < 16 || !hash.starts_with(input));
-    let Some((name, input)) = other else {
-        return Ok(());
+    let origins = named(source).into_iter();
+    let others = origins.filter(|(_, input)| input.len() < 16 || !hash.starts_with(input));
+    // Another robot before an edited one.
+    let Some((name, input)) = others.min_by_key(|(name, _)| *name == robot.name) else {
+        return Ok(None);
     };
     let found = format!(
         "`{}` is of robot `{name}`, input {input:.16}; `{}` is robot `{}`, input {hash:.16}",
@@ -34,21 +39,20 @@ pub fn check(file: &Path, source: &str, path: &Path, robot: &str) -> Outcome {
         robot.name
     );
     if name == robot.name {
-        output::note(&format!("warning: {found}: it was edited since"));
-        return Ok(());
+        return Ok(Some(format!("note: {found}: it was edited since")));
     }
     Err(Failure::Check(format!(
         "error: {found}\n  = help: --robot takes the robot file that it was generated from"
     )))
 }
 
-/// Returns the robots and the hashes of their files that a generated file has in its first line, and
-/// certificates in their fields.
+/// Returns the robots, and the hashes of what their files say, that a generated file has in its
+/// documentation, and certificates in their fields.
 fn named(source: &str) -> Vec<(String, String)> {
-    let head = source.lines().next().unwrap_or("");
-    let origin = head.split_once(" for `").and_then(|(_, rest)| {
+    let documentation = source.split_once("Dynamics of the robot `");
+    let origin = documentation.and_then(|(_, rest)| {
         let (robot, rest) = rest.split_once('`')?;
-        let input = rest.strip_prefix(", input ")?.split('.').next()?;
+        let input = rest.split_once("Input hash ")?.1.split('.').next()?;
         Some((robot.to_owned(), input.to_owned()))
     });
     let document: Value = serde_json::from_str(source).unwrap_or_default();

@@ -86,6 +86,11 @@ impl Files {
         outputs.iter().try_for_each(|(_, target)| target.check())
     }
 
+    /// Returns whether the code goes into a file.
+    pub fn has_file(&self) -> bool {
+        self.code.iter().any(|target| target.file().is_some())
+    }
+
     /// Writes all of it, or nothing.
     pub fn write(
         &self,

@@ -26,16 +26,18 @@ use files::Files;
 
 /// Runs the subcommand.
 pub fn run(args: &GenerateArgs) -> Outcome {
-    let language = language(args)?;
-    let wanted = input::wanted(&args.robot, &args.options.0, language.scalars())?;
+    let language = language(args);
+    let scalars = language.as_ref().map_or(&[][..], |own| own.scalars());
+    let wanted = input::wanted(&args.robot, &args.options.0, scalars)?;
     let input::Wanted {
         robot,
         source,
         mut request,
     } = wanted;
-    request.language = language;
+    request.language = *language.as_ref().unwrap_or(&Language::Rust);
     // Before the work: what cannot be written is no news after it.
     let files = Files::of(args, &request)?;
+    language?;
     let kept = request.plan.take_if(|_| args.save_plan);
     let session = progress::watch(&mut request);
     let generated = input::generated(&args.robot, &robot, &request)?;
@@ -68,7 +70,7 @@ pub fn run(args: &GenerateArgs) -> Outcome {
         kept.plan.write()
     });
     let place = match args.output.as_deref() {
-        Some(file) if file != Path::new("-") => relative(&args.robot, file),
+        Some(file) if files.has_file() => relative(&args.robot, file),
         // As if it were written beside the robot file.
         _ => name(&args.robot),
     };

@@ -2,9 +2,11 @@
 //! library fill, and every stage of a generation reads.
 //!
 //! - this file: [`Task`]
+//! - `choices`: choices of two words
 //! - [`request`]: what somebody wants of a robot; [`options`]: the table of its options
 //! - [`in_scene`]: a file's scenes by name, and what they ask for
 
+mod choices;
 pub(crate) mod in_scene;
 pub(crate) mod options;
 pub(crate) mod request;
@@ -14,7 +16,7 @@ use dalembert_model::scene::Tolerance;
 
 use crate::program::Program;
 use crate::scene::SceneRobot;
-pub use options::{Fma, Prefer};
+pub use choices::{Fma, Prefer};
 pub use request::Request;
 
 /// A request for a robot in its scene.

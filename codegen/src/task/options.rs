@@ -9,38 +9,13 @@ use dalembert_model::read::for_bundle;
 use dalembert_model::scene::Scene;
 use dalembert_stamp::Asked;
 
+use super::choices::{Fma, Prefer};
 use super::in_scene::find;
 use super::request::Request;
 use crate::function::Function;
 use crate::program::ScalarType;
 use crate::sincos::SinCos;
-use crate::words::{Word, parse, words};
-
-words! {
-    /// What programs are chosen by: what to do about one whose estimated rounding error is
-    /// more than 4 times that of the textbook form.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-    pub enum Prefer: "preference" {
-        /// Take the cheapest that is not that much worse.
-        #[default]
-        Accuracy = "accuracy",
-        /// Take the cheapest.
-        Operations = "operations",
-    }
-}
-
-words! {
-    /// Whether products are fused with the sums that alone read them.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-    pub enum Fma: "choice" {
-        /// Every operation is rounded.
-        #[default]
-        Off = "off",
-        /// A product and its sum are one operation, `mul_add`, and rounded once. It
-        /// needs `std`, and a processor that has it.
-        On = "on",
-    }
-}
+use crate::words::{Word, parse};
 
 /// An option of a request.
 #[derive(Clone, Copy, Debug)]
@@ -282,6 +257,11 @@ pub static OPTIONS: [OptionRow; 13] = [
         words: Vec::new,
         is_list: false,
         set: |draft, item| {
+            let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
+            if !item.chars().all(is_word) {
+                let help = "scene: pick; of the robot file's [scene.pick]".into();
+                return Err(Wrong("expected the name of a scene".into(), help));
+            }
             draft.scene = Some(item.to_owned());
             Ok(())
         },

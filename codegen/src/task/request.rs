@@ -14,7 +14,7 @@ use crate::simplify::{Effort, WaySource};
 use crate::sincos::SinCos;
 use crate::watch::Watch;
 
-use super::options::{Fma, Prefer};
+use super::choices::{Fma, Prefer};
 
 /// Some minutes where nothing is optimised.
 const WORK_WHILE_COMPILING: u64 = 400_000_000;

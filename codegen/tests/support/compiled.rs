@@ -225,7 +225,7 @@ pub fn same_bits(what: &str, robot: &Robot, request: &Request, count: usize, fla
     );
     let folder = folder(&what);
     let main = main_of(&request.module_name(robot), &generated, request);
-    fs::write(folder.join("arm.h"), &generated.text()).unwrap();
+    fs::write(folder.join("arm.h"), generated.text()).unwrap();
     fs::write(folder.join("main.c"), main).unwrap();
     let programs = compiled(&folder, language, flags);
     let mut states = states();

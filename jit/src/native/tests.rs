@@ -27,8 +27,7 @@ fn refused<T: Real>(native: &mut Native, fault: &str, plant: impl FnOnce(&mut Lo
 /// Returns an arm's torques.
 fn torques(scalar: ScalarType) -> Native {
     let load = Load {
-        outputs: Some(vec![crate::Output::InverseDynamics]),
-        scalars: Some(vec![scalar]),
+        asked: format!("outputs: inverse_dynamics; scalar: {scalar}").parse().unwrap(),
         cache: Cache::Off,
         ..Load::default()
     };

@@ -1,22 +1,15 @@
 //! To the last bit.
 
 use dalembert_codegen::workspace::program::Operation;
-use dalembert_jit::{Arm, Fma, Load, Output, Request, RuntimeParameter, Scalar, SinCos};
+use dalembert_jit::{Arm, Output, Scalar};
 
-use crate::support::{ROBOTS, STATES, compare, compare_all, drawn, fresh, is_same, path, robot};
-
-fn scalars() -> Option<Vec<Scalar>> {
-    Some(Scalar::ALL.to_vec())
-}
+use crate::support::{
+    ROBOTS, STATES, all_outputs_in_both, asking, compare, compare_all, drawn, is_same, path, robot,
+};
 
 /// Compares all outputs of a robot, at so many states each.
 fn all_outputs(name: &str, states: usize) {
-    let load = Load {
-        outputs: Some(Output::ALL.to_vec()),
-        scalars: scalars(),
-        ..fresh()
-    };
-    let arm = robot(name, &load);
+    let arm = robot(name, &asking(&all_outputs_in_both()));
     assert_eq!(arm.functions().len(), 2 * Output::ALL.len());
     compare_all(name, &arm, states);
 }
@@ -41,10 +34,7 @@ fn all_outputs_of_six_robots() {
 #[test]
 fn outputs_by_default() {
     for name in ["puma560", "stanford"] {
-        let load = Load {
-            scalars: scalars(),
-            ..fresh()
-        };
+        let load = asking("scalar: f64, f32");
         compare_all(name, &robot(name, &load), STATES / 10);
     }
 }
@@ -52,12 +42,9 @@ fn outputs_by_default() {
 /// Payload and gravity as arguments, and the load that a payload is.
 #[test]
 fn parameters_are_arguments() {
-    let load = Load {
-        outputs: Some(vec![Output::InverseDynamics, Output::Gravity]),
-        scalars: scalars(),
-        parameters: RuntimeParameter::ALL.to_vec(),
-        ..fresh()
-    };
+    let load = asking(
+        "outputs: inverse_dynamics, gravity; scalar: f64, f32; parameters: payload, gravity",
+    );
     let arm = robot("planar3r", &load);
     assert!(arm.function("load", Scalar::F64).is_some());
     compare_all("planar3r with parameters", &arm, STATES / 10);
@@ -66,28 +53,20 @@ fn parameters_are_arguments() {
 /// Polynomials of a program's own, libm's sines, and fused products.
 #[test]
 fn other_sines_and_fused_products() {
-    let outputs = Some(vec![Output::InverseDynamics, Output::Jacobian]);
-    for (sincos, fma) in [
-        (SinCos::Polynomial { error: None }, Fma::Off),
-        (SinCos::Libm, Fma::Off),
-        (SinCos::Auto, Fma::On),
+    for (sines, fuses_products) in [
+        ("sincos: polynomial", false),
+        ("sincos: libm", false),
+        ("fma: on", true),
     ] {
-        let load = Load {
-            outputs: outputs.clone(),
-            scalars: scalars(),
-            options: Request {
-                sincos,
-                fma,
-                ..Request::default()
-            },
-            ..fresh()
-        };
+        let load = asking(&format!(
+            "outputs: inverse_dynamics, jacobian; scalar: f64, f32; {sines}"
+        ));
         let arm = robot("planar3r", &load);
         let fuses = arm.functions().iter().any(|function| {
             let steps = &function.native().program().steps;
             steps.iter().any(|step| step.operation == Operation::Fused)
         });
-        assert_eq!(fuses, fma == Fma::On);
+        assert_eq!(fuses, fuses_products);
         compare_all("planar3r", &arm, STATES / 10);
     }
 }
@@ -95,11 +74,7 @@ fn other_sines_and_fused_products() {
 /// Coulomb friction, which takes roots and quotients.
 #[test]
 fn friction_takes_roots() {
-    let load = Load {
-        outputs: Some(vec![Output::InverseDynamics]),
-        scalars: scalars(),
-        ..fresh()
-    };
+    let load = asking("outputs: inverse_dynamics; scalar: f64, f32");
     let arm = Arm::load(path("model/tests/data/coulomb.toml"), &load).unwrap();
     assert!(arm.functions()[0].counts().sqrt > 0);
     compare_all("coulomb", &arm, STATES / 10);
@@ -108,10 +83,7 @@ fn friction_takes_roots() {
 /// A scene with a tolerance: what was left out is left out of the code.
 #[test]
 fn a_tolerance_is_compiled() {
-    let load = Load {
-        scene: Some("swing".to_owned()),
-        ..fresh()
-    };
+    let load = asking("scene: swing");
     let arm = robot("stanford", &load);
     assert!(arm.certificates().is_some());
     compare_all("with a tolerance", &arm, STATES / 10);
@@ -120,10 +92,7 @@ fn a_tolerance_is_compiled() {
 /// The same states on several threads.
 #[test]
 fn threads_change_no_bit() {
-    let load = Load {
-        outputs: Some(vec![Output::InverseDynamics]),
-        ..fresh()
-    };
+    let load = asking("outputs: inverse_dynamics");
     let arm = robot("planar2r", &load);
     let native = arm.functions()[0].native();
     let states = drawn::<f64>(native, 20_001, 3);

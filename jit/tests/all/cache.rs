@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::PathBuf;
 
-use dalembert_jit::{Arm, Cache, Load, Output, Scalar};
+use dalembert_jit::{Arm, Cache, Load, Scalar};
 
 use crate::support::{Folder, path};
 
@@ -40,7 +40,7 @@ fn a_second_load_searches_for_nothing() {
     assert_eq!(first.functions()[0].proof(), second.functions()[0].proof());
     // Another request is another entry, and takes its programs from the plan.
     let more = Load {
-        outputs: Some(vec![Output::Gravity, Output::Inertia]),
+        asked: "outputs: gravity, inertia".parse().unwrap(),
         ..folder.load()
     };
     assert!(!arm(&more).is_from_cache());

@@ -1,17 +1,13 @@
 //! Calls that are refused, and memory.
 
 use dalembert_jit::{
-    Arm, CallError, CompileError, Load, Native, Output, Place, Rows, RowsMut, Scalar, Signature,
+    Arm, CallError, CompileError, Native, Place, Rows, RowsMut, Scalar, Signature,
 };
 
-use crate::support::{fresh, robot};
+use crate::support::{asking, robot};
 
 fn gravity() -> Arm {
-    let load = Load {
-        outputs: Some(vec![Output::Gravity]),
-        ..fresh()
-    };
-    robot("planar2r", &load)
+    robot("planar2r", &asking("outputs: gravity"))
 }
 
 #[test]

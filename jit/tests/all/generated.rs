@@ -6,9 +6,11 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use dalembert_jit::{Arm, Function, Load, Output, Real, Request, Scalar, SinCos};
+use dalembert_jit::{Arm, Function, Real, Scalar};
 
-use crate::support::{Folder, ROBOTS, drawn, fresh, is_same, robot, state};
+use crate::support::{
+    Folder, ROBOTS, all_outputs_in_both, asking, drawn, is_same, robot, state,
+};
 
 /// How many states each function is compared at.
 const STATES: usize = 10_000;
@@ -56,10 +58,7 @@ fn program(arm: &Arm) -> String {
     let mut main = String::new();
     for function in arm.functions() {
         let scalar = function.scalar().name();
-        let module = match function.scalar() {
-            Scalar::F64 => arm.robot().name.clone(),
-            Scalar::F32 => format!("{}_f32", arm.robot().name),
-        };
+        let module = format!("in_{scalar}");
         let arguments = &function.native().signature().arguments;
         let names: Vec<String> = arguments
             .iter()
@@ -81,12 +80,15 @@ fn program(arm: &Arm) -> String {
         }
         writeln!(main, "}}").unwrap();
     }
+    let modules = arm.rust().iter().zip(["in_f64", "in_f32"]);
+    let modules: String = modules
+        .map(|(text, name)| format!("pub mod {name} {{\n{text}}}\n"))
+        .collect();
     format!(
-        "mod generated {{\n{}\n}}\n{FRAME}\nfn main() {{\n\
+        "mod generated {{\n{modules}\n}}\n{FRAME}\nfn main() {{\n\
          let mut bytes = Vec::new();\nstd::io::stdin().read_to_end(&mut bytes).unwrap();\n\
          let mut input = bytes.as_slice();\nlet mut output = Vec::new();\n{main}\
          std::io::stdout().write_all(&output).unwrap();\n}}\n",
-        arm.rust(),
     )
 }
 
@@ -181,18 +183,9 @@ fn compare<T: Bytes>(name: &str, function: &Function, output: &mut &[u8]) {
     }
 }
 
-fn same_as_rustc(name: &str, outputs: Option<Vec<Output>>, sincos: SinCos) {
-    let load = Load {
-        outputs,
-        scalars: Some(Scalar::ALL.to_vec()),
-        options: Request {
-            sincos,
-            ..Request::default()
-        },
-        ..fresh()
-    };
-    let arm = robot(name, &load);
-    let folder = Folder::new(&format!("rustc-{name}-{sincos:?}"));
+fn same_as_rustc(name: &str, asked: &str, sincos: &str) {
+    let arm = robot(name, &asking(&format!("{asked}; sincos: {sincos}")));
+    let folder = Folder::new(&format!("rustc-{name}-{sincos}"));
     let program = compiled(&program(&arm), &folder);
     let mut input = Vec::new();
     for function in arm.functions() {
@@ -221,20 +214,20 @@ fn same_as_rustc(name: &str, outputs: Option<Vec<Output>>, sincos: SinCos) {
 
 #[test]
 fn all_outputs_of_a_small_arm_by_either_library_of_sines() {
-    for sincos in [SinCos::Auto, SinCos::Libm] {
-        same_as_rustc("planar2r", Some(Output::ALL.to_vec()), sincos);
+    for sincos in ["auto", "libm"] {
+        same_as_rustc("planar2r", &all_outputs_in_both(), sincos);
     }
 }
 
 #[test]
 fn outputs_by_default_of_a_larger_arm() {
-    same_as_rustc("panda", None, SinCos::Auto);
+    same_as_rustc("panda", "scalar: f64, f32", "auto");
 }
 
 #[test]
 #[ignore = "rustc takes minutes for the larger ones"]
 fn all_outputs_of_six_robots() {
     for name in ROBOTS {
-        same_as_rustc(name, Some(Output::ALL.to_vec()), SinCos::Auto);
+        same_as_rustc(name, &all_outputs_in_both(), "auto");
     }
 }

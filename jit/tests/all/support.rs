@@ -38,6 +38,20 @@ pub fn fresh() -> Load {
     }
 }
 
+/// Returns what asks for this, and nothing kept.
+pub fn asking(asked: &str) -> Load {
+    Load {
+        asked: asked.parse().unwrap(),
+        ..fresh()
+    }
+}
+
+/// Returns the text that asks for all outputs in both scalars.
+pub fn all_outputs_in_both() -> String {
+    let outputs = Output::ALL.map(Output::name).join(", ");
+    format!("outputs: {outputs}; scalar: f64, f32")
+}
+
 /// A folder that is removed at the end.
 pub struct Folder(pub PathBuf);
 
@@ -50,7 +64,7 @@ impl Folder {
 
     pub fn load(&self) -> Load {
         Load {
-            outputs: Some(vec![Output::Gravity]),
+            asked: "outputs: gravity".parse().unwrap(),
             cache: Cache::At(self.0.clone()),
             ..Load::default()
         }

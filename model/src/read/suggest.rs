@@ -9,7 +9,7 @@ use strsim::osa_distance;
 use crate::outputs::{BundleError, Function};
 
 /// Words of other tools and textbooks, with ours.
-const OTHER_WORDS: [(&str, &str); 51] = [
+const OTHER_WORDS: [(&str, &str); 54] = [
     ("m", "mass"),
     ("weight", "mass"),
     ("r", "com"),
@@ -61,6 +61,9 @@ const OTHER_WORDS: [(&str, &str); 51] = [
     ("tau", "inverse_dynamics"),
     ("qdd", "forward_dynamics"),
     ("p", "potential_energy"),
+    ("lagrange", "lagrange_euler"),
+    ("newton", "newton_euler"),
+    ("rne", "newton_euler"),
 ];
 
 /// Returns the likely fix of a bundle that cannot be read, with the output that was

@@ -139,9 +139,12 @@ class Arm:
         return self._native.has_ended_early
 
     def to_rust(self, path: Path) -> None:
-        """Write the functions as flat Rust, as the command does."""
+        """Write the functions as flat Rust, as the command does: the second of two scalars to a
+        file that ends in ``_f32``."""
         _ends_in(path, [".rs"], "Rust", "to_c writes a header of C")
-        _write(path, self._native.rust)
+        base, ending = os.path.splitext(os.fspath(path))
+        for suffix, text in self._native.rust():
+            _write(base + suffix + ending, text)
 
     def to_c(self, path: Path, *, name: str | None = None) -> None:
         """Write the functions as one header of C99, which C++ reads too; proved once more.
