@@ -110,7 +110,7 @@ count PUMA --effort quik | did you mean `quick`
 generate PUMA --scalar f64,f32 | each scalar has a file of its own
 generat PUMA | 'generate'
 generate | <ROBOT>
-generate PUMA --sincos-error -1 | a number above 0 and below 1
+generate PUMA --sincos-error -1 | an error above 0 and below 1
 tradeoff PUMA --tolerances -1 | a number above zero, not -1
 tradeoff PUMA --tolerances -1e-3,0.1 | a number above zero, not -0.001
 tradeoff PUMA --tolerances 1% | a number above zero, such as 1e-3

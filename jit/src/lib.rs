@@ -64,6 +64,6 @@ pub use dalembert_codegen::workspace::function::{Function as Output, Quantity};
 #[doc(inline)]
 pub use dalembert_codegen::workspace::program::ScalarType as Scalar;
 #[doc(inline)]
-pub use dalembert_codegen::{Asked, OPTIONS};
-#[doc(inline)]
 pub use dalembert_codegen::workspace::watch;
+#[doc(inline)]
+pub use dalembert_codegen::{Asked, OPTIONS};

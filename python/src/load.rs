@@ -136,7 +136,6 @@ impl<'py> Options<'_, 'py> {
             PyTypeError::new_err(format!("{name}: {value} is of another type, {kind}"))
         })
     }
-
 }
 
 /// Reads a limit of acceleration.
@@ -180,7 +179,9 @@ fn wanted(options: &Options<'_, '_>) -> PyResult<Load> {
             continue;
         }
         let value = match row.is_list {
-            true => options.get::<Vec<String>>(row.name)?.map(|items| items.join(",")),
+            true => options
+                .get::<Vec<String>>(row.name)?
+                .map(|items| items.join(",")),
             false => options.get::<String>(row.name)?,
         };
         if let Some(value) = value {

@@ -4,8 +4,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dalembert_fit::{Accumulator, Model, Prior, fit};
-use dalembert_generated::planar2r;
 use dalembert_fleet::{Dynamics, Error, Generated, Residuals, States, register};
+use dalembert_generated::planar2r;
 use datafusion::arrow::array::{
     Array, ArrayRef, AsArray, FixedSizeListArray, Float32Array, Float64Array, Int64Array,
     RecordBatch,

@@ -27,7 +27,9 @@ fn refused<T: Real>(native: &mut Native, fault: &str, plant: impl FnOnce(&mut Lo
 /// Returns an arm's torques.
 fn torques(scalar: ScalarType) -> Native {
     let load = Load {
-        asked: format!("outputs: inverse_dynamics; scalar: {scalar}").parse().unwrap(),
+        asked: format!("outputs: inverse_dynamics; scalar: {scalar}")
+            .parse()
+            .unwrap(),
         cache: Cache::Off,
         ..Load::default()
     };

@@ -8,9 +8,7 @@ use std::process::{Command, Stdio};
 
 use dalembert_jit::{Arm, Function, Real, Scalar};
 
-use crate::support::{
-    Folder, ROBOTS, all_outputs_in_both, asking, drawn, is_same, robot, state,
-};
+use crate::support::{Folder, ROBOTS, all_outputs_in_both, asking, drawn, is_same, robot, state};
 
 /// How many states each function is compared at.
 const STATES: usize = 10_000;
