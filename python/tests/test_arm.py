@@ -282,7 +282,7 @@ def test_a_header_has_names_and_an_ending_of_c(tmp_path):
         with pytest.raises(ValueError, match="path: the name of a file of .* ends in"):
             write(tmp_path / path)
         assert not (tmp_path / path).exists()
-    with pytest.warns(UserWarning, match="called `a_ro.*` in C: with `a_robot_of_nineteen`.*`name=`"):
+    with pytest.warns(UserWarning, match="called `a_ro.*` in C: with `a_robot_of_nineteen`.*`name`"):
         arm.to_c(tmp_path / "arm.h")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
