@@ -238,7 +238,7 @@ fn the_text_says_what_is_left() {
         "pub const JOINTS: [usize; 3] = [0, 1, 2];",
         "pub fn inverse_dynamics(q: &[f64; 6], qdd: &[f64; 6]) -> [f64; 3] {",
         "pub fn inertia(q: &[f64; 6]) -> [[f64; 3]; 3] {",
-        "/// - q4 = 0 rad, q̇4 = q̈4 = 0;",
+        "//! - q4 = 0 rad, q̇4 = q̈4 = 0;",
     ] {
         assert!(text.contains(part), "{part}\n{}", &text[..3000]);
     }
