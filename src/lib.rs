@@ -255,7 +255,7 @@ pub mod matrices;
 ///
 /// # Scenes
 ///
-/// What a robot is used for, so that nothing else is computed. A scene is a
+/// A scene says what a robot is used for, so that nothing else is computed. It is a
 /// table `[scene.NAME]` of the robot file, and a clause names it. All of its keys may be left out:
 ///
 /// ```

@@ -69,7 +69,7 @@ pub use dalembert_stamp::Asked;
 use dalembert_stamp::relative;
 use dalembert_stamp::{Comment, Stale, Stamp, hash};
 
-/// What is to be generated: a robot file, and the options that were asked for.
+/// A robot file, and the options that were asked for.
 #[derive(Clone, Debug)]
 pub struct Generator {
     robot: PathBuf,

@@ -171,7 +171,7 @@ const STAMP: [&str; 4] = [
     "// text = ",
 ];
 
-/// Returns whether a line is empty, an attribute or a comment: documentation, or the stamp of a file.
+/// Returns `true` for an empty line, an attribute or a comment: documentation, or a file's stamp.
 fn is_plain((number, line): (usize, &str)) -> bool {
     let words = line.trim_start_matches(' ');
     let own = STAMP.get(number - 1);

@@ -10,14 +10,14 @@ use crate::robot_file::RobotFile;
 use crate::task::Request;
 use crate::task::options::Problem;
 
-/// What was asked of a robot file, generated.
+/// The code that was asked of a robot file.
 #[derive(Clone, Debug)]
 pub struct Made {
     /// The request that was read.
     pub request: Request,
     /// The code.
     pub generated: Generated,
-    /// What is odd about the robot or its code, a sentence each, and a line with the likely fix.
+    /// Warnings about the robot and its code: a sentence each, and a line with the likely fix.
     pub warnings: Vec<String>,
 }
 

@@ -23,7 +23,7 @@ pub enum Cache {
     Off,
 }
 
-/// What to make of a robot: the chain of a URDF, and what is asked of it.
+/// The options of loading a robot: the chain of a URDF, and the code that is asked for.
 #[derive(Clone, Debug, Default)]
 pub struct Load {
     /// The chain to take of a URDF, and what of it stays where it is.

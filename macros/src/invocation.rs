@@ -16,7 +16,7 @@ pub(crate) struct Invocation {
     /// The path of a robot file, or the text of one.
     pub(crate) robot: LitStr,
     pub(crate) clauses: Vec<Clause>,
-    /// What the clauses ask for.
+    /// The options that the clauses ask for.
     pub(crate) asked: Asked,
     /// The path of the facade crate.
     pub(crate) facade: Path,
@@ -96,7 +96,7 @@ impl Invocation {
         Some(invocation)
     }
 
-    /// Returns whether the literal is the text of a robot file: it has more lines than a path.
+    /// Returns `true` if the literal is the text of a robot file: it has more lines than a path.
     pub(crate) fn has_text(&self) -> bool {
         self.robot.value().contains('\n')
     }
@@ -306,12 +306,12 @@ fn length(trees: &[TokenTree]) -> usize {
     trees.len()
 }
 
-/// Returns whether a tree is either word.
+/// Returns `true` if a tree is either word.
 fn is_word(tree: &TokenTree, one: &str, other: &str) -> bool {
     matches!(tree, TokenTree::Ident(word) if word == one || word == other)
 }
 
-/// Returns whether a tree is this punctuation.
+/// Returns `true` if a tree is this punctuation.
 fn is_punct(tree: &TokenTree, c: char) -> bool {
     matches!(tree, TokenTree::Punct(punct) if punct.as_char() == c)
 }

@@ -30,14 +30,14 @@ pub(crate) fn expand(input: TokenStream, folders: &[PathBuf]) -> TokenStream {
 /// The module of one scalar.
 struct Wanted {
     name: Ident,
-    /// What is asked of its file.
+    /// The options that its file must have.
     asked: Asked,
 }
 
 /// A file beside a robot file, and why it is not taken; `None` where there is no file.
 type Refused = (PathBuf, Option<Stale>);
 
-/// Returns what makes an edit of a file expand the macro again, and the modules.
+/// Returns items that make an edit of a file expand the macro again, and the modules.
 fn modules(
     invocation: &Invocation,
     folders: &[PathBuf],
@@ -169,7 +169,7 @@ fn beside(shown: &str, file: &str) -> String {
     }
 }
 
-/// Returns what makes an edit of a file expand the macro again; nothing where there is none.
+/// Returns an item that makes an edit of a file expand the macro again; none where there is no file.
 fn watched(path: &Path) -> TokenStream {
     match path.to_str() {
         Some(path) if Path::new(path).is_file() => {

@@ -9,7 +9,7 @@ use dalembert_codegen::{Asked, OPTIONS, OptionRow, Purpose};
 
 use super::{CODE, SEARCH};
 
-/// What is asked for on the command line.
+/// The options that are asked for on the command line.
 #[derive(Clone, Debug, Default)]
 pub struct Options(pub Asked);
 

@@ -86,7 +86,7 @@ impl Files {
         outputs.iter().try_for_each(|(_, target)| target.check())
     }
 
-    /// Returns whether the code goes into a file.
+    /// Returns `true` if the code goes into a file.
     pub fn has_file(&self) -> bool {
         self.code.iter().any(|target| target.file().is_some())
     }

@@ -30,7 +30,7 @@ limits = { position = [\"-pi\", \"pi\"], velocity = 3, acceleration = 10, torque
 /// The crates that the new one depends on.
 pub(super) const DEPENDENCIES: [&str; 1] = ["dalembert"];
 
-/// What is asked of the robot.
+/// The options that the new crate asks for.
 pub(super) const ASKED: &str = "outputs: inverse_dynamics, gravity; scalar: f64; sincos: together";
 
 /// q, q̇, q̈ and the torques there.

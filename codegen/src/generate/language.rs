@@ -76,7 +76,7 @@ pub(super) fn with_short_name<'a>(robot: &Robot, request: &'a Request) -> Cow<'a
     }
 }
 
-/// Returns what to say of a module whose name was shortened.
+/// Returns the warning about a module whose name was shortened.
 pub(super) fn renamed(robot: &Robot, request: &Request, named: &Request) -> Option<String> {
     let (name, short) = (request.module_name(robot), named.module_name(robot));
     (name != short).then(|| {

@@ -104,7 +104,7 @@ impl Generated {
         self.texts.iter().enumerate().map(stamped).collect()
     }
 
-    /// Returns what the names of the files end in, before their ending: `_f32` of the second of two
+    /// Returns the end of each file's name, before its extension: `_f32` for the second of two
     /// scalars in Rust.
     pub fn suffixes(&self) -> Vec<&'static str> {
         let is_pair = self.texts.len() > 1;

@@ -1,4 +1,4 @@
-//! What printed code calls angles and what is taken of them.
+//! The names of angles, their sines and their cosines in printed code.
 
 use crate::program::{AngleSum, LoweredTrig};
 
@@ -25,7 +25,7 @@ pub(crate) fn sum(angle: AngleSum) -> String {
     sum
 }
 
-/// Returns what a line gives values to: the sine, the cosine or both.
+/// Returns the names that a line defines: the sine, the cosine or both.
 pub(super) fn pair(trig: &LoweredTrig) -> String {
     let angle = trig.angle;
     match (trig.sin, trig.cos) {

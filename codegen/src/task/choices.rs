@@ -3,7 +3,7 @@
 use crate::words::words;
 
 words! {
-    /// What programs are chosen by: what to do about one whose estimated rounding error is
+    /// The preference among programs. It decides about one whose estimated rounding error is
     /// more than 4 times that of the textbook form.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
     pub enum Prefer: "preference" {
@@ -16,7 +16,7 @@ words! {
 }
 
 words! {
-    /// Whether products are fused with the sums that alone read them.
+    /// Fusing a product with the sum that alone reads it, or not.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
     pub enum Fma: "choice" {
         /// Every operation is rounded.

@@ -45,7 +45,7 @@ impl<'a> Task<'a> {
         self.scene_robot.scene()?.tolerance.as_ref()
     }
 
-    /// Returns what is emitted of a program that was found: with its products fused, where that
+    /// Returns the program that is emitted for one that was found: with its products fused, where that
     /// was asked for.
     pub(crate) fn finished(&self, program: &Program) -> Program {
         match self.request.fma {

@@ -22,26 +22,26 @@ use crate::words::{Word, parse};
 pub struct OptionRow {
     /// Its name.
     pub name: &'static str,
-    /// What it decides.
+    /// Its purpose.
     pub purpose: Purpose,
     /// Its documentation.
     pub doc: &'static str,
     /// Returns the words that an item may be, the default first; none where other items are possible.
     pub words: fn() -> Vec<&'static str>,
-    /// Whether it takes several items.
+    /// `true` if it takes several items.
     pub is_list: bool,
     /// Takes an item.
     set: fn(&mut Draft, &str) -> Result<(), Wrong>,
 }
 
-/// What an option decides.
+/// The purpose of an option.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// What is generated.
+    /// It chooses the code that is generated.
     What,
-    /// How programs are found.
+    /// It steers the search for programs.
     Search,
-    /// How they compute, and what is printed of them.
+    /// It chooses the form of the printed code.
     Code,
 }
 
@@ -52,9 +52,9 @@ pub struct Problem {
     pub option: String,
     /// The item of its value; empty where it is about the option as a whole.
     pub item: String,
-    /// What is wrong.
+    /// The mistake, in a sentence.
     pub message: String,
-    /// What would be right.
+    /// The likely fix.
     pub help: String,
 }
 
@@ -76,10 +76,10 @@ impl fmt::Display for Problem {
 
 impl std::error::Error for Problem {}
 
-/// What is wrong with an item, and the likely fix.
+/// The mistake in an item, and the likely fix.
 struct Wrong(String, String);
 
-/// What was read so far.
+/// The options that were read so far.
 #[derive(Default)]
 struct Draft {
     outputs: Option<Vec<Function>>,
@@ -345,7 +345,7 @@ impl Request {
         }
     }
 
-    /// Returns what asks for this request, outputs and scalars named.
+    /// Returns the options that ask for this request; outputs and scalars are named.
     pub fn asked(&self) -> Asked {
         let mut asked = Asked::default();
         let outputs: Vec<String> = self.functions.iter().map(|own| own.text()).collect();

@@ -19,7 +19,7 @@ use super::choices::{Fma, Prefer};
 /// Some minutes where nothing is optimised.
 const WORK_WHILE_COMPILING: u64 = 400_000_000;
 
-/// What to generate.
+/// A request for code.
 #[derive(Clone, Debug)]
 pub struct Request {
     /// The functions, in any order; duplicates count once.
@@ -28,31 +28,31 @@ pub struct Request {
     pub scalars: Vec<ScalarType>,
     /// The formulation to start from.
     pub start: Start,
-    /// How long to search.
+    /// The effort of the search.
     pub effort: Effort,
-    /// What programs are chosen by.
+    /// The preference among programs.
     pub prefer: Prefer,
-    /// Whether products are fused with sums.
+    /// Fused products: a product and its sum are rounded once.
     pub fma: Fma,
-    /// How sines and cosines are computed.
+    /// The source of sines and cosines.
     pub sincos: SinCos,
     /// Whose sines are called where `sincos` leaves the choice open.
     pub auto: Library,
-    /// Whether there are functions of any number of states, too.
+    /// `true` for functions of any number of states beside those of one.
     pub batch: bool,
     /// The language of the code.
     pub language: Language,
     /// Programs to replay instead of searching.
     pub plan: Option<Plan>,
-    /// Whether a plan beside the robot file is left alone.
+    /// `true` if a plan beside the robot file is not used.
     pub has_no_plan: bool,
     /// Who waits, if anybody does.
     pub watch: Watch,
     /// The name that functions begin with in C; the robot's and the scene's if `None`.
     pub module: Option<String>,
-    /// What functions take as arguments that are the robot's parameters otherwise.
+    /// The robot's parameters that functions take as arguments.
     pub parameters: Vec<RuntimeParameter>,
-    /// What the robot is used for; everything if `None`. Its outputs and
+    /// The robot's use; everything if `None`. Its outputs and
     /// scalar are defaults that the ways in apply ([`Request::choose`]).
     pub scene: Option<Scene>,
     /// Nobody chose a scalar: of the scalars, a tolerance takes the cheapest

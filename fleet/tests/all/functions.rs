@@ -338,7 +338,7 @@ fn fits_by_machine_code_are_those_of_the_library() {
     }
 }
 
-/// What `dynamics!` and the command write is registered as it is.
+/// A function that `dynamics!` or the command wrote is registered as it is.
 #[test]
 fn generated_functions_are_registered() {
     let loaded = robot("planar2r", true);

@@ -38,7 +38,7 @@ pub fn fresh() -> Load {
     }
 }
 
-/// Returns what asks for this, and nothing kept.
+/// Returns options that ask for this and keep nothing.
 pub fn asking(asked: &str) -> Load {
     Load {
         asked: asked.parse().unwrap(),

@@ -1,4 +1,4 @@
-//! What a generated file says of itself, and whether it may be used as it stands.
+//! The first lines of a generated file, and the check that it may be used as it stands.
 //!
 //! - [`Asked`]: the options that somebody asked for, as one text
 //! - [`Stamp`]: the first lines of a file: version, robot file, what was asked, the text's hash

@@ -12,7 +12,7 @@ use std::path::{Component, Path};
 
 use crate::Asked;
 
-/// How a language begins and ends the lines of a comment.
+/// The comments of a language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Comment {
     /// A line of Rust: `//`.
@@ -22,7 +22,7 @@ pub enum Comment {
 }
 
 impl Comment {
-    /// Returns what stands before the first line, before each other one and behind the last.
+    /// Returns the marks before the first line, before each other one and behind the last.
     fn marks(self) -> [&'static str; 3] {
         match self {
             Comment::Line => ["// ", "// ", ""],
@@ -40,7 +40,7 @@ pub struct Stamp {
     pub robot: String,
     /// The [`hash`] of the robot file.
     pub robot_hash: String,
-    /// What was asked.
+    /// The options that were asked for.
     pub asked: Asked,
 }
 

@@ -1,7 +1,7 @@
 //! `NAME_columns`: the function at any number of states, by the crate `dalembert-batch`, which
 //! asks the processor what vectors it has.
 //!
-//! What that crate needs to know of the function is the type `…Batch`.
+//! The type `…Batch` tells that crate about the function.
 
 use std::fmt::Write;
 

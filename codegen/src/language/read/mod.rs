@@ -125,7 +125,7 @@ fn expect(found: &str, expected: &str) -> Result<(), String> {
     }
 }
 
-/// Returns whether a line is no documentation, which is for people.
+/// Returns `true` for a line of code, `false` for documentation.
 fn is_code(line: &str) -> bool {
     !line.is_empty() && !line.starts_with("///")
 }
