@@ -165,26 +165,13 @@ impl Generator {
         let path = path.as_ref();
         let source = self.source(path)?;
         let is_rust = path.extension().is_some_and(|ending| ending == "rs");
-        let scalars = self.asked.items("scalar");
-        let by_default = if self.asked.get("scene").is_some() {
-            ""
-        } else {
-            "f64"
-        };
-        let each: &[&str] = match scalars.as_slice() {
-            [] => &[by_default],
-            scalars if is_rust => scalars,
-            _ => &[""],
+        let files = match is_rust {
+            true => self.asked.by_scalar(),
+            false => vec![("", self.asked.clone())],
         };
         let mut stale = None;
-        for scalar in each {
-            let mut asked = self.asked.clone();
-            if is_rust {
-                // It is an option.
-                let _ = asked.set("scalar", scalar);
-            }
-            let is_second = each.len() > 1 && *scalar == "f32";
-            let file = beside(path, if is_second { "_f32" } else { "" });
+        for (suffix, asked) in files {
+            let file = beside(path, suffix);
             let found = fs::read_to_string(&file);
             let checked = match &found {
                 Ok(found) => Stamp::check(found, VERSION, &source, &asked).map_err(Some),

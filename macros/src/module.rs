@@ -86,32 +86,14 @@ fn modules(
 
 /// Returns the modules that are asked for: one a scalar, the second of a pair called `…_f32`.
 fn wanted(invocation: &Invocation) -> Vec<Wanted> {
-    let asked = &invocation.asked;
-    let mut scalars = asked.items("scalar");
-    if scalars.is_empty() {
-        // A scene may have a scalar of its own.
-        scalars.push(if asked.get("scene").is_some() {
-            ""
-        } else {
-            "f64"
-        });
-    }
-    let is_pair = scalars.len() > 1;
-    let one = |scalar: &str| {
-        let suffix = if is_pair && scalar == "f32" {
-            "_f32"
-        } else {
-            ""
-        };
-        let (name, mut asked) = (&invocation.name, asked.clone());
-        // It is an option.
-        let _ = asked.set("scalar", scalar);
-        Wanted {
+    let name = &invocation.name;
+    let files = invocation.asked.by_scalar().into_iter();
+    files
+        .map(|(suffix, asked)| Wanted {
             name: named(&format!("{name}{suffix}"), name.span()),
             asked,
-        }
-    };
-    scalars.into_iter().map(one).collect()
+        })
+        .collect()
 }
 
 /// Returns the robot file and its text, or why there is none and the likely fix.
@@ -277,7 +259,7 @@ fn generated(
 fn generated(
     invocation: &Invocation,
     robot: Option<&Path>,
-    wanted: &[Wanted],
+    _: &[Wanted],
     refused: &[Refused],
     errors: &mut Errors,
 ) -> TokenStream {
@@ -290,22 +272,21 @@ fn generated(
         );
     }
     let outputs = invocation.asked.get("outputs").is_some();
+    let generate = || {
+        let mut asked = invocation.asked.clone();
+        if asked.get("scalar") == Some("f64") && asked.get("scene").is_none() {
+            // It is the default, but of a scene that has its own.
+            let _ = asked.set("scalar", "");
+        }
+        let file = beside(&shown, &format!("{}.rs", invocation.name));
+        format!("dalembert generate {shown}{} -o {file}", asked.arguments())
+    };
     for (file, stale) in refused {
         let own = shown_file(&shown, file);
         let Some(stale) = stale else {
-            let file = invocation.name.to_string() + ".rs";
-            let mut asked = invocation.asked.clone();
-            if wanted.len() == 1 && asked.get("scalar") == Some("f64") {
-                // It is the default.
-                let _ = asked.set("scalar", "");
-            }
-            let command = format!(
-                "dalembert generate {shown}{} -o {}",
-                asked.arguments(),
-                beside(&shown, &file)
-            );
             let help = format!(
-                "{command}\n  = help: or let the compiler generate it, in minutes: cargo add dalembert --features search"
+                "{}\n  = help: or let the compiler generate it, in minutes: cargo add dalembert --features search",
+                generate()
             );
             errors.say(
                 &invocation.robot,
@@ -316,20 +297,13 @@ fn generated(
             break;
         };
         let renew = format!("dalembert renew {own}");
-        let again = || {
-            let file = beside(&shown, &format!("{}.rs", invocation.name));
-            format!(
-                "dalembert generate {shown}{} -o {file}",
-                invocation.asked.arguments()
-            )
-        };
         let (at, help) = match stale {
-            Stale::Option(option, _) => (invocation.place(option, ""), again()),
+            Stale::Option(option, _) => (invocation.place(option, ""), generate()),
             Stale::Outputs(missing) if outputs => {
                 let first = missing.first().map_or("", String::as_str);
-                (invocation.place("outputs", first), again())
+                (invocation.place("outputs", first), generate())
             }
-            Stale::Foreign => (invocation.robot.to_token_stream(), again() + " --force"),
+            Stale::Foreign => (invocation.robot.to_token_stream(), generate() + " --force"),
             _ => (invocation.robot.to_token_stream(), renew),
         };
         errors.say(at, &stale.message(&own, &shown), &help);

@@ -109,11 +109,8 @@ impl Generated {
     pub fn suffixes(&self) -> Vec<&'static str> {
         let is_pair = self.texts.len() > 1;
         let scalars = self.scalars.iter().take(self.texts.len());
-        let suffix = |&scalar: &ScalarType| match is_pair && scalar == ScalarType::F32 {
-            true => "_f32",
-            false => "",
-        };
-        scalars.map(suffix).collect()
+        let suffixes = scalars.map(|scalar| dalembert_stamp::suffix(scalar.name(), is_pair));
+        suffixes.collect()
     }
 
     /// Returns the texts of all files, one after the other.

@@ -68,6 +68,14 @@ fn is_near(name: &str, found: &str) -> bool {
     longest > 1 && before + behind + 1 >= longest && one.len().abs_diff(other.len()) <= 1
 }
 
+/// Returns the end of the name of a file or module in Rust: `_f32` for that scalar of a pair.
+pub fn suffix(scalar: &str, is_pair: bool) -> &'static str {
+    match is_pair && scalar == "f32" {
+        true => "_f32",
+        false => "",
+    }
+}
+
 /// Returns the items of a value, without the spaces in them and without empty ones.
 pub fn items(value: &str) -> impl Iterator<Item = String> + '_ {
     let items = value.split(',');
@@ -116,6 +124,23 @@ impl Asked {
         self.0
             .iter()
             .map(|(option, value)| (*option, value.as_str()))
+    }
+
+    /// Returns the options of each file in Rust, which has one scalar, and the end of its name before
+    /// the extension. Without a scalar that is f64, or the scene's own.
+    pub fn by_scalar(&self) -> Vec<(&'static str, Asked)> {
+        let mut scalars = self.items("scalar");
+        if scalars.is_empty() {
+            scalars.push(self.get("scene").map_or("f64", |_| ""));
+        }
+        let is_pair = scalars.len() > 1;
+        let one = |scalar: &str| {
+            let mut asked = self.clone();
+            // It is an option.
+            let _ = asked.set("scalar", scalar);
+            (suffix(scalar, is_pair), asked)
+        };
+        scalars.into_iter().map(one).collect()
     }
 
     /// Returns the options as arguments of the command: ` --outputs gravity,inertia --scalar f64`.
@@ -170,6 +195,22 @@ mod tests {
         let arguments = " --outputs jacobian@hand:local,servo=gravity+inertia --fma --scene pick";
         assert_eq!(asked.arguments(), arguments);
         assert_eq!(asked.items("outputs").len(), 2);
+    }
+
+    #[test]
+    fn each_file_in_rust_has_a_scalar() {
+        let files = |text: &str| {
+            let asked: Asked = text.parse().unwrap();
+            let files = asked.by_scalar().into_iter();
+            files
+                .map(|(suffix, own)| format!("{suffix} {own}"))
+                .collect::<Vec<String>>()
+        };
+        assert_eq!(files(""), [" scalar: f64"]);
+        assert_eq!(files("scalar: f32"), [" scalar: f32"]);
+        assert_eq!(files("scene: pick"), [" scene: pick"]);
+        let pair = [" scalar: f64", "_f32 scalar: f32"];
+        assert_eq!(files("scalar: f64, f32"), pair);
     }
 
     #[test]

@@ -12,5 +12,5 @@
 mod asked;
 mod stamp;
 
-pub use asked::{Asked, NotAsked, OPTIONS, items};
+pub use asked::{Asked, NotAsked, OPTIONS, items, suffix};
 pub use stamp::{Comment, Stale, Stamp, hash, relative};
