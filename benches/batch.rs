@@ -13,7 +13,7 @@ mod rounds;
 use std::hint::black_box;
 
 use dalembert::batch::{Vectors, columns_in, parallel};
-use dalembert_codegen::workspace::task::Fma;
+use dalembert_codegen::Fma;
 use dalembert_model::scalar::field::Points;
 
 #[path = "generated/puma560_batch.rs"]
@@ -176,7 +176,7 @@ macro_rules! bench {
 }
 
 fn main() {
-    use dalembert_codegen::workspace::function::Function as Output;
+    use dalembert_codegen::Function as Output;
     let chosen: Vec<String> = std::env::args()
         .skip(1)
         .filter(|word| !word.starts_with('-'))

@@ -5,12 +5,8 @@ use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Child, ChildStdout, Command, Stdio};
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::language::Language;
-use dalembert_codegen::workspace::plan;
-use dalembert_codegen::workspace::sincos::SinCos;
-use dalembert_codegen::workspace::task::{Fma, Request};
+use dalembert_codegen::workspace::plan_file;
+use dalembert_codegen::{Fma, Function, Language, Request, SinCos, generate};
 use dalembert_model::read;
 
 /// A running program.
@@ -30,7 +26,7 @@ impl Gcc {
             sincos: SinCos::Together,
             batch: true,
             language: Language::C,
-            plan: plan::file::beside(&robot).ok()?,
+            plan: plan_file::beside(&robot).ok()?,
             fma,
             ..Request::of(functions)
         };

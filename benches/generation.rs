@@ -9,10 +9,8 @@ use std::fs;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::plan;
-use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::plan_file;
+use dalembert_codegen::{Function, Request, generate};
 use dalembert_model::read;
 use dalembert_model::robot::Robot;
 use rounds::Rounds;
@@ -40,7 +38,7 @@ fn searches(name: &str) {
     let torques = Request::of(&[Function::InverseDynamics]);
     let toml = file(&format!("generated/robots/{name}.toml"));
     let planned = Request {
-        plan: plan::file::beside(&toml).expect("a readable plan"),
+        plan: plan_file::beside(&toml).expect("a readable plan"),
         ..torques.clone()
     };
     let mut rounds = Rounds::of(1);

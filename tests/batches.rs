@@ -121,11 +121,16 @@ fn array<T: std::fmt::Debug, const M: usize>(numbers: Vec<T>) -> [T; M] {
     numbers.try_into().unwrap()
 }
 
-/// Compares a function of columns with the function of one state; `$numbers` are those of a result
-/// in the order of its text.
+/// Compares functions of columns with the functions of one state, in both scalars; each line ends in
+/// the numbers of a result in the order of its text.
 macro_rules! check {
-    ($module:ident, $scalar:ty, $function:ident, $columns:ident, $kind:ident,
-     [$($argument:ident),*], |$result:ident| $numbers:expr) => {{
+    ($module:ident, $single:ident; $($function:ident $columns:ident $kind:ident
+      $arguments:tt $result:ident => $numbers:expr;)*) => {$(
+        check!(@ $module, f64, $function, $columns, $kind, $arguments, $result, $numbers);
+        check!(@ $single, f32, $function, $columns, $kind, $arguments, $result, $numbers);
+    )*};
+    (@ $module:ident, $scalar:ty, $function:ident, $columns:ident, $kind:ident,
+     [$($argument:ident)*], $result:ident, $numbers:expr) => {{
         type Kind = $module::$kind;
         const N: usize = $module::N;
         const MOST: usize = 2 * 64 + 17;
@@ -184,130 +189,71 @@ macro_rules! check {
     }};
 }
 
-/// Checks the functions that every arm here has, from torques to accelerations and back.
 macro_rules! check_dynamics {
-    ($module:ident, $scalar:ty) => {{
-        check!(
-            $module,
-            $scalar,
-            inverse_dynamics,
-            inverse_dynamics_columns,
-            InverseDynamicsBatch,
-            [q, qd, qdd],
-            |x| x.to_vec()
-        );
-        check!(
-            $module,
-            $scalar,
-            forward_dynamics,
-            forward_dynamics_columns,
-            ForwardDynamicsBatch,
-            [q, qd, tau],
-            |x| x.to_vec()
-        );
-    }};
+    ($module:ident, $single:ident) => {
+        check! { $module, $single;
+            inverse_dynamics inverse_dynamics_columns InverseDynamicsBatch
+                [q qd qdd] x => x.to_vec();
+            forward_dynamics forward_dynamics_columns ForwardDynamicsBatch
+                [q qd tau] x => x.to_vec();
+        }
+    };
 }
 
 macro_rules! check_arm {
-    ($module:ident, $scalar:ty) => {{
-        check_dynamics!($module, $scalar);
-        check!(
-            $module,
-            $scalar,
-            gravity,
-            gravity_columns,
-            GravityBatch,
-            [q],
-            |x| x.to_vec()
-        );
-        check!(
-            $module,
-            $scalar,
-            kinetic_energy,
-            kinetic_energy_columns,
-            KineticEnergyBatch,
-            [q, qd],
-            |x| vec![*x]
-        );
-        check!(
-            $module,
-            $scalar,
-            manipulator_equation,
-            manipulator_equation_columns,
-            ManipulatorEquationBatch,
-            [q, qd],
-            |x| [x.d.as_flattened(), &x.h, &x.c].concat()
-        );
-    }};
-}
-
-macro_rules! check_bundles {
-    ($module:ident, $scalar:ty) => {{
-        check!(
-            $module,
-            $scalar,
-            servo,
-            servo_columns,
-            ServoBatch,
-            [q, qd, qdd],
-            |x| [&x.tau[..], x.jacobian.as_flattened(), x.pose.as_flattened()].concat()
-        );
-        check!(
-            $module,
-            $scalar,
-            task,
-            task_columns,
-            TaskBatch,
-            [q, qd, tau],
-            |x| [&x.qdd[..], &[x.kinetic], x.d.as_flattened()].concat()
-        );
-    }};
+    ($module:ident, $single:ident) => {
+        check_dynamics!($module, $single);
+        check! { $module, $single;
+            gravity gravity_columns GravityBatch [q] x => x.to_vec();
+            kinetic_energy kinetic_energy_columns KineticEnergyBatch [q qd] x => vec![*x];
+            manipulator_equation manipulator_equation_columns ManipulatorEquationBatch
+                [q qd] x => [x.d.as_flattened(), &x.h, &x.c].concat();
+        }
+    };
 }
 
 /// A bundle of many states returns what its function returns for each.
 #[test]
 fn bundles_of_many_states() {
-    check_bundles!(bundled, f64);
-    check_bundles!(bundled_f32, f32);
+    check! { bundled, bundled_f32;
+        servo servo_columns ServoBatch [q qd qdd] x =>
+            [&x.tau[..], x.jacobian.as_flattened(), x.pose.as_flattened()].concat();
+        task task_columns TaskBatch [q qd tau] x =>
+            [&x.qdd[..], &[x.kinetic], x.d.as_flattened()].concat();
+    }
 }
 
 #[test]
 fn sines_of_all_angles_together() {
-    check_arm!(together, f64);
-    check_arm!(together_f32, f32);
+    check_arm!(together, together_f32);
 }
 
 #[test]
 fn sines_of_libm() {
-    check_arm!(alone, f64);
-    check_arm!(alone_f32, f32);
+    check_arm!(alone, alone_f32);
 }
 
 /// A product and its sum in one rounding, also where the processor has no
 /// instruction for both.
 #[test]
 fn fused_products() {
-    check_arm!(fused, f64);
-    check_arm!(fused_f32, f32);
+    check_arm!(fused, fused_f32);
 }
 
 #[test]
 fn sines_by_polynomials() {
-    check_arm!(polynomial, f64);
-    check_arm!(polynomial_f32, f32);
+    check_arm!(polynomial, polynomial_f32);
 }
 
 #[test]
 fn sines_of_sums() {
-    check_arm!(sums, f64);
-    check_arm!(sums_f32, f32);
+    check_arm!(sums, sums_f32);
 }
 
 /// The arm that is measured: hundreds of operations.
 #[test]
 fn a_whole_arm() {
-    check_dynamics!(puma560, f64);
-    check_dynamics!(puma560_f32, f32);
+    check_dynamics!(puma560, puma560_f32);
 }
 
 #[test]
@@ -357,30 +303,5 @@ fn all_cores_have_the_same_bits() {
         .unwrap();
         let mut pairs = one.iter().flatten().zip(all.iter().flatten());
         assert!(pairs.all(|(one, all)| one.same(all)), "{count}");
-    }
-}
-
-/// τ of a joint at full speed and at the width of its friction, against the same at
-/// rest: by hand F, F/√2 and b q̇, whoever computes the sines.
-#[test]
-fn friction_is_in_the_torques() {
-    let still = [0.0; 3];
-    let rest = together::inverse_dynamics(&still, &still, &still)[2];
-    let root = std::f64::consts::FRAC_1_SQRT_2;
-    for (qd, expected) in [
-        (100.0, 14.0 + 300.0),
-        (1.0 / 300.0, 14.0 * root + 0.01),
-        (-1.0 / 300.0, -14.0 * root - 0.01),
-        (0.0, 0.0),
-    ] {
-        let qd = [0.0, 0.0, qd];
-        for tau in [
-            together::inverse_dynamics(&still, &qd, &still),
-            alone::inverse_dynamics(&still, &qd, &still),
-            sums::inverse_dynamics(&still, &qd, &still),
-        ] {
-            // 1e-8 of F is what the width takes at 100 m/s.
-            assert!((tau[2] - rest - expected).abs() < 1e-7, "{qd:?}: {tau:?}");
-        }
     }
 }

@@ -1,28 +1,18 @@
 //! The functions that the bench of sines compares are what the generator
 //! writes: one program, certified with polynomials to stay within 1e-6 of the
 //! actuators' limits, printed with them, with libm's sines, with std's, and with
-//! those of all angles together; those of the bench of batches; and the recursion in symbols that nothing simplified.
+//! those of all angles together; and the recursion in symbols that nothing simplified.
 //!
 //! What differs is written anew before the test fails.
 
 use std::fs;
 use std::path::Path;
 
-use dalembert_codegen::workspace::approximate::sines::within;
-use dalembert_codegen::workspace::bound::input_box::InputBox;
-use dalembert_codegen::workspace::bound::scale;
-use dalembert_codegen::workspace::bound::sensitivity::{BoundEffort, Sensitivity};
-use dalembert_codegen::workspace::certificate::Certificate;
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::language::Printed;
-use dalembert_codegen::workspace::language::function::write;
-use dalembert_codegen::workspace::plan;
-use dalembert_codegen::workspace::program::{Library, Program, ScalarType};
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::sincos::{self, SinCos};
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::trace::trace;
+use dalembert_codegen::workspace::{
+    BoundEffort, Certificate, InputBox, Library, Printed, SceneRobot, Sensitivity, lowered,
+    plan_file, scale, trace, within, write_function,
+};
+use dalembert_codegen::{Function, Program, Request, ScalarType, generate};
 use dalembert_model::equations::Formulation;
 use dalembert_model::read;
 
@@ -37,7 +27,7 @@ fn the_bench_of_sines_is_up_to_date() {
         .robot;
     let request = Request {
         scalars: vec![ScalarType::F64],
-        plan: plan::file::beside(&file).unwrap(),
+        plan: plan_file::beside(&file).unwrap(),
         ..Request::of(&[Function::InverseDynamics])
     };
     let generated = generate(&robot, &request).unwrap();
@@ -71,34 +61,13 @@ fn the_bench_of_sines_is_up_to_date() {
         ("together", Library::Together, &[][..], ""),
         ("polynomials", Library::Libm, sines.as_slice(), ""),
     ] {
-        let code = sincos::lowered(program, scalar, library, sines);
-        let code = write(&Printed::of(program, &code), library, &[]);
+        let code = lowered(program, scalar, library, sines);
+        let code = write_function(&Printed::of(program, &code), library, &[]);
         text += &format!(
             "\n#[allow(clippy::all, clippy::pedantic)]\npub mod {name} {{\n{before}{code}}}\n"
         );
     }
     keep("benches/generated/puma560_sines.rs", &text);
-}
-
-#[test]
-fn the_bench_of_batches_is_up_to_date() {
-    let file = root().join("generated/robots/puma560.toml");
-    let source = fs::read_to_string(&file).unwrap();
-    let reading = read::parse(&source, &read::Options::default()).unwrap();
-    let request = Request {
-        sincos: SinCos::Together,
-        batch: true,
-        plan: plan::file::beside(&file).unwrap(),
-        ..Request::of(&[Function::InverseDynamics, Function::ForwardDynamics])
-    };
-    let generated = generate(&reading.robot, &request).unwrap();
-    let files = generated.files(&request, "../../generated/robots/puma560.toml", &source);
-    for (suffix, text) in generated.suffixes().iter().zip(files) {
-        keep(
-            &format!("benches/generated/puma560_batch{suffix}.rs"),
-            &text,
-        );
-    }
 }
 
 /// The Newton–Euler recursion run with symbols: zeros and ones of the robot are folded
@@ -114,8 +83,8 @@ fn the_recursion_in_symbols_is_up_to_date() {
         let function = Function::InverseDynamics;
         let traced = trace(&scene_robot, function, Formulation::NewtonEulerLink);
         let program = Program::in_scene(&scene_robot, function, &traced.graph);
-        let code = sincos::lowered(&program, ScalarType::F64, Library::Libm, &[]);
-        let code = write(&Printed::of(&program, &code), Library::Libm, &[]);
+        let code = lowered(&program, ScalarType::F64, Library::Libm, &[]);
+        let code = write_function(&Printed::of(&program, &code), Library::Libm, &[]);
         text +=
             &format!("\n#[allow(clippy::all, clippy::pedantic)]\npub mod {name} {{\n{code}}}\n");
     }

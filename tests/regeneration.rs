@@ -10,10 +10,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::workspace::function::{Function, RuntimeParameter};
-use dalembert_codegen::workspace::generate::{GeneratedFunction, generate};
-use dalembert_codegen::workspace::plan::{self, Entry};
-use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::{Entry, RuntimeParameter, plan_file};
+use dalembert_codegen::{Function, GeneratedFunction, Request, generate};
 use dalembert_model::read;
 use dalembert_model::robot::Robot;
 
@@ -49,7 +47,7 @@ fn pages_have_the_counts_of_the_plans() {
         let source = fs::read_to_string(&file).unwrap();
         let reading = read::parse(&source, &read::Options::default()).unwrap();
         let request = Request {
-            plan: plan::file::beside(&file).unwrap(),
+            plan: plan_file::beside(&file).unwrap(),
             ..Request::default().for_file(&reading.outputs)
         };
         let mut functions = generate(&reading.robot, &request).unwrap().functions;

@@ -1,7 +1,6 @@
 //! `dalembert count`: the operations of the generated functions.
 
-use dalembert_codegen::workspace::generate::GeneratedFunction;
-use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::{GeneratedFunction, ScalarType};
 use serde_json::{Map, Value, json};
 
 use crate::args::CountArgs;

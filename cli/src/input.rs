@@ -4,13 +4,8 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-use dalembert_codegen::RobotFileError;
-use dalembert_codegen::workspace::generate::{Generated, generate_anew};
-use dalembert_codegen::workspace::plan;
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::task::in_scene::find;
-use dalembert_codegen::{Asked, Problem};
+use dalembert_codegen::workspace::{find_scene, generate_anew, plan_file};
+use dalembert_codegen::{Asked, Generated, Problem, Request, RobotFileError, ScalarType};
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
@@ -43,7 +38,7 @@ pub fn wanted(path: &Path, asked: &Asked, scalars: &[ScalarType]) -> Result<Want
     let request = Request::parse(asked, scalars, &reading.outputs, &reading.scenes);
     let mut request = request.map_err(|problems| Failure::Input(problems_of(&problems)))?;
     if !request.has_no_plan {
-        request.plan = plan::file::beside(path)
+        request.plan = plan_file::beside(path)
             .map_err(|message| Failure::Input(format!("error: {message}")))?;
     }
     Ok(Wanted {
@@ -69,7 +64,7 @@ fn problems_of(problems: &[Problem]) -> String {
 
 /// Returns a scene of a robot file.
 pub fn scene<'r>(path: &Path, reading: &'r Reading, name: &str) -> Result<&'r Scene, Failure> {
-    find(&reading.scenes, name).map_err(|error| {
+    find_scene(&reading.scenes, name).map_err(|error| {
         Failure::Input(format!(
             "error: {}: {}\n  = help: {}",
             path.display(),

@@ -1,7 +1,7 @@
 //! How a run ends: 0 good, 1 a check failed, 2 bad input.
 
-use dalembert_codegen::workspace::generate::GenerateError;
-use dalembert_codegen::workspace::verify::exact::Disproof;
+use dalembert_codegen::GenerateError;
+use dalembert_codegen::workspace::Disproof;
 
 /// Why a run does not end well; the text is for standard error.
 #[derive(Debug)]

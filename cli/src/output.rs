@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anstream::{AutoStream, ColorChoice};
-use dalembert_codegen::workspace::program::Counts;
+use dalembert_codegen::Counts;
 use dalembert_model::read::{Diagnostic, RobotWarning, Severity};
 use serde_json::{Value, json};
 

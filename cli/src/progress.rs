@@ -8,10 +8,8 @@ use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::simplify::Effort;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::watch::{Observer, Progress, Watch};
+use dalembert_codegen::workspace::{Observer, Progress};
+use dalembert_codegen::{Effort, Function, Request, Watch};
 use dalembert_report::sweep::Point;
 use dalembert_report::sweep::ladder::Waiting;
 
@@ -200,7 +198,7 @@ impl Drop for Session {
 
 #[cfg(test)]
 mod tests {
-    use dalembert_codegen::workspace::function::Function;
+    use dalembert_codegen::Function;
 
     use super::place;
 

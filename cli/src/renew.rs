@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::workspace::language::Language;
+use dalembert_codegen::Language;
 use dalembert_stamp::Stamp;
 use serde_json::json;
 

@@ -1,12 +1,8 @@
 //! Polynomials against libm's sine and cosine: what was seen and what was
 //! proved.
 
-use dalembert_codegen::workspace::emit::figures::bound_of;
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::Generated;
-use dalembert_codegen::workspace::program::{AngleSum, ScalarType};
-use dalembert_codegen::workspace::sincos::angle_name;
-use dalembert_codegen::workspace::states::JointState;
+use dalembert_codegen::workspace::{AngleSum, JointState, angle_name, bound_of};
+use dalembert_codegen::{Function, Generated, ScalarType};
 use serde_json::{Value, json};
 
 use crate::output;

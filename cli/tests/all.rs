@@ -5,7 +5,6 @@ mod attacks_on_the_proof;
 mod bad_input;
 mod certificates;
 mod command;
-mod dossier;
 mod explain;
 mod forged;
 mod guide;

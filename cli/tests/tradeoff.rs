@@ -3,7 +3,7 @@
 use std::fs;
 
 use crate::support::planar::{arm, path};
-use crate::support::{good, robot, run, temporary};
+use crate::support::{good, run};
 
 #[test]
 fn a_tradeoff_with_table_chart_and_certificates() {
@@ -108,49 +108,6 @@ fn nothing_is_observed_at_no_states() {
     }
     let svg = fs::read_to_string(path(&folder, "out/tradeoff.svg")).unwrap();
     assert!(!svg.contains("observed"), "{svg}");
-}
-
-/// The variants compile, run, and are compared with the exact one. What comes
-/// out depends on the machine: only that it is there is tested.
-#[test]
-fn variants_are_measured() {
-    let folder = temporary("measured");
-    let output = path(&folder, "out");
-    let ran = good(&[
-        "tradeoff",
-        &robot("planar2r"),
-        "--function",
-        "gravity",
-        "--relative-to",
-        "range",
-        "--tolerances",
-        "0.1",
-        "--samples",
-        "50",
-        "--time",
-        "-o",
-        &output,
-    ]);
-    let csv = fs::read_to_string(path(&folder, "out/tradeoff.csv")).unwrap();
-    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
-    let column = |name: &str| rows[0].iter().position(|head| *head == name).unwrap();
-    let (time, ratio) = (column("ns"), column("time"));
-    assert_eq!(rows[1][..3], ["0e0", "f64", "libm"]);
-    assert_eq!(rows[1][ratio], "1.000");
-    assert!(rows.iter().any(|row| row[2] == "polynomials"), "{csv}");
-    for row in &rows[1..] {
-        for cell in [row[time], row[ratio]] {
-            let number: f64 = cell.parse().unwrap();
-            assert!(number.is_finite() && number > 0.0, "{csv}");
-        }
-    }
-    let chart = fs::read_to_string(path(&folder, "out/time.svg")).unwrap();
-    assert!(chart.contains("ns of a call, "), "{chart}");
-    let head: Vec<&str> = ran.out.lines().next().unwrap().split_whitespace().collect();
-    assert!(head.ends_with(&["ns", "time", "front"]), "{}", ran.out);
-    let last = ran.out.lines().last().unwrap();
-    let processor = last.strip_prefix("ns: a call in a loop, compiled for this processor: ");
-    assert!(processor.is_some_and(|name| !name.is_empty()), "{last}");
 }
 
 #[test]

@@ -104,7 +104,7 @@ pub fn parse<W: Word>(text: &str) -> Result<W, UnknownWord> {
 /// Returns the bundle that a text makes, `NAME=OUTPUT+OUTPUT`.
 ///
 /// ```
-/// use dalembert_codegen::workspace::words::bundle;
+/// use dalembert_codegen::workspace::bundle;
 ///
 /// assert_eq!(bundle("still=inertia+gravity").unwrap().name(), "still");
 /// let error = bundle("still=inertia+gravty").unwrap_err();

@@ -2,14 +2,8 @@
 //! that a robot's last digits do not decide.
 
 use crate::support::{arm_file, dose, read_robot};
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{GeneratedFunction, generate};
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::states::seeded;
-use dalembert_codegen::workspace::task::{Prefer, Request};
-use dalembert_codegen::workspace::verify::floating::Runtime;
-use dalembert_codegen::workspace::verify::rounding::Rounding;
+use dalembert_codegen::workspace::{Rounding, Runtime, SceneRobot, seeded};
+use dalembert_codegen::{Function, GeneratedFunction, Prefer, Request, ScalarType, generate};
 
 /// Returns τ by a quick search.
 fn torques(source: &str, prefer: Prefer) -> GeneratedFunction {

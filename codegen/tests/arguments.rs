@@ -1,17 +1,11 @@
 //! Parameters of the robot that are arguments: a payload by its load, gravity. What
 //! is generated gives what the robot file with that payload, or that gravity, gives.
 
-use dalembert_codegen::workspace::function::{Argument, Function, RuntimeParameter};
-use dalembert_codegen::workspace::generate::Generated;
-use dalembert_codegen::workspace::generate::keep::keep;
-use dalembert_codegen::workspace::plan::Plan;
-use dalembert_codegen::workspace::portfolio::Start;
-use dalembert_codegen::workspace::program::{Input, Operand, Program, ScalarType};
-use dalembert_codegen::workspace::sincos::SinCos;
-use dalembert_codegen::workspace::states::JointState;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::exact::prove;
-use dalembert_codegen::workspace::verify::floating::{BOUND, Emitted, Granted, Runtime};
+use dalembert_codegen::workspace::{
+    Argument, BOUND, Emitted, Granted, Input, JointState, Operand, Runtime, RuntimeParameter, keep,
+    prove,
+};
+use dalembert_codegen::{Function, Generated, Plan, Program, Request, ScalarType, SinCos, Start};
 use dalembert_model::equations::Formulation;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Inertia, Placement, Position, Robot};

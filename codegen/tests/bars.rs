@@ -1,7 +1,6 @@
 //! Upper bounds on operation counts. They go down: where one rose, the sum over all arms fell.
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::portfolio::Start;
+use dalembert_codegen::{Function, Start};
 use dalembert_model::equations::Formulation;
 
 use crate::support;

@@ -2,15 +2,8 @@
 //! out is proved, read back and measured as any function is; it is the same by
 //! every way in, and costs no more than its parts.
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::keep::keep;
-use dalembert_codegen::workspace::generate::{GenerateError, Generated, generate};
-use dalembert_codegen::workspace::plan::Plan;
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::states;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::workspace::{BOUND, Runtime, SceneRobot, keep, seeded};
+use dalembert_codegen::{Function, GenerateError, Generated, Plan, Request, ScalarType, generate};
 use dalembert_model::robot::Robot;
 
 use crate::support;
@@ -46,7 +39,7 @@ fn each_quantity_is_what_its_runtime_says() {
     .map(bundle);
     let generated = of(&planar, &functions, true);
     let runtime = Runtime::new(&planar);
-    let states = states::seeded(&planar, 100, 7);
+    let states = seeded(&planar, 100, 7);
     let mut quantities = 0;
     for emitted in &generated.emitted {
         for measure in emitted.against_runtime(&runtime, &states) {
@@ -118,7 +111,7 @@ fn one_struct_in_the_written_order() {
 /// A field that trades its name with another of its type is noticed.
 #[test]
 fn the_text_is_read_back_field_by_field() {
-    use dalembert_codegen::workspace::program::{Library, Lowered};
+    use dalembert_codegen::workspace::{Library, Lowered};
     let planar = support::robot("planar2r");
     let loads = bundle("loads=gravity+coriolis");
     let generated = of(&planar, &[loads], false);
@@ -219,7 +212,7 @@ velocity = "zero"
     assert!(text.contains("pub c: [f64; 2],") && text.contains("pub jacobian: [[f64; 2]; 6],"));
     let scene_robot = SceneRobot::new(&reading.robot, scene).unwrap();
     let runtime = Runtime::in_scene(scene_robot);
-    let states = states::seeded(&reading.robot, 50, 3);
+    let states = seeded(&reading.robot, 50, 3);
     support::rounds_well(&generated.emitted, &runtime, &states, "");
     // The text of the scene, of which its hash is made, has the parts.
     let written = dalembert_model::scene::write(scene);

@@ -6,14 +6,10 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use dalembert_codegen::RobotFile;
-use dalembert_codegen::workspace::function::{Function, RuntimeParameter};
-use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::language::c99::Names;
-use dalembert_codegen::workspace::language::{Language, Printed};
-use dalembert_codegen::workspace::program::{Library, Lowered, ScalarType};
-use dalembert_codegen::workspace::sincos::SinCos;
-use dalembert_codegen::workspace::task::{Fma, Request};
+use dalembert_codegen::workspace::{Library, Lowered, Names, Printed, RuntimeParameter};
+use dalembert_codegen::{
+    Fma, Function, Language, Request, RobotFile, ScalarType, SinCos, generate,
+};
 use dalembert_model::robot::Robot;
 
 use crate::support;

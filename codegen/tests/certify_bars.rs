@@ -2,15 +2,10 @@
 //!
 //! Minutes without optimisation, so they run in release only.
 
-use dalembert_codegen::workspace::approximate::prune::{PruneSettings, prune};
-use dalembert_codegen::workspace::bound::definite::least_eigenvalue;
-use dalembert_codegen::workspace::bound::input_box::InputBox;
-use dalembert_codegen::workspace::bound::scale;
-use dalembert_codegen::workspace::certificate::Certificate;
-use dalembert_codegen::workspace::falsify::falsify;
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::portfolio::Start;
-use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::workspace::{
+    Certificate, InputBox, PruneSettings, falsify, least_eigenvalue, prune, scale,
+};
+use dalembert_codegen::{Function, ScalarType, Start};
 
 use crate::support;
 

@@ -2,17 +2,10 @@
 //! four robots, run at corners, random states and where a climb ends. The
 //! whole campaign is in `src/certificate/README.md`; this is its smaller dose.
 
-use dalembert_codegen::workspace::approximate::choose::ErrorBudget;
-use dalembert_codegen::workspace::approximate::prune::PruneSettings;
-use dalembert_codegen::workspace::bound::magnitude::BoxEffort;
-use dalembert_codegen::workspace::bound::sensitivity::BoundEffort;
-use dalembert_codegen::workspace::certificate::Certificate;
-use dalembert_codegen::workspace::falsify::falsify;
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::{
+    BoundEffort, BoxEffort, Certificate, ErrorBudget, PruneSettings, SceneRobot, falsify,
+};
+use dalembert_codegen::{Function, Request, ScalarType, generate};
 use dalembert_model::scene::{Scale, Scene};
 
 use crate::support;

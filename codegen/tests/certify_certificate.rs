@@ -1,20 +1,10 @@
 //! Certificates hold, are tight enough, and the sampler catches them when they lie.
 
-use dalembert_codegen::workspace::approximate::prune::{PruneSettings, Pruned, prune};
-use dalembert_codegen::workspace::bound::input_box::InputBox;
-use dalembert_codegen::workspace::bound::magnitude::{BoxEffort, magnitudes};
-use dalembert_codegen::workspace::bound::ranges::{Finding, ranges};
-use dalembert_codegen::workspace::certificate::Certificate;
-use dalembert_codegen::workspace::edits::text::{read_edit, write_edit};
-use dalembert_codegen::workspace::edits::{Stage, difference};
-use dalembert_codegen::workspace::falsify::falsify;
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::graph::Folding;
-use dalembert_codegen::workspace::portfolio::Start;
-use dalembert_codegen::workspace::program::{Program, ScalarType};
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::exact::prove_same;
+use dalembert_codegen::workspace::{
+    BoxEffort, Certificate, Finding, Folding, InputBox, PruneSettings, Pruned, Stage, difference,
+    falsify, magnitudes, prove_same, prune, ranges, read_edit, write_edit,
+};
+use dalembert_codegen::{Function, Program, Request, ScalarType, Start, generate};
 use dalembert_model::robot::Robot;
 
 use crate::support;
@@ -245,7 +235,7 @@ fn branch_and_bound_and_the_grid_bound_the_same() {
     // The whole circle, and a part of it.
     let mut part = case.limits.clone();
     for q in &mut part.position {
-        *q = dalembert_codegen::workspace::interval::Interval::new(-0.5, 0.25).unwrap();
+        *q = dalembert_codegen::workspace::Interval::new(-0.5, 0.25).unwrap();
     }
     let (whole, boxes) = (bound(1 << 16, &case.limits), bound(0, &case.limits));
     for i in 0..3 {
@@ -286,7 +276,7 @@ fn what_a_scalar_cannot_hold_is_found() {
     let none = ranges(&program, ScalarType::F32, &[], &limits, 8).findings;
     assert_eq!(none, []);
     for rate in &mut limits.velocity {
-        *rate = dalembert_codegen::workspace::interval::Interval::symmetric(1e25);
+        *rate = dalembert_codegen::workspace::Interval::symmetric(1e25);
     }
     let overflow = ranges(&program, ScalarType::F32, &[], &limits, 8).findings;
     assert!(matches!(overflow[0], Finding::Overflow { .. }) && overflow[0].is_error());

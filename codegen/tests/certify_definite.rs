@@ -1,22 +1,13 @@
 //! D stays positive definite where terms were left out, and that is certified.
 
-use dalembert_codegen::workspace::approximate::prune::{PruneSettings, Pruned, prune};
-use dalembert_codegen::workspace::bound::definite::{Indefinite, least_eigenvalue};
-use dalembert_codegen::workspace::bound::input_box::InputBox;
-use dalembert_codegen::workspace::bound::sample::draw;
-use dalembert_codegen::workspace::bound::scale;
-use dalembert_codegen::workspace::certificate::Certificate;
-use dalembert_codegen::workspace::edits::{Edit, EditSite, Stage};
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{GenerateError, ToleranceError, generate};
-use dalembert_codegen::workspace::graph::Folding;
-use dalembert_codegen::workspace::plan::{Edited, Entry, Plan};
-use dalembert_codegen::workspace::portfolio::Start;
-use dalembert_codegen::workspace::program::{Program, ScalarType};
-use dalembert_codegen::workspace::random::Random;
-use dalembert_codegen::workspace::scene::{SceneKey, input_hash};
-use dalembert_codegen::workspace::states::JointState;
-use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::{
+    Certificate, Edit, EditSite, Edited, Entry, Folding, Indefinite, InputBox, JointState,
+    PruneSettings, Pruned, Random, SceneKey, Stage, ToleranceError, draw, input_hash,
+    least_eigenvalue, prune, scale,
+};
+use dalembert_codegen::{
+    Function, GenerateError, Plan, Program, Request, ScalarType, Start, generate,
+};
 use dalembert_model::number::Rational;
 use dalembert_model::read::{Options, Reading, parse};
 use dalembert_model::robot::Robot;

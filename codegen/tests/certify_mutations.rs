@@ -6,19 +6,10 @@
 use std::collections::HashMap;
 
 use dalembert_checker::{Claim, Verdict, audit, read as claims};
-use dalembert_codegen::workspace::certificate::Certificate;
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{Generated, generate};
-use dalembert_codegen::workspace::plan::{Edited, Entry, Plan};
-use dalembert_codegen::workspace::program::{Library, ScalarType};
-use dalembert_codegen::workspace::random::Random;
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::scene::input_hash;
-use dalembert_codegen::workspace::sincos::SinCos;
-use dalembert_codegen::workspace::states::JointState;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::floating::Runtime;
-use dalembert_codegen::workspace::words::parse;
+use dalembert_codegen::workspace::{
+    Certificate, Edited, Entry, JointState, Library, Random, Runtime, SceneRobot, input_hash, parse,
+};
+use dalembert_codegen::{Function, Generated, Plan, Request, ScalarType, SinCos, generate};
 use dalembert_model::read::{self, Reading};
 use serde_json::Value;
 

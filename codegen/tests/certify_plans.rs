@@ -5,12 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use dalembert_codegen::workspace::certificate::Refuted;
-use dalembert_codegen::workspace::generate::keep::keep;
-use dalembert_codegen::workspace::generate::{GenerateError, generate};
-use dalembert_codegen::workspace::plan::Plan;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::{Language, RobotFile, ask};
+use dalembert_codegen::workspace::{Refuted, keep};
+use dalembert_codegen::{GenerateError, Language, Plan, Request, RobotFile, ask, generate};
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::read::Reading;
 

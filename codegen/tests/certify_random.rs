@@ -3,16 +3,10 @@
 
 use crate::support;
 use crate::support::draw::{Draw, robots};
-use dalembert_codegen::workspace::approximate::choose::ErrorBudget;
-use dalembert_codegen::workspace::approximate::prune::{PruneSettings, Pruned, prune};
-use dalembert_codegen::workspace::bound::input_box::InputBox;
-use dalembert_codegen::workspace::certificate::Certificate;
-use dalembert_codegen::workspace::edits::Stage;
-use dalembert_codegen::workspace::falsify::falsify;
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::portfolio::Start;
-use dalembert_codegen::workspace::program::{Program, ScalarType};
-use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::workspace::{
+    Certificate, ErrorBudget, InputBox, PruneSettings, Pruned, SceneRobot, Stage, falsify, prune,
+};
+use dalembert_codegen::{Function, Program, ScalarType, Start};
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{JointKind, Position, Robot};
 use dalembert_model::scene::Scale;

@@ -1,21 +1,11 @@
 //! Certificates of functions whose sines are polynomials: they hold, follow
 //! from the tolerance, and are caught when they lie.
 
-use dalembert_codegen::workspace::approximate::sines::within;
-use dalembert_codegen::workspace::bound::input_box::InputBox;
-use dalembert_codegen::workspace::bound::scale;
-use dalembert_codegen::workspace::bound::sensitivity::{BoundEffort, Sensitivity};
-use dalembert_codegen::workspace::certificate::Certificate;
-use dalembert_codegen::workspace::falsify::falsify;
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::language::{Printed, function};
-use dalembert_codegen::workspace::portfolio::Start;
-use dalembert_codegen::workspace::program::kernel::Term;
-use dalembert_codegen::workspace::program::{Library, Literal, Program, ScalarType};
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::sincos::{Sines, counts, lowered, stated};
-use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::{
+    BoundEffort, Certificate, InputBox, Library, Literal, Printed, SceneRobot, Sensitivity, Sines,
+    Term, falsify, lowered, scale, sincos_counts, stated, within, write_function,
+};
+use dalembert_codegen::{Function, Program, Request, ScalarType, Start, generate};
 use dalembert_model::number::Rational;
 use dalembert_model::robot::Robot;
 
@@ -77,7 +67,7 @@ impl Case {
     fn with_other(&self, honest: &Certificate, sines: Sines) -> Certificate {
         let mut other = honest.clone();
         let code = lowered(&self.program, honest.scalar, Library::Libm, &sines);
-        other.text = function::write(&Printed::of(&self.program, &code), Library::Libm, &[]);
+        other.text = write_function(&Printed::of(&self.program, &code), Library::Libm, &[]);
         other.sines = sines;
         other
     }
@@ -113,7 +103,7 @@ fn operations_follow_from_the_tolerance() {
         scale::actuator(robot, program).unwrap()
     });
     let operations = |tolerance| {
-        let (mul, add) = counts(&case.sines(ScalarType::F64, tolerance));
+        let (mul, add) = sincos_counts(&case.sines(ScalarType::F64, tolerance));
         mul + add
     };
     let all: Vec<usize> = [1e-2, 1e-4, 1e-6, 1e-12].map(operations).to_vec();

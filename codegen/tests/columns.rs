@@ -1,17 +1,10 @@
 //! Functions of any number of states beside those of one: the same program over vectors, read
 //! back. What brings a wrong value is refused.
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::keep::keep;
-use dalembert_codegen::workspace::generate::{Generated, GeneratedFunction, generate};
-use dalembert_codegen::workspace::language::Printed;
-use dalembert_codegen::workspace::language::read::TextError;
-use dalembert_codegen::workspace::plan::Plan;
-use dalembert_codegen::workspace::portfolio::Start;
-use dalembert_codegen::workspace::program::{Library, Lowered, ScalarType};
-use dalembert_codegen::workspace::sincos::SinCos;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::words::parse;
+use dalembert_codegen::workspace::{Library, Lowered, Printed, TextError, keep, parse};
+use dalembert_codegen::{
+    Function, Generated, GeneratedFunction, Plan, Request, ScalarType, SinCos, Start, generate,
+};
 
 use crate::support;
 

@@ -4,19 +4,11 @@
 
 use crate::support;
 use crate::support::draw::Draw;
-use dalembert_codegen::workspace::function::{Function, RuntimeParameter};
-use dalembert_codegen::workspace::generate::keep::keep;
-use dalembert_codegen::workspace::generate::{Generated, generate};
-use dalembert_codegen::workspace::plan::Plan;
-use dalembert_codegen::workspace::portfolio::Start;
-use dalembert_codegen::workspace::program::{Library, Lowered, ScalarType};
-use dalembert_codegen::workspace::random::Random;
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::sincos::SinCos;
-use dalembert_codegen::workspace::states::JointState;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::exact::{Disproof, prove};
-use dalembert_codegen::workspace::verify::floating::{BOUND, Emitted, Runtime};
+use dalembert_codegen::workspace::{
+    BOUND, Disproof, Emitted, JointState, Library, Lowered, Random, Runtime, RuntimeParameter,
+    SceneRobot, keep, prove,
+};
+use dalembert_codegen::{Function, Generated, Plan, Request, ScalarType, SinCos, Start, generate};
 use dalembert_model::equations::Formulation;
 use dalembert_model::number::Rational;
 use dalembert_model::read::{self, Reading};

@@ -4,12 +4,7 @@
 use std::fs;
 use std::process::Command;
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::language::Language;
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::sincos::SinCos;
-use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::{Function, Language, Request, ScalarType, SinCos, generate};
 
 use crate::c99::changes;
 use crate::support;

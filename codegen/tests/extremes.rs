@@ -2,10 +2,8 @@
 //! errors that are measured where code is run, and the bounds that they are held
 //! against, overflow and underflow as the code does.
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{GenerateError, generate};
-use dalembert_codegen::workspace::random::Random;
-use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::Random;
+use dalembert_codegen::{Function, GenerateError, Request, generate};
 use dalembert_model::read::{self, Reading};
 
 use crate::support;

@@ -1,13 +1,8 @@
 //! What rounding costs: every robot and function within the bounds, and the
 //! measure itself sees what it should.
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::program::Operand;
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::states::{SEED, STATES, seeded};
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::workspace::{BOUND, Operand, Runtime, SEED, STATES, seeded};
+use dalembert_codegen::{Function, Request, ScalarType, generate};
 
 use crate::support;
 
@@ -76,7 +71,7 @@ fn states_keep_to_the_limits() {
     let states = seeded(&robot, STATES, SEED);
     assert_eq!(states, seeded(&robot, STATES, SEED));
     assert_ne!(states, seeded(&robot, STATES, SEED + 1));
-    let largest = |pick: fn(&dalembert_codegen::workspace::states::JointState) -> &Vec<f64>| {
+    let largest = |pick: fn(&dalembert_codegen::workspace::JointState) -> &Vec<f64>| {
         let values = states.iter().flat_map(pick);
         values.fold(0.0f64, |most, x| most.max(x.abs()))
     };

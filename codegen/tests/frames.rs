@@ -5,15 +5,12 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use dalembert_codegen::workspace::function::{Argument, Function, Quantity};
-use dalembert_codegen::workspace::generate::keep::keep;
-use dalembert_codegen::workspace::generate::{GenerateError, Generated, generate};
-use dalembert_codegen::workspace::language::Language;
-use dalembert_codegen::workspace::plan::Plan;
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::states::{JointState, seeded};
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::floating::{Emitted, Runtime};
+use dalembert_codegen::workspace::{
+    Argument, Emitted, JointState, Quantity, Runtime, keep, seeded,
+};
+use dalembert_codegen::{
+    Function, GenerateError, Generated, Language, Plan, Request, ScalarType, generate,
+};
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 use serde_json::Value;
@@ -158,7 +155,7 @@ fn the_runtime_gives_what_pinocchio_gives() {
                 let all = runtime.run(function, &state);
                 let mut start = 0;
                 for own in function.quantities() {
-                    let length = own.len(dalembert_codegen::workspace::function::Sizes::whole(
+                    let length = own.len(dalembert_codegen::workspace::Sizes::whole(
                         robot.joints.len(),
                     ));
                     if *own == quantity {

@@ -1,18 +1,11 @@
 //! Products that are fused with sums: which they are, that the text is the program
 //! and the program the formula, what rounding costs then, and certificates.
 
-use dalembert_codegen::workspace::certificate::Certificate;
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::keep::keep;
-use dalembert_codegen::workspace::generate::{Generated, generate};
-use dalembert_codegen::workspace::program::columns::Columns;
-use dalembert_codegen::workspace::program::run::State;
-use dalembert_codegen::workspace::program::{Lowered, ScalarType};
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::states::{JointState, SEED, STATES, seeded};
-use dalembert_codegen::workspace::task::{Fma, Request};
-use dalembert_codegen::workspace::verify::floating::Runtime;
-use dalembert_codegen::workspace::verify::rounding::Rounding;
+use dalembert_codegen::workspace::{
+    Certificate, JointState, Lowered, ProgramColumns as Columns, Rounding, Runtime, SEED, STATES,
+    SceneRobot, State, keep, seeded,
+};
+use dalembert_codegen::{Fma, Function, Generated, Request, ScalarType, generate};
 use dalembert_model::read::Reading;
 use dalembert_model::robot::Robot;
 use serde_json::Value;
@@ -87,7 +80,7 @@ fn six_robots_are_right() {
     }
 }
 
-fn is_torques(emitted: &dalembert_codegen::workspace::verify::floating::Emitted) -> bool {
+fn is_torques(emitted: &dalembert_codegen::workspace::Emitted) -> bool {
     (emitted.function, emitted.scalar) == (Function::InverseDynamics, ScalarType::F64)
 }
 

@@ -3,12 +3,8 @@
 //! The reader's own fuzzing, of arbitrary bytes, is in the model's tests; here
 //! the files are close enough to right that many are accepted.
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::random::Random;
-use dalembert_codegen::workspace::states::seeded;
-use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::{Random, seeded};
+use dalembert_codegen::{Function, Request, ScalarType, generate};
 use dalembert_model::read::{Options, parse};
 use dalembert_model::robot::write;
 

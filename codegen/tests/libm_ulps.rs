@@ -2,7 +2,7 @@
 //! ulp, here of the version that is locked. Samples, not a proof; hard cases
 //! among them.
 
-use dalembert_codegen::workspace::random::Random;
+use dalembert_codegen::workspace::Random;
 use dalembert_model::number::Wide;
 use dalembert_model::scalar::{Scalar, SinCosPair};
 

@@ -1,16 +1,12 @@
 //! An arm of which three joints follow others: one coordinate each with their leaders, in
 //! code, proofs, scenes and languages, against Pinocchio.
 
-use dalembert_codegen::workspace::function::{Columns, Function, Quantity};
-use dalembert_codegen::workspace::generate::{GenerateError, Generated, generate};
-use dalembert_codegen::workspace::language::Language;
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::states::JointState;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::exact::prove;
-use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
-use dalembert_codegen::workspace::verify::reference::{Reference, TrueValue};
+use dalembert_codegen::workspace::{
+    BOUND, Columns, JointState, Quantity, Reference, Runtime, SceneRobot, TrueValue, prove,
+};
+use dalembert_codegen::{
+    Function, GenerateError, Generated, Language, Request, ScalarType, generate,
+};
 use dalembert_model::number::Rational;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::read::{self, Reading};

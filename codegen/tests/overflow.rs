@@ -1,9 +1,6 @@
 //! What a scalar cannot hold inside the robot's limits is said at generation.
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::{Function, Request, ScalarType, generate};
 use dalembert_model::read;
 
 /// Returns the warnings for the PUMA's torques with another limit of velocity.

@@ -2,11 +2,8 @@
 //! runtime, and says where both are; without them nothing changes.
 
 use crate::support::{self, read_robot, reading_with};
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{Generated, generate};
-use dalembert_codegen::workspace::states::{SEED, seeded};
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::floating::Runtime;
+use dalembert_codegen::workspace::{Runtime, SEED, seeded};
+use dalembert_codegen::{Function, Generated, Request, generate};
 use dalembert_model::robot::Robot;
 
 const ARM: &str = "\

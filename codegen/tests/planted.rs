@@ -1,13 +1,10 @@
 //! Faults planted into finished programs and texts: the exact proof and the
 //! text check catch every one.
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::language::{Printed, function};
-use dalembert_codegen::workspace::program::{
-    Library, Lowered, Operand, Operation, Program, ScalarType,
+use dalembert_codegen::workspace::{
+    Disproof, Library, Lowered, Operand, Operation, Printed, SceneRobot, prove, write_function,
 };
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::verify::exact::{Disproof, prove};
+use dalembert_codegen::{Function, Program, ScalarType};
 use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
@@ -137,7 +134,7 @@ fn every_slip_of_the_printer() {
     for (robot, program) in programs() {
         for scalar in ScalarType::ALL {
             let code = program.lower(scalar, |_| None);
-            let text = function::write(&Printed::of(&program, &code), Library::Libm, &[]);
+            let text = write_function(&Printed::of(&program, &code), Library::Libm, &[]);
             assert!(passes(&program, scalar, &text));
             let lines: Vec<&str> = text.lines().collect();
             for (index, line) in lines.iter().enumerate().skip(2).step_by(7) {

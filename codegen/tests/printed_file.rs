@@ -5,10 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::sincos::SinCos;
-use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::{Function, Request, SinCos, generate};
 use dalembert_model::robot::Robot;
 
 use crate::support;

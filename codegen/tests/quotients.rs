@@ -1,14 +1,8 @@
 //! Programs that divide: what they divide by, that a wrong divisor is seen, and
 //! what is refused by name.
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{GenerateError, generate};
-use dalembert_codegen::workspace::program::{Operand, Operation, Program};
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::states::{SEED, seeded};
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::exact::prove;
-use dalembert_codegen::workspace::verify::floating::Runtime;
+use dalembert_codegen::workspace::{Operand, Operation, Runtime, SEED, SceneRobot, prove, seeded};
+use dalembert_codegen::{Function, GenerateError, Program, Request, generate};
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Position, Robot};
 use dalembert_model::scene::{Scale, Scene, Tolerance};

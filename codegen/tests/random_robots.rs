@@ -6,16 +6,8 @@
 
 use crate::support;
 use crate::support::draw::{Draw, robots};
-use dalembert_codegen::workspace::function::{Argument, Function};
-use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::graph::Points;
-use dalembert_codegen::workspace::portfolio::Start;
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::program::run::State;
-use dalembert_codegen::workspace::scene;
-use dalembert_codegen::workspace::states::{SEED, seeded};
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::floating::Runtime;
+use dalembert_codegen::workspace::{Argument, Points, Runtime, SEED, State, motion, seeded};
+use dalembert_codegen::{Function, Request, ScalarType, Start, generate};
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::scene::Scene;
 
@@ -78,7 +70,7 @@ fn formulations_agree() {
     for (seed, robot, _) in robots(40, 0xf1e1d) {
         let constant = &mut |constant: &_| points.constant(constant).unwrap().0[0];
         let arm = Arm::from_robot(&robot, constant);
-        let motion = scene::motion(&robot, |input| points.input(input).0[0]);
+        let motion = motion(&robot, |input| points.input(input).0[0]);
         let few = if robot.joints.len() > 5 { 5 } else { 6 };
         for function in &Function::ALL[..few] {
             let of = |formulation| function.evaluate(formulation, &arm, &motion, &[]);

@@ -1,16 +1,11 @@
 //! τ = Y π and D a + C v + c + b∘v = Y π: of every arm, in both scalars, in scenes, with
 //! as few columns as there can be; and what a wrong combination is refused with.
 
-use dalembert_codegen::workspace::function::{Function, Quantity};
-use dalembert_codegen::workspace::generate::{GenerateError, Generated, ToleranceError, Unbounded};
-use dalembert_codegen::workspace::language::Language;
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::scene::base::{BaseParameters, Parameter};
-use dalembert_codegen::workspace::states::seeded;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::exact::Disproof;
-use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
-use dalembert_codegen::workspace::verify::parameters::prove_base;
+use dalembert_codegen::workspace::{
+    BOUND, BaseParameters, Disproof, Parameter, Quantity, Runtime, SceneRobot, ToleranceError,
+    Unbounded, prove_base, seeded,
+};
+use dalembert_codegen::{Function, GenerateError, Generated, Language, Request};
 use dalembert_model::equations::Arm;
 use dalembert_model::number::{Angle, Exact, Rational, Rounded};
 use dalembert_model::robot::{Position, Robot};

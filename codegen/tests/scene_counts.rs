@@ -2,12 +2,8 @@
 
 use std::path::Path;
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{GeneratedFunction, generate};
-use dalembert_codegen::workspace::plan;
-use dalembert_codegen::workspace::portfolio::Start;
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::plan_file;
+use dalembert_codegen::{Function, GeneratedFunction, Request, ScalarType, Start, generate};
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::Position;
 use dalembert_model::scene::{MotionBox, Scene};
@@ -73,7 +69,7 @@ fn gravity_only() {
 #[test]
 fn a_box_alone_takes_the_plan_of_the_whole_robot() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots/puma560.toml");
-    let plan = plan::file::beside(&file).unwrap().unwrap();
+    let plan = plan_file::beside(&file).unwrap().unwrap();
     let whole = plan
         .find(
             Function::InverseDynamics,

@@ -1,14 +1,12 @@
 //! A scene's code is the full model's at the scene's values: proved, and run.
 
-use dalembert_codegen::workspace::function::{Argument, Function};
-use dalembert_codegen::workspace::generate::{GenerateError, Generated, generate};
-use dalembert_codegen::workspace::plan::{Entry, Plan};
-use dalembert_codegen::workspace::program::{Input, Operand, Program, ScalarType};
-use dalembert_codegen::workspace::scene::{SceneKey, SceneRobot, input_hash};
-use dalembert_codegen::workspace::states::seeded;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::exact::{Disproof, prove};
-use dalembert_codegen::workspace::verify::floating::Runtime;
+use dalembert_codegen::workspace::{
+    Argument, Disproof, Entry, Input, Operand, Runtime, SceneKey, SceneRobot, input_hash, prove,
+    seeded,
+};
+use dalembert_codegen::{
+    Function, GenerateError, Generated, Plan, Program, Request, ScalarType, generate,
+};
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::outputs::Axis;
 use dalembert_model::robot::{Position, Robot};

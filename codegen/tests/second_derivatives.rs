@@ -3,12 +3,8 @@
 
 use std::path::Path;
 
-use dalembert_codegen::workspace::function::{Argument, Function, Sizes};
-use dalembert_codegen::workspace::generate::{Generated, generate};
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::states::{JointState, seeded};
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::floating::Runtime;
+use dalembert_codegen::workspace::{Argument, JointState, Runtime, Sizes, seeded};
+use dalembert_codegen::{Function, Generated, Request, ScalarType, generate};
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 use serde_json::Value;

@@ -1,6 +1,6 @@
 //! Certificates, shown by the checker that shares nothing with the generator.
 
-use dalembert_codegen::workspace::certificate::Certificate;
+use dalembert_codegen::workspace::Certificate;
 
 /// Has `dalembert-checker` show a certificate of a robot's file, by its text alone.
 pub fn shown(source: &str, certificate: &Certificate) {

@@ -1,20 +1,13 @@
 //! Generated functions whose sines are polynomials: printed, counted, read
 //! back, and as near to libm's as was proved.
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{GenerateError, Generated, generate};
-use dalembert_codegen::workspace::interval::Interval;
-use dalembert_codegen::workspace::language::{Printed, function};
-use dalembert_codegen::workspace::program::{
-    AngleSum, Input, Library, Lowered, Operand, Output, Program, ScalarType, Trig,
+use dalembert_codegen::workspace::{
+    AngleKernel, AngleSum, BOUND, Candidates, ErrorByCause, Input, Interval, Library, Lowered,
+    Operand, Output, Printed, Runtime, SceneRobot, Trig, need, seeded, write_function,
 };
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::sincos::choose::Candidates;
-use dalembert_codegen::workspace::sincos::{AngleKernel, SinCos, need};
-use dalembert_codegen::workspace::split::ErrorByCause;
-use dalembert_codegen::workspace::states::seeded;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::floating::{BOUND, Runtime};
+use dalembert_codegen::{
+    Function, GenerateError, Generated, Program, Request, ScalarType, SinCos, generate,
+};
 use dalembert_model::read;
 use dalembert_model::robot::Robot;
 
@@ -122,7 +115,7 @@ fn kernels_of_narrow_ranges_are_read_back() {
                         let kernel = |_: AngleSum| Some(&sines[0].kernel);
                         let code = program.lower(scalar, kernel);
                         let text =
-                            function::write(&Printed::of(&program, &code), Library::Libm, &[]);
+                            write_function(&Printed::of(&program, &code), Library::Libm, &[]);
                         let found = Lowered::parse(&text, program.function, scalar).unwrap();
                         let same = found.matches(&program, Library::Libm, &sines);
                         assert_eq!(same, Ok(()), "{}\n{text}", sines[0].form);

@@ -4,10 +4,8 @@
 use std::path::Path;
 
 use crate::support::draw::robots;
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::search::search;
-use dalembert_codegen::workspace::simplify::WaySource;
-use dalembert_codegen::workspace::task::{Request, Task};
+use dalembert_codegen::workspace::{Task, WaySource, search};
+use dalembert_codegen::{Function, Request};
 use dalembert_model::read::{self, Options};
 use dalembert_model::robot::Robot;
 

@@ -1,11 +1,6 @@
 //! Functions have no branch and no loop, and with polynomials for sines they call nothing.
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::language::Language;
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::sincos::SinCos;
-use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::{Function, Language, Request, ScalarType, SinCos, generate};
 
 use crate::support;
 

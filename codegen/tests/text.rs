@@ -1,11 +1,8 @@
 //! Reading emitted text back: what is no emitted function is refused with a
 //! line and a reason.
 
-use dalembert_codegen::workspace::function::{Argument, Function};
-use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::program::run::State;
-use dalembert_codegen::workspace::program::{Difference, Library, Lowered, ScalarType};
-use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::{Argument, Difference, Library, Lowered, State};
+use dalembert_codegen::{Function, Request, ScalarType, generate};
 
 use crate::support;
 

@@ -12,21 +12,11 @@
 
 use std::time::Instant;
 
-use dalembert_codegen::workspace::approximate::choose::ErrorBudget;
-use dalembert_codegen::workspace::approximate::prune::{PruneSettings, prune};
-use dalembert_codegen::workspace::bound::input_box::InputBox;
-use dalembert_codegen::workspace::bound::{sample, sensitivity};
-use dalembert_codegen::workspace::certificate::Certificate;
-use dalembert_codegen::workspace::edits::Stage;
-use dalembert_codegen::workspace::falsify::falsify;
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::interval::Interval;
-use dalembert_codegen::workspace::program::{Program, ScalarType};
-use dalembert_codegen::workspace::random::Random;
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::states::JointState;
-use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::{
+    Certificate, ErrorBudget, InputBox, Interval, JointState, PruneSettings, Random, SceneRobot,
+    Stage, climb, draw, falsify, prune, rounding,
+};
+use dalembert_codegen::{Function, Program, Request, ScalarType, generate};
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::{JointKind, Position, Robot};
@@ -38,7 +28,7 @@ const CLIMBS: usize = 12;
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     match arguments.split_first() {
-        Some((what, arms)) if what == "rounding" => arms.iter().for_each(|arm| rounding(arm)),
+        Some((what, arms)) if what == "rounding" => arms.iter().for_each(|arm| rounding_of(arm)),
         Some((what, arms)) if what == "floor" => arms.iter().for_each(|arm| floor(arm)),
         Some((what, [half, arms @ ..])) if what == "narrow" => {
             let half = half.parse().expect("half a width in milliradians");
@@ -93,7 +83,7 @@ fn worst(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
     ratios.fold(0.0, f64::max)
 }
 
-fn rounding(name: &str) {
+fn rounding_of(name: &str) {
     let robot = limited(name);
     let program = exact(&robot, Function::InverseDynamics);
     let limits = InputBox::of(&robot).unwrap();
@@ -157,12 +147,12 @@ fn floor(name: &str) {
                 velocity: point(&state.qd),
                 acceleration: point(&state.qdd),
             };
-            let found = sensitivity::rounding(&alone, scalar, &[], &here, 1)[0];
+            let found = rounding(&alone, scalar, &[], &here, 1)[0];
             (found.arithmetic + found.sincos) / scale / scalar.unit_roundoff()
         };
         let climbs = (0..4).map(|_| {
-            let from = sample::draw(&limits, &mut random);
-            sample::climb(&limits, from, 1500, &mut random.clone(), &mut at).1
+            let from = draw(&limits, &mut random);
+            climb(&limits, from, 1500, &mut random.clone(), &mut at).1
         });
         climbs.fold(0.0, f64::max)
     });

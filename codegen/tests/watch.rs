@@ -3,13 +3,8 @@
 use std::sync::Arc;
 use std::sync::Mutex;
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::early::price;
-use dalembert_codegen::workspace::generate::{Generated, generate};
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::simplify::Effort;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::watch::{Observer, Part, Progress, Watch};
+use dalembert_codegen::workspace::{Observer, Part, Progress, price};
+use dalembert_codegen::{Effort, Function, Generated, Request, ScalarType, Watch, generate};
 
 use crate::support;
 

@@ -24,7 +24,7 @@
 mod barrier;
 mod body;
 
-use dalembert_codegen::workspace::scene::base::Parameter;
+use dalembert_codegen::workspace::Parameter;
 
 use crate::dense::{apply, back_substitute, dot};
 use crate::error::Error;

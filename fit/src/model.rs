@@ -10,9 +10,7 @@
 mod derive;
 mod evaluate;
 
-use dalembert_codegen::workspace::function::Quantity;
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::scene::base::Parameter;
+use dalembert_codegen::workspace::{Parameter, Quantity, SceneRobot};
 use dalembert_model::equations::Arm;
 use dalembert_model::equations::chain::{Body, Chain, Regrouping, Skeleton};
 use dalembert_model::equations::regressor::LinkParameter;

@@ -1,6 +1,6 @@
 //! Seeded random numbers, the same on every machine.
 
-pub use dalembert_codegen::workspace::random::Random;
+pub use dalembert_codegen::workspace::Random;
 
 /// Returns a number of the standard normal distribution (Marsaglia's polar method).
 pub fn normal(random: &mut Random) -> f64 {

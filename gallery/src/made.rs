@@ -2,9 +2,7 @@
 
 use std::fs;
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::program::{Counts, ScalarType};
-use dalembert_codegen::{Request, generate};
+use dalembert_codegen::{Counts, Function, Request, ScalarType, generate};
 use dalembert_import::{Options, import};
 use dalembert_model::read;
 use dalembert_model::robot::Robot;

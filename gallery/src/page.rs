@@ -1,6 +1,6 @@
 //! The page of the gallery: the table of all arms, then a picture of each.
 
-use dalembert_codegen::workspace::program::Counts;
+use dalembert_codegen::Counts;
 use dalembert_model::robot::{JointKind, Robot};
 
 use crate::made::Made;

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use dalembert_codegen::workspace::states::seeded;
+use dalembert_codegen::workspace::seeded;
 use dalembert_gallery::arms::ARMS;
 use dalembert_gallery::made::{Made, counts};
 use dalembert_gallery::{folder, page};

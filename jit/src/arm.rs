@@ -4,14 +4,11 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use dalembert_codegen::RobotFileError;
-use dalembert_codegen::workspace::function::{Argument, Function as Output, Sizes};
-use dalembert_codegen::workspace::generate::{Generated, generate};
-use dalembert_codegen::workspace::language::Language;
-use dalembert_codegen::workspace::plan::Plan;
-use dalembert_codegen::workspace::program::{Counts, Lowered, ScalarType};
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::words::parse;
+use dalembert_codegen::workspace::{Argument, Lowered, Sizes, parse};
+use dalembert_codegen::{
+    Counts, Function as Output, Generated, Language, Plan, Request, RobotFileError, ScalarType,
+    generate,
+};
 use dalembert_import::MAX_BYTES;
 use dalembert_model::robot::Robot;
 use dalembert_stamp::{Comment, Stamp};
@@ -99,7 +96,7 @@ impl Arm {
             .map_err(|_| LoadError::Robot(format!("error: `{shown}` is not UTF-8 text")))?;
         let plan = match is_urdf(&source) {
             true => None,
-            false => dalembert_codegen::workspace::plan::file::beside(path)
+            false => dalembert_codegen::workspace::plan_file::beside(path)
                 .map_err(|error| LoadError::Robot(format!("error: {error}")))?,
         };
         Arm::of(&source, &shown, plan, load)

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use dalembert_codegen::workspace::plan::Plan;
+use dalembert_codegen::Plan;
 use hmac_sha256::Hash;
 
 use crate::entry::Entry;

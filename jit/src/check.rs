@@ -1,9 +1,6 @@
 //! The comparison of machine code with the program that it was made of.
 
-use dalembert_codegen::workspace::function::Argument;
-use dalembert_codegen::workspace::program::Lowered;
-use dalembert_codegen::workspace::program::machine::Machine;
-use dalembert_codegen::workspace::program::run::State;
+use dalembert_codegen::workspace::{Argument, Lowered, Machine, State};
 
 use crate::compile::Signature;
 use crate::error::{CallError, CompileError};

@@ -7,8 +7,7 @@ use cranelift_codegen::settings::{self, Configurable};
 use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
 use cranelift_jit::{JITBuilder, JITModule};
 use cranelift_module::{FuncId, Linkage, Module, default_libcall_names};
-use dalembert_codegen::workspace::function::Argument;
-use dalembert_codegen::workspace::program::Lowered;
+use dalembert_codegen::workspace::{Argument, Lowered};
 
 use crate::emit::{Emitter, Lanes, bytes};
 use crate::error::CompileError;

@@ -8,7 +8,7 @@ use cranelift_codegen::ir::{
     Value, types,
 };
 use cranelift_frontend::FunctionBuilder;
-use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::ScalarType;
 
 /// The bytes of a vector.
 const VECTOR: usize = 16;

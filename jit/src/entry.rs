@@ -1,8 +1,7 @@
 //! What is kept of a loaded arm.
 
 use dalembert_codegen::GeneratedFunction;
-use dalembert_codegen::workspace::function::Sizes;
-use dalembert_codegen::workspace::verify::floating::Emitted;
+use dalembert_codegen::workspace::{Emitted, Sizes};
 use serde::{Deserialize, Serialize};
 
 /// What was generated for a robot.

@@ -2,8 +2,7 @@
 
 use std::fmt;
 
-use dalembert_codegen::workspace::generate::GenerateError;
-use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::{GenerateError, ScalarType};
 
 use crate::program::Unreadable;
 

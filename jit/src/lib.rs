@@ -60,10 +60,8 @@ pub use request::{Cache, Load};
 pub use rows::{Place, Rows, RowsMut};
 
 #[doc(inline)]
-pub use dalembert_codegen::workspace::function::{Function as Output, Quantity};
+pub use dalembert_codegen::ScalarType as Scalar;
 #[doc(inline)]
-pub use dalembert_codegen::workspace::program::ScalarType as Scalar;
+pub use dalembert_codegen::workspace::{Observer, Progress, Quantity};
 #[doc(inline)]
-pub use dalembert_codegen::workspace::watch;
-#[doc(inline)]
-pub use dalembert_codegen::{Asked, OPTIONS};
+pub use dalembert_codegen::{Asked, Function as Output, OPTIONS, Watch};

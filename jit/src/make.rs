@@ -2,12 +2,8 @@
 
 use std::path::Path;
 
-use dalembert_codegen::workspace::certificate::format;
-use dalembert_codegen::workspace::generate::keep::keep;
-use dalembert_codegen::workspace::generate::{Generated, generate, generate_anew};
-use dalembert_codegen::workspace::plan::Plan;
-use dalembert_codegen::workspace::scene::input_hash;
-use dalembert_codegen::workspace::verify::floating::Emitted;
+use dalembert_codegen::workspace::{Emitted, generate_anew, input_hash, keep, write_certificates};
+use dalembert_codegen::{Generated, Plan, generate};
 use dalembert_import::import;
 use dalembert_model::read::{self, Reading};
 
@@ -108,5 +104,5 @@ fn certificates(generated: &Generated) -> Option<String> {
     let functions = generated.functions.iter();
     let admitted = functions.filter_map(|function| function.admitted.as_ref());
     let all: Vec<_> = admitted.flat_map(|a| &a.certificates).collect();
-    (!all.is_empty()).then(|| format::write(&all))
+    (!all.is_empty()).then(|| write_certificates(&all))
 }

@@ -14,8 +14,8 @@ use std::mem::ManuallyDrop;
 use std::sync::OnceLock;
 
 use cranelift_jit::JITModule;
-use dalembert_codegen::workspace::program::machine::Machine;
-use dalembert_codegen::workspace::program::{Lowered, ScalarType};
+use dalembert_codegen::ScalarType;
+use dalembert_codegen::workspace::{Lowered, Machine};
 
 use crate::check::{STATES, check, check_many};
 use crate::compile::{Linked, Signature, States, compile};
@@ -435,7 +435,7 @@ unsafe impl<T> Sync for Shared<T> {}
 const LEAST_STATES: usize = 2048;
 
 /// The most arguments that a function has.
-pub const MOST_ARGUMENTS: usize = dalembert_codegen::workspace::function::Argument::COUNT;
+pub const MOST_ARGUMENTS: usize = dalembert_codegen::workspace::Argument::COUNT;
 
 fn count(expected: usize, found: usize) -> Result<(), CallError> {
     match expected == found {

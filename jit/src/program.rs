@@ -3,12 +3,10 @@
 use std::collections::BTreeMap;
 
 use cranelift_codegen::ir::{InstBuilder, Value};
-use dalembert_codegen::workspace::function::Argument;
-use dalembert_codegen::workspace::program::fused::fusion;
-use dalembert_codegen::workspace::program::kernel::{Angle, Kernel};
-use dalembert_codegen::workspace::program::{
-    AngleSum, Input, Library, Literal, Lowered, LoweredTrig, Operand, Operation, Output,
-    ScalarType, Step,
+use dalembert_codegen::ScalarType;
+use dalembert_codegen::workspace::{
+    Angle, AngleSum, Argument, Input, Kernel, Library, Literal, Lowered, LoweredTrig, Operand,
+    Operation, Output, Step, fusion,
 };
 
 use crate::emit::{Call, Emitter};

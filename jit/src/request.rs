@@ -2,11 +2,7 @@
 
 use std::path::PathBuf;
 
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::sincos::SinCos;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::watch::Watch;
-use dalembert_codegen::{Asked, Problem};
+use dalembert_codegen::{Asked, Problem, Request, ScalarType, SinCos, Watch};
 use dalembert_model::read::Reading;
 
 use crate::error::LoadError;

@@ -7,7 +7,8 @@
 //! - [`read`]: robot files and what is wrong with them (feature `std`)
 //! - [`scalar`]: the arithmetic that every formula is generic over
 //! - [`equations`]: Lagrange–Euler, Newton–Euler, generalized D'Alembert
-//! - [`mod@reference`]: the generic runtime in f64 and f32, nalgebra at its surface
+//! - [`mod@reference`]: the generic runtime in f64 and f32, nalgebra at its surface (feature
+//!   `reference`)
 //! - [`outputs`]: what can be asked about an arm, a file each
 #![no_std]
 #![forbid(unsafe_code)]
@@ -24,6 +25,7 @@ pub mod outputs;
 pub mod placed;
 #[cfg(feature = "std")]
 pub mod read;
+#[cfg(feature = "reference")]
 pub mod reference;
 pub mod robot;
 pub mod scalar;

@@ -6,8 +6,8 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use dalembert_jit::watch::{Observer, Progress, Watch};
 use dalembert_jit::{Cache, Load, OPTIONS};
+use dalembert_jit::{Observer, Progress, Watch};
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::robot::suggested_name;

@@ -10,11 +10,10 @@ use dalembert_model::equations::Formulation;
 use dalembert_model::robot::Robot;
 use serde::Serialize;
 
-use dalembert_codegen::workspace::function::{Function, Quantity, Sizes};
-use dalembert_codegen::workspace::generate::MAX_OUTPUTS;
-use dalembert_codegen::workspace::graph::{Folding, Node};
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::trace::trace;
+use dalembert_codegen::Function;
+use dalembert_codegen::workspace::{
+    Folding, MAX_OUTPUTS, Node, Quantity, SceneRobot, Sizes, trace,
+};
 
 /// The value of a coefficient.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

@@ -9,14 +9,10 @@
 use std::collections::BTreeMap;
 
 use crate::support::draw::robots;
-use dalembert_codegen::workspace::function::{Function, Quantity};
-use dalembert_codegen::workspace::generate::{GenerateError, generate};
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::states::{SEED, seeded};
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::floating::{BOUND, Emitted, Granted, Runtime};
-use dalembert_codegen::workspace::verify::reference::{Reference, TrueValue};
+use dalembert_codegen::workspace::{
+    BOUND, Emitted, Granted, Quantity, Reference, Runtime, SEED, SceneRobot, TrueValue, seeded,
+};
+use dalembert_codegen::{Function, GenerateError, Request, ScalarType, generate};
 
 /// States a robot.
 const STATES: usize = 30;

@@ -1,6 +1,6 @@
 //! Coefficients that vanish or repeat: the known counts.
 
-use dalembert_codegen::workspace::function::Quantity;
+use dalembert_codegen::workspace::Quantity;
 use dalembert_report::couplings::{Value, couplings, summary};
 
 use crate::support;

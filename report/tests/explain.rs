@@ -1,12 +1,8 @@
 //! The table of steps and the fate of the parameters, on arms where the
 //! answers are known.
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::exact::prove;
+use dalembert_codegen::workspace::{SceneRobot, prove};
+use dalembert_codegen::{Function, Request, ScalarType, generate};
 use dalembert_model::number::Rational;
 use dalembert_model::scene::Scale;
 use dalembert_report::explain::parameters::{Parameter, ParameterStatus, Together};

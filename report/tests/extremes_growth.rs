@@ -1,14 +1,8 @@
 //! Longer chains: linear inverse dynamics, code in blocks, refusals.
 
 use crate::extremes_support::chain::chain;
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{GenerateError, generate};
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::states::seeded;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::reference::Reference;
-use dalembert_codegen::workspace::words::parse;
+use dalembert_codegen::workspace::{Reference, SceneRobot, parse, seeded};
+use dalembert_codegen::{Function, GenerateError, Request, ScalarType, generate};
 use dalembert_report::stress::deviation::Measure;
 use dalembert_report::stress::subject::Code;
 

@@ -1,11 +1,8 @@
 //! NaN and ±inf reach the outputs whose function depends on them: exactly
 //! those in emitted code, at least those in the generic runtime.
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{Generated, generate};
-use dalembert_codegen::workspace::program::{Input, Operand, Program, ScalarType};
-use dalembert_codegen::workspace::states::{JointState, seeded};
-use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::{Input, JointState, Operand, seeded};
+use dalembert_codegen::{Function, Generated, Program, Request, ScalarType, generate};
 use dalembert_model::read;
 use dalembert_model::robot::Robot;
 use dalembert_report::stress::subject::Code;

@@ -1,12 +1,8 @@
 //! What must hold along a motion: Ḋ − 2C is skew-symmetric, and a passive arm
 //! keeps its energy.
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::generate;
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::states::{JointState, seeded};
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::floating::Emitted;
+use dalembert_codegen::workspace::{Emitted, JointState, seeded};
+use dalembert_codegen::{Function, Request, ScalarType, generate};
 use dalembert_model::equations::matrix::Columns;
 use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};
 use dalembert_model::number::{Rounded, Wide};

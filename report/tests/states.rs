@@ -1,6 +1,6 @@
 //! The strict reader of given states.
 
-use dalembert_codegen::workspace::function::Quantity;
+use dalembert_codegen::workspace::Quantity;
 use dalembert_report::states::file::{FileError, read};
 
 #[test]

@@ -2,9 +2,8 @@
 
 use std::path::PathBuf;
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::language::Language;
-use dalembert_codegen::workspace::simplify::{Effort, WaySource};
+use dalembert_codegen::workspace::WaySource;
+use dalembert_codegen::{Effort, Function, Language};
 
 use super::values::{function_parser, states_parser, word_parser};
 use super::{CODE, MORE, Options};

@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::simplify::Effort;
+use dalembert_codegen::{Effort, Function};
 
 use super::Options;
 use super::values::{
@@ -62,13 +61,6 @@ pub struct CertifyArgs {
     /// for certificates that `tradeoff` wrote for other tolerances
     #[arg(long, value_name = "E", value_parser = positive_parser())]
     pub tolerance: Option<f64>,
-    /// Of a generated file: write what was found, and what a person must answer for, as a
-    /// checklist in Markdown
-    #[arg(long, value_name = "FILE")]
-    pub dossier: Option<PathBuf>,
-    /// Write over a checklist that is there, and what was filled in
-    #[arg(long, requires = "dossier")]
-    pub force: bool,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -118,10 +110,6 @@ pub struct TradeoffArgs {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
-    /// Compile the variants and measure how long a call takes, in nanoseconds and as a
-    /// ratio to the exact f64 variant in the same run; needs cargo
-    #[arg(long)]
-    pub time: bool,
     /// How long to search for fewer operations
     #[arg(long, value_name = "EFFORT", default_value = "quick", value_parser = word_parser::<Effort>())]
     pub effort: Effort,

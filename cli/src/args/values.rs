@@ -10,8 +10,8 @@ use std::path::PathBuf;
 use clap::builder::{
     PathBufValueParser, PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser,
 };
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::words::{Word, bundle, parse};
+use dalembert_codegen::Function;
+use dalembert_codegen::workspace::{Word, bundle, parse};
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::robot::suggested_name;

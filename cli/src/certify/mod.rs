@@ -4,11 +4,7 @@
 //! - this file: the claims of a certificate
 //! - [`origin`]: the robot that a file names
 //! - [`whole_file`]: every function of a generated file
-//! - [`dossier`]: what was found of it, as a checklist for whoever argues that it is safe
-//! - [`body`]: what the text of a function shows
 
-mod body;
-mod dossier;
 mod origin;
 mod whole_file;
 
@@ -30,10 +26,6 @@ pub fn run(args: &CertifyArgs) -> Outcome {
     let kind = args.certificate.extension().and_then(|kind| kind.to_str());
     let outcome = match kind {
         Some("rs" | "h" | "hpp" | "hh" | "cuh" | "cu") => whole_file::run(args, &source, &robot),
-        _ if args.dossier.is_some() => Err(Failure::Input(format!(
-            "error: --dossier is of a generated file (.rs, .h), and `{}` is none",
-            args.certificate.display()
-        ))),
         _ => certificates(args, &source, &robot),
     };
     if let (Some(note), Err(Failure::Check(_))) = (edited, &outcome) {

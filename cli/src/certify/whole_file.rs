@@ -1,12 +1,10 @@
 //! A generated file without a certificate: how far each function can be from the dynamics.
 
+use dalembert_checker::Fault;
 use dalembert_checker::exact::{self, Distance, Line, RATE, Report};
-use dalembert_checker::{Fault, scene};
 use serde_json::{Value, json};
 
-use super::dossier;
 use crate::args::CertifyArgs;
-use crate::files::write;
 use crate::outcome::{Failure, Outcome};
 use crate::output;
 
@@ -18,21 +16,8 @@ pub fn run(args: &CertifyArgs, source: &str, robot: &str) -> Outcome {
             "error: --tolerance is for a certificate, and `{name}` is a generated file"
         )));
     }
-    // Before the work: what cannot be written is no news after it.
-    let target = args
-        .dossier
-        .as_ref()
-        .map(|path| dossier::target(args, path));
-    let target = target.transpose()?;
     let failed = |fault: Fault| Failure::Input(format!("error: {fault}"));
     let report = exact::check(source, robot, args.scene.as_deref()).map_err(failed)?;
-    if let Some(target) = target {
-        let ranges = scene::read(robot, args.scene.as_deref())
-            .map_err(failed)?
-            .ranges;
-        let text = dossier::write(args, source, &report, &ranges)?;
-        write::write(&[(&target, &text)])?;
-    }
     match args.json {
         true => output::print_json(&json!({
             "file": name.to_string(),

@@ -1,7 +1,6 @@
 //! The table of steps and the reasons, for programs.
 
-use dalembert_codegen::workspace::function::Quantity;
-use dalembert_codegen::workspace::portfolio::Source;
+use dalembert_codegen::workspace::{Quantity, Source};
 use dalembert_model::robot::Robot;
 use dalembert_report::couplings::{Coupling, summary};
 use dalembert_report::explain::Explanation;

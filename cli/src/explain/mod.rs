@@ -7,10 +7,8 @@
 mod json;
 mod text;
 
-use dalembert_codegen::workspace::function::{Function, Quantity};
-use dalembert_codegen::workspace::generate::GenerateError;
-use dalembert_codegen::workspace::plan;
-use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::{Quantity, plan_file};
+use dalembert_codegen::{Function, GenerateError, Request};
 use dalembert_report::explain::errors::{self, Errors};
 use dalembert_report::explain::{Explanation, explain_all};
 
@@ -31,7 +29,7 @@ pub fn run(args: &ExplainArgs) -> Outcome {
     let mut request = Request {
         functions,
         effort: args.effort,
-        plan: plan::file::beside(&args.robot)
+        plan: plan_file::beside(&args.robot)
             .map_err(|message| Failure::Input(format!("error: {message}")))?,
         ..Request::default()
     };

@@ -1,6 +1,6 @@
 //! The table of steps and the reasons, for readers.
 
-use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::ScalarType;
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::{JointKind, Robot};
 use dalembert_report::couplings::{Coupling, Value, summary};

@@ -2,11 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::workspace::language::Language;
-use dalembert_codegen::workspace::program::ScalarType;
-
-use dalembert_codegen::workspace::plan;
-use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::plan_file;
+use dalembert_codegen::{Language, Request, ScalarType};
 
 use crate::args::GenerateArgs;
 use crate::files::distinct::distinct;
@@ -48,7 +45,7 @@ impl Files {
         let certificates = args.certificate.clone().or(beside);
         let certificates = certificates.filter(|_| certified);
         let certificates = certificates.map(|file| Target::at(&file)).transpose()?;
-        let path = plan::file::path(&args.robot);
+        let path = plan_file::path(&args.robot);
         let plan = args.save_plan.then(|| Target::at(&path)).transpose()?;
         let first = (args.save_plan && !path.exists()).then(|| args.robot.clone());
         let files = Files {
@@ -109,7 +106,7 @@ impl Files {
         outputs.extend(self.code.iter().zip(code.iter().map(String::as_str)));
         write(&outputs)?;
         if let Some(robot) = &self.first
-            && let Err(error) = plan::file::announce(robot)
+            && let Err(error) = plan_file::announce(robot)
         {
             let name = robot.display();
             output::note(&format!(

@@ -1,11 +1,7 @@
 //! What a program wants to know about generated code.
 
-use dalembert_codegen::workspace::approximate::admitted::Admitted;
-use dalembert_codegen::workspace::approximate::prune::omissions;
-use dalembert_codegen::workspace::certificate::Certificate;
-use dalembert_codegen::workspace::generate::{Generated, GeneratedFunction};
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::exact::Proof;
+use dalembert_codegen::workspace::{Admitted, Certificate, Proof, omissions};
+use dalembert_codegen::{Generated, GeneratedFunction, Request};
 use dalembert_model::robot::Robot;
 use dalembert_report::explain::errors::Errors;
 use serde_json::{Map, Value, json};

@@ -11,11 +11,8 @@ pub mod report;
 
 use std::path::Path;
 
-use dalembert_codegen::workspace::certificate::format;
-use dalembert_codegen::workspace::generate::Generated;
-use dalembert_codegen::workspace::generate::keep::keep;
-use dalembert_codegen::workspace::language::Language;
-use dalembert_codegen::workspace::simplify::Effort;
+use dalembert_codegen::workspace::{keep, write_certificates};
+use dalembert_codegen::{Effort, Generated, Language};
 use dalembert_report::explain::errors::{MAX_STATES, affordable_states};
 use dalembert_stamp::relative;
 
@@ -118,5 +115,5 @@ pub fn certificates(generated: &Generated) -> Option<String> {
         .iter()
         .filter_map(|f| f.admitted.as_ref());
     let certificates: Vec<_> = admitted.flat_map(|a| &a.certificates).collect();
-    (!certificates.is_empty()).then(|| format::write(&certificates))
+    (!certificates.is_empty()).then(|| write_certificates(&certificates))
 }

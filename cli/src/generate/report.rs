@@ -1,16 +1,10 @@
 //! What a person wants to know about generated code: counts, errors, what a
 //! tolerance admitted, proofs.
 
-use dalembert_codegen::workspace::approximate::admitted::Admitted;
-use dalembert_codegen::workspace::approximate::prune::omissions;
-use dalembert_codegen::workspace::certificate::Certificate;
-use dalembert_codegen::workspace::emit::figures::bound_of;
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{Generated, GeneratedFunction};
-use dalembert_codegen::workspace::program::{Counts, Library};
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::exact::Proof;
-use dalembert_codegen::workspace::verify::reference::Reference;
+use dalembert_codegen::workspace::{
+    Admitted, Certificate, Library, Proof, Reference, bound_of, omissions,
+};
+use dalembert_codegen::{Counts, Function, Generated, GeneratedFunction, Request};
 use dalembert_model::robot::Robot;
 use dalembert_report::explain::errors::{Errors, of_program};
 

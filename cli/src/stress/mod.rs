@@ -5,7 +5,7 @@
 
 mod singular;
 
-use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::Request;
 use dalembert_model::robot::Robot;
 use dalembert_report::stress::category::{Criterion, NORMWISE, PER_JOINT};
 use dalembert_report::stress::report::{self, Options, Row, Verdict};

@@ -1,5 +1,5 @@
-//! The front as SVG: operations, those of polynomials for sines included, or the
-//! nanoseconds of a call over certified error, both logarithmic.
+//! The front as SVG: operations, those of polynomials for sines included, over certified error,
+//! both logarithmic.
 //!
 //! Each variant is a mark at its certified error with a whisker to what was
 //! observed. A line joins the front of each kind; dominated variants are grey,
@@ -52,17 +52,6 @@ pub fn of_operations(title: &str, relative_to: &str, points: &[Point]) -> String
     });
     let dots: Vec<Dot> = dots.collect();
     front(title, [relative_to, OPERATIONS], &dots)
-}
-
-/// Returns the chart of times, of the variants that were timed.
-pub fn of_times(title: &str, relative_to: &str, points: &[Point], processor: &str) -> String {
-    let timed = points.iter().filter_map(|point| {
-        let time = point.time?;
-        Some(Dot::of(point, time.nanoseconds))
-    });
-    let dots: Vec<Dot> = timed.collect();
-    let cost = format!("ns of a call, {processor}");
-    front(title, [relative_to, &cost], &dots)
 }
 
 fn front(title: &str, [relative_to, cost]: [&str; 2], dots: &[Dot]) -> String {

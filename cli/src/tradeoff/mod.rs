@@ -3,21 +3,14 @@
 //! - this file: what is asked for
 //! - [`report`]: the table, for people and as CSV
 //! - [`chart`]: the front as SVG
-//! - [`measure`]: the variants compiled and timed
 
 mod chart;
-mod measure;
 mod report;
 
 use std::path::Path;
 
-use dalembert_codegen::workspace::approximate::choose::ErrorBudget;
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{GenerateError, generate};
-use dalembert_codegen::workspace::plan::{self, Plan};
-use dalembert_codegen::workspace::program::{Program, ScalarType};
-use dalembert_codegen::workspace::scene::{SceneKey, SceneRobot};
-use dalembert_codegen::workspace::task::Request;
+use dalembert_codegen::workspace::{ErrorBudget, SceneKey, SceneRobot, plan_file};
+use dalembert_codegen::{Function, GenerateError, Plan, Program, Request, ScalarType, generate};
 use dalembert_model::read::Reading;
 use dalembert_model::scene::{Scale, Scene};
 use dalembert_report::sweep::ladder::{Ladder, Options};
@@ -36,7 +29,6 @@ const TOLERANCES: [f64; 10] = [1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2,
 /// The files that are written.
 const CSV: &str = "tradeoff.csv";
 const SVG: &str = "tradeoff.svg";
-const TIME: &str = "time.svg";
 const CERTIFICATES: &str = "certificates";
 
 /// Runs the subcommand.
@@ -50,12 +42,11 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
     let output = match &args.output {
         None => None,
         Some(folder) => {
-            let output = Folder::at(folder, &[CSV, SVG, TIME], Some(&args.robot))?;
+            let output = Folder::at(folder, &[CSV, SVG], Some(&args.robot))?;
             Folder::at(&folder.join(CERTIFICATES), &[], None)?;
             Some(output)
         }
     };
-    let compiler = args.time.then(measure::Compiler::find).transpose()?;
     // Its own tolerance is one of many here.
     let bare = scene.map(Scene::without_tolerance);
     let scene_robot =
@@ -82,13 +73,6 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
         .climb(&tolerances)
         .map_err(|error| Failure::Check(format!("error: {error}")))?;
     drop(steps);
-    let processor = match compiler {
-        Some(compiler) => {
-            compiler.measure(&mut points)?;
-            Some(measure::processor())
-        }
-        None => None,
-    };
     mark(&mut points);
     match args.json {
         true => output::print_json(&json!({
@@ -97,28 +81,13 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
             "scene": scene.map(|scene| &scene.name),
             "function": exact.function.name(),
             "relative_to": word(relative_to),
-            "processor": processor,
             "variants": points.iter().map(report::json).collect::<Vec<_>>(),
         }))?,
-        false => {
-            output::print(&report::table(&points))?;
-            if let Some(processor) = &processor {
-                output::print(&format!(
-                    "\nns: a call in a loop, compiled for this processor: {processor}\n"
-                ))?;
-            }
-        }
+        false => output::print(&report::table(&points))?,
     }
     if let Some(folder) = &output {
-        let charts = charts(
-            &reading,
-            scene,
-            exact.function,
-            relative_to,
-            &points,
-            processor,
-        );
-        folder.write(&files(charts, &points))?;
+        let chart = chart(&reading, scene, exact.function, relative_to, &points);
+        folder.write(&files(chart, &points))?;
         output::note(&format!("wrote {}", folder.path().display()));
     }
     let violated = points.iter().filter_map(|point| {
@@ -132,10 +101,9 @@ pub fn run(args: &TradeoffArgs) -> Outcome {
     }
 }
 
-/// Returns the table, the charts and the certificates, by name.
-fn files(charts: Vec<(String, String)>, points: &[Point]) -> Vec<(String, String)> {
-    let mut files = charts;
-    files.push((CSV.into(), report::csv(points)));
+/// Returns the chart, the table and the certificates, by name.
+fn files(chart: String, points: &[Point]) -> Vec<(String, String)> {
+    let mut files = vec![(SVG.into(), chart), (CSV.into(), report::csv(points))];
     files.extend(points.iter().map(|point| {
         let name = format!("{CERTIFICATES}/{}", point.file());
         (name, point.certificate.to_json())
@@ -184,27 +152,21 @@ fn word(scale: Scale) -> &'static str {
     found.map_or("", |(word, _)| word)
 }
 
-/// Returns the chart of operations and, where variants were timed, that of times, by name.
-fn charts(
+/// Draws the operations over the certified errors.
+fn chart(
     reading: &Reading,
     scene: Option<&Scene>,
     function: Function,
     scale: Scale,
     points: &[Point],
-    processor: Option<String>,
-) -> Vec<(String, String)> {
+) -> String {
     let scene = scene.map_or_else(String::new, |scene| format!(", scene {}", scene.name));
     let title = format!("{}{scene}: {function}", reading.robot.name);
     let scale = match scale {
         Scale::Actuator => "the actuators' limits",
         Scale::Range => "the largest torques",
     };
-    let mut charts = vec![(SVG.into(), chart::of_operations(&title, scale, points))];
-    charts.extend(processor.map(|processor| {
-        let chart = chart::of_times(&title, scale, points, &processor);
-        (TIME.into(), chart)
-    }));
-    charts
+    chart::of_operations(&title, scale, points)
 }
 
 /// Returns the exact program, which tolerances are applied to: from the plan if there is
@@ -241,5 +203,5 @@ fn exact(
 }
 
 fn kept(robot: &Path) -> Result<Option<Plan>, Failure> {
-    plan::file::beside(robot).map_err(|message| Failure::Input(format!("error: {message}")))
+    plan_file::beside(robot).map_err(|message| Failure::Input(format!("error: {message}")))
 }

@@ -29,10 +29,6 @@ fn rows(points: &[Point], all: bool) -> Vec<Vec<String>> {
     if all {
         head.extend(["rounding", "rounding observed"]);
     }
-    let timed = points.iter().any(|point| point.time.is_some());
-    if timed {
-        head.extend(["ns", "time"]);
-    }
     head.push("front");
     let mut rows = vec![head.into_iter().map(String::from).collect()];
     for point in points {
@@ -54,10 +50,6 @@ fn rows(points: &[Point], all: bool) -> Vec<Vec<String>> {
             row.push(format!("{:.digits$e}", point.rounding));
             row.push(observed(point.rounding_observed));
         }
-        if let Some(time) = point.time {
-            row.push(format!("{:.1}", time.nanoseconds));
-            row.push(format!("{:.3}", time.ratio));
-        }
         row.push(if point.dominated { "" } else { "yes" }.into());
         rows.push(row);
     }
@@ -75,8 +67,6 @@ pub fn json(point: &Point) -> Value {
         "observed": point.observed,
         "rounding": point.rounding,
         "rounding_observed": point.rounding_observed,
-        "nanoseconds": point.time.map(|time| time.nanoseconds),
-        "time": point.time.map(|time| time.ratio),
         "front": !point.dominated,
         "certificate": point.file(),
         "violation": point.violation,

@@ -3,11 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use dalembert_codegen::workspace::function::Quantity;
-use dalembert_codegen::workspace::generate::Generated;
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::floating::Runtime;
+use dalembert_codegen::workspace::{Quantity, Runtime};
+use dalembert_codegen::{Generated, Request, ScalarType};
 use dalembert_model::robot::Robot;
 use dalembert_report::states::compare::{Compared, compare, quantities};
 use dalembert_report::states::{BOUND, GivenState};

@@ -8,12 +8,10 @@
 mod given;
 mod show;
 
-use dalembert_codegen::workspace::certificate::Certificate;
-use dalembert_codegen::workspace::falsify::{Falsification, falsify};
-use dalembert_codegen::workspace::generate::{GenerateError, Generated};
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::states::{SEED, STATES};
-use dalembert_codegen::workspace::verify::floating::{BOUND, Emitted, Measure, Runtime};
+use dalembert_codegen::workspace::{
+    BOUND, Certificate, Emitted, Falsification, Measure, Runtime, SEED, STATES, falsify,
+};
+use dalembert_codegen::{GenerateError, Generated, ScalarType};
 
 use crate::args::VerifyArgs;
 use crate::outcome::{Failure, Outcome};

@@ -1,7 +1,7 @@
 //! What was found, as text and as JSON.
 
-use dalembert_codegen::workspace::emit::figures::bound_of;
-use dalembert_codegen::workspace::generate::Generated;
+use dalembert_codegen::Generated;
+use dalembert_codegen::workspace::bound_of;
 use dalembert_model::robot::Robot;
 use serde_json::{Value, json};
 

@@ -79,7 +79,7 @@ pub fn bound_of(x: f64, digits: usize) -> String {
 
 /// Returns a range of seven digits inside a range, or all its digits if it is that
 /// narrow.
-pub fn inside(low: f64, high: f64) -> String {
+pub(crate) fn inside(low: f64, high: f64) -> String {
     let ends = (rounded(low, 7, Side::Above), rounded(high, 7, Side::Below));
     let (low, high) = if ends.0 < ends.1 { ends } else { (low, high) };
     format!("{} to {}", plain(low), plain(high))

@@ -33,7 +33,7 @@ use dalembert_stamp::{Comment, Stamp};
 pub use crate::approximate::error::{ToleranceError, Unbounded};
 use crate::bound::definite::is_definite;
 use crate::bound::input_box::InputBox;
-pub use crate::emit::GeneratedFunction;
+use crate::emit::GeneratedFunction;
 use crate::emit::header;
 use crate::emit::module;
 use crate::function::{Columns, Function};

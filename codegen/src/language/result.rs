@@ -14,7 +14,7 @@ pub(crate) fn array_type(quantity: Quantity, sizes: Sizes, scalar: ScalarType) -
 }
 
 /// Returns the struct that a function returns, if it does.
-pub fn structure(function: Function, sizes: Sizes, scalar: ScalarType) -> Option<String> {
+pub(crate) fn structure(function: Function, sizes: Sizes, scalar: ScalarType) -> Option<String> {
     let name = function.structure()?;
     let mut text = format!("/// What [`{function}`] returns.\n");
     text.push_str("#[derive(Clone, Copy, Debug, PartialEq)]\n");

@@ -8,7 +8,7 @@ use super::{Input, Operand, Operation, Output, Program, Step};
 
 /// Returns the outputs of steps in a scalar, from the values of inputs and constants;
 /// `None` if one of these has none, or a step reads what is not computed yet.
-pub fn evaluate<'c, C, I, S: Divide>(
+pub(crate) fn evaluate<'c, C, I, S: Divide>(
     steps: &'c [Step<C, I>],
     outputs: impl IntoIterator<Item = &'c Output<C, I>>,
     mut input: impl FnMut(&'c I) -> Option<S>,

@@ -41,13 +41,13 @@ use dalembert_model::number::Exact;
 use crate::function::{Argument, Columns, Function, Sizes};
 pub use counts::Counts;
 pub use difference::Difference;
-pub use evaluate::evaluate;
+pub(crate) use evaluate::evaluate;
 pub use input::{AngleSum, Input};
 pub use library::Library;
 pub use literal::Literal;
 pub use lowered::{Lowered, LoweredTrig};
 pub use scalar_type::ScalarType;
-pub use speed::Speed;
+pub(crate) use speed::Speed;
 
 /// Straight-line code with exact constants: what is proved and emitted.
 #[derive(Clone, Debug, PartialEq)]

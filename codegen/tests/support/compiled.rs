@@ -5,15 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use dalembert_codegen::workspace::function::{Argument, Function};
-use dalembert_codegen::workspace::generate::{Generated, generate};
-use dalembert_codegen::workspace::language::Language;
-use dalembert_codegen::workspace::language::c99::Names;
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::program::run::State;
-use dalembert_codegen::workspace::random::Random;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::floating::Emitted;
+use dalembert_codegen::workspace::{Argument, Emitted, Names, Random, State};
+use dalembert_codegen::{Function, Generated, Language, Request, ScalarType, generate};
 use dalembert_model::robot::Robot;
 
 /// The most entries of an argument here.

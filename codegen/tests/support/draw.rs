@@ -1,6 +1,6 @@
 //! Robots that nobody chose.
 
-use dalembert_codegen::workspace::random::Random;
+use dalembert_codegen::workspace::Random;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Limits, Robot};
 

@@ -7,13 +7,8 @@ pub mod draw;
 use std::fmt::Debug;
 use std::path::Path;
 
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::{Generated, generate};
-use dalembert_codegen::workspace::portfolio::Start;
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::states::JointState;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::floating::{BOUND, Emitted, Runtime};
+use dalembert_codegen::workspace::{BOUND, Emitted, JointState, Runtime};
+use dalembert_codegen::{Function, Generated, Request, ScalarType, Start, generate};
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
 

@@ -22,10 +22,8 @@
 //! - [`control`]: the law
 //! - [`trajectory`]: where the arm should be
 //! - [`run()`]: the controller at 1 kHz on the arm with its payload
-//! - [`chart`]: what came of it
 #![forbid(unsafe_code)]
 
-pub mod chart;
 pub mod control;
 pub mod run;
 pub mod trajectory;

@@ -2,7 +2,6 @@
 
 use std::process::Command;
 
-use example_shared::checked_in;
 use example_shared::integrate::State;
 use gravity_compensation::cycle::{Cycle, PERIOD, Stop};
 use gravity_compensation::servo::Servo;
@@ -211,6 +210,6 @@ fn f32_is_enough() {
 fn the_example_prints_what_the_guide_shows() {
     let output = Command::new(env!("CARGO_BIN_EXE_gravity_compensation")).output();
     let text = String::from_utf8(output.unwrap().stdout).unwrap();
-    let guide = std::fs::read_to_string(checked_in::guide("gravity-compensation.md")).unwrap();
+    let guide = include_str!("../../../docs/src/gravity-compensation.md");
     assert!(guide.contains(&text), "{text}");
 }

@@ -3,13 +3,11 @@
 //! - [`model`]: a step of the arm and its slopes, by the generated derivatives
 //! - [`plan`]: torques that swing it up, by differential dynamic programming
 //! - [`follow()`]: the plan on the arm, with its gains; then the upright pose is held
-//! - [`chart`]: what came of it
 //!
 //! The motor has 6 N·m, and nothing turns the shoulder but what the elbow does: the arm swings
 //! one way, then the other, then up.
 #![forbid(unsafe_code)]
 
-pub mod chart;
 pub mod follow;
 pub mod model;
 pub mod plan;

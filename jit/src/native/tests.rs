@@ -1,6 +1,6 @@
 //! Planted faults, and the memory that code is in.
 
-use dalembert_codegen::workspace::program::{Literal, Operand, Operation};
+use dalembert_codegen::workspace::{Literal, Operand, Operation};
 
 use super::*;
 use crate::{Arm, Cache, Load};

@@ -1,6 +1,6 @@
 //! To the last bit.
 
-use dalembert_codegen::workspace::program::Operation;
+use dalembert_codegen::workspace::Operation;
 use dalembert_jit::{Arm, Output, Scalar};
 
 use crate::support::{

@@ -2,9 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::workspace::function::Argument;
-use dalembert_codegen::workspace::program::columns::Columns;
-use dalembert_codegen::workspace::random::Random;
+use dalembert_codegen::workspace::{Argument, ProgramColumns as Columns, Random};
 use dalembert_jit::{Arm, Cache, Load, Native, Output, Place, Real, Rows, RowsMut};
 
 /// The robots of `generated/`.

@@ -5,11 +5,10 @@ use dalembert_model::number::{Exact, Rounded};
 
 use super::Explanation;
 use super::steps::Code;
-use dalembert_codegen::workspace::function::{Argument, Function, Sizes};
-use dalembert_codegen::workspace::program::{Input, Program, ScalarType};
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::states::JointState;
-use dalembert_codegen::workspace::verify::reference::{Reference, TrueValue};
+use dalembert_codegen::workspace::{
+    Argument, Input, JointState, Reference, SceneRobot, Sizes, TrueValue,
+};
+use dalembert_codegen::{Function, Program, ScalarType};
 
 /// The most states that are measured.
 pub const MAX_STATES: usize = 10_000;
@@ -122,7 +121,7 @@ fn formula(
     function: Function,
     state: &JointState,
 ) -> Vec<f64> {
-    let pair = |angle: dalembert_codegen::workspace::program::AngleSum| {
+    let pair = |angle: dalembert_codegen::workspace::AngleSum| {
         // A motion reads the angles of single joints only.
         libm::sincos(angle.terms().map(|(joint, _)| state.q[joint]).sum())
     };

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use dalembert_codegen::workspace::graph::{Edge, Fingerprint, Graph, Node, Points};
+use dalembert_codegen::workspace::{Edge, Fingerprint, Graph, Node, Points};
 
 /// The operations of a graph that need not be done, by what they turn out
 /// to be.

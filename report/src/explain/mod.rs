@@ -15,15 +15,10 @@ use dalembert_model::equations::chain::Chain;
 use dalembert_model::robot::Robot;
 
 use crate::couplings::{Coupling, couplings};
-use dalembert_codegen::workspace::function::{Columns, Function};
-use dalembert_codegen::workspace::generate::{GenerateError, tolerate};
-use dalembert_codegen::workspace::graph::Graph;
-use dalembert_codegen::workspace::portfolio;
-use dalembert_codegen::workspace::program::Program;
-use dalembert_codegen::workspace::scene::{SceneRobot, input_hash};
-use dalembert_codegen::workspace::simplify::WaySource;
-use dalembert_codegen::workspace::task::{Request, Task};
-use dalembert_codegen::workspace::trace::trace;
+use dalembert_codegen::workspace::{
+    Columns, Graph, SceneRobot, Task, WaySource, admitted, input_hash, skeleton_for, trace,
+};
+use dalembert_codegen::{Function, GenerateError, Program, Request};
 use merged::Merged;
 use parameters::Parameters;
 use steps::Row;
@@ -74,7 +69,7 @@ pub fn explain(
 /// of its sources.
 ///
 /// # Errors
-/// Those of [`generate`](dalembert_codegen::workspace::generate::generate).
+/// Those of [`generate`](dalembert_codegen::generate).
 pub fn explain_all(
     robot: &Robot,
     request: &Request,
@@ -100,7 +95,7 @@ pub fn explain_all(
         }
     }
     let programs: Vec<&Program> = explained.iter().map(|(_, program)| program).collect();
-    let admitted = tolerate::admitted(&task, &programs)?;
+    let admitted = admitted(&task, &programs)?;
     let mut explanations: Vec<Explanation> = explained.into_iter().map(|(e, _)| e).collect();
     for (explanation, admitted) in explanations.iter_mut().zip(admitted.iter().flatten()) {
         explanation.rows.extend(steps::tolerated(admitted)?);
@@ -124,7 +119,7 @@ fn exact(
     if function.columns() != Columns::None {
         return Err(GenerateError::Unexplained(function));
     }
-    let found = steps::search(task, function, None)?;
+    let found = steps::search_anew(task, function, None)?;
     let tuned = found.tuned.as_ref();
     let tuned = tuned.ok_or(GenerateError::Unexplained(function))?;
     let mut rows = Vec::new();
@@ -150,10 +145,7 @@ fn exact(
     rows.extend(steps::chain(scene_robot, function, tuned));
     let (searched, program) = steps::searched(task, function, &found, without)?;
     rows.extend(searched);
-    let chain = Chain::new(
-        &portfolio::skeleton_for(scene_robot, function),
-        &tuned.regrouping,
-    );
+    let chain = Chain::new(&skeleton_for(scene_robot, function), &tuned.regrouping);
     let couplings = match scene_robot.scene() {
         None => couplings(robot),
         Some(_) => None,

@@ -8,11 +8,8 @@ use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 
 use super::merged;
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::graph::Folding;
-use dalembert_codegen::workspace::portfolio;
-use dalembert_codegen::workspace::portfolio::tune::Tuned;
-use dalembert_codegen::workspace::scene::SceneRobot;
+use dalembert_codegen::Function;
+use dalembert_codegen::workspace::{Folding, SceneRobot, skeleton, trace_chain, tune::Tuned};
 
 /// A parameter of a body about the origin of its frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -144,14 +141,13 @@ impl Parameters {
         tuned: &Tuned,
         chain: &Chain<Exact>,
     ) -> Parameters {
-        let arm = portfolio::skeleton(scene_robot);
+        let arm = skeleton(scene_robot);
         let mut metres = tuned.regrouping.clone();
         (metres.unit, metres.per_unit) = (Exact::one(), Exact::one());
         let now = Chain::new(&arm, &metres);
         let results = |chain: &Chain<Exact>| {
             let form = tuned.form;
-            let traced =
-                portfolio::trace_chain(scene_robot, function, chain, form, Folding::Syntactic);
+            let traced = trace_chain(scene_robot, function, chain, form, Folding::Syntactic);
             merged::results(&traced.0)
         };
         let expected = results(chain);

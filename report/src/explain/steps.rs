@@ -7,19 +7,11 @@ use dalembert_model::number::Exact;
 use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 
-use dalembert_codegen::workspace::approximate::admitted::Admitted;
-use dalembert_codegen::workspace::certificate::Certificate;
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::GenerateError;
-use dalembert_codegen::workspace::generate::search::{self, Found};
-use dalembert_codegen::workspace::graph::{Folding, Graph};
-use dalembert_codegen::workspace::portfolio::tune::{self, Tuned};
-use dalembert_codegen::workspace::portfolio::{self, Start};
-use dalembert_codegen::workspace::program::{Counts, Lowered, Program, ScalarType};
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::simplify::{self, WaySource};
-use dalembert_codegen::workspace::task::{Request, Task};
-use dalembert_codegen::workspace::trace::Trace;
+use dalembert_codegen::workspace::{
+    Admitted, Certificate, Folding, Found, Graph, Lowered, SceneRobot, Task, Trace, WaySource,
+    cost, replay, search, skeleton, trace_chain, tune, tune::Tuned, watched,
+};
+use dalembert_codegen::{Counts, Function, GenerateError, Program, Request, ScalarType, Start};
 
 /// A step of the pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -171,7 +163,7 @@ pub(super) fn lagrange_euler(
     let graphs = std::slice::from_ref(&trace.graph);
     let watch = Some(request.watch.over(function));
     // Whatever it costs in digits: that is what the row is to show.
-    if let Some(found) = simplify::watched(graphs, &[], request.effort, None, &|_| true, watch) {
+    if let Some(found) = watched(graphs, &[], request.effort, None, &|_| true, watch) {
         rows.extend([
             row(SearchStep::LagrangeFingerprints, &found.start),
             row(SearchStep::LagrangeEGraph, &found.saturated),
@@ -199,7 +191,7 @@ pub(super) fn newton_euler(
 
 /// Returns the chain form in one regrouping after the other, each in its cheapest form.
 pub(super) fn chain(scene_robot: &SceneRobot, function: Function, tuned: &Tuned) -> Vec<Row> {
-    let arm = portfolio::skeleton(scene_robot);
+    let arm = skeleton(scene_robot);
     let mut metres = tuned.regrouping.clone();
     (metres.unit, metres.per_unit) = (Exact::one(), Exact::one());
     let regroupings = [
@@ -211,10 +203,9 @@ pub(super) fn chain(scene_robot: &SceneRobot, function: Function, tuned: &Tuned)
     let row = |(step, regrouping): (SearchStep, Regrouping<Exact>)| {
         let chain = Chain::new(&arm, &regrouping);
         let forms = function.forms().into_iter();
-        let graphs = forms.map(|form| {
-            portfolio::trace_chain(scene_robot, function, &chain, form, Folding::Semantic)
-        });
-        let cheapest = graphs.map(|(graph, _)| graph).min_by_key(simplify::cost)?;
+        let graphs =
+            forms.map(|form| trace_chain(scene_robot, function, &chain, form, Folding::Semantic));
+        let cheapest = graphs.map(|(graph, _)| graph).min_by_key(cost)?;
         Some(Row::graph(step, scene_robot, function, &cheapest))
     };
     regroupings.into_iter().filter_map(row).collect()
@@ -239,7 +230,7 @@ pub(super) fn kept(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
 
 /// Returns the search over all forms, nothing replayed; without one of its sources, if that
 /// is said.
-pub(super) fn search(
+pub(super) fn search_anew(
     task: &Task<'_>,
     function: Function,
     without: Option<WaySource>,
@@ -250,7 +241,7 @@ pub(super) fn search(
         plan: None,
         ..task.request.clone()
     };
-    search::search(&task.with(&anew), function)
+    search(&task.with(&anew), function)
 }
 
 /// Returns what the search made of all forms, also without each of these sources, and what the
@@ -267,11 +258,11 @@ pub(super) fn searched(
     let mut rows = vec![row(SearchStep::EGraph, &simplified.saturated)];
     let mut last = Program::in_scene(scene_robot, function, &simplified.graph);
     for &source in without {
-        let found = search(task, function, Some(source))?;
+        let found = search_anew(task, function, Some(source))?;
         rows.push(row(SearchStep::Without(source), &found.simplified.graph));
     }
     rows.push(Row::program(SearchStep::Search, last.clone()));
-    if let Some(entry) = search::replay(task, function)? {
+    if let Some(entry) = replay(task, function)? {
         last = entry.program.clone();
         rows.push(Row::program(SearchStep::Plan, last.clone()));
     }

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use dalembert_codegen::workspace::function::{Function, Quantity, Sizes};
-use dalembert_codegen::workspace::verify::floating::{Emitted, Runtime};
+use dalembert_codegen::Function;
+use dalembert_codegen::workspace::{Emitted, Quantity, Runtime, Sizes};
 use dalembert_model::outputs::Shape;
 use dalembert_model::robot::Robot;
 

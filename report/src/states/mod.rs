@@ -9,8 +9,7 @@ pub mod file;
 
 use std::collections::BTreeMap;
 
-use dalembert_codegen::workspace::function::Quantity;
-use dalembert_codegen::workspace::states::JointState;
+use dalembert_codegen::workspace::{JointState, Quantity};
 
 /// The largest disagreement that counts as agreement: the largest error of an
 /// entry at a state, relative to the largest entry given at that state.

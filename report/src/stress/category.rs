@@ -4,7 +4,7 @@ use dalembert_model::robot::Robot;
 
 use super::deviation::Deviation;
 use super::{robots, states};
-use dalembert_codegen::workspace::states::{JointState, seeded};
+use dalembert_codegen::workspace::{JointState, seeded};
 
 /// Errors of a vector above this, in u, fail.
 pub const NORMWISE: f64 = 100.0;

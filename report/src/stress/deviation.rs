@@ -3,8 +3,8 @@
 use dalembert_model::number::Rounded;
 use dalembert_model::robot::Robot;
 
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::verify::reference::TrueValue;
+use dalembert_codegen::ScalarType;
+use dalembert_codegen::workspace::TrueValue;
 
 /// The error of a vector of joint torques, or of any other result.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]

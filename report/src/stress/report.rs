@@ -8,14 +8,8 @@ use super::category::{Category, Criterion};
 use super::deviation::{Deviation, Measure};
 use super::scale;
 use super::subject::{Code, Subject};
-use dalembert_codegen::workspace::function::Function;
-use dalembert_codegen::workspace::generate::GenerateError;
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::states::JointState;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::condition::Condition;
-use dalembert_codegen::workspace::verify::reference::{Reference, TrueValue};
+use dalembert_codegen::workspace::{Condition, JointState, Reference, SceneRobot, TrueValue};
+use dalembert_codegen::{Function, GenerateError, Request, ScalarType};
 
 /// The options of a run.
 #[derive(Clone, Debug)]

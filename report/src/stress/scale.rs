@@ -5,8 +5,7 @@ use dalembert_model::reference::Reference;
 use dalembert_model::robot::Robot;
 use nalgebra::DVector;
 
-use dalembert_codegen::workspace::random::Random;
-use dalembert_codegen::workspace::states::JointState;
+use dalembert_codegen::workspace::{JointState, Random};
 
 /// Number of states that the torque scales are taken over.
 pub const STATES: usize = 1000;

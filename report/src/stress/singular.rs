@@ -10,14 +10,11 @@
 use std::fmt;
 use std::ops::Range;
 
-use dalembert_codegen::workspace::function::{Argument, Function, Quantity, Sizes};
-use dalembert_codegen::workspace::generate::GenerateError;
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::scene::SceneRobot;
-use dalembert_codegen::workspace::states::{JointState, positions, seeded};
-use dalembert_codegen::workspace::verify::condition::Condition;
-use dalembert_codegen::workspace::verify::floating::LEAST_PART;
-use dalembert_codegen::workspace::verify::reference::{Reference as Truth, TrueValue};
+use dalembert_codegen::workspace::{
+    Argument, Condition, JointState, LEAST_PART, Quantity, Reference as Truth, SceneRobot, Sizes,
+    TrueValue, positions, seeded,
+};
+use dalembert_codegen::{Function, GenerateError, ScalarType};
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::Robot;
 use nalgebra::DVector;

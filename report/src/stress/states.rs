@@ -4,8 +4,7 @@ use dalembert_model::reference::Reference;
 use dalembert_model::robot::{JointKind, Robot};
 use nalgebra::DVector;
 
-use dalembert_codegen::workspace::random::Random;
-use dalembert_codegen::workspace::states::{JointState, seeded};
+use dalembert_codegen::workspace::{JointState, Random, seeded};
 
 /// Angles up to `size`.
 pub fn angles(robot: &Robot, count: usize, seed: u64, size: f64) -> Vec<JointState> {

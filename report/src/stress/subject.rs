@@ -6,12 +6,8 @@ use dalembert_model::reference::{Float, JointVectors, Reference, WrongLength};
 use dalembert_model::robot::Robot;
 use nalgebra::DVector;
 
-use dalembert_codegen::workspace::function::{Argument, Columns, Function};
-use dalembert_codegen::workspace::generate::{GenerateError, generate};
-use dalembert_codegen::workspace::program::ScalarType;
-use dalembert_codegen::workspace::states::JointState;
-use dalembert_codegen::workspace::task::Request;
-use dalembert_codegen::workspace::verify::floating::Emitted;
+use dalembert_codegen::workspace::{Argument, Columns, Emitted, JointState};
+use dalembert_codegen::{Function, GenerateError, Request, ScalarType, generate};
 
 /// Which code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

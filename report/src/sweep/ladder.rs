@@ -4,16 +4,10 @@
 //! before, which its tolerance admits as well. So none is dearer than one before it. A search
 //! with other settings may still find less for one tolerance alone.
 
-use dalembert_codegen::workspace::approximate::admitted::Admitted;
-use dalembert_codegen::workspace::approximate::choose::ErrorBudget;
-use dalembert_codegen::workspace::approximate::prune::PruneSettings;
-use dalembert_codegen::workspace::bound::sensitivity::BoundEffort;
-use dalembert_codegen::workspace::certificate::Certificate;
-use dalembert_codegen::workspace::falsify::falsify;
-use dalembert_codegen::workspace::language::read::TextError;
-use dalembert_codegen::workspace::parallel;
-use dalembert_codegen::workspace::program::{Program, ScalarType};
-use dalembert_codegen::workspace::simplify::Effort;
+use dalembert_codegen::workspace::{
+    Admitted, BoundEffort, Certificate, ErrorBudget, PruneSettings, TextError, each, falsify,
+};
+use dalembert_codegen::{Effort, Program, ScalarType};
 
 use super::Point;
 
@@ -114,7 +108,7 @@ impl<'a> Ladder<'a> {
             certificates.extend(polynomials);
         }
         let options = self.options;
-        let points = parallel::each(&certificates, |certificate| {
+        let points = each(&certificates, |certificate| {
             point(options, tolerance, certificate)
         });
         points.into_iter().collect()

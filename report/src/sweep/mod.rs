@@ -6,9 +6,8 @@
 
 pub mod ladder;
 
-use dalembert_codegen::workspace::certificate::Certificate;
-use dalembert_codegen::workspace::program::{Counts, ScalarType};
-use dalembert_codegen::workspace::sincos;
+use dalembert_codegen::workspace::{Certificate, sincos_counts};
+use dalembert_codegen::{Counts, ScalarType};
 
 /// One variant.
 pub struct Point {
@@ -25,21 +24,10 @@ pub struct Point {
     pub rounding: f64,
     /// The largest such error that was seen.
     pub rounding_observed: Option<f64>,
-    /// Time of a call, and as a ratio to the exact f64 variant's.
-    pub time: Option<Time>,
     /// True if another one is neither dearer nor worse.
     pub dominated: bool,
     /// An error above E, in words: never, unless this program is wrong.
     pub violation: Option<String>,
-}
-
-/// The time of a call.
-#[derive(Clone, Copy)]
-pub struct Time {
-    /// Nanoseconds on the machine that it was measured on.
-    pub nanoseconds: f64,
-    /// To the exact f64 variant in the same run.
-    pub ratio: f64,
 }
 
 impl Point {
@@ -56,7 +44,6 @@ impl Point {
             rounding: largest(&certificate.of_rounding()),
             rounding_observed: None,
             certificate,
-            time: None,
             dominated: false,
             violation: None,
         }
@@ -81,7 +68,7 @@ impl Point {
 
     /// Returns what it costs, with the operations of its sines.
     pub fn counts(&self) -> Counts {
-        let (trig_mul, trig_add) = sincos::counts(&self.certificate.sines);
+        let (trig_mul, trig_add) = sincos_counts(&self.certificate.sines);
         Counts {
             trig_mul,
             trig_add,

@@ -6,7 +6,7 @@ pub mod rounding;
 
 use std::path::PathBuf;
 
-use dalembert_codegen::workspace::states::JointState;
+use dalembert_codegen::workspace::JointState;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Limits, Robot};
 use serde_json::Value;

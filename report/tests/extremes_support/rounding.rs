@@ -3,7 +3,7 @@
 use dalembert_model::number::{Angle, Rational, Rounded};
 use dalembert_model::robot::{Frame, Inertia, Joint, Placement, Robot};
 
-use dalembert_codegen::workspace::program::ScalarType;
+use dalembert_codegen::ScalarType;
 
 /// Returns the robot with every number rounded to the scalar, angles in radians too;
 /// multiples of π stay what they are. `None` if a number is beyond its range.

@@ -103,7 +103,7 @@ impl Document {
 }
 
 /// Returns SHA-256 of a printed text in hexadecimal.
-pub fn text_hash(text: &str) -> String {
+fn text_hash(text: &str) -> String {
     let hash = Hash::hash(text.as_bytes());
     hash.iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -9,7 +9,6 @@ mod program;
 
 use super::Certificate;
 use document::Document;
-pub use document::text_hash;
 
 /// The version of the format.
 const VERSION: u32 = 2;

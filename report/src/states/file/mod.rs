@@ -8,8 +8,7 @@
 mod error;
 mod words;
 
-use dalembert_codegen::workspace::function::{Argument, Sizes};
-use dalembert_codegen::workspace::states::JointState;
+use dalembert_codegen::workspace::{Argument, JointState, Sizes};
 use serde_json::{Map, Value};
 
 use super::GivenState;

@@ -1,6 +1,7 @@
 //! The keys of states, and what others call them.
 
-use dalembert_codegen::workspace::function::{Argument, Function, Quantity};
+use dalembert_codegen::Function;
+use dalembert_codegen::workspace::{Argument, Quantity};
 use dalembert_model::read::closest;
 
 /// Returns the keys of quantities, in the order of the list of outputs.
