@@ -9,7 +9,6 @@
 //! - `count`: operation counts
 //! - `verify`: the exact proof and what rounding costs
 //! - `explain`: what each step brought, which coefficients vanish or repeat, and why
-//! - `stress`: numerical stability at the extremes
 //! - `certify`: a certificate checked again
 //! - `tradeoff`: certified error against operations
 //! - `plot`: charts as SVG
@@ -39,7 +38,6 @@ mod progress;
 mod renew;
 mod show;
 mod sines;
-mod stress;
 mod tradeoff;
 mod verify;
 
@@ -66,7 +64,6 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Count(args) => count::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Explain(args) => explain::run(&args),
-        Command::Stress(args) => stress::run(&args),
         Command::Certify(args) => certify::run(&args),
         Command::Tradeoff(args) => tradeoff::run(&args),
         Command::Completions { shell } => completions(shell),

@@ -115,7 +115,7 @@ tradeoff PUMA --tolerances -1 | a number above zero, not -1
 tradeoff PUMA --tolerances -1e-3,0.1 | a number above zero, not -0.001
 tradeoff PUMA --tolerances 1% | a number above zero, such as 1e-3
 generate PUMA --states -1 | 1..=10000
-stress PUMA --states 0 | 1..=10000
+verify PUMA --states 0 | 1..=10000
 generate PUMA --save-plan --plan off | cannot be used with
 tradeoff PUMA --samples -1 | a whole number, 0 or more
  | Usage

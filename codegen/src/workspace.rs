@@ -67,9 +67,8 @@ pub use crate::states::{JointState, SEED, STATES, positions, seeded};
 pub use crate::task::{Task, in_scene::find as find_scene};
 pub use crate::trace::{Trace, trace};
 pub use crate::verify::{
-    condition::Condition,
     exact::{Disproof, Proof, prove, prove_same},
-    floating::{BOUND, Emitted, Granted, LEAST_PART, Measure, Runtime},
+    floating::{BOUND, Emitted, Granted, LEAST_PART, Runtime},
     parameters::prove_base,
     reference::{Reference, TrueValue},
     rounding::Rounding,

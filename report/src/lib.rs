@@ -2,7 +2,8 @@
 //! a user of the macro compiles.
 //!
 //! - [`couplings`]: the coefficients that vanish or repeat
-//! - [`stress`]: stability at the extremes, against a float of 256 bits
+//! - [`measure`]: rounding, against 256-bit arithmetic
+//! - [`extremes`]: rounding where robots are not, and next to a singular D
 //! - [`explain`]: what each step brought, and why
 //! - [`drawing`]: the arm in two views, as SVG
 //! - [`states`]: given states compared with the code
@@ -14,7 +15,8 @@
 pub mod couplings;
 pub mod drawing;
 pub mod explain;
+pub mod extremes;
+pub mod measure;
 pub mod states;
-pub mod stress;
 pub mod sweep;
 pub mod table3;

@@ -6,10 +6,10 @@ mod explain;
 mod extremes;
 mod extremes_growth;
 mod extremes_not_finite;
+mod extremes_of_robots;
 mod extremes_support;
 mod identities_in_time;
 mod outputs;
 mod states;
-mod stress_report;
 #[path = "../../codegen/tests/support/mod.rs"]
 mod support;

@@ -1,23 +1,21 @@
-//! The matrix of extremes: every category, f64 and f32, generic runtime and
-//! emitted code, each by its criterion. Without optimisation, the first case of
-//! each category, and no search of long arms: minutes are for release mode.
+//! The 114 states of the file of extremes, f64 and f32, generic runtime and emitted code, each by
+//! its criterion. Without optimisation, the first case of each category, and no search of long arms:
+//! minutes are for release mode.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::ops::Range;
 
-use crate::extremes_support;
-use crate::extremes_support::Extreme;
 use crate::extremes_support::rounding::rounded;
-use dalembert_codegen::workspace::{Quantity, Reference, SceneRobot, Sizes, TrueValue};
+use crate::extremes_support::runtime::runtime;
+use crate::extremes_support::{self, Extreme, drawn_like};
+use dalembert_codegen::workspace::{Emitted, Quantity, SceneRobot};
 use dalembert_codegen::{Function, Request, ScalarType, Start, generate};
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::Robot;
-use dalembert_report::stress::category::{Criterion, NORMWISE};
-use dalembert_report::stress::deviation::{Deviation, Measure};
-use dalembert_report::stress::scale;
-use dalembert_report::stress::subject::{Code, Subject};
+use dalembert_report::extremes::Held;
+use dalembert_report::measure::{Bench, Code, ENTRY, VECTOR};
 
-fn criterion(category: &str) -> Criterion {
+fn held(category: &str) -> Held {
     let starts = |prefixes: &[&str]| prefixes.iter().any(|p| category.starts_with(p));
     if starts(&[
         "static_near_balance",
@@ -25,48 +23,39 @@ fn criterion(category: &str) -> Criterion {
         "folded_2link",
         "pointmass_tip",
     ]) {
-        Criterion::PerJoint
+        Held::Entries
     } else if starts(&["massratio", "length", "snake"]) {
-        Criterion::Normwise
+        Held::Vector
     } else {
-        Criterion::Both
+        Held::Both
     }
 }
 
-/// The worst errors by category, code and quantity.
-type Table = BTreeMap<(String, Subject, Quantity), Deviation>;
 /// The programs of a robot: they do not depend on the state.
-struct Robots(Vec<(Robot, ScalarType, Reference, [Code; 2])>);
+struct Programs {
+    robot: Robot,
+    bench: Bench,
+    emitted: Vec<Emitted>,
+}
 
-impl Robots {
-    fn get(&mut self, robot: &Robot, scalar: ScalarType, first: bool) -> (&Reference, &[Code; 2]) {
-        let at = self
-            .0
-            .iter()
-            .position(|(r, s, ..)| r == robot && *s == scalar);
-        let at = at.unwrap_or_else(|| {
-            let mut emitted = Vec::new();
-            for &function in functions(robot, scalar) {
-                let request = Request {
-                    scalars: vec![scalar],
-                    start: start(robot, scalar, function, first),
-                    ..Request::of(&[function])
-                };
-                let generated = generate(robot, &request).unwrap_or_else(|e| panic!("{e}"));
-                emitted.extend(generated.emitted);
-            }
-            let emitted = Code::Emitted(emitted);
-            let codes = [Code::runtime(robot, scalar), emitted];
-            self.0.push((
-                robot.clone(),
-                scalar,
-                Reference::new(&SceneRobot::whole(robot)),
-                codes,
-            ));
-            self.0.len() - 1
+impl Programs {
+    fn new(robot: &Robot, scalar: ScalarType, first: bool) -> Programs {
+        let functions = functions(robot, scalar).iter();
+        let emitted = functions.flat_map(|&function| {
+            let request = Request {
+                scalars: vec![scalar],
+                start: start(robot, scalar, function, first),
+                ..Request::of(&[function])
+            };
+            generate(robot, &request)
+                .unwrap_or_else(|e| panic!("{e}"))
+                .emitted
         });
-        let (_, _, truth, codes) = &self.0[at];
-        (truth, codes)
+        Programs {
+            robot: robot.clone(),
+            bench: Bench::new(SceneRobot::whole(robot)),
+            emitted: emitted.collect(),
+        }
     }
 }
 
@@ -120,101 +109,72 @@ fn every_category_meets_its_criterion_in_f32() {
 }
 
 fn categories_meet_their_criteria(scalar: ScalarType, range: Range<usize>) {
-    let mut robots = Robots(Vec::new());
-    let mut worst = Table::new();
+    let mut robots: Vec<Programs> = Vec::new();
+    let mut worst: BTreeMap<(String, &str), [f64; 2]> = BTreeMap::new();
     let mut failures = Vec::new();
     let cases = extremes_support::read();
     assert_eq!(cases.len(), 114);
+    let is_first = |case: &Extreme| case.id.ends_with("_00");
     let is_tried = |case: &&Extreme| !cfg!(debug_assertions) || is_first(case);
     for case in cases[range].iter().filter(is_tried) {
-        let (robot, state) = match scalar {
-            ScalarType::F64 => (case.robot.clone(), case.state.clone()),
-            ScalarType::F32 => {
-                let robot = rounded(&case.robot, scalar).expect("parameters within f32");
-                (robot, case.state.in_scalar(scalar))
-            }
+        let robot = match scalar {
+            ScalarType::F64 => case.robot.clone(),
+            ScalarType::F32 => rounded(&case.robot, scalar).expect("parameters within f32"),
         };
-        let bounds = scale::magnitudes(&robot, &state);
-        let states = scale::draw(&bounds, scale::STATES, scale::SEED);
-        let measure = Measure::new(&robot, scalar, scale::torques(&robot, &states));
-        let (truth, codes) = robots.get(&robot, scalar, is_first(case));
-        for &function in functions(&robot, scalar) {
-            let expected = truth.run(function, &state);
-            for (subject, code) in Subject::ALL.into_iter().zip(codes) {
-                let found = code.run(function, &state).unwrap();
-                let mut start = 0;
-                for &quantity in function.quantities() {
-                    let range = start..start + quantity.len(Sizes::whole(state.q.len()));
-                    start = range.end;
-                    let (found, truth) = (&found[range.clone()], &expected[range]);
+        let state = case.state.in_scalar(scalar);
+        let known = robots.iter().position(|programs| programs.robot == robot);
+        let known = known.unwrap_or_else(|| {
+            robots.push(Programs::new(&robot, scalar, is_first(case)));
+            robots.len() - 1
+        });
+        let Programs { bench, emitted, .. } = &robots[known];
+        let scales = drawn_like(&robot, &state);
+        for own in emitted {
+            let codes = [
+                ("runtime", runtime(&robot, own.function, scalar)),
+                ("emitted", Code::of(own)),
+            ];
+            for (subject, code) in codes {
+                // A vector is compared with what it is at this state.
+                let alone = [state.clone()];
+                for found in bench.measure(&code, &alone, &alone) {
                     if overflows(case, scalar) {
-                        assert!(never_silent(found, truth), "{}", case.id);
+                        let truth = bench.truth(own.function, &state);
+                        let largest = f64::from(f32::MAX);
+                        let beyond = truth.iter().any(|x| x.magnitude() > largest);
+                        // No result looks like a number where the truth is beyond the range.
+                        assert!(!beyond || found.overflows, "{}", case.id);
                         continue;
                     }
-                    let deviation = measure.of(found, truth);
-                    if fails(case, quantity, &deviation) {
-                        failures.push(format!(
-                            "{} {scalar} {subject} {quantity:?}: {deviation:?}",
-                            case.id
-                        ));
+                    let is_vector = match found.quantity {
+                        Quantity::Torque => held(&case.category) != Held::Entries,
+                        // D is large somewhere in every state; h and c may vanish.
+                        quantity => quantity == Quantity::Inertia,
+                    };
+                    let mut entry = 0.0;
+                    if found.quantity == Quantity::Torque {
+                        entry = bench.measure(&code, &alone, &scales)[0].entry;
+                        let key = (case.category.clone(), subject);
+                        let worst = worst.entry(key).or_default();
+                        *worst = [worst[0].max(found.vector), worst[1].max(entry)];
+                        if held(&case.category) == Held::Vector {
+                            entry = 0.0;
+                        }
                     }
-                    let key = (case.category.clone(), subject, quantity);
-                    let worst = worst.entry(key).or_default();
-                    worst.normwise = worst.normwise.max(deviation.normwise);
-                    worst.per_joint = worst.per_joint.max(deviation.per_joint);
+                    if is_vector && found.vector > VECTOR || entry > ENTRY {
+                        failures.push(format!("{} {scalar} {subject} {found:?} {entry}", case.id));
+                    }
                 }
             }
         }
     }
-    print(scalar, &worst);
+    for ((category, subject), [vector, entry]) in worst {
+        println!("{category} {subject} {scalar}: {vector:.1} / {entry:.1}");
+    }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
-}
-
-/// Returns whether it is the first case of its category.
-fn is_first(case: &Extreme) -> bool {
-    case.id.ends_with("_00")
-}
-
-fn fails(case: &Extreme, quantity: Quantity, deviation: &Deviation) -> bool {
-    let criterion = criterion(&case.category);
-    // D is large somewhere in every state; h and c may vanish.
-    let normwise = quantity == Quantity::Inertia;
-    let beyond = |error: f64| error.is_nan() || error > NORMWISE;
-    normwise && beyond(deviation.normwise)
-        || quantity == Quantity::Torque && !criterion.met(deviation)
 }
 
 /// Returns whether the state is out of the scalar's range on purpose.
 fn overflows(case: &Extreme, scalar: ScalarType) -> bool {
     case.category.starts_with("f32overflow") && scalar == ScalarType::F32
-}
-
-/// Returns whether no result looks like a number where the truth is beyond the range.
-fn never_silent(found: &[f64], truth: &[TrueValue]) -> bool {
-    let largest = f64::from(f32::MAX);
-    let beyond = |truth: &TrueValue| truth.magnitude() > largest;
-    !truth.iter().any(beyond) || found.iter().any(|x| !x.is_finite())
-}
-
-/// Prints one line a category: τ normwise / per joint, then D normwise.
-fn print(scalar: ScalarType, worst: &Table) {
-    let categories: BTreeSet<&String> = worst.keys().map(|key| &key.0).collect();
-    let mut text = format!("| category | runtime {scalar} | emitted {scalar} |\n|---|---|---|\n");
-    for category in categories {
-        text += &format!("| {category} |");
-        for subject in Subject::ALL {
-            let get = |quantity| worst.get(&(category.clone(), subject, quantity));
-            text += &match (get(Quantity::Torque), get(Quantity::Inertia)) {
-                (None, _) => " out of range |".into(),
-                (Some(tau), d) => format!(
-                    " {:.1} / {:.1}, {} |",
-                    tau.normwise,
-                    tau.per_joint,
-                    d.map_or("–".into(), |d| format!("{:.1}", d.normwise))
-                ),
-            };
-        }
-        text += "\n";
-    }
-    println!("{text}");
 }

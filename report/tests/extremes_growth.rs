@@ -1,16 +1,31 @@
 //! Longer chains: linear inverse dynamics, code in blocks, refusals.
 
+use std::slice;
+
 use crate::extremes_support::chain::chain;
-use dalembert_codegen::workspace::{Reference, SceneRobot, parse, seeded};
+use dalembert_codegen::workspace::{Emitted, SceneRobot, parse, seeded};
 use dalembert_codegen::{Function, GenerateError, Request, ScalarType, generate};
-use dalembert_report::stress::deviation::Measure;
-use dalembert_report::stress::subject::Code;
+use dalembert_model::robot::Robot;
+use dalembert_report::measure::{Bench, Code, VECTOR};
 
 fn request(function: Function, start: &str) -> Request {
     Request {
         scalars: vec![ScalarType::F64],
         start: parse(start).unwrap(),
         ..Request::of(&[function])
+    }
+}
+
+fn is_within_the_bound(robot: &Robot, emitted: &Emitted, states: usize) {
+    let bench = Bench::new(SceneRobot::whole(robot));
+    for state in seeded(robot, states, 1) {
+        for found in bench.measure(
+            &Code::of(emitted),
+            slice::from_ref(&state),
+            slice::from_ref(&state),
+        ) {
+            assert!(found.vector <= VECTOR, "{found:?}");
+        }
     }
 }
 
@@ -21,15 +36,7 @@ fn inverse_dynamics_grows_linearly() {
         let robot = chain(n, n as u64);
         let mut generated = generate(&robot, &recursion).unwrap();
         let counts = generated.functions.remove(0).counts();
-        let code = Code::Emitted(generated.emitted);
-        let reference = Reference::new(&SceneRobot::whole(&robot));
-        let measure = Measure::new(&robot, ScalarType::F64, Vec::new());
-        for state in seeded(&robot, 20, 1) {
-            let found = code.run(Function::InverseDynamics, &state).unwrap();
-            let truth = reference.run(Function::InverseDynamics, &state);
-            let error = measure.of(&found, &truth).normwise;
-            assert!(error <= 100.0, "{n} joints: {error} u");
-        }
+        is_within_the_bound(&robot, &generated.emitted[0], 20);
         counts.operations() as f64
     };
     let [short, middle, long] = [12, 24, 48].map(operations);
@@ -46,18 +53,7 @@ fn long_functions_come_in_blocks_and_are_right() {
     assert!(generated.functions[0].program.steps.len() > 5000);
     let blocks = |text: &str| text.lines().filter(|l| l.ends_with(") = {")).count();
     assert!(blocks(&generated.text()) >= 6);
-    let code = Code::Emitted(generated.emitted);
-    let measure = Measure::new(&robot, ScalarType::F64, Vec::new());
-    let reference = Reference::new(&SceneRobot::whole(&robot));
-    for state in seeded(&robot, 3, 8) {
-        let found = code.run(function, &state).unwrap();
-        let expected = reference.run(function, &state);
-        let n = robot.joints.len();
-        for range in [0..n * n, n * n..n * n + n, n * n + n..n * n + 2 * n] {
-            let error = measure.of(&found[range.clone()], &expected[range]);
-            assert!(error.normwise <= 100.0, "{error:?}");
-        }
-    }
+    is_within_the_bound(&robot, &generated.emitted[0], 3);
 }
 
 #[test]

@@ -5,7 +5,9 @@ use dalembert_codegen::workspace::{Input, JointState, Operand, seeded};
 use dalembert_codegen::{Function, Generated, Program, Request, ScalarType, generate};
 use dalembert_model::read;
 use dalembert_model::robot::Robot;
-use dalembert_report::stress::subject::Code;
+use dalembert_report::measure::Code;
+
+use crate::extremes_support::runtime::runtime;
 
 fn robot(name: &str) -> Robot {
     let folder = env!("CARGO_MANIFEST_DIR");
@@ -53,12 +55,12 @@ fn with(state: &JointState, place: Entry, value: f64) -> JointState {
 }
 
 /// Returns whether an output changes with an input, at some of the states.
-fn sensitive(code: &Code, function: Function, states: &[JointState], place: Entry) -> Vec<bool> {
+fn sensitive(code: &Code<'_>, states: &[JointState], place: Entry) -> Vec<bool> {
     let mut sensitive = Vec::new();
     for state in states {
         let rows = [&state.q, &state.qd, &state.qdd];
         let moved = with(state, place, rows[place.0][place.1] + 0.7);
-        let [a, b] = [state, &moved].map(|state| code.run(function, state).unwrap());
+        let [a, b] = [state, &moved].map(&code.run);
         let size = a.iter().fold(0.0f64, |most, x| most.max(x.abs()));
         sensitive.resize(a.len(), false);
         for (sensitive, (a, b)) in sensitive.iter_mut().zip(a.iter().zip(&b)) {
@@ -80,23 +82,19 @@ fn what_is_not_finite_reaches_what_depends_on_it() {
             functions, emitted, ..
         } = generate(&robot, &request).unwrap();
         let states = seeded(&robot, 4, 11);
-        let emitted = Code::Emitted(
-            emitted
-                .into_iter()
-                .filter(|e| e.scalar == ScalarType::F64)
-                .collect(),
-        );
-        let runtime = Code::runtime(&robot, ScalarType::F64);
-        for generated in &functions {
+        let doubles = emitted.iter().filter(|e| e.scalar == ScalarType::F64);
+        for (generated, emitted) in functions.iter().zip(doubles) {
             let function = generated.function;
+            assert_eq!(emitted.function, function);
+            let runtime = runtime(&robot, function, ScalarType::F64);
             for place in (0..3).flat_map(|row| (0..robot.joints.len()).map(move |j| Entry(row, j)))
             {
                 let dependent = dependent(&generated.program, place);
-                let sensitive = sensitive(&runtime, function, &states, place);
+                let sensitive = sensitive(&runtime, &states, place);
                 for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
                     let state = with(&states[0], place, bad);
-                    let results = emitted.run(function, &state).unwrap();
-                    let of_runtime = runtime.run(function, &state).unwrap();
+                    let results = emitted.run(&state);
+                    let of_runtime = (runtime.run)(&state);
                     for index in 0..results.len() {
                         let at =
                             || format!("{name} {function} {index} {} {} {bad}", place.0, place.1);

@@ -18,23 +18,12 @@ pub struct VerifyArgs {
     /// Compare with these states too: JSON with a list `states` of objects
     /// with q, qd, qdd and any of tau, D, h, c
     #[arg(long, value_name = "FILE.json", conflicts_with = "scene")]
-    pub states: Option<PathBuf>,
-    /// Print JSON
-    #[arg(long)]
-    pub json: bool,
-    #[command(flatten)]
-    pub options: Options,
-}
-
-/// Arguments of `stress`.
-#[derive(Debug, clap::Args)]
-pub struct StressArgs {
-    /// The robot file
-    pub robot: PathBuf,
-    /// Print JSON
-    #[arg(long)]
-    pub json: bool,
-    /// States of each category
+    pub given: Option<PathBuf>,
+    /// Measure the torques also where robots are not: huge angles and speeds, other masses and
+    /// lengths; and what divides where D is nearest to singular
+    #[arg(long, conflicts_with = "scene")]
+    pub extremes: bool,
+    /// States of each row
     #[arg(
         long,
         value_name = "N",
@@ -43,6 +32,11 @@ pub struct StressArgs {
         default_value_t = 50
     )]
     pub states: usize,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub options: Options,
 }
 
 /// Arguments of `certify`.

@@ -17,7 +17,7 @@ use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 
 pub use code::{CountArgs, ExplainArgs, GenerateArgs, RenewArgs};
-pub use errors::{CertifyArgs, StressArgs, TradeoffArgs, VerifyArgs};
+pub use errors::{CertifyArgs, TradeoffArgs, VerifyArgs};
 pub use files::{ChainArgs, ImportArgs, NewArgs, ShowArgs};
 pub use options::Options;
 
@@ -67,8 +67,6 @@ pub enum Command {
     Explain(ExplainArgs),
     /// Measure what accuracy costs: certified error against operations
     Tradeoff(TradeoffArgs),
-    /// Measure rounding errors in extreme cases: huge angles and speeds, odd masses
-    Stress(StressArgs),
     /// Print what a shell completes: dalembert completions bash > ~/.local/share/bash-completion/completions/dalembert
     Completions {
         /// The shell

@@ -1,6 +1,7 @@
 //! Given states compared with generated code.
 
 use std::collections::BTreeMap;
+use std::iter;
 use std::path::Path;
 
 use dalembert_codegen::workspace::{Quantity, Runtime};
@@ -104,8 +105,11 @@ impl<'a> Given<'a> {
     }
 
     /// Returns the rows of the table of errors.
-    pub fn rows(&self) -> impl Iterator<Item = Vec<String>> {
-        self.compared.iter().map(|one| {
+    pub fn rows(&self) -> Vec<Vec<String>> {
+        let head = [
+            "function", "scalar", "result", "against", "in u", "error", "bound", "",
+        ];
+        let rows = self.compared.iter().map(|one| {
             let u = ScalarType::F64.unit_roundoff();
             vec![
                 one.function.to_string(),
@@ -117,7 +121,10 @@ impl<'a> Given<'a> {
                 format!("{BOUND:.1e}"),
                 if one.agrees() { "ok" } else { "DISAGREES" }.to_owned(),
             ]
-        })
+        });
+        iter::once(head.map(str::to_owned).to_vec())
+            .chain(rows)
+            .collect()
     }
 
     /// Writes them for programs.

@@ -1,5 +1,5 @@
-//! `dalembert verify`: the exact proof, then the emitted text run bit for bit
-//! against the generic runtime and against given states.
+//! `dalembert verify`: the exact proof, then what rounding costs the emitted text, run bit for bit:
+//! inside the limits, at states that somebody else computed, and at the extremes.
 //!
 //! - this file: what is checked, and how the run ends
 //! - [`given`]: given states
@@ -9,28 +9,17 @@ mod given;
 mod show;
 
 use dalembert_codegen::workspace::{
-    BOUND, Certificate, Emitted, Falsification, Measure, Runtime, SEED, STATES, falsify,
+    Certificate, Emitted, Falsification, Runtime, SEED, STATES, falsify,
 };
 use dalembert_codegen::{GenerateError, Generated, ScalarType};
+use dalembert_report::extremes::{self, Verdict};
+use dalembert_report::measure::Bench;
 
 use crate::args::VerifyArgs;
 use crate::outcome::{Failure, Outcome};
 use crate::{input, output, progress, sines};
 use given::Given;
 use show::Found;
-
-/// An error measured against the runtime, and its bound.
-struct Check {
-    states: usize,
-    measure: Measure,
-    bound: f64,
-}
-
-impl Check {
-    fn passed(&self) -> bool {
-        self.measure.error <= self.bound
-    }
-}
 
 /// A certificate and the largest errors that were seen.
 struct Claim<'g> {
@@ -58,7 +47,7 @@ pub fn run(args: &VerifyArgs) -> Outcome {
     let input::Wanted {
         robot, mut request, ..
     } = wanted;
-    let given = args.states.as_deref();
+    let given = args.given.as_deref();
     let given = given.map(|file| Given::read(file, &robot, &request));
     let mut given = given.transpose()?;
     let session = progress::watch(&mut request);
@@ -66,31 +55,28 @@ pub fn run(args: &VerifyArgs) -> Outcome {
     let generated = input::generated(&args.robot, &robot, &request)?;
     drop(session);
     let scene_robot = request.scene_robot(&robot).map_err(GenerateError::Scene)?;
-    let states = scene_robot.states(STATES, SEED);
-    let runtime = Runtime::in_scene(scene_robot);
-    let mut checks = Vec::new();
+    let states = scene_robot.states(args.states, SEED);
     let claims = claims(&generated)?;
-    for emitted in &generated.emitted {
-        // What a tolerance left out is no rounding: its bound is E.
-        if claims.iter().any(|claim| claim.is_of(emitted)) {
-            continue;
-        }
-        for measure in emitted.against_runtime(&runtime, &states) {
-            checks.push(Check {
-                states: states.len(),
-                measure,
-                bound: BOUND * emitted.scalar.unit_roundoff(),
-            });
-        }
+    // What a tolerance left out is no rounding: its bound is E.
+    let emitted = generated.emitted.iter();
+    let exact = emitted.filter(|emitted| !claims.iter().any(|claim| claim.is_of(emitted)));
+    let bench = Bench::new(scene_robot.clone());
+    let mut rows = extremes::inside(&bench, exact, &states);
+    if args.extremes {
+        let progress = |case: &str| output::note(&format!("… {case}"));
+        rows.extend(extremes::torques(&robot, &request, args.states, progress)?);
+        output::note("… nearest to singular");
+        rows.extend(extremes::divided(&robot, &request, args.states)?);
     }
     if let Some(given) = &mut given {
-        given.compare(&runtime, &generated);
+        given.compare(&Runtime::in_scene(scene_robot), &generated);
     }
     let sines = sines::checks(&generated, &states);
     let found = Found {
         robot: &robot,
         generated: &generated,
-        checks: &checks,
+        states: args.states,
+        rows: &rows,
         claims: &claims,
         sines: &sines,
         given: given.as_ref(),
@@ -110,21 +96,24 @@ pub fn run(args: &VerifyArgs) -> Outcome {
             "error: a certificate is violated: a defect of this program".into(),
         ));
     }
-    if !checks.iter().all(Check::passed) {
-        return Err(Failure::Check(
-            "error: rounding costs more than the bound".into(),
-        ));
+    let failed = rows.iter().filter(|row| row.verdict == Verdict::Failed);
+    match failed.count() {
+        0 => {}
+        failed => {
+            return Err(Failure::Check(format!(
+                "error: rounding costs more than the bound in {failed} of {} rows",
+                rows.len()
+            )));
+        }
     }
     let disagreement = given.and_then(|given| given.disagreement(&robot));
     disagreement.map_or(Ok(()), |why| Err(Failure::Check(why)))
 }
 
-/// Returns the certificates of a scene with a tolerance, falsified.
+/// Falsifies the certificates of a scene with a tolerance.
 fn claims(generated: &Generated) -> Result<Vec<Claim<'_>>, Failure> {
-    let admitted = generated
-        .functions
-        .iter()
-        .filter_map(|f| f.admitted.as_ref());
+    let functions = generated.functions.iter();
+    let admitted = functions.filter_map(|function| function.admitted.as_ref());
     let mut claims = Vec::new();
     for certificate in admitted.flat_map(|admitted| &admitted.certificates) {
         let falsification = falsify(certificate, STATES, CLIMBS, SEED)

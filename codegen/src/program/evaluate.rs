@@ -54,7 +54,7 @@ impl Operation {
 }
 
 impl Program {
-    /// Returns the outputs in a scalar; as [`evaluate`].
+    /// Returns the outputs in a scalar; as `evaluate`.
     pub fn evaluate<S: Divide>(
         &self,
         input: impl FnMut(&Input) -> Option<S>,

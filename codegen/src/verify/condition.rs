@@ -1,48 +1,29 @@
-//! The condition of an inertia matrix.
+//! The condition of a symmetric positive semidefinite matrix.
 
-/// The condition of a symmetric positive semidefinite matrix.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Condition {
-    /// Largest over least eigenvalue of D.
-    pub raw: f64,
-    /// The condition of D_ik / √(D_ii D_kk), from which units and sizes of the joints are taken
-    /// out.
-    pub scaled: f64,
-    /// `true` if a pivot of the elimination is below n·u·max D_ii: no solver in this arithmetic
-    /// can tell D from a singular matrix.
-    pub singular: bool,
-    /// `true` if a pivot is negative beyond what rounding explains: no arm has this D.
-    pub indefinite: bool,
+/// Returns the condition of a matrix given row by row: its largest over its least eigenvalue,
+/// infinite where the least is not positive.
+pub(crate) fn condition(d: &[f64]) -> f64 {
+    ratio(rows(d))
 }
 
-/// A pivot that is so many times n·u·max D_ii below zero is negative.
-const BEYOND_ROUNDING: f64 = 1e3;
-
-impl Condition {
-    /// Computes the condition of a matrix, row by row, for arithmetic of unit roundoff u.
-    pub fn of(d: &[f64], u: f64) -> Condition {
-        let n = d.len().isqrt();
-        let matrix: Vec<Vec<f64>> = d.chunks(n.max(1)).map(<[f64]>::to_vec).collect();
-        let diagonal: Vec<f64> = (0..n).map(|i| matrix[i][i]).collect();
-        let entry = |i: usize, k: usize| match (diagonal[i] * diagonal[k]).sqrt() {
-            size if size > 0.0 => matrix[i][k] / size,
-            _ => 0.0,
-        };
-        let scaled: Vec<Vec<f64>> = (0..n)
-            .map(|i| (0..n).map(|k| entry(i, k)).collect())
-            .collect();
-        let largest = diagonal.iter().copied().fold(0.0, f64::max);
-        let (raw, least, rounding) = (ratio(matrix.clone()), least_pivot(matrix), n as f64 * u);
-        Condition {
-            raw,
-            scaled: ratio(scaled),
-            singular: least <= rounding * largest,
-            indefinite: least < -BEYOND_ROUNDING * rounding * largest,
-        }
-    }
+/// Returns the condition of D_ik / √(D_ii D_kk), from which units and sizes of the joints are taken
+/// out.
+pub(crate) fn scaled_condition(d: &[f64]) -> f64 {
+    let matrix = rows(d);
+    let entry = |i: usize, k: usize| match (matrix[i][i] * matrix[k][k]).sqrt() {
+        size if size > 0.0 => matrix[i][k] / size,
+        _ => 0.0,
+    };
+    let n = matrix.len();
+    let row = |i| (0..n).map(|k| entry(i, k)).collect();
+    ratio((0..n).map(row).collect())
 }
 
-/// Returns the largest over least eigenvalue, infinite where the least is not positive.
+fn rows(d: &[f64]) -> Vec<Vec<f64>> {
+    let n = d.len().isqrt();
+    d.chunks(n.max(1)).map(<[f64]>::to_vec).collect()
+}
+
 fn ratio(matrix: Vec<Vec<f64>>) -> f64 {
     let values = eigenvalues(matrix);
     let largest = values.iter().copied().fold(0.0, f64::max);
@@ -52,28 +33,6 @@ fn ratio(matrix: Vec<Vec<f64>>) -> f64 {
     } else {
         f64::INFINITY
     }
-}
-
-/// Returns the least pivot of the elimination without exchanges: for a semidefinite
-/// matrix they are all ≥ 0 and need none.
-fn least_pivot(mut m: Vec<Vec<f64>>) -> f64 {
-    let n = m.len();
-    let mut least = f64::INFINITY;
-    for i in 0..n {
-        let pivot = m[i][i];
-        least = least.min(pivot);
-        if pivot <= 0.0 {
-            return pivot;
-        }
-        let row = m[i].clone();
-        for below in m.iter_mut().skip(i + 1) {
-            let factor = below[i] / pivot;
-            for (entry, above) in below.iter_mut().zip(&row) {
-                *entry -= factor * above;
-            }
-        }
-    }
-    least
 }
 
 /// Returns Jacobi's rotations: on a matrix with a unit diagonal they find small
@@ -121,26 +80,21 @@ mod tests {
 
     #[test]
     fn diagonal_sizes_scale_away() {
-        let condition = Condition::of(&[1e8, 0.0, 0.0, 1.0], f64::EPSILON / 2.0);
-        assert_eq!(condition.raw, 1e8);
-        assert_eq!(condition.scaled, 1.0);
-        assert!(!condition.singular);
+        let d = [1e8, 0.0, 0.0, 1.0];
+        assert_eq!((condition(&d), scaled_condition(&d)), (1e8, 1.0));
     }
 
     #[test]
-    fn a_known_matrix() {
+    fn known_matrices() {
         // Eigenvalues 3 and 1.
-        let condition = Condition::of(&[2.0, 1.0, 1.0, 2.0], f64::EPSILON / 2.0);
-        assert!((condition.raw - 3.0).abs() < 1e-14);
-        assert!((condition.scaled - 3.0).abs() < 1e-14);
-    }
-
-    #[test]
-    fn a_massless_link_is_singular() {
-        let u = f64::EPSILON / 2.0;
-        assert!(Condition::of(&[1.0, 0.0, 0.0, 0.0], u).singular);
-        assert!(!Condition::of(&[1.0, 0.0, 0.0, -u], u).indefinite);
-        assert!(Condition::of(&[1.0, 0.0, 0.0, -0.1], u).indefinite);
-        assert!(Condition::of(&[1.0, 1.0, 1.0, 1.0], u).singular);
+        let d = [2.0, 1.0, 1.0, 2.0];
+        assert!((condition(&d) - 3.0).abs() < 1e-14 && (scaled_condition(&d) - 3.0).abs() < 1e-14);
+        for singular in [
+            [1.0, 0.0, 0.0, 0.0],
+            [1.0, 1.0, 1.0, 1.0],
+            [1.0, 0.0, 0.0, -0.1],
+        ] {
+            assert_eq!(condition(&singular), f64::INFINITY);
+        }
     }
 }

@@ -13,7 +13,7 @@ use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::sparse::Sparse;
 
-use super::condition::Condition;
+use super::condition::{condition, scaled_condition};
 use crate::function::{Argument, Function, Quantity, Sizes};
 use crate::program::kernel::Kernel;
 use crate::program::machine::Machine;
@@ -115,16 +115,18 @@ impl Runtime {
         let posed = self.posed(function, state);
         let (arm, motion) = (&posed.arm, &posed.motion);
         let d = Formulation::NewtonEulerLink.gathered_inertia(arm, &arm.at(&motion.q));
-        let condition = |matrix: &[Sparse<f64>]| {
-            let matrix = floats(matrix);
-            (!matrix.is_empty()).then(|| Condition::of(&matrix, f64::EPSILON / 2.0))
+        let of_inertia = floats(&submatrix(&d, &free(&motion.moves)).concat());
+        let of_inertia = match of_inertia.is_empty() {
+            true => 1.0,
+            false => scaled_condition(&of_inertia).max(1.0),
         };
-        let of_inertia = condition(&submatrix(&d, &free(&motion.moves)).concat());
-        let of_inertia = of_inertia.map_or(1.0, |condition| condition.scaled.max(1.0));
         let divisors = posed.divisors(function);
         let quantities = function.quantities().iter().zip(&divisors);
         let factors = quantities.map(|(quantity, divisor)| {
-            let own = condition(divisor).map_or(1.0, |condition| condition.raw.max(1.0));
+            let own = match divisor.is_empty() {
+                true => 1.0,
+                false => condition(&floats(divisor)).max(1.0),
+            };
             match quantity.inverts_inertia() {
                 true => (*quantity, of_inertia * own),
                 false => (*quantity, own),

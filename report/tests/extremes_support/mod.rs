@@ -3,10 +3,11 @@
 
 pub mod chain;
 pub mod rounding;
+pub mod runtime;
 
 use std::path::PathBuf;
 
-use dalembert_codegen::workspace::JointState;
+use dalembert_codegen::workspace::{JointState, Random};
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Limits, Robot};
 use serde_json::Value;
@@ -113,4 +114,22 @@ pub fn exact(value: f64) -> Rational {
 pub fn numbers(json: &Value) -> Vec<f64> {
     let number = |x: &Value| x.as_f64().unwrap();
     json.as_array().unwrap().iter().map(number).collect()
+}
+
+/// Draws states within the magnitudes of a state: the largest of |q|, |q̇| and |q̈| at a joint of
+/// the same kind.
+pub fn drawn_like(robot: &Robot, state: &JointState) -> Vec<JointState> {
+    let mut random = Random::new(0x7a11);
+    let mut within = |values: &[f64]| -> Vec<f64> {
+        let kinds = robot.joints.iter().map(|joint| joint.kind);
+        let pairs: Vec<(JointKind, f64)> = kinds.zip(values.iter().copied()).collect();
+        let most = |kind| {
+            let same = pairs.iter().filter(|(own, _)| *own == kind);
+            same.fold(0.0f64, |most, (_, x)| most.max(x.abs()))
+        };
+        let draw = |(kind, _): &(JointKind, f64)| most(*kind) * (2.0 * random.unit() - 1.0);
+        pairs.iter().map(draw).collect()
+    };
+    let mut drawn = || JointState::new(|argument| within(state.of(argument)));
+    (0..1000).map(|_| drawn()).collect()
 }

@@ -1,0 +1,297 @@
+//! The extremes: robots made out of the user's and states where robots are not, a row of a table
+//! each.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use dalembert_codegen::workspace::{JointState, Random, seeded};
+use dalembert_model::number::{Angle, Rational};
+use dalembert_model::reference::Reference;
+use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Robot};
+use nalgebra::DVector;
+use num_traits::{Zero, pow};
+
+use super::Held;
+
+/// A change of the robot.
+#[derive(Clone, Copy, Debug)]
+pub enum Change {
+    /// The robot as it is.
+    None,
+    /// No gravity.
+    Weightless,
+    /// Masses grow from base to hand, by 10^e in all.
+    Masses(i32),
+    /// All lengths times 10^e.
+    Lengths(i32),
+    /// Lengths from 10⁻⁶ m to 10⁶ m, at the base or at the hand.
+    Mixed {
+        /// The long ones are at the hand.
+        long_hand: bool,
+    },
+    /// The last links have no mass, inertia or rotor.
+    Massless(usize),
+    /// All of the last link's mass in the origin of its frame.
+    PointMass,
+    /// 10^e kg more in the hand.
+    Payload(i32),
+    /// The base 10⁶ m away.
+    FarBase,
+    /// A million turns more on every offset.
+    Turns,
+    /// Right angles as 1.5708.
+    Typed,
+    /// The joints again and again.
+    Repeated(usize),
+}
+
+/// Where the joints are and how they move.
+#[derive(Clone, Copy, Debug)]
+pub enum Motion {
+    /// Inside the limits.
+    Inside,
+    /// Joints that turn anywhere up to this angle, rad.
+    Angles(f64),
+    /// Positions, velocities and accelerations times these.
+    Times([f64; 3]),
+    /// The last bend straight or folded.
+    WristSingular,
+    /// All joints but the first at multiples of a right angle.
+    Stretched,
+    /// At rest, and no joint loaded by gravity where that is possible.
+    Balanced,
+}
+
+/// A row of the table.
+pub type Case = (&'static str, Held, Change, Motion);
+
+use Held::{Both, Entries, Vector};
+use Motion::{Angles, Balanced, Inside, Stretched, Times, WristSingular};
+
+/// The extremes that torques are measured at.
+#[rustfmt::skip]
+pub const CASES: [Case; 31] = [
+    ("normal", Both, Change::None, Inside),
+    ("angles 1e2", Both, Change::None, Angles(1e2)),
+    ("angles 1e4", Both, Change::None, Angles(1e4)),
+    ("angles 1e6", Both, Change::None, Angles(1e6)),
+    ("angles 1e8", Both, Change::None, Angles(1e8)),
+    ("velocities 1e3", Both, Change::None, Times([1.0, 1e3, 1.0])),
+    ("velocities 1e6", Both, Change::None, Times([1.0, 1e6, 1.0])),
+    ("accelerations 1e6", Both, Change::None, Times([1.0, 1.0, 1e6])),
+    ("wrist singular", Both, Change::None, WristSingular),
+    ("stretched", Both, Change::None, Stretched),
+    ("tiny", Entries, Change::None, Times([1e-8; 3])),
+    ("tiny rates, no gravity", Entries, Change::Weightless, Times([1.0, 1e-8, 1e-8])),
+    ("static near balance", Entries, Change::None, Balanced),
+    ("mass ratio 1e-9", Vector, Change::Masses(-9), Inside),
+    ("mass ratio 1e-3", Vector, Change::Masses(-3), Inside),
+    ("mass ratio 1e3", Vector, Change::Masses(3), Inside),
+    ("mass ratio 1e9", Vector, Change::Masses(9), Inside),
+    ("lengths 1e-6", Vector, Change::Lengths(-6), Inside),
+    ("lengths 1e6", Vector, Change::Lengths(6), Inside),
+    ("lengths mixed, long hand", Vector, Change::Mixed { long_hand: true }, Inside),
+    ("lengths mixed, long base", Vector, Change::Mixed { long_hand: false }, Inside),
+    ("massless last link", Both, Change::Massless(1), Inside),
+    ("massless wrist", Both, Change::Massless(3), Inside),
+    ("point mass at the tip", Entries, Change::PointMass, Inside),
+    ("payload 1 kg", Both, Change::Payload(0), Inside),
+    ("payload 1e3 kg", Both, Change::Payload(3), Inside),
+    ("payload 1e6 kg", Both, Change::Payload(6), Inside),
+    ("base offset 1e6 m", Both, Change::FarBase, Inside),
+    ("a million turns of offset", Both, Change::Turns, Inside),
+    ("right angles as 1.5708", Both, Change::Typed, Inside),
+    ("chain of 20 joints", Vector, Change::Repeated(20), Inside),
+];
+
+/// Returns 10^e, exactly.
+fn power(e: i32) -> Rational {
+    let size = pow(Rational::from_integer(10.into()), e.unsigned_abs() as usize);
+    if e < 0 { size.recip() } else { size }
+}
+
+impl Change {
+    /// Returns the changed robot; `None` if the robot has nothing to change.
+    pub fn apply(self, robot: &Robot) -> Option<Robot> {
+        let n = robot.joints.len();
+        let last = n.saturating_sub(1);
+        let share = |e: i32, index: usize| e * index as i32 / last.max(1) as i32;
+        let mut made = robot.clone();
+        let has_right_angle = robot.joints.iter().any(|joint| right(joint).is_some());
+        match self {
+            Change::Massless(links) if links > 1 && n <= links => return None,
+            Change::Repeated(most) if n >= most => return None,
+            Change::Typed if !has_right_angle => return None,
+            Change::Weightless => made.gravity = Default::default(),
+            Change::Repeated(most) => {
+                let unnamed = robot.joints.iter().map(|joint| Joint {
+                    name: None,
+                    ..joint.clone()
+                });
+                made.joints = unnamed.cycle().take(most.min(Robot::MAX_JOINTS)).collect();
+            }
+            _ => {}
+        }
+        for (index, joint) in made.joints.iter_mut().enumerate() {
+            match self {
+                Change::Masses(e) => scale_mass(joint, &power(share(e, index))),
+                Change::Lengths(e) => scale_length(joint, &power(e)),
+                Change::Mixed { long_hand } => {
+                    let e = share(12, index) - 6;
+                    scale_length(joint, &power(if long_hand { e } else { -e }));
+                }
+                Change::Massless(links) if index + links >= n => {
+                    scale_mass(joint, &Rational::zero());
+                    joint.armature = Rational::zero();
+                }
+                Change::PointMass if index == last => {
+                    (joint.com, joint.inertia) = Default::default();
+                    joint.armature = Rational::zero();
+                    if joint.mass.is_zero() {
+                        joint.mass = power(0);
+                    }
+                }
+                Change::Payload(e) if index == last => add_point(joint, &power(e)),
+                Change::FarBase if index == 0 => {
+                    joint.d += power(6);
+                    if robot.convention == Convention::Modified {
+                        joint.a += power(6);
+                    }
+                }
+                Change::Turns if joint.kind == JointKind::Revolute => {
+                    let turned = Rational::from_float(joint.theta.to_f64() + 1e6 * TAU)?;
+                    joint.theta = Angle::Radians(turned);
+                }
+                Change::Typed => joint.alpha = right(joint).unwrap_or(joint.alpha.clone()),
+                _ => {}
+            }
+        }
+        Some(made)
+    }
+}
+
+/// Returns a right angle as it is often typed.
+fn right(joint: &Joint) -> Option<Angle> {
+    let typed = Rational::new(15708.into(), 10000.into());
+    match joint.alpha.quarter_turns() {
+        Some(1) => Some(Angle::Radians(typed)),
+        Some(3) => Some(Angle::Radians(-typed)),
+        _ => None,
+    }
+}
+
+fn scale_mass(joint: &mut Joint, factor: &Rational) {
+    joint.mass *= factor;
+    joint.inertia = joint.inertia.map(|entry| entry * factor);
+}
+
+fn scale_length(joint: &mut Joint, factor: &Rational) {
+    let lengths = [&mut joint.a, &mut joint.d]
+        .into_iter()
+        .chain(&mut joint.com);
+    lengths.for_each(|length| *length *= factor);
+    joint.inertia = joint.inertia.map(|entry| entry * factor * factor);
+}
+
+/// Adds a point mass at (0.1, 0, 0.1) m: about the common centre, the reduced mass at the distance.
+fn add_point(joint: &mut Joint, mass: &Rational) {
+    let total = &joint.mass + mass;
+    let reduced = &joint.mass * mass / &total;
+    let at = [power(-1), Rational::zero(), power(-1)];
+    let between: [Rational; 3] = std::array::from_fn(|i| &at[i] - &joint.com[i]);
+    for (com, between) in joint.com.iter_mut().zip(&between) {
+        *com += between * mass / &total;
+    }
+    let [x, y, z] = &between;
+    let point = [
+        y * y + z * z,
+        x * x + z * z,
+        x * x + y * y,
+        -(x * y),
+        -(y * z),
+        -(x * z),
+    ];
+    let sums = joint.inertia.entries().into_iter().zip(point);
+    let sums: Vec<Rational> = sums.map(|(own, point)| own + &reduced * point).collect();
+    joint.inertia = Inertia::of(std::array::from_fn(|k| sums[k].clone()));
+    joint.mass = total;
+}
+
+impl Motion {
+    /// Draws states, the same on every machine.
+    pub fn draw(self, robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
+        let turning = |i: &usize| robot.joints[*i].kind == JointKind::Revolute;
+        let turning: Vec<usize> = (0..robot.joints.len()).filter(turning).collect();
+        let straight = |joint: usize| -robot.joints[joint].theta.to_f64();
+        let mut random = Random::new(seed);
+        let mut states = seeded(robot, count, seed);
+        for (index, state) in states.iter_mut().enumerate() {
+            match self {
+                Motion::Inside => {}
+                Motion::Angles(size) => {
+                    turning
+                        .iter()
+                        .for_each(|&i| state.q[i] = size * (2.0 * random.unit() - 1.0));
+                }
+                Motion::Times(factors) => {
+                    let rows = [&mut state.q, &mut state.qd, &mut state.qdd];
+                    for (row, factor) in rows.into_iter().zip(factors) {
+                        row.iter_mut().for_each(|x| *x *= factor);
+                    }
+                }
+                Motion::WristSingular => {
+                    if let Some(&bend) = turning.iter().rev().nth(1).or(turning.last()) {
+                        state.q[bend] = straight(bend) + (index % 2) as f64 * PI;
+                    }
+                }
+                Motion::Stretched => {
+                    for &i in turning.iter().skip(1) {
+                        let quarters = random.below(8).saturating_sub(4);
+                        state.q[i] = straight(i) + quarters as f64 * FRAC_PI_2;
+                    }
+                }
+                Motion::Balanced => {
+                    state.qd.fill(0.0);
+                    state.qdd.fill(0.0);
+                    balance(robot, &turning, &mut state.q);
+                }
+            }
+        }
+        states
+    }
+
+    /// Returns the motion that sizes are taken from: near balance, every torque is dust.
+    pub fn scales(self) -> Motion {
+        match self {
+            Motion::Balanced => Times([1.0, 0.0, 0.0]),
+            other => other,
+        }
+    }
+}
+
+/// Brings each joint, from the hand to the base, to the zero of its own load by bisection.
+fn balance(robot: &Robot, turning: &[usize], q: &mut [f64]) {
+    let runtime = Reference::<f64>::from_robot(robot);
+    for &joint in turning.iter().rev().chain(turning.iter().rev()) {
+        let start = q[joint];
+        let mut load = |at: f64| {
+            q[joint] = at;
+            runtime
+                .gravity(&DVector::from_column_slice(q))
+                .map_or(0.0, |c| c[joint])
+        };
+        let mut low = start;
+        let first = load(low);
+        let mut high = low + PI;
+        // Half a turn away the load is the opposite, unless gravity does not reach the axis.
+        if first != 0.0 && load(high) * first < 0.0 {
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                match load(middle) * first > 0.0 {
+                    true => low = middle,
+                    false => high = middle,
+                }
+            }
+        }
+        q[joint] = low;
+    }
+}

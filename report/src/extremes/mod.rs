@@ -1,0 +1,293 @@
+//! Rounding where robots are not: the torques in every case of a table, and what inverts D where D
+//! is nearest to singular.
+//!
+//! Worst errors of τ over the 114 states of `model/tests/data/extremes.json`, vector / entry, in u:
+//!
+//! | | runtime f64 | emitted f64 | runtime f32 | emitted f32 |
+//! |---|---|---|---|---|
+//! | right angles as 1.5708 | 17.6 / 5.3 | 1.1 / 0.5 | 8.3 / 1.4 | 2.5 / 0.7 |
+//! | velocities 1e6 | 12.9 / 6.0 | 3.3 / 1.6 | 2.9 / 2.7 | 2.6 / 1.6 |
+//! | mass ratio 1e3 | 7.4 / 0.7 | 1.7 / 0.3 | 16.2 / 2.2 | 10.2 / 2.1 |
+//! | tiny | 1.4 / 7.6 | 2.0 / 2.0 | 0.4 / 11.7 | 0.4 / 7.2 |
+//! | chain of 60 joints | 7.5 / 4.4 | 9.3 / 2.7 | 5.5 / 4.5 | 3.7 / 2.8 |
+//!
+//! - [`cases`]: the table
+
+pub mod cases;
+
+use std::fmt;
+
+use dalembert_codegen::workspace::{
+    Argument, Emitted, JointState, Quantity, Random, SEED, SceneRobot, each, positions, seeded,
+};
+use dalembert_codegen::{Function, GenerateError, Generated, Request, ScalarType, generate};
+use dalembert_model::robot::Robot;
+
+use crate::measure::{Bench, Code, ENTRY, VECTOR, Worst};
+use cases::{CASES, Case, Change};
+
+/// What a row is held to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Held {
+    /// [`VECTOR`] and [`ENTRY`].
+    Both,
+    /// [`VECTOR`]: one joint's loads say nothing about another's.
+    Vector,
+    /// [`ENTRY`]: next to zero torque, an error relative to the vector says nothing.
+    Entries,
+}
+
+/// The outcome of a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Rounding is within the bound.
+    Good,
+    /// It is not.
+    Failed,
+    /// A constant or a result is beyond the scalar's range, and says so.
+    OutOfRange,
+    /// D has no inverse in any state: nothing that divides is generated.
+    Singular,
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Verdict::Good => "ok",
+            Verdict::Failed => "FAILED",
+            Verdict::OutOfRange => "out of range",
+            Verdict::Singular => "nothing divides",
+        })
+    }
+}
+
+/// A function measured in a case, a row for each quantity.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// The case.
+    pub case: &'static str,
+    /// The criterion that it is held to.
+    pub held: Held,
+    /// What was measured; nothing where nothing is generated.
+    pub worst: Option<Worst>,
+    /// Whether it is within the bounds.
+    pub verdict: Verdict,
+    /// Why nothing is generated.
+    pub reason: Option<GenerateError>,
+}
+
+impl Row {
+    fn new(case: &'static str, held: Held, worst: Worst) -> Row {
+        let vector = worst.vector <= VECTOR || held == Held::Entries;
+        let entry = worst.entry <= ENTRY || held == Held::Vector;
+        Row {
+            case,
+            held,
+            verdict: match (worst.overflows, vector && entry) {
+                (true, _) => Verdict::OutOfRange,
+                (false, true) => Verdict::Good,
+                (false, false) => Verdict::Failed,
+            },
+            worst: Some(worst),
+            reason: None,
+        }
+    }
+
+    fn refused(case: &'static str, held: Held, reason: GenerateError) -> Row {
+        Row {
+            case,
+            held,
+            worst: None,
+            verdict: match reason {
+                GenerateError::Singular { .. } => Verdict::Singular,
+                _ => Verdict::OutOfRange,
+            },
+            reason: Some(reason),
+        }
+    }
+}
+
+/// Measures functions inside the limits.
+pub fn inside<'e>(
+    bench: &Bench,
+    functions: impl Iterator<Item = &'e Emitted>,
+    states: &[JointState],
+) -> Vec<Row> {
+    rows(
+        bench,
+        functions,
+        ("inside the limits", Held::Vector),
+        states,
+        states,
+    )
+}
+
+fn rows<'e>(
+    bench: &Bench,
+    functions: impl Iterator<Item = &'e Emitted>,
+    (case, held): (&'static str, Held),
+    states: &[JointState],
+    scales: &[JointState],
+) -> Vec<Row> {
+    functions
+        .flat_map(|emitted| bench.measure(&Code::of(emitted), states, scales))
+        .map(|worst| Row::new(case, held, worst))
+        .collect()
+}
+
+/// States that the sizes of torques are taken from.
+const SCALES: usize = 1000;
+
+/// Measures the torques in every case that the robot has, at so many states each; `progress` hears
+/// the name of each case before its run.
+///
+/// # Errors
+/// Those of generating the code that is run.
+pub fn torques(
+    robot: &Robot,
+    request: &Request,
+    states: usize,
+    progress: impl Fn(&str) + Sync,
+) -> Result<Vec<Row>, GenerateError> {
+    let own = generated(robot, request, &[Function::InverseDynamics])?;
+    let case = |(case, held, change, motion): &Case| {
+        let Some(changed) = change.apply(robot) else {
+            return Ok(Vec::new());
+        };
+        progress(case);
+        let other = match change {
+            Change::None => None,
+            _ => Some(generated(&changed, request, &[Function::InverseDynamics])?),
+        };
+        let drawn = motion.draw(&changed, states, SEED);
+        let scales = motion.scales().draw(&changed, SCALES, SEED);
+        let bench = Bench::new(SceneRobot::whole(&changed));
+        let mut all = Vec::new();
+        for generated in other.as_ref().unwrap_or(&own) {
+            match generated {
+                Ok(generated) => {
+                    let functions = generated.emitted.iter();
+                    all.extend(rows(&bench, functions, (case, *held), &drawn, &scales));
+                }
+                Err(reason) => all.push(Row::refused(case, *held, reason.clone())),
+            }
+        }
+        Ok(all)
+    };
+    let all: Result<Vec<Vec<Row>>, GenerateError> = each(&CASES, case).into_iter().collect();
+    Ok(all?.concat())
+}
+
+/// Generates functions in every scalar that is asked for; by itself in each where one of them cannot
+/// hold a constant.
+fn generated(
+    robot: &Robot,
+    request: &Request,
+    functions: &[Function],
+) -> Result<Vec<Result<Generated, GenerateError>>, GenerateError> {
+    let of = |scalars: &[ScalarType]| {
+        let request = Request {
+            functions: functions.to_vec(),
+            scalars: scalars.to_vec(),
+            plan: None,
+            scene: None,
+            ..request.clone()
+        };
+        match generate(robot, &request) {
+            Err(error @ GenerateError::Constant { .. }) => Ok(Err(error)),
+            generated => generated.map(Ok),
+        }
+    };
+    match of(&request.scalars)? {
+        Err(_) if request.scalars.len() > 1 => {
+            let scalars = request.scalars.iter();
+            scalars.map(|&scalar| of(&[scalar])).collect()
+        }
+        generated => Ok(vec![generated]),
+    }
+}
+
+/// Lists what inverts D and nothing else: what is damped inverts other matrices, which are near
+/// singular at other states.
+pub fn dividing() -> Vec<Function> {
+    let inverts = |function: &Function| {
+        function.inverts_inertia() && !function.arguments().contains(&Argument::Damping)
+    };
+    Function::ALL.into_iter().filter(inverts).collect()
+}
+
+/// Measures what inverts D at states all over the limits, and at as many where D is nearest to
+/// singular.
+///
+/// # Errors
+/// Those of generating the code that is run.
+pub fn divided(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Row>, GenerateError> {
+    const CASE: &str = "nearest to singular";
+    let generated = match generated(robot, request, &dividing()) {
+        Err(reason @ GenerateError::Singular { .. }) => {
+            return Ok(vec![Row::refused(CASE, Held::Vector, reason)]);
+        }
+        generated => generated?,
+    };
+    let bench = Bench::new(SceneRobot::whole(robot));
+    let (_, q) = nearest_to_singular(robot, &bench);
+    let mut drawn = seeded(robot, 2 * states, SEED);
+    for state in drawn.iter_mut().skip(states) {
+        state.q.clone_from(&q);
+    }
+    let mut all = Vec::new();
+    for generated in generated {
+        match generated {
+            Ok(generated) => {
+                let functions = generated.emitted.iter();
+                all.extend(rows(
+                    &bench,
+                    functions,
+                    (CASE, Held::Vector),
+                    &drawn,
+                    &drawn,
+                ));
+            }
+            Err(reason) => all.push(Row::refused(CASE, Held::Vector, reason)),
+        }
+    }
+    Ok(all)
+}
+
+/// Returns the largest condition of D that a search over the limits finds, and where: the best of
+/// random positions, improved joint by joint with steps that halve.
+pub fn nearest_to_singular(robot: &Robot, bench: &Bench) -> (f64, Vec<f64>) {
+    let function = Function::ForwardDynamics;
+    let mut state = seeded(robot, 1, SEED).remove(0);
+    let mut condition = |q: &[f64]| {
+        state.q = q.to_vec();
+        bench.condition(function, &state, Quantity::Acceleration)
+    };
+    let bounds = positions(robot);
+    let mut random = Random::new(SEED);
+    let mut draw = || -> Vec<f64> {
+        let within = |[low, high]: &[f64; 2]| low + (high - low) * random.unit();
+        bounds.iter().map(within).collect()
+    };
+    let drawn = (0..1000).map(|_| draw());
+    let mut drawn: Vec<(f64, Vec<f64>)> = drawn.map(|q| (condition(&q), q)).collect();
+    drawn.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+    drawn.truncate(8);
+    for (best, q) in &mut drawn {
+        for halving in 2..22 {
+            for (joint, [low, high]) in bounds.iter().enumerate() {
+                let step = (high - low) / f64::from(1u32 << halving);
+                for step in [step, -step] {
+                    let before = q[joint];
+                    q[joint] = (before + step).clamp(*low, *high);
+                    match condition(q) {
+                        more if more > *best => *best = more,
+                        _ => q[joint] = before,
+                    }
+                }
+            }
+        }
+    }
+    let best = drawn.into_iter().max_by(|(a, _), (b, _)| a.total_cmp(b));
+    best.unwrap_or_default()
+}

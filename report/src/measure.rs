@@ -1,0 +1,202 @@
+//! Measures rounding: code that is run bit for bit, against 256-bit arithmetic.
+//!
+//! The error of a quantity at a state is max_i |error_i| over max_i |true_i|, in units of u times the
+//! condition of what the quantity inverts. Near balance every torque passes through zero, where no
+//! error is small against the torque: the divisor is at least a sixteenth of the largest value that
+//! is met.
+
+use std::ops::Range;
+
+use dalembert_codegen::workspace::{
+    Emitted, JointState, LEAST_PART, Quantity, Reference, Runtime, SceneRobot, Sizes, TrueValue,
+};
+use dalembert_codegen::{Function, ScalarType};
+use dalembert_model::number::Rounded;
+
+/// The bound in u of a vector.
+pub const VECTOR: f64 = 100.0;
+/// The bound in u of an entry, relative to its own largest value.
+pub const ENTRY: f64 = 50.0;
+
+/// A value below this part of the largest may be nothing but rounding.
+const DUST: f64 = 1e-13;
+
+/// Runs code at a state; results are flat, as doubles that hold them exactly.
+pub type Run<'a> = Box<dyn Fn(&JointState) -> Vec<f64> + 'a>;
+
+/// Code of one function in one scalar.
+pub struct Code<'a> {
+    /// The function.
+    pub function: Function,
+    /// Its scalar.
+    pub scalar: ScalarType,
+    /// The numbers that the lengths of its results follow from.
+    pub sizes: Sizes,
+    /// Of each result, whether it was proved to be zero in every state.
+    pub vanishing: Vec<bool>,
+    /// Runs it at a state.
+    pub run: Run<'a>,
+}
+
+impl Code<'_> {
+    /// Takes an emitted function, with the sines of libm in the place of polynomials: how far these
+    /// are from sines is measured apart.
+    pub fn of(emitted: &Emitted) -> Code<'static> {
+        let own = emitted.with_libm();
+        Code {
+            function: own.function,
+            scalar: own.scalar,
+            sizes: own.sizes,
+            vanishing: own.vanishing().collect(),
+            run: Box::new(move |state| own.run(state)),
+        }
+    }
+}
+
+/// The largest errors of one quantity of one function over some states.
+#[derive(Clone, Debug)]
+pub struct Worst {
+    /// The function.
+    pub function: Function,
+    /// Its scalar.
+    pub scalar: ScalarType,
+    /// The quantity.
+    pub quantity: Quantity,
+    /// max_i |error_i| / max_i |true_i|, in u times the condition.
+    pub vector: f64,
+    /// max_i |error_i| / T_i, in u times the condition: T_i is the largest |true_i| that is met.
+    pub entry: f64,
+    /// The condition where `vector` is largest.
+    pub condition: f64,
+    /// The state there.
+    pub state: JointState,
+    /// A result is not finite: it is beyond the scalar's range.
+    pub overflows: bool,
+}
+
+/// A robot that code is measured on.
+pub struct Bench {
+    reference: Reference,
+    runtime: Runtime,
+    /// An absolute error that underflow may add, in units of the least subnormal number.
+    underflow: f64,
+}
+
+impl Bench {
+    /// Prepares the measurement of a robot's functions.
+    pub fn new(robot: SceneRobot) -> Bench {
+        let sizes = robot.robot().joints.iter();
+        let sizes = sizes.flat_map(|joint| [&joint.mass, &joint.a, &joint.d]);
+        let largest = sizes
+            .map(f64::nearest_rational)
+            .fold(1.0, |most: f64, x| most.max(x.abs()));
+        Bench {
+            reference: Reference::new(&robot),
+            // Some thousand products, each off by half of it, times the robot's parameters.
+            underflow: 4096.0 * largest,
+            runtime: Runtime::in_scene(robot),
+        }
+    }
+
+    /// Returns the true values of a function at a state.
+    pub fn truth(&self, function: Function, state: &JointState) -> Vec<TrueValue> {
+        self.reference.run(function, state)
+    }
+
+    /// Returns the condition of what a quantity inverts at a state; one where it inverts nothing.
+    pub fn condition(&self, function: Function, state: &JointState, quantity: Quantity) -> f64 {
+        self.runtime.granted(function, state).to(quantity)
+    }
+
+    /// Measures every quantity of a function; `scales` are the states that sizes are taken from.
+    pub fn measure(
+        &self,
+        code: &Code<'_>,
+        states: &[JointState],
+        scales: &[JointState],
+    ) -> Vec<Worst> {
+        let (function, scalar) = (code.function, code.scalar);
+        // A state that a scalar cannot hold is another state.
+        let states = states.iter().map(|state| state.in_scalar(scalar));
+        let states: Vec<JointState> = states.filter(JointState::is_finite).collect();
+        let truths: Vec<Vec<TrueValue>> = states.iter().map(|s| self.truth(function, s)).collect();
+        let found: Vec<Vec<f64>> = states.iter().map(|state| (code.run)(state)).collect();
+        let mut sizes = vec![0.0f64; function.outputs(code.sizes)];
+        for state in scales {
+            let values = self.runtime.run(function, state);
+            let pairs = sizes.iter_mut().zip(values);
+            pairs.for_each(|(size, x)| *size = size.max(x.abs()));
+        }
+        let mut start = 0;
+        let quantities = function.quantities().iter();
+        quantities
+            .map(|&quantity| {
+                let range = start..start + quantity.len(code.sizes);
+                start = range.end;
+                let mut worst = Worst {
+                    function,
+                    scalar,
+                    quantity,
+                    vector: 0.0,
+                    entry: 0.0,
+                    condition: 1.0,
+                    state: states.first().cloned().unwrap_or_default(),
+                    overflows: false,
+                };
+                for ((state, truth), found) in states.iter().zip(&truths).zip(&found) {
+                    worst.overflows |= found[range.clone()].iter().any(|x| !x.is_finite());
+                    let condition = self.condition(function, state, quantity);
+                    let unit = condition * scalar.unit_roundoff();
+                    let [vector, entry] = self.errors(code, range.clone(), truth, found, &sizes);
+                    worst.entry = worst.entry.max(entry / unit);
+                    if vector / unit > worst.vector {
+                        worst.vector = vector / unit;
+                        worst.condition = condition;
+                        worst.state = state.clone();
+                    }
+                }
+                worst
+            })
+            .collect()
+    }
+
+    /// Returns the errors of a quantity at a state: of the vector, and the largest of an entry.
+    fn errors(
+        &self,
+        code: &Code<'_>,
+        range: Range<usize>,
+        truth: &[TrueValue],
+        found: &[f64],
+        sizes: &[f64],
+    ) -> [f64; 2] {
+        let least = match code.scalar {
+            ScalarType::F64 => f64::from_bits(1),
+            ScalarType::F32 => f64::from(f32::from_bits(1)),
+        };
+        let largest = sizes[range.clone()].iter().copied().fold(0.0, f64::max);
+        let (mut error, mut size, mut entry) = (0.0f64, LEAST_PART * largest, 0.0f64);
+        for i in range {
+            let off = match code.vanishing[i] {
+                true => found[i].abs(),
+                false => (truth[i].error(found[i]) - self.underflow * least).max(0.0),
+            };
+            // Gravity does not reach a vertical axis: what is computed there is dust.
+            let own = match sizes[i] > DUST * largest {
+                true => sizes[i],
+                false => largest,
+            };
+            entry = entry.max(part(off, own));
+            (error, size) = (error.max(off), size.max(truth[i].size()));
+        }
+        [part(error, size), entry]
+    }
+}
+
+/// Returns error / size: zero of nothing, infinite of what is no number.
+fn part(error: f64, size: f64) -> f64 {
+    match error / size {
+        _ if error == 0.0 => 0.0,
+        part if part.is_nan() => f64::INFINITY,
+        part => part,
+    }
+}

@@ -1,0 +1,105 @@
+//! The table of extremes on whole robots, and what divides next to a singular D.
+
+use dalembert_codegen::workspace::SceneRobot;
+use dalembert_codegen::{Function, Request, generate};
+use dalembert_model::number::Rational;
+use dalembert_model::read;
+use dalembert_model::robot::Robot;
+use dalembert_report::extremes::{Row, Verdict, divided, nearest_to_singular, torques};
+use dalembert_report::measure::{Bench, Code, VECTOR};
+
+use crate::support;
+
+const STATES: usize = 10;
+
+fn all_good(rows: &[Row]) {
+    assert!(
+        rows.iter().all(|row| row.verdict == Verdict::Good),
+        "{rows:#?}"
+    );
+}
+
+/// Errors relative to a torque near zero are no alarm.
+#[test]
+fn the_planar_arm_passes() {
+    let robot = support::robot("planar2r");
+    let rows = torques(&robot, &Request::default(), STATES, |_| ()).unwrap();
+    // Twenty-nine cases, in two scalars: no wrist, no right angles.
+    assert_eq!(rows.len(), 58);
+    all_good(&rows);
+}
+
+/// A mass that is wrong by 1e-14 of itself is more than rounding.
+#[test]
+fn planted_faults_are_found() {
+    let robot = support::robot("puma560");
+    let wrong = |joint: usize, change: &dyn Fn(&mut Robot, Rational)| {
+        let mut wrong = robot.clone();
+        let part = Rational::new(1.into(), 100_000_000_000_000u64.into());
+        change(&mut wrong, part);
+        let request = Request::of(&[Function::InverseDynamics]);
+        let generated = generate(&wrong, &request).unwrap();
+        let bench = Bench::new(SceneRobot::whole(&robot));
+        let states = dalembert_codegen::workspace::seeded(&robot, STATES, 1);
+        let found = bench.measure(&Code::of(&generated.emitted[0]), &states, &states);
+        assert_eq!(found.len(), 1, "{joint}");
+        found[0].vector
+    };
+    let right = wrong(0, &|_, _| ());
+    assert!(right < 20.0, "{right}");
+    let mass = wrong(2, &|robot, part| {
+        let joint = &mut robot.joints[2];
+        joint.mass = &joint.mass * (Rational::from_integer(1.into()) + part);
+    });
+    assert!(mass > 2.0 * right.max(20.0), "{mass}");
+}
+
+/// Two equal rods: with a unit diagonal D has the condition (1 + r)/(1 − r), r being
+/// D_12/√(D_11 D_22), which is largest where the arm is stretched out.
+#[test]
+fn the_search_finds_where_two_rods_are_nearest_to_singular() {
+    let robot = support::robot("planar2r");
+    let bench = Bench::new(SceneRobot::whole(&robot));
+    let (condition, q) = nearest_to_singular(&robot, &bench);
+    let r = (5.0 / 6.0) / (8.0f64 / 9.0).sqrt();
+    let expected = (1.0 + r) / (1.0 - r);
+    assert!((condition / expected - 1.0).abs() < 1e-9, "{condition}");
+    assert!(q[1].abs() < 1e-4, "{q:?}");
+    all_good(&divided(&robot, &Request::default(), STATES).unwrap());
+}
+
+/// Adds point masses at the ends of two links, of these masses.
+fn points(masses: [&str; 2]) -> Robot {
+    let joint = |mass: &str| {
+        format!(
+            "[[joint]]\nkind = \"revolute\"\na = 1\nmass = {mass}\ncom = [0, 0, 0]\n\
+             inertia = [0, 0, 0, 0, 0, 0]\nlimits = {{ position = [\"-pi\", \"pi\"] }}\n"
+        )
+    };
+    let head = "name = \"points\"\nconvention = \"standard\"\ngravity = [0, -9.81, 0]\n";
+    let source = head.to_owned() + &masses.map(joint).concat();
+    read::parse(&source, &read::Options::default())
+        .unwrap_or_else(|errors| panic!("{errors}"))
+        .robot
+}
+
+/// Stretched out, both joints move the second mass alike, and of the first, a ten-thousandth
+/// of it, little is left. Digits are lost as the condition says, and no more.
+#[test]
+fn what_is_lost_next_to_singular_is_the_condition() {
+    let rows = divided(&points(["1e-4", "1"]), &Request::default(), STATES).unwrap();
+    all_good(&rows);
+    let worst = rows.iter().flat_map(|row| &row.worst);
+    let lost = worst.map(|worst| worst.vector * worst.condition);
+    let lost = lost.fold(0.0, f64::max);
+    assert!(lost > VECTOR, "{lost} u: nothing was near singular");
+}
+
+/// Where D has no inverse in any state, that is said and nothing measured.
+#[test]
+fn what_never_has_an_inverse_is_refused() {
+    let rows = divided(&points(["1", "0"]), &Request::default(), STATES).unwrap();
+    assert_eq!(rows[0].verdict, Verdict::Singular);
+    let refused = rows[0].reason.as_ref().map(ToString::to_string);
+    assert!(refused.is_some_and(|said| said.contains("D is singular in every state")));
+}
