@@ -8,7 +8,8 @@
 use std::ops::Range;
 
 use dalembert_codegen::workspace::{
-    Emitted, JointState, LEAST_PART, Quantity, Reference, Runtime, SceneRobot, Sizes, TrueValue,
+    Emitted, Granted, JointState, LEAST_PART, Quantity, Reference, Runtime, SceneRobot, Sizes,
+    TrueValue,
 };
 use dalembert_codegen::{Function, ScalarType};
 use dalembert_model::number::Rounded;
@@ -32,7 +33,7 @@ pub struct Code<'a> {
     pub scalar: ScalarType,
     /// The numbers that the lengths of its results follow from.
     pub sizes: Sizes,
-    /// Of each result, whether it was proved to be zero in every state.
+    /// `true` for each result that was proved to be zero in every state.
     pub vanishing: Vec<bool>,
     /// Runs it at a state.
     pub run: Run<'a>,
@@ -121,6 +122,8 @@ impl Bench {
         let states: Vec<JointState> = states.filter(JointState::is_finite).collect();
         let truths: Vec<Vec<TrueValue>> = states.iter().map(|s| self.truth(function, s)).collect();
         let found: Vec<Vec<f64>> = states.iter().map(|state| (code.run)(state)).collect();
+        let granted = states.iter().map(|s| self.runtime.granted(function, s));
+        let granted: Vec<Granted> = granted.collect();
         let mut sizes = vec![0.0f64; function.outputs(code.sizes)];
         for state in scales {
             let values = self.runtime.run(function, state);
@@ -143,14 +146,16 @@ impl Bench {
                     state: states.first().cloned().unwrap_or_default(),
                     overflows: false,
                 };
-                for ((state, truth), found) in states.iter().zip(&truths).zip(&found) {
+                let runs = states.iter().zip(&granted).zip(truths.iter().zip(&found));
+                for ((state, granted), (truth, found)) in runs {
                     worst.overflows |= found[range.clone()].iter().any(|x| !x.is_finite());
-                    let condition = self.condition(function, state, quantity);
+                    let condition = granted.to(quantity);
                     let unit = condition * scalar.unit_roundoff();
                     let [vector, entry] = self.errors(code, range.clone(), truth, found, &sizes);
-                    worst.entry = worst.entry.max(entry / unit);
-                    if vector / unit > worst.vector {
-                        worst.vector = vector / unit;
+                    let [vector, entry] = [vector, entry].map(|error| part(error, unit));
+                    worst.entry = worst.entry.max(entry);
+                    if vector > worst.vector {
+                        worst.vector = vector;
                         worst.condition = condition;
                         worst.state = state.clone();
                     }

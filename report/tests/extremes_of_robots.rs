@@ -1,11 +1,11 @@
 //! The table of extremes on whole robots, and what divides next to a singular D.
 
-use dalembert_codegen::workspace::SceneRobot;
+use dalembert_codegen::workspace::{Literal, Operand, SceneRobot, seeded};
 use dalembert_codegen::{Function, Request, generate};
 use dalembert_model::number::Rational;
 use dalembert_model::read;
 use dalembert_model::robot::Robot;
-use dalembert_report::extremes::{Row, Verdict, divided, nearest_to_singular, torques};
+use dalembert_report::extremes::{Row, Verdict, divided, inside, nearest_to_singular, torques};
 use dalembert_report::measure::{Bench, Code, VECTOR};
 
 use crate::support;
@@ -40,7 +40,7 @@ fn planted_faults_are_found() {
         let request = Request::of(&[Function::InverseDynamics]);
         let generated = generate(&wrong, &request).unwrap();
         let bench = Bench::new(SceneRobot::whole(&robot));
-        let states = dalembert_codegen::workspace::seeded(&robot, STATES, 1);
+        let states = seeded(&robot, STATES, 1);
         let found = bench.measure(&Code::of(&generated.emitted[0]), &states, &states);
         assert_eq!(found.len(), 1, "{joint}");
         found[0].vector
@@ -52,6 +52,18 @@ fn planted_faults_are_found() {
         joint.mass = &joint.mass * (Rational::from_integer(1.into()) + part);
     });
     assert!(mass > 2.0 * right.max(20.0), "{mass}");
+}
+
+/// A result that is no number is a failure where robots are.
+#[test]
+fn no_number_fails_inside_the_limits() {
+    let robot = support::robot("planar2r");
+    let generated = generate(&robot, &Request::of(&[Function::Gravity])).unwrap();
+    let mut broken = generated.emitted[0].clone();
+    broken.text.outputs[0].value = Operand::Constant(Literal(f64::NAN));
+    let bench = Bench::new(SceneRobot::whole(&robot));
+    let rows = inside(&bench, [&broken].into_iter(), &seeded(&robot, STATES, 1));
+    assert_eq!(rows[0].verdict, Verdict::Failed);
 }
 
 /// Two equal rods: with a unit diagonal D has the condition (1 + r)/(1 − r), r being

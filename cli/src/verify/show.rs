@@ -60,7 +60,7 @@ impl Found<'_> {
         text + &sines::table(self.sines)
     }
 
-    /// Returns what rounding costs: a row each, then the states of those that failed.
+    /// Writes the table of rounding errors, then the states of the rows that failed.
     fn rounding(&self) -> String {
         let mut text = format!(
             "\nlargest rounding errors at {} states, against 256-bit arithmetic, in u (f64 2^-53, f32 2^-24):\n\
