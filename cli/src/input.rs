@@ -4,13 +4,13 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
+use crate::states::GivenState;
+use crate::states::file::{self, FileError};
 use dalembert_codegen::workspace::{find_scene, generate_anew, plan_file};
 use dalembert_codegen::{Asked, Generated, Problem, Request, RobotFileError, ScalarType};
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
-use dalembert_report::states::GivenState;
-use dalembert_report::states::file::{self, FileError};
 
 use crate::outcome::Failure;
 use crate::output;

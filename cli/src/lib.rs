@@ -18,7 +18,27 @@
 //! - `files`: files that are written: checked first, all or none
 //! - `output`: standard output, tables
 //! - `outcome`: how a run ends
+//!
+//! What is reported, which other crates and tests use:
+//!
+//! - [`couplings`]: the coefficients that vanish or repeat
+//! - [`measure`]: rounding, against 256-bit arithmetic
+//! - [`extremes`]: rounding where robots are not, and next to a singular D
+//! - [`explained`]: what each step brought, and why
+//! - [`drawing`]: the arm in two views, as SVG
+//! - [`states`]: given states compared with the code
+//! - [`table3`]: the paper's counts beside the formulas'
+//! - [`sweep`]: certified error against operations, tolerance by tolerance
 #![forbid(unsafe_code)]
+
+pub mod couplings;
+pub mod drawing;
+pub mod explained;
+pub mod extremes;
+pub mod measure;
+pub mod states;
+pub mod sweep;
+pub mod table3;
 
 mod args;
 mod bar;

@@ -8,10 +8,10 @@ use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use crate::sweep::Point;
+use crate::sweep::ladder::Waiting;
 use dalembert_codegen::workspace::{Observer, Progress};
 use dalembert_codegen::{Effort, Function, Request, Watch};
-use dalembert_report::sweep::Point;
-use dalembert_report::sweep::ladder::Waiting;
 
 use crate::bar::bar;
 use crate::output;

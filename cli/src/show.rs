@@ -1,12 +1,12 @@
 //! `dalembert show`: the arm in two views, as SVG.
 
+use crate::drawing;
 use dalembert_model::equations::matrix::Columns;
 use dalembert_model::number::Angle;
 use dalembert_model::number::Rounded;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::reference::{Reference, WrongLength};
 use dalembert_model::robot::{JointKind, Position, Robot};
-use dalembert_report::drawing;
 use nalgebra::DVector;
 use serde_json::{Value, json};
 

@@ -2,11 +2,11 @@
 
 use std::fs;
 
+use dalembert_cli::drawing;
 use dalembert_codegen::{Counts, Function, Request, ScalarType, generate};
 use dalembert_import::{Options, import};
 use dalembert_model::read;
 use dalembert_model::robot::Robot;
-use dalembert_report::drawing;
 
 use crate::arms::{Arm, Source};
 use crate::folder;

@@ -159,7 +159,7 @@ impl Arm {
 
     /// Returns the arm at a position, drawn as SVG.
     fn svg(&self, q: Vec<f64>) -> PyResult<String> {
-        dalembert_report::drawing::svg(self.0.robot(), &q)
+        dalembert_cli::drawing::svg(self.0.robot(), &q)
             .map_err(|error| PyValueError::new_err(error.to_string()))
     }
 }

@@ -117,7 +117,7 @@ pub(super) fn positive_parser() -> impl TypedValueParser<Value = f64> {
 }
 
 pub(super) fn states_parser() -> impl TypedValueParser<Value = usize> {
-    let most = dalembert_report::explain::errors::MAX_STATES as i64;
+    let most = crate::explained::errors::MAX_STATES as i64;
     clap::value_parser!(i64)
         .range(1..=most)
         .map(|states| states as usize)

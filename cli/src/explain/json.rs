@@ -1,13 +1,13 @@
 //! The table of steps and the reasons, for programs.
 
+use crate::couplings::{Coupling, summary};
+use crate::explained::Explanation;
+use crate::explained::errors::Errors;
+use crate::explained::parameters::{LinkParameters, Parameter, ParameterStatus, Together};
+use crate::explained::steps::Code;
+use crate::table3;
 use dalembert_codegen::workspace::{Quantity, Source};
 use dalembert_model::robot::Robot;
-use dalembert_report::couplings::{Coupling, summary};
-use dalembert_report::explain::Explanation;
-use dalembert_report::explain::errors::Errors;
-use dalembert_report::explain::parameters::{LinkParameters, Parameter, ParameterStatus, Together};
-use dalembert_report::explain::steps::Code;
-use dalembert_report::table3;
 use serde_json::{Map, Value, json};
 
 use super::{Measured, QUANTITIES};

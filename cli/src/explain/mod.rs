@@ -7,10 +7,10 @@
 mod json;
 mod text;
 
+use crate::explained::errors::{self, Errors};
+use crate::explained::{Explanation, explain_all};
 use dalembert_codegen::workspace::{Quantity, plan_file};
 use dalembert_codegen::{Function, GenerateError, Request};
-use dalembert_report::explain::errors::{self, Errors};
-use dalembert_report::explain::{Explanation, explain_all};
 
 use crate::args::ExplainArgs;
 use crate::outcome::{Failure, Outcome};

@@ -1,17 +1,17 @@
 //! The table of steps and the reasons, for readers.
 
+use crate::couplings::{Coupling, Value, summary};
+use crate::explained::Explanation;
+use crate::explained::errors::Errors;
+use crate::explained::merged::Merged;
+use crate::explained::parameters::{
+    LinkParameters, Parameter, ParameterStatus, Parameters, Together,
+};
+use crate::explained::steps::Code;
+use crate::table3::{self, Pair};
 use dalembert_codegen::ScalarType;
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::{JointKind, Robot};
-use dalembert_report::couplings::{Coupling, Value, summary};
-use dalembert_report::explain::Explanation;
-use dalembert_report::explain::errors::Errors;
-use dalembert_report::explain::merged::Merged;
-use dalembert_report::explain::parameters::{
-    LinkParameters, Parameter, ParameterStatus, Parameters, Together,
-};
-use dalembert_report::explain::steps::Code;
-use dalembert_report::table3::{self, Pair};
 
 use super::{Measured, QUANTITIES};
 use crate::args::ExplainArgs;

@@ -1,9 +1,9 @@
 //! What a program wants to know about generated code.
 
+use crate::explained::errors::Errors;
 use dalembert_codegen::workspace::{Admitted, Certificate, Proof, omissions};
 use dalembert_codegen::{Generated, GeneratedFunction, Request};
 use dalembert_model::robot::Robot;
-use dalembert_report::explain::errors::Errors;
 use serde_json::{Map, Value, json};
 
 use super::report;

@@ -11,9 +11,9 @@ pub mod report;
 
 use std::path::Path;
 
+use crate::explained::errors::{MAX_STATES, affordable_states};
 use dalembert_codegen::workspace::{keep, write_certificates};
 use dalembert_codegen::{Effort, Generated, Language};
-use dalembert_report::explain::errors::{MAX_STATES, affordable_states};
 use dalembert_stamp::relative;
 
 use crate::args::GenerateArgs;

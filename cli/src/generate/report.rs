@@ -1,12 +1,12 @@
 //! What a person wants to know about generated code: counts, errors, what a
 //! tolerance admitted, proofs.
 
+use crate::explained::errors::{Errors, of_program};
 use dalembert_codegen::workspace::{
     Admitted, Certificate, Library, Proof, Reference, bound_of, omissions,
 };
 use dalembert_codegen::{Counts, Function, Generated, GeneratedFunction, Request};
 use dalembert_model::robot::Robot;
-use dalembert_report::explain::errors::{Errors, of_program};
 
 use crate::output;
 

@@ -4,7 +4,7 @@
 //! that print without colours is legible. The paper is part of the picture,
 //! white or dark as the reader's screen is.
 
-use dalembert_report::drawing::svg::{Svg, escaped};
+use crate::drawing::svg::{Svg, escaped};
 
 use super::axis::Axis;
 

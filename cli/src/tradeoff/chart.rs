@@ -6,7 +6,7 @@
 //! below the others. f64 is open, f32 full, smaller and dashed: where both are, both
 //! are seen.
 
-use dalembert_report::sweep::Point;
+use crate::sweep::Point;
 
 use crate::plot::picture::{Picture, Shape};
 

@@ -9,12 +9,12 @@ mod report;
 
 use std::path::Path;
 
+use crate::sweep::ladder::{Ladder, Options};
+use crate::sweep::{Point, mark};
 use dalembert_codegen::workspace::{ErrorBudget, SceneKey, SceneRobot, plan_file};
 use dalembert_codegen::{Function, GenerateError, Plan, Program, Request, ScalarType, generate};
 use dalembert_model::read::Reading;
 use dalembert_model::scene::{Scale, Scene};
-use dalembert_report::sweep::ladder::{Ladder, Options};
-use dalembert_report::sweep::{Point, mark};
 use serde_json::json;
 
 use crate::args::TradeoffArgs;

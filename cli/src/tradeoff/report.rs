@@ -1,6 +1,6 @@
 //! The table of variants.
 
-use dalembert_report::sweep::Point;
+use crate::sweep::Point;
 use serde_json::{Value, json};
 
 use crate::output;

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::iter;
 use std::path::Path;
 
+use crate::states::compare::{Compared, compare, quantities};
+use crate::states::{BOUND, GivenState};
 use dalembert_codegen::workspace::{Quantity, Runtime};
 use dalembert_codegen::{Generated, Request, ScalarType};
 use dalembert_model::robot::Robot;
-use dalembert_report::states::compare::{Compared, compare, quantities};
-use dalembert_report::states::{BOUND, GivenState};
 use serde_json::{Value, json};
 
 use crate::input;

@@ -8,12 +8,12 @@
 mod given;
 mod show;
 
+use crate::extremes::{self, Verdict};
+use crate::measure::Bench;
 use dalembert_codegen::workspace::{
     Certificate, Emitted, Falsification, Runtime, SEED, STATES, falsify,
 };
 use dalembert_codegen::{GenerateError, Generated, ScalarType};
-use dalembert_report::extremes::{self, Verdict};
-use dalembert_report::measure::Bench;
 
 use crate::args::VerifyArgs;
 use crate::outcome::{Failure, Outcome};

@@ -1,9 +1,9 @@
 //! What was found, as text and as JSON.
 
+use crate::extremes::{Held, Row, Verdict};
+use crate::measure::{ENTRY, VECTOR};
 use dalembert_codegen::Generated;
 use dalembert_model::robot::Robot;
-use dalembert_report::extremes::{Held, Row, Verdict};
-use dalembert_report::measure::{ENTRY, VECTOR};
 use serde_json::{Value, json};
 
 use super::Claim;

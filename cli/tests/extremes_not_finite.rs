@@ -1,11 +1,11 @@
 //! NaN and ±inf reach the outputs whose function depends on them: exactly
 //! those in emitted code, at least those in the generic runtime.
 
+use dalembert_cli::measure::Code;
 use dalembert_codegen::workspace::{Input, JointState, Operand, seeded};
 use dalembert_codegen::{Function, Generated, Program, Request, ScalarType, generate};
 use dalembert_model::read;
 use dalembert_model::robot::Robot;
-use dalembert_report::measure::Code;
 
 use crate::extremes_support::runtime::runtime;
 

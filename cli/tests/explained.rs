@@ -1,15 +1,15 @@
 //! The table of steps and the fate of the parameters, on arms where the
 //! answers are known.
 
+use dalembert_cli::explained::parameters::{Parameter, ParameterStatus, Together};
+use dalembert_cli::explained::steps::{Code, SearchStep};
+use dalembert_cli::explained::{Explanation, explain, explain_all};
 use dalembert_codegen::workspace::{SceneRobot, prove};
 use dalembert_codegen::{Function, Request, ScalarType, generate};
 use dalembert_model::number::Rational;
 use dalembert_model::scene::Scale;
-use dalembert_report::explain::parameters::{Parameter, ParameterStatus, Together};
-use dalembert_report::explain::steps::{Code, SearchStep};
-use dalembert_report::explain::{Explanation, explain, explain_all};
 
-use crate::support;
+use crate::robots as support;
 
 fn of(name: &str, function: Function) -> Explanation {
     explain(&support::robot(name), function, &Request::default()).unwrap()
@@ -61,7 +61,7 @@ fn a_scene_is_explained() {
     assert!(last.counts.operations() < searched && searched < 14);
     assert!(explained.couplings.is_none());
     {
-        let errors = dalembert_report::explain::errors::measure(&explained, 50);
+        let errors = dalembert_cli::explained::errors::measure(&explained, 50);
         let (last, exact) = errors.split_last().unwrap();
         assert!(
             exact.iter().all(|e| e.normwise > 0.0 && e.normwise < 100.0),
@@ -187,7 +187,7 @@ fn rounding_of_every_row() {
     // Some symbols h_ikm and two loads c_i vanish: nothing to relate dust to.
     for function in [Function::InverseDynamics, Function::DynamicCoefficients] {
         let stanford = of("stanford", function);
-        let errors = dalembert_report::explain::errors::measure(&stanford, 20);
+        let errors = dalembert_cli::explained::errors::measure(&stanford, 20);
         assert_eq!(errors.len(), stanford.rows.len());
         for (row, errors) in stanford.rows.iter().zip(errors) {
             let step = row.step.key();

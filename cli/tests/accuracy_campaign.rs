@@ -3,12 +3,12 @@
 //!
 //! An error is that of a quantity's entries against its largest entry, or a sixteenth
 //! of the largest met where that is more. The whole campaign is for releases: `cargo
-//! test --release -p dalembert-report --test all -- accuracy_campaign --include-ignored
+//! test --release -p dalembert-cli --test all -- accuracy_campaign --include-ignored
 //! --nocapture` prints the worst of each quantity.
 
 use std::collections::BTreeMap;
 
-use crate::support::draw::robots;
+use crate::robots::draw::robots;
 use dalembert_codegen::workspace::{
     BOUND, Emitted, Granted, Quantity, Reference, Runtime, SEED, SceneRobot, TrueValue, seeded,
 };

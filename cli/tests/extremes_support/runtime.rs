@@ -1,10 +1,10 @@
 //! The generic runtime as code that is measured.
 
+use dalembert_cli::measure::Code;
 use dalembert_codegen::workspace::{Argument, JointState, Sizes};
 use dalembert_codegen::{Function, ScalarType};
 use dalembert_model::reference::{Float, JointVectors, Reference};
 use dalembert_model::robot::Robot;
-use dalembert_report::measure::Code;
 use nalgebra::DVector;
 
 /// Returns the runtime of a robot in a scalar.

@@ -3,10 +3,10 @@
 use std::slice;
 
 use crate::extremes_support::chain::chain;
+use dalembert_cli::measure::{Bench, Code, VECTOR};
 use dalembert_codegen::workspace::{Emitted, SceneRobot, parse, seeded};
 use dalembert_codegen::{Function, GenerateError, Request, ScalarType, generate};
 use dalembert_model::robot::Robot;
-use dalembert_report::measure::{Bench, Code, VECTOR};
 
 fn request(function: Function, start: &str) -> Request {
     Request {

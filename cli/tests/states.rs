@@ -1,7 +1,7 @@
 //! The strict reader of given states.
 
+use dalembert_cli::states::file::{FileError, read};
 use dalembert_codegen::workspace::Quantity;
-use dalembert_report::states::file::{FileError, read};
 
 #[test]
 fn unknown_keys_are_errors_with_the_likely_word() {

@@ -8,12 +8,12 @@ use std::ops::Range;
 use crate::extremes_support::rounding::rounded;
 use crate::extremes_support::runtime::runtime;
 use crate::extremes_support::{self, Extreme, drawn_like};
+use dalembert_cli::extremes::Held;
+use dalembert_cli::measure::{Bench, Code, ENTRY, VECTOR};
 use dalembert_codegen::workspace::{Emitted, Quantity, SceneRobot};
 use dalembert_codegen::{Function, Request, ScalarType, Start, generate};
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::Robot;
-use dalembert_report::extremes::Held;
-use dalembert_report::measure::{Bench, Code, ENTRY, VECTOR};
 
 fn held(category: &str) -> Held {
     let starts = |prefixes: &[&str]| prefixes.iter().any(|p| category.starts_with(p));

@@ -1,9 +1,9 @@
 //! Coefficients that vanish or repeat: the known counts.
 
+use dalembert_cli::couplings::{Value, couplings, summary};
 use dalembert_codegen::workspace::Quantity;
-use dalembert_report::couplings::{Value, couplings, summary};
 
-use crate::support;
+use crate::robots as support;
 
 fn counts(robot: &str, quantity: Quantity) -> [usize; 3] {
     let couplings = couplings(&support::robot(robot)).unwrap();

@@ -1,14 +1,14 @@
 //! The table of extremes on whole robots, and what divides next to a singular D.
 
+use dalembert_cli::extremes::{Row, Verdict, divided, inside, nearest_to_singular, torques};
+use dalembert_cli::measure::{Bench, Code, VECTOR};
 use dalembert_codegen::workspace::{Literal, Operand, SceneRobot, seeded};
 use dalembert_codegen::{Function, Request, generate};
 use dalembert_model::number::Rational;
 use dalembert_model::read;
 use dalembert_model::robot::Robot;
-use dalembert_report::extremes::{Row, Verdict, divided, inside, nearest_to_singular, torques};
-use dalembert_report::measure::{Bench, Code, VECTOR};
 
-use crate::support;
+use crate::robots as support;
 
 const STATES: usize = 10;
 
