@@ -55,7 +55,7 @@ fn pages_have_the_counts_of_the_plans() {
         all.insert(name, functions);
     }
     let planar2r = fs::read_to_string(root().join("generated/robots/planar2r.rs")).unwrap();
-    for page in ["README.md", "docs/src/operations.md"] {
+    for page in ["README.md", "docs/src/how-it-works.md"] {
         let page = root().join(page);
         let text = updated(&fs::read_to_string(&page).unwrap(), &planar2r, &all);
         if !keep(&page, &text) {
@@ -133,8 +133,8 @@ fn updated(page: &str, planar2r: &str, all: &Table) -> String {
             _ if !columns.is_empty() && !named.is_empty() => {
                 text += &counts(cells[1], &named, &columns, all);
             }
-            "<!-- planar2r::inverse_dynamics -->" => {
-                let code = body(planar2r, Function::InverseDynamics);
+            "<!-- planar2r::gravity -->" => {
+                let code = body(planar2r, Function::Gravity);
                 text += &format!("{line}\n```rust\n{code}```\n");
                 // Both fences and what is between them.
                 lines.next();

@@ -1,19 +1,29 @@
 //! `dalembert count`: the operations of the generated functions.
 
-use dalembert_codegen::{GeneratedFunction, ScalarType};
-use serde_json::{Map, Value, json};
+use dalembert_codegen::ScalarType;
 
-use crate::args::CountArgs;
-use crate::generate::report;
-use crate::outcome::Outcome;
-use crate::{input, output, progress};
+use crate::args::TaskArgs;
+use crate::code::{Detail, report};
+use crate::output::{Context, Outcome};
+use crate::progress;
+use crate::source::Source;
+
+/// Arguments of `count`.
+#[derive(Debug, clap::Args)]
+pub struct CountArgs {
+    #[command(flatten)]
+    task: TaskArgs,
+    /// Print also the longest chain of operations of each program, the calls of its code, the
+    /// formulation that it was found from, its proof, the counts after each stage, and what
+    /// rounding costs
+    #[arg(short, long)]
+    verbose: bool,
+}
 
 /// Runs the subcommand.
-pub fn run(args: &CountArgs) -> Outcome {
-    let wanted = input::wanted(&args.robot, &args.options.0, &ScalarType::ALL)?;
-    let input::Wanted {
-        robot, mut request, ..
-    } = wanted;
+pub(crate) fn run(args: &CountArgs, context: &Context) -> Outcome {
+    let source = Source::open(context, &args.task.robot)?;
+    let mut request = source.request(&args.task.options.0, &ScalarType::ALL)?;
     let scene = request.scene.as_ref();
     if scene.is_none_or(|scene| scene.tolerance.is_none()) {
         // Both scalars run the same program: one is enough to count it, and a
@@ -25,35 +35,11 @@ pub fn run(args: &CountArgs) -> Outcome {
         }
     }
     let session = progress::watch(&mut request);
-    let generated = input::generated(&args.robot, &robot, &request)?;
+    let generated = source.generate(context, &request)?;
     drop(session);
-    if args.json {
-        // The first that was emitted.
-        let scalar = generated.emitted.first().map(|emitted| emitted.scalar);
-        let of =
-            |f: &GeneratedFunction| output::counts(&scalar.map_or(f.counts(), |s| f.counts_in(s)));
-        let functions = generated.functions.iter();
-        let functions: Map<String, Value> =
-            functions.map(|f| (f.function.to_string(), of(f))).collect();
-        let scene = request.scene.as_ref().map(|scene| &scene.name);
-        let input = robot.short_hash();
-        return output::print_json(&match scene {
-            Some(scene) => {
-                json!({ "robot": robot.name, "input": input, "scene": scene, "functions": functions })
-            }
-            None => json!({ "robot": robot.name, "input": input, "functions": functions }),
-        });
-    }
-    let mut text = report::head(&robot, &request);
-    text += &report::counts(&generated, args.verbose);
-    text += &report::sines(&generated);
-    if args.verbose {
-        text += &report::limits(&generated);
-    }
-    text += &format!("\n{}\n", report::proved(&generated));
-    let warnings = report::warnings(&generated);
-    if !warnings.is_empty() {
-        output::note(&warnings);
-    }
-    output::print(&text)
+    let detail = match args.verbose {
+        true => Detail::Whole,
+        false => Detail::Counts,
+    };
+    Ok(report(&source.robot, &request, &generated, detail).into())
 }

@@ -8,7 +8,6 @@ use std::collections::HashMap;
 
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::Robot;
-use serde::Serialize;
 
 use dalembert_codegen::Function;
 use dalembert_codegen::workspace::{
@@ -16,8 +15,7 @@ use dalembert_codegen::workspace::{
 };
 
 /// The value of a coefficient.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Value {
     /// Zero in every state.
     Zero,
@@ -32,19 +30,18 @@ pub enum Value {
 }
 
 /// One coefficient: D_ik with i ≤ k, h_ikm with k ≤ m, or c_i.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Coupling {
     /// Its name, one-based: `h_346`.
     pub name: String,
     /// Its value.
     pub value: Value,
     /// Inertia, Christoffel or Gravity.
-    #[serde(skip)]
     pub quantity: Quantity,
 }
 
 /// Numbers of coefficients of a quantity.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Summary {
     /// All, symmetric ones once.
     pub total: usize,

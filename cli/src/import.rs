@@ -1,151 +1,286 @@
 //! `dalembert import`: a robot file of a chain of a URDF or an MJCF.
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::slice;
 
-use dalembert_import::{Arms, Change, Imported, Shared, Text, arms, import_text};
-use dalembert_model::robot::Robot;
+use dalembert_import::{
+    Arms, Change, Imported, Options, Shared, Text, Unopened, arms, import_text, is_model, open_text,
+};
+use dalembert_model::number::Rational;
+use dalembert_model::read::{RobotWarning, Severity};
 use serde_json::{Value, json};
 
-use crate::args::ImportArgs;
-use crate::files::folder::Folder;
-use crate::files::target::Target;
-use crate::files::{distinct, write};
-use crate::outcome::{Failure, Outcome};
-use crate::{model, output};
+use crate::args::values::{acceleration_parser, lock_parser, name_parser};
+use crate::files::{Files, ends_in};
+use crate::output::{Context, Done, Failure, Outcome};
+use crate::report::{Cell, Report, Table, cells, counted};
+use crate::source::system;
+
+/// The limit of acceleration that is taken where none is given, rad/s² or m/s².
+const ACCELERATION: i64 = 10;
+
+/// Arguments of `import`.
+///
+/// Links that are fixed to each other become one. Rounded numbers are replaced by the
+/// exact ones that were probably meant, 1.57079632679 by pi/2 for example; each is listed
+/// with its line, and the change of the torques is bounded. --exact keeps them; --snap takes those, too,
+/// that change a torque by more than 1e-6 of its limit. A xacro is expanded first, by
+/// `xacro FILE.xacro > FILE.urdf`.
+#[derive(Debug, clap::Args)]
+pub struct ImportArgs {
+    /// The URDF, or the MJCF of MuJoCo
+    model: PathBuf,
+    /// Write the robot file here [default: standard output]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Write a robot file of every arm into the folder that -o names, with all other joints
+    /// held, and say which arms move each other
+    #[arg(long, requires = "output", conflicts_with = "tip")]
+    all: bool,
+    #[command(flatten)]
+    chain: ChainArgs,
+}
+
+/// The chain that is taken of a model, and how.
+#[derive(Debug, Default, clap::Args)]
+pub struct ChainArgs {
+    /// The link that stands still [default: the root]
+    #[arg(long, value_name = "LINK")]
+    base: Option<String>,
+    /// The link whose frame is the hand [default: the palm, or the end of the
+    /// longest chain]
+    #[arg(long, value_name = "LINK")]
+    tip: Option<String>,
+    /// A joint that stays where it is, by its name or its number among those that move, with its
+    /// position: a number of rad or m, pi/2 or 90deg; may be given again
+    #[arg(long, value_name = "JOINT=VALUE", value_parser = lock_parser())]
+    lock: Vec<(String, String)>,
+    /// Hold every other joint that hangs on the chain here, or at its nearest limit
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
+    lock_others: Option<String>,
+    /// A link to leave away, with everything that hangs on it; may be given again
+    #[arg(long, value_name = "LINK")]
+    without: Vec<String>,
+    /// Take every digit as it stands
+    #[arg(long)]
+    exact: bool,
+    /// Take rounded numbers for the exact ones that they were probably meant to be, even where that
+    /// changes a torque by more than 1e-6 of its limit
+    #[arg(long, conflicts_with = "exact")]
+    snap: bool,
+    /// Leave out tendons, loops and equalities, which no chain of joints can have
+    #[arg(long)]
+    ignore_ties: bool,
+    /// The limit of acceleration of every joint, rad/s² or m/s², which models do not have
+    /// [default: 10]
+    #[arg(long, value_name = "A", value_parser = acceleration_parser(), allow_hyphen_values = true)]
+    acceleration: Option<Rational>,
+    /// The name of the robot [default: the model's]
+    #[arg(long, value_name = "NAME", value_parser = name_parser())]
+    name: Option<String>,
+}
+
+impl ChainArgs {
+    /// Returns the options for a model of this path.
+    pub fn options(&self, path: &Path) -> Options {
+        let others = self
+            .lock_others
+            .iter()
+            .map(|value| ("*".to_owned(), value.clone()));
+        let acceleration = self.acceleration.clone();
+        Options {
+            base: self.base.clone(),
+            tip: self.tip.clone(),
+            lock: self.lock.iter().cloned().chain(others).collect(),
+            without: self.without.clone(),
+            exact: self.exact,
+            snap: self.snap,
+            ignore_ties: self.ignore_ties,
+            acceleration: acceleration
+                .or_else(|| Some(Rational::from_integer(ACCELERATION.into()))),
+            file: path
+                .file_name()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned(),
+            name: self.name.clone(),
+        }
+    }
+}
 
 /// Runs the subcommand.
-pub fn run(args: &ImportArgs) -> Outcome {
-    if let Some(folder) = args.output.as_deref().filter(|_| args.all) {
-        return all(args, folder);
-    }
-    let target = Target::output(args.output.as_deref(), args.json)?;
-    distinct::distinct(&[("the URDF", &args.urdf)], &[("the robot file", &target)])?;
-    target.ends_in("toml")?;
-    target.check()?;
-    if !args.force {
-        target.ours()?;
-    }
-    let name = args.urdf.display().to_string();
-    let source = model::text(&args.urdf, &args.xacro)?;
-    let imported = import_text(&source, &args.chain.options(&args.urdf))
-        .map_err(|errors| Failure::Input(source.render(&errors.0)))?;
-    let document = args.json.then(|| json(&imported, &name, &source));
-    if !args.json {
-        notes(&imported, &source);
-        args.chain
-            .assumed()
-            .iter()
-            .for_each(|said| output::note(said));
-    }
-    undenied(document.as_ref())?;
-    write::write(&[(&target, &imported.text)])?;
-    match document {
-        Some(document) => output::print_json(&document),
-        None => {
-            report(&imported);
-            Ok(())
+pub(crate) fn run(args: &ImportArgs, context: &Context) -> Outcome {
+    let path = &args.model;
+    let mut files = Files::new(context, &[path]);
+    let target = match args.all {
+        true => None,
+        false => {
+            ends_in(args.output.as_deref(), "toml")?;
+            Some(files.output(args.output.as_deref())?)
         }
+    };
+    let source = open_text(path).map_err(|error| match error {
+        Unopened::System(error) => system(path, &error),
+        Unopened::Wrong(why) => Failure::Input(why),
+    })?;
+    if !is_model(source.as_str().as_bytes()) {
+        return Err(Failure::Input(format!(
+            "error: `{}` is neither a URDF nor an MJCF: it is no XML\n  = help: every subcommand takes a robot \
+             file as it is",
+            path.display()
+        )));
     }
-}
-
-/// Fails where there are warnings and they are denied; the document that lists them is printed first.
-fn undenied(document: Option<&Value>) -> Outcome {
-    let denied = output::undenied();
-    match document {
-        Some(document) if denied.is_err() => output::print_json(document).and(denied),
-        _ => denied,
-    }
-}
-
-/// Writes a robot file of every arm into a folder, all or none.
-fn all(args: &ImportArgs, folder: &Path) -> Outcome {
-    let name = args.urdf.display().to_string();
-    let source = model::text(&args.urdf, &args.xacro)?;
-    let Arms { arms, shared } = arms(&source, &args.chain.options(&args.urdf))
-        .map_err(|errors| Failure::Input(source.render(&errors.0)))?;
-    let named = arms
-        .iter()
-        .map(|(arm, made)| (format!("{arm}.toml"), made.text.clone()));
-    let files: Vec<(String, String)> = named.collect();
-    let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
-    let into = Folder::at(folder, &names, Some(&args.urdf))?;
-    for name in names.iter().filter(|_| !args.force && folder.is_dir()) {
-        Target::at(&folder.join(name))?.ours()?;
-    }
-    let mut said = BTreeSet::new();
-    let made = arms
-        .iter()
-        .flat_map(|(_, made)| &made.notes)
-        .filter(|_| !args.json);
-    for note in made.map(|note| source.render(slice::from_ref(note))) {
-        if said.insert(note.clone()) {
-            output::note(&note);
+    let options = args.chain.options(path);
+    let wrong =
+        |errors: dalembert_model::read::Diagnostics| Failure::Input(source.render(&errors.0));
+    let (made, shared) = match args.all {
+        false => (
+            vec![import_text(&source, &options).map_err(wrong)?],
+            Vec::new(),
+        ),
+        true => {
+            let Arms { arms, shared } = arms(&source, &options).map_err(wrong)?;
+            (arms.into_iter().map(|(_, made)| made).collect(), shared)
         }
-    }
-    args.chain
-        .assumed()
-        .iter()
-        .filter(|_| !args.json)
-        .for_each(|said| output::note(said));
-    let document = args.json.then(|| {
-        let arms = arms.iter().map(|(_, made)| json(made, &name, &source));
-        let shared = shared
-            .iter()
-            .map(|pair| json!({ "arms": pair.arms, "joints": pair.joints }));
-        json!({ "arms": arms.collect::<Vec<_>>(), "shared": shared.collect::<Vec<_>>() })
+    };
+    say(args, context, &made, &source);
+    let mut done = Done::from(match args.all {
+        false => made
+            .first()
+            .map_or_else(Report::default, |made| one(made, path, &source)),
+        true => all(&made, shared, path, &source),
     });
-    undenied(document.as_ref())?;
-    into.write(&files)?;
-    if let Some(document) = document {
-        return output::print_json(&document);
+    done.is_aside = true;
+    for made in made {
+        let target = match &target {
+            Some(target) => target.clone(),
+            None => {
+                let into = args.output.as_deref().unwrap_or(Path::new("."));
+                files.add_in(into, &format!("{}.toml", made.robot.name))?
+            }
+        };
+        done.files.push((target, made.text));
     }
-    for (arm, made) in &arms {
-        let joints = made.robot.joints.len();
-        let snaps = made.snaps.len();
-        let change = made.change.as_ref().map(|change| {
-            format!(
-                ", {snaps} rounded numbers replaced by exact ones: the torques change by {change}"
-            )
-        });
-        let change = change.unwrap_or_default();
-        output::note(&format!("{arm}.toml: {joints} joints{change}"));
+    Ok(done)
+}
+
+/// Says what was left out, and which numbers were replaced by others: each thing once.
+fn say(args: &ImportArgs, context: &Context, made: &[Imported], source: &Text) {
+    let mut said = BTreeSet::new();
+    for note in made.iter().flat_map(|made| &made.notes) {
+        context.heard(note.severity == Severity::Warning);
+        let note = source.render(slice::from_ref(note));
+        if said.insert(note.clone()) && !context.json {
+            context.say(&note);
+        }
     }
-    for Shared {
-        arms: [one, other],
-        joints,
-    } in &shared
-    {
-        output::note(&format!(
-            "{one} and {other} move each other through {}: each file holds the other arm, \
-             so its torques are right where that stands still",
-            joints.join(", ")
+    if context.json {
+        return;
+    }
+    let snaps = made.iter().flat_map(|made| &made.snaps);
+    for snap in snaps.filter(|_| !args.all) {
+        let (name, line) = source.line(snap.span.start);
+        context.say(&format!("{name}:{line}: {snap}"));
+    }
+    if args.chain.acceleration.is_none() {
+        context.say(&format!(
+            "every joint's limit of acceleration is taken to be {ACCELERATION} rad/s² or m/s², since \
+             models have none: --acceleration gives another"
         ));
     }
-    Ok(())
 }
 
-/// Describes a robot, its notes and its replaced numbers as JSON.
-fn json(imported: &Imported, name: &str, source: &Text) -> Value {
-    let robot = &imported.robot;
-    let snaps = imported.snaps.iter().map(|snap| {
+/// Describes an imported chain, and the change that replaced numbers make.
+fn one(made: &Imported, path: &Path, source: &Text) -> Report {
+    let mut report = values(made, path, source);
+    let joints = counted(made.robot.joints.len(), "joint");
+    report.line(format!("{}: {joints}", made.robot.name));
+    let Some(change) = &made.change else {
+        return report;
+    };
+    let snaps = counted(made.snaps.len(), "rounded number");
+    report.line(format!(
+        "{snaps} replaced by exact ones; the torques change by: {change}"
+    ));
+    let limits = change.limits();
+    let bounds = change.torques(limits);
+    // Of torques that stay as they are, the line before said it.
+    if bounds.iter().any(|bound| *bound > 0.0) {
+        for (i, joint) in made.robot.rows().into_iter().enumerate() {
+            report.line(format!(
+                "  {}: ≤ {} N·m or N, at rates up to {:.3} and {:.3} a second",
+                joint.name.as_deref().unwrap_or_default(),
+                Change::in_digits(bounds[i]),
+                limits.velocity[i],
+                limits.acceleration[i]
+            ));
+        }
+    }
+    let hand = change.hand(limits);
+    if hand.position > 0.0 || hand.angle > 0.0 {
+        let [position, angle] = [hand.position, hand.angle].map(Change::in_digits);
+        report.line(format!(
+            "  the hand: ≤ {position} m and ≤ {angle} rad from where it was"
+        ));
+    }
+    report.line("  --exact takes every digit as it stands");
+    report
+}
+
+/// Describes every arm, and which of them move each other.
+fn all(made: &[Imported], shared: Vec<Shared>, path: &Path, source: &Text) -> Report {
+    let mut report = Report::default();
+    let arms = made.iter().map(|made| json!(values(made, path, source)));
+    report.value("arms", arms.collect::<Value>());
+    for made in made {
+        let change = made.change.as_ref().map(|change| {
+            let snaps = counted(made.snaps.len(), "rounded number");
+            format!(", {snaps} replaced by exact ones: the torques change by {change}")
+        });
+        let joints = counted(made.robot.joints.len(), "joint");
+        let (name, change) = (&made.robot.name, change.unwrap_or_default());
+        report.line(format!("{name}.toml: {joints}{change}"));
+    }
+    let mut table = Table::new(&["arms", "joints"]);
+    for Shared { arms, joints } in shared {
+        let [one, other] = &arms;
+        let through = joints.join(", ");
+        report.line(format!(
+            "{one} and {other} move each other through {through}: each file holds the other arm, \
+             so its torques are right where that stands still",
+        ));
+        table.row(cells![Cell::json(arms.to_vec()), Cell::json(joints)]);
+    }
+    report.value("shared", table.json());
+    report
+}
+
+/// Describes an imported chain for programs.
+fn values(made: &Imported, path: &Path, source: &Text) -> Report {
+    let robot = &made.robot;
+    let notes = made.notes.iter().map(|note| {
         json!({
-            "line": source.line(snap.span.start).1,
-            "of": snap.of,
-            "from": snap.from,
-            "to": snap.to,
+            "severity": note.severity.to_string(),
+            "warning": note.warning.map(RobotWarning::name),
+            "line": note.line,
+            "column": note.column,
+            "message": note.message,
+            "help": note.help,
         })
     });
-    let change = imported.change.as_ref().map(|change| {
+    let snaps = made.snaps.iter().map(|snap| {
+        let line = source.line(snap.span.start).1;
+        json!({ "line": line, "of": snap.of, "from": snap.from, "to": snap.to })
+    });
+    let change = made.change.as_ref().map(|change| {
         let limits = change.limits();
-        let bounds = change.torques(limits);
         // Of each row, those that follow others too.
-        let joints = robot.rows().into_iter().zip(bounds).enumerate();
-        let joints = joints.map(|(i, (joint, bound))| {
+        let rows = robot.rows().into_iter().zip(change.torques(limits));
+        let joints = rows.enumerate().map(|(i, (joint, torque))| {
             json!({
                 "joint": joint.name,
-                "torque": bound,
+                "torque": torque,
                 "velocity": limits.velocity[i],
                 "acceleration": limits.acceleration[i],
             })
@@ -153,63 +288,18 @@ fn json(imported: &Imported, name: &str, source: &Text) -> Value {
         let hand = change.hand(limits);
         json!({
             "of_efforts": change.of_efforts(),
-            "joints": joints.collect::<Vec<_>>(),
+            "joints": joints.collect::<Value>(),
             "hand": { "position": hand.position, "angle": hand.angle },
         })
     });
-    let joints = robot.joints.iter().map(|joint| &joint.name);
-    json!({
-        "urdf": name,
-        "robot": robot.name,
-        "input": robot.short_hash(),
-        "joints": joints.collect::<Vec<_>>(),
-        "notes": imported.notes.iter().map(output::diagnostic).collect::<Vec<_>>(),
-        "taken_for_others": snaps.collect::<Vec<_>>(),
-        "change": change,
-    })
-}
-
-/// Prints what was left out, and which numbers were replaced by others.
-fn notes(imported: &Imported, source: &Text) {
-    for note in &imported.notes {
-        output::note(&source.render(slice::from_ref(note)));
-    }
-    for snap in &imported.snaps {
-        let (name, line) = source.line(snap.span.start);
-        output::note(&format!("{name}:{line}: {snap}"));
-    }
-}
-
-/// Prints the robot, and the change that replaced numbers make.
-fn report(imported: &Imported) {
-    let Robot { name, joints, .. } = &imported.robot;
-    output::note(&format!("{name}: {} joints", joints.len()));
-    if let Some(change) = &imported.change {
-        let n = imported.snaps.len();
-        output::note(&format!(
-            "{n} rounded numbers were replaced by exact ones; the torques change by: {change}"
-        ));
-        let limits = change.limits();
-        let bounds = change.torques(limits);
-        // Of torques that stay as they are, the first line said it.
-        let moved = bounds.iter().any(|bound| *bound > 0.0);
-        for (i, joint) in joints.iter().enumerate().filter(|_| moved) {
-            let label = joint.name.as_deref().unwrap_or_default();
-            output::note(&format!(
-                "  {label}: ≤ {} N·m or N, at rates up to {:.3} and {:.3} a second",
-                Change::in_digits(bounds[i]),
-                limits.velocity[i],
-                limits.acceleration[i]
-            ));
-        }
-        let hand = change.hand(limits);
-        if hand.position > 0.0 || hand.angle > 0.0 {
-            output::note(&format!(
-                "  the hand: ≤ {} m and ≤ {} rad from where it was",
-                Change::in_digits(hand.position),
-                Change::in_digits(hand.angle)
-            ));
-        }
-        output::note("  --exact takes every digit as it stands");
-    }
+    let joints = robot.joints.iter().map(|joint| json!(joint.name));
+    let mut report = Report::default();
+    report.value("model", path.display().to_string());
+    report.value("robot", robot.name.as_str());
+    report.value("input", robot.short_hash());
+    report.value("joints", joints.collect::<Value>());
+    report.value("notes", notes.collect::<Value>());
+    report.value("taken_for_others", snaps.collect::<Value>());
+    report.value("change", change);
+    report
 }

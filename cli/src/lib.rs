@@ -1,107 +1,84 @@
-//! The `dalembert` command: verified flat robot dynamics from a robot file.
+//! The `dalembert` command: a subcommand takes arguments and a `Context`, and returns what it found and
+//! made; [`run`] prints it, writes it, and returns the exit code.
 //!
-//! - `args`: the command line
-//! - `generate`: code, written or printed
-//! - `renew`: generated files made new, or compared with what would be generated
-//! - `import`: a robot file of a URDF
-//! - `show`: the arm in two views
-//! - `new`: a crate to begin with
-//! - `count`: operation counts
-//! - `verify`: the exact proof and what rounding costs
-//! - `explain`: what each step brought, which coefficients vanish or repeat, and why
-//! - `certify`: a certificate checked again
-//! - `tradeoff`: certified error against operations
-//! - `plot`: charts as SVG
-//! - `input`: robot and state files
-//! - `model`: a URDF or an MJCF
-//! - `progress`: a long search watched, and ended early
-//! - `files`: files that are written: checked first, all or none
-//! - `output`: standard output, tables
-//! - `outcome`: how a run ends
-//!
-//! What is reported, which other crates and tests use:
-//!
-//! - [`couplings`]: the coefficients that vanish or repeat
-//! - [`measure`]: rounding, against 256-bit arithmetic
-//! - [`extremes`]: rounding where robots are not, and next to a singular D
-//! - [`explained`]: what each step brought, and why
-//! - [`drawing`]: the arm in two views, as SVG
-//! - [`states`]: given states compared with the code
-//! - [`table3`]: the paper's counts beside the formulas'
-//! - [`sweep`]: certified error against operations, tolerance by tolerance
+//! - `args`: the command line; `source`: a robot of a path, and what is asked of it
+//! - `report`: facts and tables, as text and as JSON; `output`: the one way out; `files`: all or none; `progress`: the bar, Ctrl-C
+//! - `generate`, `renew`, `count`; `code`: the report of generated code
+//! - `import`, `new`, `show`, `outputs`; [`drawing`]: the arm in two views, as SVG
+//! - `verify`; [`measure`]: rounding, against 256-bit arithmetic; [`extremes`]: where robots are not;
+//!   [`given`]: states of somebody else
+//! - `certify`: the second program
+//! - [`explain`]; [`steps`]: what each step brings; [`couplings`]: the coefficients that vanish or
+//!   repeat; [`table3`]: the paper's counts beside the formulas'
+//! - `tradeoff`; `ladder`: its variants, tolerance by tolerance; `chart`: its picture
 #![forbid(unsafe_code)]
-
-pub mod couplings;
-pub mod drawing;
-pub mod explained;
-pub mod extremes;
-pub mod measure;
-pub mod states;
-pub mod sweep;
-pub mod table3;
+#![warn(missing_docs, clippy::missing_errors_doc)]
 
 mod args;
-mod bar;
 mod certify;
+mod chart;
+mod code;
 mod count;
-mod explain;
+pub mod couplings;
+pub mod drawing;
+pub mod explain;
+pub mod extremes;
 mod files;
 mod generate;
+pub mod given;
 mod import;
-mod input;
-mod model;
+mod ladder;
+pub mod measure;
 mod new;
-mod outcome;
 mod output;
-mod plot;
+mod outputs;
 mod progress;
 mod renew;
+mod report;
 mod show;
-mod sines;
+mod source;
+pub mod steps;
+pub mod table3;
 mod tradeoff;
 mod verify;
 
 use std::ffi::OsString;
 
 use clap::{CommandFactory, Parser};
-use clap_complete::Shell;
 
 use args::{Args, Command};
-use outcome::{Failure, Outcome};
+use output::{Done, Failure, note};
 
 /// Runs the command with its arguments, the first of which is its name, and returns the exit
 /// code of the process. Wrong arguments and `--help` end the process.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
     let args = Args::parse_from(args);
-    output::begin(args.deny_warnings);
-    let waiting = bar::begin();
-    let outcome = match args.command {
-        Command::Generate(args) => generate::run(&args),
-        Command::Renew(args) => renew::run(&args),
-        Command::Import(args) => import::run(&args),
-        Command::New(args) => new::run(&args),
-        Command::Show(args) => show::run(&args),
-        Command::Count(args) => count::run(&args),
-        Command::Verify(args) => verify::run(&args),
-        Command::Explain(args) => explain::run(&args),
-        Command::Certify(args) => certify::run(&args),
-        Command::Tradeoff(args) => tradeoff::run(&args),
-        Command::Completions { shell } => completions(shell),
+    let context = args.context();
+    let bar = progress::begin();
+    let outcome = match &args.command {
+        Command::New(args) => new::run(args, &context),
+        Command::Import(args) => import::run(args, &context),
+        Command::Outputs => outputs::run(),
+        Command::Generate(args) => generate::run(args, &context),
+        Command::Renew(args) => renew::run(args, &context),
+        Command::Count(args) => count::run(args, &context),
+        Command::Show(args) => show::run(args, &context),
+        Command::Verify(args) => verify::run(args, &context),
+        Command::Certify(args) => certify::run(args, &context),
+        Command::Explain(args) => explain::run(args, &context),
+        Command::Tradeoff(args) => tradeoff::run(args, &context),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(*shell, &mut Args::command(), "dalembert", &mut script);
+            output::print(&String::from_utf8_lossy(&script)).map(|()| Done::default())
+        }
     };
-    drop(waiting);
-    let outcome = outcome.and_then(|()| output::undenied());
-    let (why, code) = match outcome {
+    drop(bar);
+    let (why, code) = match outcome.and_then(|done| context.finish(done)) {
         Ok(()) => return 0,
         Err(Failure::Check(why)) => (why, 1),
         Err(Failure::Input(why)) => (why, 2),
     };
-    output::note(&why);
+    note(&why);
     code
-}
-
-/// Prints the completions of a shell.
-fn completions(shell: Shell) -> Outcome {
-    let mut script = Vec::new();
-    clap_complete::generate(shell, &mut Args::command(), "dalembert", &mut script);
-    output::print(&String::from_utf8_lossy(&script))
 }

@@ -75,6 +75,35 @@ pub struct Worst {
     pub overflows: bool,
 }
 
+/// The largest errors of a function in one scalar, over all of its quantities, in u.
+#[derive(Clone, Copy, Debug)]
+pub struct Rounding {
+    /// The largest of [`Worst::vector`].
+    pub vector: f64,
+    /// The largest of [`Worst::entry`].
+    pub entry: f64,
+}
+
+impl Rounding {
+    /// Takes the largest errors of the quantities.
+    pub fn of(worst: &[Worst]) -> Rounding {
+        let largest = |of: fn(&Worst) -> f64| worst.iter().map(of).fold(0.0, f64::max);
+        Rounding {
+            vector: largest(|worst| worst.vector),
+            entry: largest(|worst| worst.entry),
+        }
+    }
+}
+
+/// States with the true values of a function there, for code in one scalar.
+pub struct Samples {
+    states: Vec<JointState>,
+    truths: Vec<Vec<TrueValue>>,
+    granted: Vec<Granted>,
+    /// The largest value that is met of each result.
+    sizes: Vec<f64>,
+}
+
 /// A robot that code is measured on.
 pub struct Bench {
     reference: Reference,
@@ -109,6 +138,41 @@ impl Bench {
         self.runtime.granted(function, state).to(quantity)
     }
 
+    /// Returns the runtime, whose results are those of the equations of motion.
+    pub fn runtime(&self) -> &Runtime {
+        &self.runtime
+    }
+
+    /// Works out what is true at states, as a scalar holds them; `scales` are the states that sizes
+    /// are taken from.
+    pub fn samples(
+        &self,
+        function: Function,
+        scalar: ScalarType,
+        states: &[JointState],
+        scales: &[JointState],
+    ) -> Samples {
+        // A state that a scalar cannot hold is another state.
+        let states = states.iter().map(|state| state.in_scalar(scalar));
+        let states: Vec<JointState> = states.filter(JointState::is_finite).collect();
+        let mut sizes: Vec<f64> = Vec::new();
+        for state in scales {
+            let values = self.runtime.run(function, state);
+            sizes.resize(values.len(), 0.0);
+            let pairs = sizes.iter_mut().zip(values);
+            pairs.for_each(|(size, x)| *size = size.max(x.abs()));
+        }
+        Samples {
+            truths: states.iter().map(|s| self.truth(function, s)).collect(),
+            granted: states
+                .iter()
+                .map(|s| self.runtime.granted(function, s))
+                .collect(),
+            sizes,
+            states,
+        }
+    }
+
     /// Measures every quantity of a function; `scales` are the states that sizes are taken from.
     pub fn measure(
         &self,
@@ -116,20 +180,22 @@ impl Bench {
         states: &[JointState],
         scales: &[JointState],
     ) -> Vec<Worst> {
+        self.compare(
+            code,
+            &self.samples(code.function, code.scalar, states, scales),
+        )
+    }
+
+    /// Compares code with what is true at states.
+    pub fn compare(&self, code: &Code<'_>, samples: &Samples) -> Vec<Worst> {
+        let Samples {
+            states,
+            truths,
+            granted,
+            sizes,
+        } = samples;
         let (function, scalar) = (code.function, code.scalar);
-        // A state that a scalar cannot hold is another state.
-        let states = states.iter().map(|state| state.in_scalar(scalar));
-        let states: Vec<JointState> = states.filter(JointState::is_finite).collect();
-        let truths: Vec<Vec<TrueValue>> = states.iter().map(|s| self.truth(function, s)).collect();
         let found: Vec<Vec<f64>> = states.iter().map(|state| (code.run)(state)).collect();
-        let granted = states.iter().map(|s| self.runtime.granted(function, s));
-        let granted: Vec<Granted> = granted.collect();
-        let mut sizes = vec![0.0f64; function.outputs(code.sizes)];
-        for state in scales {
-            let values = self.runtime.run(function, state);
-            let pairs = sizes.iter_mut().zip(values);
-            pairs.for_each(|(size, x)| *size = size.max(x.abs()));
-        }
         let mut start = 0;
         let quantities = function.quantities().iter();
         quantities
@@ -146,12 +212,12 @@ impl Bench {
                     state: states.first().cloned().unwrap_or_default(),
                     overflows: false,
                 };
-                let runs = states.iter().zip(&granted).zip(truths.iter().zip(&found));
+                let runs = states.iter().zip(granted).zip(truths.iter().zip(&found));
                 for ((state, granted), (truth, found)) in runs {
                     worst.overflows |= found[range.clone()].iter().any(|x| !x.is_finite());
                     let condition = granted.to(quantity);
                     let unit = condition * scalar.unit_roundoff();
-                    let [vector, entry] = self.errors(code, range.clone(), truth, found, &sizes);
+                    let [vector, entry] = self.errors(code, range.clone(), truth, found, sizes);
                     let [vector, entry] = [vector, entry].map(|error| part(error, unit));
                     worst.entry = worst.entry.max(entry);
                     if vector > worst.vector {

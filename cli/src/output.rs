@@ -1,80 +1,159 @@
-//! Standard output and tables.
+//! The one way out: a subcommand returns [`Done`], and [`Context::finish`] prints and writes it.
 
+use std::cell::Cell;
 use std::io::{self, Write};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::path::PathBuf;
 
 use anstream::{AutoStream, ColorChoice};
-use dalembert_codegen::Counts;
-use dalembert_model::read::{Diagnostic, RobotWarning, Severity};
-use serde_json::{Value, json};
+use dalembert_codegen::GenerateError;
+use dalembert_codegen::workspace::{Disproof, plan_file};
 
-use crate::bar;
-use crate::outcome::{Failure, Outcome};
+use crate::files::{self, Target};
+use crate::progress;
+use crate::report::Report;
 
-/// Prints to standard output. A reader that has gone away, as in `… | head`,
-/// is no failure.
-pub fn print(text: &str) -> Outcome {
+/// Why a run does not end well; the text is for standard error.
+#[derive(Debug)]
+pub enum Failure {
+    /// A check failed: exit code 1.
+    Check(String),
+    /// The input cannot be used: exit code 2.
+    Input(String),
+}
+
+/// The end of a subcommand.
+pub type Outcome = Result<Done, Failure>;
+
+impl From<GenerateError> for Failure {
+    fn from(error: GenerateError) -> Self {
+        let text = format!("error: {error}");
+        match error {
+            // A proof, a run or a text check that fails is a failed check; all else
+            // is something that the robot or the request asks for.
+            GenerateError::Disproved(_, Disproof::Unfit | Disproof::Large) => Failure::Input(text),
+            GenerateError::Disproved(..) | GenerateError::Defect(..) => Failure::Check(text),
+            _ => Failure::Input(text),
+        }
+    }
+}
+
+/// All that a subcommand found and made.
+#[derive(Default)]
+pub struct Done {
+    /// What is printed.
+    pub report: Report,
+    /// The text of the report goes to standard error, since what is written may go to standard output.
+    pub is_aside: bool,
+    /// What is written: all of it, or nothing.
+    pub files: Vec<(Target, String)>,
+    /// The robot file that gets a new time, so that macros notice its first plan.
+    pub announced: Option<PathBuf>,
+    /// Lines for people after everything is written.
+    pub notes: Vec<String>,
+    /// Why the check failed: exit code 1.
+    pub failed: Vec<String>,
+}
+
+impl From<Report> for Done {
+    fn from(report: Report) -> Done {
+        Done {
+            report,
+            ..Done::default()
+        }
+    }
+}
+
+/// What every subcommand may be asked for, and whether it warned.
+pub struct Context {
+    pub json: bool,
+    pub force: bool,
+    denies_warnings: bool,
+    warned: Cell<bool>,
+}
+
+impl Context {
+    pub fn new(json: bool, force: bool, denies_warnings: bool) -> Context {
+        Context {
+            json,
+            force,
+            denies_warnings,
+            warned: Cell::new(false),
+        }
+    }
+
+    /// Prints notes and warnings; the latter can be denied.
+    pub fn say(&self, text: &str) {
+        self.heard(text.lines().any(|line| line.starts_with("warning")));
+        note(text);
+    }
+
+    /// Counts a warning that a JSON report has in it.
+    pub fn heard(&self, is_warning: bool) {
+        self.warned.set(self.warned.get() || is_warning);
+    }
+
+    /// Refuses to go on where there was a warning and warnings are denied.
+    ///
+    /// # Errors
+    /// A failed check.
+    pub fn undenied(&self) -> Result<(), Failure> {
+        match self.warned.get() && self.denies_warnings {
+            true => Err(Failure::Check(
+                "error: there are warnings, and --deny-warnings takes them for errors".into(),
+            )),
+            false => Ok(()),
+        }
+    }
+
+    /// Writes the files of a run and prints its report; denied warnings leave the report in JSON.
+    ///
+    /// # Errors
+    /// Something cannot be written, or the check failed.
+    pub fn finish(&self, done: Done) -> Result<(), Failure> {
+        let denied = self.undenied();
+        if denied.is_ok() {
+            files::write(&done.files)?;
+        }
+        let text = match self.json {
+            // The keys of reports are strings: there is nothing that JSON cannot have.
+            true => serde_json::to_string_pretty(&done.report).unwrap_or_default() + "\n",
+            false => done.report.to_string(),
+        };
+        match done.is_aside && !self.json {
+            _ if denied.is_err() && !self.json => {}
+            _ if text.is_empty() => {}
+            true => note(&text),
+            false => print(&text)?,
+        }
+        denied?;
+        if let Some(robot) = &done.announced
+            && let Err(error) = plan_file::announce(robot)
+        {
+            note(&format!(
+                "warning: `{}` cannot be given a new time ({error}): macros and build scripts that \
+                 were built without the plan notice it once the robot file is saved again",
+                robot.display()
+            ));
+        }
+        done.notes.iter().for_each(|line| note(line));
+        match done.failed.is_empty() {
+            true => Ok(()),
+            false => Err(Failure::Check(done.failed.join("\n"))),
+        }
+    }
+}
+
+/// Prints to standard output. A reader that has gone away, as in `… | head`, is no failure.
+///
+/// # Errors
+/// Standard output cannot be written.
+pub fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
-    match bar::aside(|| out.write_all(text.as_bytes()).and_then(|()| out.flush())) {
+    match progress::aside(|| out.write_all(text.as_bytes()).and_then(|()| out.flush())) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Input(format!(
             "error: standard output cannot be written: {error}"
         ))),
         _ => Ok(()),
-    }
-}
-
-/// Prints a JSON document.
-pub fn print_json(value: &Value) -> Outcome {
-    print(&format!("{value:#}\n"))
-}
-
-/// Writes a message about a file as JSON; a warning counts as printed.
-pub fn diagnostic(found: &Diagnostic) -> Value {
-    WARNED.fetch_or(found.severity == Severity::Warning, Ordering::Relaxed);
-    json!({
-        "severity": found.severity.to_string(),
-        "warning": found.warning.map(RobotWarning::name),
-        "line": found.line,
-        "column": found.column,
-        "message": found.message,
-        "help": found.help,
-    })
-}
-
-/// Counts as JSON.
-pub fn counts(counts: &Counts) -> Value {
-    json!({
-        "mul": counts.mul,
-        "add": counts.add,
-        "fma": counts.fma,
-        "div": counts.div,
-        "sqrt": counts.sqrt,
-        "sincos": counts.sincos,
-        "trig_mul": counts.trig_mul,
-        "trig_add": counts.trig_add,
-    })
-}
-
-/// Whether a warning was printed in this run, and whether warnings are denied.
-static WARNED: AtomicBool = AtomicBool::new(false);
-static DENIED: AtomicBool = AtomicBool::new(false);
-
-/// Begins a run, which may deny warnings.
-pub fn begin(denies_warnings: bool) {
-    WARNED.store(false, Ordering::Relaxed);
-    DENIED.store(denies_warnings, Ordering::Relaxed);
-}
-
-/// Fails where a warning was printed and warnings are denied.
-///
-/// # Errors
-/// A failed check.
-pub fn undenied() -> Outcome {
-    match WARNED.load(Ordering::Relaxed) && DENIED.load(Ordering::Relaxed) {
-        true => Err(Failure::Check(
-            "error: there are warnings, and --deny-warnings takes them for errors".into(),
-        )),
-        false => Ok(()),
     }
 }
 
@@ -88,13 +167,9 @@ const COLOURS: [(&str, &str); 6] = [
     (" --> ", "1;34"),
 ];
 
-/// Prints a line, or several, on standard error: in colour on a terminal, unless the environment
-/// says otherwise (`NO_COLOR`, `CLICOLOR_FORCE`).
+/// Prints lines on standard error: in colour on a terminal, unless the environment says otherwise
+/// (`NO_COLOR`, `CLICOLOR_FORCE`).
 pub fn note(text: &str) {
-    let text = text.trim_end();
-    if text.lines().any(|line| line.starts_with("warning")) {
-        WARNED.store(true, Ordering::Relaxed);
-    }
     let plain = AutoStream::choice(&io::stderr()) == ColorChoice::Never;
     let coloured = |line: &str| match COLOURS.iter().find(|(mark, _)| line.starts_with(mark)) {
         Some((mark, code)) if !plain => {
@@ -102,33 +177,9 @@ pub fn note(text: &str) {
         }
         _ => line.to_owned(),
     };
-    let lines: Vec<String> = text.split('\n').map(coloured).collect();
-    bar::aside(|| {
+    let lines: Vec<String> = text.trim_end().split('\n').map(coloured).collect();
+    progress::aside(|| {
         // There is nowhere left to complain to.
         let _ = writeln!(io::stderr().lock(), "{}", lines.join("\n"));
     });
-}
-
-/// Lays out rows in columns: the first to the left, the others to the right
-/// except the last `text` ones.
-pub fn table(rows: &[Vec<String>], text: usize) -> String {
-    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let width = |column: usize| {
-        let cells = rows.iter().filter_map(|row| row.get(column));
-        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
-    };
-    let widths: Vec<usize> = (0..columns).map(width).collect();
-    let mut lines = String::new();
-    for row in rows {
-        let mut line = String::new();
-        for (column, cell) in row.iter().enumerate() {
-            let pad = " ".repeat(widths[column] - cell.chars().count());
-            let left = column == 0 || column + text >= columns;
-            let (before, after) = if left { ("", &*pad) } else { (&*pad, "") };
-            line.push_str(&format!("  {before}{cell}{after}"));
-        }
-        lines.push_str(line.trim_end());
-        lines.push('\n');
-    }
-    lines
 }

@@ -6,17 +6,26 @@ use std::path::{Path, PathBuf};
 
 use dalembert_codegen::Language;
 use dalembert_stamp::Stamp;
-use serde_json::json;
 
-use crate::args::RenewArgs;
-use crate::files::target::Target;
-use crate::files::write::write;
-use crate::generate::certificates;
-use crate::outcome::{Failure, Outcome};
-use crate::{input, output, progress};
+use crate::code::certificates;
+use crate::files::{Files, first};
+use crate::output::{Context, Done, Failure, Outcome};
+use crate::progress;
+use crate::report::{Cell, Report, Table, cells};
+use crate::source::{Source, text};
 
 /// The longest file that is read.
 const MAX_BYTES: u64 = 1 << 28;
+
+/// Arguments of `renew`.
+#[derive(Debug, clap::Args)]
+pub struct RenewArgs {
+    /// The generated files [default: all in this folder and below it]
+    files: Vec<PathBuf>,
+    /// Write nothing, and exit with 1 if a file is not what would be generated
+    #[arg(long)]
+    check: bool,
+}
 
 /// A generated file.
 struct Found {
@@ -35,74 +44,64 @@ struct New {
 }
 
 /// Runs the subcommand.
-pub fn run(args: &RenewArgs) -> Outcome {
+pub(crate) fn run(args: &RenewArgs, context: &Context) -> Outcome {
     let files = found(&args.files)?;
     let (mut texts, mut failed) = (Vec::new(), Vec::new());
     for file in &files {
-        match renewed(file) {
+        match renewed(context, file) {
             Ok(own) => texts.extend(own),
             Err(Failure::Input(why) | Failure::Check(why)) => {
-                failed.push(format!(
-                    "{why}\n  = note: to renew `{}`",
-                    file.path.display()
-                ));
+                let path = file.path.display();
+                failed.push(format!("{why}\n  = note: to renew `{path}`"));
             }
         }
     }
     if !failed.is_empty() {
         return Err(Failure::Input(failed.join("\n\n")));
     }
-    let stale: Vec<&New> = texts.iter().filter(|new| new.differs.is_some()).collect();
+    let mut report = Report::default();
+    let mut table = Table::new(&["file", "became", "line"]);
+    for new in &texts {
+        let became = match (new.differs.is_some(), args.check) {
+            (false, _) => "up to date",
+            (true, false) => "renewed",
+            (true, true) => "stale",
+        };
+        let path = new.path.display().to_string();
+        report.line(format!("{path}: {became}"));
+        table.row(cells![path, became, Cell::json(new.differs)]);
+    }
+    report.value("files", table.json());
+    let mut done = Done::from(report);
+    let stale: Vec<New> = texts
+        .into_iter()
+        .filter(|new| new.differs.is_some())
+        .collect();
     if !args.check {
-        let targets: Result<Vec<Target>, Failure> =
-            stale.iter().map(|new| Target::at(&new.path)).collect();
-        let targets = targets?;
-        let outputs = targets.iter().zip(&stale);
-        let outputs: Vec<(&Target, &str)> = outputs
-            .map(|(target, new)| (target, new.text.as_str()))
-            .collect();
-        write(&outputs)?;
+        let mut files = Files::new(context, &[]);
+        let outputs = stale
+            .into_iter()
+            .map(|new| Ok((files.add(&new.path)?, new.text)));
+        done.files = outputs.collect::<Result<_, Failure>>()?;
+        return Ok(done);
     }
-    report(args, &texts)?;
-    let lines = stale.iter().filter(|_| args.check).map(|new| {
+    for new in &stale {
         let (path, line) = (new.path.display(), new.differs.unwrap_or(1));
-        format!("error: {path}:{line}: the file is not what would be generated")
-    });
-    let lines: Vec<String> = lines.collect();
-    match lines.is_empty() {
-        true => Ok(()),
-        false => Err(Failure::Check(format!(
-            "{}\n  = help: dalembert renew, without --check, writes what would be",
-            lines.join("\n")
-        ))),
+        let why = format!("error: {path}:{line}: the file is not what would be generated");
+        done.failed.push(why);
     }
-}
-
-fn report(args: &RenewArgs, texts: &[New]) -> Outcome {
-    let became = |new: &New| match (new.differs.is_some(), args.check) {
-        (false, _) => "up to date",
-        (true, false) => "renewed",
-        (true, true) => "stale",
-    };
-    if args.json {
-        let files = texts.iter().map(|new| {
-            json!({ "file": new.path.display().to_string(), "became": became(new), "line": new.differs })
-        });
-        return output::print_json(&json!({ "files": files.collect::<Vec<_>>() }));
+    if !stale.is_empty() {
+        let help = "  = help: dalembert renew, without --check, writes what would be";
+        done.failed.push(help.into());
     }
-    let lines = texts
-        .iter()
-        .map(|new| format!("{}: {}\n", new.path.display(), became(new)));
-    output::print(&lines.collect::<String>())
+    Ok(done)
 }
 
 /// Returns the files that were named, or all with a stamp in this folder and below it.
 fn found(named: &[PathBuf]) -> Result<Vec<Found>, Failure> {
     let mut all = Vec::new();
     for path in named {
-        let bytes = input::bytes(path, MAX_BYTES)?;
-        let text = String::from_utf8_lossy(&bytes).into_owned();
-        let own = stamped(path, text).ok_or_else(|| {
+        let own = stamped(path, text(path, MAX_BYTES)?).ok_or_else(|| {
             Failure::Input(format!(
                 "error: `{}` does not begin as a file that this dalembert generates\n  = help: \
                  `dalembert generate ROBOT.toml -o {0}` writes one that does",
@@ -136,7 +135,7 @@ fn stamped(path: &Path, text: String) -> Option<Found> {
 
 /// Adds the generated files of a folder and of those below it, in the order of their names; hidden
 /// ones, links and build folders are left out.
-fn walk(folder: &Path, all: &mut Vec<Found>) -> Outcome {
+fn walk(folder: &Path, all: &mut Vec<Found>) -> Result<(), Failure> {
     let fail = |error| Failure::Input(format!("error: `{}`: {error}", folder.display()));
     let entries = fs::read_dir(folder).map_err(fail)?;
     let mut entries: Vec<fs::DirEntry> = entries.flatten().collect();
@@ -152,7 +151,7 @@ fn walk(folder: &Path, all: &mut Vec<Found>) -> Outcome {
         }
         if kind.is_file() && Language::of(&path).is_ok() {
             // What cannot be read is nobody's here.
-            let text = input::first(&path, MAX_BYTES).unwrap_or_default();
+            let text = first(&path, MAX_BYTES).unwrap_or_default();
             let path = path.strip_prefix(".").unwrap_or(&path);
             all.extend(stamped(path, String::from_utf8_lossy(&text).into_owned()));
         }
@@ -161,19 +160,15 @@ fn walk(folder: &Path, all: &mut Vec<Found>) -> Outcome {
 }
 
 /// Generates a file anew by its own stamp.
-fn renewed(file: &Found) -> Result<Vec<New>, Failure> {
+fn renewed(context: &Context, file: &Found) -> Result<Vec<New>, Failure> {
     let folder = file.path.parent().unwrap_or(Path::new(""));
-    let robot = folder.join(&file.stamp.robot);
-    let wanted = input::wanted(&robot, &file.stamp.asked, file.language.scalars())?;
-    let mut request = wanted.request;
+    let source = Source::open(context, &folder.join(&file.stamp.robot))?;
+    let mut request = source.request(&file.stamp.asked, file.language.scalars())?;
     request.language = file.language;
     let session = progress::watch(&mut request);
-    let generated = input::generated(&robot, &wanted.robot, &request)?;
+    let generated = source.generate(context, &request)?;
     drop(session);
-    for warning in &generated.warnings {
-        output::note(&format!("warning: {warning}"));
-    }
-    let code = generated.files(&request, &file.stamp.robot, &wanted.source);
+    let code = generated.files(&request, &file.stamp.robot, &source.text);
     let code = code.into_iter().next().unwrap_or_default();
     let mut new = vec![New {
         path: file.path.clone(),

@@ -1,72 +1,85 @@
 //! `dalembert show`: the arm in two views, as SVG.
 
-use crate::drawing;
+use std::path::PathBuf;
+
 use dalembert_model::equations::matrix::Columns;
-use dalembert_model::number::Angle;
-use dalembert_model::number::Rounded;
 use dalembert_model::number::parse::parse_decimal;
+use dalembert_model::number::{Angle, Rounded};
 use dalembert_model::reference::{Reference, WrongLength};
 use dalembert_model::robot::{JointKind, Position, Robot};
 use nalgebra::DVector;
-use serde_json::{Value, json};
+use serde_json::Value;
 
-use crate::args::ShowArgs;
-use crate::files::target::Target;
-use crate::files::{distinct, write};
-use crate::outcome::{Failure, Outcome};
-use crate::{input, output};
+use crate::drawing;
+use crate::files::{Files, ends_in};
+use crate::output::{Context, Done, Failure, Outcome};
+use crate::report::{Cell, Report, Table, cells};
+use crate::source::Source;
+
+/// Arguments of `show`.
+#[derive(Debug, clap::Args)]
+pub struct ShowArgs {
+    /// The robot: a robot file, a URDF or an MJCF
+    robot: PathBuf,
+    /// The position of every joint, in rad or m, pi/2 or 90deg, separated by
+    /// commas [default: zeros]
+    #[arg(
+        long,
+        value_name = "Q",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    at: Vec<String>,
+    /// Write the drawing here [default: standard output; with --json nothing is drawn]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
 
 /// Runs the subcommand.
-pub fn run(args: &ShowArgs) -> Outcome {
-    let robot = input::robot(&args.robot)?;
-    let target = Target::output(args.output.as_deref(), args.json)?;
-    distinct::distinct(
-        &[("the robot file", &args.robot)],
-        &[("the drawing", &target)],
-    )?;
-    target.ends_in("svg")?;
-    if !args.force {
-        target.ours()?;
-    }
-    let at = position(args, &robot)?;
+pub(crate) fn run(args: &ShowArgs, context: &Context) -> Outcome {
+    let source = Source::open(context, &args.robot)?;
+    let robot = &source.robot;
+    let is_drawn = args.output.is_some() || !context.json;
+    ends_in(args.output.as_deref(), "svg")?;
+    let mut files = Files::new(context, &[&args.robot]);
+    let target = is_drawn.then(|| files.output(args.output.as_deref()));
+    let target = target.transpose()?;
+    let at = position(args, robot)?;
     for (index, (text, q)) in args.at.iter().zip(&at).enumerate() {
-        if let Some(warning) = doubtful(&robot, index, text, *q) {
-            output::note(&warning);
+        if let Some(warning) = doubtful(robot, index, text, *q) {
+            context.say(&warning);
         }
     }
     let wrong = |error| Failure::Input(format!("error: --at: {error}"));
-    let svg = drawing::svg(&robot, &at).map_err(wrong)?;
-    if !args.json {
-        return write::write(&[(&target, &svg)]);
-    }
-    let poses = json(&robot, &at).map_err(wrong)?;
-    if args.output.is_some() {
-        write::write(&[(&target, &svg)])?;
-    }
-    output::print_json(&poses)
+    let svg = drawing::svg(robot, &at).map_err(wrong)?;
+    Ok(Done {
+        files: target.map(|target| (target, svg)).into_iter().collect(),
+        ..Done::from(poses(robot, &at).map_err(wrong)?)
+    })
 }
 
-/// Returns where everything is: each pose is [R | p], row by row, in base axes.
-fn json(robot: &Robot, at: &[f64]) -> Result<Value, WrongLength> {
+/// Returns where everything is, for programs: each pose is [R | p], row by row, in base axes.
+fn poses(robot: &Robot, at: &[f64]) -> Result<Report, WrongLength> {
     let runtime = Reference::<f64>::from_robot(robot);
     let q = DVector::from_column_slice(at);
-    let rows = |pose: &Columns<f64>| {
+    let rows = |pose: &Columns<f64>| -> Value {
         let rows = pose.rows();
-        rows.chunks(4).map(<[f64]>::to_vec).collect::<Vec<_>>()
+        rows.chunks(4).map(Value::from).collect()
     };
-    let poses = runtime.poses(&q)?;
-    let links = robot
-        .rows()
-        .into_iter()
-        .zip(&poses)
-        .map(|(joint, pose)| json!({ "joint": joint.name, "pose": rows(pose) }));
-    Ok(json!({
-        "robot": robot.name,
-        "input": robot.short_hash(),
-        "at": at,
-        "links": links.collect::<Vec<_>>(),
-        "hand": rows(&runtime.hand(&q)?),
-    }))
+    let mut links = Table::new(&["joint", "pose"]);
+    for (joint, pose) in robot.rows().into_iter().zip(&runtime.poses(&q)?) {
+        links.row(cells![
+            Cell::json(joint.name.clone()),
+            Cell::json(rows(pose))
+        ]);
+    }
+    let mut report = Report::default();
+    report.value("robot", robot.name.as_str());
+    report.value("input", robot.short_hash());
+    report.value("at", at);
+    report.value("links", links.json());
+    report.value("hand", rows(&runtime.hand(&q)?));
+    Ok(report)
 }
 
 /// Returns what is odd about a position of a joint: beyond its limits, or more than a turn. A

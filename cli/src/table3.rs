@@ -5,10 +5,9 @@ use dalembert_model::number::Exact;
 use dalembert_model::robot::{JointKind, Robot};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::count::{Count, Counter};
-use serde::Serialize;
 
 /// Multiplications and additions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pair {
     /// Multiplications.
     pub mul: u64,
@@ -17,7 +16,7 @@ pub struct Pair {
 }
 
 /// One formulation for a robot.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug)]
 pub struct Comparison {
     /// Its name.
     pub formulation: &'static str,

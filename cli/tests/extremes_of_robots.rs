@@ -23,7 +23,7 @@ fn all_good(rows: &[Row]) {
 #[test]
 fn the_planar_arm_passes() {
     let robot = support::robot("planar2r");
-    let rows = torques(&robot, &Request::default(), STATES, |_| ()).unwrap();
+    let rows = torques(&robot, &Request::default(), STATES).unwrap();
     // Twenty-nine cases, in two scalars: no wrist, no right angles.
     assert_eq!(rows.len(), 58);
     all_good(&rows);

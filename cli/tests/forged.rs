@@ -4,20 +4,36 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::support::planar::{arm, json, path};
-use crate::support::run;
+use crate::support::{arm, good, run};
+
+const SCENE: &str = r#"
+[scene.pick]
+outputs = ["inverse_dynamics"]
+lock = { 1 = 0 }
+box = { velocity = [1, 1, 1], acceleration = [1, 2, 2] }
+tolerance = { value = 0.1, relative_to = "range" }
+scalar = "f64"
+"#;
+
+const ROUGH: &str = r#"
+[scene.rough]
+outputs = ["inverse_dynamics"]
+box = { position = [[-3, 3], [0.2, 2.8]], velocity = [2, 3], acceleration = [10, 20] }
+tolerance = { value = 1e-4, relative_to = "range" }
+scalar = "f64"
+"#;
 
 /// By hand: a bound made smaller, a scale made larger, a box made smaller, another
 /// function's name or text.
 #[test]
 fn certificates_made_better_by_hand_are_caught() {
-    let (folder, arm) = arm("certificates");
-    let good = path(&folder, "good.json");
-    let generate = ["generate", &arm, "--scene", "pick", "--certificate", &good];
-    assert_eq!(run(&generate).code, 0);
-    let honest = json(&good);
+    let (folder, arm) = arm("certificates", "planar3r", SCENE);
+    let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    good(&["generate", &arm, "--scene", "pick", "-o", &path("pick.rs")]);
+    let honest = fs::read_to_string(path("pick.certificate.json")).unwrap();
+    let honest: Value = serde_json::from_str(&honest).unwrap();
     let checked = |lie: &str| {
-        let file = path(&folder, "lie.json");
+        let file = path("lie.json");
         fs::write(&file, lie).unwrap();
         run(&["certify", &file, "--robot", &arm])
     };
@@ -119,4 +135,53 @@ fn half_ranges(ranges: &Value) -> Value {
     let half = |range: &Value| [0, 1].map(|end| range[end].as_f64().unwrap() * 0.5);
     let each = ranges.as_array().unwrap().iter().map(half);
     each.map(|range| Value::from(range.to_vec())).collect()
+}
+
+/// The certificate of a scene carries its polynomials, and `certify` proves
+/// them from the text.
+#[test]
+fn certified_again_from_the_text() {
+    let (folder, arm) = arm("sines", "planar2r", ROUGH);
+    let arm = arm.as_str();
+    let code = folder.join("arm.rs");
+    good(&[
+        "generate",
+        arm,
+        "--scene",
+        "rough",
+        "-o",
+        code.to_str().unwrap(),
+    ]);
+    let mut files = fs::read_dir(&folder).unwrap().map(|f| f.unwrap().path());
+    let kept = files
+        .find(|f| f.extension().is_some_and(|e| e == "json"))
+        .unwrap();
+    let check = |name: &str, text: &str| {
+        let path = folder.join(name);
+        fs::write(&path, text).unwrap();
+        run(&["certify", path.to_str().unwrap(), "--robot", arm])
+    };
+    let honest = fs::read_to_string(&kept).unwrap();
+    assert!(honest.contains("\"polynomials\""));
+    let ran = check("honest.json", &honest);
+    assert_eq!(ran.code, 0, "{}", ran.err);
+
+    // A coefficient of a polynomial, twice as large.
+    let start = honest.find("let x").unwrap();
+    let start = start + honest[start..].find("* 0.").unwrap() + "* ".len();
+    let end = start + honest[start..].find(';').unwrap();
+    let coefficient: f64 = honest[start..end].parse().unwrap();
+    let moved = format!(
+        "{}{:?}{}",
+        &honest[..start],
+        coefficient * 2.0,
+        &honest[end..]
+    );
+    let ran = check("lie.json", &moved);
+    assert_eq!(ran.code, 1, "{}", ran.out);
+    assert!(
+        ran.out.contains("refuted") || ran.out.contains("not shown"),
+        "{}",
+        ran.out
+    );
 }

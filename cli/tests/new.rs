@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::support::{good, robot, run, temporary};
+use crate::support::{good, temporary};
 
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 
@@ -45,99 +45,4 @@ fn it_builds_and_passes_at_once() {
         printed.contains("to hold still at q = [0.1, 0.1]: [19.4"),
         "{printed}"
     );
-}
-
-#[test]
-fn from_robot_files_and_urdfs() {
-    let folder = temporary("new_from");
-    let made = |name: &str| folder.join(name);
-    let text = |name: &str| made(name).to_str().unwrap().to_owned();
-    good(&["new", &text("puma"), "--from", &robot("puma560")]);
-    let source = fs::read_to_string(made("puma").join("src/main.rs")).unwrap();
-    assert!(source.contains("pub mod puma560 = \"robots/puma560.toml\";"));
-    assert!(source.contains("[0.1; 6]") && !source.contains("JOINTS"));
-    let manifest = fs::read_to_string(made("puma").join("Cargo.toml")).unwrap();
-    let checkout = fs::canonicalize(ROOT).unwrap();
-    let own = format!(
-        "dalembert = {{ path = {:?}, default-features = false, features = [\"macros\", \"sines\"] }}",
-        checkout.to_str().unwrap()
-    );
-    assert!(manifest.contains("name = \"puma\"") && manifest.contains(&own));
-    let named = [
-        "new",
-        &text("named"),
-        "--path",
-        ROOT,
-        "--from",
-        &robot("puma560"),
-    ];
-    assert_eq!(run(&named).code, 0);
-    let named = fs::read_to_string(made("named").join("Cargo.toml")).unwrap();
-    assert!(named.contains(&own), "{named}");
-
-    let urdf = format!("{ROOT}/import/tests/data/twodofs.urdf");
-    good(&["new", &text("two"), "--from", &urdf]);
-    let robots = fs::read_dir(made("two").join("robots")).unwrap().count();
-    assert_eq!(robots, 2);
-
-    let panda = format!("{ROOT}/import/tests/data/panda.urdf");
-    for (arguments, part) in [
-        (vec![text("puma")], "is there already"),
-        (vec![text("My-Arm")], "write \"my_arm\""),
-        (vec![text("fn")], "write \"fn_robot\""),
-        (
-            vec![text("dalembert")],
-            "depends on the crate `dalembert`: write \"my_dalembert\"",
-        ),
-        (
-            vec![text("hand"), "--from".into(), panda.clone()],
-            "choose the end by --tip: panda_hand, panda_hand_tcp; --lock-others 0",
-        ),
-        (
-            vec![
-                text("hand"),
-                "--from".into(),
-                robot("puma560"),
-                "--tip".into(),
-                "hand".into(),
-            ],
-            "has one chain",
-        ),
-        (
-            vec![text("hand"), "--lock-others".into(), "0".into()],
-            "has one chain",
-        ),
-        (
-            vec![text("far"), "--path".into(), text("nowhere")],
-            "there is no dalembert in",
-        ),
-        (
-            vec![text("lost"), "--from".into(), text("lost.toml")],
-            "there is no file `",
-        ),
-    ] {
-        let arguments: Vec<&str> = ["new"]
-            .into_iter()
-            .chain(arguments.iter().map(String::as_str))
-            .collect();
-        let ran = run(&arguments);
-        assert_eq!(ran.code, 2, "{}", ran.err);
-        assert!(ran.err.contains(part), "{part}: {}", ran.err);
-    }
-    // Nothing is left of what was refused.
-    assert_eq!(fs::read_dir(&folder).unwrap().count(), 3);
-    // What the errors say works.
-    let hand = text("hand");
-    good(&[
-        "new",
-        &hand,
-        "--from",
-        &panda,
-        "--tip",
-        "panda_hand",
-        "--lock-others",
-        "0",
-    ]);
-    let source = fs::read_to_string(made("hand").join("src/main.rs")).unwrap();
-    assert!(source.contains("[0.1; 7]"), "{source}");
 }

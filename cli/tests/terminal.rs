@@ -1,44 +1,8 @@
-//! How the command meets whoever types: warnings denied, colours, completions, a bar.
+//! How the command meets whoever types: colours, completions, a bar.
 
-use std::fs;
 use std::process::Command;
 
-use crate::support::{Ran, arm, good, robot, run};
-
-/// Returns the planar arm with a body that cannot be, of which its reader warns.
-fn doubtful(folder: &str) -> (std::path::PathBuf, String) {
-    let (folder, name) = arm(folder, "planar2r", "");
-    let text = fs::read_to_string(&name).unwrap();
-    let odd = text.replacen("inertia = [0, 0.08333333333333333,", "inertia = [0, 9,", 1);
-    assert_ne!(odd, text);
-    fs::write(&name, odd).unwrap();
-    (folder, name)
-}
-
-#[test]
-fn denied_warnings_leave_nothing_behind() {
-    let (folder, arm) = doubtful("denied");
-    let code = folder.join("arm.rs");
-    let generate = [
-        "generate",
-        &arm,
-        "--outputs",
-        "gravity",
-        "-o",
-        code.to_str().unwrap(),
-    ];
-    let ran = run(&[&generate[..], &["--deny-warnings"]].concat());
-    ran.ends(1, &["warning", "--deny-warnings takes them for errors"]);
-    assert!(!code.exists());
-    good(&generate);
-    let before = fs::read(&code).unwrap();
-    // The position is one of a warning that comes later.
-    let planar = robot("planar2r");
-    let far = run(&["--deny-warnings", "show", &planar, "--at", "90,0"]);
-    far.ends(1, &["warning: --at", "--deny-warnings"]);
-    good(&["--deny-warnings", "show", &planar]);
-    assert_eq!(fs::read(&code).unwrap(), before);
-}
+use crate::support::{Ran, good, robot};
 
 #[test]
 fn colours_are_for_terminals() {
@@ -76,7 +40,6 @@ fn shells_complete_commands_and_options() {
             "{shell}"
         );
     }
-    assert_eq!(run(&["completions", "sh"]).code, 2);
 }
 
 /// A bar is shown on a terminal, which `script` of util-linux lends, once two seconds are over.

@@ -1,23 +1,166 @@
-//! Arms of many makers: robot files, pictures and operation counts, all of them made
-//! from what others published, by one command:
+//! Arms of many makers as robot files, with pictures and operation counts. One command makes all of
+//! it from `arms.toml`, the URDFs in `urdf/` and robot files elsewhere in the workspace:
 //!
 //! ```sh
 //! cargo run --release -p dalembert-gallery
 //! ```
-//!
-//! - [`arms`]: which arms, where from, and under which licence
-//! - [`made`]: what the command makes of one of them
-//! - [`page`]: the table of all of them, `gallery/README.md`
 #![forbid(unsafe_code)]
 #![warn(missing_docs, clippy::missing_errors_doc)]
 
-pub mod arms;
-pub mod made;
-pub mod page;
-
+use std::collections::BTreeMap;
+use std::error::Error;
 use std::path::Path;
+
+use dalembert_cli::drawing;
+use dalembert_codegen::Function::{Gravity, Inertia, InverseDynamics};
+use dalembert_codegen::{Request, ScalarType, generate};
+use dalembert_import::{Options, Unopened, open};
+use dalembert_model::robot::{JointKind, Robot};
+use serde::Deserialize;
+
+/// An arm of `arms.toml`, whose head explains the keys.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Arm {
+    /// The name of its files.
+    pub name: String,
+    /// The URDF or robot file that it is made from, relative to the gallery.
+    pub file: String,
+    /// The licence of that file.
+    pub licence: String,
+    title: String,
+    base: Option<String>,
+    tip: Option<String>,
+    #[serde(default)]
+    lock: BTreeMap<String, String>,
+    #[serde(default)]
+    without: Vec<String>,
+    origin: String,
+    at: Vec<f64>,
+    peer: [String; 3],
+}
+
+/// An arm with all that is made from its source.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// The arm.
+    pub arm: Arm,
+    /// The robot of its source.
+    pub robot: Robot,
+    /// The warnings and notes about its source.
+    pub notes: Vec<String>,
+    /// The files that are written.
+    pub files: Vec<File>,
+}
+
+/// A path in the gallery, and the text of the file there.
+pub type File = (String, String);
 
 /// Returns the folder of the gallery in this checkout.
 pub fn folder() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Makes every arm of `arms.toml`, in its order.
+///
+/// # Errors
+/// What is wrong with the table, with a source or with a pose.
+pub fn entries() -> Result<Vec<Entry>, Box<dyn Error>> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Table {
+        arm: Vec<Arm>,
+    }
+    let table: Table = toml::from_str(include_str!("../arms.toml"))?;
+    let made = table.arm.into_iter().map(Arm::make);
+    Ok(made.collect::<Result<_, _>>()?)
+}
+
+impl Arm {
+    /// Returns the path of its robot file, relative to the gallery.
+    pub fn robot_file(&self) -> String {
+        match self.file.ends_with(".urdf") {
+            true => format!("robots/{}.toml", self.name),
+            false => self.file.clone(),
+        }
+    }
+
+    /// Returns the path of its picture, relative to the gallery.
+    pub fn picture(&self) -> String {
+        format!("pictures/{}.svg", self.name)
+    }
+
+    /// Imports or reads the arm, and draws it.
+    fn make(self) -> Result<Entry, String> {
+        let options = Options {
+            base: self.base.clone(),
+            tip: self.tip.clone(),
+            lock: self.lock.clone().into_iter().collect(),
+            without: self.without.clone(),
+            snap: true,
+            file: self.file.rsplit('/').next().unwrap_or_default().into(),
+            ..Options::default()
+        };
+        let opened = open(&folder().join(&self.file), &options).map_err(|why| match why {
+            Unopened::System(error) => format!("{}: {error}", self.file),
+            Unopened::Wrong(text) => text,
+        })?;
+        let picture = drawing::svg(&opened.reading.robot, &self.at);
+        let picture = picture.map_err(|why| format!("{}: {why}", self.name))?;
+        let mut files = vec![(self.picture(), picture)];
+        if opened.imported.is_some() {
+            let [title, origin, licence] = [&self.title, &self.origin, &self.licence];
+            let head = format!("# {title}.\n#\n# Source: {origin}.\n# Licence: {licence}.\n#\n");
+            files.push((self.robot_file(), head + &opened.robot_file));
+        }
+        Ok(Entry {
+            notes: opened.notes(),
+            robot: opened.reading.robot,
+            arm: self,
+            files,
+        })
+    }
+}
+
+impl Entry {
+    /// Returns the row of the arm: its joints from the base on, as `3P 3R`, and the counts of a quick
+    /// search beside those of the best other tool.
+    ///
+    /// # Errors
+    /// Nothing can be generated for the robot.
+    pub fn row(&self) -> Result<String, String> {
+        let (arm, robot) = (&self.arm, &self.robot);
+        let mut request = Request::of(&[InverseDynamics, Gravity, Inertia]);
+        request.scalars = vec![ScalarType::F64];
+        let generated = generate(robot, &request).map_err(|why| format!("{}: {why}", arm.name))?;
+        let mut row = format!("| [{}](#{}) |", arm.title, arm.name);
+        for group in robot.joints.chunk_by(|a, b| a.kind == b.kind) {
+            let is_slide = group[0].kind == JointKind::Prismatic;
+            row += &format!(" {}{}", group.len(), if is_slide { 'P' } else { 'R' });
+        }
+        row += " |";
+        for (function, peer) in generated.functions.iter().zip(&arm.peer) {
+            let counts = function.counts();
+            row += &format!(" {}/{} | {peer} |", counts.mul, counts.add);
+        }
+        Ok(row + "\n")
+    }
+}
+
+/// Returns the page of the gallery: the table of all arms, then a picture of each.
+///
+/// # Errors
+/// Nothing can be generated for one of them.
+pub fn page(entries: &[Entry]) -> Result<String, String> {
+    let mut page = include_str!("../head.md").to_owned();
+    for entry in entries {
+        page += &entry.row()?;
+    }
+    for Entry { arm, .. } in entries {
+        let [name, title, origin, licence] = [&arm.name, &arm.title, &arm.origin, &arm.licence];
+        let (file, picture) = (arm.robot_file(), arm.picture());
+        page += &format!("\n## {name}\n\n{title}: [robot file]({file}). From {origin}; ");
+        page += &format!("{licence}.\n\n![{title}]({picture})\n");
+    }
+    Ok(page)
 }

@@ -1,80 +1,61 @@
-//! Makes the gallery anew: every robot file, every picture and the page. With `--check`
-//! it writes nothing and says which of them are not what is checked in.
+//! Makes every robot file, every picture and the page of the gallery. With `--check` it writes
+//! nothing and names the files that differ from what is checked in.
 #![forbid(unsafe_code)]
 
-use std::path::Path;
+use std::error::Error;
 use std::process::ExitCode;
-use std::{env, fs, io};
+use std::{env, fs};
 
-use dalembert_gallery::arms::ARMS;
-use dalembert_gallery::made::{self, Made};
-use dalembert_gallery::{folder, page};
+use dalembert_gallery::{Entry, File, entries, folder, page};
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = env::args().skip(1).collect();
-    let check = match arguments.as_slice() {
-        [] => false,
-        [word] if word == "--check" => true,
-        _ => {
-            eprintln!("error: the only argument known: --check");
-            return ExitCode::from(2);
-        }
+    let done = match arguments.as_slice() {
+        [] => write(),
+        [word] if word == "--check" => check(),
+        _ => Err("error: the only argument known: --check".into()),
     };
-    match run(check) {
-        Ok(differing) if differing.is_empty() => ExitCode::SUCCESS,
-        Ok(differing) => {
-            for file in differing {
-                eprintln!("gallery/{file} is not what the command makes");
-            }
-            ExitCode::FAILURE
-        }
-        Err(why) => {
-            eprintln!("{why}");
-            ExitCode::from(2)
-        }
+    if let Err(why) = &done {
+        eprintln!("{why}");
+    }
+    ExitCode::from(u8::from(done.is_err()))
+}
+
+/// Makes all arms, and collects all files.
+fn make() -> Result<(Vec<Entry>, Vec<File>), Box<dyn Error>> {
+    let entries = entries()?;
+    let page = ("README.md".into(), page(&entries)?);
+    let files = entries.iter().flat_map(|entry| entry.files.clone());
+    let files = files.chain([page]).collect();
+    Ok((entries, files))
+}
+
+fn check() -> Result<(), Box<dyn Error>> {
+    let (_, mut files) = make()?;
+    files.retain(|(name, text)| {
+        !fs::read(folder().join(name)).is_ok_and(|found| found == text.as_bytes())
+    });
+    for (name, _) in &files {
+        eprintln!("gallery/{name} is not what the command makes");
+    }
+    match files.len() {
+        0 => Ok(()),
+        count => Err(format!("files that differ: {count}").into()),
     }
 }
 
-/// Writes everything, or returns what differs.
-fn run(check: bool) -> Result<Vec<String>, String> {
-    // All of them before any file is written: a gallery is whole or as it was.
-    let made: Vec<Made> = ARMS.iter().map(Made::of).collect::<Result<_, _>>()?;
-    let mut files: Vec<(String, String)> = Vec::new();
-    let mut rows = Vec::new();
-    for made in made {
-        if !check {
-            made.notes.iter().for_each(|note| eprintln!("{note}"));
-        }
-        let counts = made::counts(&made.robot)?;
-        files.extend(made.files());
-        rows.push((made, counts));
-    }
-    files.push(("README.md".to_owned(), page::text(&rows)));
-    if check {
-        files.retain(|(name, text)| {
-            fs::read_to_string(folder().join(name)).ok() != Some(text.clone())
-        });
-        return Ok(files.into_iter().map(|(name, _)| name).collect());
-    }
+/// Writes all files beside their places, then gives each its name: none is half written.
+fn write() -> Result<(), Box<dyn Error>> {
+    let (entries, files) = make()?;
+    let notes = entries.iter().flat_map(|entry| &entry.notes);
+    notes.for_each(|note| eprintln!("{note}"));
+    let parts = tempfile::tempdir_in(folder())?;
+    let part = |name: &str| parts.path().join(name.replace('/', "-"));
     for (name, text) in &files {
-        write(&folder().join(name), text)?;
+        fs::write(part(name), text)?;
     }
-    Ok(Vec::new())
-}
-
-/// Writes beside the file, which then gets its name.
-fn write(path: &Path, text: &str) -> Result<(), String> {
-    let unfinished = path.with_extension("unfinished");
-    let written = || -> io::Result<()> {
-        if let Some(folder) = path.parent() {
-            fs::create_dir_all(folder)?;
-        }
-        fs::write(&unfinished, text)?;
-        fs::rename(&unfinished, path)
-    };
-    written().map_err(|error| {
-        // What is left of it is of no use; that it cannot go is no news.
-        let _ = fs::remove_file(&unfinished);
-        format!("{}: {error}", path.display())
-    })
+    for (name, _) in &files {
+        fs::rename(part(name), folder().join(name))?;
+    }
+    Ok(())
 }

@@ -9,6 +9,7 @@
 //! - `urdf`: what a URDF says, each number with its digits and its place
 //! - `mjcf`: what an MJCF says, in the terms of a URDF
 //! - `problems`: what is wrong or odd, at its place in the file
+//! - `open`: a robot of a path, whichever format it has
 //! - `names`: names that the file does not have
 //! - `tree`: the chain, and what hangs on its links
 //! - `beside`: what hangs beside the chain, or is tied to it
@@ -82,6 +83,7 @@ mod meant;
 mod merge;
 mod mjcf;
 mod names;
+mod open;
 mod problems;
 mod snap;
 mod text;
@@ -96,6 +98,7 @@ use dalembert_model::robot::Robot;
 
 pub use arms::{Arms, Shared, arms};
 pub use change::{Change, Displacement, Motion};
+pub use open::{Opened, Unopened, is_model, open, open_text, read_robot};
 pub use snap::Snap;
 use snap::Snapping;
 pub use text::Text;

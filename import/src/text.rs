@@ -114,6 +114,11 @@ impl Text {
         Ok(made)
     }
 
+    /// Returns the name of the first file, as messages call it.
+    pub fn name(&self) -> &str {
+        self.files.first().map_or("", |(name, _)| name)
+    }
+
     /// Returns the whole text, for [`crate::import`].
     pub fn as_str(&self) -> &str {
         &self.text

@@ -1,7 +1,5 @@
 //! An arm: its functions by name, compiled in memory.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
 use dalembert_codegen::workspace::{Argument, Lowered, Sizes, parse};
@@ -9,7 +7,7 @@ use dalembert_codegen::{
     Counts, Function as Output, Generated, Language, Plan, Request, RobotFileError, ScalarType,
     generate,
 };
-use dalembert_import::MAX_BYTES;
+use dalembert_import::{Text, Unopened, is_model, open_text};
 use dalembert_model::robot::Robot;
 use dalembert_stamp::{Comment, Stamp};
 
@@ -17,7 +15,7 @@ use crate::cache::{self, Folder};
 use crate::compile::Signature;
 use crate::entry::{Entry, Proved};
 use crate::error::LoadError;
-use crate::make::{is_urdf, made, read_robot};
+use crate::make::{made, read_robot};
 use crate::native::Native;
 use crate::request::{Cache, Load};
 
@@ -77,29 +75,26 @@ pub struct Arm {
 }
 
 impl Arm {
-    /// Loads the arm of a robot file, or of a URDF, whose name ends in `.urdf` or whose text
-    /// begins with `<`.
+    /// Loads the arm of a robot file, a URDF or an MJCF with what it includes.
     ///
     /// # Errors
     /// [`LoadError`]: what is wrong with the file or the request, or what could not be
     /// proved.
     pub fn load(path: impl AsRef<Path>, load: &Load) -> Result<Arm, LoadError> {
         let path = path.as_ref();
-        let shown = path.display().to_string();
-        let mut bytes = Vec::new();
-        File::open(path)
-            .and_then(|file| file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes))
-            .map_err(|error| {
+        let source = open_text(path).map_err(|error| match error {
+            Unopened::System(error) => {
+                let shown = path.display().to_string();
                 LoadError::Robot(RobotFileError::of_system(path, &shown, &error).to_string())
-            })?;
-        let source = String::from_utf8(bytes)
-            .map_err(|_| LoadError::Robot(format!("error: `{shown}` is not UTF-8 text")))?;
-        let plan = match is_urdf(&source) {
+            }
+            Unopened::Wrong(why) => LoadError::Robot(why),
+        })?;
+        let plan = match is_model(source.as_str().as_bytes()) {
             true => None,
             false => dalembert_codegen::workspace::plan_file::beside(path)
                 .map_err(|error| LoadError::Robot(format!("error: {error}")))?,
         };
-        Arm::of(&source, &shown, plan, load)
+        Arm::of(&source, plan, load)
     }
 
     /// Loads the arm of a robot file's text, or of a URDF's; messages call it by a name. The
@@ -115,10 +110,10 @@ impl Arm {
     ) -> Result<Arm, LoadError> {
         let plan = plan.map(Plan::parse).transpose();
         let plan = plan.map_err(|error| LoadError::Robot(format!("error: {name}: {error}")))?;
-        Arm::of(source, name, plan, load)
+        Arm::of(&Text::of(name, source.to_owned()), plan, load)
     }
 
-    fn of(source: &str, name: &str, plan: Option<Plan>, load: &Load) -> Result<Arm, LoadError> {
+    fn of(source: &Text, plan: Option<Plan>, load: &Load) -> Result<Arm, LoadError> {
         let folder = match &load.cache {
             Cache::Off => None,
             Cache::At(path) => Some(Folder::at(path)),
@@ -129,21 +124,22 @@ impl Arm {
             Err(note) => (None, Some(note)),
         };
         let plan_text = plan.as_ref().map(Plan::write);
-        let key = cache::key(source, name, plan_text.as_deref(), load);
+        let text = source.as_str();
+        let key = cache::key(text, source.name(), plan_text.as_deref(), load);
         let kept = folder.as_ref().and_then(|folder| folder.entry(&key));
         // What is kept and damaged, or of a version that reads otherwise, is made anew.
-        let again = |entry| Arm::of_entry(entry, source, load, true).ok();
+        let again = |entry| Arm::of_entry(entry, text, load, true).ok();
         if let Some(arm) = kept.and_then(again) {
             return Ok(arm);
         }
-        let mut entry = made(source, name, plan, load, folder.as_ref())?;
+        let mut entry = made(source, plan, load, folder.as_ref())?;
         entry.notes.extend(note);
         if let Some(folder) = &folder
             && !entry.ended
         {
             folder.keep(&key, &entry);
         }
-        Arm::of_entry(entry, source, load, false)
+        Arm::of_entry(entry, text, load, false)
     }
 
     /// Compiles what was generated.

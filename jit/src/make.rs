@@ -4,20 +4,13 @@ use std::path::Path;
 
 use dalembert_codegen::workspace::{Emitted, generate_anew, input_hash, keep, write_certificates};
 use dalembert_codegen::{Generated, Plan, generate};
-use dalembert_import::import;
+use dalembert_import::Text;
 use dalembert_model::read::{self, Reading};
 
 use crate::cache::{self, Folder};
 use crate::entry::{Entry, Proved};
 use crate::error::LoadError;
 use crate::request::Load;
-
-pub(crate) fn is_urdf(source: &str) -> bool {
-    source
-        .trim_start_matches('\u{feff}')
-        .trim_start()
-        .starts_with('<')
-}
 
 pub(crate) fn read_robot(source: &str, name: &str) -> Result<Reading, LoadError> {
     read::parse(source, &read::Options::default())
@@ -26,33 +19,25 @@ pub(crate) fn read_robot(source: &str, name: &str) -> Result<Reading, LoadError>
 
 /// Reads, searches, proves and prints.
 pub(crate) fn made(
-    source: &str,
-    name: &str,
+    source: &Text,
     plan: Option<Plan>,
     load: &Load,
     folder: Option<&Folder>,
 ) -> Result<Entry, LoadError> {
-    let mut notes = Vec::new();
-    let text = match is_urdf(source) {
-        false => source.to_owned(),
-        true => {
-            let mut options = load.urdf.clone();
-            if options.file.is_empty() {
-                let file = Path::new(name).file_name().unwrap_or(name.as_ref());
-                options.file = file.to_string_lossy().into_owned();
-            }
-            let imported = import(source, &options)
-                .map_err(|errors| LoadError::Robot(errors.render(name, source)))?;
-            notes.extend(imported.notes.iter().map(|note| note.render(name, source)));
-            let snaps = imported.snaps.iter();
-            notes.extend(snaps.map(|snap| format!("{name}:{}: {snap}", snap.line(source))));
-            imported.text
-        }
-    };
-    let reading = read_robot(&text, name)?;
-    if !is_urdf(source) {
-        notes.extend(reading.notes.iter().map(|note| note.render(name, source)));
+    let name = source.name();
+    let mut options = load.urdf.clone();
+    if options.file.is_empty() {
+        let file = Path::new(name).file_name().unwrap_or(name.as_ref());
+        options.file = file.to_string_lossy().into_owned();
     }
+    let opened =
+        dalembert_import::read_robot(source.clone(), &options).map_err(LoadError::Robot)?;
+    let mut notes = opened.notes();
+    for snap in opened.imported.iter().flat_map(|imported| &imported.snaps) {
+        let (name, line) = source.line(snap.span.start);
+        notes.push(format!("{name}:{line}: {snap}"));
+    }
+    let reading = opened.reading;
     let mut request = load.request(&reading)?;
     let key = cache::plan_key(&input_hash(&reading.robot), load);
     let kept = folder.and_then(|folder| folder.plan(&key));
@@ -77,7 +62,7 @@ pub(crate) fn made(
     }
     notes.extend(generated.warnings.iter().cloned());
     Ok(Entry {
-        robot: text,
+        robot: opened.robot_file,
         notes,
         functions: proved(&generated),
         certificates: certificates(&generated),

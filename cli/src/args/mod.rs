@@ -1,34 +1,28 @@
-//! The command line.
-//!
-//! - this file: the commands
-//! - `files`: arguments of the commands that make and look at robot files
-//! - `code`: of those that generate functions, count and explain their operations
-//! - `errors`: of those that measure and bound errors
-//! - `options`: the options of a request, from the table
-//! - `values`: how values are read
+//! The command line: subcommands, what is the same in several of them, and how values are read. A
+//! subcommand's own arguments stand beside it.
 
-mod code;
-mod errors;
-mod files;
 mod options;
-mod values;
+pub mod values;
+
+use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 
-pub use code::{CountArgs, ExplainArgs, GenerateArgs, RenewArgs};
-pub use errors::{CertifyArgs, TradeoffArgs, VerifyArgs};
-pub use files::{ChainArgs, ImportArgs, NewArgs, ShowArgs};
-pub use options::Options;
+pub use options::{FewOptions, Options};
+
+use crate::output::Context;
+use crate::{
+    certify::CertifyArgs, count::CountArgs, explain::ExplainArgs, generate::GenerateArgs,
+    import::ImportArgs, new::NewArgs, renew::RenewArgs, show::ShowArgs, tradeoff::TradeoffArgs,
+    verify::VerifyArgs,
+};
 
 /// Options that say how code is written.
-const CODE: &str = "How the code is written";
+pub const CODE: &str = "How the code is written";
 
 /// Options that say how programs are found.
 const SEARCH: &str = "How programs are found";
-
-/// Options that few need.
-const MORE: &str = "More";
 
 /// Verified, flat robot dynamics generated for one arm.
 ///
@@ -36,12 +30,25 @@ const MORE: &str = "More";
 #[derive(Debug, Parser)]
 #[command(name = "dalembert", version)]
 pub struct Args {
-    /// What to do.
+    /// What to do
     #[command(subcommand)]
     pub command: Command,
-    /// Take warnings of robot files and models for errors: nothing is written, and the exit code is 1
+    /// Print the report as JSON
     #[arg(long, global = true)]
-    pub deny_warnings: bool,
+    json: bool,
+    /// Write over files that this command did not write
+    #[arg(long, global = true)]
+    force: bool,
+    /// Take warnings for errors: nothing is written, and the exit code is 1
+    #[arg(long, global = true)]
+    deny_warnings: bool,
+}
+
+impl Args {
+    /// Returns what every subcommand may be asked for.
+    pub fn context(&self) -> Context {
+        Context::new(self.json, self.force, self.deny_warnings)
+    }
 }
 
 /// What to do.
@@ -49,11 +56,13 @@ pub struct Args {
 pub enum Command {
     /// Make a crate with an arm: robot file, generated code, a test of its numbers
     New(NewArgs),
-    /// Make a robot file of a chain of a URDF
+    /// Make a robot file of a chain of a URDF or an MJCF
     Import(ImportArgs),
-    /// Generate Rust source for a robot, proved before it is printed
+    /// List the functions: what each takes and returns, with units
+    Outputs,
+    /// Generate code for a robot, proved before it is written
     Generate(GenerateArgs),
-    /// Generate files anew whose robot file or text was edited, each from its own first lines
+    /// Generate files anew whose robot file or text was edited
     Renew(RenewArgs),
     /// Count the operations of the generated functions
     Count(CountArgs),
@@ -61,9 +70,9 @@ pub enum Command {
     Show(ShowArgs),
     /// Prove the functions and measure what rounding costs
     Verify(VerifyArgs),
-    /// Check a certificate again: proof, edits, text and every bound
+    /// Check generated code by a second program that shares no code with the generator
     Certify(CertifyArgs),
-    /// Show how many operations each step of the generator saves, and for what reason
+    /// Show how many operations each step of the generator saves
     Explain(ExplainArgs),
     /// Measure what accuracy costs: certified error against operations
     Tradeoff(TradeoffArgs),
@@ -72,4 +81,13 @@ pub enum Command {
         /// The shell
         shell: Shell,
     },
+}
+
+/// A robot and what is asked of it.
+#[derive(Debug, clap::Args)]
+pub struct TaskArgs {
+    /// The robot: a robot file, a URDF or an MJCF
+    pub robot: PathBuf,
+    #[command(flatten)]
+    pub options: Options,
 }

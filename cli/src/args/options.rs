@@ -13,38 +13,58 @@ use super::{CODE, SEARCH};
 #[derive(Clone, Debug, Default)]
 pub struct Options(pub Asked);
 
-impl FromArgMatches for Options {
-    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
-        let mut options = Self::default();
-        options.update_from_arg_matches(matches)?;
-        Ok(options)
-    }
+/// Those of the subcommands that look at programs and print none.
+#[derive(Clone, Debug, Default)]
+pub struct FewOptions(pub Asked);
 
-    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
-        for row in &OPTIONS {
-            if matches.value_source(row.name) != Some(ValueSource::CommandLine) {
-                continue;
+/// The names of these.
+const FEW: [&str; 3] = ["outputs", "scene", "effort"];
+
+fn all() -> impl Iterator<Item = &'static OptionRow> {
+    OPTIONS.iter()
+}
+
+fn few() -> impl Iterator<Item = &'static OptionRow> {
+    all().filter(|row| FEW.contains(&row.name))
+}
+
+fn read(asked: &mut Asked, rows: impl Iterator<Item = &'static OptionRow>, matches: &ArgMatches) {
+    for row in rows.filter(|row| matches.value_source(row.name) == Some(ValueSource::CommandLine)) {
+        let values = matches.get_many::<String>(row.name);
+        let values: Vec<&str> = values.into_iter().flatten().map(String::as_str).collect();
+        // It is an option.
+        let _ = asked.set(row.name, &values.join(","));
+    }
+}
+
+macro_rules! arguments {
+    ($($options:ident by $rows:ident),*) => { $(
+        impl FromArgMatches for $options {
+            fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
+                let mut options = Self::default();
+                options.update_from_arg_matches(matches)?;
+                Ok(options)
             }
-            let values = matches.get_many::<String>(row.name);
-            let values: Vec<&str> = values.into_iter().flatten().map(String::as_str).collect();
-            // It is an option.
-            let _ = self.0.set(row.name, &values.join(","));
+
+            fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
+                read(&mut self.0, $rows(), matches);
+                Ok(())
+            }
         }
-        Ok(())
-    }
+
+        impl Args for $options {
+            fn augment_args(command: Command) -> Command {
+                $rows().fold(command, |command, row| command.arg(arg(row)))
+            }
+
+            fn augment_args_for_update(command: Command) -> Command {
+                Self::augment_args(command)
+            }
+        }
+    )* };
 }
 
-impl Args for Options {
-    fn augment_args(command: Command) -> Command {
-        OPTIONS
-            .iter()
-            .fold(command, |command, row| command.arg(arg(row)))
-    }
-
-    fn augment_args_for_update(command: Command) -> Command {
-        Self::augment_args(command)
-    }
-}
+arguments!(Options by all, FewOptions by few);
 
 /// Takes any text, and lists the words for help and completions: what is wrong with a word is said
 /// once, by the parser of requests.
@@ -87,12 +107,18 @@ fn arg(row: &'static OptionRow) -> Arg {
         (false, true) => "NAME",
         (false, false) => "WORD",
     };
+    let is_long = words.len() > 9;
+    let doc = match is_long {
+        true => format!("{}; `dalembert outputs` lists them", row.doc),
+        false => row.doc.to_owned(),
+    };
     let arg = Arg::new(row.name)
         .long(row.name.replace('_', "-"))
         .value_name(value)
         .value_parser(Words(row.words))
         .allow_hyphen_values(row.name == "sincos_error")
-        .help(row.doc);
+        .hide_possible_values(is_long)
+        .help(doc);
     let arg = match row.purpose {
         Purpose::What => arg,
         Purpose::Search => arg.help_heading(SEARCH),

@@ -8,25 +8,25 @@ use std::ffi::OsStr;
 use std::path::PathBuf;
 
 use clap::builder::{
-    PathBufValueParser, PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser,
+    PathBufValueParser, PossibleValuesParser, StringValueParser, TypedValueParser,
 };
-use dalembert_codegen::Function;
-use dalembert_codegen::workspace::{Word, bundle, parse};
+use dalembert_codegen::workspace::{Word, parse};
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::robot::suggested_name;
 use num_traits::Signed;
 
-pub(super) fn lock_parser() -> impl TypedValueParser<Value = (String, String)> {
+pub fn lock_parser() -> impl TypedValueParser<Value = (String, String)> {
     StringValueParser::new().try_map(|text| match text.rsplit_once('=') {
+        Some(("*", value)) => Err(format!("write --lock-others {value}")),
         Some((joint, value)) if !joint.is_empty() && !value.is_empty() => {
             Ok((joint.to_owned(), value.to_owned()))
         }
-        _ => Err("a joint and its position, such as elbow=0 or elbow=pi/2"),
+        _ => Err("a joint and its position, such as elbow=0 or elbow=pi/2".to_owned()),
     })
 }
 
-pub(super) fn acceleration_parser() -> impl TypedValueParser<Value = Rational> {
+pub fn acceleration_parser() -> impl TypedValueParser<Value = Rational> {
     StringValueParser::new().try_map(|text| {
         let number = parse_decimal(text.trim()).ok();
         number
@@ -36,7 +36,7 @@ pub(super) fn acceleration_parser() -> impl TypedValueParser<Value = Rational> {
 }
 
 /// Reads the name of a robot or a module, as robot files have it.
-pub(super) fn name_parser() -> impl TypedValueParser<Value = String> {
+pub fn name_parser() -> impl TypedValueParser<Value = String> {
     StringValueParser::new().try_map(|text| match suggested_name(&text) {
         Some(good) if good == text => Ok(text),
         Some(good) => Err(format!(
@@ -46,41 +46,13 @@ pub(super) fn name_parser() -> impl TypedValueParser<Value = String> {
     })
 }
 
-/// An output by its name, at a frame, or a bundle of some; names of other tools, such as `rnea`,
-/// are refused with ours.
-#[derive(Clone)]
-pub(super) struct FunctionParser;
-
-impl TypedValueParser for FunctionParser {
-    type Value = Function;
-
-    fn parse_ref(
-        &self,
-        command: &clap::Command,
-        argument: Option<&clap::Arg>,
-        value: &OsStr,
-    ) -> Result<Function, clap::Error> {
-        let functions = StringValueParser::new().try_map(|text| bundle(&text));
-        functions.parse_ref(command, argument, value)
-    }
-
-    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        let names = Function::ALL.into_iter().map(Function::name);
-        Some(Box::new(names.map(PossibleValue::new)))
-    }
-}
-
-pub(super) fn function_parser() -> FunctionParser {
-    FunctionParser
-}
-
 /// Returns a value by its word, of which clap lists all and suggests one.
-pub(super) fn word_parser<W: Word + Send + Sync + 'static>() -> impl TypedValueParser<Value = W> {
+pub fn word_parser<W: Word + Send + Sync + 'static>() -> impl TypedValueParser<Value = W> {
     PossibleValuesParser::new(W::known()).try_map(|word| parse::<W>(&word))
 }
 
 /// Reads the path of what is certified; a model of a robot is refused, which has an argument of its own.
-pub(super) fn certified_parser() -> impl TypedValueParser<Value = PathBuf> {
+pub fn certified_parser() -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().try_map(|path| {
         match path.extension().and_then(OsStr::to_str) {
             Some("toml" | "urdf" | "xacro" | "xml") => Err(format!(
@@ -93,21 +65,21 @@ pub(super) fn certified_parser() -> impl TypedValueParser<Value = PathBuf> {
     })
 }
 
-pub(super) fn tolerance_parser() -> impl TypedValueParser<Value = f64> {
+pub fn tolerance_parser() -> impl TypedValueParser<Value = f64> {
     StringValueParser::new().try_map(|text| {
         text.parse::<f64>()
             .map_err(|_| "a tolerance is a number above zero, such as 1e-3")
     })
 }
 
-pub(super) fn count_parser() -> impl TypedValueParser<Value = usize> {
+pub fn count_parser() -> impl TypedValueParser<Value = usize> {
     StringValueParser::new().try_map(|text| {
         text.parse::<usize>()
             .map_err(|_| "a whole number, 0 or more")
     })
 }
 
-pub(super) fn positive_parser() -> impl TypedValueParser<Value = f64> {
+pub fn positive_parser() -> impl TypedValueParser<Value = f64> {
     StringValueParser::new().try_map(|text| {
         let number = text.parse::<f64>().ok();
         number
@@ -116,9 +88,10 @@ pub(super) fn positive_parser() -> impl TypedValueParser<Value = f64> {
     })
 }
 
-pub(super) fn states_parser() -> impl TypedValueParser<Value = usize> {
-    let most = crate::explained::errors::MAX_STATES as i64;
+pub fn states_parser() -> impl TypedValueParser<Value = usize> {
+    /// The most states that are measured.
+    const MAX_STATES: i64 = 10_000;
     clap::value_parser!(i64)
-        .range(1..=most)
+        .range(1..=MAX_STATES)
         .map(|states| states as usize)
 }

@@ -1,23 +1,15 @@
-//! A drawing of an arm, so that a wrong sign is seen: two views with frames,
-//! joint axes, centres of mass and inertias, and the table that they come from.
+//! A drawing of an arm as SVG, so that a wrong sign is seen: two views with frames, joint axes, centres
+//! of mass and inertias, and the table that they come from.
 //!
-//! - this file: what is drawn where
-//! - `view`: a projection onto the paper
-//! - `labels`: the numbers of joints at their axes
-//! - `outline`: the ellipse that a link's inertia is seen as
-//! - [`mod@svg`]: an SVG file as it grows; `page`: lines, texts and shapes in it
-//! - `table`: the DH rows, masses and centres as text
+//! A link's inertia is drawn as the solid ellipsoid of uniform density that has it. Bodies that no link
+//! can have are named below the table. The same robot and position give the same bytes: sines are
+//! libm's, numbers have one decimal.
 //!
-//! A link's inertia is drawn as the solid ellipsoid of uniform density that has it.
-//! Bodies that no link can have are named below the table. The same robot and position
-//! give the same bytes: sines are libm's, numbers have one decimal.
+//! - this file: what is drawn; [`page`]: lines, shapes and texts, in two projections; [`table`]: the DH
+//!   rows, masses and centres
 
-mod labels;
-mod outline;
 mod page;
-pub mod svg;
 mod table;
-mod view;
 
 use dalembert_model::equations::matrix::{Columns, Vector};
 use dalembert_model::number::Rounded;
@@ -25,52 +17,7 @@ use dalembert_model::reference::{Reference, WrongLength};
 use dalembert_model::robot::{Convention, JointKind, Robot};
 use nalgebra::DVector;
 
-use labels::Labels;
-use page::Page;
-use view::View;
-
-/// Draws the arm at a position, as SVG.
-///
-/// # Errors
-/// The position has not one value a joint.
-pub fn svg(robot: &Robot, q: &[f64]) -> Result<String, WrongLength> {
-    let runtime = Reference::<f64>::from_robot(robot);
-    let at = DVector::from_column_slice(q);
-    let frames = runtime.poses(&at)?;
-    let base = runtime.arm().base.clone();
-    let first = base.unwrap_or_else(Columns::identity);
-    let scene = Scene {
-        robot,
-        hand: runtime.hand(&at)?,
-        bodies: bodies(robot, &frames),
-        axes: axes(robot, &first, &frames),
-        first,
-        frames,
-    };
-    let points = scene.points();
-    let mut page = Page::new(&robot.name, table::height(robot, q));
-    for view in View::both(&points, &scene.outlines()) {
-        scene.draw(&view, &mut page);
-    }
-    table::write(robot, q, &mut page);
-    Ok(page.end())
-}
-
-/// Everything that is drawn, in base axes.
-struct Scene<'r> {
-    robot: &'r Robot,
-    first: Columns<f64>,
-    frames: Vec<Columns<f64>>,
-    hand: Columns<f64>,
-    axes: Vec<Axis>,
-    bodies: Vec<Body>,
-}
-
-/// A joint's axis.
-struct Axis {
-    through: Vector<f64>,
-    along: Vector<f64>,
-}
+use page::{Page, View};
 
 /// A link's mass, where it is.
 struct Body {
@@ -80,19 +27,39 @@ struct Body {
     inertia: [[f64; 3]; 3],
 }
 
-fn axes(robot: &Robot, first: &Columns<f64>, frames: &[Columns<f64>]) -> Vec<Axis> {
-    let axis = |i: usize| {
-        let frame = match (robot.convention, i) {
-            (Convention::Standard, 0) => first,
-            (Convention::Standard, _) => &frames[i - 1],
-            (Convention::Modified, _) => &frames[i],
-        };
-        Axis {
-            through: frame.origin,
-            along: frame.axes[2],
-        }
+/// Everything that is drawn, in base axes.
+struct Scene<'r> {
+    robot: &'r Robot,
+    first: Columns<f64>,
+    frames: Vec<Columns<f64>>,
+    hand: Columns<f64>,
+    bodies: Vec<Body>,
+}
+
+/// Draws the arm at a position, as SVG.
+///
+/// # Errors
+/// The position has not one value a joint.
+pub fn svg(robot: &Robot, q: &[f64]) -> Result<String, WrongLength> {
+    let runtime = Reference::<f64>::from_robot(robot);
+    let at = DVector::from_column_slice(q);
+    let frames = runtime.poses(&at)?;
+    let scene = Scene {
+        robot,
+        first: runtime.arm().base.clone().unwrap_or_else(Columns::identity),
+        hand: runtime.hand(&at)?,
+        bodies: bodies(robot, &frames),
+        frames,
     };
-    (0..frames.len()).map(axis).collect()
+    let rows = table::rows(robot, q);
+    let mut page = Page::new(&robot.name, rows.len());
+    for view in View::both(&scene.points(), &scene.outlines()) {
+        scene.draw(&view, &mut page);
+    }
+    for (index, row) in rows.iter().enumerate() {
+        page.row(index, row);
+    }
+    Ok(page.end())
 }
 
 fn bodies(robot: &Robot, frames: &[Columns<f64>]) -> Vec<Body> {
@@ -108,7 +75,32 @@ fn bodies(robot: &Robot, frames: &[Columns<f64>]) -> Vec<Body> {
             inertia: [column(0), column(1), column(2)],
         }
     };
-    robot.rows().into_iter().zip(frames).map(body).collect()
+    let bodies = robot.rows().into_iter().zip(frames).map(body);
+    bodies.filter(|body| body.mass > 0.0).collect()
+}
+
+impl Body {
+    /// Returns an entry of 5 Σ/m, where Σ = ∫ x xᵀ dm = ½ tr(I) 1 − I. The ellipsoid of uniform density is
+    /// xᵀ (5 Σ/m)⁻¹ x ≤ 1, since a half axis a has second moment m a²/5.
+    fn square(&self, i: usize, k: usize) -> f64 {
+        let [[x, ..], [_, y, _], [.., z]] = self.inertia;
+        let diagonal = if i == k { 0.5 * (x + y + z) } else { 0.0 };
+        5.0 * (diagonal - self.inertia[i][k]) / self.mass
+    }
+
+    /// Returns the half axes in metres, and by how many degrees the first is turned from the right, of the
+    /// ellipse that is seen in a view; none of a point or of what is no body. The shadow of
+    /// xᵀ M⁻¹ x ≤ 1 on a plane is yᵀ N⁻¹ y ≤ 1, where N is M's block for that plane.
+    fn ellipse(&self, [right, up]: [usize; 2]) -> Option<([f64; 2], f64)> {
+        let [a, b, c] = [(right, right), (right, up), (up, up)].map(|(i, k)| self.square(i, k));
+        let (mean, difference) = (0.5 * (a + c), 0.5 * (a - c));
+        let spread = libm::sqrt(difference * difference + b * b);
+        let [large, small] = [mean + spread, mean - spread];
+        // A flat body seen from its side has rounding for a thickness.
+        let is_body = large > 0.0 && small >= -1e-9 * large;
+        let turned = 0.5 * libm::atan2(b, difference).to_degrees();
+        is_body.then(|| ([large, small.max(0.0)].map(libm::sqrt), turned))
+    }
 }
 
 impl Scene<'_> {
@@ -122,56 +114,119 @@ impl Scene<'_> {
 
     /// Returns the corners of boxes around the bodies, for which the paper must have room.
     fn outlines(&self) -> Vec<Vector<f64>> {
-        let solid = self.bodies.iter().filter(|body| body.mass > 0.0);
-        let boxes = solid.filter_map(|body| {
-            let half = outline::reach(body.mass, &body.inertia)?;
-            let corner = |sign: f64| core::array::from_fn(|k| body.centre[k] + sign * half[k]);
-            Some([corner(-1.0), corner(1.0)])
+        let boxes = self.bodies.iter().filter_map(|body| {
+            let half = [0, 1, 2].map(|k| libm::sqrt(body.square(k, k).max(0.0)));
+            let corner = |sign: f64| [0, 1, 2].map(|k| body.centre[k] + sign * half[k]);
+            let is_body = half.iter().all(|half| half.is_finite());
+            is_body.then(|| [corner(-1.0), corner(1.0)])
         });
         boxes.flatten().collect()
     }
 
+    /// Returns a point and the direction of a joint's axis.
+    fn axis(&self, row: usize) -> (Vector<f64>, Vector<f64>) {
+        let frame = match (self.robot.convention, row) {
+            (Convention::Standard, 0) => &self.first,
+            (Convention::Standard, _) => &self.frames[row - 1],
+            (Convention::Modified, _) => &self.frames[row],
+        };
+        (frame.origin, frame.axes[2])
+    }
+
     fn draw(&self, view: &View, page: &mut Page) {
-        view.head(page);
-        let gravity = self.robot.gravity.each_ref().map(f64::nearest_rational);
-        view.gravity(&gravity, page);
         for body in &self.bodies {
-            if body.mass > 0.0 {
-                if let Some(outline) = outline::seen(body.mass, &body.inertia, view) {
-                    page.ellipse(view.place(&body.centre), outline);
-                }
-                page.dot(view.place(&body.centre), body.mass);
+            let centre = view.place(&body.centre);
+            if let Some((half, turned)) = body.ellipse(view.coordinates) {
+                page.ellipse(centre, half.map(|half| view.scale * half), turned);
             }
+            // The dot's volume grows with the mass.
+            let radius = (2.5 * libm::cbrt(body.mass)).clamp(1.5, 9.0);
+            page.circle("m", centre, radius);
         }
         // From frame to frame, and on to the hand.
         let origins = [&self.first].into_iter().chain(&self.frames);
-        let origins = origins
-            .chain([&self.hand])
-            .map(|frame| view.place(&frame.origin));
-        page.chain(&origins.collect::<Vec<_>>());
-        let reach = view.reach();
-        let mut labels = Labels::default();
+        let origins = origins.chain([&self.hand]);
+        page.chain(origins.map(|frame| view.place(&frame.origin)));
+        let mut labels: Vec<([f64; 2], String)> = Vec::new();
         // Those that follow others have the number of the joint that moves them.
-        for (row, (axis, joint)) in self.axes.iter().zip(self.robot.rows()).enumerate() {
-            let end = |by: f64| -> Vector<f64> {
-                core::array::from_fn(|k| axis.through[k] + by * axis.along[k])
+        for (row, joint) in self.robot.rows().into_iter().enumerate() {
+            let (through, along) = self.axis(row);
+            let end = |by: f64| {
+                let by = by * view.reach;
+                view.place(&[0, 1, 2].map(|k| through[k] + by * along[k]))
             };
             let class = match joint.kind {
                 JointKind::Revolute => "t",
                 JointKind::Prismatic => "s",
             };
-            let (from, to) = (
-                view.place(&end(-0.09 * reach)),
-                view.place(&end(0.12 * reach)),
-            );
-            page.arrow(class, from, to);
-            labels.add(to, self.robot.mover_of(row) + 1);
+            let to = end(0.12);
+            page.arrow(class, end(-0.09), to);
+            label(&mut labels, to, (self.robot.mover_of(row) + 1).to_string());
         }
-        labels.write(page);
+        let hand = view.place(&self.hand.origin);
+        label(&mut labels, [hand[0], hand[1] + 16.0], "hand".to_owned());
         view.triad(&Columns::identity(), 0.16, page);
         for frame in &self.frames {
             view.triad(frame, 0.06, page);
         }
         view.triad(&self.hand, 0.1, page);
+        // Above everything, so that nothing runs through a text.
+        view.head(page);
+        let gravity = self.robot.gravity.each_ref().map(f64::nearest_rational);
+        view.gravity(&gravity, page);
+        for (at, text) in labels {
+            page.label(at, &text);
+        }
+    }
+}
+
+/// Adds a label at a point, or to the one that it would be written over, as those of coaxial joints
+/// would.
+fn label(labels: &mut Vec<([f64; 2], String)>, at: [f64; 2], text: String) {
+    /// Texts nearer than this to each other, in pixels, are one.
+    const NEAR: [f64; 2] = [14.0, 12.0];
+    let is_near = |other: &[f64; 2]| (0..2).all(|k| (other[k] - at[k]).abs() < NEAR[k]);
+    match labels.iter_mut().find(|(other, _)| is_near(other)) {
+        Some((_, there)) => *there += &format!(", {text}"),
+        None => labels.push((at, text)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A solid ellipsoid with half axes 3, 2 and 1 along x, y and z: I_xx = m (b² + c²)/5.
+    #[test]
+    fn half_axes_come_back() {
+        let body = |inertia| Body {
+            mass: 5.0,
+            centre: [0.0; 3],
+            inertia,
+        };
+        let solid = body([[5.0, 0.0, 0.0], [0.0, 10.0, 0.0], [0.0, 0.0, 13.0]]);
+        assert_eq!(solid.ellipse([0, 1]), Some(([3.0, 2.0], 0.0)));
+        assert_eq!(solid.ellipse([1, 0]), Some(([3.0, 2.0], 90.0)));
+        assert_eq!(solid.ellipse([0, 2]), Some(([3.0, 1.0], 0.0)));
+        // No body has one moment above the sum of the others, and a point has no outline.
+        assert_eq!(
+            body([[9.0, 0.0, 0.0], [0.0; 3], [0.0; 3]]).ellipse([0, 1]),
+            None
+        );
+        assert_eq!(body([[0.0; 3]; 3]).ellipse([0, 1]), None);
+    }
+
+    #[test]
+    fn labels_that_would_overlap_are_one_text() {
+        let mut labels = Vec::new();
+        for (at, text) in [
+            ([10.0, 10.0], "1"),
+            ([60.0, 10.0], "2"),
+            ([12.0, 15.0], "3"),
+        ] {
+            label(&mut labels, at, text.to_owned());
+        }
+        let texts: Vec<&str> = labels.iter().map(|(_, text)| text.as_str()).collect();
+        assert_eq!(texts, ["1, 3", "2"]);
     }
 }

@@ -1,27 +1,27 @@
-//! Lines, shapes and texts as SVG.
+//! Lines, shapes and texts as SVG, and the two projections onto the paper.
 
-use super::svg::Svg;
+use dalembert_model::equations::matrix::{Columns, Vector};
 
 /// The side of a view, and the room above both, in pixels.
-pub(super) const SIDE: f64 = 440.0;
-pub(super) const HEAD: f64 = 64.0;
+const SIDE: f64 = 440.0;
+const HEAD: f64 = 64.0;
 /// The height of a line of the table.
-pub(super) const ROW: f64 = 17.0;
-
+const ROW: f64 = 17.0;
 /// The room for a character of the table: the widest of common monospaced fonts.
 const CHARACTER: f64 = 7.5;
 
-/// Colours of equal weight on white and on black. x, y and z of frames; t and s
-/// the axes of joints that turn and slide; m masses; l links; b bars.
+/// Colours of equal weight on white and on black. x, y and z of frames; t and s the axes of joints that
+/// turn and slide; m masses; e bodies; l links; b bars. A text has a rim of paper, so that it is read
+/// above a line.
 const STYLE: &str = "\
 svg{font:12px sans-serif;color:#222}\
-.p{fill:#fff}.i{fill:currentColor}.c{font:12px monospace}\
+.p{fill:#fff}.i{fill:currentColor;stroke:#fff;stroke-width:3;paint-order:stroke}.c{font:12px monospace}\
 .x,.y,.z,.t,.s,.l,.b{fill:none;stroke-width:1.5}\
 .x{stroke:#c03030}.y{stroke:#2b8a4b}.z{stroke:#1b6ca8}\
 .t,.s{stroke:#9b3fa0;stroke-width:1}.s{stroke-dasharray:5 3}\
 .l{stroke:currentColor;stroke-width:4;stroke-opacity:.25;stroke-linejoin:round}\
 .b{stroke:currentColor}.m{fill:#c2571a}.e{fill:#c2571a;fill-opacity:.14;stroke:#c2571a}\
-@media screen and (prefers-color-scheme:dark){svg{color:#ddd}.p{fill:#111}\
+@media screen and (prefers-color-scheme:dark){svg{color:#ddd}.p{fill:#111}.i{stroke:#111}\
 .x{stroke:#ff8080}.y{stroke:#6cc98c}.z{stroke:#62b0ea}.t,.s{stroke:#d68ada}\
 .m{fill:#f0935a}.e{fill:#f0935a;stroke:#f0935a}}";
 
@@ -31,36 +31,33 @@ const LEGEND: [&str; 2] = [
     "dots: centres of mass; ellipses: bodies of uniform density with the links' inertias",
 ];
 
-/// Half axes in pixels, and how far the first is turned from the right, in
-/// degrees upward.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Ellipse {
-    pub(super) half: [f64; 2],
-    pub(super) turned: f64,
-}
-
 /// A drawing as it grows.
-pub(super) struct Page {
-    svg: Svg,
-}
+pub(super) struct Page(String);
 
 impl Page {
-    /// Returns the paper with its title, and room for a table of this height.
-    pub(super) fn new(title: &str, table: f64) -> Page {
-        let (width, height) = (2.0 * SIDE, HEAD + SIDE + table);
-        let head = "<!-- by dalembert show -->\n";
-        let svg = Svg::new(title, [width, height], head, STYLE);
-        let mut page = Page { svg };
-        page.text([16.0, 20.0], title);
+    /// Returns the paper with its title, and room for a table of so many rows.
+    pub(super) fn new(title: &str, rows: usize) -> Page {
+        let (width, height) = (2.0 * SIDE, HEAD + SIDE + ROW * (rows as f64 + 1.5));
+        let name = escaped(title);
+        let mut page = Page(format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
+             role=\"img\">\n<title>{name}</title>\n<!-- by dalembert show -->\n<style>{STYLE}</style>\n\
+             <rect class=\"p\" width=\"{width}\" height=\"{height}\"/>\n"
+        ));
+        page.text("i", [16.0, 20.0], title);
         for (line, text) in LEGEND.iter().enumerate() {
-            page.text([16.0, 36.0 + 15.0 * line as f64], text);
+            page.text("i", [16.0, 36.0 + 15.0 * line as f64], text);
         }
         page
     }
 
-    /// Draws a line.
-    pub(super) fn line(&mut self, class: &str, [x, y]: [f64; 2], [to_x, to_y]: [f64; 2]) {
-        self.svg.element(&format!(
+    fn element(&mut self, element: &str) {
+        self.0 += element;
+        self.0.push('\n');
+    }
+
+    fn line(&mut self, class: &str, [x, y]: [f64; 2], [to_x, to_y]: [f64; 2]) {
+        self.element(&format!(
             "<path class=\"{class}\" d=\"M{x:.1} {y:.1}L{to_x:.1} {to_y:.1}\"/>"
         ));
     }
@@ -70,42 +67,33 @@ impl Page {
         let [x, y] = [to[0] - from[0], to[1] - from[1]];
         let length = libm::sqrt(x * x + y * y);
         if length < 2.0 {
-            let [x, y] = from;
-            self.svg.element(&format!(
-                "<circle class=\"{class}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"6\"/>"
-            ));
-            return;
+            return self.circle(class, from, 6.0);
         }
         self.line(class, from, to);
         let [x, y] = [5.0 * x / length, 5.0 * y / length];
         for side in [-0.6, 0.6] {
-            let back = [to[0] - x - side * y, to[1] - y + side * x];
-            self.line(class, to, back);
+            self.line(class, to, [to[0] - x - side * y, to[1] - y + side * x]);
         }
     }
 
     /// Draws the links, from origin to origin.
-    pub(super) fn chain(&mut self, points: &[[f64; 2]]) {
-        self.svg.polyline("class=\"l\"", points);
+    pub(super) fn chain(&mut self, points: impl Iterator<Item = [f64; 2]>) {
+        let points = points.map(|[x, y]| format!("{x:.1},{y:.1}"));
+        let points = points.collect::<Vec<_>>().join(" ");
+        self.element(&format!("<polyline class=\"l\" points=\"{points}\"/>"));
     }
 
-    /// Draws a centre of mass: the dot's volume grows with the mass.
-    pub(super) fn dot(&mut self, [x, y]: [f64; 2], mass: f64) {
-        let radius = (2.5 * libm::cbrt(mass)).clamp(1.5, 9.0);
-        self.svg.element(&format!(
-            "<circle class=\"m\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius:.1}\"/>"
+    pub(super) fn circle(&mut self, class: &str, [x, y]: [f64; 2], radius: f64) {
+        self.element(&format!(
+            "<circle class=\"{class}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius:.1}\"/>"
         ));
     }
 
-    /// Draws a body's outline.
-    pub(super) fn ellipse(&mut self, [x, y]: [f64; 2], ellipse: Ellipse) {
-        let Ellipse {
-            half: [a, b],
-            turned,
-        } = ellipse;
+    /// Draws a body's outline, turned by so many degrees upward.
+    pub(super) fn ellipse(&mut self, [x, y]: [f64; 2], [a, b]: [f64; 2], turned: f64) {
         // Angles of the paper go downward.
         let turned = 0.0 - turned;
-        self.svg.element(&format!(
+        self.element(&format!(
             "<ellipse class=\"e\" rx=\"{a:.1}\" ry=\"{b:.1}\" \
              transform=\"translate({x:.1} {y:.1}) rotate({turned:.1})\"/>"
         ));
@@ -113,12 +101,14 @@ impl Page {
 
     /// Draws a name beside a point.
     pub(super) fn label(&mut self, [x, y]: [f64; 2], text: &str) {
-        self.text([x + 5.0, y - 4.0], text);
+        self.text("i", [x + 5.0, y - 4.0], text);
     }
 
-    /// Draws a text that begins at a point.
-    pub(super) fn text(&mut self, at: [f64; 2], text: &str) {
-        self.svg.text("i", at, "", text);
+    fn text(&mut self, class: &str, [x, y]: [f64; 2], text: &str) {
+        let text = escaped(text);
+        self.element(&format!(
+            "<text class=\"{class}\" x=\"{x:.1}\" y=\"{y:.1}\">{text}</text>"
+        ));
     }
 
     /// Writes a line of the table: cells, each so many characters from the left. Every cell
@@ -126,13 +116,132 @@ impl Page {
     pub(super) fn row(&mut self, index: usize, cells: &[(usize, String)]) {
         let y = HEAD + SIDE + ROW * (index as f64 + 1.0);
         for (characters, text) in cells.iter().filter(|(_, text)| !text.is_empty()) {
-            let x = 16.0 + CHARACTER * *characters as f64;
-            self.svg.text("i c", [x, y], "", text);
+            self.text("i c", [16.0 + CHARACTER * *characters as f64, y], text);
         }
     }
 
     /// Returns the text of the file.
     pub(super) fn end(self) -> String {
-        self.svg.end()
+        self.0 + "</svg>\n"
+    }
+}
+
+/// Returns text as XML has it; what XML cannot have is replaced.
+fn escaped(text: &str) -> String {
+    let plain = |c: char| if c.is_control() { '\u{fffd}' } else { c };
+    let plain: String = text.chars().map(plain).collect();
+    plain.replace('&', "&amp;").replace('<', "&lt;")
+}
+
+/// A projection onto the paper: along y, seen from the front, or along z, from above.
+pub(super) struct View {
+    name: &'static str,
+    /// The coordinates that go to the right and upward.
+    pub(super) coordinates: [usize; 2],
+    /// Pixels a metre, the same in both views.
+    pub(super) scale: f64,
+    /// The point in the middle of the view, and its place on the paper.
+    middle: [f64; 2],
+    at: [f64; 2],
+    /// The size of the arm, m.
+    pub(super) reach: f64,
+}
+
+/// Room around what is drawn, as a part of a view.
+const MARGIN: f64 = 0.16;
+/// Room around bodies.
+const EDGE: f64 = 0.02;
+
+impl View {
+    /// Returns the view from the front, x to the right and z upward, and from above, x to
+    /// the right and y upward. Both have room for what is drawn at the points, and
+    /// for the outlines of bodies.
+    pub(super) fn both(points: &[Vector<f64>], outlines: &[Vector<f64>]) -> [View; 2] {
+        let ranges = [0, 1, 2].map(|k| {
+            let values = points.iter().map(|point| point[k]);
+            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
+                [low.min(x), high.max(x)]
+            })
+        });
+        let reach = ranges.iter().map(|[low, high]| high - low);
+        let reach = reach.fold(0.0, f64::max);
+        // An arm without lengths still has axes.
+        let has_lengths = reach > 0.0 && reach.is_finite();
+        let reach = if has_lengths { reach } else { 1.0 };
+        let middle = |k: usize| 0.5 * (ranges[k][0] + ranges[k][1]);
+        let offsets = outlines.iter();
+        let offsets = offsets.flat_map(|corner| [0, 1, 2].map(|k| (corner[k] - middle(k)).abs()));
+        let furthest = offsets.fold(0.0, f64::max);
+        let scale = SIDE * (1.0 - 2.0 * MARGIN) / reach;
+        let view = |name, coordinates: [usize; 2], left: f64| View {
+            name,
+            coordinates,
+            scale: match furthest > 0.0 {
+                true => scale.min(SIDE * (0.5 - EDGE) / furthest),
+                false => scale,
+            },
+            middle: coordinates.map(middle),
+            at: [left + 0.5 * SIDE, HEAD + 0.5 * SIDE],
+            reach,
+        };
+        [
+            view("from the front: x to the right, z up", [0, 2], 0.0),
+            view("from above: x to the right, y up", [0, 1], SIDE),
+        ]
+    }
+
+    /// Returns where a point is on the paper.
+    pub(super) fn place(&self, point: &Vector<f64>) -> [f64; 2] {
+        let [right, up] = self.coordinates.map(|k| point[k]);
+        [
+            self.at[0] + self.scale * (right - self.middle[0]),
+            self.at[1] - self.scale * (up - self.middle[1]),
+        ]
+    }
+
+    /// Draws the view's name, and a bar that says how long a length is.
+    pub(super) fn head(&self, page: &mut Page) {
+        let [x, y] = [self.at[0] - 0.5 * SIDE + 16.0, HEAD + 10.0];
+        page.text("i", [x, y], self.name);
+        // The largest of 1, 2 and 5 times a power of ten that is not above a third of the arm.
+        let length = self.reach / 3.0;
+        let power = libm::pow(10.0, libm::floor(libm::log10(length)));
+        let digit = [5.0, 2.0].into_iter().find(|digit| digit * power <= length);
+        let bar = digit.unwrap_or(1.0) * power;
+        let from = [x, HEAD + SIDE - 14.0];
+        page.line("b", from, [x + self.scale * bar, from[1]]);
+        page.text("i", [x, from[1] - 5.0], &format!("{bar} m"));
+    }
+
+    /// Draws where gravity pulls; ⊙ and ⊗ along the line of sight, towards the eye and away from
+    /// it.
+    pub(super) fn gravity(&self, gravity: &Vector<f64>, page: &mut Page) {
+        let size = libm::sqrt(gravity.iter().map(|g| g * g).sum());
+        let from = [self.at[0] + 0.5 * SIDE - 40.0, HEAD + 60.0];
+        if size == 0.0 {
+            return page.text("i", [from[0] - 60.0, from[1]], "no gravity");
+        }
+        let [right, up] = self.coordinates;
+        // Right × up points to who looks.
+        let sight = gravity[3 - right - up] * if (right + 1) % 3 == up { 1.0 } else { -1.0 };
+        let [right, up] = [right, up].map(|k| 34.0 * gravity[k] / size);
+        let to = [from[0] + right, from[1] - up];
+        match right.abs() + up.abs() < 1.0 {
+            true => page.label(from, if sight > 0.0 { "g ⊙" } else { "g ⊗" }),
+            false => {
+                page.arrow("b", from, to);
+                page.label(to, "g");
+            }
+        }
+    }
+
+    /// Draws the axes of a frame, x, y and z in their colours.
+    pub(super) fn triad(&self, frame: &Columns<f64>, size: f64, page: &mut Page) {
+        let from = self.place(&frame.origin);
+        let length = size * self.reach;
+        for (class, axis) in ["x", "y", "z"].into_iter().zip(&frame.axes) {
+            let end = [0, 1, 2].map(|k| frame.origin[k] + length * axis[k]);
+            page.line(class, from, self.place(&end));
+        }
     }
 }

@@ -4,22 +4,8 @@ use dalembert_model::number::parse::write_decimal;
 use dalembert_model::number::{Angle, Rational, Rounded};
 use dalembert_model::robot::{Convention, Joint, JointKind, Placement, Robot};
 
-use super::page::{Page, ROW};
-
-/// Returns the room that the table takes.
-pub(super) fn height(robot: &Robot, q: &[f64]) -> f64 {
-    ROW * (rows(robot, q).len() as f64 + 1.5)
-}
-
-/// Writes it below the views.
-pub(super) fn write(robot: &Robot, q: &[f64], page: &mut Page) {
-    for (index, row) in rows(robot, q).iter().enumerate() {
-        page.row(index, row);
-    }
-}
-
 /// Returns the lines, each of cells that are so many characters from the left.
-fn rows(robot: &Robot, q: &[f64]) -> Vec<Vec<(usize, String)>> {
+pub(super) fn rows(robot: &Robot, q: &[f64]) -> Vec<Vec<(usize, String)>> {
     let convention = match robot.convention {
         Convention::Standard => "standard DH",
         Convention::Modified => "modified DH (Craig)",
@@ -43,13 +29,8 @@ fn rows(robot: &Robot, q: &[f64]) -> Vec<Vec<(usize, String)>> {
         "centre of mass",
     ];
     let mut cells = vec![head.map(str::to_owned)];
-    cells.extend(
-        robot
-            .joints
-            .iter()
-            .enumerate()
-            .map(|(i, joint)| row(i, joint)),
-    );
+    let joints = robot.joints.iter().enumerate();
+    cells.extend(joints.map(|(i, joint)| row(i, joint)));
     let width = |column: usize| {
         let lengths = cells.iter().map(|row| row[column].chars().count());
         lengths.max().unwrap_or(0)

@@ -125,23 +125,16 @@ fn rows<'e>(
 /// States that the sizes of torques are taken from.
 const SCALES: usize = 1000;
 
-/// Measures the torques in every case that the robot has, at so many states each; `progress` hears
-/// the name of each case before its run.
+/// Measures the torques in every case that the robot has, at so many states each.
 ///
 /// # Errors
 /// Those of generating the code that is run.
-pub fn torques(
-    robot: &Robot,
-    request: &Request,
-    states: usize,
-    progress: impl Fn(&str) + Sync,
-) -> Result<Vec<Row>, GenerateError> {
+pub fn torques(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Row>, GenerateError> {
     let own = generated(robot, request, &[Function::InverseDynamics])?;
     let case = |(case, held, change, motion): &Case| {
         let Some(changed) = change.apply(robot) else {
             return Ok(Vec::new());
         };
-        progress(case);
         let other = match change {
             Change::None => None,
             _ => Some(generated(&changed, request, &[Function::InverseDynamics])?),

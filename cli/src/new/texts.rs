@@ -1,7 +1,7 @@
 //! What is in the files of a new crate.
 
 /// A robot to begin with: two links in a vertical plane.
-pub(super) const ROBOT: &str = "\
+pub const ROBOT: &str = "\
 # Two links of a metre and a kilogram in a vertical plane: put your arm here.
 
 name = \"planar\"

@@ -1,8 +1,6 @@
 //! Running the command.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
-pub mod planar;
-
 use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
@@ -64,12 +62,6 @@ pub fn good(arguments: &[&str]) -> Ran {
 pub fn robot(name: &str) -> String {
     let root = env!("CARGO_MANIFEST_DIR");
     format!("{root}/../generated/robots/{name}.toml")
-}
-
-/// Returns the states of a robot by an independent library.
-pub fn golden(name: &str) -> String {
-    let root = env!("CARGO_MANIFEST_DIR");
-    format!("{root}/../model/tests/data/golden/{name}.json")
 }
 
 /// Returns an empty folder of this test run.

@@ -1,17 +1,17 @@
 //! The law of Slotine and Li.
 
-use crate::trajectory::Target;
+use crate::run::Target;
 use crate::{Joints, Parameters, State, arm};
 
 /// Λ: how fast the error dies once s is zero, 1/s.
-pub const LAMBDA: f64 = 8.0;
+const LAMBDA: f64 = 8.0;
 /// K, N·m·s.
 pub const DAMPING: Joints = [8.0, 8.0, 3.0];
 /// Γ: how fast what was learned changes.
 pub const GAIN: f64 = 15.0;
 
-/// A controller and what it takes the arm for.
-#[derive(Clone, Debug)]
+/// A controller and its estimate of the arm.
+#[derive(Clone)]
 pub struct Controller {
     /// π̂: at first the empty arm.
     pub estimate: Parameters,
@@ -20,7 +20,6 @@ pub struct Controller {
 }
 
 /// The reference motion at a state.
-#[derive(Clone, Copy, Debug)]
 pub struct Wish {
     /// v = q̇_d − Λ(q − q_d), rad/s.
     pub v: Joints,
@@ -33,30 +32,22 @@ pub struct Wish {
 impl Wish {
     /// Returns the reference motion towards a target.
     pub fn new(state: &State, target: &Target) -> Wish {
-        let v: Joints =
-            core::array::from_fn(|i| target.qd[i] - LAMBDA * (state.q[i] - target.q[i]));
+        let Target { q, qd, qdd } = target;
+        let v: Joints = core::array::from_fn(|i| qd[i] - LAMBDA * (state.q[i] - q[i]));
         Wish {
             v,
-            a: core::array::from_fn(|i| target.qdd[i] - LAMBDA * (state.qd[i] - target.qd[i])),
+            a: core::array::from_fn(|i| qdd[i] - LAMBDA * (state.qd[i] - qd[i])),
             s: core::array::from_fn(|i| state.qd[i] - v[i]),
         }
     }
 }
 
 impl Controller {
-    /// One that learns; it begins with the empty arm.
-    pub fn adaptive() -> Controller {
+    /// Creates a controller that takes the arm for empty at first; without gain it does not learn.
+    pub fn new(gain: f64) -> Controller {
         Controller {
             estimate: arm::PASSIVITY_PARAMETERS,
-            gain: GAIN,
-        }
-    }
-
-    /// Creates a controller that keeps the parameters of the empty arm.
-    pub fn fixed() -> Controller {
-        Controller {
-            gain: 0.0,
-            ..Controller::adaptive()
+            gain,
         }
     }
 
@@ -79,7 +70,7 @@ impl Controller {
     }
 }
 
-/// Σ_k y_k π_k
-pub fn product(row: &Parameters, parameters: &Parameters) -> f64 {
-    row.iter().zip(parameters).map(|(y, pi)| y * pi).sum()
+/// Returns the scalar product.
+pub fn product<const N: usize>(left: &[f64; N], right: &[f64; N]) -> f64 {
+    left.iter().zip(right).map(|(l, r)| l * r).sum()
 }

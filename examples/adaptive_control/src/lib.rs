@@ -15,20 +15,15 @@
 //! dV/dt = −sᵀ(K + b) s + ½ sᵀ(Ḋ − 2C) s + (π̂ − π)ᵀ(Yᵀ s + Γ⁻¹ dπ̂/dt) = −sᵀ(K + b) s
 //! ```
 //!
-//! For that C has to be the matrix of the Christoffel symbols, of which Ḋ − 2C is skew.
-//! `regressor(q, q̇, q̈)` will not do: its C q̇ has one velocity, and Y(q, v, a) would have
-//! C(q, v) v in the place of C(q, q̇) v.
+//! since Ḋ − 2C is skew for the C of the Christoffel symbols. `regressor(q, q̇, q̈)` will not do: it
+//! would have C(q, v) v in the place of C(q, q̇) v.
 //!
 //! - [`control`]: the law
-//! - [`trajectory`]: where the arm should be
-//! - [`run()`]: the controller at 1 kHz on the arm with its payload
+//! - [`run`]: where the arm should be, and the controller on the arm with its payload
 #![forbid(unsafe_code)]
 
 pub mod control;
 pub mod run;
-pub mod trajectory;
-
-pub use run::{Run, Sample, run};
 
 dalembert::dynamics! {
     /// The arm as the controller knows it: empty.
@@ -52,4 +47,4 @@ pub type Joints = [f64; arm::N];
 pub type Parameters = [f64; arm::PASSIVITY_PARAMETERS.len()];
 
 /// Positions and velocities of the arm.
-pub type State = example_shared::integrate::State<{ arm::N }>;
+pub type State = example_shared::State<{ arm::N }>;

@@ -1,89 +1,83 @@
-//! The controller on the arm that carries what it does not know.
+//! The controller at 1 kHz on the arm that carries what it does not know.
 
-use example_shared::integrate::{distance, largest};
+use example_shared::{distance, largest};
 
-use crate::control::{Controller, GAIN, Wish};
-use crate::trajectory::{self, Target};
+use crate::control::{Controller, GAIN, Wish, product};
 use crate::{Joints, Parameters, State, arm, loaded};
 
 /// The period of the controller, s.
-pub const PERIOD: f64 = 1e-3;
+const PERIOD: f64 = 1e-3;
 
-/// Measurements at one period.
-#[derive(Clone, Copy, Debug)]
-pub struct Sample {
-    /// When, s.
-    pub time: f64,
-    /// Largest distance of a joint from its target, rad.
-    pub error: f64,
-    /// Largest distance of a torque of the estimate, Y π̂, from that of the arm with its
-    /// payload, N·m.
-    pub torque_error: f64,
-    /// V, the energy of the error, with the Γ of a controller that learns.
-    pub energy: f64,
+/// Positions, velocities and accelerations wished for, rad and s.
+pub struct Target {
+    pub q: Joints,
+    pub qd: Joints,
+    pub qdd: Joints,
 }
 
-/// A run, a sample a period.
-#[derive(Clone, Debug)]
-pub struct Run {
-    /// From the first on.
-    pub samples: Vec<Sample>,
-}
+/// About where every joint swings, rad.
+const CENTRE: Joints = [0.0, 0.4, -0.8];
+/// Amplitudes at each frequency, rad.
+const SWING: [Joints; 2] = [[0.6, 0.35, 0.5], [0.25, 0.15, 0.3]];
+/// Frequencies, rad/s.
+const FREQUENCY: [Joints; 2] = [[1.3, 1.7, 2.1], [3.7, 3.1, 4.3]];
 
-impl Run {
-    /// Returns the largest of something in the last second.
-    pub fn at_last(&self, of: fn(&Sample) -> f64) -> f64 {
-        let second = (1.0 / PERIOD) as usize;
-        largest(self.samples.iter().rev().take(second).map(of))
-    }
-}
-
-/// Follows the trajectory for so many seconds.
-pub fn run(mut controller: Controller, duration: f64) -> Run {
-    let mut state = State {
-        q: trajectory::at(0.0).q,
+/// Returns the target at a time, s: every joint swings with two frequencies, so that every parameter
+/// is excited. Each adds amplitude (1 − cos ωt), so that the motion starts at rest.
+pub fn target(time: f64) -> Target {
+    let mut target = Target {
+        q: CENTRE,
         qd: [0.0; arm::N],
+        qdd: [0.0; arm::N],
     };
-    let mut samples = Vec::new();
+    for (swing, frequency) in SWING.iter().zip(&FREQUENCY) {
+        for i in 0..arm::N {
+            let (amplitude, frequency) = (swing[i], frequency[i]);
+            let (sin, cos) = libm::sincos(frequency * time);
+            target.q[i] += amplitude * (1.0 - cos);
+            target.qd[i] += amplitude * frequency * sin;
+            target.qdd[i] += amplitude * frequency * frequency * cos;
+        }
+    }
+    target
+}
+
+/// Follows the trajectory for so many seconds. Returns, of the last of them, the largest distance
+/// of a joint from its target, rad, and of a torque of the estimate, Y π̂, from that of the arm with
+/// its payload, N·m.
+pub fn run(mut controller: Controller, duration: f64) -> [f64; 2] {
+    let mut state = State::at_rest(target(0.0).q);
+    let mut most = [0.0; 2];
     for step in 0..(duration / PERIOD).round() as u32 {
         let time = f64::from(step) * PERIOD;
-        let target = trajectory::at(time);
-        samples.push(Sample {
-            time,
-            error: distance(&state.q, &target.q),
-            torque_error: torque_error(&state, &target, &controller),
-            energy: energy(&state, &target, &controller.estimate),
-        });
+        let target = target(time);
+        if time >= duration - 1.0 {
+            let error = distance(&state.q, &target.q);
+            most[0] = largest([most[0], error]);
+            most[1] = largest([most[1], torque_error(&state, &target, &controller)]);
+        }
         let tau = controller.torques(&state, &target, PERIOD);
         state = moved(&state, &tau, PERIOD);
     }
-    Run { samples }
+    most
 }
 
 /// Returns the state of the arm with its payload after `period` seconds of constant torques.
 pub fn moved(state: &State, tau: &Joints, period: f64) -> State {
-    state.step(period, |state| {
-        loaded::forward_dynamics(&state.q, &state.qd, tau)
-    })
+    state.step(period, |at| loaded::forward_dynamics(&at.q, &at.qd, tau))
 }
 
 fn torque_error(state: &State, target: &Target, controller: &Controller) -> f64 {
     let Wish { v, a, .. } = Wish::new(state, target);
     let y = arm::passivity_regressor(&state.q, &state.qd, &v, &a);
-    let estimate = y.map(|row| crate::control::product(&row, &controller.estimate));
+    let estimate = y.map(|row| product(&row, &controller.estimate));
     distance(&estimate, &loaded::passivity(&state.q, &state.qd, &v, &a))
 }
 
 /// V = ½ sᵀD s + ½ (π̂ − π)ᵀ Γ⁻¹ (π̂ − π), with D and π of the arm with its payload.
 pub fn energy(state: &State, target: &Target, estimate: &Parameters) -> f64 {
     let s = Wish::new(state, target).s;
-    let d = loaded::inertia(&state.q);
-    let mut twice = 0.0;
-    for (row, si) in d.iter().zip(&s) {
-        twice += si * row.iter().zip(&s).map(|(d, sk)| d * sk).sum::<f64>();
-    }
-    for (estimate, own) in estimate.iter().zip(&loaded::PASSIVITY_PARAMETERS) {
-        twice += (estimate - own) * (estimate - own) / GAIN;
-    }
-    twice / 2.0
+    let momentum = loaded::inertia(&state.q).map(|row| product(&row, &s));
+    let off: Parameters = core::array::from_fn(|k| estimate[k] - loaded::PASSIVITY_PARAMETERS[k]);
+    (product(&s, &momentum) + product(&off, &off) / GAIN) / 2.0
 }

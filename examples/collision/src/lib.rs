@@ -3,14 +3,16 @@
 //! - [`observer`]: the torques of what touches the arm, from the drives' and the motion
 //! - [`simulate`]: the arm, its controller and the push, at 1 kHz
 //!
-//! The arm has no sensor of force: what the observer is given are positions, velocities and
-//! the torques of the drives. De Luca and Mattone, "Sensorless robot collision detection and
+//! The arm has no sensor of force: the observer takes positions, velocities and the torques of the
+//! drives. De Luca and Mattone, "Sensorless robot collision detection and
 //! hybrid force/motion control", 2005.
 #![forbid(unsafe_code)]
 
 pub mod observer;
 
-use example_shared::integrate::State;
+use std::ops::Range;
+
+use example_shared::largest;
 use observer::Observer;
 
 dalembert::dynamics! {
@@ -23,14 +25,17 @@ dalembert::dynamics! {
 /// A value for each joint.
 pub type Joints = [f64; ur10::N];
 
+/// Positions and velocities of the arm.
+pub type State = example_shared::State<{ ur10::N }>;
+
 /// Force over moment on the hand, in base axes.
 pub type Wrench = [f64; 6];
 
 /// The period of controller and observer, s.
 pub const PERIOD: f64 = 1e-3;
 
-/// Torques of something outside above this are a push, N·m. Without one the observer is
-/// below a thousandth of it.
+/// A torque of something outside above this is a push, N·m. Without one the observer is below a
+/// thousandth of it.
 pub const THRESHOLD: f64 = 1.0;
 
 /// λ² of the estimate of a wrench: small beside J Jᵀ where the arm is bent.
@@ -40,33 +45,25 @@ const DAMPING: [f64; 1] = [1e-6];
 const FREQUENCY: f64 = 20.0;
 
 /// A push on the hand.
-#[derive(Clone, Copy, Debug)]
 pub struct Push {
     /// When it begins and ends, s.
-    pub during: [f64; 2],
-    /// What it is.
+    pub during: Range<f64>,
+    /// Its force and moment.
     pub wrench: Wrench,
 }
 
-/// What the arm noticed at one time.
-#[derive(Clone, Copy, Debug)]
+/// The observer's result at one time.
+#[derive(Debug)]
 pub struct Noticed {
     /// When, s.
     pub time: f64,
-    /// The torques of what is outside, N·m.
-    pub outside: Joints,
-    /// The wrench that they say.
+    /// The largest torque of what touches the arm, N·m: above [`THRESHOLD`] it is a push.
+    pub torque: f64,
+    /// The wrench on the hand that explains the torques.
     pub wrench: Wrench,
 }
 
-impl Noticed {
-    /// Returns whether something pushes.
-    pub fn is_push(&self) -> bool {
-        self.outside.iter().any(|torque| torque.abs() > THRESHOLD)
-    }
-}
-
-/// Where the arm should be: slow circles of every joint about a bent pose.
+/// Returns where the arm should be, with its rates: slow circles of every joint about a bent pose.
 fn target(time: f64) -> [Joints; 3] {
     let centre = [0.2, -1.2, 1.6, -1.9, -1.4, 0.3];
     let (s, c) = time.sin_cos();
@@ -91,7 +88,7 @@ pub fn simulate(push: &Push, duration: f64) -> Vec<Noticed> {
             qdd[i] + 2.0 * FREQUENCY * rate + FREQUENCY * FREQUENCY * error
         });
         let tau = ur10::inverse_dynamics(&state.q, &state.qd, &wanted);
-        let is_pushed = (push.during[0]..push.during[1]).contains(&time);
+        let is_pushed = push.during.contains(&time);
         let wrench = if is_pushed { push.wrench } else { [0.0; 6] };
         let next = state.step(PERIOD, |at| {
             ur10::forward_dynamics_with_wrench(&at.q, &at.qd, &tau, &wrench)
@@ -100,7 +97,7 @@ pub fn simulate(push: &Push, duration: f64) -> Vec<Noticed> {
         state = next;
         all.push(Noticed {
             time: time + PERIOD,
-            outside,
+            torque: largest(outside),
             wrench: ur10::contact_wrench(&state.q, &outside, &DAMPING),
         });
     }

@@ -1,14 +1,11 @@
 //! r = K (p − p₀ − ∫ (τ + β + r) dt), which follows the torques of what is outside.
 
-use example_shared::integrate::State;
+use crate::{Joints, PERIOD, State, ur10};
 
-use crate::{Joints, PERIOD, ur10};
-
-/// The bandwidth K, 1/s: r is where they are after a few times 1/K.
+/// The bandwidth K, 1/s: r reaches the torques after a few times 1/K.
 const BANDWIDTH: f64 = 50.0;
 
 /// The observer's memory.
-#[derive(Clone, Debug)]
 pub struct Observer {
     /// p₀ + ∫ (τ + β + r) dt
     expected: Joints,
@@ -18,7 +15,7 @@ pub struct Observer {
 
 impl Observer {
     /// Begins at a state that nothing touches.
-    pub fn new(state: &State<{ ur10::N }>) -> Observer {
+    pub fn new(state: &State) -> Observer {
         Observer {
             expected: ur10::momentum_observer(&state.q, &state.qd).p,
             outside: [0.0; ur10::N],
@@ -27,12 +24,7 @@ impl Observer {
 
     /// Takes what the drives gave for a period from one state to the next; returns the torques
     /// of what is outside. β is the mean of both ends.
-    pub fn observe(
-        &mut self,
-        from: &State<{ ur10::N }>,
-        to: &State<{ ur10::N }>,
-        tau: &Joints,
-    ) -> Joints {
+    pub fn observe(&mut self, from: &State, to: &State, tau: &Joints) -> Joints {
         let before = ur10::momentum_observer(&from.q, &from.qd);
         let after = ur10::momentum_observer(&to.q, &to.qd);
         for (i, torque) in tau.iter().enumerate() {

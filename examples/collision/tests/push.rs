@@ -1,34 +1,28 @@
 //! A push is found when it comes and as it is, and nothing is found without one.
 
 use collision::{Push, THRESHOLD, simulate};
+use example_shared::{assert_shown, distance, largest};
 
 const PUSH: Push = Push {
-    during: [1.0, 2.0],
+    during: 1.0..2.0,
     wrench: [20.0, -15.0, 10.0, 0.1, 0.05, -0.02],
 };
 
 #[test]
 fn a_push_is_found_within_five_percent() {
     let all = simulate(&PUSH, 2.5);
-    let first = all.iter().find(|noticed| noticed.is_push()).unwrap();
+    let first = all
+        .iter()
+        .find(|noticed| noticed.torque > THRESHOLD)
+        .unwrap();
     assert!((1.0..1.02).contains(&first.time), "{}", first.time);
-    let largest = PUSH.wrench.iter().fold(0.0f64, |most, x| most.max(x.abs()));
     for noticed in all.iter().filter(|n| (1.3..2.0).contains(&n.time)) {
-        for (found, given) in noticed.wrench.iter().zip(&PUSH.wrench) {
-            let off = (found - given).abs();
-            assert!(
-                off <= 0.05 * largest,
-                "{}: {:?}",
-                noticed.time,
-                noticed.wrench
-            );
-        }
+        let off = distance(&noticed.wrench, &PUSH.wrench);
+        assert!(off <= 0.05 * largest(PUSH.wrench), "{noticed:?}");
     }
     // When it is over, it is gone.
-    assert!(
-        !all.iter()
-            .any(|noticed| noticed.time > 2.3 && noticed.is_push())
-    );
+    let mut later = all.iter().filter(|noticed| noticed.time > 2.3);
+    assert!(later.all(|noticed| noticed.torque < THRESHOLD));
 }
 
 #[test]
@@ -38,7 +32,12 @@ fn an_arm_that_nothing_touches_notices_nothing() {
         ..PUSH
     };
     let all = simulate(&still, 2.0);
-    let torques = all.iter().flat_map(|noticed| noticed.outside);
-    let most = torques.fold(0.0f64, |most, x| most.max(x.abs()));
+    let most = largest(all.iter().map(|noticed| noticed.torque));
     assert!(most < 1e-3 * THRESHOLD, "{most}");
+}
+
+#[test]
+fn the_example_prints_what_the_guide_shows() {
+    let guide = include_str!("../README.md");
+    assert_shown(env!("CARGO_BIN_EXE_collision"), guide);
 }

@@ -1,6 +1,6 @@
 //! What a microcontroller does every millisecond: ticks in, commands out.
 
-use crate::servo::Servo;
+use crate::Servo;
 
 /// The period, s.
 pub const PERIOD: f32 = 1e-3;
@@ -27,7 +27,6 @@ pub enum Stop {
 }
 
 /// Gravity compensation of an arm.
-#[derive(Clone, Debug)]
 pub struct Cycle<const N: usize> {
     servos: [Servo; N],
     gravity: fn(&[f32; N]) -> [f32; N],
@@ -65,12 +64,11 @@ impl<const N: usize> Cycle<N> {
             self.qd[i] += (speed - self.qd[i]) * (PERIOD / MEAN);
             // A joint that turns at its fastest moves by far less in a period.
             let jumped = (q[i] - before[i]).abs() > 20.0 * FASTEST * PERIOD;
-            let found = match (jumped, self.qd[i].abs() > FASTEST) {
-                (true, _) => Some(Stop::Jump(i)),
-                (_, true) => Some(Stop::Fast(i)),
-                _ => None,
-            };
-            self.stop = self.stop.or(found);
+            if jumped {
+                self.stop.get_or_insert(Stop::Jump(i));
+            } else if self.qd[i].abs() > FASTEST {
+                self.stop.get_or_insert(Stop::Fast(i));
+            }
         }
         if self.stop.is_some() {
             return [0; N];

@@ -1,6 +1,6 @@
 //! Open arms that float: they stay where a hand puts them.
 //!
-//! - [`servo`]: ticks and units of a servo as radians and N·m
+//! - [`Servo`]: ticks and units of a servo as radians and N·m
 //! - [`cycle`]: what a microcontroller does every millisecond
 //!
 //! Nothing here needs std, an allocator or f64.
@@ -10,9 +10,8 @@
 #![forbid(unsafe_code)]
 
 pub mod cycle;
-pub mod servo;
 
-use servo::Servo;
+use core::f32::consts::TAU;
 
 dalembert::dynamics! {
     /// The SO-101 of TheRobotStudio, gripper closed.
@@ -26,6 +25,42 @@ dalembert::dynamics! {
     pub mod open_manipulator = "../../gallery/robots/open_manipulator.toml";
     outputs: gravity;
     scalar: f32;
+}
+
+/// A joint's servo. All of it but the kind of servo is measured once on the arm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Servo {
+    /// Ticks of a turn.
+    pub ticks: f32,
+    /// The tick at which the robot file's angle is zero.
+    pub zero: f32,
+    /// 1 where more ticks are a larger angle, −1 where they are a smaller one.
+    pub sign: f32,
+    /// Units of the command for 1 N·m.
+    pub units_per_torque: f32,
+    /// Units of the command for 1 rad/s: what the turning motor's own voltage takes of a duty;
+    /// zero where the servo controls the current.
+    pub units_per_speed: f32,
+    /// The torque that its gears take, N·m.
+    pub friction: f32,
+    /// No more than this, N·m.
+    pub most: f32,
+}
+
+impl Servo {
+    /// Returns the angle of a tick, rad.
+    pub fn angle(&self, tick: u16) -> f32 {
+        self.sign * (f32::from(tick) - self.zero) * (TAU / self.ticks)
+    }
+
+    /// Returns the command for a torque at a speed, N·m and rad/s.
+    pub fn command(&self, torque: f32, speed: f32) -> i16 {
+        let torque = torque.clamp(-self.most, self.most);
+        let units = torque * self.units_per_torque + speed * self.units_per_speed;
+        // To the nearest unit; what is no number becomes zero.
+        let half = if units < 0.0 { -0.5 } else { 0.5 };
+        (self.sign * (units + half)) as i16
+    }
 }
 
 /// Feetech STS3215 at 12 V, driven by its duty: 2.9 N·m at standstill and 4.7 rad/s without a

@@ -7,14 +7,13 @@ use crate::{Joints, arm};
 const FREQUENCY: f64 = 20.0;
 
 /// The reference motion: position, velocity and acceleration.
-#[derive(Clone, Copy, Debug)]
 pub struct Target {
     pub q: Joints,
     pub qd: Joints,
     pub qdd: Joints,
 }
 
-/// Swings of half a radian, a joint after the other.
+/// Returns the target at a time, s: swings of half a radian, a joint after the other.
 pub fn target(time: f64) -> Target {
     let swing = |i: usize| 0.5 * (time + i as f64).sin();
     let rate = |i: usize| 0.5 * (time + i as f64).cos();
@@ -34,14 +33,12 @@ pub fn torques(state: &State, target: &Target) -> Joints {
     arm::inverse_dynamics(&state.q, &state.qd, &wanted)
 }
 
-/// Runs the arm and its controller for some seconds at 1 kHz: the largest error of a joint
-/// in the second half, when what it began with has died away.
+/// Runs the arm and its controller for some seconds at 1 kHz. Returns the largest error of a joint
+/// in the second half, when that of the start has died away.
 pub fn follow(seconds: u32) -> f64 {
     const PERIOD: f64 = 1e-3;
-    let mut state = State {
-        q: [0.0; arm::N],
-        qd: [0.0; arm::N],
-    };
+    let (q, qd) = ([0.0; arm::N], [0.0; arm::N]);
+    let mut state = State { q, qd };
     let steps = seconds * 1000;
     let mut worst = 0.0f64;
     for n in 0..steps {

@@ -1,6 +1,6 @@
-//! Holding the arm against gravity.
+//! The arm held against gravity, with what is in its hand.
 
-use crate::{Joints, arm};
+use crate::{Joints, arm, carrying, with_a_kilogram};
 
 /// How much of a turn too far is pulled back, N·m/rad, and what it damps, N·m s/rad.
 const STIFFNESS: f64 = 80.0;
@@ -15,4 +15,38 @@ pub fn float(q: &Joints) -> Joints {
 pub fn hold(q: &Joints, qd: &Joints, pose: &Joints) -> Joints {
     let load = arm::gravity(q);
     std::array::from_fn(|i| load[i] + STIFFNESS * (pose[i] - q[i]) - DAMPING * qd[i])
+}
+
+/// Returns the torques that hold half a kilogram, 0.1 m in front of the last link.
+pub fn hold_a_tool(q: &Joints) -> Joints {
+    let tool = carrying::Payload::new(0.5, [0.0, 0.0, 0.1], [1e-3, 1e-3, 1e-3, 0.0, 0.0, 0.0]);
+    // Once for each tool.
+    let load = carrying::load(&tool);
+    let sideways = carrying::Gravity([9.81, 0.0, 0.0]);
+    carrying::gravity(q, &sideways, &load)
+}
+
+/// Returns the mass in the hand that explains the torques measured at poses, in kg, by least squares.
+///
+/// Torques are linear in a mass whose place in the hand is known, so a kilogram of it
+/// tells what any other mass does. `None` where no pose depends on the mass.
+pub fn mass(measured: &[(Joints, Joints)]) -> Option<f64> {
+    let (mut along, mut size) = (0.0, 0.0);
+    for (q, tau) in measured {
+        let (empty, loaded) = (arm::gravity(q), with_a_kilogram::gravity(q));
+        for i in 0..arm::N {
+            let kilogram = loaded[i] - empty[i];
+            along += kilogram * (tau[i] - empty[i]);
+            size += kilogram * kilogram;
+        }
+    }
+    (size > 0.0).then(|| along / size)
+}
+
+/// Returns the torques that sensors would measure at poses with a mass in the hand, without noise.
+pub fn measured(poses: &[Joints], mass: f64) -> Vec<(Joints, Joints)> {
+    let load = carrying::load(&carrying::Payload::new(mass, [0.0, 0.0, 0.02], [0.0; 6]));
+    let floor = carrying::Gravity([0.0, 0.0, -9.81]);
+    let with = |q: &Joints| (*q, carrying::gravity(q, &floor, &load));
+    poses.iter().map(with).collect()
 }

@@ -1,17 +1,13 @@
 //! The code of the guide in `docs/`, where every block of Rust is a piece of this crate.
 //!
-//! - [`hold`]: an arm held against gravity
+//! - [`hold`]: an arm held against gravity, with a tool; a payload from torques
 //! - [`simulate`]: an arm that moves under torques
-//! - [`payload`]: the mass in its hand, from torques
-//! - [`tool`]: what it carries, and gravity, as arguments
 //! - [`control`]: a controller that follows a motion
 #![forbid(unsafe_code)]
 
 pub mod control;
 pub mod hold;
-pub mod payload;
 pub mod simulate;
-pub mod tool;
 
 dalembert::dynamics! {
     /// The arm of the guide.
@@ -30,7 +26,7 @@ dalembert::dynamics! {
 dalembert::dynamics! {
     /// The same arm, what it carries and where gravity points as arguments.
     pub mod carrying = "robots/arm.toml";
-    outputs: gravity;
+    outputs: inverse_dynamics, gravity;
     scalar: f64;
     parameters: payload, gravity;
 }

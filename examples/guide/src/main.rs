@@ -4,33 +4,23 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use guide::{Joints, arm, control, hold, payload, picking, with_a_kilogram};
+use guide::{Joints, arm, control, hold, picking};
 
 fn main() {
     let q = [0.3, 0.6, -0.4];
     println!("holds with      {:.3?} N·m", hold::float(&q));
 
-    // What sensors would say of 0.7 kg: a fraction between empty and a kilogram.
-    let poses = [q, [0.0, 0.2, 0.9], [1.0, -0.3, 0.5]];
-    let measured = poses.map(|q| {
-        let (empty, loaded) = (arm::gravity(&q), with_a_kilogram::gravity(&q));
-        let tau = std::array::from_fn(|i| empty[i] + 0.7 * (loaded[i] - empty[i]));
-        (q, tau)
-    });
-    if let Some(mass) = payload::mass(&measured) {
+    let measured = hold::measured(&[q, [0.0, 0.2, 0.9], [1.0, -0.3, 0.5]], 0.7);
+    if let Some(mass) = hold::mass(&measured) {
         println!("payload         {mass:.3} kg");
     }
 
     println!("follows within  {:.1e} rad", control::follow(4));
 
-    println!(
-        "exact           {:.1} ns",
-        nanoseconds(arm::inverse_dynamics)
-    );
-    println!(
-        "to pick, at 1%  {:.1} ns",
-        nanoseconds(picking::inverse_dynamics)
-    );
+    let exact = nanoseconds(arm::inverse_dynamics);
+    println!("exact           {exact:.1} ns");
+    let pick = nanoseconds(picking::inverse_dynamics);
+    println!("to pick, at 1%  {pick:.1} ns");
 }
 
 /// Returns the time of a call, the best of some rounds.

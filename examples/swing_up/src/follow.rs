@@ -1,41 +1,26 @@
 //! The plan on the arm.
 
-use example_shared::integrate::largest;
+use example_shared::largest;
 
-use crate::model::{State, UPRIGHT, step};
+use crate::limited;
+use crate::model::{HANGING, UPRIGHT, step};
 use crate::plan::{self, Plan};
-use crate::{limited, model};
 
 /// The period of the controller, s.
-pub const PERIOD: f64 = 1e-3;
-
-/// The motion and torques of a run.
-#[derive(Clone, Debug)]
-pub struct Run {
-    /// When, s; the state; the torque from then on, N·m.
-    pub samples: Vec<(f64, State, f64)>,
-    /// The state at the end.
-    pub end: State,
-}
-
-impl Run {
-    /// Returns how far the end is from upright at rest.
-    pub fn off(&self) -> f64 {
-        largest((self.end - UPRIGHT).abs().iter().copied())
-    }
-}
+const PERIOD: f64 = 1e-3;
 
 /// Swings the arm up by the plan, its gains on the states between those planned, then
-/// holds it upright for so many seconds. `push` is what q̇₁ is off at the start, rad/s.
-pub fn follow(plan: &Plan, hold: f64, push: f64) -> Run {
+/// holds it upright for so many seconds. `push` is what q̇₁ is off at the start, rad/s. Returns how
+/// far the end is from upright at rest, and the largest torque, N·m.
+pub fn follow(plan: &Plan, hold: f64, push: f64) -> [f64; 2] {
     let each = (plan::PERIOD / PERIOD).round() as usize;
     let swing = each * plan.torques.len();
     let upright = plan::holding(PERIOD);
-    let mut state = model::HANGING;
+    let mut state = HANGING;
     state[2] += push;
     // Where the plan is; it has a torque for longer than a period.
-    let mut planned = model::HANGING;
-    let mut samples = Vec::new();
+    let mut planned = HANGING;
+    let mut most = 0.0;
     for k in 0..swing + (hold / PERIOD).round() as usize {
         let torque = match k < swing {
             true => {
@@ -49,11 +34,8 @@ pub fn follow(plan: &Plan, hold: f64, push: f64) -> Run {
             }
             false => limited(upright.dot(&(state - UPRIGHT))),
         };
-        samples.push((k as f64 * PERIOD, state, torque));
+        most = largest([most, torque]);
         state = step(&state, torque, PERIOD);
     }
-    Run {
-        samples,
-        end: state,
-    }
+    [largest((state - UPRIGHT).iter().copied()), most]
 }

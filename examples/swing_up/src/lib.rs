@@ -2,7 +2,7 @@
 //!
 //! - [`model`]: a step of the arm and its slopes, by the generated derivatives
 //! - [`plan`]: torques that swing it up, by differential dynamic programming
-//! - [`follow()`]: the plan on the arm, with its gains; then the upright pose is held
+//! - [`follow`]: the plan on the arm, with its gains; then the upright pose is held
 //!
 //! The motor has 6 N·m, and nothing turns the shoulder but what the elbow does: the arm swings
 //! one way, then the other, then up.
@@ -11,8 +11,6 @@
 pub mod follow;
 pub mod model;
 pub mod plan;
-
-pub use follow::{Run, follow};
 
 dalembert::dynamics! {
     /// Two equal links in a vertical plane.

@@ -49,17 +49,20 @@ pub enum Derivatives {
     Second,
 }
 
-/// Changes of the torques and gains on the states.
-type Changes = (Vec<f64>, Vec<State>);
-
 /// Returns a plan from hanging at rest to upright at rest.
 pub fn plan(derivatives: Derivatives) -> Plan {
-    let mut plan = Plan::of(vec![0.0; STEPS]);
+    let mut plan = Plan::still(HANGING, STEPS);
+    plan.costs.push(plan.cost());
     // What a change of the next state costs besides: where parabolas mislead, little is
     // changed.
     let mut caution = LEAST_CAUTION;
     for _ in 0..ROUNDS {
-        let bent = plan.bent(derivatives);
+        // Far from the best plan, parabolas of second derivatives may have no lowest point, or one
+        // that is of no use: then the first are the better guide.
+        let bent = (derivatives == Derivatives::Second)
+            .then(|| plan.better(LEAST_CAUTION, derivatives))
+            .flatten()
+            .filter(|(_, part)| *part > 0.1);
         let Some((better, part)) = bent.or_else(|| plan.better(caution, Derivatives::First)) else {
             if caution > 1e6 {
                 break;
@@ -77,79 +80,70 @@ pub fn plan(derivatives: Derivatives) -> Plan {
         }
     }
     // Of parabolas that have a lowest point everywhere.
-    if let Some((_, gains)) = plan.backward(LEAST_CAUTION, Derivatives::First) {
+    if let Some((_, gains)) = plan.backward(PERIOD, LEAST_CAUTION, Derivatives::First) {
         plan.gains = gains;
     }
     plan
 }
 
+/// Returns the gain that holds the arm upright: the first of a backward pass, there, that goes on
+/// for long.
+pub fn holding(period: f64) -> State {
+    let still = Plan::still(UPRIGHT, (20.0 / period) as usize);
+    let changes = still.backward(period, 0.0, Derivatives::First);
+    changes.map_or(State::zeros(), |(_, gains)| gains[0])
+}
+
 impl Plan {
-    /// Returns the plan that second derivatives make better, where they are asked for. Far from the
-    /// best plan they may have no lowest point, or one that is of no use: then the first are
-    /// the better guide.
-    fn bent(&self, derivatives: Derivatives) -> Option<(Plan, f64)> {
-        let wanted = (derivatives == Derivatives::Second).then_some(derivatives)?;
-        let found = self.better(LEAST_CAUTION, wanted);
-        found.filter(|(_, part)| *part > 0.1)
-    }
-
-    /// Returns a better plan, and which part of the changes that parabolas advise it has.
-    fn better(&self, caution: f64, derivatives: Derivatives) -> Option<(Plan, f64)> {
-        let (changes, gains) = self.backward(caution, derivatives)?;
-        self.forward(&changes, &gains)
-    }
-
-    /// Simulates these torques without gains.
-    fn of(torques: Vec<f64>) -> Plan {
-        let mut states = vec![HANGING];
-        for (k, torque) in torques.iter().enumerate() {
-            states.push(step(&states[k], *torque, PERIOD));
-        }
-        let mut plan = Plan {
-            gains: vec![State::zeros(); torques.len()],
+    /// Returns the plan that stays in a state where the arm can stay without torques.
+    fn still(state: State, steps: usize) -> Plan {
+        Plan {
+            torques: vec![0.0; steps],
+            states: vec![state; steps + 1],
+            gains: vec![State::zeros(); steps],
             costs: Vec::new(),
-            torques,
-            states,
-        };
-        plan.costs.push(plan.cost());
-        plan
+        }
     }
 
     /// Returns the cost: ½∫ (r τ² + xᵀ Q x) dt + ½ xᵀ W x at the end, with x the distance from
     /// upright at rest.
     pub fn cost(&self) -> f64 {
         let square = |off: &State, weights: &State| off.component_mul(weights).dot(off);
-        let each = self.torques.iter().zip(&self.states);
-        let each = each.map(|(torque, state)| {
-            EFFORT * torque * torque + square(&(state - UPRIGHT), &ELSEWHERE)
-        });
-        let along: f64 = each.sum();
+        let mut along = 0.0;
+        for (torque, state) in self.torques.iter().zip(&self.states) {
+            along += EFFORT * torque * torque + square(&(state - UPRIGHT), &ELSEWHERE);
+        }
         (PERIOD * along + square(&self.off(), &END)) / 2.0
     }
 
     /// Returns the difference between the end and upright at rest.
     pub fn off(&self) -> State {
-        self.states
-            .last()
-            .map_or(State::zeros(), |end| end - UPRIGHT)
+        self.states[self.torques.len()] - UPRIGHT
     }
 
-    /// Returns the changes that parabolas advise; `None` where one has no lowest point.
-    fn backward(&self, caution: f64, derivatives: Derivatives) -> Option<Changes> {
+    /// Returns the changes of the torques that parabolas advise, and the gains on the states; `None`
+    /// where a parabola has no lowest point.
+    fn backward(
+        &self,
+        period: f64,
+        caution: f64,
+        derivatives: Derivatives,
+    ) -> Option<(Vec<f64>, Vec<State>)> {
         let mut slope = self.off().component_mul(&END);
         let mut bend = Square::from_diagonal(&END);
         let mut changes = vec![0.0; self.torques.len()];
         let mut gains = vec![State::zeros(); self.torques.len()];
         for k in (0..self.torques.len()).rev() {
-            let torque = self.torques[k];
-            let (by_state, by_torque) = slopes(&self.states[k], torque, PERIOD);
+            let (state, torque) = (&self.states[k], self.torques[k]);
+            let slopes = slopes(state, torque, period);
+            let (by_state, by_torque) = (slopes.fixed_columns::<4>(0), slopes.column(4));
             let carried = bend * by_torque;
-            let of_torque = EFFORT * PERIOD * torque + by_torque.dot(&slope);
+            let of_torque = EFFORT * period * torque + by_torque.dot(&slope);
             let bent = match derivatives {
                 Derivatives::First => Bend::zeros(),
-                Derivatives::Second => bends(&self.states[k], torque, PERIOD, &slope),
+                Derivatives::Second => bends(state, torque, period, &slope),
             };
-            let of_torques = EFFORT * PERIOD + by_torque.dot(&carried) + bent[(4, 4)];
+            let of_torques = EFFORT * period + by_torque.dot(&carried) + bent[(4, 4)];
             let mixed = by_state.transpose() * carried + bent.fixed_view::<4, 1>(0, 4);
             let wary = by_state.transpose() * by_torque * caution + mixed;
             let lowest = of_torques + caution * by_torque.dot(&by_torque);
@@ -157,14 +151,14 @@ impl Plan {
                 return None;
             }
             let free = torque - of_torque / lowest;
-            // At its limit a torque does not answer.
             let change = limited(free) - torque;
+            // At its limit a torque does not answer.
             let gain = match limited(free) == free {
                 true => wary * (-1.0 / lowest),
                 false => State::zeros(),
             };
-            let each = ELSEWHERE * PERIOD;
-            slope = (self.states[k] - UPRIGHT).component_mul(&each)
+            let each = ELSEWHERE * period;
+            slope = (state - UPRIGHT).component_mul(&each)
                 + by_state.transpose() * slope
                 + gain * (of_torques * change + of_torque)
                 + mixed * change;
@@ -181,15 +175,16 @@ impl Plan {
         Some((changes, gains))
     }
 
-    /// Returns the plan with as much of the changes as makes it better, and how much that is.
-    fn forward(&self, changes: &[f64], gains: &[State]) -> Option<(Plan, f64)> {
-        let cost = self.cost();
+    /// Returns a better plan, and which part of the changes that parabolas advise it has: as much as
+    /// makes it better.
+    fn better(&self, caution: f64, derivatives: Derivatives) -> Option<(Plan, f64)> {
+        let (changes, gains) = self.backward(PERIOD, caution, derivatives)?;
         let mut part = 1.0;
         while part > 1e-4 {
             let mut tried = Plan {
-                torques: Vec::with_capacity(self.torques.len()),
+                torques: Vec::new(),
                 states: vec![HANGING],
-                gains: gains.to_vec(),
+                gains: gains.clone(),
                 costs: self.costs.clone(),
             };
             for (k, change) in changes.iter().enumerate() {
@@ -198,7 +193,7 @@ impl Plan {
                 tried.states.push(step(&tried.states[k], torque, PERIOD));
                 tried.torques.push(torque);
             }
-            if tried.cost() < cost {
+            if tried.cost() < self.cost() {
                 tried.costs.push(tried.cost());
                 return Some((tried, part));
             }
@@ -206,24 +201,4 @@ impl Plan {
         }
         None
     }
-}
-
-/// Returns the gain that holds the arm upright: what the backward pass comes to, there, if it goes
-/// on for long.
-pub fn holding(period: f64) -> State {
-    let (by_state, by_torque) = slopes(&UPRIGHT, 0.0, period);
-    let each = Square::from_diagonal(&(ELSEWHERE * period));
-    let mut bend = each;
-    let mut gain = State::zeros();
-    for _ in 0..(20.0 / period) as usize {
-        let carried = bend * by_torque;
-        let mixed = by_state.transpose() * carried;
-        let of_torques = EFFORT * period + by_torque.dot(&carried);
-        gain = mixed * (-1.0 / of_torques);
-        // In this form it stays symmetric, and what is askew dies.
-        let closed = by_state + by_torque * gain.transpose();
-        bend =
-            each + closed.transpose() * bend * closed + gain * gain.transpose() * (EFFORT * period);
-    }
-    gain
 }

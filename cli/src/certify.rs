@@ -1,0 +1,280 @@
+//! `dalembert certify`: generated code and certificates, checked anew by `dalembert-checker`, which shares
+//! no code with the generator.
+
+use std::path::{Path, PathBuf};
+
+use dalembert_checker::exact::{self, Distance, Line, RATE};
+use dalembert_checker::file::MOST_BYTES;
+use dalembert_checker::{Fault, Output, audit, read};
+use dalembert_codegen::workspace::{SceneRobot, input_hash};
+use serde_json::{Value, json};
+
+use crate::args::values::{certified_parser, positive_parser};
+use crate::output::{Context, Done, Failure, Outcome};
+use crate::report::{Cell, Report, Table, cells};
+use crate::source::{Source, text};
+
+/// Arguments of `certify`.
+#[derive(Debug, clap::Args)]
+pub struct CertifyArgs {
+    /// A generated file (.rs, .h) of which every function is checked, or a certificate (.json): its text, its
+    /// box and every bound
+    #[arg(value_parser = certified_parser())]
+    file: PathBuf,
+    /// The robot that it is for
+    #[arg(long, value_name = "ROBOT")]
+    robot: PathBuf,
+    /// The scene of the robot file that it is for [default: the one it names]
+    #[arg(long, value_name = "NAME")]
+    scene: Option<String>,
+    /// The largest error relative to T to accept, instead of the scene's tolerance;
+    /// for certificates that `tradeoff` wrote for other tolerances
+    #[arg(long, value_name = "E", value_parser = positive_parser())]
+    tolerance: Option<f64>,
+}
+
+/// Runs the subcommand.
+pub(crate) fn run(args: &CertifyArgs, context: &Context) -> Outcome {
+    let source = text(&args.file, MOST_BYTES as u64)?;
+    let robot = Source::open(context, &args.robot)?;
+    let edited = origin(&args.file, &source, &robot)?;
+    let kind = args.file.extension().and_then(|kind| kind.to_str());
+    let done = match kind {
+        Some("rs" | "h" | "hpp" | "hh" | "cuh" | "cu") => whole_file(args, &source, &robot)?,
+        _ => certificates(args, &source, &robot)?,
+    };
+    if let (Some(note), false) = (edited, done.failed.is_empty()) {
+        context.say(&note);
+    }
+    Ok(done)
+}
+
+/// Checks the claims of certificates.
+fn certificates(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
+    let name = args.file.display();
+    let claims = read(source).map_err(|fault| Failure::Input(format!("error: {name}: {fault}")))?;
+    let mut report = Report::default();
+    let (mut all, mut refused) = (Vec::new(), Vec::new());
+    for (index, mut claim) in claims.into_iter().enumerate() {
+        claim.scene = args.scene.clone().or(claim.scene);
+        let found = audit(&claim, &robot.robot_file, args.tolerance);
+        let found = found.map_err(|fault| match fault {
+            Fault::Robot(..) => Failure::Input(format!("error: {fault}")),
+            _ => Failure::Check(format!("error: {name}: `{}`: {fault}", claim.function)),
+        })?;
+        let (function, scalar) = (&found.name, &found.scalar);
+        if !found.is_shown() {
+            refused.push(format!("`{function}` in {scalar}"));
+        }
+        let scene = claim.scene.as_ref();
+        let within = scene.map_or_else(String::new, |scene| format!(" in scene {scene}"));
+        let before = if index > 0 { "\n" } else { "" };
+        report.line(format!(
+            "{before}`{function}` in {scalar}{within}, relative to T"
+        ));
+        let heads = [
+            "joint",
+            "T",
+            "real",
+            "rounding",
+            "bound",
+            "E",
+            ".tolerance",
+            "seen",
+            "finding=",
+            ".passed",
+        ];
+        let table = Table::new(&heads).with(found.outputs.iter().map(row));
+        all.push(json!({
+            "file": name.to_string(),
+            "function": function.to_string(),
+            "scalar": scalar.to_string(),
+            "scene": claim.scene,
+            "outputs": table.json(),
+            "passed": found.is_shown(),
+        }));
+        report.rows(table);
+    }
+    report.value("certificates", all);
+    report.value("passed", refused.is_empty());
+    let mut done = Done::from(report);
+    if !refused.is_empty() {
+        let refused = refused.join(", ");
+        done.failed
+            .push(format!("error: {name}: not shown: {refused}"));
+    }
+    Ok(done)
+}
+
+/// Returns what was found of an output, relative to T; of one that is always zero as it is.
+fn row(output: &Output) -> Vec<Cell> {
+    let relative = |x: f64| match output.scale {
+        0.0 => x,
+        scale => x / scale,
+    };
+    let cell = |x: f64| Cell::power(relative(x), 3);
+    let found = &output.found;
+    let finding = match (output.holds(), output.is_shown()) {
+        _ if found.seen.off > output.claimed => "E is refuted at a state",
+        (true, true) => "E holds",
+        (true, false) => "E holds, but is above the tolerance",
+        (false, true) => "E not shown; within the tolerance",
+        (false, false) => "not shown",
+    };
+    // Of an entry of D its row and its column.
+    let joints = output.joints.iter().map(|joint| (joint + 1).to_string());
+    cells![
+        joints.collect::<Vec<_>>().join(", "),
+        Cell::power(output.scale, 4),
+        cell(found.edits),
+        cell(found.rounding),
+        cell(found.bound()),
+        cell(output.claimed),
+        Cell::json(output.tolerated.map(relative)),
+        cell(found.seen.off),
+        finding,
+        Cell::json(output.is_shown()),
+    ]
+}
+
+/// Checks every function of a file.
+fn whole_file(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
+    let name = args.file.display();
+    if args.tolerance.is_some() {
+        return Err(Failure::Input(format!(
+            "error: --tolerance is for a certificate, and `{name}` is a generated file"
+        )));
+    }
+    let found = exact::check(source, &robot.robot_file, args.scene.as_deref());
+    let found = found.map_err(|fault: Fault| Failure::Input(format!("error: {fault}")))?;
+    let mut report = Report::default();
+    report.line(
+        "How far each function can be from the dynamics over the box of the robot file,\n\
+         each entry relative to its own largest value, of a matrix to its row's or its column's;\n\
+         u is half an ulp of that.",
+    );
+    if found.is_unlimited {
+        let rates = format!("Where the file has no limit, rates go up to {RATE} in SI units.");
+        report.line(rates);
+    }
+    let heads = [
+        "module",
+        "function",
+        "real",
+        "rounding",
+        "units",
+        "tried",
+        "seen_units",
+        "why",
+        "passed",
+    ];
+    let mut table = Table::new(&heads);
+    let mut module = "";
+    for line in &found.lines {
+        if line.module != module {
+            module = &line.module;
+            report.line(module);
+        }
+        report.line(format!("  {:<22} {}", line.name, words(line)));
+        let own = line.result.as_ref().ok();
+        let bounded = own.filter(|own| own.tried == 0);
+        table.row(cells![
+            &line.module,
+            &line.name,
+            Cell::json(bounded.map(|own| own.edits)),
+            Cell::json(bounded.map(|own| own.rounding)),
+            Cell::json(own.map(Distance::units)),
+            own.map_or(0, |own| own.tried),
+            Cell::json(own.map(|own| own.seen / own.unit)),
+            Cell::json(line.result.as_ref().err().map(ToString::to_string)),
+            Cell::json(own.is_some_and(Distance::is_shown)),
+        ]);
+    }
+    report.value("file", name.to_string());
+    report.value("functions", table.json());
+    report.value("passed", found.is_shown());
+    let mut done = Done::from(report);
+    if !found.is_shown() {
+        let why = format!("error: not every function of {name} is shown to be the robot's");
+        done.failed.push(why);
+    }
+    Ok(done)
+}
+
+/// Says what was found of a function.
+fn words(line: &Line) -> String {
+    match &line.result {
+        Err(fault) => format!("not shown: {fault}"),
+        Ok(found) if found.tried > 0 => format!(
+            "no bound: of the equation that it solves {:.1} u of the terms are left at {} states  {}",
+            found.units(),
+            found.tried,
+            if found.is_shown() { "tried" } else { "wrong" },
+        ),
+        Ok(found) => format!(
+            "in real numbers {:>9.2e}  rounding {:>9.2e}  both {:>7.0} u  seen {:>7.1} u  {}",
+            found.edits,
+            found.rounding,
+            found.units(),
+            found.seen / found.unit,
+            match (found.is_shown(), found.has_polynomials) {
+                (true, _) => "shown",
+                (false, false) => "not shown",
+                (false, true) =>
+                    "not shown: sines by polynomials err by more than rounding, which takes a scene with a tolerance",
+            },
+        ),
+    }
+}
+
+/// Refuses a file that names another robot; returns a note where it names this one before an edit.
+///
+/// # Errors
+/// The file names another robot.
+fn origin(file: &Path, source: &str, robot: &Source) -> Result<Option<String>, Failure> {
+    let own = &robot.robot;
+    // A certificate names the robot as its scene has it.
+    let scenes = robot.scenes.iter().map(Some).chain([None]);
+    let placed = scenes.filter_map(|scene| SceneRobot::of(own, scene).ok());
+    let mut hashes: Vec<String> = placed.map(|placed| input_hash(placed.robot())).collect();
+    let hash = input_hash(own);
+    hashes.push(hash.clone());
+    let is_own = |input: &str| input.len() >= 16 && hashes.iter().any(|own| own.starts_with(input));
+    let origins = named(source).into_iter();
+    let others = origins.filter(|(_, input)| !is_own(input));
+    // Another robot before an edited one.
+    let Some((name, input)) = others.min_by_key(|(name, _)| *name == own.name) else {
+        return Ok(None);
+    };
+    let found = format!(
+        "`{}` is of robot `{name}`, input {input:.16}; `{}` is robot `{}`, input {hash:.16}",
+        file.display(),
+        robot.path.display(),
+        own.name
+    );
+    match name == own.name {
+        true => Ok(Some(format!("note: {found}: it was edited since"))),
+        false => Err(Failure::Check(format!(
+            "error: {found}\n  = help: --robot takes the robot file that it was generated from"
+        ))),
+    }
+}
+
+/// Returns the robots, and the hashes of what their files say, that a generated file has in its
+/// documentation, and certificates in their fields.
+fn named(source: &str) -> Vec<(String, String)> {
+    let documentation = source.split_once("Dynamics of the robot `");
+    let origin = documentation.and_then(|(_, rest)| {
+        let (robot, rest) = rest.split_once('`')?;
+        let input = rest.split_once("Input hash ")?.1.split('.').next()?;
+        Some((robot.to_owned(), input.to_owned()))
+    });
+    let document: Value = serde_json::from_str(source).unwrap_or_default();
+    let one = std::slice::from_ref(&document);
+    let certificates = document.as_array().map_or(one, Vec::as_slice).iter();
+    let fields = certificates.filter_map(|certificate| {
+        let field = |key: &str| Some(certificate[key].as_str()?.to_owned());
+        Some((field("robot")?, field("input")?))
+    });
+    origin.into_iter().chain(fields).collect()
+}

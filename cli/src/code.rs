@@ -1,0 +1,263 @@
+//! What was generated, as a report: operations, bounds under a tolerance, the proof, and, if
+//! everything is asked for, what the search did and what rounding costs.
+
+use dalembert_codegen::workspace::{
+    Admitted, Certificate, Library, Proof, SEED, bound_of, omissions, write_certificates,
+};
+use dalembert_codegen::{Function, Generated, GeneratedFunction, Request};
+use dalembert_model::robot::Robot;
+
+use crate::measure::{Bench, Code, Rounding};
+use crate::report::{COUNTS, Cell, Report, Table, cells, counted, counts};
+
+/// How much is said.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Detail {
+    /// Operations, and that they were proved.
+    Counts,
+    /// The bounds under a tolerance, too.
+    Bounds,
+    /// Everything.
+    Whole,
+}
+
+/// Describes what was generated for a robot.
+pub fn report(robot: &Robot, request: &Request, generated: &Generated, detail: Detail) -> Report {
+    let mut report = Report::of(robot, request.scene.as_ref());
+    report.table("functions", "", operations(generated, detail));
+    let heads = [
+        "function", "scalar", "trig_mul", "trig_add", "angles", "error",
+    ];
+    let sines = Table::new(&heads).with(generated.functions.iter().flat_map(sines));
+    report.table(
+        "sines",
+        "sines and cosines by polynomials, errors proved",
+        sines,
+    );
+    if detail == Detail::Whole {
+        whole(&mut report, robot, request, generated);
+    }
+    for function in &generated.functions {
+        if let Some(admitted) = function
+            .admitted
+            .as_ref()
+            .filter(|_| detail != Detail::Counts)
+        {
+            tolerance(&mut report, function.function, admitted, generated.ended);
+        }
+    }
+    let proved = match generated.functions.iter().any(|own| own.admitted.is_some()) {
+        true => "proved before anything was left out, and certified to stay within the tolerance",
+        false => "proved equal to the equations of motion",
+    };
+    let read_back = match detail {
+        Detail::Bounds => "; the text was read back",
+        Detail::Counts | Detail::Whole => "",
+    };
+    report.line(format!("\n{proved}{read_back}"));
+    report.value("warnings", generated.warnings.clone());
+    report.value("ended_early", generated.ended);
+    report
+}
+
+/// Returns the table of operations; everything adds depth, calls, origin and proof.
+fn operations(generated: &Generated, detail: Detail) -> Table {
+    let whole = ["depth", "calls", "from", "proof"];
+    let hidden = [".depth", ".calls", ".from", ".proof"];
+    let more = if detail == Detail::Whole {
+        whole
+    } else {
+        hidden
+    };
+    let mut table = Table::keyed(&[&["function"][..], &COUNTS, &more].concat());
+    // Of the first scalar that was emitted.
+    let scalar = generated.emitted.first().map(|emitted| emitted.scalar);
+    for function in &generated.functions {
+        let own = scalar.map_or(function.counts(), |scalar| function.counts_in(scalar));
+        let plan = if function.planned { ", plan" } else { "" };
+        let mut row = cells![function.function.to_string()];
+        row.extend(counts(&own));
+        row.extend(cells![
+            function.program.depth(),
+            calls(generated, function.function),
+            format!("{}{plan}", function.source.name()),
+            format!("proved, p(wrong) < 1e{}", Proof::FAILURE_EXPONENT),
+        ]);
+        table.row(row);
+    }
+    // The operations of polynomials have a table of their own.
+    let table = table.without(&["trig_mul", "trig_add"]);
+    table.without_zeros(&["fma", "sqrt"])
+}
+
+/// Returns the polynomials that give a function's sines, a row a scalar.
+fn sines(function: &GeneratedFunction) -> impl Iterator<Item = Vec<Cell>> {
+    function.sines.iter().map(|(scalar, sines)| {
+        let counts = function.counts_in(*scalar);
+        let worst = sines.iter().map(|sine| sine.errors.worst());
+        cells![
+            function.function.to_string(),
+            scalar.name(),
+            counts.trig_mul,
+            counts.trig_add,
+            sines.len(),
+            Cell::power(worst.fold(0.0, f64::max), 1),
+        ]
+    })
+}
+
+/// Adds what only who asks for everything reads.
+fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Generated) {
+    for refused in generated.functions.iter().filter_map(refused) {
+        report.line(format!("\n{refused}"));
+    }
+    // What a tolerance admits has its certificates.
+    let has_tolerance = generated.functions.iter().any(|own| own.admitted.is_some());
+    if let Some(own) = request.scene_robot(robot).ok().filter(|_| !has_tolerance) {
+        let states = affordable_states(robot.joints.len());
+        let drawn = own.states(states, SEED);
+        let bench = Bench::new(own);
+        let rows = generated.emitted.iter().map(|emitted| {
+            let worst = bench.measure(&Code::of(emitted), &drawn, &drawn);
+            let Rounding { vector, entry } = Rounding::of(&worst);
+            let function = emitted.function.to_string();
+            cells![
+                function,
+                emitted.scalar.name(),
+                Cell::units(vector),
+                Cell::units(entry)
+            ]
+        });
+        let states = counted(states, "random state");
+        report.table(
+            "rounding",
+            format!(
+                "largest rounding errors at {states} inside the limits, in u (f64 2^-53, f32 2^-24)"
+            ),
+            Table::new(&["function", "scalar", "vector", "entry"]).with(rows),
+        );
+    }
+    let mut stages = Table::new(&[&["function", "stage"], &COUNTS[..]].concat());
+    for function in &generated.functions {
+        // What the tolerance left of it is what is emitted.
+        let last = function
+            .admitted
+            .as_ref()
+            .map(|_| ("tolerance", function.counts()));
+        let own = function
+            .passes
+            .iter()
+            .map(|stage| (stage.name, stage.counts));
+        for (stage, own) in own.chain(last) {
+            let mut row = cells![function.function.to_string(), stage];
+            row.extend(counts(&own));
+            stages.row(row);
+        }
+    }
+    let stages = stages.without_zeros(&COUNTS);
+    report.table("stages", "operations after each stage", stages);
+}
+
+/// Adds what a tolerance admitted: E by cause, and what was left out.
+fn tolerance(report: &mut Report, function: Function, admitted: &Admitted, ended: bool) {
+    for own in &admitted.certificates {
+        report.table(
+            &format!("certified/{function}/{}", own.scalar),
+            format!("{function} in {}, certified", own.scalar),
+            Table::new(&BOUNDS).with(bounds(own)),
+        );
+    }
+    let left_out = omissions(&admitted.stages);
+    let rows = left_out.iter().map(|own| {
+        let pairs = match own.sincos {
+            0 => String::new(),
+            pairs => format!("+ {pairs} sincos"),
+        };
+        cells![&own.words, own.operations, Cell::of(pairs, own.sincos)]
+    });
+    report.table(
+        &format!("left_out/{function}"),
+        "left out, and what putting it back costs",
+        Table::new(&["what=", "operations=", "sincos="]).with(rows),
+    );
+    if left_out.is_empty() {
+        let why = match ended {
+            false => "no omission was found within the tolerance",
+            true => {
+                "the search was ended early, and the quick one found no omission within the tolerance"
+            }
+        };
+        report.line(format!("nothing was left out: {why}"));
+    }
+}
+
+/// The columns of [`bounds`].
+pub const BOUNDS: [&str; 6] = ["output", "T", "model", "sincos", "rounding", "E"];
+
+/// Returns the bounds of a certificate, output by output, relative to T.
+pub fn bounds(certificate: &Certificate) -> impl Iterator<Item = Vec<Cell>> {
+    let pairs = certificate.bounds.iter().zip(&certificate.scales);
+    pairs.enumerate().map(|(index, (own, &scale))| {
+        let cell = |x: f64| Cell::of(bound_of(x, 4), x);
+        cells![
+            certificate.emitted.entry(index),
+            Cell::of(bound_of(scale, 5), scale),
+            cell(own.model),
+            cell(own.sincos),
+            cell(own.rounding),
+            cell(own.total()),
+        ]
+    })
+}
+
+/// Says what the limit on rounding errors cost a function.
+fn refused(function: &GeneratedFunction) -> Option<String> {
+    let refused = function.refused.filter(|_| function.admitted.is_none())?;
+    let own = function.counts().operations();
+    let fewer = own.saturating_sub(refused.counts.operations());
+    let [error, taken] = [refused.error, refused.taken].map(|u| format!("{u:.0}"));
+    // The limit holds for every result; the largest error may be another's.
+    let price = match error == taken {
+        true => format!("one result less accurate; the worst stays at about {taken} u"),
+        false => format!("a rounding error of about {error} u instead of {taken}"),
+    };
+    let name = function.function;
+    Some(format!(
+        "{name}: `--prefer operations` would save {fewer} operations, with {price}"
+    ))
+}
+
+/// Returns how many states take seconds at most, whatever the robot: the reference's
+/// work grows with the cube of the number of joints where it returns D.
+fn affordable_states(joints: usize) -> usize {
+    const STATES: usize = 100;
+    const JOINTS: usize = 10;
+    match joints {
+        0..=JOINTS => STATES,
+        _ => (STATES * JOINTS.pow(3) / joints.pow(3)).max(1),
+    }
+}
+
+/// Returns the number of library calls of a function's code, in its first scalar: one for each
+/// angle and each root by libm, one for all angles together, none for polynomials.
+fn calls(generated: &Generated, function: Function) -> usize {
+    let mut emitted = generated.emitted.iter();
+    let Some(emitted) = emitted.find(|emitted| emitted.function == function) else {
+        return 0;
+    };
+    let text = &emitted.text;
+    let called = text.trig.iter().filter(|trig| trig.kernel.is_none());
+    let angles = match text.library {
+        Library::Libm => called.count(),
+        Library::Together => called.count().min(1),
+    };
+    angles + text.speeds.len()
+}
+
+/// Returns the certificates of a scene with a tolerance.
+pub fn certificates(generated: &Generated) -> Option<String> {
+    let admitted = generated.functions.iter();
+    let admitted = admitted.filter_map(|own| own.admitted.as_ref());
+    let certificates: Vec<_> = admitted.flat_map(|own| &own.certificates).collect();
+    (!certificates.is_empty()).then(|| write_certificates(&certificates))
+}

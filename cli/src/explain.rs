@@ -1,0 +1,324 @@
+//! `dalembert explain`: what each step of the generator brings for a robot, in operations and in rounding;
+//! Table 3 of the paper; and the coefficients that vanish or repeat.
+
+use dalembert_codegen::workspace::{
+    AngleSum, Argument, Columns, Input, JointState, Quantity, SEED, SceneRobot, Task, admitted,
+    input_hash, trace,
+};
+use dalembert_codegen::{Function, GenerateError, Program, Request, ScalarType};
+use dalembert_model::equations::{Arm, Formulation};
+use dalembert_model::number::{Exact, Rounded};
+use dalembert_model::robot::Robot;
+
+use crate::args::FewOptions;
+use crate::couplings::{Coupling, Summary, Value, couplings, summary};
+use crate::measure::{Bench, Code as Measured, Rounding};
+use crate::output::{Context, Outcome};
+use crate::progress;
+use crate::report::{COUNTS, Cell, Report, Table, cells, counts};
+use crate::source::Source;
+use crate::steps::{self, Code, Row};
+use crate::table3::{self, Comparison};
+
+/// Arguments of `explain`.
+#[derive(Debug, clap::Args)]
+pub struct ExplainArgs {
+    /// The robot: a robot file, a URDF or an MJCF
+    robot: std::path::PathBuf,
+    /// List every coefficient: D_ik, h_ikm, c_i, and which vanish or repeat another
+    #[arg(long, conflicts_with = "scene")]
+    coefficients: bool,
+    #[command(flatten)]
+    options: FewOptions,
+}
+
+/// The states that errors are measured at.
+const STATES: usize = 200;
+
+/// The most joints for which Lagrange–Euler is written out: the graph grows
+/// with n⁴ to n⁵.
+pub const MAX_WRITTEN: usize = 8;
+
+/// All that was found about one function of a robot.
+#[derive(Clone, Debug)]
+pub struct Explanation {
+    /// The robot, in its scene.
+    pub scene_robot: SceneRobot,
+    /// Which function.
+    pub function: Function,
+    /// The steps, in their order; the last is what is generated.
+    pub rows: Vec<Row>,
+    /// The coefficients of the whole robot that vanish or repeat, unless there are
+    /// too many.
+    pub couplings: Option<Vec<Coupling>>,
+}
+
+/// Explains the functions of a request, in their order; of the rest, effort,
+/// preference, plan, scene, scalars, source of sines and watch count. With a
+/// tolerance the last rows are what it admits, a row a scalar: all functions
+/// together, since they are emitted in the same one.
+///
+/// # Errors
+/// Those of [`generate`](dalembert_codegen::generate).
+pub fn explain(robot: &Robot, request: &Request) -> Result<Vec<Explanation>, GenerateError> {
+    if let Some(plan) = &request.plan
+        && plan.input != input_hash(robot)
+    {
+        let robot = plan.robot.clone();
+        return Err(GenerateError::StalePlan { robot });
+    }
+    let scene_robot =
+        SceneRobot::of(robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
+    let task = Task {
+        robot,
+        scene_robot: &scene_robot,
+        request,
+    };
+    let mut explained = Vec::new();
+    for (index, &function) in request.functions.iter().enumerate() {
+        if !request.functions[..index].contains(&function) {
+            explained.push(exact(&task, function)?);
+        }
+    }
+    let programs: Vec<&Program> = explained.iter().map(|(_, program)| program).collect();
+    let admitted = admitted(&task, &programs)?;
+    let mut explanations: Vec<Explanation> = explained.into_iter().map(|(e, _)| e).collect();
+    for (explanation, admitted) in explanations.iter_mut().zip(admitted.iter().flatten()) {
+        explanation.rows.extend(steps::tolerated(admitted)?);
+    }
+    Ok(explanations)
+}
+
+/// Returns everything but what a tolerance admits, and the program that it is applied
+/// to.
+fn exact(task: &Task<'_>, function: Function) -> Result<(Explanation, Program), GenerateError> {
+    let Task {
+        robot,
+        scene_robot,
+        request,
+    } = *task;
+    // Of a regressor no column comes from regrouped parameters.
+    if function.columns() != Columns::None {
+        return Err(GenerateError::Unexplained(function));
+    }
+    let found = steps::search_anew(task, function)?;
+    let tuned = found.tuned.as_ref();
+    let tuned = tuned.ok_or(GenerateError::Unexplained(function))?;
+    let mut rows = Vec::new();
+    if robot.joints.len() <= MAX_WRITTEN {
+        let trace = trace(scene_robot, function, Formulation::LagrangeEuler);
+        rows.extend(steps::lagrange_euler(
+            scene_robot,
+            function,
+            &trace,
+            request,
+        ));
+    }
+    let trace = trace(scene_robot, function, Formulation::NewtonEulerLink);
+    rows.extend(steps::newton_euler(scene_robot, function, &trace));
+    rows.extend(steps::chain(scene_robot, function, tuned));
+    let (searched, program) = steps::searched(task, function, &found)?;
+    rows.extend(searched);
+    let explanation = Explanation {
+        function,
+        rows,
+        couplings: scene_robot
+            .scene()
+            .map_or_else(|| couplings(robot), |_| None),
+        scene_robot: scene_robot.clone(),
+    };
+    Ok((explanation, program))
+}
+
+impl Explanation {
+    /// Measures what rounding costs each row, at states inside the limits of the robot, or of its
+    /// scene.
+    pub fn rounding(&self, states: usize) -> Vec<Rounding> {
+        let (scene_robot, function) = (&self.scene_robot, self.function);
+        let bench = Bench::new(scene_robot.clone());
+        let drawn = scene_robot.states(states, SEED);
+        let samples = |scalar| bench.samples(function, scalar, &drawn, &drawn);
+        let double = samples(ScalarType::F64);
+        let exact: Arm<Exact> = Arm::from_robot(scene_robot.robot(), &mut Exact::clone);
+        let arm = exact.map(f64::nearest);
+        let sizes = scene_robot.sizes(function);
+        let row = |row: &Row| {
+            let scalar = row.scalar();
+            let code = Measured {
+                function,
+                scalar,
+                sizes,
+                vanishing: vec![false; function.outputs(sizes)],
+                run: match &row.code {
+                    Code::Formula(own) => {
+                        Box::new(|state| formula(scene_robot, &arm, *own, function, state))
+                    }
+                    Code::Program(program) => {
+                        let text = program.lower(ScalarType::F64, |_| None);
+                        Box::new(move |state| text.run_at(state))
+                    }
+                    Code::Emitted(text, _) => Box::new(|state| text.run_at(state)),
+                },
+            };
+            let worst = match scalar {
+                ScalarType::F64 => bench.compare(&code, &double),
+                ScalarType::F32 => bench.compare(&code, &samples(scalar)),
+            };
+            Rounding::of(&worst)
+        };
+        self.rows.iter().map(row).collect()
+    }
+}
+
+/// Returns a formulation over f64, its constants rounded once.
+fn formula(
+    scene_robot: &SceneRobot,
+    arm: &Arm<f64>,
+    formulation: Formulation,
+    function: Function,
+    state: &JointState,
+) -> Vec<f64> {
+    let pair = |angle: AngleSum| {
+        // A motion reads the angles of single joints only.
+        libm::sincos(angle.terms().map(|(joint, _)| state.q[joint]).sum())
+    };
+    let input = |input| match input {
+        Input::Sin(angle) => pair(angle).0,
+        Input::Cos(angle) => pair(angle).1,
+        Input::PerSpeed(joint) => {
+            let qd = state.entry(Argument::Velocity, joint);
+            scene_robot.per_speed(joint, &qd, f64::nearest, |x| libm::sqrt(*x))
+        }
+        Input::Entry(argument, joint) => state.entry(argument, joint),
+    };
+    let posed = scene_robot.posed(function, arm.clone(), input, f64::nearest);
+    posed.results(scene_robot, function, formulation)
+}
+
+/// Runs the subcommand.
+pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
+    let source = Source::open(context, &args.robot)?;
+    let asked = &args.options.0;
+    let torques = [Function::InverseDynamics];
+    let mut request = source.request_for(asked, &torques)?;
+    let session = progress::watch(&mut request);
+    let explained = match explain(&source.robot, &request) {
+        Err(GenerateError::StalePlan { .. }) => {
+            context.say(
+                "warning: the plan beside the robot file no longer fits it: a search takes its place",
+            );
+            request.plan = None;
+            explain(&source.robot, &request)
+        }
+        explained => explained,
+    }?;
+    drop(session);
+    let robot = &source.robot;
+    let mut report = Report::of(robot, request.scene.as_ref());
+    report.line(format!(
+        "errors: the largest at {STATES} states inside the limits, against 256-bit arithmetic, in u (f64 2^-53, f32 2^-24):\n\
+         of a vector relative to its largest entry, of an entry relative to its own largest value"
+    ));
+    report.value("states", STATES);
+    for own in &explained {
+        let name = own.function.to_string();
+        report.table(&format!("functions/{name}"), &name, steps_of(own));
+    }
+    if request.scene.is_none() {
+        let heads = [
+            "formulation=Table 3, torques",
+            "mul",
+            "add",
+            "mul as written",
+            "add as written",
+        ];
+        let rows = table3::comparisons(robot).map(
+            |Comparison {
+                 formulation,
+                 paper,
+                 as_written,
+             }| {
+                let counts = [paper.mul, paper.add, as_written.mul, as_written.add];
+                let counts = counts.map(|count| Cell::from(count as usize));
+                [Cell::from(formulation)]
+                    .into_iter()
+                    .chain(counts)
+                    .collect()
+            },
+        );
+        report.table("table3", "", Table::new(&heads).with(rows));
+    }
+    if let Some(couplings) = explained.iter().find_map(|own| own.couplings.as_deref()) {
+        coefficients(&mut report, couplings, args.coefficients);
+    }
+    Ok(report.into())
+}
+
+/// Returns the table of steps.
+fn steps_of(own: &Explanation) -> Table {
+    let heads = [&["step", ".key"], &COUNTS[..], &["vector", "entry"]].concat();
+    let mut table = Table::new(&heads);
+    for (index, (row, rounding)) in own.rows.iter().zip(own.rounding(STATES)).enumerate() {
+        let is_emitted = matches!(row.code, Code::Emitted(..));
+        let mut title = row.step.title().to_owned();
+        if is_emitted {
+            title += &format!(", in {}", row.scalar());
+        }
+        // Of several scalars each is.
+        if is_emitted || index + 1 == own.rows.len() {
+            title += ": what is generated";
+        }
+        let mut cells = cells![title, Cell::json(row.step.key())];
+        cells.extend(counts(&row.counts));
+        cells.extend([rounding.vector, rounding.entry].map(units));
+        table.row(cells);
+    }
+    table.without_zeros(&["fma", "div", "sqrt", "trig_mul", "trig_add"])
+}
+
+/// Three figures are more than an error is worth.
+fn units(error: f64) -> Cell {
+    let text = match error {
+        ..100.0 => format!("{error:.1}"),
+        ..1e6 => format!("{error:.0}"),
+        // Not rounding: what a tolerance gave up.
+        _ => format!("{error:.0e}"),
+    };
+    Cell::of(text, error)
+}
+
+/// Adds how many coefficients vanish or repeat, and, if they are asked for, each of them.
+fn coefficients(report: &mut Report, couplings: &[Coupling], each: bool) {
+    let mut table = Table::keyed(&["coefficients", "total", "zero", "distinct up to sign"]);
+    for (quantity, name) in [
+        (Quantity::Inertia, "D"),
+        (Quantity::Christoffel, "h"),
+        (Quantity::Gravity, "c"),
+    ] {
+        let Summary {
+            total,
+            zero,
+            distinct,
+        } = summary(couplings, quantity);
+        table.row(cells![name, total, zero, distinct]);
+    }
+    report.table("coefficients", "", table);
+    if each {
+        let rows = couplings.iter().map(|Coupling { name, value, .. }| {
+            let value = match value {
+                Value::Zero => "0".to_owned(),
+                Value::Constant => "constant".to_owned(),
+                Value::Distinct => "·".to_owned(),
+                Value::Equals(other) => other.clone(),
+                Value::OppositeOf(other) => format!("−{other}"),
+            };
+            cells![name, value]
+        });
+        let table = Table::new(&["name=", "value="]).with(rows);
+        report.table(
+            "entries",
+            "D_ik with i ≤ k, h_ikm = h_imk with k ≤ m, c_i",
+            table,
+        );
+    }
+}

@@ -1,0 +1,304 @@
+//! Files that a run writes: refused before its work, written after it, all of them or none.
+
+use std::fmt::Display;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, ErrorKind, Read, Write};
+use std::path::{Path, PathBuf, is_separator};
+
+use tempfile::{Builder, NamedTempFile};
+
+use crate::output::{Context, Failure, print};
+
+/// The path that stands for standard output.
+const STANDARD: &str = "-";
+
+/// Where a process finds what it has open: that is written on, not anew, whatever it is.
+const OPEN: [&str; 4] = ["/dev/stdout", "/dev/stderr", "/dev/fd", "/proc/self/fd"];
+
+/// As much of a file as says who wrote it.
+const HEAD: u64 = 4096;
+
+/// Where an output goes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Target {
+    /// As the user calls it.
+    name: PathBuf,
+    place: Place,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Place {
+    Standard,
+    /// A regular file, links followed: replaced as a whole.
+    File(PathBuf),
+    /// A device or a pipe: written into, so that it stays what it is.
+    Stream(PathBuf),
+}
+
+impl Target {
+    /// Returns the file, unless it is a device or a pipe.
+    pub fn file(&self) -> Option<&Path> {
+        match &self.place {
+            Place::File(path) => Some(path),
+            Place::Standard | Place::Stream(_) => None,
+        }
+    }
+
+    /// Returns the line that says what was written; none for what is no file.
+    pub fn note(&self) -> Option<String> {
+        let name = self.name.display();
+        self.file().map(|_| format!("wrote {name}"))
+    }
+}
+
+/// The outputs of a run, and its inputs, which none of them may be.
+pub struct Files<'c> {
+    context: &'c Context,
+    inputs: Vec<Target>,
+    targets: Vec<Target>,
+}
+
+impl<'c> Files<'c> {
+    pub fn new(context: &'c Context, inputs: &[&Path]) -> Files<'c> {
+        // What is not there cannot be written over, but the next run may read it.
+        let inputs = inputs.iter().filter_map(|path| target(path).ok());
+        Files {
+            context,
+            inputs: inputs.collect(),
+            targets: Vec::new(),
+        }
+    }
+
+    /// Adds the output of `-o`: standard output without one, which a report in JSON needs for itself.
+    ///
+    /// # Errors
+    /// Those of [`Files::add`].
+    pub fn output(&mut self, path: Option<&Path>) -> Result<Target, Failure> {
+        let path = path.unwrap_or(Path::new(STANDARD));
+        if self.context.json && path == Path::new(STANDARD) {
+            return Err(Failure::Input(
+                "error: with --json the report goes to standard output, and what is written cannot go there, \
+                 too\n  = help: give a file by --output"
+                    .into(),
+            ));
+        }
+        self.add(path)
+    }
+
+    /// Adds an output and tries whether it can be written; `-` is standard output.
+    ///
+    /// # Errors
+    /// It cannot, it is an input or another output, or it is a file of somebody else.
+    pub fn add(&mut self, path: &Path) -> Result<Target, Failure> {
+        let target = target(path).map_err(|why| refused(path, why))?;
+        match &target.place {
+            Place::Standard => {}
+            Place::Stream(stream) => enter(stream).map_err(|error| refused(path, error))?,
+            Place::File(file) => {
+                if self.inputs.iter().any(|input| input.place == target.place) {
+                    let why = "this run reads it\n  = help: give another name";
+                    return Err(refused(path, why));
+                }
+                if self.targets.iter().any(|other| other.place == target.place) {
+                    let why = "it is another output of this run\n  = help: give another name";
+                    return Err(refused(path, why));
+                }
+                if !self.context.force && !is_ours(file) {
+                    let why = "it is there already, and dalembert did not write it\n  = help: give another \
+                               name, or --force to write over it";
+                    return Err(refused(path, why));
+                }
+                unfinished(folder(file)).map_err(|error| refused(path, error))?;
+            }
+        }
+        self.targets.push(target.clone());
+        Ok(target)
+    }
+
+    /// Adds a file of a folder that may have to be made, together with those above it.
+    ///
+    /// # Errors
+    /// The folder is something else or cannot be written in, and those of [`Files::add`].
+    pub fn add_in(&mut self, into: &Path, name: &str) -> Result<Target, Failure> {
+        if into == Path::new(STANDARD) {
+            return Err(refused(
+                into,
+                "it is standard output, and a folder is needed",
+            ));
+        }
+        let path = into.join(name);
+        let inside = folder(&path).to_owned();
+        let mut there = inside.as_path();
+        // The one that is there already.
+        loop {
+            match fs::metadata(there) {
+                Ok(found) if found.is_dir() => break,
+                Ok(_) => return Err(refused(into, format!("`{}` is no folder", there.display()))),
+                Err(_) if there.is_symlink() => {
+                    let why = format!("`{}` is a link to nowhere", there.display());
+                    return Err(refused(into, why));
+                }
+                Err(error)
+                    if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) =>
+                {
+                    there = folder(there);
+                }
+                Err(error) => return Err(refused(into, error)),
+            }
+        }
+        if there == inside {
+            return self.add(&path);
+        }
+        unfinished(there).map_err(|error| refused(into, error))?;
+        Ok(Target {
+            name: path.clone(),
+            place: Place::File(path),
+        })
+    }
+}
+
+/// Writes texts to their targets: into temporary files beside them, then into streams, and when all
+/// of that went well the files get their names.
+///
+/// # Errors
+/// Something cannot be written: then no file has changed, unless the system refused to rename a
+/// later one.
+pub fn write(outputs: &[(Target, String)]) -> Result<(), Failure> {
+    let mut parts = Vec::new();
+    for (target, text) in outputs {
+        if let Place::File(file) = &target.place {
+            let part = fs::create_dir_all(folder(file))
+                .and_then(|()| unfinished(folder(file)))
+                .and_then(|mut part| part.write_all(text.as_bytes()).map(|()| part));
+            parts.push((
+                target,
+                file,
+                part.map_err(|error| refused(&target.name, error))?,
+            ));
+        }
+    }
+    for (target, text) in outputs {
+        match &target.place {
+            Place::Standard => print(text)?,
+            Place::Stream(path) => {
+                // At the end: what is open may be a file with something in it.
+                let stream = OpenOptions::new().append(true).open(path);
+                stream
+                    .and_then(|mut stream| stream.write_all(text.as_bytes()))
+                    .map_err(|error| refused(&target.name, error))?;
+            }
+            Place::File(_) => {}
+        }
+    }
+    for (target, file, part) in parts {
+        part.persist(file)
+            .map_err(|error| refused(&target.name, error.error))?;
+    }
+    Ok(())
+}
+
+/// Refuses a name that ends as files of another format do.
+///
+/// # Errors
+/// The name has an ending, and it is another.
+pub fn ends_in(path: Option<&Path>, ending: &str) -> Result<(), Failure> {
+    let Some(path) = path.filter(|path| {
+        let found = path.extension();
+        found.is_some_and(|found| !found.eq_ignore_ascii_case(ending))
+    }) else {
+        return Ok(());
+    };
+    Err(Failure::Input(format!(
+        "error: `{}` would hold a .{ending} file\n  = help: name it `{}`; `-o -` writes to standard output",
+        path.display(),
+        path.with_extension(ending).display()
+    )))
+}
+
+/// Returns the first bytes of a file: no more are read, since a device may have no end.
+///
+/// # Errors
+/// The system's.
+pub fn first(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(most).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+fn refused(path: &Path, why: impl Display) -> Failure {
+    let path = path.display();
+    Failure::Input(format!("error: `{path}` cannot be written: {why}"))
+}
+
+fn folder(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// Makes a file that has no name of its own yet; what the user's mask leaves of its mode is that of
+/// other files.
+fn unfinished(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = Builder::new();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder)
+}
+
+/// Finds out where a path leads; the error is a reason with the likely fix.
+fn target(path: &Path) -> Result<Target, String> {
+    const FOLDER: &str = "it is a folder\n  = help: give the name of a file in it";
+    let of = |place| {
+        let name = path.to_owned();
+        Ok(Target { name, place })
+    };
+    if path == Path::new(STANDARD) {
+        return of(Place::Standard);
+    }
+    if path.to_string_lossy().ends_with(is_separator) {
+        return Err(FOLDER.into());
+    }
+    let is_open = OPEN.iter().any(|open| path.starts_with(open));
+    match fs::metadata(path) {
+        Ok(found) if found.is_dir() => Err(FOLDER.into()),
+        Ok(found) if found.is_file() && !is_open => {
+            let file = fs::canonicalize(path).map_err(|error| error.to_string())?;
+            of(Place::File(file))
+        }
+        Ok(_) => of(Place::Stream(path.to_owned())),
+        Err(error) if error.kind() == ErrorKind::NotFound && !path.is_symlink() => {
+            let name = path.file_name().ok_or(FOLDER)?;
+            let folder = folder(path);
+            let folder = fs::canonicalize(folder).map_err(|_| {
+                let folder = folder.display();
+                format!("there is no folder `{folder}`\n  = help: make it first")
+            })?;
+            of(Place::File(folder.join(name)))
+        }
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+/// Enters a stream; a pipe is not opened: that waits for its reader.
+fn enter(path: &Path) -> io::Result<()> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        if fs::metadata(path)?.file_type().is_fifo() {
+            return Ok(());
+        }
+    }
+    OpenOptions::new().append(true).open(path).map(drop)
+}
+
+/// Returns whether a file is new, empty, or says near its beginning that dalembert wrote it.
+fn is_ours(file: &Path) -> bool {
+    // What cannot be read is said by whoever writes it.
+    let head = first(file, HEAD).unwrap_or_default();
+    let text = String::from_utf8_lossy(&head);
+    text.is_empty() || text.contains("dalembert") || text.contains("\"certificate\": ")
+}

@@ -1,0 +1,194 @@
+//! `dalembert generate`: code, written or printed.
+
+use std::path::{Path, PathBuf};
+
+use dalembert_codegen::workspace::{keep, plan_file};
+use dalembert_codegen::{Language, Request, ScalarType};
+use dalembert_stamp::relative;
+
+use crate::args::values::word_parser;
+use crate::args::{CODE, TaskArgs};
+use crate::code::{Detail, certificates, report};
+use crate::files::{Files, Target};
+use crate::output::{Context, Done, Failure, Outcome};
+use crate::progress;
+use crate::source::Source;
+
+/// Arguments of `generate`.
+#[derive(Debug, clap::Args)]
+pub struct GenerateArgs {
+    #[command(flatten)]
+    task: TaskArgs,
+    /// Write the code to this file [default: standard output, `-`], the second of two
+    /// scalars in Rust beside it; its ending chooses the language (.rs, .h, .cuh), and what a
+    /// tolerance takes is certified beside it in NAME.certificate.json
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// The language of the code [default: that of the ending of -o, or rust]
+    #[arg(long, value_name = "WORD", value_parser = word_parser::<Language>(), help_heading = CODE)]
+    language: Option<Language>,
+    /// Search anew and keep the programs in a plan beside the robot file:
+    /// every later run, macro and build script replays them. After a search
+    /// that was ended early, a kept program stays unless that found a cheaper
+    /// one
+    #[arg(long, conflicts_with = "plan")]
+    save_plan: bool,
+}
+
+/// Where code, certificates and plan go.
+struct Places {
+    /// One for each file.
+    code: Vec<Target>,
+    /// With a tolerance, unless the code goes into a device or a pipe.
+    certificates: Option<Target>,
+    /// If it is to be kept.
+    plan: Option<Target>,
+}
+
+/// Runs the subcommand.
+pub(crate) fn run(args: &GenerateArgs, context: &Context) -> Outcome {
+    let language = language(args);
+    let scalars = language.as_ref().map_or(&[][..], |own| own.scalars());
+    let source = Source::open(context, &args.task.robot)?;
+    let mut request = source.request(&args.task.options.0, scalars)?;
+    request.language = *language.as_ref().unwrap_or(&Language::Rust);
+    // Before the work: what cannot be written is no news after it.
+    let places = Places::new(args, context, &source, &request)?;
+    language?;
+    let kept = request.plan.take_if(|_| args.save_plan);
+    let session = progress::watch(&mut request);
+    let generated = source.generate(context, &request)?;
+    drop(session);
+    let report = report(&source.robot, &request, &generated, Detail::Bounds);
+    let mut files = Vec::new();
+    let mut announced = None;
+    if let Some(target) = places.plan {
+        let kept = keep(&source.robot, &request, &generated, kept);
+        for (function, scalar) in kept.own {
+            context.say(&format!(
+                "the plan's program for `{function}` in {scalar} stays: the search, ended early, found none that is cheaper"
+            ));
+        }
+        let is_first = !plan_file::path(&source.path).exists();
+        announced = is_first.then(|| source.path.clone());
+        files.push((target, kept.plan.write()));
+    }
+    files.extend(places.certificates.zip(certificates(&generated)));
+    let place = match args.output.as_deref() {
+        Some(file) if places.code.iter().any(|target| target.file().is_some()) => {
+            relative(&source.path, file)
+        }
+        // As if it were written beside the robot file.
+        _ => {
+            let name = source.path.file_name().unwrap_or_default();
+            name.to_string_lossy().into_owned()
+        }
+    };
+    let code = generated.files(&request, &place, &source.text);
+    files.extend(places.code.into_iter().zip(code));
+    Ok(Done {
+        notes: files
+            .iter()
+            .filter_map(|(target, _)| target.note())
+            .collect(),
+        is_aside: true,
+        files,
+        announced,
+        ..Done::from(report)
+    })
+}
+
+impl Places {
+    /// Finds out where everything goes.
+    ///
+    /// # Errors
+    /// Something cannot be written, or would be written over something else.
+    fn new(
+        args: &GenerateArgs,
+        context: &Context,
+        source: &Source,
+        request: &Request,
+    ) -> Result<Places, Failure> {
+        let path = plan_file::path(&source.path);
+        if args.save_plan && source.is_model {
+            return Err(Failure::Input(format!(
+                "error: --save-plan: a plan stands beside a robot file\n  = help: `dalembert import {0} -o {1}` \
+                 makes one",
+                source.path.display(),
+                source.path.with_extension("toml").display()
+            )));
+        }
+        let mut inputs = vec![source.path.as_path()];
+        if !args.save_plan && !source.is_model {
+            // Whether it is there or not: the next run would read it.
+            inputs.push(&path);
+        }
+        let mut files = Files::new(context, &inputs);
+        let code = code(args, &mut files, request)?;
+        let scene = request.scene.as_ref();
+        let certified = scene.is_some_and(|scene| scene.tolerance.is_some());
+        let file = code.first().and_then(Target::file);
+        let beside = file.and(args.output.as_ref()).filter(|_| certified);
+        let beside = beside.map(|file| file.with_extension("certificate.json"));
+        Ok(Places {
+            code,
+            certificates: beside.map(|file| files.add(&file)).transpose()?,
+            plan: args.save_plan.then(|| files.add(&path)).transpose()?,
+        })
+    }
+}
+
+/// Returns where the code goes: the second of two scalars in Rust beside the first.
+fn code(
+    args: &GenerateArgs,
+    files: &mut Files<'_>,
+    request: &Request,
+) -> Result<Vec<Target>, Failure> {
+    let first = files.output(args.output.as_deref())?;
+    let is_pair = request.language == Language::Rust && request.scalars.len() > 1;
+    if !is_pair || request.cheapest_scalar {
+        return Ok(vec![first]);
+    }
+    let Some(path) = args.output.as_deref().filter(|_| first.file().is_some()) else {
+        return Err(Failure::Input(
+            "error: each scalar has a file of its own in Rust\n  = help: ask for one scalar, or give -o the \
+             name of a file: the f32 code goes to one that ends in _f32"
+                .into(),
+        ));
+    };
+    // `arm_f32.rs` beside `arm.rs`.
+    let base = path.file_stem().unwrap_or_default().to_string_lossy();
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    let second = files.add(&path.with_file_name(format!("{base}_f32.{ending}")))?;
+    let target = |scalar: &ScalarType| match scalar {
+        ScalarType::F64 => first.clone(),
+        ScalarType::F32 => second.clone(),
+    };
+    Ok(request.scalars.iter().map(target).collect())
+}
+
+/// Returns the language of the code: that of the ending of `-o`, unless `--language` is given.
+///
+/// # Errors
+/// The ending is that of another language, or of none while `--language` is not given.
+fn language(args: &GenerateArgs) -> Result<Language, Failure> {
+    let path = args.output.as_deref();
+    let Some(path) = path.filter(|path| path.extension().is_some()) else {
+        return Ok(args.language.unwrap_or_default());
+    };
+    match (Language::of(path), args.language) {
+        (Ok(language), None) => Ok(language),
+        (Ok(language), Some(asked)) if language == asked => Ok(language),
+        (Err(_), Some(asked)) => Ok(asked),
+        (_, asked) => {
+            // What has no ending names them.
+            let known = Language::of(Path::new("")).err().unwrap_or_default();
+            Err(Failure::Input(format!(
+                "error: `{}` does not end as a file of {} does\n  = help: the language follows from \
+                 the ending: {known}",
+                path.display(),
+                asked.map_or("any language", Language::name),
+            )))
+        }
+    }
+}

@@ -1,0 +1,409 @@
+//! States from elsewhere (a simulator, another library, a measurement) compared with generated code:
+//! JSON with a list `states` of objects with `q`, the rates `qd` and `qdd` where they matter, and
+//! any result by its key, such as `tau`, `D`, `h` or `c`.
+
+use std::collections::BTreeMap;
+
+use dalembert_codegen::workspace::{Argument, Emitted, JointState, Quantity, Runtime, Sizes};
+use dalembert_codegen::{Function, ScalarType};
+use dalembert_model::outputs::Shape;
+use dalembert_model::read::closest;
+use dalembert_model::robot::Robot;
+use serde::Deserialize;
+
+use crate::output::Done;
+use crate::report::{Cell, Table, cells, counted};
+
+/// The largest disagreement that counts as agreement: the largest error of an
+/// entry at a state, relative to the largest entry given at that state.
+pub const BOUND: f64 = 1e-12;
+
+/// An error of every value below this is one of digits, not of units or signs.
+const FEW_DIGITS: f64 = 1e-4;
+
+/// The most mistakes of a file that are listed.
+const MOST: usize = 10;
+
+/// The torques that drive an arm, unlike those that a motion takes.
+const TORQUE: &str = "torque";
+
+/// A key that a state may have about itself: the condition of D, by which its source judged the
+/// results that need D⁻¹.
+const REMARK: &str = "condition";
+
+/// A state with what is known about it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GivenState {
+    /// The state; rates that no given quantity needs are zero.
+    pub state: JointState,
+    /// τ, D (row by row), h and c, as far as they are known.
+    pub known: BTreeMap<Quantity, Vec<f64>>,
+}
+
+/// A file of states.
+#[derive(Deserialize)]
+#[serde(expecting = "an object with a list `states`")]
+struct File {
+    states: Vec<BTreeMap<String, Numbers>>,
+}
+
+/// A number, a list of numbers, or a matrix as rows or row by row.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "expected a number or a list of numbers")]
+enum Numbers {
+    One(f64),
+    List(Vec<Numbers>),
+}
+
+impl Numbers {
+    fn flat(&self) -> Vec<f64> {
+        match self {
+            Numbers::One(number) => vec![*number],
+            Numbers::List(list) => list.iter().flat_map(Numbers::flat).collect(),
+        }
+    }
+}
+
+/// Reads the states of a robot with n joints.
+///
+/// # Errors
+/// The text is not JSON with a list of states, or everything that is wrong with the states.
+pub fn read(text: &str, n: usize) -> Result<Vec<GivenState>, String> {
+    let file: File = serde_json::from_str(text).map_err(|error| {
+        format!(
+            "{error}\n  = help: a file of states is {{\"states\": [{{\"q\": […], \"qd\": […], \"qdd\": […], \
+             \"tau\": […]}}, …]}}, with numbers and lists of numbers alone"
+        )
+    })?;
+    let mut mistakes = Vec::new();
+    let mut states = Vec::new();
+    for (index, keys) in file.states.iter().enumerate() {
+        let (state, wrong) = state(keys, n);
+        states.push(state);
+        mistakes.extend(
+            wrong
+                .into_iter()
+                .map(|why| format!("state {}: {why}", index + 1)),
+        );
+    }
+    let more = mistakes.len().saturating_sub(MOST);
+    mistakes.truncate(MOST);
+    if more > 0 {
+        mistakes.push(format!("and {more} more mistakes"));
+    }
+    match (mistakes.is_empty(), states.is_empty()) {
+        (true, false) => Ok(states),
+        (true, true) => Err("the list `states` is empty".into()),
+        (false, _) => Err(mistakes.join("\n")),
+    }
+}
+
+/// Reads a state, and returns everything that is wrong with it.
+fn state(keys: &BTreeMap<String, Numbers>, n: usize) -> (GivenState, Vec<String>) {
+    let mut wrong = Vec::new();
+    let sizes = Sizes::whole(n);
+    let mut values = |key: &str, length: usize| -> Option<Vec<f64>> {
+        let values = keys.get(key)?.flat();
+        if values.len() != length {
+            wrong.push(format!(
+                "`{key}` has {} numbers, not {length}",
+                values.len()
+            ));
+        }
+        Some(values)
+    };
+    let mut argument = |argument: Argument| {
+        let key = argument.given().unwrap_or_default();
+        values(key, argument.length(sizes))
+    };
+    let q = argument(Argument::Position);
+    let state = JointState {
+        qd: argument(Argument::Velocity).unwrap_or_else(|| vec![0.0; n]),
+        qdd: argument(Argument::Acceleration).unwrap_or_else(|| vec![0.0; n]),
+        tau: argument(Argument::Torque).unwrap_or_default(),
+        wrench: argument(Argument::Wrench).unwrap_or_default(),
+        damping: argument(Argument::Damping).unwrap_or_default(),
+        multiplier: argument(Argument::Multiplier).unwrap_or_default(),
+        q: q.clone().unwrap_or_else(|| vec![0.0; n]),
+        ..JointState::default()
+    };
+    let mut known = BTreeMap::new();
+    let quantities = results().chain(keys.keys().filter_map(|key| at_frame(key)));
+    for (key, quantity) in quantities {
+        known.extend(values(key, quantity.len(sizes)).map(|values| (quantity, values)));
+    }
+    if q.is_none() {
+        wrong.push("`q` is missing".into());
+    }
+    for (quantity, key) in known.keys().filter_map(|q| Some((q, q.given()?))) {
+        let needed = quantity.arguments().iter().filter_map(|own| own.given());
+        for missing in needed.filter(|need| *need != "q" && !keys.contains_key(*need)) {
+            wrong.push(format!("`{missing}` is missing, which `{key}` depends on"));
+        }
+    }
+    let mut read = known.keys().flat_map(|quantity| quantity.arguments());
+    if keys.contains_key(TORQUE) && !read.any(|argument| *argument == Argument::Torque) {
+        wrong.push(format!(
+            "`{TORQUE}` is what `forward_dynamics` reads, and the state does not give that\n  \
+             = help: torques that q, qd and qdd give are `tau`"
+        ));
+    }
+    let words: Vec<&str> = Argument::ALL
+        .into_iter()
+        .filter_map(Argument::given)
+        .collect();
+    let words: Vec<&str> = words
+        .into_iter()
+        .chain(results().map(|(key, _)| key))
+        .collect();
+    for key in keys.keys() {
+        if words.contains(&key.as_str()) || key == REMARK || at_frame(key).is_some() {
+            continue;
+        }
+        let shown: String = key.chars().take(40).map(plain).collect();
+        let meant = closest(key, &words)
+            .map_or_else(String::new, |word| format!("did you mean `{word}`? "));
+        wrong.push(format!(
+            "`{shown}` is no key of a state\n  = help: {meant}a state has `q`, `qd`, `qdd` and any of {}",
+            results().map(|(key, _)| format!("`{key}`")).collect::<Vec<_>>().join(", ")
+        ));
+    }
+    (GivenState { state, known }, wrong)
+}
+
+/// Returns the keys of results, in the order of the list of outputs.
+fn results() -> impl Iterator<Item = (&'static str, Quantity)> {
+    let all = Quantity::ALL.iter();
+    all.filter_map(|&quantity| Some((quantity.given()?, quantity)))
+}
+
+/// Returns the quantity of a key with a frame: `jacobian@camera:local`.
+fn at_frame(key: &str) -> Option<(&'static str, Quantity)> {
+    let (name, view) = key.split_once('@')?;
+    let (_, quantity) = results().find(|(own, _)| *own == name)?;
+    let function = Function::parse(&format!("{}@{view}", quantity.function())).ok()?;
+    let quantity = *function.quantities().first()?;
+    let own = quantity.given().filter(|own| *own == key)?;
+    Some((own, quantity))
+}
+
+/// A control character would move the cursor of whoever reads the message.
+fn plain(c: char) -> char {
+    if c.is_control() { '\u{fffd}' } else { c }
+}
+
+/// One quantity of one function, compared at every state that gives it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Compared {
+    /// The function that was run.
+    pub function: Function,
+    /// The quantity as it is given: h where the function returns its symbols.
+    pub quantity: Quantity,
+    /// Number of states that give it.
+    pub states: usize,
+    /// At how many of them it is further off than [`BOUND`].
+    pub disagreeing: usize,
+    /// The largest error, relative to the largest entry given at that state, over the condition of D
+    /// there where the quantity inverts it.
+    pub error: f64,
+    /// That error in words: the state, the entry, and both values.
+    pub worst: String,
+}
+
+impl Compared {
+    /// Returns the key of the quantity.
+    fn result(&self) -> &'static str {
+        let quantity = self.quantity;
+        quantity.given().unwrap_or_else(|| quantity.symbol())
+    }
+}
+
+/// Returns the quantities that can be compared with given states, from what a function
+/// returns: the symbols h_ikm are compared as the load h that they give.
+pub fn quantities(function: Function) -> impl Iterator<Item = Quantity> {
+    let all = function.quantities().iter();
+    all.map(|quantity| quantity.as_given(&[], &[]).0)
+}
+
+/// Runs the code of a runtime's robot at every state; sines are libm's.
+pub fn compare(
+    emitted: &Emitted,
+    runtime: &Runtime,
+    robot: &Robot,
+    states: &[GivenState],
+) -> Vec<Compared> {
+    let own = emitted.with_libm();
+    let function = emitted.function;
+    let sizes = Sizes::whole(robot.joints.len());
+    let mut all: BTreeMap<Quantity, Compared> = BTreeMap::new();
+    for (index, given) in states.iter().enumerate() {
+        // A state need not have what only some functions read.
+        let mut arguments = function.arguments().into_iter();
+        if arguments.any(|argument| given.state.of(argument).len() != argument.length(sizes)) {
+            continue;
+        }
+        let results = own.run(&given.state);
+        let granted = runtime.granted(function, &given.state);
+        let mut start = 0;
+        for &returned in function.quantities() {
+            let values = &results[start..start + returned.len(emitted.sizes)];
+            start += returned.len(emitted.sizes);
+            let (quantity, values) = returned.as_given(values, &given.state.qd);
+            let Some(known) = given.known.get(&quantity) else {
+                continue;
+            };
+            let (entry, error) = worst(&values, known);
+            let error = error / granted.to(returned);
+            let compared = all.entry(quantity).or_insert_with(|| Compared {
+                function,
+                quantity,
+                states: 0,
+                disagreeing: 0,
+                error: -1.0,
+                worst: String::new(),
+            });
+            compared.states += 1;
+            compared.disagreeing += usize::from(error > BOUND);
+            if error > compared.error {
+                compared.error = error;
+                compared.worst = format!(
+                    "{} at state {}, {}: the file has {:e}, the robot gives {:e}",
+                    quantity.symbol(),
+                    index + 1,
+                    place(quantity, entry, robot),
+                    known[entry],
+                    values[entry]
+                );
+            }
+        }
+    }
+    all.into_values().collect()
+}
+
+/// Names an entry of a quantity.
+fn place(quantity: Quantity, entry: usize, robot: &Robot) -> String {
+    let n = robot.joints.len().max(1);
+    match quantity.shape() {
+        Shape::SCALAR => "its value".to_owned(),
+        Shape::VECTOR => robot.joint_label(entry),
+        Shape::MATRIX => {
+            let [row, column] = [entry / n, entry % n].map(|joint| robot.joint_label(joint));
+            format!("row of {row}, column of {column}")
+        }
+        _ => quantity.entry(entry, Sizes::whole(n)),
+    }
+}
+
+/// Returns the entry with the largest error and that error, relative to the largest
+/// expected entry; absolute where all of those vanish, infinite where a value
+/// is not a number.
+fn worst(actual: &[f64], expected: &[f64]) -> (usize, f64) {
+    let size = expected.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+    let mut worst = (0, 0.0f64);
+    for (index, (a, b)) in actual.iter().zip(expected).enumerate() {
+        let difference = (a - b).abs();
+        let error = if size > 0.0 {
+            difference / size
+        } else {
+            difference
+        };
+        if error.is_nan() {
+            return (index, f64::INFINITY);
+        }
+        if error > worst.1 {
+            worst = (index, error);
+        }
+    }
+    worst
+}
+
+/// Runs all code at states; only double precision, since a state rounded to f32 is another state.
+pub fn compare_all(
+    emitted: &[Emitted],
+    runtime: &Runtime,
+    robot: &Robot,
+    states: &[GivenState],
+) -> Vec<Compared> {
+    let double = emitted.iter().filter(|own| own.scalar == ScalarType::F64);
+    double
+        .flat_map(|own| compare(own, runtime, robot, states))
+        .collect()
+}
+
+/// Describes the comparison with the states of a file, and what disagrees.
+pub(crate) fn describe(file: &str, states: &[GivenState], compared: &[Compared], done: &mut Done) {
+    let heads = [
+        "function",
+        "result",
+        "states",
+        "error",
+        "bound",
+        ".disagreeing",
+        ".worst",
+        "verdict=",
+    ];
+    let mut table = Table::new(&heads);
+    for own in compared {
+        table.row(cells![
+            own.function.to_string(),
+            own.result(),
+            own.states,
+            Cell::power(own.error, 1),
+            Cell::power(BOUND, 1),
+            own.disagreeing,
+            own.worst.as_str(),
+            if own.disagreeing == 0 {
+                "ok"
+            } else {
+                "DISAGREES"
+            },
+        ]);
+    }
+    done.report.table(
+        "given",
+        format!("{} of {file}, in f64", counted(states.len(), "state")),
+        table,
+    );
+    let given = states.iter().flat_map(|state| state.known.keys());
+    let mut missed: Vec<Quantity> = given.copied().collect();
+    missed.sort();
+    missed.dedup();
+    missed.retain(|quantity| !compared.iter().any(|own| own.quantity == *quantity));
+    let missed: Vec<&str> = missed.into_iter().filter_map(Quantity::given).collect();
+    if !missed.is_empty() {
+        let missed = missed.join(", ");
+        done.report.line(format!(
+            "not compared, since no function of --outputs returns it: {missed}"
+        ));
+    }
+    let mut wrong: Vec<&Compared> = compared.iter().filter(|own| own.disagreeing > 0).collect();
+    // Several functions return the same quantity: it is named once.
+    wrong.sort_by_key(|own| own.quantity);
+    wrong.dedup_by_key(|own| own.quantity);
+    if wrong.is_empty() {
+        return;
+    }
+    let mut text = format!("error: {file}: the robot disagrees with the states");
+    for Compared {
+        worst,
+        disagreeing,
+        states,
+        ..
+    } in &wrong
+    {
+        text += &format!("\n  {worst}; {disagreeing} of {states} states disagree");
+    }
+    let worst = compared.iter().map(|own| own.error).fold(0.0, f64::max);
+    done.failed.push(match worst < FEW_DIGITS {
+        true => format!(
+            "{text}\n  = help: all values agree to {:.1} digits: were they written with fewer than 17, \
+             or with another value of a parameter?",
+            -worst.log10()
+        ),
+        false => format!(
+            "{text}\n  = help: the usual causes are units (degrees, mm, g), signs and axes of gravity, the DH \
+             convention, inertia about the origin instead of the centre of mass, products of inertia, axes \
+             and zeros of single joints, damping and armature; compare `c` at q = 0 first, then `D`, then `h`"
+        ),
+    });
+}

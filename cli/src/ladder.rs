@@ -1,0 +1,281 @@
+//! What accuracy costs: variants of one function for several tolerances, each certified and run at
+//! states that try to refute it.
+//!
+//! From the smallest tolerance up: each search also starts from the program of the one before, which
+//! its tolerance admits as well. So none is dearer than one before it. A search with other settings
+//! may still find less for one tolerance alone.
+
+use dalembert_codegen::workspace::{
+    Admitted, BoundEffort, Certificate, ErrorBudget, PruneSettings, TextError, each, falsify,
+    sincos_counts,
+};
+use dalembert_codegen::{Counts, Effort, Program, ScalarType};
+
+/// One variant.
+pub struct Point {
+    /// Zero for the exact program.
+    pub tolerance: f64,
+    /// The claim about it.
+    pub certificate: Certificate,
+    /// The largest E of an output.
+    pub certified: f64,
+    /// The largest error that was seen, if it was run at any state.
+    pub observed: Option<f64>,
+    /// The error of operations and sines by themselves, in the same measure: the code
+    /// against its own program in double precision. Nothing in double.
+    pub rounding: f64,
+    /// The largest such error that was seen.
+    pub rounding_observed: Option<f64>,
+    /// True if another one is neither dearer nor worse.
+    pub dominated: bool,
+    /// An error above E, in words: never, unless this program is wrong.
+    pub violation: Option<String>,
+}
+
+impl Point {
+    /// Returns a variant that was not run yet.
+    pub fn new(tolerance: f64, certificate: Certificate) -> Point {
+        Point {
+            tolerance,
+            certified: worst(&certificate),
+            observed: None,
+            rounding: worst(&certificate.of_rounding()),
+            rounding_observed: None,
+            certificate,
+            dominated: false,
+            violation: None,
+        }
+    }
+
+    /// Returns where its certificate goes.
+    pub fn file(&self) -> String {
+        let Certificate { scalar, sines, .. } = &self.certificate;
+        let by = if sines.is_empty() { "" } else { "-polynomials" };
+        format!("{:e}-{scalar}{by}.json", self.tolerance)
+    }
+
+    /// Returns which kind of variant it is: scalar and sines.
+    pub fn kind(&self) -> usize {
+        let polynomials = !self.certificate.sines.is_empty();
+        2 * usize::from(polynomials)
+            + match self.certificate.scalar {
+                ScalarType::F64 => 0,
+                ScalarType::F32 => 1,
+            }
+    }
+
+    /// Returns what it costs, with the operations of its sines.
+    pub fn counts(&self) -> Counts {
+        let (trig_mul, trig_add) = sincos_counts(&self.certificate.sines);
+        Counts {
+            trig_mul,
+            trig_add,
+            ..self.certificate.emitted.counts()
+        }
+    }
+
+    /// Returns how many values were replaced.
+    pub fn edits(&self) -> usize {
+        let stages = self.certificate.stages.iter();
+        stages.map(|stage| stage.edits.len()).sum()
+    }
+
+    /// Returns what it costs, dimension by dimension: a narrower scalar is one too.
+    fn cost(&self) -> [usize; 3] {
+        let counts = self.counts();
+        let bits = match self.certificate.scalar {
+            ScalarType::F64 => 64,
+            ScalarType::F32 => 32,
+        };
+        // Polynomials are operations like others; what libm does is not known.
+        match self.certificate.sines.is_empty() {
+            true => [bits, counts.sincos, counts.operations()],
+            false => [
+                bits,
+                0,
+                counts.operations() + counts.trig_mul + counts.trig_add,
+            ],
+        }
+    }
+}
+
+/// Marks what is dominated: another point is no dearer, no worse, and not the
+/// same; of equal points the first stays.
+pub fn mark(points: &mut [Point]) {
+    let all: Vec<([usize; 3], f64)> = points.iter().map(|p| (p.cost(), p.certified)).collect();
+    for (index, point) in points.iter_mut().enumerate() {
+        let (mine, error) = all[index];
+        point.dominated = all.iter().enumerate().any(|(other, &(theirs, e))| {
+            let no_worse = theirs.iter().zip(&mine).all(|(a, b)| a <= b) && e <= error;
+            let same = theirs == mine && e == error;
+            no_worse && (!same || other < index)
+        });
+    }
+}
+
+/// A scalar may share the others' variant if rounding takes less than this
+/// part of the tolerance.
+const SHARE: f64 = 1.0 / 16.0;
+
+/// The variants of one function, tolerance by tolerance.
+pub struct Ladder<'a> {
+    /// States at which each variant is run.
+    samples: usize,
+    frame: &'a ErrorBudget<'a>,
+    settings: PruneSettings,
+    /// The exact program in every scalar.
+    exact: Admitted,
+}
+
+/// Climbs from the states to the largest error of each output.
+const CLIMBS: usize = 4;
+
+impl<'a> Ladder<'a> {
+    /// Makes a ladder for a function in its box.
+    pub fn new(samples: usize, effort: Effort, frame: &'a ErrorBudget<'a>) -> Ladder<'a> {
+        Ladder {
+            samples,
+            frame,
+            settings: PruneSettings::of(effort),
+            exact: frame.unedited(&ScalarType::ALL, BoundEffort::CERTIFY),
+        }
+    }
+
+    /// Returns the variants of all tolerances, which ascend; the exact program's first. `begin` hears the
+    /// name of each step, `done` the variants of each tolerance.
+    ///
+    /// # Errors
+    /// A variant cannot be run.
+    pub fn climb(
+        &self,
+        tolerances: &[f64],
+        begin: &dyn Fn(&str),
+        done: &dyn Fn(f64, &[Point]),
+    ) -> Result<Vec<Point>, TextError> {
+        let mut points: Vec<Point> = Vec::new();
+        for tolerance in tolerances.iter().copied().chain([0.0]) {
+            let variants = self.rung(tolerance, points.last(), begin)?;
+            done(tolerance, &variants);
+            points.extend(variants);
+        }
+        points.sort_by(|a, b| {
+            let order = a.tolerance.total_cmp(&b.tolerance);
+            order.then(a.kind().cmp(&b.kind()))
+        });
+        Ok(points)
+    }
+
+    /// Returns a variant with polynomials for its sines, if the tolerance admits any.
+    fn polynomials(&self, tolerance: f64, certificate: &Certificate) -> Option<Certificate> {
+        let tolerances = vec![tolerance; self.frame.scales.len()];
+        let found = self
+            .frame
+            .with_polynomials(certificate, &tolerances, BoundEffort::CERTIFY);
+        found.ok().filter(|found| !found.sines.is_empty())
+    }
+
+    /// Returns the variants of one tolerance; `before` is one that a smaller tolerance admits.
+    fn rung(
+        &self,
+        tolerance: f64,
+        before: Option<&Point>,
+        begin: &dyn Fn(&str),
+    ) -> Result<Vec<Point>, TextError> {
+        begin(&format!("tolerance {tolerance:e}"));
+        let exact = tolerance == 0.0;
+        let variants = match exact {
+            true => vec![self.exact.clone()],
+            false => self.variants(tolerance, before),
+        };
+        begin(&format!("attempts to refute {tolerance:e}"));
+        let mut certificates = Vec::new();
+        for certificate in variants.into_iter().flat_map(|v| v.certificates) {
+            let polynomials = match exact {
+                true => None,
+                false => self.polynomials(tolerance, &certificate),
+            };
+            certificates.push(certificate);
+            certificates.extend(polynomials);
+        }
+        let samples = self.samples;
+        let points = each(&certificates, |own| point(samples, tolerance, own));
+        points.into_iter().collect()
+    }
+
+    /// Returns the cheapest variants that a tolerance admits, in each scalar that can
+    /// be that exact at all; `before` is one that a smaller tolerance admits.
+    fn variants(&self, tolerance: f64, before: Option<&Point>) -> Vec<Admitted> {
+        let tolerances = vec![tolerance; self.frame.scales.len()];
+        let able = self.exact.certificates.iter();
+        let able: Vec<_> = able.filter(|c| worst(c) <= tolerance).collect();
+        let alike = able.iter().all(|c| worst(c) <= SHARE * tolerance);
+        let groups: Vec<Vec<ScalarType>> = match alike {
+            true => vec![able.iter().map(|c| c.scalar).collect()],
+            false => able.iter().map(|c| vec![c.scalar]).collect(),
+        };
+        let groups = groups.into_iter().filter(|scalars| !scalars.is_empty());
+        let from = before.map(|point| point.certificate.emitted.clone());
+        let from = from.filter(|program| program != self.frame.exact);
+        let from: Vec<Program> = from.into_iter().collect();
+        groups
+            .map(|scalars| {
+                let found = self.frame.choose_from(
+                    &from,
+                    &tolerances,
+                    &scalars,
+                    &self.settings,
+                    BoundEffort::CERTIFY,
+                );
+                found.unwrap_or_else(|_| self.exact_in(&scalars))
+            })
+            .collect()
+    }
+
+    fn exact_in(&self, scalars: &[ScalarType]) -> Admitted {
+        let mut exact = self.exact.clone();
+        exact.certificates.retain(|c| scalars.contains(&c.scalar));
+        exact
+    }
+}
+
+/// Runs a variant at states that try to refute its claim.
+fn point(samples: usize, tolerance: f64, certificate: &Certificate) -> Result<Point, TextError> {
+    let (observed, mut violation) = falsified(samples, certificate)?;
+    let mut rounding_observed = None;
+    if certificate.scalar == ScalarType::F32 {
+        let (observed, other) = falsified(samples, &certificate.of_rounding())?;
+        rounding_observed = observed;
+        violation = violation.or(other);
+    }
+    Ok(Point {
+        observed,
+        rounding_observed,
+        violation,
+        ..Point::new(tolerance, certificate.clone())
+    })
+}
+
+/// Returns the largest error that is seen, and one above E.
+fn falsified(
+    samples: usize,
+    certificate: &Certificate,
+) -> Result<(Option<f64>, Option<String>), TextError> {
+    let falsification = falsify(certificate, samples, CLIMBS, 1)?;
+    let largest = || falsification.observed.iter().copied().fold(0.0, f64::max);
+    let observed = (falsification.states > 0).then(largest);
+    let violation = falsification.violation.map(|(index, state)| {
+        format!(
+            "{} errs up to {:e}, which is more than its E of {:e}, as at {state:?}",
+            certificate.emitted.entry(index),
+            falsification.observed[index],
+            certificate.bounds[index].total()
+        )
+    });
+    Ok((observed, violation))
+}
+
+/// Returns the largest E of an output.
+fn worst(certificate: &Certificate) -> f64 {
+    let totals = certificate.bounds.iter().map(|bound| bound.total());
+    totals.fold(0.0, f64::max)
+}

@@ -1,0 +1,107 @@
+//! `dalembert outputs`: the functions that can be generated, from the model's table.
+
+use dalembert_codegen::Function;
+use dalembert_codegen::workspace::{Argument, Quantity, Sizes};
+use dalembert_model::outputs::Axis;
+use dalembert_model::read;
+use dalembert_model::robot::Robot;
+use serde_json::json;
+
+use crate::output::Outcome;
+use crate::report::{Cell, Report, Table, cells};
+
+/// Runs the subcommand.
+pub(crate) fn run() -> Outcome {
+    let robot = read::parse(crate::new::ROBOT, &read::Options::default());
+    // It is this command's own, and its joints turn.
+    let robot = robot.map_or_else(|_| None, |reading| Some(reading.robot));
+    let heads = [
+        "function", "takes", "returns", "unit", "which is", ".results",
+    ];
+    let mut functions = Table::keyed(&heads);
+    for function in Function::ALL {
+        let arguments = function.arguments().into_iter().map(Argument::name);
+        let arguments: Vec<&str> = arguments.collect();
+        let results = function.quantities().iter();
+        let results: Vec<[String; 3]> = results.map(|&own| result(own, robot.as_ref())).collect();
+        let json = results
+            .iter()
+            .map(|[symbol, shape, unit]| json!({ "symbol": symbol, "shape": shape, "unit": unit }));
+        functions.row(cells![
+            function.name(),
+            Cell::of(arguments.join(", "), arguments),
+            returned(&results),
+            results
+                .iter()
+                .map(|own| own[2].as_str())
+                .collect::<Vec<_>>()
+                .join("; "),
+            function.summary(),
+            Cell::json(json.collect::<Vec<_>>()),
+        ]);
+    }
+    let mut arguments = Table::keyed(&["argument", "symbol", "which is"]);
+    for own in Argument::ALL {
+        if Function::ALL
+            .into_iter()
+            .any(|function| function.arguments().contains(&own))
+        {
+            arguments.row(cells![own.name(), own.symbol(), own.meaning()]);
+        }
+    }
+    let mut report = Report::default();
+    report.table("functions", "", functions);
+    report.line(
+        "\nn joints, p base parameters. Units are those of joints that turn; of one that slides, N stands for N·m\n\
+         and m for rad. `NAME@FRAME` is an output at a frame, `NAME=A+B` a function that returns what A and B do.",
+    );
+    report.table("arguments", "", arguments);
+    Ok(report.into())
+}
+
+/// Names results with their shapes.
+fn returned(results: &[[String; 3]]) -> String {
+    let each = results
+        .iter()
+        .map(|[symbol, shape, _]| format!("{symbol} [{shape}]"));
+    each.collect::<Vec<_>>().join(", ")
+}
+
+/// Returns symbol, shape and unit of a quantity.
+fn result(quantity: Quantity, robot: Option<&Robot>) -> [String; 3] {
+    let axis = |axis: &Axis| match axis {
+        Axis::Joints => "n".to_owned(),
+        Axis::Fixed(length) => length.to_string(),
+        Axis::LinkParameters => "10n".to_owned(),
+        Axis::BaseParameters => "p".to_owned(),
+        Axis::Load => "l".to_owned(),
+    };
+    let shape: Vec<String> = quantity.shape().0.iter().map(axis).collect();
+    let shape = if shape.is_empty() {
+        "1".to_owned()
+    } else {
+        shape.join("×")
+    };
+    let mut units: Vec<&str> = Vec::new();
+    if let Some(robot) = robot {
+        let rows: Vec<usize> = (0..robot.joints.len()).collect();
+        let sizes = Sizes {
+            base: 1,
+            load: 1,
+            ..Sizes::whole(rows.len())
+        };
+        let entries = (0..quantity.len(sizes)).map(|i| quantity.unit(i, &rows, sizes, robot));
+        for unit in entries.filter(|unit| !unit.is_empty()) {
+            if !units.contains(&unit) {
+                units.push(unit);
+            }
+        }
+    }
+    // The columns of base parameters have a unit each.
+    let unit = if units.is_empty() {
+        "mixed".to_owned()
+    } else {
+        units.join(", ")
+    };
+    [quantity.symbol().to_owned(), shape, unit]
+}

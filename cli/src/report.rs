@@ -1,0 +1,341 @@
+//! A report: every datum once, as text for people and as JSON for programs.
+
+use std::fmt::{self, Display};
+
+use dalembert_codegen::Counts;
+use dalembert_model::robot::Robot;
+use dalembert_model::scene::Scene;
+use serde::{Serialize, Serializer};
+use serde_json::{Map, Value};
+
+/// What a subcommand found.
+#[derive(Default)]
+pub struct Report(Vec<Part>);
+
+enum Part {
+    /// Lines for people.
+    Text(String),
+    /// A value for programs.
+    Value(String, Value),
+    /// For both.
+    Table(String, Table),
+}
+
+impl Report {
+    /// Returns a report about a robot in its scene.
+    pub fn of(robot: &Robot, scene: Option<&Scene>) -> Report {
+        let mut report = Report::default();
+        let joints = counted(robot.joints.len(), "joint");
+        let scene = scene.map(|scene| scene.name.as_str());
+        let (name, input, within) = (&robot.name, robot.short_hash(), in_scene(scene));
+        report.line(format!("robot {name}, {joints}, input {input}{within}"));
+        report.value("robot", name.as_str());
+        report.value("input", input);
+        report.value("joints", robot.joints.len());
+        report.value("scene", scene);
+        report
+    }
+
+    /// Adds a line for people, or several.
+    pub fn line(&mut self, text: impl Display) {
+        self.0.push(Part::Text(format!("{text}\n")));
+    }
+
+    /// Adds a value for programs; a slash in the key leads into an object.
+    pub fn value(&mut self, key: &str, value: impl Into<Value>) {
+        self.0.push(Part::Value(key.to_owned(), value.into()));
+    }
+
+    /// Adds a table for people.
+    pub fn rows(&mut self, table: Table) {
+        self.0.push(Part::Text(table.to_string()));
+    }
+
+    /// Adds a table, below an empty line and its title if that is not empty.
+    pub fn table(&mut self, key: &str, title: impl Display, table: Table) {
+        if !table.rows.is_empty() {
+            let title = title.to_string();
+            let end = if title.is_empty() { "" } else { "\n" };
+            self.0.push(Part::Text(format!("\n{title}{end}")));
+        }
+        self.0.push(Part::Table(key.to_owned(), table));
+    }
+}
+
+impl Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let text = |part: &Part| match part {
+            Part::Text(text) => text.clone(),
+            Part::Table(_, table) => table.to_string(),
+            Part::Value(..) => String::new(),
+        };
+        let text: String = self.0.iter().map(text).collect();
+        // Nothing is above the first table.
+        f.write_str(text.trim_start_matches('\n'))
+    }
+}
+
+impl Serialize for Report {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut root = Map::new();
+        for part in &self.0 {
+            let (key, value) = match part {
+                Part::Text(_) => continue,
+                Part::Value(key, value) => (key, value.clone()),
+                Part::Table(key, table) => (key, table.json()),
+            };
+            let mut keys = key.split('/');
+            let last = keys.next_back().unwrap_or_default();
+            let mut object = &mut root;
+            for key in keys {
+                let entry = object.entry(key).or_insert_with(|| Map::new().into());
+                match entry {
+                    Value::Object(inner) => object = inner,
+                    // No key is a value and an object.
+                    _ => return to.serialize_none(),
+                }
+            }
+            object.insert(last.to_owned(), value);
+        }
+        root.serialize(to)
+    }
+}
+
+/// A table. Texts stand to the left, numbers to the right.
+pub struct Table {
+    columns: Vec<Column>,
+    rows: Vec<Vec<Cell>>,
+    /// Programs get an object by the first column's values instead of a list.
+    is_keyed: bool,
+}
+
+/// A column: what programs and people call it.
+struct Column {
+    key: String,
+    title: &'static str,
+    /// It is for programs alone.
+    is_hidden: bool,
+}
+
+/// What people and programs read in a cell.
+#[derive(Clone)]
+pub struct Cell(String, Value);
+
+impl Cell {
+    /// Returns a cell that people read as this text.
+    pub fn of(text: impl Into<String>, value: impl Into<Value>) -> Cell {
+        Cell(text.into(), value.into())
+    }
+
+    /// Returns a number to so many digits behind the point, in powers of ten.
+    pub fn power(value: f64, digits: usize) -> Cell {
+        Cell::of(format!("{value:.digits$e}"), value)
+    }
+
+    /// Returns a number to one digit behind the point.
+    pub fn units(value: f64) -> Cell {
+        Cell::of(format!("{value:.1}"), value)
+    }
+
+    /// Returns a value that only programs read.
+    pub fn json(value: impl Into<Value>) -> Cell {
+        Cell::of("", value)
+    }
+}
+
+impl From<&str> for Cell {
+    fn from(text: &str) -> Cell {
+        Cell::of(text, text)
+    }
+}
+
+impl From<String> for Cell {
+    fn from(text: String) -> Cell {
+        Cell::of(text.clone(), text)
+    }
+}
+
+impl From<&String> for Cell {
+    fn from(text: &String) -> Cell {
+        text.as_str().into()
+    }
+}
+
+impl From<usize> for Cell {
+    fn from(count: usize) -> Cell {
+        Cell::of(count.to_string(), count)
+    }
+}
+
+/// Makes the cells of a row.
+macro_rules! cells {
+    ($($cell:expr),* $(,)?) => { vec![$($crate::report::Cell::from($cell)),*] };
+}
+pub(crate) use cells;
+
+impl Table {
+    /// Returns a table with these heads. A head is the column's title; behind `=` stands another
+    /// one, and a column that begins with a point is for programs alone.
+    pub fn new(heads: &[&'static str]) -> Table {
+        let column = |head: &&'static str| {
+            let (key, title) = head.split_once('=').unwrap_or((head, head));
+            Column {
+                key: key.trim_start_matches('.').replace(' ', "_"),
+                title,
+                is_hidden: head.starts_with('.'),
+            }
+        };
+        Table {
+            columns: heads.iter().map(column).collect(),
+            rows: Vec::new(),
+            is_keyed: false,
+        }
+    }
+
+    /// Returns a table whose rows programs find by the first column's values.
+    pub fn keyed(heads: &[&'static str]) -> Table {
+        Table {
+            is_keyed: true,
+            ..Table::new(heads)
+        }
+    }
+
+    pub fn row(&mut self, cells: Vec<Cell>) {
+        self.rows.push(cells);
+    }
+
+    /// Returns the table with more rows.
+    pub fn with(mut self, rows: impl IntoIterator<Item = Vec<Cell>>) -> Table {
+        self.rows.extend(rows);
+        self
+    }
+
+    /// Hides columns from people.
+    pub fn without(mut self, titles: &[&str]) -> Table {
+        for column in &mut self.columns {
+            column.is_hidden |= titles.contains(&column.title);
+        }
+        self
+    }
+
+    /// Hides columns from people in which every row has zero or nothing.
+    pub fn without_zeros(mut self, titles: &[&str]) -> Table {
+        for (place, column) in self.columns.iter_mut().enumerate() {
+            let mut cells = self.rows.iter().map(|row| row[place].0.as_str());
+            column.is_hidden |=
+                titles.contains(&column.title) && cells.all(|cell| cell.is_empty() || cell == "0");
+        }
+        self
+    }
+
+    pub fn json(&self) -> Value {
+        let object = |cells: &[Cell], columns: &[Column]| -> Value {
+            let pairs = columns.iter().zip(cells);
+            let pairs = pairs.map(|(column, cell)| (column.key.clone(), cell.1.clone()));
+            Value::Object(pairs.collect())
+        };
+        let rows = self.rows.iter();
+        match self.is_keyed {
+            false => rows.map(|row| object(row, &self.columns)).collect(),
+            true => {
+                let row =
+                    |row: &Vec<Cell>| (row[0].0.clone(), object(&row[1..], &self.columns[1..]));
+                Value::Object(rows.map(row).collect())
+            }
+        }
+    }
+
+    /// Writes it for programs that read tables: all columns, numbers to seven digits.
+    pub fn csv(&self) -> String {
+        let cell = |cell: &Cell| match &cell.1 {
+            Value::Number(number) if cell.0.contains('.') => {
+                format!("{:.6e}", number.as_f64().unwrap_or_default())
+            }
+            Value::Null => String::new(),
+            _ => cell.0.clone(),
+        };
+        let heads = self
+            .columns
+            .iter()
+            .map(|column| column.key.clone())
+            .collect();
+        let rows = self.rows.iter().map(|row| row.iter().map(cell).collect());
+        let lines = [heads].into_iter().chain(rows);
+        lines
+            .map(|line: Vec<String>| line.join(",") + "\n")
+            .collect()
+    }
+}
+
+impl Display for Table {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut lines = vec![String::new(); self.rows.len() + 1];
+        for (place, column) in self.columns.iter().enumerate() {
+            if column.is_hidden {
+                continue;
+            }
+            let cells = || self.rows.iter().map(|row| &row[place]);
+            let texts = || {
+                [column.title]
+                    .into_iter()
+                    .chain(cells().map(|cell| cell.0.as_str()))
+            };
+            let wide = texts().map(width).max().unwrap_or(0);
+            let is_left = place == 0 || !cells().any(|cell| cell.1.is_number());
+            for (line, text) in lines.iter_mut().zip(texts()) {
+                let pad = " ".repeat(wide - width(text));
+                *line += &match is_left {
+                    true => format!("  {text}{pad}"),
+                    false => format!("  {pad}{text}"),
+                };
+            }
+        }
+        // A head without titles is none, and so is one without rows.
+        let mut lines = lines.iter().map(|line| line.trim_end());
+        let head = lines
+            .next()
+            .filter(|head| !head.is_empty() && !self.rows.is_empty());
+        head.into_iter()
+            .chain(lines)
+            .try_for_each(|line| writeln!(f, "{line}"))
+    }
+}
+
+/// Returns the places that a text takes: dots above letters take none.
+fn width(text: &str) -> usize {
+    let dots = '\u{300}'..='\u{36f}';
+    text.chars().filter(|c| !dots.contains(c)).count()
+}
+
+/// The columns of operation counts, of which [`counts`] makes the cells.
+pub const COUNTS: [&str; 8] = [
+    "mul", "add", "fma", "div", "sqrt", "sincos", "trig_mul", "trig_add",
+];
+
+/// Returns the cells of operation counts.
+pub fn counts(counts: &Counts) -> Vec<Cell> {
+    let Counts {
+        mul,
+        add,
+        fma,
+        div,
+        sqrt,
+        sincos,
+        trig_mul,
+        trig_add,
+        ..
+    } = *counts;
+    let all = [mul, add, fma, div, sqrt, sincos, trig_mul, trig_add];
+    all.into_iter().map(Cell::from).collect()
+}
+
+/// Writes `, scene pick` behind a robot, if there is a scene.
+pub fn in_scene(scene: Option<&str>) -> String {
+    scene.map_or_else(String::new, |scene| format!(", scene {scene}"))
+}
+
+/// Writes a number with its noun: `1 joint`, `6 joints`.
+pub fn counted(number: usize, noun: &str) -> String {
+    let plural = if number == 1 { "" } else { "s" };
+    format!("{number} {noun}{plural}")
+}

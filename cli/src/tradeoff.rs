@@ -1,0 +1,335 @@
+//! `dalembert tradeoff`: what accuracy costs, certified and observed.
+
+use std::path::PathBuf;
+
+use dalembert_codegen::workspace::{ErrorBudget, SceneKey, SceneRobot, prove};
+use dalembert_codegen::{Counts, GenerateError, Program, Request, ScalarType};
+use dalembert_model::scene::{Scale, Scene};
+use serde_json::Value;
+
+use crate::args::FewOptions;
+use crate::args::values::{count_parser, tolerance_parser};
+use crate::chart::{self, Dot};
+use crate::files::{Files, Target};
+use crate::ladder::{Ladder, Point, mark};
+use crate::output::{Context, Done, Failure, Outcome, note};
+use crate::progress;
+use crate::report::{Cell, Table, cells, in_scene};
+use crate::source::Source;
+
+/// Arguments of `tradeoff`.
+#[derive(Debug, clap::Args)]
+pub struct TradeoffArgs {
+    /// The robot; the box is its limits of motion, unless a scene has one, whose tolerance gives way
+    /// to the list of tolerances
+    robot: PathBuf,
+    /// What errors are relative to: `actuator`, the joints' torque limits, or `range`,
+    /// the largest torque that was found for the model in the box
+    /// [default: the scene's, or actuator]
+    #[arg(long, value_name = "SCALE", value_parser = ["actuator", "range"])]
+    relative_to: Option<String>,
+    /// Tolerances, separated by commas [default: 1e-12 to 1e-1]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = tolerance_parser(), allow_hyphen_values = true)]
+    tolerances: Vec<f64>,
+    /// Write table, chart and certificates to this folder
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// States at which each variant is run; with 0 nothing is observed
+    #[arg(
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        value_parser = count_parser(),
+        default_value_t = 10_000
+    )]
+    samples: usize,
+    #[command(flatten)]
+    options: FewOptions,
+}
+
+/// Tolerances unless others are asked for; zero is always there.
+const TOLERANCES: [f64; 10] = [1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 5e-2, 1e-1];
+
+/// The files that are written.
+const CSV: &str = "tradeoff.csv";
+const SVG: &str = "tradeoff.svg";
+
+/// Runs the subcommand.
+pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
+    let source = Source::open(context, &args.robot)?;
+    let (mut request, scene) = exact_request(args, &source)?;
+    let tolerances = tolerances(args, context)?;
+    // Before the work: a folder that cannot be is no news an hour later.
+    let mut files = Files::new(context, &[&args.robot]);
+    let targets = args.output.as_ref().map(|folder| {
+        let [csv, svg] = [CSV, SVG].map(|name| files.add_in(folder, name));
+        Ok::<[Target; 2], Failure>([csv?, svg?])
+    });
+    let targets = targets.transpose()?;
+    let scene_robot =
+        SceneRobot::of(&source.robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
+    let session = progress::watch(&mut request);
+    let mut functions = source.generate(context, &request)?.functions.into_iter();
+    drop(session);
+    let exact = functions.next().map(|function| function.program);
+    let mut exact = exact.ok_or_else(|| Failure::from(GenerateError::Empty))?;
+    let relative_to = relative_to(args, scene.as_ref());
+    let mut points = climb(
+        args,
+        &request,
+        &scene_robot,
+        &exact,
+        relative_to,
+        &tolerances,
+    )?;
+    // What a tolerance led to may be exact, and cheaper than what the exact search found.
+    if let Some(better) = better(&scene_robot, &exact, &points) {
+        exact = better;
+        points = climb(
+            args,
+            &request,
+            &scene_robot,
+            &exact,
+            relative_to,
+            &tolerances,
+        )?;
+    }
+    mark(&mut points);
+    let mut done = Done::default();
+    let report = &mut done.report;
+    report.value("robot", source.robot.name.as_str());
+    report.value("input", source.robot.short_hash());
+    report.value("scene", scene.as_ref().map(|scene| scene.name.as_str()));
+    report.value("function", exact.function.to_string());
+    let mut words = Scale::WORDS.into_iter();
+    let word = words.find(|(_, scale)| *scale == relative_to);
+    report.value("relative_to", word.map(|(word, _)| word));
+    let table = table(&points);
+    if let Some(([csv, svg], folder)) = targets.zip(args.output.as_ref()) {
+        let scene = in_scene(scene.as_ref().map(|scene| scene.name.as_str()));
+        let title = format!("{}{scene}: {}", source.robot.name, exact.function);
+        done.files = vec![
+            (csv, table.csv()),
+            (svg, drawn(&title, relative_to, &points)?),
+        ];
+        for point in &points {
+            let name = format!("certificates/{}", point.file());
+            let target = files.add_in(folder, &name)?;
+            done.files.push((target, point.certificate.to_json()));
+        }
+        done.notes.push(format!("wrote {}", folder.display()));
+    }
+    let table = table.without(&["rounding", "rounding observed"]);
+    done.report.value("variants", table.json());
+    done.report.rows(table);
+    for point in &points {
+        if let Some(why) = &point.violation {
+            let file = point.file();
+            done.failed
+                .push(format!("error: {file} is violated: {why}"));
+        }
+    }
+    Ok(done)
+}
+
+/// Returns the request for the exact program, which tolerances are applied to, and the scene: the plan
+/// may have the program of the scene with its own tolerance, which is one of many here.
+fn exact_request(
+    args: &TradeoffArgs,
+    source: &Source,
+) -> Result<(Request, Option<Scene>), Failure> {
+    let mut request = source.request_for(
+        &args.options.0,
+        &[dalembert_codegen::Function::InverseDynamics],
+    )?;
+    if args.options.0.items("outputs").len() > 1 {
+        let why = "error: --outputs: one function is traded at a time\n  = help: name one";
+        return Err(Failure::Input(why.into()));
+    }
+    request.functions.truncate(1);
+    request.scalars = vec![ScalarType::F64];
+    request.cheapest_scalar = false;
+    let scene = request.scene.take();
+    request.scene = scene.as_ref().map(Scene::without_tolerance);
+    if let (Some(plan), Some(scene), Some(bare)) = (&mut request.plan, &scene, &request.scene) {
+        for entry in &mut plan.entries {
+            if entry.scene == Some(SceneKey::of(scene)) {
+                entry.scene = Some(SceneKey::of(bare));
+                entry.edited = None;
+            }
+        }
+    }
+    Ok((request, scene))
+}
+
+/// Returns the variants of all tolerances.
+fn climb(
+    args: &TradeoffArgs,
+    request: &Request,
+    scene_robot: &SceneRobot,
+    exact: &Program,
+    relative_to: Scale,
+    tolerances: &[f64],
+) -> Result<Vec<Point>, Failure> {
+    let frame = ErrorBudget::new(scene_robot, exact, relative_to).map_err(|refusal| {
+        Failure::Input(format!(
+            "error: {}: {refusal}\n  = help: give the limits in the robot file, or the box of a scene",
+            args.robot.display()
+        ))
+    })?;
+    // Every tolerance and the exact program: searched for, then falsified.
+    progress::steps(2 * (1 + tolerances.len()));
+    let watch = progress::watch_step();
+    let frame = frame.watched(watch.over(exact.function));
+    let ladder = Ladder::new(args.samples, request.effort, &frame);
+    let done = |tolerance, variants: &[Point]| {
+        if !progress::is_shown() {
+            note(&line(tolerance, variants));
+        }
+    };
+    let points = ladder.climb(tolerances, &progress::step, &done);
+    points.map_err(|error| Failure::Check(format!("error: {error}")))
+}
+
+/// Returns the cheapest program of a tolerance that is proved exact and cheaper than the exact search's.
+fn better(scene_robot: &SceneRobot, exact: &Program, points: &[Point]) -> Option<Program> {
+    let programs = points.iter().map(|point| &point.certificate.emitted);
+    let fewer = |own: &&Program| own.counts().operations() < exact.counts().operations();
+    let mut fewer: Vec<&Program> = programs.filter(fewer).collect();
+    fewer.sort_by_key(|own| own.counts().operations());
+    let mut fewer = fewer.into_iter();
+    fewer.find(|own| prove(scene_robot, own).is_ok()).cloned()
+}
+
+/// Describes the variants of a tolerance in one line.
+fn line(tolerance: f64, variants: &[Point]) -> String {
+    let variants = variants.iter().map(|point| {
+        let certificate = &point.certificate;
+        let by = if certificate.sines.is_empty() {
+            ""
+        } else {
+            " with polynomials"
+        };
+        let (operations, error) = (point.counts().operations(), point.certified);
+        format!(
+            "{operations} operations in {}{by} ({error:.1e})",
+            certificate.scalar
+        )
+    });
+    let variants: Vec<String> = variants.collect();
+    let found = match variants.is_empty() {
+        true => "no scalar is that exact".to_owned(),
+        false => variants.join(", "),
+    };
+    format!("tolerance {tolerance:e}: {found}")
+}
+
+/// Returns the tolerances, ascending, each once.
+fn tolerances(args: &TradeoffArgs, context: &Context) -> Result<Vec<f64>, Failure> {
+    let mut tolerances = match args.tolerances.as_slice() {
+        [] => TOLERANCES.to_vec(),
+        given => given.to_vec(),
+    };
+    if let Some(bad) = tolerances.iter().find(|t| !(t.is_finite() && **t > 0.0)) {
+        return Err(Failure::Input(format!(
+            "error: a tolerance is a number above zero, not {bad}\n  = help: --tolerances 1e-3,1e-2"
+        )));
+    }
+    if let Some(large) = tolerances.iter().find(|t| **t >= 1.0) {
+        context.say(&format!(
+            "warning: a tolerance of {large} allows an error as large as the output: 0.01 is 1%"
+        ));
+    }
+    tolerances.sort_by(f64::total_cmp);
+    tolerances.dedup();
+    Ok(tolerances)
+}
+
+/// Returns what was asked for, else the scene's scale, else the actuators.
+fn relative_to(args: &TradeoffArgs, scene: Option<&Scene>) -> Scale {
+    let own = scene.and_then(|scene| scene.tolerance.as_ref());
+    let own = own.map(|tolerance| tolerance.relative_to);
+    let asked = args.relative_to.as_deref();
+    let mut words = Scale::WORDS.into_iter();
+    let asked = words.find(|(word, _)| Some(*word) == asked);
+    asked
+        .map(|(_, scale)| scale)
+        .or(own)
+        .unwrap_or(Scale::Actuator)
+}
+
+/// Returns the variants, a row each.
+fn table(points: &[Point]) -> Table {
+    let mut table = Table::new(&[
+        "tolerance",
+        "scalar",
+        "sincos by",
+        "mul",
+        "add",
+        "sincos",
+        "trig_mul",
+        "trig_add",
+        "left out",
+        "certified",
+        "observed",
+        "rounding",
+        "rounding observed",
+        "front",
+    ]);
+    for own in points {
+        let Counts {
+            mul,
+            add,
+            sincos,
+            trig_mul,
+            trig_add,
+            ..
+        } = own.counts();
+        // What was not observed is no zero.
+        let seen = |seen: Option<f64>| match seen {
+            Some(seen) => Cell::power(seen, 2),
+            None => Cell::of("–", Value::Null),
+        };
+        table.row(cells![
+            Cell::of(format!("{:e}", own.tolerance), own.tolerance),
+            own.certificate.scalar.name(),
+            if own.certificate.sines.is_empty() {
+                "libm"
+            } else {
+                "polynomials"
+            },
+            mul,
+            add,
+            sincos,
+            trig_mul,
+            trig_add,
+            own.edits(),
+            Cell::power(own.certified, 2),
+            seen(own.observed),
+            Cell::power(own.rounding, 2),
+            seen(own.rounding_observed),
+            if own.dominated { "" } else { "yes" },
+        ]);
+    }
+    table
+}
+
+/// Draws the operations over the certified errors.
+fn drawn(title: &str, relative_to: Scale, points: &[Point]) -> Result<String, Failure> {
+    let scale = match relative_to {
+        Scale::Actuator => "the actuators' limits",
+        Scale::Range => "the largest torques",
+    };
+    let dots = points.iter().map(|own| {
+        let counts = own.counts();
+        Dot {
+            kind: own.kind(),
+            operations: (counts.operations() + counts.trig_mul + counts.trig_add) as f64,
+            certified: own.certified,
+            observed: own.observed,
+            dominated: own.dominated,
+        }
+    });
+    chart::svg(title, scale, &dots.collect::<Vec<Dot>>())
+        .map_err(|error| Failure::Input(format!("error: the chart cannot be drawn: {error}")))
+}

@@ -1,0 +1,272 @@
+//! `dalembert verify`: the exact proof, then what rounding costs the emitted text, run bit for bit:
+//! inside the limits, at states that somebody else computed, and at the extremes.
+
+use std::path::{Path, PathBuf};
+
+use dalembert_codegen::workspace::{
+    Emitted, JointState, SEED, STATES, angle_name, bound_of, falsify,
+};
+use dalembert_codegen::{Function, GenerateError, Generated, Request, ScalarType};
+use serde_json::Value;
+
+use crate::args::TaskArgs;
+use crate::args::values::states_parser;
+use crate::code::{BOUNDS, bounds};
+use crate::extremes::{self, Held, Row, Verdict};
+use crate::given::{self, GivenState};
+use crate::measure::{Bench, ENTRY, VECTOR};
+use crate::output::{Context, Done, Failure, Outcome};
+use crate::progress;
+use crate::report::{Cell, Report, Table, cells};
+use crate::source::{Source, text};
+
+/// Arguments of `verify`.
+#[derive(Debug, clap::Args)]
+pub struct VerifyArgs {
+    #[command(flatten)]
+    task: TaskArgs,
+    /// Compare with these states too: JSON with a list `states` of objects
+    /// with q, qd, qdd and any of tau, D, h, c
+    #[arg(long, value_name = "FILE.json", conflicts_with = "scene")]
+    given: Option<PathBuf>,
+    /// Measure the torques also where robots are not: huge angles and speeds, other masses and
+    /// lengths; and what divides where D is nearest to singular
+    #[arg(long, conflicts_with = "scene")]
+    extremes: bool,
+    /// States of each row
+    #[arg(
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        value_parser = states_parser(),
+        default_value_t = 50
+    )]
+    states: usize,
+}
+
+/// The largest file of states.
+const MAX_STATES_BYTES: u64 = 1 << 28;
+
+/// Climbs to the largest error of each output.
+const CLIMBS: usize = 2;
+
+/// Runs the subcommand.
+pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
+    let source = Source::open(context, &args.task.robot)?;
+    let robot = &source.robot;
+    let mut request = source.request(&args.task.options.0, &ScalarType::ALL)?;
+    let given = args
+        .given
+        .as_deref()
+        .map(|file| given_states(file, &source, &request));
+    let given = given.transpose()?;
+    let session = progress::watch(&mut request);
+    // What cannot be proved is not generated: this ends with the reason.
+    let generated = source.generate(context, &request)?;
+    drop(session);
+    let mut done = Done::from(Report::of(robot, request.scene.as_ref()));
+    let mut proofs = Table::new(&["function=", "proof="]);
+    for own in &generated.functions {
+        proofs.row(cells![own.function.to_string(), own.proof.to_string()]);
+    }
+    done.report.table("proofs", "", proofs);
+    let scene_robot = request.scene_robot(robot).map_err(GenerateError::Scene)?;
+    let states = scene_robot.states(args.states, SEED);
+    let claimed = claims(&generated, &mut done)?;
+    let bench = Bench::new(scene_robot);
+    if let Some((file, states)) = args.given.as_ref().zip(given) {
+        let compared = given::compare_all(&generated.emitted, bench.runtime(), robot, &states);
+        given::describe(&file.display().to_string(), &states, &compared, &mut done);
+    }
+    // What a tolerance left out is no rounding: its bound is E.
+    let is_exact = |own: &&Emitted| !claimed.contains(&(own.function, own.scalar));
+    let exact = generated.emitted.iter().filter(is_exact);
+    let mut rows = extremes::inside(&bench, exact, &states);
+    if args.extremes {
+        progress::step("the torques at the extremes");
+        rows.extend(extremes::torques(robot, &request, args.states)?);
+        progress::step("what divides, nearest to singular");
+        rows.extend(extremes::divided(robot, &request, args.states)?);
+    }
+    rounding(args.states, &rows, &mut done);
+    sines(&generated, &states, &mut done);
+    done.report.value("warnings", generated.warnings.clone());
+    done.report.value("passed", done.failed.is_empty());
+    Ok(done)
+}
+
+/// Reads the states of a file.
+///
+/// # Errors
+/// They cannot be read, or nothing in them can be compared with what the request generates.
+fn given_states(
+    file: &Path,
+    source: &Source,
+    request: &Request,
+) -> Result<Vec<GivenState>, Failure> {
+    let shown = file.display();
+    let fail = |why: String| Failure::Input(format!("error: {shown}: {why}"));
+    let states = given::read(&text(file, MAX_STATES_BYTES)?, source.robot.joints.len());
+    let states = states.map_err(fail)?;
+    let nothing = |why: &str| Err(fail(format!("nothing is compared: {why}")));
+    let mut keys: Vec<_> = states.iter().flat_map(|state| state.known.keys()).collect();
+    if keys.is_empty() {
+        return nothing("no state has any of `tau`, `D`, `h`, `c`");
+    }
+    let returned = request
+        .functions
+        .iter()
+        .copied()
+        .flat_map(given::quantities);
+    let returned: Vec<_> = returned.collect();
+    if !keys.iter().any(|key| returned.contains(key)) {
+        keys.sort();
+        keys.dedup();
+        let keys = keys
+            .iter()
+            .filter_map(|key| Some(format!("`{}`", key.given()?)));
+        let keys = keys.collect::<Vec<_>>().join(", ");
+        return nothing(&format!(
+            "the states have {keys}, which no function of --outputs returns"
+        ));
+    }
+    match request.scalars.contains(&ScalarType::F64) {
+        true => Ok(states),
+        false => {
+            nothing("states are doubles, and only f32 code is generated\n  = help: --scalar f64")
+        }
+    }
+}
+
+/// Falsifies the certificates of a scene with a tolerance, and returns what they are about.
+fn claims(generated: &Generated, done: &mut Done) -> Result<Vec<(Function, ScalarType)>, Failure> {
+    let mut claimed = Vec::new();
+    let functions = generated.functions.iter();
+    let admitted = functions.filter_map(|function| function.admitted.as_ref());
+    for own in admitted.flat_map(|admitted| &admitted.certificates) {
+        let found = falsify(own, STATES, CLIMBS, SEED)
+            .map_err(|error| Failure::Check(format!("error: {error}")))?;
+        let (function, scalar, states) = (own.emitted.function, own.scalar, found.states);
+        let mut table = Table::new(&[&BOUNDS[..], &["observed"]].concat());
+        for (mut row, observed) in bounds(own).zip(&found.observed) {
+            row.push(Cell::power(*observed, 3));
+            table.row(row);
+        }
+        done.report.table(
+            &format!("certificates/{function}/{scalar}"),
+            format!("{function} in {scalar}, certified, and the largest errors at {states} states"),
+            table,
+        );
+        if found.violation.is_some() {
+            done.failed.push(format!(
+                "error: the certificate of `{function}` in {scalar} is violated: a defect of this program"
+            ));
+        }
+        claimed.push((function, scalar));
+    }
+    Ok(claimed)
+}
+
+/// Adds the table of rounding errors, then the states of the rows that failed.
+fn rounding(states: usize, rows: &[Row], done: &mut Done) {
+    let heads = [
+        "case",
+        "function",
+        "result",
+        "scalar",
+        "vector",
+        "entry",
+        ".condition",
+        ".held_to",
+        "verdict=",
+    ];
+    let mut table = Table::new(&heads);
+    for row in rows {
+        // What a row is not held to stands in brackets.
+        let cell = |error: f64, other: Held| match row.held == other {
+            true => Cell::of(format!("({error:.1})"), error),
+            false => Cell::units(error),
+        };
+        let verdict = row.verdict.to_string();
+        let held = Cell::json(format!("{:?}", row.held).to_lowercase());
+        table.row(match &row.worst {
+            Some(worst) => cells![
+                row.case,
+                worst.function.to_string(),
+                worst.quantity.symbol(),
+                worst.scalar.name(),
+                cell(worst.vector, Held::Entries),
+                cell(worst.entry, Held::Vector),
+                Cell::json(worst.condition),
+                held,
+                verdict,
+            ],
+            None => {
+                let none = || Cell::json(Value::Null);
+                cells![row.case, "", "", "", none(), none(), none(), held, verdict]
+            }
+        });
+    }
+    let is_one = rows.iter().all(|row| row.case == rows[0].case);
+    let title = format!(
+        "largest rounding errors at {states} states, against 256-bit arithmetic, in u (f64 2^-53, f32 2^-24):\n\
+         of a vector up to {VECTOR} of its largest entry, of an entry up to {ENTRY} of its own largest value"
+    );
+    let hidden: &[&str] = if is_one { &["case"] } else { &[] };
+    done.report.table("errors", title, table.without(hidden));
+    for row in rows {
+        if let Some(reason) = &row.reason {
+            let (case, verdict) = (row.case, row.verdict);
+            done.report.line(format!("\n{case}: {verdict}: {reason}"));
+        }
+        if let (Verdict::Failed, Some(worst)) = (row.verdict, &row.worst) {
+            let (state, scalar, case) = (&worst.state, worst.scalar, row.case);
+            done.report.line(format!(
+                "\nFAILED: {case} of {} in {scalar}, at\n  q   {:?}\n  qd  {:?}\n  qdd {:?}\n  tau {:?}",
+                worst.function, state.q, state.qd, state.qdd, state.tau
+            ));
+        }
+    }
+    let failed = rows
+        .iter()
+        .filter(|row| row.verdict == Verdict::Failed)
+        .count();
+    if failed > 0 {
+        let all = rows.len();
+        done.failed.push(format!(
+            "error: rounding costs more than the bound in {failed} of {all} rows"
+        ));
+    }
+}
+
+/// Compares polynomials with libm's sine and cosine at some states.
+fn sines(generated: &Generated, states: &[JointState], done: &mut Done) {
+    let mut table = Table::new(&["function", "scalar", "angle", "seen", "proved", "verdict="]);
+    let mut failed = 0;
+    for emitted in &generated.emitted {
+        let mut functions = generated.functions.iter();
+        let Some(function) = functions.find(|own| own.function == emitted.function) else {
+            continue;
+        };
+        let proved = function.sines(emitted.scalar).iter();
+        for ((angle, seen), own) in emitted.sines(states).into_iter().zip(proved) {
+            // The sine that it is held against has an ulp of its own.
+            let proved = own.errors.worst() + f64::EPSILON;
+            failed += usize::from(seen > proved);
+            table.row(cells![
+                emitted.function.to_string(),
+                emitted.scalar.name(),
+                angle_name(angle),
+                Cell::power(seen, 1),
+                Cell::of(bound_of(proved, 2), proved),
+                if seen <= proved { "ok" } else { "FAILED" },
+            ]);
+        }
+    }
+    let title = "polynomials against libm's sine and cosine, absolute";
+    done.report.table("sines", title, table);
+    if failed > 0 {
+        let why = "error: a polynomial is further from its sine than was proved";
+        done.failed.push(why.into());
+    }
+}

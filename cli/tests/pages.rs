@@ -1,0 +1,250 @@
+//! The pages of the guide in `docs/` and of `tests/pages`: their commands are run, page by page in a
+//! folder, and print what is shown.
+//!
+//! A block `console` has commands behind `$`, what a terminal shows of each, and `? N` where the exit
+//! code is not 0; `console result` has standard output alone. A line `...` stands for any lines. A block
+//! `toml file=NAME` is written to that file, `toml append=NAME` to its end. What differs is written into
+//! the page before the test fails, so that running it once more, and reading the difference, is all
+//! that a change of a message takes.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use crate::support::{robot, run, temporary};
+
+/// A fenced block: what stands behind the fence, and its lines.
+type Block = (String, std::ops::Range<usize>);
+
+fn root() -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    fs::canonicalize(root).unwrap()
+}
+
+fn read(path: &Path) -> String {
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{path:?}: {error}"))
+}
+
+/// Returns the pages of the guide in the order of the table of contents.
+fn guide() -> Vec<PathBuf> {
+    let folder = root().join("docs/src");
+    let summary = read(&folder.join("SUMMARY.md"));
+    let links = summary.lines().filter_map(|line| line.split_once("]("));
+    let paths = links.map(|(_, rest)| folder.join(rest.trim_end().trim_end_matches(')')));
+    paths.collect()
+}
+
+fn blocks(lines: &[String]) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    let mut open: Option<(String, usize)> = None;
+    for (at, line) in lines.iter().enumerate() {
+        let Some(info) = line.strip_prefix("```") else {
+            continue;
+        };
+        match open.take() {
+            None => open = Some((info.to_owned(), at + 1)),
+            Some((info, start)) => blocks.push((info, start..at)),
+        }
+    }
+    assert!(open.is_none(), "a block has no end");
+    blocks
+}
+
+/// Returns whether lines are those shown, where `...` stands for any.
+fn shows(shown: &[&str], lines: &[&str]) -> bool {
+    match shown {
+        [] => lines.is_empty(),
+        ["...", rest @ ..] => (0..=lines.len()).any(|n| shows(rest, &lines[n..])),
+        [first, rest @ ..] => lines.first() == Some(first) && shows(rest, &lines[1..]),
+    }
+}
+
+/// Returns a command with what it prints: as a terminal has it, warnings before the result.
+fn ran(command: &str, inside: &Path, result_alone: bool) -> Vec<String> {
+    let bin = Path::new(env!("CARGO_BIN_EXE_dalembert")).parent().unwrap();
+    let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
+    let output = Command::new("sh")
+        .args(["-c", command])
+        .current_dir(inside)
+        .env("PATH", path)
+        .env("ROOT", root())
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    let [out, err] = [output.stdout, output.stderr].map(|b| String::from_utf8(b).unwrap());
+    let text = if result_alone { out } else { err + &out };
+    // Wherever the page is run.
+    let text = text.replace(&root().display().to_string(), "$ROOT");
+    let text = text.replace(&inside.display().to_string(), "$HERE");
+    let mut lines = vec![format!("$ {command}")];
+    lines.extend(text.lines().map(|line| line.trim_end().to_owned()));
+    match output.status.code() {
+        Some(0) => {}
+        code => lines.push(format!("? {}", code.unwrap_or(-1))),
+    }
+    lines
+}
+
+/// Returns a block as it should be; nothing where it is.
+fn checked(body: &[String], inside: &Path, result_alone: bool) -> Option<Vec<String>> {
+    let mut fixed = Vec::new();
+    let mut differs = false;
+    let mut rest = body;
+    while let Some((first, more)) = rest.split_first() {
+        let command = first.strip_prefix("$ ").expect("a command");
+        let length = more
+            .iter()
+            .take_while(|line| !line.starts_with("$ "))
+            .count();
+        let found = ran(command, inside, result_alone);
+        let shown: Vec<&str> = more[..length].iter().map(|line| line.trim_end()).collect();
+        let printed: Vec<&str> = found[1..].iter().map(String::as_str).collect();
+        match shows(&shown, &printed) {
+            true => fixed.extend_from_slice(&rest[..=length]),
+            false => {
+                differs = true;
+                fixed.extend(found);
+            }
+        }
+        rest = &more[length..];
+    }
+    differs.then_some(fixed)
+}
+
+/// Runs pages in one folder; what differs is written into them, and is said.
+fn run_pages(pages: &[PathBuf], inside: &Path) {
+    let mut differing = Vec::new();
+    for page in pages {
+        let mut lines: Vec<String> = read(page).lines().map(str::to_owned).collect();
+        let mut changes = Vec::new();
+        for (info, range) in blocks(&lines) {
+            let body = &lines[range.clone()];
+            match info.split_once(' ').unwrap_or((&info, "")) {
+                ("toml", file) if !file.is_empty() => {
+                    let (how, name) = file.split_once('=').unwrap();
+                    let path = inside.join(name);
+                    let before = match how {
+                        "file" => String::new(),
+                        "append" => read(&path) + "\n",
+                        _ => panic!("{page:?}: {file}"),
+                    };
+                    fs::write(path, before + &body.join("\n") + "\n").unwrap();
+                }
+                ("console", what) => {
+                    changes.extend(checked(body, inside, what == "result").map(|own| (range, own)));
+                }
+                _ => {}
+            }
+        }
+        if !changes.is_empty() {
+            differing.push(format!("{} was changed: see what", page.display()));
+        }
+        for (range, found) in changes.into_iter().rev() {
+            lines.splice(range, found);
+            fs::write(page, lines.join("\n") + "\n").unwrap();
+        }
+    }
+    assert!(differing.is_empty(), "{}", differing.join("\n"));
+}
+
+/// Copies files of the project into a folder of this test run.
+fn folder_with(name: &str, files: &[&str]) -> PathBuf {
+    let inside = fs::canonicalize(temporary(name)).unwrap();
+    for file in files {
+        let from = root().join(file);
+        fs::copy(&from, inside.join(from.file_name().unwrap())).unwrap();
+    }
+    inside
+}
+
+#[test]
+fn the_guide_shows_what_commands_print() {
+    let inside = folder_with(
+        "guide",
+        &[
+            "import/tests/data/ur5.urdf",
+            "generated/robots/puma560.toml",
+            "generated/robots/puma560.plan",
+            "import/tests/data/mjcf/xarm7.xml",
+            "import/tests/data/so101.urdf",
+        ],
+    );
+    run_pages(&guide(), &inside);
+    // What the pages make of the arm is what the code of the guide is compiled with.
+    let compiled = root().join("examples/guide/robots/arm.toml");
+    assert_eq!(read(&inside.join("arm.toml")), read(&compiled));
+}
+
+macro_rules! pages {
+    ($($name:ident),* $(,)?) => { $(
+        #[test]
+        fn $name() {
+            let inside = folder_with(concat!("page_", stringify!($name)), &[
+                "generated/robots/planar2r.toml",
+                "generated/robots/planar2r.rs",
+                "generated/robots/planar3r.toml",
+                "generated/robots/puma560.toml",
+            ]);
+            let page = concat!("cli/tests/pages/", stringify!($name), ".md");
+            run_pages(&[root().join(page)], &inside);
+        }
+    )* };
+}
+
+#[cfg(unix)]
+pages!(
+    bad_input, certify, explain, files, generate, import, new, renew, scenes, show, tradeoff,
+    verify
+);
+
+/// Pictures of the guide that are made elsewhere are those.
+#[test]
+fn pictures_are_what_the_commands_draw() {
+    let folder = root().join("docs/src");
+    let drawn = run(&["show", &robot("planar2r"), "--at", "0.6,0.7"]).out;
+    assert!(
+        read(&folder.join("planar2r.svg")) == drawn,
+        "dalembert show generated/robots/planar2r.toml --at 0.6,0.7 -o docs/src/planar2r.svg"
+    );
+    let chart = read(&root().join("generated/tradeoff/puma560.svg"));
+    assert!(
+        read(&folder.join("tradeoff.svg")) == chart,
+        "cp generated/tradeoff/puma560.svg docs/src/tradeoff.svg"
+    );
+}
+
+/// Every link of the guide and of the other pages leads somewhere, and every file of sources that
+/// CONTRIBUTING names is there.
+#[test]
+fn links_lead_somewhere() {
+    let mut pages = guide();
+    assert!(pages.len() > 10, "{pages:?}");
+    let others = [
+        "README.md",
+        "CONTRIBUTING.md",
+        "gallery/README.md",
+        "docs/src/SUMMARY.md",
+    ];
+    pages.extend(others.map(|page| root().join(page)));
+    for page in pages {
+        let text = read(&page);
+        // Code has brackets too.
+        let prose: Vec<&str> = text.split("```").step_by(2).collect();
+        let links = prose.iter().flat_map(|part| part.split("](").skip(1));
+        for link in links.filter_map(|rest| rest.split(')').next()) {
+            let target = link.split('#').next().unwrap();
+            if !target.is_empty() && !target.starts_with("http") {
+                let path = page.parent().unwrap().join(target);
+                assert!(path.exists(), "{page:?} links to {link}");
+            }
+        }
+        if page.ends_with("CONTRIBUTING.md") {
+            let words = prose
+                .iter()
+                .flat_map(|part| part.split('`').skip(1).step_by(2));
+            for name in words.filter(|word| word.ends_with(".rs")) {
+                assert!(root().join(name).exists(), "{page:?} names {name}");
+            }
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! The table of steps: every row is a program of the function, none is dearer than the one before,
+//! and the last is what is generated.
+
+use dalembert_cli::explain::{Explanation, explain};
+use dalembert_cli::steps::{Code, SearchStep};
+use dalembert_codegen::workspace::{SceneRobot, prove};
+use dalembert_codegen::{Function, Request, ScalarType, generate};
+use dalembert_model::number::Rational;
+use dalembert_model::scene::Scale;
+
+use crate::robots as support;
+
+fn of(name: &str, function: Function) -> Explanation {
+    let mut all = explain(&support::robot(name), &Request::of(&[function])).unwrap();
+    all.remove(0)
+}
+
+fn operations(explanation: &Explanation, step: SearchStep) -> usize {
+    let mut rows = explanation.rows.iter();
+    let row = rows.find(|row| row.step == step).unwrap();
+    row.counts.operations()
+}
+
+/// Every row is a program of the same function.
+#[test]
+fn every_row_is_proved() {
+    for name in ["planar2r", "stanford"] {
+        let robot = support::robot(name);
+        for function in [Function::InverseDynamics, Function::Inertia] {
+            for row in of(name, function).rows {
+                if let Code::Program(program) = row.code {
+                    let step = row.step.key();
+                    assert_eq!(row.counts, program.counts());
+                    prove(&SceneRobot::whole(&robot), &program)
+                        .unwrap_or_else(|e| panic!("{name} {step}: {e}"));
+                }
+            }
+        }
+    }
+}
+
+/// In a scene too: every row but the last, which gives accuracy up, is the
+/// whole robot's at the scene's values; rounding alone costs it no digits.
+#[test]
+fn a_scene_is_explained() {
+    let scene = "\n[scene.hold]\noutputs = [\"gravity\"]\njoints = [2, 1]\nlock = { 3 = \"pi/6\" }\n\
+         tolerance = { value = 0.3, relative_to = \"range\" }\n";
+    let reading = support::reading_with("planar3r", scene);
+    let request = Request::default().in_scene(&reading.scenes[0]);
+    let explained = explain(&reading.robot, &request).unwrap().remove(0);
+    let scene_robot = SceneRobot::of(&reading.robot, Some(&reading.scenes[0])).unwrap();
+    let (last, exact) = explained.rows.split_last().unwrap();
+    assert_eq!(last.step, SearchStep::Tolerance);
+    for row in exact {
+        if let Code::Program(program) = &row.code {
+            let step = row.step.key();
+            prove(&scene_robot, program).unwrap_or_else(|e| panic!("{step}: {e}"));
+        }
+    }
+    let searched = operations(&explained, SearchStep::Search);
+    assert!(last.counts.operations() < searched && searched < 14);
+    assert!(explained.couplings.is_none());
+    let errors = explained.rounding(50);
+    let (last, exact) = errors.split_last().unwrap();
+    let small = exact.iter().all(|e| e.vector > 0.0 && e.vector < 100.0);
+    assert!(small && last.vector > 1e6, "{errors:?}");
+}
+
+/// The last rows are what is generated, in its scalar and with its sines: all
+/// functions in the same one, though gravity alone could do with the other.
+#[test]
+fn the_last_row_is_what_is_generated() {
+    // At such accelerations f32 is off by a thousandth of the limits.
+    let scene = "\n[scene.move]\nbox = { velocity = [1, 1, 1], acceleration = [1e6, 1e6, 1e6] }\n\
+                 tolerance = { value = 1e-5, relative_to = \"range\" }\n";
+    let mut reading = support::reading_with("planar3r", scene);
+    for joint in &mut reading.robot.joints {
+        joint.limits.torque = Some(Rational::from_integer(100.into()));
+    }
+    let tolerance = reading.scenes[0].tolerance.as_mut().unwrap();
+    tolerance.relative_to = Scale::Actuator;
+    let torques = [Function::Gravity, Function::InverseDynamics];
+    for (functions, scalar) in [
+        (&torques[..1], ScalarType::F32),
+        (&torques[..], ScalarType::F64),
+    ] {
+        let scene = Some(&reading.scenes[0]);
+        let request = Request::default().choose(Some(functions.to_vec()), None, scene);
+        let explained = explain(&reading.robot, &request).unwrap();
+        let generated = generate(&reading.robot, &request).unwrap();
+        assert_eq!(explained.len(), functions.len());
+        for explanation in explained {
+            let mut all = generated.functions.iter();
+            let function = all.find(|f| f.function == explanation.function).unwrap();
+            let last = explanation.rows.last().unwrap();
+            let Code::Emitted(text, of) = &last.code else {
+                panic!("{:?}", last.step)
+            };
+            assert_eq!(*of, scalar, "{}", function.function);
+            assert_eq!(last.counts, function.counts_in(scalar));
+            let mut emitted = generated.emitted.iter();
+            let emitted = emitted.find(|e| e.function == function.function).unwrap();
+            assert_eq!((**text).clone(), emitted.text);
+        }
+    }
+}
+
+#[test]
+fn steps_do_not_make_it_dearer() {
+    let puma = of("puma560", Function::InverseDynamics);
+    let falling = [
+        SearchStep::LagrangeWritten,
+        SearchStep::LagrangeFolded,
+        SearchStep::LagrangeFingerprints,
+        SearchStep::LagrangeEGraph,
+        SearchStep::LagrangeSearch,
+        SearchStep::NewtonFingerprints,
+        SearchStep::ChainKept,
+        SearchStep::ChainBase,
+        SearchStep::ChainTuned,
+        SearchStep::ChainUnit,
+        SearchStep::EGraph,
+        SearchStep::Search,
+    ];
+    for pair in falling.windows(2) {
+        let (before, after) = (operations(&puma, pair[0]), operations(&puma, pair[1]));
+        assert!(
+            after <= before,
+            "{:?} {before}, {:?} {after}",
+            pair[0],
+            pair[1]
+        );
+    }
+    assert!(operations(&puma, SearchStep::Search) < operations(&puma, SearchStep::ChainBase));
+}
+
+#[test]
+fn rounding_of_every_row() {
+    // Some symbols h_ikm and two loads c_i vanish: nothing to relate dust to.
+    for function in [Function::InverseDynamics, Function::DynamicCoefficients] {
+        let stanford = of("stanford", function);
+        let errors = stanford.rounding(20);
+        assert_eq!(errors.len(), stanford.rows.len());
+        for (row, errors) in stanford.rows.iter().zip(errors) {
+            let step = row.step.key();
+            assert!(errors.vector > 0.0 && errors.vector < 1e3, "{step}");
+            // Small symbols are differences of large numbers where poses are
+            // differentiated.
+            let bound = if row.step == SearchStep::Search {
+                1e3
+            } else {
+                1e8
+            };
+            let error = errors.entry;
+            assert!(error > 0.0 && error < bound, "{function} {step}: {error}");
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! A robot of a path: a robot file, a URDF or an MJCF, whichever it is.
+
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::Path;
+
+use dalembert_model::read::{self, Reading};
+
+use crate::{Imported, MAX_BYTES, Options, Text, import_text};
+
+/// A robot that was read from a path, or from a text.
+#[derive(Clone, Debug)]
+pub struct Opened {
+    /// The text of the file, with what a model includes.
+    pub source: Text,
+    /// The text as a robot file: the same text, or what a model was imported as.
+    pub robot_file: String,
+    /// The robot with its outputs and scenes; the notes are about `robot_file`.
+    pub reading: Reading,
+    /// What importing a model found; nothing for a robot file.
+    pub imported: Option<Imported>,
+}
+
+/// Why a path gives no robot.
+#[derive(Debug)]
+pub enum Unopened {
+    /// The system's error.
+    System(io::Error),
+    /// Everything that is wrong with the text, as it is shown.
+    Wrong(String),
+}
+
+impl Opened {
+    /// Returns what there is to say of the file: its warnings and notes, as they are shown.
+    pub fn notes(&self) -> Vec<String> {
+        let source = &self.source;
+        match &self.imported {
+            Some(imported) => {
+                let notes = imported.notes.iter().map(std::slice::from_ref);
+                notes.map(|note| source.render(note)).collect()
+            }
+            None => {
+                let notes = self.reading.notes.iter();
+                notes
+                    .map(|note| note.render(source.name(), source.as_str()))
+                    .collect()
+            }
+        }
+    }
+}
+
+/// Opens a robot file, a URDF or an MJCF; the options choose the chain of a model.
+///
+/// # Errors
+/// [`Unopened`]: the file cannot be read, or everything that is wrong with it.
+pub fn open(path: &Path, options: &Options) -> Result<Opened, Unopened> {
+    read_robot(open_text(path)?, options).map_err(Unopened::Wrong)
+}
+
+/// Reads the text of a robot file or of a model, with what a model includes.
+///
+/// # Errors
+/// [`Unopened`]: a file cannot be read, is no text, or is included twice.
+pub fn open_text(path: &Path) -> Result<Text, Unopened> {
+    let shown = path.display().to_string();
+    let bytes = first(path, MAX_BYTES as u64 + 1).map_err(Unopened::System)?;
+    let is_model = is_model(&bytes);
+    let most = if is_model { MAX_BYTES } else { read::MAX_BYTES };
+    let is_long = bytes.len() > most;
+    match String::from_utf8(bytes) {
+        Ok(text) if is_model && !is_long => Text::of(&shown, text)
+            .with_includes(path, included)
+            .map_err(Unopened::Wrong),
+        Ok(text) if !is_long => Ok(Text::of(&shown, text)),
+        _ if is_long && is_model => Err(Unopened::Wrong(format!(
+            "error: `{shown}` is longer than {} MiB, the most that is read",
+            MAX_BYTES >> 20
+        ))),
+        _ if is_model => Err(Unopened::Wrong(format!(
+            "error: `{shown}` is not UTF-8 text"
+        ))),
+        // The reader of robot files says where it is none, or too long.
+        text => {
+            let bytes = text.map_or_else(|error| error.into_bytes(), String::into_bytes);
+            let errors = read::parse_bytes(&bytes, &read::Options::default()).err();
+            let text = String::from_utf8_lossy(&bytes);
+            let errors = errors.map(|errors| errors.render(&shown, &text));
+            Err(Unopened::Wrong(errors.unwrap_or_default()))
+        }
+    }
+}
+
+/// Reads a robot from the text of a robot file or of a model.
+///
+/// # Errors
+/// Everything that is wrong with the text, as it is shown.
+pub fn read_robot(source: Text, options: &Options) -> Result<Opened, String> {
+    let imported = match is_model(source.as_str().as_bytes()) {
+        false => None,
+        true => Some(import_text(&source, options).map_err(|errors| source.render(&errors.0))?),
+    };
+    let robot_file = match &imported {
+        Some(imported) => imported.text.clone(),
+        None => source.as_str().to_owned(),
+    };
+    let reading = read::parse(&robot_file, &read::Options::default());
+    // What was imported was read once already.
+    let reading = reading.map_err(|errors| errors.render(source.name(), &robot_file))?;
+    Ok(Opened {
+        source,
+        robot_file,
+        reading,
+        imported,
+    })
+}
+
+/// Returns whether a text is a model's: XML, and not TOML.
+pub fn is_model(text: &[u8]) -> bool {
+    let text = text.strip_prefix("\u{feff}".as_bytes()).unwrap_or(text);
+    text.trim_ascii_start().starts_with(b"<")
+}
+
+/// Returns the first bytes of a file: no more are read, since a device may have no end.
+fn first(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(most).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// Returns the text of a file that is included; pipes and devices have no end.
+fn included(path: &Path) -> Result<String, String> {
+    let found = fs::metadata(path).map_err(|error| error.to_string())?;
+    if !found.is_file() {
+        return Err("it is no file".to_owned());
+    }
+    let bytes = first(path, MAX_BYTES as u64 + 1).map_err(|error| error.to_string())?;
+    String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())
+}
