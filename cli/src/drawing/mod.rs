@@ -52,12 +52,9 @@ pub fn svg(robot: &Robot, q: &[f64]) -> Result<String, WrongLength> {
         frames,
     };
     let rows = table::rows(robot, q);
-    let mut page = Page::new(&robot.name, rows.len());
+    let mut page = Page::new(&robot.name, &rows);
     for view in View::both(&scene.points(), &scene.outlines()) {
         scene.draw(&view, &mut page);
-    }
-    for (index, row) in rows.iter().enumerate() {
-        page.row(index, row);
     }
     Ok(page.end())
 }

@@ -35,9 +35,13 @@ const LEGEND: [&str; 2] = [
 pub(super) struct Page(String);
 
 impl Page {
-    /// Returns the paper with its title, and room for a table of so many rows.
-    pub(super) fn new(title: &str, rows: usize) -> Page {
-        let (width, height) = (2.0 * SIDE, HEAD + SIDE + ROW * (rows as f64 + 1.5));
+    /// Returns the paper with its title and, below two views, a table.
+    pub(super) fn new(title: &str, rows: &[Vec<(usize, String)>]) -> Page {
+        let ends = rows.iter().flatten();
+        let ends = ends.map(|(start, text)| start + text.chars().count());
+        let table = 32.0 + CHARACTER * ends.max().unwrap_or(0) as f64;
+        let width = table.max(2.0 * SIDE);
+        let height = HEAD + SIDE + ROW * (rows.len() as f64 + 1.5);
         let name = escaped(title);
         let mut page = Page(format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
@@ -47,6 +51,9 @@ impl Page {
         page.text("i", [16.0, 20.0], title);
         for (line, text) in LEGEND.iter().enumerate() {
             page.text("i", [16.0, 36.0 + 15.0 * line as f64], text);
+        }
+        for (index, row) in rows.iter().enumerate() {
+            page.row(HEAD + SIDE + ROW * (index as f64 + 1.0), row);
         }
         page
     }
@@ -113,8 +120,7 @@ impl Page {
 
     /// Writes a line of the table: cells, each so many characters from the left. Every cell
     /// is a text of its own, since not everything that draws SVG keeps spaces.
-    pub(super) fn row(&mut self, index: usize, cells: &[(usize, String)]) {
-        let y = HEAD + SIDE + ROW * (index as f64 + 1.0);
+    fn row(&mut self, y: f64, cells: &[(usize, String)]) {
         for (characters, text) in cells.iter().filter(|(_, text)| !text.is_empty()) {
             self.text("i c", [16.0 + CHARACTER * *characters as f64, y], text);
         }
@@ -149,8 +155,8 @@ pub(super) struct View {
 
 /// Room around what is drawn, as a part of a view.
 const MARGIN: f64 = 0.16;
-/// Room around bodies.
-const EDGE: f64 = 0.02;
+/// Room around bodies, so that none covers a view's name or its bar.
+const EDGE: f64 = 0.07;
 
 impl View {
     /// Returns the view from the front, x to the right and z upward, and from above, x to
