@@ -1,24 +1,19 @@
 //! Every output of robots that nobody chose stays below 100 u, f64 and f32, of the
 //! truth in 76 digits; what inverts D below 100 u times D's condition.
 //!
-//! An error is that of a quantity's entries against its largest entry, or a sixteenth
-//! of the largest met where that is more. The whole campaign is for releases: `cargo
+//! The whole campaign is for releases: `cargo
 //! test --release -p dalembert-cli --test all -- accuracy_campaign --include-ignored
 //! --nocapture` prints the worst of each quantity.
 
 use std::collections::BTreeMap;
 
 use crate::robots::draw::robots;
-use dalembert_codegen::workspace::{
-    BOUND, Emitted, Granted, Quantity, Reference, Runtime, SEED, SceneRobot, TrueValue, seeded,
-};
+use dalembert_cli::measure::{Bench, Code, VECTOR};
+use dalembert_codegen::workspace::{Quantity, SEED, SceneRobot, seeded};
 use dalembert_codegen::{Function, GenerateError, Request, ScalarType, generate};
 
 /// States a robot.
 const STATES: usize = 30;
-
-/// A state counts relative to at least this part of the largest that is met.
-const LEAST_PART: f64 = 1.0 / 16.0;
 
 /// The worst error of a quantity in units of u, and how many robots had it.
 type Worst = BTreeMap<(Quantity, ScalarType), (f64, usize)>;
@@ -35,8 +30,8 @@ fn campaign(count: usize, each: usize, longest: usize) -> Worst {
         if n > longest {
             continue;
         }
-        let truth = Reference::new(&SceneRobot::whole(&robot));
-        let runtime = Runtime::new(&robot);
+        let bench = Bench::new(SceneRobot::whole(&robot));
+        let states = seeded(&robot, STATES, SEED ^ seed);
         for _ in 0..each {
             let function = outputs[next % outputs.len()];
             next += 1;
@@ -51,17 +46,10 @@ fn campaign(count: usize, each: usize, longest: usize) -> Worst {
             };
             for emitted in &generated.emitted {
                 let scalar = emitted.scalar;
-                let states = seeded(&robot, STATES, SEED ^ seed);
-                let states = states.into_iter().map(|state| state.in_scalar(scalar));
-                let cases = states.map(|state| Case {
-                    found: emitted.run(&state),
-                    truth: truth.run(function, &state),
-                    vanishing: emitted.vanishing().collect(),
-                    granted: runtime.granted(function, &state),
-                });
-                for (quantity, error) in errors(emitted, &cases.collect::<Vec<_>>()) {
+                for found in bench.measure(&Code::of(emitted), &states, &states) {
+                    let (quantity, error) = (found.quantity, found.vector);
                     assert!(
-                        error <= BOUND,
+                        error <= VECTOR,
                         "{what}, {quantity:?} in {scalar}: {error} u"
                     );
                     let (most, robots) = worst.entry((quantity, scalar)).or_default();
@@ -72,44 +60,6 @@ fn campaign(count: usize, each: usize, longest: usize) -> Worst {
         }
     }
     worst
-}
-
-/// What was computed at a state, what is true, and the condition that excuses it.
-struct Case {
-    found: Vec<f64>,
-    truth: Vec<TrueValue>,
-    /// `true` of what was proved to vanish: it does so, and not within 76 digits only.
-    vanishing: Vec<bool>,
-    granted: Granted,
-}
-
-/// Returns the worst error of each quantity, in units of u.
-fn errors(emitted: &Emitted, cases: &[Case]) -> Vec<(Quantity, f64)> {
-    let mut start = 0;
-    let quantities = emitted.function.quantities().iter();
-    let each = quantities.map(|&quantity| {
-        let range = start..start + quantity.len(emitted.sizes);
-        start = range.end;
-        let size = |case: &Case| {
-            let entries = range.clone().filter(|&index| !case.vanishing[index]);
-            let sizes = entries.map(|index| case.truth[index].magnitude());
-            sizes.fold(0.0, f64::max)
-        };
-        let least = LEAST_PART * cases.iter().map(size).fold(0.0, f64::max);
-        let error = |case: &Case| {
-            let off = |index: usize| match case.vanishing[index] {
-                true => case.found[index].abs(),
-                false => case.truth[index].error(case.found[index]),
-            };
-            match range.clone().map(off).fold(0.0, f64::max) {
-                0.0 => 0.0,
-                off => off / (size(case).max(least) * case.granted.to(quantity)),
-            }
-        };
-        let worst = cases.iter().map(error).fold(0.0, f64::max);
-        (quantity, worst / emitted.scalar.unit_roundoff())
-    });
-    each.collect()
 }
 
 #[test]

@@ -4,18 +4,9 @@
 use dalembert_cli::measure::Code;
 use dalembert_codegen::workspace::{Input, JointState, Operand, seeded};
 use dalembert_codegen::{Function, Generated, Program, Request, ScalarType, generate};
-use dalembert_model::read;
-use dalembert_model::robot::Robot;
 
 use crate::extremes_support::runtime::runtime;
-
-fn robot(name: &str) -> Robot {
-    let folder = env!("CARGO_MANIFEST_DIR");
-    let file = format!("{folder}/../generated/robots/{name}.toml");
-    let source = std::fs::read_to_string(file).unwrap();
-    let options = read::Options::default();
-    read::parse(&source, &options).unwrap().robot
-}
+use crate::robots::robot;
 
 /// Which of q, q̇ and q̈, and which joint.
 #[derive(Clone, Copy, PartialEq)]

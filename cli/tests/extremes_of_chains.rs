@@ -5,7 +5,6 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use crate::extremes_support::rounding::rounded;
 use crate::extremes_support::runtime::runtime;
 use crate::extremes_support::{self, Extreme, drawn_like};
 use dalembert_cli::extremes::Held;
@@ -112,26 +111,22 @@ fn categories_meet_their_criteria(scalar: ScalarType, range: Range<usize>) {
     let mut robots: Vec<Programs> = Vec::new();
     let mut worst: BTreeMap<(String, &str), [f64; 2]> = BTreeMap::new();
     let mut failures = Vec::new();
-    let cases = extremes_support::read();
+    let cases = extremes_support::read(scalar);
     assert_eq!(cases.len(), 114);
     let is_first = |case: &Extreme| case.id.ends_with("_00");
     let is_tried = |case: &&Extreme| !cfg!(debug_assertions) || is_first(case);
     for case in cases[range].iter().filter(is_tried) {
-        let robot = match scalar {
-            ScalarType::F64 => case.robot.clone(),
-            ScalarType::F32 => rounded(&case.robot, scalar).expect("parameters within f32"),
-        };
-        let state = case.state.in_scalar(scalar);
-        let known = robots.iter().position(|programs| programs.robot == robot);
+        let (robot, state) = (&case.robot, &case.state);
+        let known = robots.iter().position(|programs| programs.robot == *robot);
         let known = known.unwrap_or_else(|| {
-            robots.push(Programs::new(&robot, scalar, is_first(case)));
+            robots.push(Programs::new(robot, scalar, is_first(case)));
             robots.len() - 1
         });
         let Programs { bench, emitted, .. } = &robots[known];
-        let scales = drawn_like(&robot, &state);
+        let scales = drawn_like(robot, state);
         for own in emitted {
             let codes = [
-                ("runtime", runtime(&robot, own.function, scalar)),
+                ("runtime", runtime(robot, own.function, scalar)),
                 ("emitted", Code::of(own)),
             ];
             for (subject, code) in codes {
@@ -139,7 +134,7 @@ fn categories_meet_their_criteria(scalar: ScalarType, range: Range<usize>) {
                 let alone = [state.clone()];
                 for found in bench.measure(&code, &alone, &alone) {
                     if overflows(case, scalar) {
-                        let truth = bench.truth(own.function, &state);
+                        let truth = bench.truth(own.function, state);
                         let largest = f64::from(f32::MAX);
                         let beyond = truth.iter().any(|x| x.magnitude() > largest);
                         // No result looks like a number where the truth is beyond the range.

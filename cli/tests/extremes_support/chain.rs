@@ -2,7 +2,7 @@
 
 use dalembert_codegen::workspace::Random;
 use dalembert_model::number::{Angle, Rational};
-use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Limits, Robot};
+use dalembert_model::robot::{Inertia, Joint, Robot};
 
 /// Returns a general chain: right twists every other joint as arms have them, all
 /// other parameters their own, with three decimals.
@@ -17,40 +17,26 @@ pub fn chain(n: usize, seed: u64) -> Robot {
         // Moments of a body: of three the largest is below the sum of others.
         let [xx, yy, zz] = [0; 3].map(|_| decimal(10, 19));
         Joint {
-            name: None,
-            kind: JointKind::Revolute,
             alpha: match index % 4 {
                 0 => Angle::right_angles(1),
                 2 => Angle::right_angles(-1),
                 _ => Angle::Radians(decimal(-1000, 1000)).canonical(),
             },
-            beta: Angle::default(),
             a: decimal(10, 300),
             d: decimal(10, 300),
-            theta: Angle::default(),
             mass,
             com: [0; 3].map(|_| decimal(-100, 100)),
             inertia: {
                 let [xy, yz, xz] = [0; 3].map(|_| decimal(-1, 1));
                 Inertia::of([xx, yy, zz, xy, yz, xz])
             },
-            viscous: Rational::default(),
-            coulomb: Rational::default(),
-            coulomb_width: Rational::default(),
-            armature: Rational::default(),
-            frame: None,
-            limits: Limits::default(),
+            ..Joint::default()
         }
     };
     Robot {
         name: "chain".into(),
-        convention: Convention::Standard,
         gravity: [1.3, -2.1, -9.4].map(|x| Rational::new(((x * 10.0) as i64).into(), 10.into())),
-        base: None,
-        tool: None,
-        payload_frame: None,
         joints: (0..n.min(Robot::MAX_JOINTS)).map(joint).collect(),
-        followers: Vec::new(),
-        frames: Vec::new(),
+        ..Robot::default()
     }
 }

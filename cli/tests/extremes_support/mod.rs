@@ -1,15 +1,14 @@
 //! The extreme cases as robots with exact parameters.
-#![allow(dead_code, reason = "each test file uses its own part")]
 
 pub mod chain;
-pub mod rounding;
 pub mod runtime;
 
 use std::path::PathBuf;
 
+use dalembert_codegen::ScalarType;
 use dalembert_codegen::workspace::{JointState, Random};
 use dalembert_model::number::{Angle, Rational};
-use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Limits, Robot};
+use dalembert_model::robot::{Inertia, Joint, JointKind, Robot};
 use serde_json::Value;
 
 /// One robot at one state.
@@ -18,13 +17,27 @@ pub struct Extreme {
     pub category: String,
     pub robot: Robot,
     pub state: JointState,
-    /// To 30 digits.
-    pub tau: Vec<String>,
 }
 
-pub fn read() -> Vec<Extreme> {
+/// Reads the file; parameters and states are rounded to the scalar.
+pub fn read(scalar: ScalarType) -> Vec<Extreme> {
     let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../model/tests/data/extremes.json");
     let json: Value = serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap();
+    let extreme = |json: &Value| {
+        let text = |key: &str| json[key].as_str().unwrap().to_owned();
+        let [q, qd, qdd] = ["q", "qd", "qdd"].map(|key| numbers(&json[key], scalar));
+        Extreme {
+            id: text("id"),
+            category: text("category"),
+            robot: robot(&json["robot"], scalar),
+            state: JointState {
+                q,
+                qd,
+                qdd,
+                ..JointState::default()
+            },
+        }
+    };
     json["cases"]
         .as_array()
         .unwrap()
@@ -33,32 +46,15 @@ pub fn read() -> Vec<Extreme> {
         .collect()
 }
 
-fn extreme(json: &Value) -> Extreme {
-    let text = |x: &Value| x.as_str().unwrap().to_string();
-    Extreme {
-        id: text(&json["id"]),
-        category: text(&json["category"]),
-        robot: robot(&json["robot"]),
-        state: JointState {
-            q: numbers(&json["q"]),
-            qd: numbers(&json["qd"]),
-            qdd: numbers(&json["qdd"]),
-            ..JointState::default()
-        },
-        tau: json["tau"].as_array().unwrap().iter().map(text).collect(),
-    }
-}
-
-/// Returns the doubles taken at their word: no angle is snapped.
-fn robot(json: &Value) -> Robot {
-    let column = |key: &str| numbers(&json[key]);
+/// Returns the numbers taken at their word: no angle is snapped.
+fn robot(json: &Value, scalar: ScalarType) -> Robot {
+    let column = |key: &str| numbers(&json[key], scalar);
     let [alpha, a, d, offset, mass] = ["alpha", "a", "d", "off", "m"].map(column);
     let kinds = json["types"].as_str().unwrap().chars();
     let joint = |(i, kind): (usize, char)| {
-        let tensor = numbers(&json["I"][i]);
-        let com = numbers(&json["r"][i]);
+        let tensor = numbers(&json["I"][i], scalar);
+        let com = numbers(&json["r"][i], scalar);
         Joint {
-            name: None,
             kind: if kind == 'R' {
                 JointKind::Revolute
             } else {
@@ -68,32 +64,21 @@ fn robot(json: &Value) -> Robot {
                 Some(pair) => right_angle(pair),
                 None => radians(alpha[i]),
             },
-            beta: Angle::default(),
             a: exact(a[i]),
             d: exact(d[i]),
             theta: radians(offset[i]),
             mass: exact(mass[i]),
             com: [0, 1, 2].map(|axis| exact(com[axis])),
             inertia: Inertia::of(std::array::from_fn(|k| exact(tensor[k]))),
-            viscous: exact(0.0),
-            coulomb: exact(0.0),
-            coulomb_width: exact(0.0),
-            armature: exact(0.0),
-            frame: None,
-            limits: Limits::default(),
+            ..Joint::default()
         }
     };
-    let gravity = numbers(&json["g"]);
+    let gravity = column("g");
     Robot {
         name: "extreme".into(),
-        convention: Convention::Standard,
         gravity: [0, 1, 2].map(|axis| exact(gravity[axis])),
-        base: None,
-        tool: None,
-        payload_frame: None,
         joints: kinds.enumerate().map(joint).collect(),
-        followers: Vec::new(),
-        frames: Vec::new(),
+        ..Robot::default()
     }
 }
 
@@ -107,13 +92,17 @@ fn radians(value: f64) -> Angle {
     Angle::Radians(exact(value)).canonical()
 }
 
-pub fn exact(value: f64) -> Rational {
+fn exact(value: f64) -> Rational {
     Rational::from_float(value).unwrap()
 }
 
-pub fn numbers(json: &Value) -> Vec<f64> {
-    let number = |x: &Value| x.as_f64().unwrap();
-    json.as_array().unwrap().iter().map(number).collect()
+fn numbers(json: &Value, scalar: ScalarType) -> Vec<f64> {
+    let numbers = json.as_array().unwrap().iter();
+    let numbers = numbers.map(|x| x.as_f64().unwrap());
+    match scalar {
+        ScalarType::F64 => numbers.collect(),
+        ScalarType::F32 => numbers.map(|x| f64::from(x as f32)).collect(),
+    }
 }
 
 /// Draws states within the magnitudes of a state: the largest of |q|, |q̇| and |q̈| at a joint of

@@ -2,7 +2,7 @@
 
 use dalembert_codegen::workspace::Random;
 use dalembert_model::number::{Angle, Rational};
-use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Limits, Robot};
+use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Robot};
 
 /// Draws the parts of a robot.
 pub struct Draw(pub Random);
@@ -42,14 +42,12 @@ impl Draw {
 
     pub fn joint(&mut self) -> Joint {
         Joint {
-            name: None,
             kind: if self.chance(3) {
                 JointKind::Prismatic
             } else {
                 JointKind::Revolute
             },
             alpha: self.angle(),
-            beta: Angle::default(),
             a: self.length(),
             d: self.length(),
             theta: if self.chance(2) {
@@ -73,15 +71,12 @@ impl Draw {
             } else {
                 self.milli(0, 900)
             },
-            coulomb: Rational::default(),
-            coulomb_width: Rational::default(),
             armature: if self.chance(2) {
                 Rational::default()
             } else {
                 self.milli(0, 900)
             },
-            frame: None,
-            limits: Limits::default(),
+            ..Joint::default()
         }
     }
 
@@ -99,12 +94,8 @@ impl Draw {
                 self.milli(-3000, 3000),
                 self.milli(-9800, -9000),
             ],
-            base: None,
-            tool: None,
-            payload_frame: None,
             joints: (0..n).map(|_| self.joint()).collect(),
-            followers: Vec::new(),
-            frames: Vec::new(),
+            ..Robot::default()
         }
     }
 }

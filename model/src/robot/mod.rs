@@ -47,9 +47,10 @@ pub use validate::suggested_name;
 pub use write::{write, write_frame};
 
 /// Which of the two DH conventions the table is written in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Convention {
     /// A_i = Rz(θ_i) Tz(d_i) Tx(a_i) Rx(α_i): joint i acts along z_{i−1} (eq. 2.1).
+    #[default]
     Standard,
     /// A_i = Rx(α_i) Tx(a_i) Rz(θ_i) Tz(d_i): joint i acts along z_i (Craig).
     Modified,
@@ -64,9 +65,10 @@ impl Convention {
 }
 
 /// The kind of motion of a joint.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum JointKind {
     /// Turns about its axis: θ_i = q_i + constant.
+    #[default]
     Revolute,
     /// Slides along its axis: d_i = q_i + constant.
     Prismatic,
@@ -81,7 +83,7 @@ impl JointKind {
 }
 
 /// A serial arm.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Robot {
     /// Its name; the generated module is called after it.
     pub name: String,
@@ -150,7 +152,7 @@ impl Robot {
 }
 
 /// One joint and the link that it moves.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Joint {
     /// Name, if the file gives one.
     pub name: Option<String>,
