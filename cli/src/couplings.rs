@@ -40,17 +40,6 @@ pub struct Coupling {
     pub quantity: Quantity,
 }
 
-/// Numbers of coefficients of a quantity.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Summary {
-    /// All, symmetric ones once.
-    pub total: usize,
-    /// Those that vanish.
-    pub zero: usize,
-    /// Those that do not, equal and opposite ones once.
-    pub distinct: usize,
-}
-
 /// Lists the coefficients of a robot: D, then h, then c, each in the order of its indices;
 /// `None` if it has too many joints.
 pub fn couplings(robot: &Robot) -> Option<Vec<Coupling>> {
@@ -101,19 +90,15 @@ pub fn couplings(robot: &Robot) -> Option<Vec<Coupling>> {
     Some(couplings)
 }
 
-/// Counts the coefficients of one quantity.
-pub fn summary(couplings: &[Coupling], quantity: Quantity) -> Summary {
-    let own = couplings.iter().filter(|own| own.quantity == quantity);
-    let mut summary = Summary {
-        total: 0,
-        zero: 0,
-        distinct: 0,
-    };
-    for own in own {
-        summary.total += 1;
+/// Counts the coefficients of one quantity, symmetric ones once: all, those that vanish, and the others,
+/// equal and opposite ones once.
+pub fn summary(couplings: &[Coupling], quantity: Quantity) -> [usize; 3] {
+    let mut summary = [0; 3];
+    for own in couplings.iter().filter(|own| own.quantity == quantity) {
+        summary[0] += 1;
         match own.value {
-            Value::Zero => summary.zero += 1,
-            Value::Constant | Value::Distinct => summary.distinct += 1,
+            Value::Zero => summary[1] += 1,
+            Value::Constant | Value::Distinct => summary[2] += 1,
             Value::Equals(_) | Value::OppositeOf(_) => {}
         }
     }

@@ -3,22 +3,22 @@
 
 use dalembert_codegen::workspace::{
     AngleSum, Argument, Columns, Input, JointState, Quantity, SEED, SceneRobot, Task, admitted,
-    input_hash, trace,
+    input_hash, search,
 };
-use dalembert_codegen::{Function, GenerateError, Program, Request, ScalarType};
+use dalembert_codegen::{Function, GenerateError, Program, Request, ScalarType, Start};
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;
 
-use crate::args::FewOptions;
-use crate::couplings::{Coupling, Summary, Value, couplings, summary};
+use crate::args::Options;
+use crate::couplings::{Coupling, Value, couplings, summary};
 use crate::measure::{Bench, Code as Measured, Rounding};
 use crate::output::{Context, Outcome};
 use crate::progress;
 use crate::report::{COUNTS, Cell, Report, Table, cells, counts};
 use crate::source::Source;
-use crate::steps::{self, Code, Row};
-use crate::table3::{self, Comparison};
+use crate::steps::{self, Code, Row, Steps};
+use crate::table3::comparisons;
 
 /// Arguments of `explain`.
 #[derive(Debug, clap::Args)]
@@ -29,7 +29,7 @@ pub struct ExplainArgs {
     #[arg(long, conflicts_with = "scene")]
     coefficients: bool,
     #[command(flatten)]
-    options: FewOptions,
+    options: Options<false>,
 }
 
 /// The states that errors are measured at.
@@ -101,27 +101,29 @@ fn exact(task: &Task<'_>, function: Function) -> Result<(Explanation, Program), 
     if function.columns() != Columns::None {
         return Err(GenerateError::Unexplained(function));
     }
-    let found = steps::search_anew(task, function)?;
+    // Over all forms, nothing replayed.
+    let anew = Request {
+        start: Start::Auto,
+        plan: None,
+        ..request.clone()
+    };
+    let found = search(&task.with(&anew), function)?;
     let tuned = found.tuned.as_ref();
     let tuned = tuned.ok_or(GenerateError::Unexplained(function))?;
-    let mut rows = Vec::new();
+    let mut steps = Steps {
+        task,
+        function,
+        rows: Vec::new(),
+    };
     if robot.joints.len() <= MAX_WRITTEN {
-        let trace = trace(scene_robot, function, Formulation::LagrangeEuler);
-        rows.extend(steps::lagrange_euler(
-            scene_robot,
-            function,
-            &trace,
-            request,
-        ));
+        steps.lagrange_euler();
     }
-    let trace = trace(scene_robot, function, Formulation::NewtonEulerLink);
-    rows.extend(steps::newton_euler(scene_robot, function, &trace));
-    rows.extend(steps::chain(scene_robot, function, tuned));
-    let (searched, program) = steps::searched(task, function, &found)?;
-    rows.extend(searched);
+    steps.newton_euler();
+    steps.chain(tuned);
+    let program = steps.searched(&found)?;
     let explanation = Explanation {
         function,
-        rows,
+        rows: steps.rows,
         couplings: scene_robot
             .scene()
             .map_or_else(|| couplings(robot), |_| None),
@@ -232,20 +234,11 @@ pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
             "mul as written",
             "add as written",
         ];
-        let rows = table3::comparisons(robot).map(
-            |Comparison {
-                 formulation,
-                 paper,
-                 as_written,
-             }| {
-                let counts = [paper.mul, paper.add, as_written.mul, as_written.add];
-                let counts = counts.map(|count| Cell::from(count as usize));
-                [Cell::from(formulation)]
-                    .into_iter()
-                    .chain(counts)
-                    .collect()
-            },
-        );
+        let rows = comparisons(robot).map(|(formulation, counts)| {
+            let mut row = cells![formulation];
+            row.extend(counts.map(|count| Cell::from(count as usize)));
+            row
+        });
         report.table("table3", "", Table::new(&heads).with(rows));
     }
     if let Some(couplings) = explained.iter().find_map(|own| own.couplings.as_deref()) {
@@ -260,7 +253,7 @@ fn steps_of(own: &Explanation) -> Table {
     let mut table = Table::new(&heads);
     for (index, (row, rounding)) in own.rows.iter().zip(own.rounding(STATES)).enumerate() {
         let is_emitted = matches!(row.code, Code::Emitted(..));
-        let mut title = row.step.title().to_owned();
+        let mut title = row.title().to_owned();
         if is_emitted {
             title += &format!(", in {}", row.scalar());
         }
@@ -268,7 +261,7 @@ fn steps_of(own: &Explanation) -> Table {
         if is_emitted || index + 1 == own.rows.len() {
             title += ": what is generated";
         }
-        let mut cells = cells![title, Cell::json(row.step.key())];
+        let mut cells = cells![title, Cell::json(row.step)];
         cells.extend(counts(&row.counts));
         cells.extend([rounding.vector, rounding.entry].map(units));
         table.row(cells);
@@ -295,11 +288,7 @@ fn coefficients(report: &mut Report, couplings: &[Coupling], each: bool) {
         (Quantity::Christoffel, "h"),
         (Quantity::Gravity, "c"),
     ] {
-        let Summary {
-            total,
-            zero,
-            distinct,
-        } = summary(couplings, quantity);
+        let [total, zero, distinct] = summary(couplings, quantity);
         table.row(cells![name, total, zero, distinct]);
     }
     report.table("coefficients", "", table);

@@ -4,8 +4,8 @@
 
 use std::collections::BTreeMap;
 
+use dalembert_codegen::Function;
 use dalembert_codegen::workspace::{Argument, Emitted, JointState, Quantity, Runtime, Sizes};
-use dalembert_codegen::{Function, ScalarType};
 use dalembert_model::outputs::Shape;
 use dalembert_model::read::closest;
 use dalembert_model::robot::Robot;
@@ -112,27 +112,18 @@ fn state(keys: &BTreeMap<String, Numbers>, n: usize) -> (GivenState, Vec<String>
         }
         Some(values)
     };
-    let mut argument = |argument: Argument| {
-        let key = argument.given().unwrap_or_default();
-        values(key, argument.length(sizes))
-    };
-    let q = argument(Argument::Position);
-    let state = JointState {
-        qd: argument(Argument::Velocity).unwrap_or_else(|| vec![0.0; n]),
-        qdd: argument(Argument::Acceleration).unwrap_or_else(|| vec![0.0; n]),
-        tau: argument(Argument::Torque).unwrap_or_default(),
-        wrench: argument(Argument::Wrench).unwrap_or_default(),
-        damping: argument(Argument::Damping).unwrap_or_default(),
-        multiplier: argument(Argument::Multiplier).unwrap_or_default(),
-        q: q.clone().unwrap_or_else(|| vec![0.0; n]),
-        ..JointState::default()
-    };
+    let state = JointState::new(|argument| {
+        let length = argument.length(sizes);
+        let given = argument.given().and_then(|key| values(key, length));
+        let is_motion = Argument::JOINTS[..3].contains(&argument);
+        given.unwrap_or_else(|| vec![0.0; if is_motion { n } else { 0 }])
+    });
     let mut known = BTreeMap::new();
     let quantities = results().chain(keys.keys().filter_map(|key| at_frame(key)));
     for (key, quantity) in quantities {
         known.extend(values(key, quantity.len(sizes)).map(|values| (quantity, values)));
     }
-    if q.is_none() {
+    if !keys.contains_key("q") {
         wrong.push("`q` is missing".into());
     }
     for (quantity, key) in known.keys().filter_map(|q| Some((q, q.given()?))) {
@@ -148,14 +139,8 @@ fn state(keys: &BTreeMap<String, Numbers>, n: usize) -> (GivenState, Vec<String>
              = help: torques that q, qd and qdd give are `tau`"
         ));
     }
-    let words: Vec<&str> = Argument::ALL
-        .into_iter()
-        .filter_map(Argument::given)
-        .collect();
-    let words: Vec<&str> = words
-        .into_iter()
-        .chain(results().map(|(key, _)| key))
-        .collect();
+    let arguments = Argument::ALL.into_iter().filter_map(Argument::given);
+    let words: Vec<&str> = arguments.chain(results().map(|(key, _)| key)).collect();
     for key in keys.keys() {
         if words.contains(&key.as_str()) || key == REMARK || at_frame(key).is_some() {
             continue;
@@ -315,19 +300,6 @@ fn worst(actual: &[f64], expected: &[f64]) -> (usize, f64) {
         }
     }
     worst
-}
-
-/// Runs all code at states; only double precision, since a state rounded to f32 is another state.
-pub fn compare_all(
-    emitted: &[Emitted],
-    runtime: &Runtime,
-    robot: &Robot,
-    states: &[GivenState],
-) -> Vec<Compared> {
-    let double = emitted.iter().filter(|own| own.scalar == ScalarType::F64);
-    double
-        .flat_map(|own| compare(own, runtime, robot, states))
-        .collect()
 }
 
 /// Describes the comparison with the states of a file, and what disagrees.

@@ -141,22 +141,15 @@ impl<'a> Ladder<'a> {
         }
     }
 
-    /// Returns the variants of all tolerances, which ascend; the exact program's first. `begin` hears the
-    /// name of each step, `done` the variants of each tolerance.
+    /// Returns the variants of all tolerances, which ascend; the exact program's first; `begin` hears the
+    /// name of each step.
     ///
     /// # Errors
     /// A variant cannot be run.
-    pub fn climb(
-        &self,
-        tolerances: &[f64],
-        begin: &dyn Fn(&str),
-        done: &dyn Fn(f64, &[Point]),
-    ) -> Result<Vec<Point>, TextError> {
+    pub fn climb(&self, tolerances: &[f64], begin: &dyn Fn(&str)) -> Result<Vec<Point>, TextError> {
         let mut points: Vec<Point> = Vec::new();
         for tolerance in tolerances.iter().copied().chain([0.0]) {
-            let variants = self.rung(tolerance, points.last(), begin)?;
-            done(tolerance, &variants);
-            points.extend(variants);
+            points.extend(self.rung(tolerance, points.last(), begin)?);
         }
         points.sort_by(|a, b| {
             let order = a.tolerance.total_cmp(&b.tolerance);

@@ -35,7 +35,7 @@ pub fn begin() -> Shown {
         bar.set_style(style);
     }
     *BAR.lock().unwrap_or_else(PoisonError::into_inner) = Some(bar.clone());
-    if is_shown() {
+    if io::stderr().is_terminal() {
         thread::spawn(move || {
             thread::sleep(QUIET);
             if !bar.is_finished() {
@@ -51,11 +51,6 @@ impl Drop for Shown {
     fn drop(&mut self) {
         bar().finish_and_clear();
     }
-}
-
-/// Returns whether there is a terminal that shows a bar.
-pub fn is_shown() -> bool {
-    io::stderr().is_terminal()
 }
 
 /// Prints while the bar is away.

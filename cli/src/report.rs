@@ -314,18 +314,16 @@ pub const COUNTS: [&str; 8] = [
 
 /// Returns the cells of operation counts.
 pub fn counts(counts: &Counts) -> Vec<Cell> {
-    let Counts {
-        mul,
-        add,
-        fma,
-        div,
-        sqrt,
-        sincos,
-        trig_mul,
-        trig_add,
-        ..
-    } = *counts;
-    let all = [mul, add, fma, div, sqrt, sincos, trig_mul, trig_add];
+    let all = [
+        counts.mul,
+        counts.add,
+        counts.fma,
+        counts.div,
+        counts.sqrt,
+        counts.sincos,
+        counts.trig_mul,
+        counts.trig_add,
+    ];
     all.into_iter().map(Cell::from).collect()
 }
 

@@ -8,79 +8,31 @@ use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 
 use dalembert_codegen::workspace::{
-    Admitted, Certificate, Folding, Found, Graph, Lowered, SceneRobot, Task, Trace, cost, replay,
-    search, skeleton, trace_chain, tune, tune::Tuned, watched,
+    Admitted, Certificate, Folding, Found, Graph, Lowered, Task, cost, replay, skeleton, trace,
+    trace_chain, tune, tune::Tuned, watched,
 };
-use dalembert_codegen::{Counts, Function, GenerateError, Program, Request, ScalarType, Start};
+use dalembert_codegen::{Counts, Function, GenerateError, Program, ScalarType};
 
-/// A step of the pipeline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SearchStep {
-    /// Lagrange–Euler run as it is written: what is zero or one for the robot
-    /// is left out, nothing else.
-    LagrangeWritten,
-    /// Traced: zeros and ones folded, equal expressions shared.
-    LagrangeFolded,
-    /// Equal values shared, whatever the expression.
-    LagrangeFingerprints,
-    /// Equality saturation on that, no recursion, no rule of robotics.
-    LagrangeEGraph,
-    /// And the search.
-    LagrangeSearch,
-    /// Newton–Euler in link axes, traced.
-    NewtonFolded,
-    /// Its equal values shared.
-    NewtonFingerprints,
-    /// The chain form: columns of U, composite bodies; nothing moved.
-    ChainKept,
-    /// Base parameters: everything moved that can move.
-    ChainBase,
-    /// Per link as much moved as is cheapest, origins too.
-    ChainTuned,
-    /// And the unit of length.
-    ChainUnit,
-    /// Equality saturation.
-    EGraph,
-    /// Discovery and extraction in turns.
-    Search,
-    /// The program that the plan beside the robot file keeps.
-    Plan,
-    /// The program that the scene's tolerance admits.
-    Tolerance,
-}
-
-impl SearchStep {
-    /// Returns a name for programs.
-    pub fn key(self) -> &'static str {
-        self.names().0
-    }
-
-    /// Returns a name for readers.
-    pub fn title(self) -> &'static str {
-        self.names().1
-    }
-
-    #[rustfmt::skip]
-    fn names(self) -> (&'static str, &'static str) {
-        match self {
-            SearchStep::LagrangeWritten => ("lagrange_euler_written", "Lagrange–Euler, run with this robot's numbers"),
-            SearchStep::LagrangeFolded => ("lagrange_euler_folded", "  traced: folded, equal expressions shared"),
-            SearchStep::LagrangeFingerprints => ("lagrange_euler_fingerprints", "  fingerprints: equal values shared"),
-            SearchStep::LagrangeEGraph => ("lagrange_euler_e_graph", "  e-graph alone"),
-            SearchStep::LagrangeSearch => ("lagrange_euler_search", "  search alone"),
-            SearchStep::NewtonFolded => ("newton_euler_folded", "Newton–Euler in link axes, traced"),
-            SearchStep::NewtonFingerprints => ("newton_euler_fingerprints", "  fingerprints"),
-            SearchStep::ChainKept => ("chain", "chain form, nothing moved"),
-            SearchStep::ChainBase => ("base_parameters", "  base parameters"),
-            SearchStep::ChainTuned => ("tuned_regrouping", "  regrouping tuned link by link"),
-            SearchStep::ChainUnit => ("unit_of_length", "  unit of length"),
-            SearchStep::EGraph => ("e_graph", "  e-graph, all forms"),
-            SearchStep::Search => ("search", "  search, all forms"),
-            SearchStep::Plan => ("plan", "kept in the plan"),
-            SearchStep::Tolerance => ("tolerance", "what the tolerance admits"),
-        }
-    }
-}
+/// The steps: what programs and people call them. Each does more than the one before, until the next
+/// formulation.
+#[rustfmt::skip]
+const STEPS: [(&str, &str); 15] = [
+    ("lagrange_euler_written", "Lagrange–Euler, run with this robot's numbers"),
+    ("lagrange_euler_folded", "  traced: folded, equal expressions shared"),
+    ("lagrange_euler_fingerprints", "  fingerprints: equal values shared"),
+    ("lagrange_euler_e_graph", "  e-graph alone"),
+    ("lagrange_euler_search", "  search alone"),
+    ("newton_euler_folded", "Newton–Euler in link axes, traced"),
+    ("newton_euler_fingerprints", "  fingerprints"),
+    ("chain", "chain form, nothing moved"),
+    ("base_parameters", "  base parameters"),
+    ("tuned_regrouping", "  regrouping tuned link by link"),
+    ("unit_of_length", "  unit of length"),
+    ("e_graph", "  e-graph, all forms"),
+    ("search", "  search, all forms"),
+    ("plan", "kept in the plan"),
+    ("tolerance", "what the tolerance admits"),
+];
 
 /// The code that a row runs.
 #[derive(Clone, Debug)]
@@ -96,8 +48,8 @@ pub enum Code {
 /// One step.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// Which.
-    pub step: SearchStep,
+    /// What programs call it.
+    pub step: &'static str,
     /// Its operation counts.
     pub counts: Counts,
     /// The code.
@@ -105,6 +57,13 @@ pub struct Row {
 }
 
 impl Row {
+    /// Returns what people call the step.
+    pub fn title(&self) -> &'static str {
+        let mut steps = STEPS.into_iter();
+        let own = steps.find(|(step, _)| *step == self.step);
+        own.map_or(self.step, |(_, title)| title)
+    }
+
     /// Returns the scalar that the code runs in.
     pub fn scalar(&self) -> ScalarType {
         match self.code {
@@ -112,99 +71,109 @@ impl Row {
             Code::Formula(_) | Code::Program(_) => ScalarType::F64,
         }
     }
+}
 
-    fn program(step: SearchStep, program: Program) -> Row {
-        Row {
+/// The steps of one function, as far as they were taken.
+pub(super) struct Steps<'t> {
+    pub task: &'t Task<'t>,
+    pub function: Function,
+    pub rows: Vec<Row>,
+}
+
+impl Steps<'_> {
+    fn program(&mut self, step: &'static str, program: Program) {
+        self.rows.push(Row {
             step,
             counts: program.counts(),
             code: Code::Program(Box::new(program)),
-        }
+        });
     }
 
-    fn graph(step: SearchStep, scene_robot: &SceneRobot, function: Function, graph: &Graph) -> Row {
-        Row::program(step, Program::in_scene(scene_robot, function, graph))
+    fn graph(&mut self, step: &'static str, graph: &Graph) {
+        let program = Program::in_scene(self.task.scene_robot, self.function, graph);
+        self.program(step, program);
     }
-}
 
-/// Returns Lagrange–Euler: as written, traced, merged; then what the general machinery
-/// makes of it alone.
-pub(super) fn lagrange_euler(
-    scene_robot: &SceneRobot,
-    function: Function,
-    trace: &Trace,
-    request: &Request,
-) -> Vec<Row> {
-    let row = |step, graph: &Graph| Row::graph(step, scene_robot, function, graph);
-    let joints = scene_robot.robot().joints.iter();
-    let moves = |i: &usize| scene_robot.lock(*i).is_none();
-    let turning = joints
-        .enumerate()
-        .filter(|(i, joint)| moves(i) && joint.kind == JointKind::Revolute);
-    let mut rows = vec![
-        Row {
-            step: SearchStep::LagrangeWritten,
+    /// Adds Lagrange–Euler: as written, traced, merged; then what the general machinery
+    /// makes of it alone.
+    pub(super) fn lagrange_euler(&mut self) {
+        let (scene_robot, request) = (self.task.scene_robot, self.task.request);
+        let trace = trace(scene_robot, self.function, Formulation::LagrangeEuler);
+        let joints = scene_robot.robot().joints.iter().enumerate();
+        let turning = joints.filter(|(i, joint)| {
+            scene_robot.lock(*i).is_none() && joint.kind == JointKind::Revolute
+        });
+        self.rows.push(Row {
+            step: "lagrange_euler_written",
             counts: Counts {
                 sincos: turning.count(),
                 ..trace.traced
             },
             code: Code::Formula(Formulation::LagrangeEuler),
-        },
-        row(SearchStep::LagrangeFolded, &trace.graph),
-    ];
-    let graphs = std::slice::from_ref(&trace.graph);
-    let watch = Some(request.watch.over(function));
-    // Whatever it costs in digits: that is what the row is to show.
-    if let Some(found) = watched(graphs, &[], request.effort, None, &|_| true, watch) {
-        rows.extend([
-            row(SearchStep::LagrangeFingerprints, &found.start),
-            row(SearchStep::LagrangeEGraph, &found.saturated),
-            row(SearchStep::LagrangeSearch, &found.graph),
-        ]);
+        });
+        self.graph("lagrange_euler_folded", &trace.graph);
+        let graphs = std::slice::from_ref(&trace.graph);
+        let watch = Some(request.watch.over(self.function));
+        // Whatever it costs in digits: that is what the row is to show.
+        if let Some(found) = watched(graphs, &[], request.effort, None, &|_| true, watch) {
+            self.graph("lagrange_euler_fingerprints", &found.start);
+            self.graph("lagrange_euler_e_graph", &found.saturated);
+            self.graph("lagrange_euler_search", &found.graph);
+        }
     }
-    rows
-}
 
-/// Returns Newton–Euler in link axes.
-pub(super) fn newton_euler(
-    scene_robot: &SceneRobot,
-    function: Function,
-    trace: &Trace,
-) -> Vec<Row> {
-    let row = |step, graph: &Graph| Row::graph(step, scene_robot, function, graph);
-    vec![
-        row(SearchStep::NewtonFolded, &trace.graph),
-        row(
-            SearchStep::NewtonFingerprints,
-            &trace.graph.rebuild(Folding::Semantic),
-        ),
-    ]
-}
+    /// Adds Newton–Euler in link axes.
+    pub(super) fn newton_euler(&mut self) {
+        let formulation = Formulation::NewtonEulerLink;
+        let graph = trace(self.task.scene_robot, self.function, formulation).graph;
+        self.graph("newton_euler_folded", &graph);
+        self.graph(
+            "newton_euler_fingerprints",
+            &graph.rebuild(Folding::Semantic),
+        );
+    }
 
-/// Returns the chain form in one regrouping after the other, each in its cheapest form.
-pub(super) fn chain(scene_robot: &SceneRobot, function: Function, tuned: &Tuned) -> Vec<Row> {
-    let arm = skeleton(scene_robot);
-    let mut metres = tuned.regrouping.clone();
-    (metres.unit, metres.per_unit) = (Exact::one(), Exact::one());
-    let regroupings = [
-        (SearchStep::ChainKept, kept(&arm)),
-        (SearchStep::ChainBase, tune::start(&arm)),
-        (SearchStep::ChainTuned, metres),
-        (SearchStep::ChainUnit, tuned.regrouping.clone()),
-    ];
-    let row = |(step, regrouping): (SearchStep, Regrouping<Exact>)| {
-        let chain = Chain::new(&arm, &regrouping);
-        let forms = function.forms().into_iter();
-        let graphs =
-            forms.map(|form| trace_chain(scene_robot, function, &chain, form, Folding::Semantic));
-        let cheapest = graphs.map(|(graph, _)| graph).min_by_key(cost)?;
-        Some(Row::graph(step, scene_robot, function, &cheapest))
-    };
-    regroupings.into_iter().filter_map(row).collect()
+    /// Adds the chain form in one regrouping after the other, each in its cheapest form: nothing
+    /// moved; everything that can; per link as much as is cheapest, origins too; and the unit of length.
+    pub(super) fn chain(&mut self, tuned: &Tuned) {
+        let (scene_robot, function) = (self.task.scene_robot, self.function);
+        let arm = skeleton(scene_robot);
+        let mut metres = tuned.regrouping.clone();
+        (metres.unit, metres.per_unit) = (Exact::one(), Exact::one());
+        for (step, regrouping) in [
+            ("chain", &kept(&arm)),
+            ("base_parameters", &tune::start(&arm)),
+            ("tuned_regrouping", &metres),
+            ("unit_of_length", &tuned.regrouping),
+        ] {
+            let chain = Chain::new(&arm, regrouping);
+            let forms = function.forms().into_iter();
+            let graphs = forms
+                .map(|form| trace_chain(scene_robot, function, &chain, form, Folding::Semantic).0);
+            if let Some(cheapest) = graphs.min_by_key(cost) {
+                self.graph(step, &cheapest);
+            }
+        }
+    }
+
+    /// Adds what the search made of all forms, and what the plan keeps; returns the last of them: what
+    /// is generated, or what a tolerance is applied to.
+    pub(super) fn searched(&mut self, found: &Found) -> Result<Program, GenerateError> {
+        let found = &found.simplified;
+        let mut last = Program::in_scene(self.task.scene_robot, self.function, &found.graph);
+        self.graph("e_graph", &found.saturated);
+        self.program("search", last.clone());
+        if let Some(entry) = replay(self.task, self.function)? {
+            last = entry.program.clone();
+            self.program("plan", last.clone());
+        }
+        Ok(last)
+    }
 }
 
 /// Returns the regrouping in which every link keeps what it has; origins as for base
 /// parameters.
-pub(super) fn kept(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
+fn kept(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
     let mut regrouping = Regrouping::base(arm);
     for (segment, link) in arm.links.iter().zip(&mut regrouping.links) {
         let body = segment.body.moved(&opposite(&link.origin));
@@ -219,38 +188,6 @@ pub(super) fn kept(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
     regrouping
 }
 
-/// Returns the search over all forms, nothing replayed.
-pub(super) fn search_anew(task: &Task<'_>, function: Function) -> Result<Found, GenerateError> {
-    let anew = Request {
-        start: Start::Auto,
-        plan: None,
-        ..task.request.clone()
-    };
-    search(&task.with(&anew), function)
-}
-
-/// Returns what the search made of all forms, and what the plan keeps; and the last of them: what is
-/// generated, or what a tolerance is applied to.
-pub(super) fn searched(
-    task: &Task<'_>,
-    function: Function,
-    found: &Found,
-) -> Result<(Vec<Row>, Program), GenerateError> {
-    let scene_robot = task.scene_robot;
-    let simplified = &found.simplified;
-    let saturated = &simplified.saturated;
-    let mut last = Program::in_scene(scene_robot, function, &simplified.graph);
-    let mut rows = vec![
-        Row::graph(SearchStep::EGraph, scene_robot, function, saturated),
-        Row::program(SearchStep::Search, last.clone()),
-    ];
-    if let Some(entry) = replay(task, function)? {
-        last = entry.program.clone();
-        rows.push(Row::program(SearchStep::Plan, last.clone()));
-    }
-    Ok((rows, last))
-}
-
 /// Returns what a tolerance admits of a function: a row a scalar, as it is emitted.
 pub(super) fn tolerated(admitted: &Admitted) -> Result<Vec<Row>, GenerateError> {
     let row = |certificate: &Certificate| {
@@ -258,7 +195,7 @@ pub(super) fn tolerated(admitted: &Admitted) -> Result<Vec<Row>, GenerateError> 
         let text = Lowered::parse(&certificate.text, function, scalar)
             .map_err(|error| GenerateError::Defect(function, Some(scalar), error.to_string()))?;
         Ok(Row {
-            step: SearchStep::Tolerance,
+            step: "tolerance",
             counts: text.counts(),
             code: Code::Emitted(Box::new(text), scalar),
         })

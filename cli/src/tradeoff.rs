@@ -7,12 +7,12 @@ use dalembert_codegen::{Counts, GenerateError, Program, Request, ScalarType};
 use dalembert_model::scene::{Scale, Scene};
 use serde_json::Value;
 
-use crate::args::FewOptions;
-use crate::args::values::{count_parser, tolerance_parser};
+use crate::args::Options;
+use crate::args::values::{positive_parser, scale_parser};
 use crate::chart::{self, Dot};
 use crate::files::{Files, Target};
 use crate::ladder::{Ladder, Point, mark};
-use crate::output::{Context, Done, Failure, Outcome, note};
+use crate::output::{Context, Done, Failure, Outcome};
 use crate::progress;
 use crate::report::{Cell, Table, cells, in_scene};
 use crate::source::Source;
@@ -26,10 +26,10 @@ pub struct TradeoffArgs {
     /// What errors are relative to: `actuator`, the joints' torque limits, or `range`,
     /// the largest torque that was found for the model in the box
     /// [default: the scene's, or actuator]
-    #[arg(long, value_name = "SCALE", value_parser = ["actuator", "range"])]
-    relative_to: Option<String>,
+    #[arg(long, value_name = "SCALE", value_parser = scale_parser())]
+    relative_to: Option<Scale>,
     /// Tolerances, separated by commas [default: 1e-12 to 1e-1]
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = tolerance_parser(), allow_hyphen_values = true)]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = positive_parser(), allow_hyphen_values = true)]
     tolerances: Vec<f64>,
     /// Write table, chart and certificates to this folder
     #[arg(short, long, value_name = "DIR")]
@@ -39,12 +39,11 @@ pub struct TradeoffArgs {
         long,
         value_name = "N",
         allow_negative_numbers = true,
-        value_parser = count_parser(),
         default_value_t = 10_000
     )]
-    samples: usize,
+    samples: u32,
     #[command(flatten)]
-    options: FewOptions,
+    options: Options<false>,
 }
 
 /// Tolerances unless others are asked for; zero is always there.
@@ -58,7 +57,7 @@ const SVG: &str = "tradeoff.svg";
 pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
     let source = Source::open(context, &args.robot)?;
     let (mut request, scene) = exact_request(args, &source)?;
-    let tolerances = tolerances(args, context)?;
+    let tolerances = tolerances(args, context);
     // Before the work: a folder that cannot be is no news an hour later.
     let mut files = Files::new(context, &[&args.robot]);
     let targets = args.output.as_ref().map(|folder| {
@@ -74,25 +73,21 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
     let exact = functions.next().map(|function| function.program);
     let mut exact = exact.ok_or_else(|| Failure::from(GenerateError::Empty))?;
     let relative_to = relative_to(args, scene.as_ref());
-    let mut points = climb(
-        args,
-        &request,
-        &scene_robot,
-        &exact,
-        relative_to,
-        &tolerances,
-    )?;
-    // What a tolerance led to may be exact, and cheaper than what the exact search found.
-    if let Some(better) = better(&scene_robot, &exact, &points) {
-        exact = better;
-        points = climb(
+    let climb = |exact: &Program| {
+        climb(
             args,
             &request,
             &scene_robot,
-            &exact,
+            exact,
             relative_to,
             &tolerances,
-        )?;
+        )
+    };
+    let mut points = climb(&exact)?;
+    // What a tolerance led to may be exact, and cheaper than what the exact search found.
+    if let Some(better) = better(&scene_robot, &exact, &points) {
+        points = climb(&better)?;
+        exact = better;
     }
     mark(&mut points);
     let mut done = Done::default();
@@ -181,13 +176,8 @@ fn climb(
     progress::steps(2 * (1 + tolerances.len()));
     let watch = progress::watch_step();
     let frame = frame.watched(watch.over(exact.function));
-    let ladder = Ladder::new(args.samples, request.effort, &frame);
-    let done = |tolerance, variants: &[Point]| {
-        if !progress::is_shown() {
-            note(&line(tolerance, variants));
-        }
-    };
-    let points = ladder.climb(tolerances, &progress::step, &done);
+    let ladder = Ladder::new(args.samples as usize, request.effort, &frame);
+    let points = ladder.climb(tolerances, &progress::step);
     points.map_err(|error| Failure::Check(format!("error: {error}")))
 }
 
@@ -201,40 +191,12 @@ fn better(scene_robot: &SceneRobot, exact: &Program, points: &[Point]) -> Option
     fewer.find(|own| prove(scene_robot, own).is_ok()).cloned()
 }
 
-/// Describes the variants of a tolerance in one line.
-fn line(tolerance: f64, variants: &[Point]) -> String {
-    let variants = variants.iter().map(|point| {
-        let certificate = &point.certificate;
-        let by = if certificate.sines.is_empty() {
-            ""
-        } else {
-            " with polynomials"
-        };
-        let (operations, error) = (point.counts().operations(), point.certified);
-        format!(
-            "{operations} operations in {}{by} ({error:.1e})",
-            certificate.scalar
-        )
-    });
-    let variants: Vec<String> = variants.collect();
-    let found = match variants.is_empty() {
-        true => "no scalar is that exact".to_owned(),
-        false => variants.join(", "),
-    };
-    format!("tolerance {tolerance:e}: {found}")
-}
-
 /// Returns the tolerances, ascending, each once.
-fn tolerances(args: &TradeoffArgs, context: &Context) -> Result<Vec<f64>, Failure> {
+fn tolerances(args: &TradeoffArgs, context: &Context) -> Vec<f64> {
     let mut tolerances = match args.tolerances.as_slice() {
         [] => TOLERANCES.to_vec(),
         given => given.to_vec(),
     };
-    if let Some(bad) = tolerances.iter().find(|t| !(t.is_finite() && **t > 0.0)) {
-        return Err(Failure::Input(format!(
-            "error: a tolerance is a number above zero, not {bad}\n  = help: --tolerances 1e-3,1e-2"
-        )));
-    }
     if let Some(large) = tolerances.iter().find(|t| **t >= 1.0) {
         context.say(&format!(
             "warning: a tolerance of {large} allows an error as large as the output: 0.01 is 1%"
@@ -242,20 +204,14 @@ fn tolerances(args: &TradeoffArgs, context: &Context) -> Result<Vec<f64>, Failur
     }
     tolerances.sort_by(f64::total_cmp);
     tolerances.dedup();
-    Ok(tolerances)
+    tolerances
 }
 
 /// Returns what was asked for, else the scene's scale, else the actuators.
 fn relative_to(args: &TradeoffArgs, scene: Option<&Scene>) -> Scale {
     let own = scene.and_then(|scene| scene.tolerance.as_ref());
     let own = own.map(|tolerance| tolerance.relative_to);
-    let asked = args.relative_to.as_deref();
-    let mut words = Scale::WORDS.into_iter();
-    let asked = words.find(|(word, _)| Some(*word) == asked);
-    asked
-        .map(|(_, scale)| scale)
-        .or(own)
-        .unwrap_or(Scale::Actuator)
+    args.relative_to.or(own).unwrap_or(Scale::Actuator)
 }
 
 /// Returns the variants, a row each.

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand};
 use clap_complete::Shell;
 
-pub use options::{FewOptions, Options};
+pub use options::Options;
 
 use crate::output::Context;
 use crate::{

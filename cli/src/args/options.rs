@@ -9,62 +9,50 @@ use dalembert_codegen::{Asked, OPTIONS, OptionRow, Purpose};
 
 use super::{CODE, SEARCH};
 
-/// The options that are asked for on the command line.
+/// The options that are asked for on the command line: all of the table, or the few that matter to
+/// subcommands that look at programs and print none.
 #[derive(Clone, Debug, Default)]
-pub struct Options(pub Asked);
+pub struct Options<const ALL: bool = true>(pub Asked);
 
-/// Those of the subcommands that look at programs and print none.
-#[derive(Clone, Debug, Default)]
-pub struct FewOptions(pub Asked);
-
-/// The names of these.
+/// The names of the few.
 const FEW: [&str; 3] = ["outputs", "scene", "effort"];
 
-fn all() -> impl Iterator<Item = &'static OptionRow> {
-    OPTIONS.iter()
-}
-
-fn few() -> impl Iterator<Item = &'static OptionRow> {
-    all().filter(|row| FEW.contains(&row.name))
-}
-
-fn read(asked: &mut Asked, rows: impl Iterator<Item = &'static OptionRow>, matches: &ArgMatches) {
-    for row in rows.filter(|row| matches.value_source(row.name) == Some(ValueSource::CommandLine)) {
-        let values = matches.get_many::<String>(row.name);
-        let values: Vec<&str> = values.into_iter().flatten().map(String::as_str).collect();
-        // It is an option.
-        let _ = asked.set(row.name, &values.join(","));
+impl<const ALL: bool> Options<ALL> {
+    fn rows() -> impl Iterator<Item = &'static OptionRow> {
+        let rows = OPTIONS.iter();
+        rows.filter(|row| ALL || FEW.contains(&row.name))
     }
 }
 
-macro_rules! arguments {
-    ($($options:ident by $rows:ident),*) => { $(
-        impl FromArgMatches for $options {
-            fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
-                let mut options = Self::default();
-                options.update_from_arg_matches(matches)?;
-                Ok(options)
-            }
+impl<const ALL: bool> FromArgMatches for Options<ALL> {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
+        let mut options = Self::default();
+        options.update_from_arg_matches(matches)?;
+        Ok(options)
+    }
 
-            fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
-                read(&mut self.0, $rows(), matches);
-                Ok(())
-            }
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
+        let given =
+            |row: &&OptionRow| matches.value_source(row.name) == Some(ValueSource::CommandLine);
+        for row in Self::rows().filter(given) {
+            let values = matches.get_many::<String>(row.name);
+            let values: Vec<&str> = values.into_iter().flatten().map(String::as_str).collect();
+            // It is an option.
+            let _ = self.0.set(row.name, &values.join(","));
         }
-
-        impl Args for $options {
-            fn augment_args(command: Command) -> Command {
-                $rows().fold(command, |command, row| command.arg(arg(row)))
-            }
-
-            fn augment_args_for_update(command: Command) -> Command {
-                Self::augment_args(command)
-            }
-        }
-    )* };
+        Ok(())
+    }
 }
 
-arguments!(Options by all, FewOptions by few);
+impl<const ALL: bool> Args for Options<ALL> {
+    fn augment_args(command: Command) -> Command {
+        Self::rows().fold(command, |command, row| command.arg(arg(row)))
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
 
 /// Takes any text, and lists the words for help and completions: what is wrong with a word is said
 /// once, by the parser of requests.

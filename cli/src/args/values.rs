@@ -14,6 +14,7 @@ use dalembert_codegen::workspace::{Word, parse};
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::robot::suggested_name;
+use dalembert_model::scene::Scale;
 use num_traits::Signed;
 
 pub fn lock_parser() -> impl TypedValueParser<Value = (String, String)> {
@@ -65,26 +66,12 @@ pub fn certified_parser() -> impl TypedValueParser<Value = PathBuf> {
     })
 }
 
-pub fn tolerance_parser() -> impl TypedValueParser<Value = f64> {
-    StringValueParser::new().try_map(|text| {
-        text.parse::<f64>()
-            .map_err(|_| "a tolerance is a number above zero, such as 1e-3")
-    })
-}
-
-pub fn count_parser() -> impl TypedValueParser<Value = usize> {
-    StringValueParser::new().try_map(|text| {
-        text.parse::<usize>()
-            .map_err(|_| "a whole number, 0 or more")
-    })
-}
-
 pub fn positive_parser() -> impl TypedValueParser<Value = f64> {
     StringValueParser::new().try_map(|text| {
         let number = text.parse::<f64>().ok();
         number
             .filter(|number| *number > 0.0 && number.is_finite())
-            .ok_or("a tolerance is a number above zero")
+            .ok_or("a tolerance is a number above zero, such as 1e-3")
     })
 }
 
@@ -94,4 +81,12 @@ pub fn states_parser() -> impl TypedValueParser<Value = usize> {
     clap::value_parser!(i64)
         .range(1..=MAX_STATES)
         .map(|states| states as usize)
+}
+
+pub fn scale_parser() -> impl TypedValueParser<Value = Scale> {
+    PossibleValuesParser::new(Scale::WORDS.map(|(word, _)| word)).map(|word| {
+        let mut words = Scale::WORDS.into_iter();
+        let found = words.find(|(own, _)| *own == word);
+        found.map_or(Scale::Actuator, |(_, scale)| scale)
+    })
 }

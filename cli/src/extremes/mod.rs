@@ -106,20 +106,35 @@ pub fn inside<'e>(
     functions: impl Iterator<Item = &'e Emitted>,
     states: &[JointState],
 ) -> Vec<Row> {
-    rows(bench, functions, (INSIDE, Held::Vector), states, states)
+    functions
+        .flat_map(|emitted| bench.measure(&Code::of(emitted), states, states))
+        .map(|worst| Row::new(INSIDE, Held::Vector, worst))
+        .collect()
 }
 
-fn rows<'e>(
+/// Functions as they were generated, all together or each scalar by itself.
+type Made = Vec<Result<Generated, GenerateError>>;
+
+/// Measures what was generated in a case.
+fn rows(
     bench: &Bench,
-    functions: impl Iterator<Item = &'e Emitted>,
+    made: &Made,
     (case, held): (&'static str, Held),
-    states: &[JointState],
-    scales: &[JointState],
+    [states, scales]: [&[JointState]; 2],
 ) -> Vec<Row> {
-    functions
-        .flat_map(|emitted| bench.measure(&Code::of(emitted), states, scales))
-        .map(|worst| Row::new(case, held, worst))
-        .collect()
+    let mut rows = Vec::new();
+    for made in made {
+        match made {
+            Ok(generated) => {
+                for emitted in &generated.emitted {
+                    let worst = bench.measure(&Code::of(emitted), states, scales);
+                    rows.extend(worst.into_iter().map(|worst| Row::new(case, held, worst)));
+                }
+            }
+            Err(reason) => rows.push(Row::refused(case, held, reason.clone())),
+        }
+    }
+    rows
 }
 
 /// States that the sizes of torques are taken from.
@@ -142,17 +157,8 @@ pub fn torques(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Ro
         let drawn = motion.draw(&changed, states, SEED);
         let scales = motion.scales().draw(&changed, SCALES, SEED);
         let bench = Bench::new(SceneRobot::whole(&changed));
-        let mut all = Vec::new();
-        for generated in other.as_ref().unwrap_or(&own) {
-            match generated {
-                Ok(generated) => {
-                    let functions = generated.emitted.iter();
-                    all.extend(rows(&bench, functions, (case, *held), &drawn, &scales));
-                }
-                Err(reason) => all.push(Row::refused(case, *held, reason.clone())),
-            }
-        }
-        Ok(all)
+        let made = other.as_ref().unwrap_or(&own);
+        Ok(rows(&bench, made, (case, *held), [&drawn, &scales]))
     };
     let all: Result<Vec<Vec<Row>>, GenerateError> = each(&CASES, case).into_iter().collect();
     Ok(all?.concat())
@@ -164,7 +170,7 @@ fn generated(
     robot: &Robot,
     request: &Request,
     functions: &[Function],
-) -> Result<Vec<Result<Generated, GenerateError>>, GenerateError> {
+) -> Result<Made, GenerateError> {
     let of = |scalars: &[ScalarType]| {
         let request = Request {
             functions: functions.to_vec(),
@@ -215,23 +221,12 @@ pub fn divided(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Ro
     for state in drawn.iter_mut().skip(states) {
         state.q.clone_from(&q);
     }
-    let mut all = Vec::new();
-    for generated in generated {
-        match generated {
-            Ok(generated) => {
-                let functions = generated.emitted.iter();
-                all.extend(rows(
-                    &bench,
-                    functions,
-                    (CASE, Held::Vector),
-                    &drawn,
-                    &drawn,
-                ));
-            }
-            Err(reason) => all.push(Row::refused(CASE, Held::Vector, reason)),
-        }
-    }
-    Ok(all)
+    Ok(rows(
+        &bench,
+        &generated,
+        (CASE, Held::Vector),
+        [&drawn, &drawn],
+    ))
 }
 
 /// Returns the largest condition of D that a search over the limits finds, and where: the best of
