@@ -8,7 +8,6 @@ mod extremes_not_finite;
 mod extremes_of_chains;
 mod extremes_of_robots;
 mod extremes_support;
-mod forged;
 mod identities_in_time;
 mod new;
 mod outputs_compared;

@@ -3,7 +3,7 @@
 //!
 //! A block `console` has commands behind `$`, what a terminal shows of each, and `? N` where the exit
 //! code is not 0; `console result` has standard output alone. A line `...` stands for any lines. A block
-//! `toml file=NAME` is written to that file, `toml append=NAME` to its end. What differs is written into
+//! `toml file=NAME` (or `sh`) is written to that file, `toml append=NAME` to its end. What differs is written into
 //! the page before the test fails, so that running it once more, and reading the difference, is all
 //! that a change of a message takes.
 
@@ -120,7 +120,7 @@ fn run_pages(pages: &[PathBuf], inside: &Path) {
         for (info, range) in blocks(&lines) {
             let body = &lines[range.clone()];
             match info.split_once(' ').unwrap_or((&info, "")) {
-                ("toml", file) if !file.is_empty() => {
+                ("toml" | "sh", file) if !file.is_empty() => {
                     let (how, name) = file.split_once('=').unwrap();
                     let path = inside.join(name);
                     let before = match how {
@@ -193,8 +193,8 @@ macro_rules! pages {
 
 #[cfg(unix)]
 pages!(
-    bad_input, certify, explain, files, generate, import, new, renew, scenes, show, tradeoff,
-    verify
+    bad_input, certify, explain, files, forged, generate, import, new, renew, scenes, show,
+    terminal, tradeoff, verify
 );
 
 /// Pictures of the guide that are made elsewhere are those.

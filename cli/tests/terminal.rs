@@ -1,46 +1,8 @@
-//! How the command meets whoever types: colours, completions, a bar.
+//! How the command meets whoever types: a bar.
 
 use std::process::Command;
 
-use crate::support::{Ran, good, robot};
-
-#[test]
-fn colours_are_for_terminals() {
-    let coloured = |key: &str, value: &str| -> Ran {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_dalembert"));
-        for key in ["NO_COLOR", "CLICOLOR_FORCE", "CLICOLOR"] {
-            command.env_remove(key);
-        }
-        let output = command
-            .args(["generate", "none.toml"])
-            .env(key, value)
-            .output()
-            .unwrap();
-        let [out, err] = [output.stdout, output.stderr].map(|b| String::from_utf8(b).unwrap());
-        let code = output.status.code().unwrap();
-        Ran { code, out, err }
-    };
-    coloured("CLICOLOR_FORCE", "1").ends(2, &["\x1b[1;31merror\x1b[0m: "]);
-    let plain = coloured("NO_COLOR", "1");
-    assert!(plain.err.starts_with("error: ") && !plain.err.contains('\x1b'));
-    // A pipe is no terminal.
-    assert_eq!(coloured("TERM", "xterm").err, plain.err);
-}
-
-#[test]
-fn shells_complete_commands_and_options() {
-    for (shell, part) in [
-        ("bash", "--deny-warnings"),
-        ("zsh", "#compdef dalembert"),
-        ("fish", "complete -c dalembert"),
-    ] {
-        let script = good(&["completions", shell]).out;
-        assert!(
-            script.contains(part) && script.contains("tradeoff"),
-            "{shell}"
-        );
-    }
-}
+use crate::support::robot;
 
 /// A bar is shown on a terminal, which `script` of util-linux lends, once two seconds are over.
 #[cfg(target_os = "linux")]
