@@ -175,7 +175,9 @@ impl Function {
             name: kept(name),
             summary: kept(format!("{} {}", of.summary, described(view))),
             results: Box::leak(results.into_boxed_slice()),
-            ..Definition::PLAIN
+            structure: None,
+            by_default: false,
+            parts: &[],
         })))))
     }
 
@@ -276,7 +278,7 @@ fn seen(quantity: Quantity, view: View) -> Quantity {
     let axes: Vec<Axis> = of.shape.0.iter().map(components).collect();
     let facts = Facts {
         field: kept(format!("{}_{}{}", of.field, view.frame, suffix(view, '_'))),
-        symbol: kept(format!("{} at {at}", of.symbol)),
+        symbol: kept(format!("{} at {at}", of.symbol())),
         summary: kept(format!("{} {}", of.summary, described(view))),
         shape: Shape(Box::leak(axes.into_boxed_slice())),
         given: of.given.map(|key| kept(format!("{key}{AT}{at}"))),

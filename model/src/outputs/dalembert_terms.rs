@@ -3,25 +3,10 @@
 use alloc::vec::Vec;
 
 use super::formula::Formula;
-use super::function::Definition;
 use super::quantity::{Facts, kilograms, load, turns};
-use super::{Argument, ErrorScale, PayloadDependence, Quantity, Shape, Written};
+use super::{Argument, ErrorScale, PayloadDependence, Shape, Written};
 use crate::equations::dalembert::Part;
 use crate::scalar::Divide;
-
-pub(super) const FUNCTION: Definition = Definition {
-    name: "dalembert_terms",
-    summary: "What rotation and translation of the links contribute: D^rot, D^tran, h^rot, h^tran, and c; armature in neither D.",
-    results: &[
-        Quantity::RotationInertia,
-        Quantity::TranslationInertia,
-        Quantity::RotationCoriolis,
-        Quantity::TranslationCoriolis,
-        Quantity::Gravity,
-    ],
-    structure: Some("DalembertTerms"),
-    ..Definition::PLAIN
-};
 
 /// D^rot_ik
 pub(super) struct RotationInertia;
@@ -30,7 +15,6 @@ impl Formula for RotationInertia {
     const FACTS: Facts = Facts {
         field: "d_rot",
         letter: "Drot",
-        symbol: "Drot",
         summary: "Inertia matrix of the links' rotation D^rot.",
         arguments: &[Argument::Position],
         shape: Shape::MATRIX,
@@ -53,7 +37,6 @@ impl Formula for TranslationInertia {
     const FACTS: Facts = Facts {
         field: "d_tran",
         letter: "Dtran",
-        symbol: "Dtran",
         summary: "Inertia matrix of the links' translation D^tran.",
         arguments: &[Argument::Position],
         shape: Shape::MATRIX,
@@ -78,7 +61,6 @@ impl Formula for RotationCoriolis {
     const FACTS: Facts = Facts {
         field: "h_rot",
         letter: "hrot",
-        symbol: "hrot",
         summary: "Coriolis and centripetal load of the links' rotation h^rot.",
         arguments: &[Argument::Position, Argument::Velocity],
         shape: Shape::VECTOR,
@@ -102,7 +84,6 @@ impl Formula for TranslationCoriolis {
     const FACTS: Facts = Facts {
         field: "h_tran",
         letter: "htran",
-        symbol: "htran",
         summary: "Coriolis and centripetal load of the links' translation h^tran.",
         arguments: &[Argument::Position, Argument::Velocity],
         shape: Shape::VECTOR,

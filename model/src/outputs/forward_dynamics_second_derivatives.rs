@@ -4,14 +4,13 @@
 
 use alloc::vec::Vec;
 
+use super::derivatives::defect;
 use super::formula::Formula;
 use super::forward_dynamics::accelerations;
-use super::forward_dynamics_derivatives::defect;
-use super::function::Definition;
 use super::inverse_dynamics_second_derivatives::SHARED;
-use super::operational_inertia_inverse::factor;
+use super::operational::factor;
 use super::quantity::{Facts, Index, turns};
-use super::{Argument, Quantity, Regrouped, Written};
+use super::{Argument, Regrouped, Written};
 use crate::equations::chain::Unknowns;
 use crate::equations::chain::second_derivatives::SecondDerivatives;
 use crate::equations::factor::scatter;
@@ -19,19 +18,6 @@ use crate::equations::forward::free;
 use crate::equations::operational::products;
 use crate::equations::second_derivatives::OfAccelerations;
 use crate::scalar::Divide;
-
-pub(super) const FUNCTION: Definition = Definition {
-    name: "forward_dynamics_second_derivatives",
-    summary: "Second derivatives of the forward dynamics, of λᵀq̈ for a given λ.",
-    results: &[
-        Quantity::AccelerationByPositions,
-        Quantity::AccelerationByPositionAndVelocity,
-        Quantity::AccelerationByVelocities,
-        Quantity::AccelerationByTorqueAndPosition,
-    ],
-    structure: Some("ForwardDynamicsSecondDerivatives"),
-    ..Definition::PLAIN
-};
 
 /// ∂²(λᵀq̈)/∂q_i∂q_k
 pub(super) struct AccelerationByPositions;

@@ -13,7 +13,7 @@ use crate::equations::regressor::Column;
 use crate::equations::{Arm, Formulation};
 use crate::scalar::Divide;
 
-/// The definition of a function by its file, or of a bundle.
+/// The definition of a function by its row, or of a bundle.
 #[derive(Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct Definition {
     /// Its name in generated code, on the command line and in the macro.
@@ -31,15 +31,27 @@ pub(super) struct Definition {
 }
 
 impl Definition {
-    /// The definition that most functions share; a file states the rest, and what differs.
-    pub(super) const PLAIN: Definition = Definition {
-        name: "",
-        summary: "",
-        results: &[],
-        structure: None,
-        by_default: false,
-        parts: &[],
-    };
+    /// Returns the definition of a function that returns its own quantities; several of them in
+    /// a struct of its name in Rust.
+    pub(super) const fn of(
+        name: &'static str,
+        in_rust: &'static str,
+        summary: &'static str,
+        results: &'static [Quantity],
+    ) -> Definition {
+        Definition {
+            name,
+            summary,
+            results,
+            structure: if results.len() > 1 {
+                Some(in_rust)
+            } else {
+                None
+            },
+            by_default: false,
+            parts: &[],
+        }
+    }
 }
 
 /// Which columns of a regressor a function's results are over.

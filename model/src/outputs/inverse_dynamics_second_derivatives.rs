@@ -4,24 +4,10 @@
 use alloc::vec::Vec;
 
 use super::formula::Formula;
-use super::function::Definition;
 use super::quantity::{Choice, Facts, kilograms, turns};
-use super::{Argument, PayloadDependence, Quantity, Regrouped, Shape, Written};
+use super::{Argument, PayloadDependence, Regrouped, Shape, Written};
 use crate::equations::chain::second_derivatives::SecondDerivatives;
 use crate::scalar::Divide;
-
-pub(super) const FUNCTION: Definition = Definition {
-    name: "inverse_dynamics_second_derivatives",
-    summary: "Second derivatives of the inverse dynamics, of λᵀτ for a given λ.",
-    results: &[
-        Quantity::TorqueByPositions,
-        Quantity::TorqueByPositionAndVelocity,
-        Quantity::TorqueByVelocities,
-        Quantity::TorqueByAccelerationAndPosition,
-    ],
-    structure: Some("InverseDynamicsSecondDerivatives"),
-    ..Definition::PLAIN
-};
 
 /// ∂²(λᵀτ)/∂q_i∂q_k
 pub(super) struct TorqueByPositions;

@@ -8,18 +8,10 @@
 use alloc::vec::Vec;
 
 use super::formula::Formula;
-use super::function::Definition;
 use super::quantity::Facts;
-use super::{Argument, Axis, Quantity, Shape, Written};
+use super::{Argument, Axis, Shape, Written};
 use crate::equations::load::Loading;
 use crate::scalar::Divide;
-
-pub(super) const FUNCTION: Definition = Definition {
-    name: "load",
-    summary: "Load: the regrouped parameters of the arm with a payload, once for each tool.",
-    results: &[Quantity::Load],
-    ..Definition::PLAIN
-};
 
 /// The base parameters that a payload changes.
 pub(super) struct Load;
@@ -28,7 +20,6 @@ impl Formula for Load {
     const FACTS: Facts = Facts {
         field: "load",
         letter: "load",
-        symbol: "load",
         summary: "The regrouped parameters that a payload changes.",
         arguments: &[Argument::Payload],
         shape: Shape(&[Axis::Load]),

@@ -1,20 +1,53 @@
+//! The Coriolis matrix, and the torques of controllers that use it.
+//!
+//! C, the Coriolis matrix of the Christoffel symbols.
+//!
 //! D a + C v + c + b∘v: what passivity-based controllers (Slotine and Li) ask
 //! of a model, with v and a the velocity and the acceleration wished for.
 
 use alloc::vec::Vec;
 
 use super::formula::Formula;
-use super::function::Definition;
-use super::quantity::{Facts, load};
-use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
+use super::quantity::{Choice, Facts, load, turns};
+use super::{Argument, ErrorScale, PayloadDependence, Regrouped, Shape, Written};
+use crate::equations::energy::contracted;
 use crate::scalar::Divide;
 
-pub(super) const FUNCTION: Definition = Definition {
-    name: "passivity",
-    summary: "Passivity-based control: D a + C v + c + b∘v, with C of the Christoffel symbols.",
-    results: &[Quantity::Passivity],
-    ..Definition::PLAIN
-};
+/// C_ik = Σ_m h_ikm q̇_m
+pub(super) struct CoriolisMatrix;
+
+impl Formula for CoriolisMatrix {
+    const FACTS: Facts = Facts {
+        field: "c_matrix",
+        letter: "C",
+        summary: "Coriolis matrix C.",
+        arguments: &[Argument::Position, Argument::Velocity],
+        shape: Shape::MATRIX,
+        unit: |at| match turns(at) {
+            0 => "N·s/m",
+            1 => "N·s",
+            _ => "N·m·s",
+        },
+        choices: Some(&[Choice::Flows]),
+        by_differences: true,
+        payload_dependence: PayloadDependence::Torque,
+        ..Facts::PLAIN
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let c = at.formulation.coriolis_matrix(at.arm, at.at, &at.motion.qd);
+        c.into_iter().flatten().collect()
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let qd = &at.motion.qd;
+        let c = match at.form.flows {
+            true => at.composite.coriolis_matrix(qd, at.form.travel),
+            false => contracted(&at.composite.christoffel(), qd),
+        };
+        Some(c.into_iter().flatten().collect())
+    }
+}
 
 /// The arguments of it and of its regressor.
 pub(super) const ARGUMENTS: &[Argument] = &[

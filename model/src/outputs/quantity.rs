@@ -25,14 +25,14 @@ pub(super) enum FrameChoice {
 /// The conversion of a result's entries, with q̇, into those of given states.
 pub(in crate::outputs) type FromEntries = fn(&[f64], &[f64]) -> Vec<f64>;
 
-/// The facts that a quantity's file states, beside its formulas.
+/// The facts of a quantity, beside its formulas.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Facts {
     /// Its field in the structs that generated functions return.
     pub field: &'static str,
     /// Its letter in the equations and in the names of its entries.
     pub letter: &'static str,
-    /// Its name where the letter by itself would be another quantity's.
+    /// Its name where the letter by itself would be another quantity's; else nothing.
     pub symbol: &'static str,
     /// A line of documentation for its field.
     pub summary: &'static str,
@@ -80,7 +80,7 @@ pub(super) struct Facts {
 }
 
 impl Facts {
-    /// The facts of most quantities; a file states the rest, and what differs.
+    /// The facts of most quantities; each states the rest, and what differs.
     pub(super) const PLAIN: Facts = Facts {
         field: "",
         letter: "",
@@ -105,6 +105,14 @@ impl Facts {
         frame: FrameChoice::None,
         of_links: false,
     };
+
+    /// Returns its name.
+    pub(super) fn symbol(&self) -> &'static str {
+        match self.symbol {
+            "" => self.letter,
+            own => own,
+        }
+    }
 }
 
 /// An association of the chain formulas that matters to a quantity.
@@ -181,7 +189,7 @@ impl Quantity {
 
     /// Returns its letter in the equations; `h_ikm` for the symbols that make up h.
     pub fn symbol(self) -> &'static str {
-        self.facts().symbol
+        self.facts().symbol()
     }
 
     /// Returns what an error is held against where actuators are the measure.

@@ -2,13 +2,20 @@
 //! where their members are told apart. What comes along with others, and is not
 //! asked for by itself, stands behind `beside them`.
 
-/// A line an output: its documentation, its file, its name in Rust, and the
-/// quantities that its file defines.
+/// A row an output: its documentation, its name and its name in Rust, the file of the quantities
+/// that are its own, a line for the documentation of generated code, and what differs from
+/// [`Definition::of`](function::Definition::of).
 macro_rules! registry {
     (
-        $($(#[$doc:meta])* $file:ident: $function:ident { $($quantity:ident),* })*
+        $(
+            $(#[$doc:meta])* $name:ident: $function:ident { $($file:ident: $($quantity:ident),+)? }
+            $summary:literal $(, $field:ident: $value:expr)*;
+        )*
         ; beside them:
-        $($(#[$along_doc:meta])* $along_file:ident: $along:ident { $($part:ident),* })*
+        $(
+            $(#[$along_doc:meta])* $along_name:ident: $along:ident { $along_file:ident: $part:ident }
+            $along_summary:literal;
+        )*
     ) => {
         /// A function that can be generated.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -24,14 +31,14 @@ macro_rules! registry {
         /// A quantity that a function returns.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Quantity {
-            $($(
+            $($($(
                 #[doc = concat!("Of [`Function::", stringify!($function), "`].")]
                 $quantity,
-            )*)*
-            $($(
+            )+)?)*
+            $(
                 #[doc = concat!("Of [`Function::", stringify!($along), "`].")]
                 $part,
-            )*)*
+            )*
             /// One of these at a frame.
             At(at::QuantityAt),
         }
@@ -43,8 +50,25 @@ macro_rules! registry {
 
             pub(in crate::outputs) fn definition(self) -> &'static function::Definition {
                 match self {
-                    $(Function::$function => &$file::FUNCTION,)*
-                    $(Function::$along => &$along_file::FUNCTION,)*
+                    $(Function::$function => const {
+                        &function::Definition {
+                            $($field: $value,)*
+                            ..function::Definition::of(
+                                stringify!($name),
+                                stringify!($function),
+                                $summary,
+                                &[$($(Quantity::$quantity),+)?],
+                            )
+                        }
+                    },)*
+                    $(Function::$along => const {
+                        &function::Definition::of(
+                            stringify!($along_name),
+                            stringify!($along),
+                            $along_summary,
+                            &[Quantity::$part],
+                        )
+                    },)*
                     Function::Bundle(bundle) => bundle.definition(),
                     Function::At(at) => at.definition(),
                 }
@@ -53,12 +77,12 @@ macro_rules! registry {
 
         impl Quantity {
             /// Every quantity of a function that can be asked for, in the order of these.
-            pub const ALL: &[Quantity] = &[$($(Quantity::$quantity,)*)*];
+            pub const ALL: &[Quantity] = &[$($($(Quantity::$quantity,)+)?)*];
 
             pub(in crate::outputs) fn facts(self) -> &'static quantity::Facts {
                 match self {
-                    $($(Quantity::$quantity => &<$file::$quantity as formula::Formula>::FACTS,)*)*
-                    $($(Quantity::$part => &<$along_file::$part as formula::Formula>::FACTS,)*)*
+                    $($($(Quantity::$quantity => &<$file::$quantity as formula::Formula>::FACTS,)+)?)*
+                    $(Quantity::$part => &<$along_file::$part as formula::Formula>::FACTS,)*
                     Quantity::At(at) => at.facts(),
                 }
             }
@@ -66,8 +90,8 @@ macro_rules! registry {
             /// Returns the function that defines it, of the hand, where others may return it too.
             pub fn function(self) -> Function {
                 match self {
-                    $($(Quantity::$quantity => Function::$function,)*)*
-                    $($(Quantity::$part => Function::$along,)*)*
+                    $($($(Quantity::$quantity => Function::$function,)+)?)*
+                    $(Quantity::$part => Function::$along,)*
                     Quantity::At(at) => at.quantity().function(),
                 }
             }
@@ -75,8 +99,8 @@ macro_rules! registry {
             /// Returns its entries by a textbook formulation, flat, row by row.
             pub fn written<S: $crate::scalar::Divide>(self, at: &Written<'_, S>) -> ::alloc::vec::Vec<S> {
                 match self {
-                    $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::written(at),)*)*
-                    $($(Quantity::$part => <$along_file::$part as formula::Formula>::written(at),)*)*
+                    $($($(Quantity::$quantity => <$file::$quantity as formula::Formula>::written(at),)+)?)*
+                    $(Quantity::$part => <$along_file::$part as formula::Formula>::written(at),)*
                     Quantity::At(own) => own.written(at),
                 }
             }
@@ -88,8 +112,8 @@ macro_rules! registry {
                 at: &Regrouped<'_, S>,
             ) -> ::core::option::Option<::alloc::vec::Vec<S>> {
                 match self {
-                    $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::regrouped(at),)*)*
-                    $($(Quantity::$part => <$along_file::$part as formula::Formula>::regrouped(at),)*)*
+                    $($($(Quantity::$quantity => <$file::$quantity as formula::Formula>::regrouped(at),)+)?)*
+                    $(Quantity::$part => <$along_file::$part as formula::Formula>::regrouped(at),)*
                     Quantity::At(own) => own.regrouped(at),
                 }
             }
@@ -97,8 +121,8 @@ macro_rules! registry {
             /// Returns whether it exists only where D has an inverse.
             pub fn inverts_inertia(self) -> bool {
                 match self {
-                    $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::INVERTS_INERTIA,)*)*
-                    $($(Quantity::$part => <$along_file::$part as formula::Formula>::INVERTS_INERTIA,)*)*
+                    $($($(Quantity::$quantity => <$file::$quantity as formula::Formula>::INVERTS_INERTIA,)+)?)*
+                    $(Quantity::$part => <$along_file::$part as formula::Formula>::INVERTS_INERTIA,)*
                     Quantity::At(own) => own.quantity().inverts_inertia(),
                 }
             }
@@ -111,8 +135,8 @@ macro_rules! registry {
                 values: &[S],
             ) -> ::alloc::vec::Vec<S> {
                 match self {
-                    $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::residual(at, values),)*)*
-                    $($(Quantity::$part => <$along_file::$part as formula::Formula>::residual(at, values),)*)*
+                    $($($(Quantity::$quantity => <$file::$quantity as formula::Formula>::residual(at, values),)+)?)*
+                    $(Quantity::$part => <$along_file::$part as formula::Formula>::residual(at, values),)*
                     Quantity::At(own) => own.residual(at, values),
                 }
             }
@@ -121,8 +145,8 @@ macro_rules! registry {
             /// inverts no other.
             pub fn divisor<S: $crate::scalar::Divide>(self, at: &Written<'_, S>) -> ::alloc::vec::Vec<S> {
                 match self {
-                    $($(Quantity::$quantity => <$file::$quantity as formula::Formula>::divisor(at),)*)*
-                    $($(Quantity::$part => <$along_file::$part as formula::Formula>::divisor(at),)*)*
+                    $($($(Quantity::$quantity => <$file::$quantity as formula::Formula>::divisor(at),)+)?)*
+                    $(Quantity::$part => <$along_file::$part as formula::Formula>::divisor(at),)*
                     Quantity::At(own) => own.divisor(at),
                 }
             }

@@ -1,0 +1,178 @@
+//! Torques, accelerations and a wrench that acts on the hand.
+//!
+//! τ = D q̈ + h + c + b∘q̇ − Jᵀw: what the drives give while w acts on the hand.
+//!
+//! q̈ = D⁻¹ (τ + Jᵀw − h − c − b∘q̇): how the arm moves while w acts on its hand.
+//!
+//! ŵ = (J Jᵀ + λ² 1)⁻¹ J τ: the wrench on the hand that torques of its alone say, such as
+//! those that an observer of momentum finds.
+
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::forward_dynamics::{accelerations, rest};
+use super::operational::OF_HAND;
+use super::quantity::{Choice, Facts, FrameChoice, load, turns};
+use super::torques::torques;
+use super::{Argument, Axis, ErrorScale, Index, Motion, Regrouped, Shape, Written};
+use crate::equations::chain::{HandChoice, Unknowns};
+use crate::equations::contact::squared;
+use crate::equations::matrix::{minus, plus};
+use crate::equations::operational::{damped, products};
+use crate::scalar::{Divide, Scalar};
+
+/// τ_i
+pub(super) struct ContactTorque;
+
+/// Returns Jᵀ w over all joints of the arm.
+pub(super) fn of_wrench<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+    at.formulation
+        .torques_of_wrench(at.arm, at.at, &at.motion.wrench)
+}
+
+/// Returns a − b
+pub(super) fn less<S: Scalar>(a: &[S], b: &[S]) -> Vec<S> {
+    a.iter().zip(b).map(|(a, b)| minus(a, b)).collect()
+}
+
+impl Formula for ContactTorque {
+    const FACTS: Facts = Facts {
+        field: "tau",
+        letter: "τ",
+        symbol: "τ(w)",
+        summary: "Torques τ beside the wrench.",
+        arguments: &[
+            Argument::Position,
+            Argument::Velocity,
+            Argument::Acceleration,
+            Argument::Wrench,
+        ],
+        shape: Shape::VECTOR,
+        unit: load,
+        scale: ErrorScale::Load,
+        given: Some("tau_with_wrench"),
+        choices: Some(&[Choice::Recursion]),
+        gravity: true,
+        frame: FrameChoice::Axes,
+        hand: HandChoice::None,
+        ..OF_HAND
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let motion = at.motion;
+        let own = at
+            .formulation
+            .inverse_dynamics(at.arm, at.at, &motion.qd, &motion.qdd);
+        less(&own, &of_wrench(at))
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let wrench = at.pick(&of_wrench(at.textbook.as_ref()?));
+        Some(less(&torques(at, &at.motion.qdd), &wrench))
+    }
+}
+
+/// q̈_i
+pub(super) struct ContactAcceleration;
+
+/// Returns a + b
+fn added<S: Scalar>(a: &[S], b: &[S]) -> Vec<S> {
+    a.iter().zip(b).map(|(a, b)| plus(a, b)).collect()
+}
+
+impl Formula for ContactAcceleration {
+    const FACTS: Facts = Facts {
+        field: "qdd",
+        letter: "q̈",
+        symbol: "q̈(w)",
+        summary: "Accelerations q̈ under the wrench.",
+        arguments: &[
+            Argument::Position,
+            Argument::Velocity,
+            Argument::Torque,
+            Argument::Wrench,
+        ],
+        shape: Shape::VECTOR,
+        unit: |at| match turns(at) {
+            0 => "m/s²",
+            _ => "rad/s²",
+        },
+        given: Some("qdd_with_wrench"),
+        choices: Some(&[Choice::Recursion, Choice::Travel]),
+        gravity: true,
+        has_shoulder: true,
+        frame: FrameChoice::Axes,
+        hand: HandChoice::None,
+        ..OF_HAND
+    };
+
+    const INVERTS_INERTIA: bool = true;
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let motion = at.motion;
+        let tau = added(&motion.tau, &of_wrench(at));
+        at.formulation
+            .forward_dynamics(at.arm, at.at, &motion.qd, &tau, &motion.moves)
+    }
+
+    /// Returns inverse dynamics of the motion less τ and Jᵀw, of the joints that move.
+    fn residual<S: Divide>(at: &Written<'_, S>, qdd: &[S]) -> Vec<S> {
+        rest(at, qdd, &added(&at.motion.tau, &of_wrench(at)))
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let wrench = at.pick(&of_wrench(at.textbook.as_ref()?));
+        let motion = Motion {
+            tau: added(&at.motion.tau, &wrench),
+            ..at.motion.clone()
+        };
+        let at = Regrouped {
+            motion: &motion,
+            ..at.clone()
+        };
+        Some(accelerations(&at, Unknowns::AgainstBase))
+    }
+}
+
+/// ŵ_r
+pub(super) struct ContactWrench;
+
+impl Formula for ContactWrench {
+    const FACTS: Facts = Facts {
+        field: "contact_wrench",
+        letter: "ŵ",
+        summary: "Wrench ŵ, force over moment.",
+        arguments: &[Argument::Position, Argument::Torque, Argument::Damping],
+        shape: Shape(&[Axis::Fixed(6)]),
+        unit: |at| match at {
+            [Index::Fixed(..3)] => "N",
+            _ => "N·m",
+        },
+        given: Some("contact_wrench"),
+        depends_on_base: true,
+        frame: FrameChoice::Rows,
+        ..Facts::PLAIN
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let motion = at.motion;
+        let given = [motion.tau.as_slice(), &motion.damping];
+        at.formulation
+            .wrench_of_torques(at.arm, at.at, given, &motion.moves)
+    }
+
+    fn divisor<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let motion = at.motion;
+        let j = at.formulation.moving_jacobian(at.arm, at.at, &motion.moves);
+        damped(&squared(&j), &motion.damping[0]).concat()
+    }
+
+    /// Returns (J Jᵀ + λ² 1) ŵ − J τ
+    fn residual<S: Divide>(at: &Written<'_, S>, wrench: &[S]) -> Vec<S> {
+        let motion = at.motion;
+        let j = at.formulation.moving_jacobian(at.arm, at.at, &motion.moves);
+        let left = products(&damped(&squared(&j), &motion.damping[0]), wrench);
+        let right = products(&j, &motion.tau);
+        left.iter().zip(&right).map(|(a, b)| a.sub(b)).collect()
+    }
+}

@@ -1,0 +1,142 @@
+//! Matrices that torques are linear in parameters by.
+//!
+//! Y over the base parameters: τ = Y π with as few columns as there can be.
+//!
+//! Y over every inertial parameter of every link, dependent or not.
+//!
+//! Y over the base parameters in D a + C v + c + b∘v = Y π: what adaptive control
+//! (Slotine and Li) multiplies its estimate by.
+//!
+//! It is not the regressor of the torques at other arguments: C(q, q̇) v has two
+//! velocities. For the law that adapts the estimate, Y must be of that very form, with
+//! C of the Christoffel symbols: Ḋ − 2C is skew then, and so the energy of the error
+//! falls whatever the estimate is.
+
+use alloc::vec::Vec;
+
+use super::formula::Formula;
+use super::passivity::ARGUMENTS;
+use super::quantity::{Choice, Facts};
+use super::{Argument, Axis, Index, Regrouped, Shape, Written};
+use crate::scalar::Divide;
+
+/// Y_ik
+pub(super) struct BaseRegressor;
+
+impl Formula for BaseRegressor {
+    const FACTS: Facts = Facts {
+        field: "y",
+        letter: "Y",
+        summary: "Regressor Y over the base parameters.",
+        arguments: &Argument::STATE,
+        shape: Shape(&[Axis::Joints, Axis::BaseParameters]),
+        linear: Some(("τ", "BASE_PARAMETERS")),
+        unit: |_| "",
+        choices: Some(&[Choice::Travel]),
+        // What it shares with what the chain formulas give saves a few.
+        starts_from_recursion: true,
+        gravity: true,
+        ..Facts::PLAIN
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        written(at)
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        Some(regrouped(at))
+    }
+}
+
+/// Returns the columns by a textbook formulation.
+pub(super) fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+    let (motion, formulation) = (at.motion, at.formulation);
+    let rows = formulation.regressor(at.arm, at.at, &motion.qd, &motion.qdd, at.columns);
+    rows.into_iter().flatten().collect()
+}
+
+/// Returns the columns by the chain formulas.
+pub(super) fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Vec<S> {
+    let (motion, travel) = (at.motion, at.form.travel);
+    let rows = at.chain.regressor(at.at, &motion.qd, &motion.qdd, travel);
+    rows.into_iter().flatten().collect()
+}
+
+/// Returns the unit of an entry: of a torque over that of its parameter.
+pub(super) fn unit(at: &[Index]) -> &'static str {
+    use crate::equations::regressor::LinkParameter;
+    let metres = match at {
+        [_, Index::Parameter(LinkParameter::Mass)] => 1,
+        [_, Index::Parameter(LinkParameter::First(_))] => 0,
+        [_, Index::Parameter(LinkParameter::Tensor(..))] => -1,
+        _ => return "",
+    };
+    match metres + super::quantity::turns(at) {
+        2 => "m²/s²",
+        1 => "m/s²",
+        0 => "1/s²",
+        _ => "1/(m·s²)",
+    }
+}
+
+/// Y_ik
+pub(super) struct LinkRegressor;
+
+impl Formula for LinkRegressor {
+    const FACTS: Facts = Facts {
+        field: "y",
+        letter: "Y",
+        symbol: "Y over all links' parameters",
+        summary: "Regressor Y over all links' parameters.",
+        arguments: &Argument::STATE,
+        shape: Shape(&[Axis::Joints, Axis::LinkParameters]),
+        unit,
+        given: Some("regressor"),
+        choices: Some(&[Choice::Travel]),
+        // What it shares with what the chain formulas give saves a few.
+        starts_from_recursion: true,
+        gravity: true,
+        ..Facts::PLAIN
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        written(at)
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        Some(regrouped(at))
+    }
+}
+
+/// Y_ik
+pub(super) struct PassivityRegressor;
+
+impl Formula for PassivityRegressor {
+    const FACTS: Facts = Facts {
+        field: "y",
+        letter: "Y",
+        symbol: "Y of D a + C v + c + b∘v",
+        summary: "Regressor Y of D a + C v + c + b∘v over the base parameters.",
+        arguments: ARGUMENTS,
+        shape: Shape(&[Axis::Joints, Axis::BaseParameters]),
+        linear: Some(("D a + C v + c + b∘v", "PASSIVITY_PARAMETERS")),
+        choices: Some(&[Choice::Travel]),
+        by_differences: true,
+        gravity: true,
+        ..Facts::PLAIN
+    };
+
+    fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        let (motion, columns) = (at.motion, at.columns);
+        let wished = [&motion.v[..], &motion.a[..]];
+        let rows = (at.formulation).passivity_regressor(at.arm, at.at, &motion.qd, wished, columns);
+        rows.into_iter().flatten().collect()
+    }
+
+    fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
+        let (motion, travel) = (at.motion, at.form.travel);
+        let wished = [&motion.v[..], &motion.a[..]];
+        let rows = (at.chain).passivity_regressor(at.at, &motion.qd, wished, travel);
+        Some(rows.into_iter().flatten().collect())
+    }
+}
