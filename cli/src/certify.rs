@@ -72,19 +72,8 @@ fn certificates(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
         report.line(format!(
             "{before}`{function}` in {scalar}{within}, relative to T"
         ));
-        let heads = [
-            "joint",
-            "T",
-            "real",
-            "rounding",
-            "bound",
-            "E",
-            ".tolerance",
-            "seen",
-            "finding=",
-            ".passed",
-        ];
-        let table = Table::new(&heads).with(found.outputs.iter().map(row));
+        let heads = "joint|T|real|rounding|bound|E|.tolerance|seen|finding=|.passed";
+        let table = Table::new(heads).with(found.outputs.iter().map(row));
         all.push(json!({
             "file": name.to_string(),
             "function": function.to_string(),
@@ -157,18 +146,8 @@ fn whole_file(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
         let rates = format!("Where the file has no limit, rates go up to {RATE} in SI units.");
         report.line(rates);
     }
-    let heads = [
-        "module",
-        "function",
-        "real",
-        "rounding",
-        "units",
-        "tried",
-        "seen_units",
-        "why",
-        "passed",
-    ];
-    let mut table = Table::new(&heads);
+    let heads = "module|function|real|rounding|units|tried|seen_units|why|passed";
+    let mut table = Table::new(heads);
     let mut module = "";
     for line in &found.lines {
         if line.module != module {

@@ -25,10 +25,8 @@ pub enum Detail {
 pub fn report(robot: &Robot, request: &Request, generated: &Generated, detail: Detail) -> Report {
     let mut report = Report::of(robot, request.scene.as_ref());
     report.table("functions", "", operations(generated, detail));
-    let heads = [
-        "function", "scalar", "trig_mul", "trig_add", "angles", "error",
-    ];
-    let sines = Table::new(&heads).with(generated.functions.iter().flat_map(sines));
+    let heads = "function|scalar|trig_mul|trig_add|angles|error";
+    let sines = Table::new(heads).with(generated.functions.iter().flat_map(sines));
     report.table(
         "sines",
         "sines and cosines by polynomials, errors proved",
@@ -62,14 +60,11 @@ pub fn report(robot: &Robot, request: &Request, generated: &Generated, detail: D
 
 /// Returns the table of operations; everything adds depth, calls, origin and proof.
 fn operations(generated: &Generated, detail: Detail) -> Table {
-    let whole = ["depth", "calls", "from", "proof"];
-    let hidden = [".depth", ".calls", ".from", ".proof"];
-    let more = if detail == Detail::Whole {
-        whole
-    } else {
-        hidden
+    let more = match detail {
+        Detail::Whole => "depth|calls|from|proof",
+        Detail::Counts | Detail::Bounds => ".depth|.calls|.from|.proof",
     };
-    let mut table = Table::keyed(&[&["function"][..], &COUNTS, &more].concat());
+    let mut table = Table::keyed(&format!("function|{COUNTS}|{more}"));
     // Of the first scalar that was emitted.
     let scalar = generated.emitted.first().map(|emitted| emitted.scalar);
     for function in &generated.functions {
@@ -86,8 +81,8 @@ fn operations(generated: &Generated, detail: Detail) -> Table {
         table.row(row);
     }
     // The operations of polynomials have a table of their own.
-    let table = table.without(&["trig_mul", "trig_add"]);
-    table.without_zeros(&["fma", "sqrt"])
+    let table = table.without("trig_mul|trig_add");
+    table.without_zeros("fma|sqrt")
 }
 
 /// Returns the polynomials that give a function's sines, a row a scalar.
@@ -134,10 +129,10 @@ fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Gene
             format!(
                 "largest rounding errors at {states} inside the limits, in u (f64 2^-53, f32 2^-24)"
             ),
-            Table::new(&["function", "scalar", "vector", "entry"]).with(rows),
+            Table::new("function|scalar|vector|entry").with(rows),
         );
     }
-    let mut stages = Table::new(&[&["function", "stage"], &COUNTS[..]].concat());
+    let mut stages = Table::new(&format!("function|stage|{COUNTS}"));
     for function in &generated.functions {
         // What the tolerance left of it is what is emitted.
         let last = function
@@ -154,7 +149,7 @@ fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Gene
             stages.row(row);
         }
     }
-    let stages = stages.without_zeros(&COUNTS);
+    let stages = stages.without_zeros(COUNTS);
     report.table("stages", "operations after each stage", stages);
 }
 
@@ -164,7 +159,7 @@ fn tolerance(report: &mut Report, function: Function, admitted: &Admitted, ended
         report.table(
             &format!("certified/{function}/{}", own.scalar),
             format!("{function} in {}, certified", own.scalar),
-            Table::new(&BOUNDS).with(bounds(own)),
+            Table::new(BOUNDS).with(bounds(own)),
         );
     }
     let left_out = omissions(&admitted.stages);
@@ -178,7 +173,7 @@ fn tolerance(report: &mut Report, function: Function, admitted: &Admitted, ended
     report.table(
         &format!("left_out/{function}"),
         "left out, and what putting it back costs",
-        Table::new(&["what=", "operations=", "sincos="]).with(rows),
+        Table::new("what=|operations=|sincos=").with(rows),
     );
     if left_out.is_empty() {
         let why = match ended {
@@ -192,7 +187,7 @@ fn tolerance(report: &mut Report, function: Function, admitted: &Admitted, ended
 }
 
 /// The columns of [`bounds`].
-pub const BOUNDS: [&str; 6] = ["output", "T", "model", "sincos", "rounding", "E"];
+pub const BOUNDS: &str = "output|T|model|sincos|rounding|E";
 
 /// Returns the bounds of a certificate, output by output, relative to T.
 pub fn bounds(certificate: &Certificate) -> impl Iterator<Item = Vec<Cell>> {

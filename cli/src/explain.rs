@@ -227,19 +227,13 @@ pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
         report.table(&format!("functions/{name}"), &name, steps_of(own));
     }
     if request.scene.is_none() {
-        let heads = [
-            "formulation=Table 3, torques",
-            "mul",
-            "add",
-            "mul as written",
-            "add as written",
-        ];
+        let heads = "formulation=Table 3, torques|mul|add|mul as written|add as written";
         let rows = comparisons(robot).map(|(formulation, counts)| {
             let mut row = cells![formulation];
             row.extend(counts.map(|count| Cell::from(count as usize)));
             row
         });
-        report.table("table3", "", Table::new(&heads).with(rows));
+        report.table("table3", "", Table::new(heads).with(rows));
     }
     if let Some(couplings) = explained.iter().find_map(|own| own.couplings.as_deref()) {
         coefficients(&mut report, couplings, args.coefficients);
@@ -249,8 +243,7 @@ pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
 
 /// Returns the table of steps.
 fn steps_of(own: &Explanation) -> Table {
-    let heads = [&["step", ".key"], &COUNTS[..], &["vector", "entry"]].concat();
-    let mut table = Table::new(&heads);
+    let mut table = Table::new(&format!("step|.key|{COUNTS}|vector|entry"));
     for (index, (row, rounding)) in own.rows.iter().zip(own.rounding(STATES)).enumerate() {
         let is_emitted = matches!(row.code, Code::Emitted(..));
         let mut title = row.title().to_owned();
@@ -266,7 +259,7 @@ fn steps_of(own: &Explanation) -> Table {
         cells.extend([rounding.vector, rounding.entry].map(units));
         table.row(cells);
     }
-    table.without_zeros(&["fma", "div", "sqrt", "trig_mul", "trig_add"])
+    table.without_zeros("fma|div|sqrt|trig_mul|trig_add")
 }
 
 /// Three figures are more than an error is worth.
@@ -282,7 +275,7 @@ fn units(error: f64) -> Cell {
 
 /// Adds how many coefficients vanish or repeat, and, if they are asked for, each of them.
 fn coefficients(report: &mut Report, couplings: &[Coupling], each: bool) {
-    let mut table = Table::keyed(&["coefficients", "total", "zero", "distinct up to sign"]);
+    let mut table = Table::keyed("coefficients|total|zero|distinct up to sign");
     for (quantity, name) in [
         (Quantity::Inertia, "D"),
         (Quantity::Christoffel, "h"),
@@ -303,7 +296,7 @@ fn coefficients(report: &mut Report, couplings: &[Coupling], each: bool) {
             };
             cells![name, value]
         });
-        let table = Table::new(&["name=", "value="]).with(rows);
+        let table = Table::new("name=|value=").with(rows);
         report.table(
             "entries",
             "D_ik with i ≤ k, h_ikm = h_imk with k ≤ m, c_i",

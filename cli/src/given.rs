@@ -304,17 +304,8 @@ fn worst(actual: &[f64], expected: &[f64]) -> (usize, f64) {
 
 /// Describes the comparison with the states of a file, and what disagrees.
 pub(crate) fn describe(file: &str, states: &[GivenState], compared: &[Compared], done: &mut Done) {
-    let heads = [
-        "function",
-        "result",
-        "states",
-        "error",
-        "bound",
-        ".disagreeing",
-        ".worst",
-        "verdict=",
-    ];
-    let mut table = Table::new(&heads);
+    let heads = "function|result|states|error|bound|.disagreeing|.worst|verdict=";
+    let mut table = Table::new(heads);
     for own in compared {
         table.row(cells![
             own.function.to_string(),

@@ -242,7 +242,7 @@ fn all(made: &[Imported], shared: Vec<Shared>, path: &Path, source: &Text) -> Re
         let (name, change) = (&made.robot.name, change.unwrap_or_default());
         report.line(format!("{name}.toml: {joints}{change}"));
     }
-    let mut table = Table::new(&["arms", "joints"]);
+    let mut table = Table::new("arms|joints");
     for Shared { arms, joints } in shared {
         let [one, other] = &arms;
         let through = joints.join(", ");

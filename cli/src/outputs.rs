@@ -15,10 +15,8 @@ pub(crate) fn run() -> Outcome {
     let robot = read::parse(crate::new::ROBOT, &read::Options::default());
     // It is this command's own, and its joints turn.
     let robot = robot.map_or_else(|_| None, |reading| Some(reading.robot));
-    let heads = [
-        "function", "takes", "returns", "unit", "which is", ".results",
-    ];
-    let mut functions = Table::keyed(&heads);
+    let heads = "function|takes|returns|unit|which is|.results";
+    let mut functions = Table::keyed(heads);
     for function in Function::ALL {
         let arguments = function.arguments().into_iter().map(Argument::name);
         let arguments: Vec<&str> = arguments.collect();
@@ -40,7 +38,7 @@ pub(crate) fn run() -> Outcome {
             Cell::json(json.collect::<Vec<_>>()),
         ]);
     }
-    let mut arguments = Table::keyed(&["argument", "symbol", "which is"]);
+    let mut arguments = Table::keyed("argument|symbol|which is");
     for own in Argument::ALL {
         if Function::ALL
             .into_iter()

@@ -60,7 +60,7 @@ pub(crate) fn run(args: &RenewArgs, context: &Context) -> Outcome {
         return Err(Failure::Input(failed.join("\n\n")));
     }
     let mut report = Report::default();
-    let mut table = Table::new(&["file", "became", "line"]);
+    let mut table = Table::new("file|became|line");
     for new in &texts {
         let became = match (new.differs.is_some(), args.check) {
             (false, _) => "up to date",

@@ -112,7 +112,7 @@ pub struct Table {
 /// A column: what programs and people call it.
 struct Column {
     key: String,
-    title: &'static str,
+    title: String,
     /// It is for programs alone.
     is_hidden: bool,
 }
@@ -174,26 +174,26 @@ macro_rules! cells {
 pub(crate) use cells;
 
 impl Table {
-    /// Returns a table with these heads. A head is the column's title; behind `=` stands another
+    /// Returns a table with these heads, between bars. A head is the column's title; behind `=` stands another
     /// one, and a column that begins with a point is for programs alone.
-    pub fn new(heads: &[&'static str]) -> Table {
-        let column = |head: &&'static str| {
+    pub fn new(heads: &str) -> Table {
+        let column = |head: &str| {
             let (key, title) = head.split_once('=').unwrap_or((head, head));
             Column {
                 key: key.trim_start_matches('.').replace(' ', "_"),
-                title,
+                title: title.to_owned(),
                 is_hidden: head.starts_with('.'),
             }
         };
         Table {
-            columns: heads.iter().map(column).collect(),
+            columns: heads.split('|').map(column).collect(),
             rows: Vec::new(),
             is_keyed: false,
         }
     }
 
     /// Returns a table whose rows programs find by the first column's values.
-    pub fn keyed(heads: &[&'static str]) -> Table {
+    pub fn keyed(heads: &str) -> Table {
         Table {
             is_keyed: true,
             ..Table::new(heads)
@@ -211,19 +211,19 @@ impl Table {
     }
 
     /// Hides columns from people.
-    pub fn without(mut self, titles: &[&str]) -> Table {
+    pub fn without(mut self, titles: &str) -> Table {
         for column in &mut self.columns {
-            column.is_hidden |= titles.contains(&column.title);
+            column.is_hidden |= titles.split('|').any(|title| title == column.title);
         }
         self
     }
 
     /// Hides columns from people in which every row has zero or nothing.
-    pub fn without_zeros(mut self, titles: &[&str]) -> Table {
+    pub fn without_zeros(mut self, titles: &str) -> Table {
         for (place, column) in self.columns.iter_mut().enumerate() {
             let mut cells = self.rows.iter().map(|row| row[place].0.as_str());
-            column.is_hidden |=
-                titles.contains(&column.title) && cells.all(|cell| cell.is_empty() || cell == "0");
+            column.is_hidden |= titles.split('|').any(|title| title == column.title)
+                && cells.all(|cell| cell.is_empty() || cell == "0");
         }
         self
     }
@@ -276,7 +276,7 @@ impl Display for Table {
             }
             let cells = || self.rows.iter().map(|row| &row[place]);
             let texts = || {
-                [column.title]
+                [column.title.as_str()]
                     .into_iter()
                     .chain(cells().map(|cell| cell.0.as_str()))
             };
@@ -308,9 +308,7 @@ fn width(text: &str) -> usize {
 }
 
 /// The columns of operation counts, of which [`counts`] makes the cells.
-pub const COUNTS: [&str; 8] = [
-    "mul", "add", "fma", "div", "sqrt", "sincos", "trig_mul", "trig_add",
-];
+pub const COUNTS: &str = "mul|add|fma|div|sqrt|sincos|trig_mul|trig_add";
 
 /// Returns the cells of operation counts.
 pub fn counts(counts: &Counts) -> Vec<Cell> {

@@ -66,7 +66,7 @@ fn poses(robot: &Robot, at: &[f64]) -> Result<Report, WrongLength> {
         let rows = pose.rows();
         rows.chunks(4).map(Value::from).collect()
     };
-    let mut links = Table::new(&["joint", "pose"]);
+    let mut links = Table::new("joint|pose");
     for (joint, pose) in robot.rows().into_iter().zip(&runtime.poses(&q)?) {
         links.row(cells![
             Cell::json(joint.name.clone()),

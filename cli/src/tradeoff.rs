@@ -114,7 +114,7 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
         }
         done.notes.push(format!("wrote {}", folder.display()));
     }
-    let table = table.without(&["rounding", "rounding observed"]);
+    let table = table.without("rounding|rounding observed");
     done.report.value("variants", table.json());
     done.report.rows(table);
     for point in &points {
@@ -216,22 +216,9 @@ fn relative_to(args: &TradeoffArgs, scene: Option<&Scene>) -> Scale {
 
 /// Returns the variants, a row each.
 fn table(points: &[Point]) -> Table {
-    let mut table = Table::new(&[
-        "tolerance",
-        "scalar",
-        "sincos by",
-        "mul",
-        "add",
-        "sincos",
-        "trig_mul",
-        "trig_add",
-        "left out",
-        "certified",
-        "observed",
-        "rounding",
-        "rounding observed",
-        "front",
-    ]);
+    let mut table = Table::new(
+        "tolerance|scalar|sincos by|mul|add|sincos|trig_mul|trig_add|left out|certified|observed|rounding|rounding observed|front",
+    );
     for own in points {
         let Counts {
             mul,

@@ -59,7 +59,7 @@ pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
     let generated = source.generate(context, &request)?;
     drop(session);
     let mut done = Done::from(Report::of(robot, request.scene.as_ref()));
-    let mut proofs = Table::new(&["function=", "proof="]);
+    let mut proofs = Table::new("function=|proof=");
     for own in &generated.functions {
         proofs.row(cells![own.function.to_string(), own.proof.to_string()]);
     }
@@ -147,7 +147,7 @@ fn claims(generated: &Generated, done: &mut Done) -> Result<Vec<(Function, Scala
         let found = falsify(own, STATES, CLIMBS, SEED)
             .map_err(|error| Failure::Check(format!("error: {error}")))?;
         let (function, scalar, states) = (own.emitted.function, own.scalar, found.states);
-        let mut table = Table::new(&[&BOUNDS[..], &["observed"]].concat());
+        let mut table = Table::new(&format!("{BOUNDS}|observed"));
         for (mut row, observed) in bounds(own).zip(&found.observed) {
             row.push(Cell::power(*observed, 3));
             table.row(row);
@@ -169,18 +169,8 @@ fn claims(generated: &Generated, done: &mut Done) -> Result<Vec<(Function, Scala
 
 /// Adds the table of rounding errors, then the states of the rows that failed.
 fn rounding(states: usize, rows: &[Row], done: &mut Done) {
-    let heads = [
-        "case",
-        "function",
-        "result",
-        "scalar",
-        "vector",
-        "entry",
-        ".condition",
-        ".held_to",
-        "verdict=",
-    ];
-    let mut table = Table::new(&heads);
+    let heads = "case|function|result|scalar|vector|entry|.condition|.held_to|verdict=";
+    let mut table = Table::new(heads);
     for row in rows {
         // What a row is not held to stands in brackets.
         let cell = |error: f64, other: Held| match row.held == other {
@@ -190,7 +180,7 @@ fn rounding(states: usize, rows: &[Row], done: &mut Done) {
         let verdict = row.verdict.to_string();
         let held = Cell::json(format!("{:?}", row.held).to_lowercase());
         table.row(match &row.worst {
-            Some(worst) => cells![
+            Ok(worst) => cells![
                 row.case,
                 worst.function.to_string(),
                 worst.quantity.symbol(),
@@ -201,7 +191,7 @@ fn rounding(states: usize, rows: &[Row], done: &mut Done) {
                 held,
                 verdict,
             ],
-            None => {
+            Err(_) => {
                 let none = || Cell::json(Value::Null);
                 cells![row.case, "", "", "", none(), none(), none(), held, verdict]
             }
@@ -212,14 +202,17 @@ fn rounding(states: usize, rows: &[Row], done: &mut Done) {
         "largest rounding errors at {states} states, against 256-bit arithmetic, in u (f64 2^-53, f32 2^-24):\n\
          of a vector up to {VECTOR} of its largest entry, of an entry up to {ENTRY} of its own largest value"
     );
-    let hidden: &[&str] = if is_one { &["case"] } else { &[] };
-    done.report.table("errors", title, table.without(hidden));
+    let table = match is_one {
+        true => table.without("case"),
+        false => table,
+    };
+    done.report.table("errors", title, table);
     for row in rows {
-        if let Some(reason) = &row.reason {
+        if let Err(reason) = &row.worst {
             let (case, verdict) = (row.case, row.verdict);
             done.report.line(format!("\n{case}: {verdict}: {reason}"));
         }
-        if let (Verdict::Failed, Some(worst)) = (row.verdict, &row.worst) {
+        if let (Verdict::Failed, Ok(worst)) = (row.verdict, &row.worst) {
             let (state, scalar, case) = (&worst.state, worst.scalar, row.case);
             done.report.line(format!(
                 "\nFAILED: {case} of {} in {scalar}, at\n  q   {:?}\n  qd  {:?}\n  qdd {:?}\n  tau {:?}",
@@ -241,7 +234,7 @@ fn rounding(states: usize, rows: &[Row], done: &mut Done) {
 
 /// Compares polynomials with libm's sine and cosine at some states.
 fn sines(generated: &Generated, states: &[JointState], done: &mut Done) {
-    let mut table = Table::new(&["function", "scalar", "angle", "seen", "proved", "verdict="]);
+    let mut table = Table::new("function|scalar|angle|seen|proved|verdict=");
     let mut failed = 0;
     for emitted in &generated.emitted {
         let mut functions = generated.functions.iter();

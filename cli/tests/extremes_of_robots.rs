@@ -112,6 +112,6 @@ fn what_is_lost_next_to_singular_is_the_condition() {
 fn what_never_has_an_inverse_is_refused() {
     let rows = divided(&points(["1", "0"]), &Request::default(), STATES).unwrap();
     assert_eq!(rows[0].verdict, Verdict::Singular);
-    let refused = rows[0].reason.as_ref().map(ToString::to_string);
+    let refused = rows[0].worst.as_ref().err().map(ToString::to_string);
     assert!(refused.is_some_and(|said| said.contains("D is singular in every state")));
 }

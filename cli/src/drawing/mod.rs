@@ -51,8 +51,7 @@ pub fn svg(robot: &Robot, q: &[f64]) -> Result<String, WrongLength> {
         bodies: bodies(robot, &frames),
         frames,
     };
-    let rows = table::rows(robot, q);
-    let mut page = Page::new(&robot.name, &rows);
+    let mut page = Page::new(&robot.name, &table::lines(robot, q));
     for view in View::both(&scene.points(), &scene.outlines()) {
         scene.draw(&view, &mut page);
     }

@@ -36,12 +36,12 @@ pub(super) struct Page(String);
 
 impl Page {
     /// Returns the paper with its title and, below two views, a table.
-    pub(super) fn new(title: &str, rows: &[Vec<(usize, String)>]) -> Page {
-        let ends = rows.iter().flatten();
-        let ends = ends.map(|(start, text)| start + text.chars().count());
-        let table = 32.0 + CHARACTER * ends.max().unwrap_or(0) as f64;
-        let width = table.max(2.0 * SIDE);
-        let height = HEAD + SIDE + ROW * (rows.len() as f64 + 1.5);
+    pub(super) fn new(title: &str, table: &[String]) -> Page {
+        let rows = table.len() as f64;
+        let widest = table.iter().map(|line| line.chars().count()).max();
+        let table_width = 32.0 + CHARACTER * widest.unwrap_or(0) as f64;
+        let width = table_width.max(2.0 * SIDE);
+        let height = HEAD + SIDE + ROW * (rows + 1.5);
         let name = escaped(title);
         let mut page = Page(format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
@@ -52,8 +52,10 @@ impl Page {
         for (line, text) in LEGEND.iter().enumerate() {
             page.text("i", [16.0, 36.0 + 15.0 * line as f64], text);
         }
-        for (index, row) in rows.iter().enumerate() {
-            page.row(HEAD + SIDE + ROW * (index as f64 + 1.0), row);
+        for (index, line) in table.iter().enumerate() {
+            // Not everything that draws SVG keeps spaces.
+            let y = HEAD + SIDE + ROW * (index as f64 + 1.0);
+            page.text("i c", [16.0, y], &line.replace("  ", "\u{a0}\u{a0}"));
         }
         page
     }
@@ -116,14 +118,6 @@ impl Page {
         self.element(&format!(
             "<text class=\"{class}\" x=\"{x:.1}\" y=\"{y:.1}\">{text}</text>"
         ));
-    }
-
-    /// Writes a line of the table: cells, each so many characters from the left. Every cell
-    /// is a text of its own, since not everything that draws SVG keeps spaces.
-    fn row(&mut self, y: f64, cells: &[(usize, String)]) {
-        for (characters, text) in cells.iter().filter(|(_, text)| !text.is_empty()) {
-            self.text("i c", [16.0 + CHARACTER * *characters as f64, y], text);
-        }
     }
 
     /// Returns the text of the file.

@@ -4,59 +4,34 @@ use dalembert_model::number::parse::write_decimal;
 use dalembert_model::number::{Angle, Rational, Rounded};
 use dalembert_model::robot::{Convention, Joint, JointKind, Placement, Robot};
 
-/// Returns the lines, each of cells that are so many characters from the left.
-pub(super) fn rows(robot: &Robot, q: &[f64]) -> Vec<Vec<(usize, String)>> {
+use crate::report::{Cell, Table};
+
+/// Returns the lines: what the table says of the whole arm, the DH rows, and bodies that no link can have.
+pub(super) fn lines(robot: &Robot, q: &[f64]) -> Vec<String> {
     let convention = match robot.convention {
         Convention::Standard => "standard DH",
         Convention::Modified => "modified DH (Craig)",
     };
     let gravity = robot.gravity.each_ref().map(number).join(", ");
     let at: Vec<String> = q.iter().map(|&q| short(q)).collect();
-    let mut rows = vec![
+    let mut lines = vec![
         format!("{convention}, gravity ({gravity}) m/s², lengths in m, masses in kg"),
         format!("drawn at q = ({})", at.join(", ")),
     ];
     for (what, end) in robot.placements() {
-        rows.extend(end.map(|end| placement(what, end)));
+        lines.extend(end.map(|end| placement(what, end)));
     }
-    let head = [
-        "joint",
-        "theta",
-        "d",
-        "a",
-        "alpha",
-        "mass",
-        "centre of mass",
-    ];
-    let mut cells = vec![head.map(str::to_owned)];
+    let heads = "joint|theta|d|a|alpha|mass|centre of mass";
     let joints = robot.joints.iter().enumerate();
-    cells.extend(joints.map(|(i, joint)| row(i, joint)));
-    let width = |column: usize| {
-        let lengths = cells.iter().map(|row| row[column].chars().count());
-        lengths.max().unwrap_or(0)
-    };
-    let widths: [usize; 7] = core::array::from_fn(width);
-    let mut rows: Vec<Vec<(usize, String)>> = rows.into_iter().map(line).collect();
-    rows.extend(cells.into_iter().map(|row| {
-        let mut start = 0;
-        let placed = row.into_iter().zip(widths).map(|(cell, width)| {
-            let at = start;
-            start += width + 2;
-            (at, cell)
-        });
-        placed.collect()
-    }));
+    let rows = joints.map(|(i, joint)| row(i, joint).map(Cell::from).to_vec());
+    let table = Table::new(heads).with(rows).to_string();
+    lines.extend(table.lines().map(|line| line.trim_start().to_owned()));
     // Below the table: such a sentence is wider than what is left beside it.
-    rows.extend(robot.joints.iter().enumerate().filter_map(|(i, joint)| {
+    lines.extend(robot.joints.iter().enumerate().filter_map(|(i, joint)| {
         let why = joint.inertia.defect(&joint.mass)?.message();
-        Some(line(format!("joint {}: {why}", i + 1)))
+        Some(format!("joint {}: {why}", i + 1))
     }));
-    rows
-}
-
-/// Returns a line of one text.
-fn line(text: String) -> Vec<(usize, String)> {
-    vec![(0, text)]
+    lines
 }
 
 fn row(index: usize, joint: &Joint) -> [String; 7] {

@@ -58,42 +58,33 @@ pub struct Row {
     pub case: &'static str,
     /// The criterion that it is held to.
     pub held: Held,
-    /// The errors that were measured; none where nothing is generated.
-    pub worst: Option<Worst>,
+    /// The errors that were measured, or why nothing is generated.
+    pub worst: Result<Worst, GenerateError>,
     /// The outcome against the bounds.
     pub verdict: Verdict,
-    /// Why nothing is generated.
-    pub reason: Option<GenerateError>,
 }
 
 impl Row {
-    fn new(case: &'static str, held: Held, worst: Worst) -> Row {
-        let vector = worst.vector <= VECTOR || held == Held::Entries;
-        let entry = worst.entry <= ENTRY || held == Held::Vector;
+    fn new(case: &'static str, held: Held, worst: Result<Worst, GenerateError>) -> Row {
+        let verdict = match &worst {
+            Ok(worst) => {
+                let vector = worst.vector <= VECTOR || held == Held::Entries;
+                let entry = worst.entry <= ENTRY || held == Held::Vector;
+                match vector && entry {
+                    true => Verdict::Good,
+                    // Where robots are, no result is beyond any range.
+                    false if worst.overflows && case != INSIDE => Verdict::OutOfRange,
+                    false => Verdict::Failed,
+                }
+            }
+            Err(GenerateError::Singular { .. }) => Verdict::Singular,
+            Err(_) => Verdict::OutOfRange,
+        };
         Row {
             case,
             held,
-            verdict: match vector && entry {
-                true => Verdict::Good,
-                // Where robots are, no result is beyond any range.
-                false if worst.overflows && case != INSIDE => Verdict::OutOfRange,
-                false => Verdict::Failed,
-            },
-            worst: Some(worst),
-            reason: None,
-        }
-    }
-
-    fn refused(case: &'static str, held: Held, reason: GenerateError) -> Row {
-        Row {
-            case,
-            held,
-            worst: None,
-            verdict: match reason {
-                GenerateError::Singular { .. } => Verdict::Singular,
-                _ => Verdict::OutOfRange,
-            },
-            reason: Some(reason),
+            worst,
+            verdict,
         }
     }
 }
@@ -108,7 +99,7 @@ pub fn inside<'e>(
 ) -> Vec<Row> {
     functions
         .flat_map(|emitted| bench.measure(&Code::of(emitted), states, states))
-        .map(|worst| Row::new(INSIDE, Held::Vector, worst))
+        .map(|worst| Row::new(INSIDE, Held::Vector, Ok(worst)))
         .collect()
 }
 
@@ -128,10 +119,14 @@ fn rows(
             Ok(generated) => {
                 for emitted in &generated.emitted {
                     let worst = bench.measure(&Code::of(emitted), states, scales);
-                    rows.extend(worst.into_iter().map(|worst| Row::new(case, held, worst)));
+                    rows.extend(
+                        worst
+                            .into_iter()
+                            .map(|worst| Row::new(case, held, Ok(worst))),
+                    );
                 }
             }
-            Err(reason) => rows.push(Row::refused(case, held, reason.clone())),
+            Err(reason) => rows.push(Row::new(case, held, Err(reason.clone()))),
         }
     }
     rows
@@ -211,7 +206,7 @@ pub fn divided(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Ro
     const CASE: &str = "nearest to singular";
     let generated = match generated(robot, request, &dividing()) {
         Err(reason @ GenerateError::Singular { .. }) => {
-            return Ok(vec![Row::refused(CASE, Held::Vector, reason)]);
+            return Ok(vec![Row::new(CASE, Held::Vector, Err(reason))]);
         }
         generated => generated?,
     };
