@@ -10,7 +10,7 @@ mod extremes_of_robots;
 mod extremes_support;
 mod identities_in_time;
 mod new;
-mod outputs_compared;
+mod outputs_in_scenes;
 mod pages;
 #[path = "../../codegen/tests/support/mod.rs"]
 mod robots;

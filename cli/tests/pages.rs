@@ -193,8 +193,8 @@ macro_rules! pages {
 
 #[cfg(unix)]
 pages!(
-    bad_input, certify, explain, files, forged, generate, import, new, renew, scenes, show,
-    terminal, tradeoff, verify
+    bad_input, certify, explain, files, forged, generate, import, new, outputs, renew, scenes,
+    show, terminal, tradeoff, verify
 );
 
 /// Pictures of the guide that are made elsewhere are those.
