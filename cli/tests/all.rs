@@ -1,7 +1,6 @@
 //! One program of all test files: they share what they link, and both cores.
 
 mod accuracy_campaign;
-mod certificates;
 mod couplings;
 mod extremes_growth;
 mod extremes_not_finite;

@@ -1,6 +1,6 @@
 //! The table of extremes on whole robots, and what divides next to a singular D.
 
-use dalembert_cli::extremes::{Row, Verdict, divided, inside, nearest_to_singular, torques};
+use dalembert_cli::extremes::{Row, Verdict, divided, inside, nearest_to_singular};
 use dalembert_cli::measure::{Bench, Code, VECTOR};
 use dalembert_codegen::workspace::{Literal, Operand, SceneRobot, seeded};
 use dalembert_codegen::{Function, Request, generate};
@@ -17,16 +17,6 @@ fn all_good(rows: &[Row]) {
         rows.iter().all(|row| row.verdict == Verdict::Good),
         "{rows:#?}"
     );
-}
-
-/// Errors relative to a torque near zero are no alarm.
-#[test]
-fn the_planar_arm_passes() {
-    let robot = support::robot("planar2r");
-    let rows = torques(&robot, &Request::default(), STATES).unwrap();
-    // Twenty-nine cases, in two scalars: no wrist, no right angles.
-    assert_eq!(rows.len(), 58);
-    all_good(&rows);
 }
 
 /// A mass that is wrong by 1e-14 of itself is more than rounding.
