@@ -3,10 +3,8 @@
 //! Equality at a random point means equality of the rational functions but for
 //! a chance of about 1e-16 each.
 
-use crate::equations_support::random::{self, Case, case, kinds, triple};
-use dalembert_model::equations::dalembert::Dalembert;
+use crate::equations_support::random::{self, Case, case, kinds};
 use dalembert_model::equations::lagrange_euler::velocity_terms;
-use dalembert_model::equations::newton_euler::{Wrench, table1, table2};
 use dalembert_model::equations::{Arm, DhVariables, Formulation, JointPosition};
 use dalembert_model::robot::{Convention, JointKind};
 use dalembert_model::scalar::Scalar;
@@ -61,39 +59,6 @@ fn formulations_agree() {
                 coefficients,
                 "{}",
                 at_case()
-            );
-        }
-    }
-}
-
-#[test]
-fn tip_wrenches_agree() {
-    let mut points = Points::new(21);
-    for case in cases() {
-        let Case { arm, at, qd, qdd } = &case;
-        let base = Wrench {
-            force: triple(&mut points),
-            moment: triple(&mut points),
-        };
-        // Its components in frame n.
-        let into_hand = |v: &[Field; 3]| {
-            let links = arm.links.iter().zip(at);
-            links.fold(*v, |v, (link, at)| link.to_link(arm.convention, at, &v))
-        };
-        let hand = Wrench {
-            force: into_hand(&base.force),
-            moment: into_hand(&base.moment),
-        };
-        let terms = Dalembert::new(arm, at);
-        let free = terms.inverse_dynamics(qd, qdd);
-        let held = terms.tip_torques(&base);
-        let tau: Vec<_> = free.iter().zip(&held).map(|(a, b)| a.add(b)).collect();
-        assert_eq!(table1::inverse_dynamics(arm, at, qd, qdd, Some(&base)), tau);
-        use table2::Moment::{AsPrinted, Differences, RotateFirst};
-        for moment in [AsPrinted, RotateFirst, Differences] {
-            assert_eq!(
-                table2::inverse_dynamics(arm, at, qd, qdd, moment, Some(&hand)),
-                tau
             );
         }
     }

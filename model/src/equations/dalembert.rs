@@ -12,7 +12,6 @@ use super::matrix::{
     Columns, Vector, centripetal, cross, difference, dot, negative, plus, scaled, sum, symmetric,
     tensor_times, times, total, twice, zero_vector,
 };
-use super::newton_euler::Wrench;
 use super::{Arm, DhVariables};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
@@ -246,26 +245,6 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
             }
         };
         (0..n).map(of).collect()
-    }
-
-    /// Returns J_nᵀ (f, n): the torques that hold a wrench at the origin of frame n,
-    /// in base axes.
-    pub fn tip_torques(&self, tip: &Wrench<S>) -> Vec<S> {
-        let hand = &self.poses[self.axes.len()].origin;
-        let joints = self
-            .arm
-            .links
-            .iter()
-            .zip(self.axes.iter().zip(&self.points));
-        joints
-            .map(|(link, (axis, point))| match link.kind {
-                JointKind::Revolute => {
-                    let moment = cross(&difference(hand, point), &tip.force);
-                    dot(axis, &sum(&tip.moment, &moment))
-                }
-                JointKind::Prismatic => dot(axis, &tip.force),
-            })
-            .collect()
     }
 
     /// Returns τ_i = Σ_k D_ik q̈_k + h_i + c_i + b_i q̇_i (eq. 4.1).

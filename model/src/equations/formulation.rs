@@ -54,15 +54,15 @@ impl Formulation {
         match self {
             Self::LagrangeEuler => lagrange_euler::inverse_dynamics(arm, at, qd, qdd),
             Self::Dalembert => Dalembert::new(arm, at).inverse_dynamics(qd, qdd),
-            Self::NewtonEulerBase => table1::inverse_dynamics(arm, at, qd, qdd, None),
+            Self::NewtonEulerBase => table1::inverse_dynamics(arm, at, qd, qdd),
             Self::NewtonEulerLinkAsPrinted => {
-                table2::inverse_dynamics(arm, at, qd, qdd, Moment::AsPrinted, None)
+                table2::inverse_dynamics(arm, at, qd, qdd, Moment::AsPrinted)
             }
             Self::NewtonEulerLink => {
-                table2::inverse_dynamics(arm, at, qd, qdd, Moment::RotateFirst, None)
+                table2::inverse_dynamics(arm, at, qd, qdd, Moment::RotateFirst)
             }
             Self::NewtonEulerLinkDifferences => {
-                table2::inverse_dynamics(arm, at, qd, qdd, Moment::Differences, None)
+                table2::inverse_dynamics(arm, at, qd, qdd, Moment::Differences)
             }
         }
     }

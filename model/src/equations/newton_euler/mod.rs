@@ -13,13 +13,12 @@ use super::Link;
 use super::matrix::{Vector, opposite, plus, scaled, times, zero_vector};
 use crate::scalar::Scalar;
 
-/// The force and the moment that the hand exerts on its environment, about the origin of frame n:
-/// base axes in Table 1, axes of frame n in Table 2.
+/// A force and a moment.
 #[derive(Clone, Debug)]
 pub struct Wrench<S> {
-    /// f_{n+1}, N
+    /// N
     pub force: Vector<S>,
-    /// n_{n+1}, N·m
+    /// N·m
     pub moment: Vector<S>,
 }
 

@@ -27,17 +27,14 @@ struct Body<S> {
 }
 
 /// Returns τ by the recursion of Table 1.
-///
-/// `tip` is in base axes.
 pub fn inverse_dynamics<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
     qd: &[S],
     qdd: &[S],
-    tip: Option<&Wrench<S>>,
 ) -> Vec<S> {
     let bodies = bodies(arm, at, qd, qdd, &Motion::of_base(&arm.gravity));
-    let wrenches = wrenches_on(arm, &bodies, tip);
+    let wrenches = wrenches_on(arm, &bodies);
     let joints = arm.links.iter().zip(&bodies).zip(&wrenches).enumerate();
     joints
         .map(|(i, ((link, body), wrench))| {
@@ -59,7 +56,7 @@ pub fn wrenches<S: Scalar>(
     qdd: &[S],
 ) -> Vec<Wrench<S>> {
     let bodies = bodies(arm, at, qd, qdd, &Motion::of_base(&arm.gravity));
-    wrenches_on(arm, &bodies, None)
+    wrenches_on(arm, &bodies)
 }
 
 /// Returns v̇ and ω̇ of the hand, in the axes of frame 0, of which this is the motion.
@@ -76,16 +73,9 @@ pub(in crate::equations) fn tip_acceleration<S: Scalar>(
     }
 }
 
-fn wrenches_on<S: Scalar>(
-    arm: &Arm<S>,
-    bodies: &[Body<S>],
-    tip: Option<&Wrench<S>>,
-) -> Vec<Wrench<S>> {
+fn wrenches_on<S: Scalar>(arm: &Arm<S>, bodies: &[Body<S>]) -> Vec<Wrench<S>> {
     let mut wrenches = Vec::with_capacity(bodies.len());
-    let [mut force, mut torque] = match tip {
-        Some(tip) => [tip.force.clone(), tip.moment.clone()],
-        None => [zero_vector(), zero_vector()],
-    };
+    let [mut force, mut torque] = [zero_vector(), zero_vector()];
     for (i, (body, link)) in bodies.iter().zip(&arm.links).enumerate().rev() {
         let of_com = sum(
             &cross(&body.omega_dot, &body.com),

@@ -3,7 +3,7 @@
 
 use alloc::vec::Vec;
 
-use super::{Motion, Wrench, newton, with_drive};
+use super::{Motion, newton, with_drive};
 use crate::equations::matrix::{
     Vector, centripetal, cross, cross_z, dot, minus, negative, plus, scaled, sum, tensor_times,
     times, twice, zero_vector,
@@ -54,24 +54,18 @@ fn gyroscopic<S: Scalar>(tensor: &Inertia<S>, omega: &Vector<S>) -> Vector<S> {
 }
 
 /// Returns τ by the recursion of Table 2.
-///
-/// `tip` is in the axes of frame n.
 pub fn inverse_dynamics<S: Scalar>(
     arm: &Arm<S>,
     at: &[DhVariables<S>],
     qd: &[S],
     qdd: &[S],
     moment: Moment,
-    tip: Option<&Wrench<S>>,
 ) -> Vec<S> {
     let motions = motions(arm, at, qd, qdd);
     let n = arm.links.len();
     let mut torques = Vec::with_capacity(n);
     // f_{i+1} and n_{i+1}, in the axes of frame i+1.
-    let [mut force, mut torque] = match tip {
-        Some(tip) => [tip.force.clone(), tip.moment.clone()],
-        None => [zero_vector(), zero_vector()],
-    };
+    let [mut force, mut torque] = [zero_vector(), zero_vector()];
     for i in (0..n).rev() {
         let (link, motion) = (&arm.links[i], &motions[i]);
         // The step to the next link; ⁿR_{n+1} = 1.
