@@ -64,7 +64,7 @@ pub use crate::sincos::{
 };
 pub use crate::split::ErrorByCause;
 pub use crate::states::{JointState, SEED, STATES, positions, seeded};
-pub use crate::task::{Task, in_scene::find as find_scene};
+pub use crate::task::Task;
 pub use crate::trace::{Trace, trace};
 pub use crate::verify::{
     exact::{Disproof, Proof, prove, prove_same},

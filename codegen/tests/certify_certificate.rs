@@ -2,7 +2,7 @@
 
 use dalembert_codegen::workspace::{
     BoxEffort, Certificate, Finding, Folding, InputBox, PruneSettings, Pruned, Stage, difference,
-    falsify, magnitudes, prove_same, prune, ranges, read_edit, write_edit,
+    falsify, magnitudes, omissions, prove_same, prune, ranges, read_edit, write_edit,
 };
 use dalembert_codegen::{Function, Program, Request, ScalarType, Start, generate};
 use dalembert_model::robot::Robot;
@@ -169,11 +169,11 @@ fn a_program_that_is_no_edit_is_bounded_against_the_exact_one() {
 }
 
 /// Putting any single omission back into the same program raises its cost,
-/// by what the list says, and no omission alone errs more than the list says.
+/// by what the list says.
 #[test]
 fn every_omission_saves_something() {
     let case = case(0.1);
-    let omissions = case.pruned.omissions(&case.limits);
+    let omissions = omissions(&case.pruned.stages);
     let edits = case.pruned.stages.iter().flat_map(|s| &s.edits);
     let (corrected, left_out): (Vec<_>, Vec<_>) = edits.partition(|edit| edit.corrects());
     assert!(!left_out.is_empty() && omissions.len() == left_out.len());
@@ -193,23 +193,6 @@ fn every_omission_saves_something() {
         assert_eq!(more.sincos, paid.sincos + omission.sincos);
     }
     let first = &omissions[0];
-    let alone = Stage {
-        program: case.program.clone(),
-        edits: vec![first.edit.clone()],
-    };
-    let emitted = alone.program(Folding::Semantic);
-    let certificate = Certificate::make(
-        &case.robot,
-        &[alone],
-        &emitted,
-        ScalarType::F64,
-        &case.limits,
-        &[1.0; 3],
-    );
-    let seen = falsify(&certificate, 500, 2, 3).unwrap().observed;
-    for (bound, seen) in first.errors.iter().zip(seen) {
-        assert!(seen <= *bound && *bound <= 3.0 * seen + 1e-12);
-    }
     assert_eq!(
         first.words.split(" -> ").count(),
         2,

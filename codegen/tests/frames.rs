@@ -5,9 +5,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use dalembert_codegen::workspace::{
-    Argument, Emitted, JointState, Quantity, Runtime, keep, seeded,
-};
+use dalembert_codegen::workspace::{Argument, Emitted, Quantity, Runtime, keep, seeded};
 use dalembert_codegen::{
     Function, GenerateError, Generated, Language, Plan, Request, ScalarType, generate,
 };
@@ -15,7 +13,7 @@ use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 use serde_json::Value;
 
-use crate::support;
+use crate::support::{self, given, numbers};
 
 const ROBOTS: [&str; 6] = [
     "planar2r", "planar3r", "puma560", "stanford", "ur10", "panda",
@@ -54,20 +52,6 @@ fn with_frames_and(name: &str, more: &str) -> String {
     let source = support::source(name, "");
     let rows = source.split("\n[scene").next().unwrap();
     rows.to_owned() + &tables(&file(name)["frames"]) + more
-}
-
-fn numbers(value: &Value) -> Vec<f64> {
-    match value {
-        Value::Array(list) => list.iter().flat_map(numbers).collect(),
-        other => vec![other.as_f64().unwrap()],
-    }
-}
-
-fn state(json: &Value) -> JointState {
-    JointState::new(|argument| match argument.given() {
-        Some(key) if json.get(key).is_some() => numbers(&json[key]),
-        _ => Vec::new(),
-    })
 }
 
 /// Returns the function and the quantity of a key of a file.
@@ -128,7 +112,7 @@ fn the_code_gives_what_pinocchio_gives() {
             let generated = generate(&robot, &request).unwrap_or_else(|error| panic!("{error}"));
             let emitted = &generated.emitted[0];
             for json in states {
-                let state = state(json);
+                let state = given(json);
                 let found = part(*function, *quantity, emitted, &emitted.run(&state));
                 let error = off(&found, &numbers(&json[key.as_str()]));
                 let error = error / runtime.granted(*function, &state).to(*quantity);
@@ -147,7 +131,7 @@ fn the_runtime_gives_what_pinocchio_gives() {
         let (json, robot) = (file(name), with_frames(name));
         let runtime = Runtime::new(&robot);
         for json in json["states"].as_array().unwrap() {
-            let state = state(json);
+            let state = given(json);
             for (key, known) in json.as_object().unwrap() {
                 let Some((function, quantity)) = asked(key) else {
                     continue;

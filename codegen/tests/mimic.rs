@@ -13,7 +13,7 @@ use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
 use serde_json::Value;
 
-use crate::support;
+use crate::support::{self, numbers};
 
 /// The bound against the file, normwise.
 const FILE: f64 = 1e-12;
@@ -38,13 +38,6 @@ fn functions() -> Vec<Function> {
 
 fn generated(robot: &Robot, request: Request) -> Generated {
     generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
-}
-
-fn numbers(value: &Value) -> Vec<f64> {
-    match value {
-        Value::Array(list) => list.iter().flat_map(numbers).collect(),
-        other => vec![other.as_f64().unwrap()],
-    }
 }
 
 /// Returns the largest entry of what a function sums: its result, and itself without the wished
@@ -105,10 +98,7 @@ fn the_code_gives_what_pinocchio_gives() {
         }
         let emitted = &generated.emitted[0];
         for known in json["states"].as_array().unwrap() {
-            let state = JointState::new(|argument| {
-                let given = argument.given().and_then(|key| known.get(key));
-                given.map_or_else(Vec::new, numbers)
-            });
+            let state = support::given(known);
             let found = emitted.run(&state);
             let mut rest = found.as_slice();
             for &quantity in function.quantities() {

@@ -1,8 +1,7 @@
 //! A scene's code is the full model's at the scene's values: proved, and run.
 
 use dalembert_codegen::workspace::{
-    Argument, Disproof, Entry, Input, Operand, Runtime, SceneKey, SceneRobot, input_hash, prove,
-    seeded,
+    Argument, Disproof, Input, Operand, Runtime, SceneRobot, keep, prove, seeded,
 };
 use dalembert_codegen::{
     Function, GenerateError, Generated, Plan, Program, Request, ScalarType, generate,
@@ -288,21 +287,7 @@ fn plans_tell_scenes_apart() {
     });
     let mut wanted = request(&scene, &[Function::InverseDynamics]);
     let first = generate(&robot, &wanted).unwrap_or_else(|error| panic!("{error}"));
-    let mut kept = Plan {
-        robot: robot.name.clone(),
-        input: input_hash(&robot),
-        entries: Vec::new(),
-    };
-    kept.insert(Entry {
-        start: wanted.start,
-        scalar: ScalarType::F64,
-        source: first.functions[0].source,
-        passes: first.functions[0].passes.clone(),
-        scene: Some(SceneKey::of(&scene)),
-        parameters: None,
-        program: first.functions[0].program.clone(),
-        edited: None,
-    });
+    let kept = keep(&robot, &wanted, &first, None).plan;
     let read = Plan::parse(&kept.write()).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(read, kept);
     wanted.plan = Some(read);

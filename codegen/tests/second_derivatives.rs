@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use dalembert_codegen::workspace::{Argument, JointState, Runtime, Sizes, seeded};
+use dalembert_codegen::workspace::{Argument, Runtime, Sizes, seeded};
 use dalembert_codegen::{Function, Generated, Request, ScalarType, generate};
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
@@ -26,10 +26,6 @@ fn states(name: &str) -> Vec<Value> {
     let states: Vec<Value> = serde_json::from_value(file["states"].take()).unwrap();
     assert_eq!(states.len(), 5);
     states
-}
-
-fn numbers(json: &Value, key: &str) -> Vec<f64> {
-    serde_json::from_value(json[key].clone()).unwrap_or_default()
 }
 
 fn of(robot: &Robot, functions: &[Function], request: Request) -> Generated {
@@ -63,15 +59,14 @@ fn they_are_what_others_give() {
         let generated = by_code(name).then(|| double(&robot, &BOTH));
         let sizes = Sizes::whole(robot.joints.len());
         for json in states(name) {
-            let state =
-                JointState::new(|argument| numbers(&json, argument.given().unwrap_or_default()));
+            let state = support::given(&json);
             for (index, function) in BOTH.into_iter().enumerate() {
                 let granted = runtime.granted(function, &state);
                 let mut all = vec![runtime.run(function, &state)];
                 all.extend(generated.iter().map(|own| own.emitted[index].run(&state)));
                 for mut found in all {
                     for quantity in function.quantities() {
-                        let known = numbers(&json, quantity.given().unwrap());
+                        let known = support::numbers(&json[quantity.given().unwrap()]);
                         let rest = found.split_off(quantity.len(sizes));
                         let size = known.iter().fold(1e-3, |most: f64, x| most.max(x.abs()));
                         assert_eq!(known.len(), found.len());

@@ -167,18 +167,6 @@ impl Program {
         }
     }
 
-    /// Returns the program with every product rounded by itself.
-    #[must_use]
-    pub fn unfused(&self) -> Program {
-        let mut program = self.clone();
-        for step in &mut program.steps {
-            if step.operation == Operation::Fused {
-                step.operation = Operation::Mul;
-            }
-        }
-        program
-    }
-
     /// Returns whether the program has fused products.
     pub fn fuses(&self) -> bool {
         let mut steps = self.steps.iter();

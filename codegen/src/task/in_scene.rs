@@ -48,7 +48,7 @@ impl std::error::Error for UnknownScene {}
 ///
 /// # Errors
 /// [`UnknownScene`], with the name that was probably meant.
-pub fn find<'s>(scenes: &'s [Scene], name: &str) -> Result<&'s Scene, UnknownScene> {
+pub(crate) fn find<'s>(scenes: &'s [Scene], name: &str) -> Result<&'s Scene, UnknownScene> {
     scenes
         .iter()
         .find(|scene| scene.name == name)

@@ -11,6 +11,7 @@ use dalembert_codegen::workspace::{BOUND, Emitted, JointState, Runtime};
 use dalembert_codegen::{Function, Generated, Request, ScalarType, Start, generate};
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
+use serde_json::Value;
 
 /// Returns a checked-in robot.
 pub fn robot(name: &str) -> Robot {
@@ -45,6 +46,22 @@ pub fn read_robot(source: &str) -> Robot {
     read::parse(source, &read::Options::default())
         .unwrap_or_else(|errors| panic!("{errors}"))
         .robot
+}
+
+/// Returns the numbers of lists in lists.
+pub fn numbers(value: &Value) -> Vec<f64> {
+    match value {
+        Value::Array(list) => list.iter().flat_map(numbers).collect(),
+        other => vec![other.as_f64().unwrap()],
+    }
+}
+
+/// Returns a state of a file that has some of the arguments.
+pub fn given(json: &Value) -> JointState {
+    JointState::new(|argument| {
+        let given = argument.given().and_then(|key| json.get(key));
+        given.map_or_else(Vec::new, numbers)
+    })
 }
 
 /// Returns one function in both scalars.

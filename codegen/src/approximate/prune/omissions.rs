@@ -1,18 +1,13 @@
 //! What was left out, one by one.
 
-use std::fmt;
-
 use dalembert_model::number::{Exact, Rounded};
 
-use super::Pruned;
-use crate::bound::input_box::InputBox;
-use crate::bound::magnitude::{BoxEffort, magnitudes};
-use crate::edits::{Edit, EditSite, Stage, difference};
+use crate::edits::{Edit, EditSite, Stage};
 use crate::graph::Folding;
 use crate::program::text::input_name;
 use crate::program::{Counts, Operand, Operation, Program};
 
-/// One edit, what it saves and what it costs.
+/// One edit, and what it saves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Omission {
     /// Which program it edits, from zero.
@@ -27,29 +22,9 @@ pub struct Omission {
     pub operations: usize,
     /// Sines and cosines that come back with them.
     pub sincos: usize,
-    /// The certified largest |error| of each output, in its unit, if it alone
-    /// is left out of its program; empty where nobody asked.
-    pub errors: Vec<f64>,
 }
 
-impl Pruned {
-    /// Returns what was left out, stage after stage.
-    pub fn omissions(&self, limits: &InputBox) -> Vec<Omission> {
-        let mut omissions = omissions(&self.stages);
-        for omission in &mut omissions {
-            let alone = Stage {
-                program: self.stages[omission.stage].program.clone(),
-                edits: vec![omission.edit.clone()],
-            };
-            let ones = vec![1.0; alone.program.outputs.len()];
-            let graph = difference(std::slice::from_ref(&alone));
-            omission.errors = magnitudes(&graph, limits, &ones, BoxEffort::QUICK);
-        }
-        omissions
-    }
-}
-
-/// Returns what was left out, stage after stage, without the errors, which take long.
+/// Returns what was left out, stage after stage.
 /// Constants that were corrected are no omissions: they save nothing.
 pub fn omissions(stages: &[Stage]) -> Vec<Omission> {
     let mut omissions = Vec::new();
@@ -63,22 +38,10 @@ pub fn omissions(stages: &[Stage]) -> Vec<Omission> {
                 words: words(&stage.program, edit),
                 operations: back.operations().saturating_sub(paid.operations()),
                 sincos: back.sincos.saturating_sub(paid.sincos),
-                errors: Vec::new(),
             });
         }
     }
     omissions
-}
-
-impl fmt::Display for Omission {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}, saves {}", self.words, self.operations)?;
-        match self.sincos {
-            0 => Ok(()),
-            1 => f.write_str(" and a sine/cosine pair"),
-            more => write!(f, " and {more} sine/cosine pairs"),
-        }
-    }
 }
 
 /// Returns what the stage costs with one edit put back.
