@@ -7,7 +7,7 @@ use dalembert_codegen::workspace::{
 use dalembert_codegen::{Function, Generated, GeneratedFunction, Request};
 use dalembert_model::robot::Robot;
 
-use crate::measure::{Bench, Code, Rounding};
+use crate::measure::{Bench, Code, largest};
 use crate::report::{COUNTS, Cell, Report, Table, cells, counted, counts};
 
 /// How much is said.
@@ -114,14 +114,9 @@ fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Gene
         let bench = Bench::new(own);
         let rows = generated.emitted.iter().map(|emitted| {
             let worst = bench.measure(&Code::of(emitted), &drawn, &drawn);
-            let Rounding { vector, entry } = Rounding::of(&worst);
+            let [vector, entry] = largest(&worst).map(Cell::units);
             let function = emitted.function.to_string();
-            cells![
-                function,
-                emitted.scalar.name(),
-                Cell::units(vector),
-                Cell::units(entry)
-            ]
+            cells![function, emitted.scalar.name(), vector, entry]
         });
         let states = counted(states, "random state");
         report.table(

@@ -2,22 +2,21 @@
 //! Table 3 of the paper; and the coefficients that vanish or repeat.
 
 use dalembert_codegen::workspace::{
-    AngleSum, Argument, Columns, Input, JointState, Quantity, SEED, SceneRobot, Task, admitted,
-    input_hash, search,
+    AngleSum, Argument, Input, JointState, Quantity, SEED, SceneRobot, Task, admitted, input_hash,
 };
-use dalembert_codegen::{Function, GenerateError, Program, Request, ScalarType, Start};
+use dalembert_codegen::{Function, GenerateError, Program, Request, ScalarType};
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;
 
 use crate::args::Options;
 use crate::couplings::{Coupling, Value, couplings, summary};
-use crate::measure::{Bench, Code as Measured, Rounding};
+use crate::measure::{Bench, Code as Measured, largest};
 use crate::output::{Context, Outcome};
 use crate::progress;
 use crate::report::{COUNTS, Cell, Report, Table, cells, counts};
 use crate::source::Source;
-use crate::steps::{self, Code, Row, Steps};
+use crate::steps::{self, Code, Row};
 use crate::table3::comparisons;
 
 /// Arguments of `explain`.
@@ -35,10 +34,6 @@ pub struct ExplainArgs {
 /// The states that errors are measured at.
 const STATES: usize = 200;
 
-/// The most joints for which Lagrange–Euler is written out: the graph grows
-/// with n⁴ to n⁵.
-pub const MAX_WRITTEN: usize = 8;
-
 /// All that was found about one function of a robot.
 #[derive(Clone, Debug)]
 pub struct Explanation {
@@ -48,9 +43,6 @@ pub struct Explanation {
     pub function: Function,
     /// The steps, in their order; the last is what is generated.
     pub rows: Vec<Row>,
-    /// The coefficients of the whole robot that vanish or repeat, unless there are
-    /// too many.
-    pub couplings: Option<Vec<Coupling>>,
 }
 
 /// Explains the functions of a request, in their order; of the rest, effort,
@@ -61,12 +53,6 @@ pub struct Explanation {
 /// # Errors
 /// Those of [`generate`](dalembert_codegen::generate).
 pub fn explain(robot: &Robot, request: &Request) -> Result<Vec<Explanation>, GenerateError> {
-    if let Some(plan) = &request.plan
-        && plan.input != input_hash(robot)
-    {
-        let robot = plan.robot.clone();
-        return Err(GenerateError::StalePlan { robot });
-    }
     let scene_robot =
         SceneRobot::of(robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
     let task = Task {
@@ -74,68 +60,32 @@ pub fn explain(robot: &Robot, request: &Request) -> Result<Vec<Explanation>, Gen
         scene_robot: &scene_robot,
         request,
     };
-    let mut explained = Vec::new();
-    for (index, &function) in request.functions.iter().enumerate() {
-        if !request.functions[..index].contains(&function) {
-            explained.push(exact(&task, function)?);
+    let mut explanations: Vec<Explanation> = Vec::new();
+    let mut programs = Vec::new();
+    for &function in &request.functions {
+        if explanations.iter().any(|own| own.function == function) {
+            continue;
         }
+        let (rows, program) = steps::exact(&task, function)?;
+        programs.push(program);
+        explanations.push(Explanation {
+            scene_robot: scene_robot.clone(),
+            function,
+            rows,
+        });
     }
-    let programs: Vec<&Program> = explained.iter().map(|(_, program)| program).collect();
+    let programs: Vec<&Program> = programs.iter().collect();
     let admitted = admitted(&task, &programs)?;
-    let mut explanations: Vec<Explanation> = explained.into_iter().map(|(e, _)| e).collect();
     for (explanation, admitted) in explanations.iter_mut().zip(admitted.iter().flatten()) {
         explanation.rows.extend(steps::tolerated(admitted)?);
     }
     Ok(explanations)
 }
 
-/// Returns everything but what a tolerance admits, and the program that it is applied
-/// to.
-fn exact(task: &Task<'_>, function: Function) -> Result<(Explanation, Program), GenerateError> {
-    let Task {
-        robot,
-        scene_robot,
-        request,
-    } = *task;
-    // Of a regressor no column comes from regrouped parameters.
-    if function.columns() != Columns::None {
-        return Err(GenerateError::Unexplained(function));
-    }
-    // Over all forms, nothing replayed.
-    let anew = Request {
-        start: Start::Auto,
-        plan: None,
-        ..request.clone()
-    };
-    let found = search(&task.with(&anew), function)?;
-    let tuned = found.tuned.as_ref();
-    let tuned = tuned.ok_or(GenerateError::Unexplained(function))?;
-    let mut steps = Steps {
-        task,
-        function,
-        rows: Vec::new(),
-    };
-    if robot.joints.len() <= MAX_WRITTEN {
-        steps.lagrange_euler();
-    }
-    steps.newton_euler();
-    steps.chain(tuned);
-    let program = steps.searched(&found)?;
-    let explanation = Explanation {
-        function,
-        rows: steps.rows,
-        couplings: scene_robot
-            .scene()
-            .map_or_else(|| couplings(robot), |_| None),
-        scene_robot: scene_robot.clone(),
-    };
-    Ok((explanation, program))
-}
-
 impl Explanation {
-    /// Measures what rounding costs each row, at states inside the limits of the robot, or of its
+    /// Measures what rounding costs each row, of a vector and of an entry, in u, at states inside the limits of the robot, or of its
     /// scene.
-    pub fn rounding(&self, states: usize) -> Vec<Rounding> {
+    pub fn rounding(&self, states: usize) -> Vec<[f64; 2]> {
         let (scene_robot, function) = (&self.scene_robot, self.function);
         let bench = Bench::new(scene_robot.clone());
         let drawn = scene_robot.states(states, SEED);
@@ -166,7 +116,7 @@ impl Explanation {
                 ScalarType::F64 => bench.compare(&code, &double),
                 ScalarType::F32 => bench.compare(&code, &samples(scalar)),
             };
-            Rounding::of(&worst)
+            largest(&worst)
         };
         self.rows.iter().map(row).collect()
     }
@@ -204,16 +154,13 @@ pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
     let torques = [Function::InverseDynamics];
     let mut request = source.request_for(asked, &torques)?;
     let session = progress::watch(&mut request);
-    let explained = match explain(&source.robot, &request) {
-        Err(GenerateError::StalePlan { .. }) => {
-            context.say(
-                "warning: the plan beside the robot file no longer fits it: a search takes its place",
-            );
-            request.plan = None;
-            explain(&source.robot, &request)
-        }
-        explained => explained,
-    }?;
+    let input = input_hash(&source.robot);
+    if request.plan.take_if(|plan| plan.input != input).is_some() {
+        context.say(
+            "warning: the plan beside the robot file no longer fits it: a search takes its place",
+        );
+    }
+    let explained = explain(&source.robot, &request)?;
     drop(session);
     let robot = &source.robot;
     let mut report = Report::of(robot, request.scene.as_ref());
@@ -235,8 +182,8 @@ pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
         });
         report.table("table3", "", Table::new(heads).with(rows));
     }
-    if let Some(couplings) = explained.iter().find_map(|own| own.couplings.as_deref()) {
-        coefficients(&mut report, couplings, args.coefficients);
+    if let Some(couplings) = couplings(robot).filter(|_| request.scene.is_none()) {
+        coefficients(&mut report, &couplings, args.coefficients);
     }
     Ok(report.into())
 }
@@ -256,7 +203,7 @@ fn steps_of(own: &Explanation) -> Table {
         }
         let mut cells = cells![title, Cell::json(row.step)];
         cells.extend(counts(&row.counts));
-        cells.extend([rounding.vector, rounding.entry].map(units));
+        cells.extend(rounding.map(units));
         table.row(cells);
     }
     table.without_zeros("fma|div|sqrt|trig_mul|trig_add")

@@ -33,20 +33,6 @@ pub struct Point {
 }
 
 impl Point {
-    /// Returns a variant that was not run yet.
-    pub fn new(tolerance: f64, certificate: Certificate) -> Point {
-        Point {
-            tolerance,
-            certified: worst(&certificate),
-            observed: None,
-            rounding: worst(&certificate.of_rounding()),
-            rounding_observed: None,
-            certificate,
-            dominated: false,
-            violation: None,
-        }
-    }
-
     /// Returns where its certificate goes.
     pub fn file(&self) -> String {
         let Certificate { scalar, sines, .. } = &self.certificate;
@@ -80,22 +66,21 @@ impl Point {
         stages.map(|stage| stage.edits.len()).sum()
     }
 
-    /// Returns what it costs, dimension by dimension: a narrower scalar is one too.
-    fn cost(&self) -> [usize; 3] {
+    /// Returns its operations, those of polynomials included.
+    pub fn operations(&self) -> usize {
         let counts = self.counts();
-        let bits = match self.certificate.scalar {
-            ScalarType::F64 => 64,
-            ScalarType::F32 => 32,
+        counts.operations() + counts.trig_mul + counts.trig_add
+    }
+
+    /// Returns what it costs, dimension by dimension: a narrower scalar is one too. Polynomials are
+    /// operations like others; what libm does is not known.
+    fn cost(&self) -> [usize; 3] {
+        let called = match self.certificate.sines.is_empty() {
+            true => self.counts().sincos,
+            false => 0,
         };
-        // Polynomials are operations like others; what libm does is not known.
-        match self.certificate.sines.is_empty() {
-            true => [bits, counts.sincos, counts.operations()],
-            false => [
-                bits,
-                0,
-                counts.operations() + counts.trig_mul + counts.trig_add,
-            ],
-        }
+        let is_wide = self.certificate.scalar == ScalarType::F64;
+        [usize::from(is_wide), called, self.operations()]
     }
 }
 
@@ -234,17 +219,22 @@ impl<'a> Ladder<'a> {
 /// Runs a variant at states that try to refute its claim.
 fn point(samples: usize, tolerance: f64, certificate: &Certificate) -> Result<Point, TextError> {
     let (observed, mut violation) = falsified(samples, certificate)?;
+    let rounding = certificate.of_rounding();
     let mut rounding_observed = None;
     if certificate.scalar == ScalarType::F32 {
-        let (observed, other) = falsified(samples, &certificate.of_rounding())?;
+        let (observed, other) = falsified(samples, &rounding)?;
         rounding_observed = observed;
         violation = violation.or(other);
     }
     Ok(Point {
+        tolerance,
+        certificate: certificate.clone(),
+        certified: worst(certificate),
         observed,
+        rounding: worst(&rounding),
         rounding_observed,
+        dominated: false,
         violation,
-        ..Point::new(tolerance, certificate.clone())
     })
 }
 

@@ -75,24 +75,10 @@ pub struct Worst {
     pub overflows: bool,
 }
 
-/// The largest errors of a function in one scalar, over all of its quantities, in u.
-#[derive(Clone, Copy, Debug)]
-pub struct Rounding {
-    /// The largest of [`Worst::vector`].
-    pub vector: f64,
-    /// The largest of [`Worst::entry`].
-    pub entry: f64,
-}
-
-impl Rounding {
-    /// Takes the largest errors of the quantities.
-    pub fn of(worst: &[Worst]) -> Rounding {
-        let largest = |of: fn(&Worst) -> f64| worst.iter().map(of).fold(0.0, f64::max);
-        Rounding {
-            vector: largest(|worst| worst.vector),
-            entry: largest(|worst| worst.entry),
-        }
-    }
+/// Returns the largest [`Worst::vector`] and [`Worst::entry`] of a function's quantities, in u.
+pub fn largest(worst: &[Worst]) -> [f64; 2] {
+    [|own: &Worst| own.vector, |own: &Worst| own.entry]
+        .map(|of| worst.iter().map(of).fold(0.0, f64::max))
 }
 
 /// States with the true values of a function there, for code in one scalar.

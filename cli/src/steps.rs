@@ -8,10 +8,10 @@ use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 
 use dalembert_codegen::workspace::{
-    Admitted, Certificate, Folding, Found, Graph, Lowered, Task, cost, replay, skeleton, trace,
-    trace_chain, tune, tune::Tuned, watched,
+    Admitted, Certificate, Columns, Folding, Found, Graph, Lowered, Task, cost, replay, search,
+    skeleton, trace, trace_chain, tune, tune::Tuned, watched,
 };
-use dalembert_codegen::{Counts, Function, GenerateError, Program, ScalarType};
+use dalembert_codegen::{Counts, Function, GenerateError, Program, Request, ScalarType, Start};
 
 /// The steps: what programs and people call them. Each does more than the one before, until the next
 /// formulation.
@@ -73,11 +73,49 @@ impl Row {
     }
 }
 
+/// The most joints for which Lagrange–Euler is written out: the graph grows
+/// with n⁴ to n⁵.
+const MAX_WRITTEN: usize = 8;
+
+/// Takes all steps but what a tolerance admits; returns them, and the program that it is applied to.
+///
+/// # Errors
+/// Those of the search; of a regressor no column comes from regrouped parameters.
+pub(super) fn exact(
+    task: &Task<'_>,
+    function: Function,
+) -> Result<(Vec<Row>, Program), GenerateError> {
+    if function.columns() != Columns::None {
+        return Err(GenerateError::Unexplained(function));
+    }
+    // Over all forms, nothing replayed.
+    let anew = Request {
+        start: Start::Auto,
+        plan: None,
+        ..task.request.clone()
+    };
+    let found = search(&task.with(&anew), function)?;
+    let tuned = found.tuned.as_ref();
+    let tuned = tuned.ok_or(GenerateError::Unexplained(function))?;
+    let mut steps = Steps {
+        task,
+        function,
+        rows: Vec::new(),
+    };
+    if task.robot.joints.len() <= MAX_WRITTEN {
+        steps.lagrange_euler();
+    }
+    steps.newton_euler();
+    steps.chain(tuned);
+    let program = steps.searched(&found)?;
+    Ok((steps.rows, program))
+}
+
 /// The steps of one function, as far as they were taken.
-pub(super) struct Steps<'t> {
-    pub task: &'t Task<'t>,
-    pub function: Function,
-    pub rows: Vec<Row>,
+struct Steps<'t> {
+    task: &'t Task<'t>,
+    function: Function,
+    rows: Vec<Row>,
 }
 
 impl Steps<'_> {
@@ -96,7 +134,7 @@ impl Steps<'_> {
 
     /// Adds Lagrange–Euler: as written, traced, merged; then what the general machinery
     /// makes of it alone.
-    pub(super) fn lagrange_euler(&mut self) {
+    fn lagrange_euler(&mut self) {
         let (scene_robot, request) = (self.task.scene_robot, self.task.request);
         let trace = trace(scene_robot, self.function, Formulation::LagrangeEuler);
         let joints = scene_robot.robot().joints.iter().enumerate();
@@ -123,7 +161,7 @@ impl Steps<'_> {
     }
 
     /// Adds Newton–Euler in link axes.
-    pub(super) fn newton_euler(&mut self) {
+    fn newton_euler(&mut self) {
         let formulation = Formulation::NewtonEulerLink;
         let graph = trace(self.task.scene_robot, self.function, formulation).graph;
         self.graph("newton_euler_folded", &graph);
@@ -135,7 +173,7 @@ impl Steps<'_> {
 
     /// Adds the chain form in one regrouping after the other, each in its cheapest form: nothing
     /// moved; everything that can; per link as much as is cheapest, origins too; and the unit of length.
-    pub(super) fn chain(&mut self, tuned: &Tuned) {
+    fn chain(&mut self, tuned: &Tuned) {
         let (scene_robot, function) = (self.task.scene_robot, self.function);
         let arm = skeleton(scene_robot);
         let mut metres = tuned.regrouping.clone();
@@ -158,7 +196,7 @@ impl Steps<'_> {
 
     /// Adds what the search made of all forms, and what the plan keeps; returns the last of them: what
     /// is generated, or what a tolerance is applied to.
-    pub(super) fn searched(&mut self, found: &Found) -> Result<Program, GenerateError> {
+    fn searched(&mut self, found: &Found) -> Result<Program, GenerateError> {
         let found = &found.simplified;
         let mut last = Program::in_scene(self.task.scene_robot, self.function, &found.graph);
         self.graph("e_graph", &found.saturated);

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use dalembert_codegen::workspace::{ErrorBudget, SceneKey, SceneRobot, prove};
-use dalembert_codegen::{Counts, GenerateError, Program, Request, ScalarType};
+use dalembert_codegen::{GenerateError, Program, Request, ScalarType};
 use dalembert_model::scene::{Scale, Scene};
 use serde_json::Value;
 
@@ -220,14 +220,7 @@ fn table(points: &[Point]) -> Table {
         "tolerance|scalar|sincos by|mul|add|sincos|trig_mul|trig_add|left out|certified|observed|rounding|rounding observed|front",
     );
     for own in points {
-        let Counts {
-            mul,
-            add,
-            sincos,
-            trig_mul,
-            trig_add,
-            ..
-        } = own.counts();
+        let counts = own.counts();
         // What was not observed is no zero.
         let seen = |seen: Option<f64>| match seen {
             Some(seen) => Cell::power(seen, 2),
@@ -241,11 +234,11 @@ fn table(points: &[Point]) -> Table {
             } else {
                 "polynomials"
             },
-            mul,
-            add,
-            sincos,
-            trig_mul,
-            trig_add,
+            counts.mul,
+            counts.add,
+            counts.sincos,
+            counts.trig_mul,
+            counts.trig_add,
             own.edits(),
             Cell::power(own.certified, 2),
             seen(own.observed),
@@ -263,15 +256,12 @@ fn drawn(title: &str, relative_to: Scale, points: &[Point]) -> Result<String, Fa
         Scale::Actuator => "the actuators' limits",
         Scale::Range => "the largest torques",
     };
-    let dots = points.iter().map(|own| {
-        let counts = own.counts();
-        Dot {
-            kind: own.kind(),
-            operations: (counts.operations() + counts.trig_mul + counts.trig_add) as f64,
-            certified: own.certified,
-            observed: own.observed,
-            dominated: own.dominated,
-        }
+    let dots = points.iter().map(|own| Dot {
+        kind: own.kind(),
+        operations: own.operations() as f64,
+        certified: own.certified,
+        observed: own.observed,
+        dominated: own.dominated,
     });
     chart::svg(title, scale, &dots.collect::<Vec<Dot>>())
         .map_err(|error| Failure::Input(format!("error: the chart cannot be drawn: {error}")))
