@@ -194,21 +194,4 @@ mod tests {
             );
         }
     }
-
-    /// Nothing was left out, or there is nothing at all: still a picture.
-    #[test]
-    fn one_variant_and_none() {
-        let dot = Dot {
-            kind: 0,
-            operations: 12.0,
-            certified: 1e-16,
-            observed: None,
-            dominated: false,
-        };
-        for dots in [&[dot][..], &[]] {
-            let chart = svg("arm: gravity", "the largest torques", dots).unwrap();
-            assert!(!chart.contains("NaN") && !chart.contains("inf"), "{chart}");
-            assert!(chart.contains("by dalembert") && !chart.contains("observed"));
-        }
-    }
 }

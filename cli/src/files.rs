@@ -127,24 +127,13 @@ impl<'c> Files<'c> {
             ));
         }
         let path = into.join(name);
-        let inside = folder(&path).to_owned();
-        let mut there = inside.as_path();
+        let inside = folder(&path);
         // The one that is there already.
-        loop {
-            match fs::metadata(there) {
-                Ok(found) if found.is_dir() => break,
-                Ok(_) => return Err(refused(into, format!("`{}` is no folder", there.display()))),
-                Err(_) if there.is_symlink() => {
-                    let why = format!("`{}` is a link to nowhere", there.display());
-                    return Err(refused(into, why));
-                }
-                Err(error)
-                    if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) =>
-                {
-                    there = folder(there);
-                }
-                Err(error) => return Err(refused(into, error)),
-            }
+        let is_there = |folder: &&Path| fs::symlink_metadata(folder).is_ok();
+        let there = inside.ancestors().find(is_there);
+        let there = there.unwrap_or(Path::new("."));
+        if !there.is_dir() {
+            return Err(refused(into, format!("`{}` is no folder", there.display())));
         }
         if there == inside {
             return self.add(&path);

@@ -177,17 +177,3 @@ fn place(functions: &[Function], function: Function) -> String {
         _ => String::new(),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use dalembert_codegen::Function;
-
-    use super::place;
-
-    #[test]
-    fn functions_are_counted_where_there_are_several() {
-        let all = Function::by_default();
-        assert_eq!(place(&all, Function::Gravity), "function 2 of 7: ");
-        assert_eq!(place(&all[..1], Function::Gravity), "");
-    }
-}

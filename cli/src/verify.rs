@@ -1,10 +1,11 @@
 //! `dalembert verify`: the exact proof, then what rounding costs the emitted text, run bit for bit:
 //! inside the limits, at states that somebody else computed, and at the extremes.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use dalembert_codegen::workspace::{
-    Emitted, JointState, SEED, STATES, angle_name, bound_of, falsify,
+    Emitted, JointState, Quantity, SEED, STATES, angle_name, bound_of, falsify,
 };
 use dalembert_codegen::{Function, GenerateError, Generated, Request, ScalarType};
 use serde_json::Value;
@@ -49,10 +50,8 @@ pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
     let source = Source::open(context, &args.task.robot)?;
     let robot = &source.robot;
     let mut request = source.request(&args.task.options.0, &ScalarType::ALL)?;
-    let given = args
-        .given
-        .as_deref()
-        .map(|file| given_states(file, &source, &request));
+    let given = args.given.as_deref();
+    let given = given.map(|file| given_states(file, &source, &request));
     let given = given.transpose()?;
     let session = progress::watch(&mut request);
     // What cannot be proved is not generated: this ends with the reason.
@@ -70,10 +69,8 @@ pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
     let bench = Bench::new(scene_robot);
     if let Some((file, states)) = args.given.as_ref().zip(given) {
         // A state rounded to f32 is another state.
-        let double = generated
-            .emitted
-            .iter()
-            .filter(|own| own.scalar == ScalarType::F64);
+        let emitted = generated.emitted.iter();
+        let double = emitted.filter(|own| own.scalar == ScalarType::F64);
         let compared = double.flat_map(|own| given::compare(own, bench.runtime(), robot, &states));
         let compared: Vec<Compared> = compared.collect();
         given::describe(&file.display().to_string(), &states, &compared, &mut done);
@@ -108,34 +105,22 @@ fn given_states(
     let fail = |why: String| Failure::Input(format!("error: {shown}: {why}"));
     let states = given::read(&text(file, MAX_STATES_BYTES)?, source.robot.joints.len());
     let states = states.map_err(fail)?;
-    let nothing = |why: &str| Err(fail(format!("nothing is compared: {why}")));
-    let mut keys: Vec<_> = states.iter().flat_map(|state| state.known.keys()).collect();
-    if keys.is_empty() {
-        return nothing("no state has any of `tau`, `D`, `h`, `c`");
-    }
-    let returned = request
-        .functions
-        .iter()
-        .copied()
-        .flat_map(given::quantities);
-    let returned: Vec<_> = returned.collect();
-    if !keys.iter().any(|key| returned.contains(key)) {
-        keys.sort();
-        keys.dedup();
-        let keys = keys
-            .iter()
-            .filter_map(|key| Some(format!("`{}`", key.given()?)));
-        let keys = keys.collect::<Vec<_>>().join(", ");
-        return nothing(&format!(
-            "the states have {keys}, which no function of --outputs returns"
-        ));
-    }
-    match request.scalars.contains(&ScalarType::F64) {
-        true => Ok(states),
-        false => {
-            nothing("states are doubles, and only f32 code is generated\n  = help: --scalar f64")
-        }
-    }
+    let known = states.iter().flat_map(|state| state.known.keys().copied());
+    let known: BTreeSet<Quantity> = known.collect();
+    let functions = request.functions.iter().copied();
+    let returned: BTreeSet<Quantity> = functions.flat_map(given::quantities).collect();
+    let keys: Vec<&str> = known.iter().filter_map(|own| own.given()).collect();
+    let why = if keys.is_empty() {
+        "no state has any of tau, D, h, c".to_owned()
+    } else if known.is_disjoint(&returned) {
+        let keys = keys.join(", ");
+        format!("the states have {keys}, which no function of --outputs returns")
+    } else if !request.scalars.contains(&ScalarType::F64) {
+        "states are doubles, and only f32 code is generated\n  = help: --scalar f64".to_owned()
+    } else {
+        return Ok(states);
+    };
+    Err(fail(format!("nothing is compared: {why}")))
 }
 
 /// Falsifies the certificates of a scene with a tolerance, and returns what they are about.

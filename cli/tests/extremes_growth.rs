@@ -2,11 +2,19 @@
 
 use std::slice;
 
-use crate::extremes_support::chain::chain;
+use dalembert_cli::extremes::cases::Change;
 use dalembert_cli::measure::{Bench, Code, VECTOR};
 use dalembert_codegen::workspace::{Emitted, SceneRobot, parse, seeded};
 use dalembert_codegen::{Function, GenerateError, Request, ScalarType, generate};
 use dalembert_model::robot::Robot;
+
+use crate::robots::robot;
+
+/// Returns the joints of the Panda again and again, their right angles as they are often typed.
+fn chain(n: usize) -> Robot {
+    let general = Change::Typed.apply(&robot("panda")).unwrap();
+    Change::Repeated(n).apply(&general).unwrap()
+}
 
 fn request(function: Function, start: &str) -> Request {
     Request {
@@ -33,7 +41,7 @@ fn is_within_the_bound(robot: &Robot, emitted: &Emitted, states: usize) {
 fn inverse_dynamics_grows_linearly() {
     let recursion = request(Function::InverseDynamics, "newton_euler");
     let operations = |n: usize| {
-        let robot = chain(n, n as u64);
+        let robot = chain(n);
         let mut generated = generate(&robot, &recursion).unwrap();
         let counts = generated.functions.remove(0).counts();
         is_within_the_bound(&robot, &generated.emitted[0], 20);
@@ -47,7 +55,7 @@ fn inverse_dynamics_grows_linearly() {
 
 #[test]
 fn long_functions_come_in_blocks_and_are_right() {
-    let robot = chain(12, 12);
+    let robot = chain(12);
     let function = Function::ManipulatorEquation;
     let generated = generate(&robot, &request(function, "newton_euler")).unwrap();
     assert!(generated.functions[0].program.steps.len() > 5000);
@@ -58,10 +66,7 @@ fn long_functions_come_in_blocks_and_are_right() {
 
 #[test]
 fn what_would_explode_is_refused_with_its_size() {
-    let refused = generate(
-        &chain(60, 60),
-        &request(Function::DynamicCoefficients, "auto"),
-    );
+    let refused = generate(&chain(60), &request(Function::DynamicCoefficients, "auto"));
     match refused {
         Err(error @ GenerateError::TooLarge { .. }) => {
             // 60² + 60³ + 60

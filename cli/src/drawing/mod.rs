@@ -211,18 +211,4 @@ mod tests {
         );
         assert_eq!(body([[0.0; 3]; 3]).ellipse([0, 1]), None);
     }
-
-    #[test]
-    fn labels_that_would_overlap_are_one_text() {
-        let mut labels = Vec::new();
-        for (at, text) in [
-            ([10.0, 10.0], "1"),
-            ([60.0, 10.0], "2"),
-            ([12.0, 15.0], "3"),
-        ] {
-            label(&mut labels, at, text.to_owned());
-        }
-        let texts: Vec<&str> = labels.iter().map(|(_, text)| text.as_str()).collect();
-        assert_eq!(texts, ["1, 3", "2"]);
-    }
 }

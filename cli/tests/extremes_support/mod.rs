@@ -1,6 +1,5 @@
 //! The extreme cases as robots with exact parameters.
 
-pub mod chain;
 pub mod runtime;
 
 use std::path::PathBuf;
