@@ -1,4 +1,4 @@
-//! `dalembert certify`: generated code and certificates, checked anew by `dalembert-checker`, which shares
+//! `dalembert certify`: checks generated code and certificates by `dalembert-checker`, which shares
 //! no code with the generator.
 
 use std::path::{Path, PathBuf};
@@ -17,18 +17,18 @@ use crate::source::{Source, text};
 /// Arguments of `certify`.
 #[derive(Debug, clap::Args)]
 pub struct CertifyArgs {
-    /// A generated file (.rs, .h) of which every function is checked, or a certificate (.json): its text, its
-    /// box and every bound
+    /// A generated file (.rs, .h), to check every function, or a certificate (.json), to check its
+    /// text, its box and every bound
     #[arg(value_parser = certified_parser())]
     file: PathBuf,
-    /// The robot that it is for
+    /// The robot that the file was generated for
     #[arg(long, value_name = "ROBOT")]
     robot: PathBuf,
-    /// The scene of the robot file that it is for [default: the one it names]
+    /// The scene that the file was generated for [default: the one it names]
     #[arg(long, value_name = "NAME")]
     scene: Option<String>,
-    /// The largest error relative to T to accept, instead of the scene's tolerance;
-    /// for certificates that `tradeoff` wrote for other tolerances
+    /// Accept errors up to this, relative to T, instead of the scene's tolerance; for
+    /// certificates that `tradeoff` wrote for other tolerances
     #[arg(long, value_name = "E", value_parser = positive_parser())]
     tolerance: Option<f64>,
 }
@@ -95,7 +95,7 @@ fn certificates(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
     Ok(done)
 }
 
-/// Returns what was found of an output, relative to T; of one that is always zero as it is.
+/// Returns the table row of an output, relative to T; absolute if T is zero.
 fn row(output: &Output) -> Vec<Cell> {
     let relative = |x: f64| match output.scale {
         0.0 => x,
@@ -110,7 +110,7 @@ fn row(output: &Output) -> Vec<Cell> {
         (false, true) => "E not shown; within the tolerance",
         (false, false) => "not shown",
     };
-    // Of an entry of D its row and its column.
+    // An entry of D has two: its row and its column.
     let joints = output.joints.iter().map(|joint| (joint + 1).to_string());
     cells![
         joints.collect::<Vec<_>>().join(", "),
@@ -138,12 +138,12 @@ fn whole_file(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
     let found = found.map_err(|fault: Fault| Failure::Input(format!("error: {fault}")))?;
     let mut report = Report::default();
     report.line(
-        "How far each function can be from the dynamics over the box of the robot file,\n\
-         each entry relative to its own largest value, of a matrix to its row's or its column's;\n\
-         u is half an ulp of that.",
+        "The largest error of each function over the box of the robot file, relative to the largest value of\n\
+         each entry, in a matrix of its row or column; u is half an ulp of that value.",
     );
     if found.is_unlimited {
-        let rates = format!("Where the file has no limit, rates go up to {RATE} in SI units.");
+        let rates =
+            format!("Joints without limits: velocities and accelerations up to {RATE} (SI).");
         report.line(rates);
     }
     let heads = "module|function|real|rounding|units|tried|seen_units|why|passed";
@@ -174,18 +174,18 @@ fn whole_file(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
     report.value("passed", found.is_shown());
     let mut done = Done::from(report);
     if !found.is_shown() {
-        let why = format!("error: not every function of {name} is shown to be the robot's");
+        let why = format!("error: some functions of {name} are not shown to be correct");
         done.failed.push(why);
     }
     Ok(done)
 }
 
-/// Says what was found of a function.
+/// Formats the result of a function.
 fn words(line: &Line) -> String {
     match &line.result {
         Err(fault) => format!("not shown: {fault}"),
         Ok(found) if found.tried > 0 => format!(
-            "no bound: of the equation that it solves {:.1} u of the terms are left at {} states  {}",
+            "no bound; the residual of its equation is {:.1} u of the terms, the largest at {} states  {}",
             found.units(),
             found.tried,
             if found.is_shown() { "tried" } else { "wrong" },
@@ -200,19 +200,19 @@ fn words(line: &Line) -> String {
                 (true, _) => "shown",
                 (false, false) => "not shown",
                 (false, true) =>
-                    "not shown: sines by polynomials err by more than rounding, which takes a scene with a tolerance",
+                    "not shown: polynomial sines have more than rounding errors; certify them in a scene with a tolerance",
             },
         ),
     }
 }
 
-/// Refuses a file that names another robot; returns a note where it names this one before an edit.
+/// Refuses a file of another robot; returns a note if the robot was edited since.
 ///
 /// # Errors
 /// The file names another robot.
 fn origin(file: &Path, source: &str, robot: &Source) -> Result<Option<String>, Failure> {
     let own = &robot.robot;
-    // A certificate names the robot as its scene has it.
+    // A certificate has the hash of the robot in its scene.
     let scenes = robot.scenes.iter().map(Some).chain([None]);
     let placed = scenes.filter_map(|scene| SceneRobot::of(own, scene).ok());
     let mut hashes: Vec<String> = placed.map(|placed| input_hash(placed.robot())).collect();
@@ -221,7 +221,7 @@ fn origin(file: &Path, source: &str, robot: &Source) -> Result<Option<String>, F
     let is_own = |input: &str| input.len() >= 16 && hashes.iter().any(|own| own.starts_with(input));
     let origins = named(source).into_iter();
     let others = origins.filter(|(_, input)| !is_own(input));
-    // Another robot before an edited one.
+    // Another robot's name is reported before an edit of this one.
     let Some((name, input)) = others.min_by_key(|(name, _)| *name == own.name) else {
         return Ok(None);
     };
@@ -232,15 +232,17 @@ fn origin(file: &Path, source: &str, robot: &Source) -> Result<Option<String>, F
         own.name
     );
     match name == own.name {
-        true => Ok(Some(format!("note: {found}: it was edited since"))),
+        true => Ok(Some(format!(
+            "note: {found}: the robot file was edited since"
+        ))),
         false => Err(Failure::Check(format!(
-            "error: {found}\n  = help: --robot takes the robot file that it was generated from"
+            "error: {found}\n  = help: give --robot the robot file that it was generated from"
         ))),
     }
 }
 
-/// Returns the robots, and the hashes of what their files say, that a generated file has in its
-/// documentation, and certificates in their fields.
+/// Returns the robot names and input hashes in the documentation of a generated file, or in the
+/// fields of certificates.
 fn named(source: &str) -> Vec<(String, String)> {
     let documentation = source.split_once("Dynamics of the robot `");
     let origin = documentation.and_then(|(_, rest)| {

@@ -5,7 +5,6 @@ use dalembert_codegen::ScalarType;
 use crate::args::TaskArgs;
 use crate::code::{Detail, report};
 use crate::output::{Context, Outcome};
-use crate::progress;
 use crate::source::Source;
 
 /// Arguments of `count`.
@@ -34,9 +33,7 @@ pub(crate) fn run(args: &CountArgs, context: &Context) -> Outcome {
             request.scalars = vec![ScalarType::F32];
         }
     }
-    let session = progress::watch(&mut request);
-    let generated = source.generate(context, &request)?;
-    drop(session);
+    let generated = source.generate(context, &mut request)?;
     let detail = match args.verbose {
         true => Detail::Whole,
         false => Detail::Counts,

@@ -1,8 +1,8 @@
 //! The coefficients of the dynamics that vanish or repeat.
 //!
-//! D_ik, h_ikm and c_i are outputs of one graph that was merged by
-//! fingerprint: an output that vanishes is the constant zero there, and two
-//! that are equal or opposite are edges to one node.
+//! D_ik, h_ikm and c_i are outputs of one graph in which nodes with equal
+//! fingerprints are merged: an output that vanishes is the constant zero, and
+//! outputs that are equal or opposite are edges to one node.
 
 use std::collections::HashMap;
 
@@ -21,18 +21,18 @@ pub enum Value {
     Zero,
     /// The same in every state, and not zero.
     Constant,
-    /// A function of the state, equal or opposite to none before it.
+    /// A function of the state, neither equal nor opposite to an earlier coefficient.
     Distinct,
-    /// Equal to a coefficient before it.
+    /// Equal to an earlier coefficient.
     Equals(String),
-    /// The opposite of a coefficient before it.
+    /// The opposite of an earlier coefficient.
     OppositeOf(String),
 }
 
 /// One coefficient: D_ik with i ≤ k, h_ikm with k ≤ m, or c_i.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Coupling {
-    /// Its name, one-based: `h_346`.
+    /// Its name, with indices from 1: `h_346`.
     pub name: String,
     /// Its value.
     pub value: Value,
@@ -49,8 +49,8 @@ pub fn couplings(robot: &Robot) -> Option<Vec<Coupling>> {
     if function.outputs(sizes) > MAX_OUTPUTS {
         return None;
     }
-    // Equal functions have equal fingerprints, whichever formulation is traced. Written out,
-    // Lagrange–Euler grows out of hand first.
+    // Equal functions have equal fingerprints in every formulation. The graph of Lagrange–Euler
+    // becomes too large first.
     let formulation = match n {
         0..=6 => Formulation::LagrangeEuler,
         _ => Formulation::NewtonEulerLink,
@@ -90,8 +90,8 @@ pub fn couplings(robot: &Robot) -> Option<Vec<Coupling>> {
     Some(couplings)
 }
 
-/// Counts the coefficients of one quantity, symmetric ones once: all, those that vanish, and the others,
-/// equal and opposite ones once.
+/// Counts the coefficients of one quantity, symmetric ones once: all, those that vanish, and the
+/// others, with equal and opposite ones counted once.
 pub fn summary(couplings: &[Coupling], quantity: Quantity) -> [usize; 3] {
     let mut summary = [0; 3];
     for own in couplings.iter().filter(|own| own.quantity == quantity) {
@@ -105,7 +105,7 @@ pub fn summary(couplings: &[Coupling], quantity: Quantity) -> [usize; 3] {
     summary
 }
 
-/// Returns whether an entry of a symmetric quantity is the one whose last two indices ascend.
+/// Returns whether the last two indices of an entry ascend; symmetric entries are listed once.
 fn is_first(quantity: Quantity, index: usize, n: usize) -> bool {
     quantity == Quantity::Gravity || index / n % n <= index % n
 }

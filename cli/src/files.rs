@@ -12,16 +12,16 @@ use crate::output::{Context, Failure, print};
 /// The path that stands for standard output.
 const STANDARD: &str = "-";
 
-/// Where a process finds what it has open: that is written on, not anew, whatever it is.
+/// Paths of this process's open files: output is appended to them, whatever they are.
 const OPEN: [&str; 4] = ["/dev/stdout", "/dev/stderr", "/dev/fd", "/proc/self/fd"];
 
-/// As much of a file as says who wrote it.
+/// The number of bytes in which a file says that dalembert wrote it.
 const HEAD: u64 = 4096;
 
-/// Where an output goes.
+/// The destination of an output.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Target {
-    /// As the user calls it.
+    /// The path as the user gave it.
     name: PathBuf,
     place: Place,
 }
@@ -44,14 +44,14 @@ impl Target {
         }
     }
 
-    /// Returns the line that says what was written; none for what is no file.
+    /// Returns the line that reports the written file; `None` for standard output and streams.
     pub fn note(&self) -> Option<String> {
         let name = self.name.display();
         self.file().map(|_| format!("wrote {name}"))
     }
 }
 
-/// The outputs of a run, and its inputs, which none of them may be.
+/// The outputs and the inputs of a run: no output may overwrite an input.
 pub struct Files<'c> {
     context: &'c Context,
     inputs: Vec<Target>,
@@ -60,7 +60,7 @@ pub struct Files<'c> {
 
 impl<'c> Files<'c> {
     pub fn new(context: &'c Context, inputs: &[&Path]) -> Files<'c> {
-        // What is not there cannot be written over, but the next run may read it.
+        // An input that does not exist is kept, too: the next run may read it.
         let inputs = inputs.iter().filter_map(|path| target(path).ok());
         Files {
             context,
@@ -69,26 +69,26 @@ impl<'c> Files<'c> {
         }
     }
 
-    /// Adds the output of `-o`: standard output without one, which a report in JSON needs for itself.
+    /// Adds the output of `-o`, by default standard output.
     ///
     /// # Errors
-    /// Those of [`Files::add`].
+    /// Standard output, which `--json` uses for the report, and the errors of [`Files::add`].
     pub fn output(&mut self, path: Option<&Path>) -> Result<Target, Failure> {
         let path = path.unwrap_or(Path::new(STANDARD));
         if self.context.json && path == Path::new(STANDARD) {
             return Err(Failure::Input(
-                "error: with --json the report goes to standard output, and what is written cannot go there, \
-                 too\n  = help: give a file by --output"
+                "error: with --json the report goes to standard output, so the file cannot go there\n  \
+                 = help: give a file by --output"
                     .into(),
             ));
         }
         self.add(path)
     }
 
-    /// Adds an output and tries whether it can be written; `-` is standard output.
+    /// Adds an output and checks that it can be written; `-` is standard output.
     ///
     /// # Errors
-    /// It cannot, it is an input or another output, or it is a file of somebody else.
+    /// It cannot be written, is an input or another output, or dalembert did not write it.
     pub fn add(&mut self, path: &Path) -> Result<Target, Failure> {
         let target = target(path).map_err(|why| refused(path, why))?;
         match &target.place {
@@ -104,8 +104,8 @@ impl<'c> Files<'c> {
                     return Err(refused(path, why));
                 }
                 if !self.context.force && !is_ours(file) {
-                    let why = "it is there already, and dalembert did not write it\n  = help: give another \
-                               name, or --force to write over it";
+                    let why = "the file exists, and dalembert did not write it\n  = help: give another \
+                               name, or --force to overwrite it";
                     return Err(refused(path, why));
                 }
                 unfinished(folder(file)).map_err(|error| refused(path, error))?;
@@ -115,10 +115,10 @@ impl<'c> Files<'c> {
         Ok(target)
     }
 
-    /// Adds a file of a folder that may have to be made, together with those above it.
+    /// Adds a file in a folder; missing folders are made when the file is written.
     ///
     /// # Errors
-    /// The folder is something else or cannot be written in, and those of [`Files::add`].
+    /// `into` is no folder or cannot be written in, and the errors of [`Files::add`].
     pub fn add_in(&mut self, into: &Path, name: &str) -> Result<Target, Failure> {
         if into == Path::new(STANDARD) {
             return Err(refused(
@@ -128,12 +128,15 @@ impl<'c> Files<'c> {
         }
         let path = into.join(name);
         let inside = folder(&path);
-        // The one that is there already.
+        // The nearest folder that exists.
         let is_there = |folder: &&Path| fs::symlink_metadata(folder).is_ok();
         let there = inside.ancestors().find(is_there);
         let there = there.unwrap_or(Path::new("."));
         if !there.is_dir() {
-            return Err(refused(into, format!("`{}` is no folder", there.display())));
+            return Err(refused(
+                into,
+                format!("`{}` is not a folder", there.display()),
+            ));
         }
         if there == inside {
             return self.add(&path);
@@ -146,8 +149,8 @@ impl<'c> Files<'c> {
     }
 }
 
-/// Writes texts to their targets: into temporary files beside them, then into streams, and when all
-/// of that went well the files get their names.
+/// Writes texts to their targets: first to temporary files beside them, then to streams. If all of
+/// that succeeds, the temporary files get their names.
 ///
 /// # Errors
 /// Something cannot be written: then no file has changed, unless the system refused to rename a
@@ -170,7 +173,7 @@ pub fn write(outputs: &[(Target, String)]) -> Result<(), Failure> {
         match &target.place {
             Place::Standard => print(text)?,
             Place::Stream(path) => {
-                // At the end: what is open may be a file with something in it.
+                // Appends: an open file may already have content.
                 let stream = OpenOptions::new().append(true).open(path);
                 stream
                     .and_then(|mut stream| stream.write_all(text.as_bytes()))
@@ -186,10 +189,10 @@ pub fn write(outputs: &[(Target, String)]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Refuses a name that ends as files of another format do.
+/// Refuses a path with the extension of another format.
 ///
 /// # Errors
-/// The name has an ending, and it is another.
+/// The path has an extension other than `ending`.
 pub fn ends_in(path: Option<&Path>, ending: &str) -> Result<(), Failure> {
     let Some(path) = path.filter(|path| {
         let found = path.extension();
@@ -198,16 +201,16 @@ pub fn ends_in(path: Option<&Path>, ending: &str) -> Result<(), Failure> {
         return Ok(());
     };
     Err(Failure::Input(format!(
-        "error: `{}` would hold a .{ending} file\n  = help: name it `{}`; `-o -` writes to standard output",
+        "error: the output is a .{ending} file, but `{}` has another extension\n  = help: name it `{}`; `-o -` writes to standard output",
         path.display(),
         path.with_extension(ending).display()
     )))
 }
 
-/// Returns the first bytes of a file: no more are read, since a device may have no end.
+/// Returns the first `most` bytes of a file and reads no more, since a device may have no end.
 ///
 /// # Errors
-/// The system's.
+/// The file cannot be opened or read.
 pub fn first(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     File::open(path)?.take(most).read_to_end(&mut bytes)?;
@@ -226,8 +229,7 @@ fn folder(path: &Path) -> &Path {
     }
 }
 
-/// Makes a file that has no name of its own yet; what the user's mask leaves of its mode is that of
-/// other files.
+/// Makes a temporary file in a folder, with the permissions of any other new file.
 fn unfinished(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = Builder::new();
     #[cfg(unix)]
@@ -238,7 +240,7 @@ fn unfinished(folder: &Path) -> io::Result<NamedTempFile> {
     builder.tempfile_in(folder)
 }
 
-/// Finds out where a path leads; the error is a reason with the likely fix.
+/// Returns the target of a path; the error is a reason with the likely fix.
 fn target(path: &Path) -> Result<Target, String> {
     const FOLDER: &str = "it is a folder\n  = help: give the name of a file in it";
     let of = |place| {
@@ -264,7 +266,7 @@ fn target(path: &Path) -> Result<Target, String> {
             let folder = folder(path);
             let folder = fs::canonicalize(folder).map_err(|_| {
                 let folder = folder.display();
-                format!("there is no folder `{folder}`\n  = help: make it first")
+                format!("the folder `{folder}` does not exist\n  = help: create it first")
             })?;
             of(Place::File(folder.join(name)))
         }
@@ -272,7 +274,7 @@ fn target(path: &Path) -> Result<Target, String> {
     }
 }
 
-/// Enters a stream; a pipe is not opened: that waits for its reader.
+/// Checks that a stream can be opened; a pipe is not opened, since that waits for its reader.
 fn enter(path: &Path) -> io::Result<()> {
     #[cfg(unix)]
     {
@@ -286,7 +288,7 @@ fn enter(path: &Path) -> io::Result<()> {
 
 /// Returns whether a file is new, empty, or says near its beginning that dalembert wrote it.
 fn is_ours(file: &Path) -> bool {
-    // What cannot be read is said by whoever writes it.
+    // If the file cannot be read, the write reports why.
     let head = first(file, HEAD).unwrap_or_default();
     let text = String::from_utf8_lossy(&head);
     text.is_empty() || text.contains("dalembert") || text.contains("\"certificate\": ")

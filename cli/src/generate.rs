@@ -11,7 +11,6 @@ use crate::args::{CODE, TaskArgs};
 use crate::code::{Detail, certificates, report};
 use crate::files::{Files, Target};
 use crate::output::{Context, Done, Failure, Outcome};
-use crate::progress;
 use crate::source::Source;
 
 /// Arguments of `generate`.
@@ -56,9 +55,7 @@ pub(crate) fn run(args: &GenerateArgs, context: &Context) -> Outcome {
     let places = Places::new(args, context, &source, &request)?;
     language?;
     let kept = request.plan.take_if(|_| args.save_plan);
-    let session = progress::watch(&mut request);
-    let generated = source.generate(context, &request)?;
-    drop(session);
+    let generated = source.generate(context, &mut request)?;
     let report = report(&source.robot, &request, &generated, Detail::Bounds);
     let mut files = Vec::new();
     let mut announced = None;

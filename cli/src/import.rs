@@ -1,4 +1,4 @@
-//! `dalembert import`: a robot file of a chain of a URDF or an MJCF.
+//! `dalembert import`: makes a robot file from a chain of a URDF or an MJCF.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -17,63 +17,61 @@ use crate::output::{Context, Done, Failure, Outcome};
 use crate::report::{Cell, Report, Table, cells, counted};
 use crate::source::system;
 
-/// The limit of acceleration that is taken where none is given, rad/s² or m/s².
+/// The default acceleration limit, rad/s² or m/s².
 const ACCELERATION: i64 = 10;
 
 /// Arguments of `import`.
 ///
-/// Links that are fixed to each other become one. Rounded numbers are replaced by the
-/// exact ones that were probably meant, 1.57079632679 by pi/2 for example; each is listed
-/// with its line, and the change of the torques is bounded. --exact keeps them; --snap takes those, too,
-/// that change a torque by more than 1e-6 of its limit. A xacro is expanded first, by
+/// Links that are fixed to each other become one. Rounded numbers are replaced by the exact
+/// ones that were probably meant, for example 1.57079632679 by pi/2; each is listed with its
+/// line, and the change of the torques is bounded. --exact keeps all numbers; --snap also replaces
+/// those that change a torque by more than 1e-6 of its limit. Expand a xacro first:
 /// `xacro FILE.xacro > FILE.urdf`.
 #[derive(Debug, clap::Args)]
 pub struct ImportArgs {
-    /// The URDF, or the MJCF of MuJoCo
+    /// The model: a URDF or an MJCF (MuJoCo)
     model: PathBuf,
     /// Write the robot file here [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Write a robot file of every arm into the folder that -o names, with all other joints
-    /// held, and say which arms move each other
+    /// Write a robot file for every arm into the folder of -o, with all other joints locked, and
+    /// list the arms that move each other
     #[arg(long, requires = "output", conflicts_with = "tip")]
     all: bool,
     #[command(flatten)]
     chain: ChainArgs,
 }
 
-/// The chain that is taken of a model, and how.
+/// The chain to take from a model, and how to read it.
 #[derive(Debug, Default, clap::Args)]
 pub struct ChainArgs {
-    /// The link that stands still [default: the root]
+    /// The base link, which does not move [default: the root]
     #[arg(long, value_name = "LINK")]
     base: Option<String>,
-    /// The link whose frame is the hand [default: the palm, or the end of the
-    /// longest chain]
+    /// The link whose frame is the hand [default: the palm, or the end of the longest chain]
     #[arg(long, value_name = "LINK")]
     tip: Option<String>,
-    /// A joint that stays where it is, by its name or its number among those that move, with its
-    /// position: a number of rad or m, pi/2 or 90deg; may be given again
+    /// Lock a joint at a position in rad or m, such as 0.3, pi/2 or 90deg; JOINT is its name or its
+    /// number among the moving joints; may be given several times
     #[arg(long, value_name = "JOINT=VALUE", value_parser = lock_parser())]
     lock: Vec<(String, String)>,
-    /// Hold every other joint that hangs on the chain here, or at its nearest limit
+    /// Lock every other joint attached to the chain at this position, or at its nearest limit
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     lock_others: Option<String>,
-    /// A link to leave away, with everything that hangs on it; may be given again
+    /// Leave out a link and everything attached to it; may be given several times
     #[arg(long, value_name = "LINK")]
     without: Vec<String>,
-    /// Take every digit as it stands
+    /// Keep every number exactly as the model has it
     #[arg(long)]
     exact: bool,
-    /// Take rounded numbers for the exact ones that they were probably meant to be, even where that
+    /// Replace rounded numbers by the exact ones that were probably meant, even where that
     /// changes a torque by more than 1e-6 of its limit
     #[arg(long, conflicts_with = "exact")]
     snap: bool,
-    /// Leave out tendons, loops and equalities, which no chain of joints can have
+    /// Leave out tendons, loops and equality constraints, which a serial chain cannot have
     #[arg(long)]
     ignore_ties: bool,
-    /// The limit of acceleration of every joint, rad/s² or m/s², which models do not have
-    /// [default: 10]
+    /// The acceleration limit of every joint, rad/s² or m/s²; models have none [default: 10]
     #[arg(long, value_name = "A", value_parser = acceleration_parser(), allow_hyphen_values = true)]
     acceleration: Option<Rational>,
     /// The name of the robot [default: the model's]
@@ -82,7 +80,7 @@ pub struct ChainArgs {
 }
 
 impl ChainArgs {
-    /// Returns the options for a model of this path.
+    /// Returns the import options for the model at a path.
     pub fn options(&self, path: &Path) -> Options {
         let others = self
             .lock_others
@@ -126,8 +124,8 @@ pub(crate) fn run(args: &ImportArgs, context: &Context) -> Outcome {
     })?;
     if !is_model(source.as_str().as_bytes()) {
         return Err(Failure::Input(format!(
-            "error: `{}` is neither a URDF nor an MJCF: it is no XML\n  = help: every subcommand takes a robot \
-             file as it is",
+            "error: `{}` is not XML, so neither a URDF nor an MJCF\n  = help: a robot file needs no import: pass \
+             it to any subcommand",
             path.display()
         )));
     }
@@ -165,7 +163,7 @@ pub(crate) fn run(args: &ImportArgs, context: &Context) -> Outcome {
     Ok(done)
 }
 
-/// Says what was left out, and which numbers were replaced by others: each thing once.
+/// Prints the notes and the replaced numbers, each once.
 fn say(args: &ImportArgs, context: &Context, made: &[Imported], source: &Text) {
     let mut said = BTreeSet::new();
     for note in made.iter().flat_map(|made| &made.notes) {
@@ -185,13 +183,13 @@ fn say(args: &ImportArgs, context: &Context, made: &[Imported], source: &Text) {
     }
     if args.chain.acceleration.is_none() {
         context.say(&format!(
-            "every joint's limit of acceleration is taken to be {ACCELERATION} rad/s² or m/s², since \
-             models have none: --acceleration gives another"
+            "the acceleration limit of every joint is set to {ACCELERATION} rad/s² or m/s², since models have \
+             none; --acceleration changes it"
         ));
     }
 }
 
-/// Describes an imported chain, and the change that replaced numbers make.
+/// Describes an imported chain, and how far replaced numbers change torques and hand.
 fn one(made: &Imported, path: &Path, source: &Text) -> Report {
     let mut report = values(made, path, source);
     let joints = counted(made.robot.joints.len(), "joint");
@@ -205,11 +203,11 @@ fn one(made: &Imported, path: &Path, source: &Text) -> Report {
     ));
     let limits = change.limits();
     let bounds = change.torques(limits);
-    // Of torques that stay as they are, the line before said it.
+    // If no torque changes, the line before says so.
     if bounds.iter().any(|bound| *bound > 0.0) {
         for (i, joint) in made.robot.rows().into_iter().enumerate() {
             report.line(format!(
-                "  {}: ≤ {} N·m or N, at rates up to {:.3} and {:.3} a second",
+                "  {}: ≤ {} N·m or N, at velocities up to {:.3} and accelerations up to {:.3} (SI)",
                 joint.name.as_deref().unwrap_or_default(),
                 Change::in_digits(bounds[i]),
                 limits.velocity[i],
@@ -221,10 +219,10 @@ fn one(made: &Imported, path: &Path, source: &Text) -> Report {
     if hand.position > 0.0 || hand.angle > 0.0 {
         let [position, angle] = [hand.position, hand.angle].map(Change::in_digits);
         report.line(format!(
-            "  the hand: ≤ {position} m and ≤ {angle} rad from where it was"
+            "  the hand moves by ≤ {position} m and turns by ≤ {angle} rad"
         ));
     }
-    report.line("  --exact takes every digit as it stands");
+    report.line("  --exact keeps all numbers as the model has them");
     report
 }
 
@@ -247,8 +245,8 @@ fn all(made: &[Imported], shared: Vec<Shared>, path: &Path, source: &Text) -> Re
         let [one, other] = &arms;
         let through = joints.join(", ");
         report.line(format!(
-            "{one} and {other} move each other through {through}: each file holds the other arm, \
-             so its torques are right where that stands still",
+            "{one} and {other} move each other through {through}: each file locks the other arm, \
+             so its torques are right only while the other arm stands still",
         ));
         table.row(cells![Cell::json(arms.to_vec()), Cell::json(joints)]);
     }
@@ -256,7 +254,7 @@ fn all(made: &[Imported], shared: Vec<Shared>, path: &Path, source: &Text) -> Re
     report
 }
 
-/// Describes an imported chain for programs.
+/// Returns the JSON report of an imported chain.
 fn values(made: &Imported, path: &Path, source: &Text) -> Report {
     let robot = &made.robot;
     let notes = made.notes.iter().map(|note| {
@@ -275,7 +273,7 @@ fn values(made: &Imported, path: &Path, source: &Text) -> Report {
     });
     let change = made.change.as_ref().map(|change| {
         let limits = change.limits();
-        // Of each row, those that follow others too.
+        // One row per joint, including joints that follow others.
         let rows = robot.rows().into_iter().zip(change.torques(limits));
         let joints = rows.enumerate().map(|(i, (joint, torque))| {
             json!({

@@ -1,15 +1,15 @@
-//! The `dalembert` command: a subcommand takes arguments and a `Context`, and returns what it found and
-//! made; [`run`] prints it, writes it, and returns the exit code.
+//! The `dalembert` command: a subcommand takes arguments and a `Context`, and returns a report and
+//! files; [`run`] prints and writes them, and returns the exit code.
 //!
-//! - `args`: the command line; `source`: a robot of a path, and what is asked of it
-//! - `report`: facts and tables, as text and as JSON; `output`: the one way out; `files`: all or none; `progress`: the bar, Ctrl-C
+//! - `args`: the command line; `source`: robots and requests; `progress`: progress bar and Ctrl-C
+//! - `report`: facts and tables, as text and as JSON; `output`: prints; `files`: writes all or none
 //! - `generate`, `renew`, `count`; `code`: the report of generated code
 //! - `import`, `new`, `show`, `outputs`; [`drawing`]: the arm in two views, as SVG
-//! - `verify`; [`measure`]: rounding, against 256-bit arithmetic; [`extremes`]: where robots are not;
-//!   [`given`]: states of somebody else
-//! - `certify`: the second program
-//! - [`explain`]; [`steps`]: what each step brings; [`couplings`]: the coefficients that vanish or
-//!   repeat; [`table3`]: the paper's counts beside the formulas'
+//! - `verify`; [`measure`]: rounding errors against 256-bit arithmetic; [`extremes`]: the same in
+//!   extreme cases; [`given`]: states and results from another program
+//! - `certify`: checks by the independent checker
+//! - [`explain`]; [`steps`]: the operations that each step saves; [`couplings`]: coefficients that
+//!   vanish or repeat; [`table3`]: the paper's counts beside the formulas'
 //! - `tradeoff`; `ladder`: its variants, tolerance by tolerance; `chart`: its picture
 #![forbid(unsafe_code)]
 #![warn(missing_docs, clippy::missing_errors_doc)]

@@ -1,4 +1,4 @@
-//! The `dalembert` command, as a program of its own.
+//! The `dalembert` program.
 #![forbid(unsafe_code)]
 
 use std::process::ExitCode;

@@ -1,4 +1,4 @@
-//! The one way out: a subcommand returns [`Done`], and [`Context::finish`] prints and writes it.
+//! Output: a subcommand returns [`Done`], and [`Context::finish`] prints and writes it.
 
 use std::cell::Cell;
 use std::io::{self, Write};
@@ -12,7 +12,7 @@ use crate::files::{self, Target};
 use crate::progress;
 use crate::report::Report;
 
-/// Why a run does not end well; the text is for standard error.
+/// The failure of a run, with its text for standard error.
 #[derive(Debug)]
 pub enum Failure {
     /// A check failed: exit code 1.
@@ -21,15 +21,15 @@ pub enum Failure {
     Input(String),
 }
 
-/// The end of a subcommand.
+/// The result of a subcommand.
 pub type Outcome = Result<Done, Failure>;
 
 impl From<GenerateError> for Failure {
     fn from(error: GenerateError) -> Self {
         let text = format!("error: {error}");
         match error {
-            // A proof, a run or a text check that fails is a failed check; all else
-            // is something that the robot or the request asks for.
+            // Failed proofs, runs and text checks are failed checks; all other errors come
+            // from the robot or the request.
             GenerateError::Disproved(_, Disproof::Unfit | Disproof::Large) => Failure::Input(text),
             GenerateError::Disproved(..) | GenerateError::Defect(..) => Failure::Check(text),
             _ => Failure::Input(text),
@@ -37,20 +37,20 @@ impl From<GenerateError> for Failure {
     }
 }
 
-/// All that a subcommand found and made.
+/// The report, the files and the notes of a subcommand.
 #[derive(Default)]
 pub struct Done {
-    /// What is printed.
+    /// The report to print.
     pub report: Report,
-    /// The text of the report goes to standard error, since what is written may go to standard output.
+    /// Whether the report's text goes to standard error, because a file may go to standard output.
     pub is_aside: bool,
-    /// What is written: all of it, or nothing.
+    /// The files to write: all or none.
     pub files: Vec<(Target, String)>,
-    /// The robot file that gets a new time, so that macros notice its first plan.
+    /// The robot file that gets a new modification time, so that macros notice its first plan.
     pub announced: Option<PathBuf>,
-    /// Lines for people after everything is written.
+    /// Lines that are printed on standard error after everything is written.
     pub notes: Vec<String>,
-    /// Why the check failed: exit code 1.
+    /// The reasons why the check failed; with any, the exit code is 1.
     pub failed: Vec<String>,
 }
 
@@ -63,7 +63,7 @@ impl From<Report> for Done {
     }
 }
 
-/// What every subcommand may be asked for, and whether it warned.
+/// The options that all subcommands share, and whether there was a warning.
 pub struct Context {
     pub json: bool,
     pub force: bool,
@@ -81,31 +81,31 @@ impl Context {
         }
     }
 
-    /// Prints notes and warnings; the latter can be denied.
+    /// Prints notes and warnings, and records whether there was a warning.
     pub fn say(&self, text: &str) {
         self.heard(text.lines().any(|line| line.starts_with("warning")));
         note(text);
     }
 
-    /// Counts a warning that a JSON report has in it.
+    /// Records whether there was a warning, without printing it.
     pub fn heard(&self, is_warning: bool) {
         self.warned.set(self.warned.get() || is_warning);
     }
 
-    /// Refuses to go on where there was a warning and warnings are denied.
+    /// Fails if there was a warning and warnings are denied.
     ///
     /// # Errors
     /// A failed check.
     pub fn undenied(&self) -> Result<(), Failure> {
         match self.warned.get() && self.denies_warnings {
             true => Err(Failure::Check(
-                "error: there are warnings, and --deny-warnings takes them for errors".into(),
+                "error: --deny-warnings is set, and there were warnings".into(),
             )),
             false => Ok(()),
         }
     }
 
-    /// Writes the files of a run and prints its report; denied warnings leave the report in JSON.
+    /// Writes the files of a run and prints its report; after denied warnings, only a JSON report.
     ///
     /// # Errors
     /// Something cannot be written, or the check failed.
@@ -115,7 +115,7 @@ impl Context {
             files::write(&done.files)?;
         }
         let text = match self.json {
-            // The keys of reports are strings: there is nothing that JSON cannot have.
+            // This cannot fail: all keys of reports are strings.
             true => serde_json::to_string_pretty(&done.report).unwrap_or_default() + "\n",
             false => done.report.to_string(),
         };
@@ -130,8 +130,8 @@ impl Context {
             && let Err(error) = plan_file::announce(robot)
         {
             note(&format!(
-                "warning: `{}` cannot be given a new time ({error}): macros and build scripts that \
-                 were built without the plan notice it once the robot file is saved again",
+                "warning: the modification time of `{}` cannot be updated ({error}): save the file again so that \
+                 macros and build scripts use the new plan",
                 robot.display()
             ));
         }
@@ -143,7 +143,7 @@ impl Context {
     }
 }
 
-/// Prints to standard output. A reader that has gone away, as in `… | head`, is no failure.
+/// Prints to standard output. A closed pipe, as in `… | head`, is no failure.
 ///
 /// # Errors
 /// Standard output cannot be written.
@@ -179,7 +179,7 @@ pub fn note(text: &str) {
     };
     let lines: Vec<String> = text.trim_end().split('\n').map(coloured).collect();
     progress::aside(|| {
-        // There is nowhere left to complain to.
+        // No stream is left on which to report an error.
         let _ = writeln!(io::stderr().lock(), "{}", lines.join("\n"));
     });
 }

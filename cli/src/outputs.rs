@@ -1,4 +1,4 @@
-//! `dalembert outputs`: the functions that can be generated, from the model's table.
+//! `dalembert outputs`: lists the functions that can be generated, from the model's table.
 
 use dalembert_codegen::Function;
 use dalembert_codegen::workspace::{Argument, Quantity, Sizes};
@@ -13,9 +13,9 @@ use crate::report::{Cell, Report, Table, cells};
 /// Runs the subcommand.
 pub(crate) fn run() -> Outcome {
     let robot = read::parse(crate::new::ROBOT, &read::Options::default());
-    // It is this command's own, and its joints turn.
+    // This robot is part of the command; all its joints are revolute.
     let robot = robot.map_or_else(|_| None, |reading| Some(reading.robot));
-    let heads = "function|takes|returns|unit|which is|.results";
+    let heads = "function|takes|returns|unit|meaning|.results";
     let mut functions = Table::keyed(heads);
     for function in Function::ALL {
         let arguments = function.arguments().into_iter().map(Argument::name);
@@ -38,7 +38,7 @@ pub(crate) fn run() -> Outcome {
             Cell::json(json.collect::<Vec<_>>()),
         ]);
     }
-    let mut arguments = Table::keyed("argument|symbol|which is");
+    let mut arguments = Table::keyed("argument|symbol|meaning");
     for own in Argument::ALL {
         if Function::ALL
             .into_iter()
@@ -50,14 +50,14 @@ pub(crate) fn run() -> Outcome {
     let mut report = Report::default();
     report.table("functions", "", functions);
     report.line(
-        "\nn joints, p base parameters. Units are those of joints that turn; of one that slides, N stands for N·m\n\
-         and m for rad. `NAME@FRAME` is an output at a frame, `NAME=A+B` a function that returns what A and B do.",
+        "\nn joints, p base parameters. Units are for revolute joints; for a prismatic joint read N for N·m and m\n\
+         for rad. `NAME@FRAME` is an output at a frame, `NAME=A+B` a function with the results of A and B.",
     );
     report.table("arguments", "", arguments);
     Ok(report.into())
 }
 
-/// Names results with their shapes.
+/// Lists results with their shapes.
 fn returned(results: &[[String; 3]]) -> String {
     let each = results
         .iter()
@@ -95,7 +95,7 @@ fn result(quantity: Quantity, robot: Option<&Robot>) -> [String; 3] {
             }
         }
     }
-    // The columns of base parameters have a unit each.
+    // Each column of base parameters has its own unit.
     let unit = if units.is_empty() {
         "mixed".to_owned()
     } else {

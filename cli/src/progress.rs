@@ -1,7 +1,7 @@
-//! A long run: a bar after two seconds on a terminal, and Ctrl-C, which ends a thorough search with
-//! the best program so far.
+//! Long runs: a progress bar on a terminal after two seconds, and Ctrl-C, which ends a thorough
+//! search with the best program so far.
 //!
-//! Only the command knows clocks, terminals and signals; the library is told through an [`Observer`].
+//! Only the command uses clocks, terminals and signals; the library calls an [`Observer`].
 
 use std::io::{self, IsTerminal};
 use std::process;
@@ -16,19 +16,19 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::output::note;
 
-/// The time that a run takes without a bar.
+/// The time before the bar appears.
 const QUIET: Duration = Duration::from_secs(2);
 
 /// The exit code of a process that Ctrl-C ended: 128 + SIGINT.
 const INTERRUPTED: i32 = 130;
 
-/// The bar of the run: there is one terminal.
+/// The bar of the run; there is only one, since there is one terminal.
 static BAR: Mutex<Option<ProgressBar>> = Mutex::new(None);
 
-/// Shows a bar as long as it lives.
+/// A guard: the bar is shown until it is dropped.
 pub struct Shown;
 
-/// Begins a run, whose bar appears on a terminal when it has taken two seconds.
+/// Starts the bar of a run; it appears on a terminal after two seconds.
 pub fn begin() -> Shown {
     let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::hidden());
     if let Ok(style) = ProgressStyle::with_template("{elapsed} {bar:24} {wide_msg}") {
@@ -53,17 +53,17 @@ impl Drop for Shown {
     }
 }
 
-/// Prints while the bar is away.
+/// Runs `print` while the bar is hidden.
 pub fn aside<R>(print: impl FnOnce() -> R) -> R {
     bar().suspend(print)
 }
 
-/// Begins to count the steps of a long run.
+/// Sets the number of steps of a long run.
 pub fn steps(steps: usize) {
     bar().set_length(steps as u64);
 }
 
-/// Begins a step of a long run.
+/// Starts the next step of a long run and shows its name.
 pub fn step(name: &str) {
     bar().set_message(name.to_owned());
     bar().inc(1);
@@ -75,17 +75,17 @@ fn bar() -> ProgressBar {
     bar.unwrap_or_else(ProgressBar::hidden)
 }
 
-/// Watches searches while it lives.
+/// A guard: searches are watched until it is dropped.
 pub struct Session(Arc<Seen>);
 
-/// What an observer knows.
+/// The state of an observer.
 struct Seen {
-    /// The functions that are searched for, in this order.
+    /// The functions in the order of their searches.
     functions: Vec<Function>,
-    /// Whether the searches are the whole run, and not a step of it.
+    /// Whether the searches are the whole run rather than a step of it.
     is_whole: bool,
     stop: AtomicBool,
-    /// Nothing is left to be ended.
+    /// Whether no search is left that Ctrl-C could end early.
     over: AtomicBool,
 }
 
@@ -99,14 +99,14 @@ pub fn watch(request: &mut Request) -> Session {
     });
     if request.effort == Effort::Thorough {
         let heard = seen.clone();
-        // Without a handler Ctrl-C ends the process, as ever.
+        // If no handler can be set, Ctrl-C ends the process as usual.
         let _ = ctrlc::set_handler(move || heard.interrupt());
     }
     request.watch = Watch::by(seen.clone());
     Session(seen)
 }
 
-/// Watches the searches within a step, which nothing ends early.
+/// Watches the searches within a step of a run; they are never ended early.
 pub fn watch_step() -> Watch {
     Watch::by(Arc::new(Seen {
         functions: Vec::new(),
@@ -117,8 +117,8 @@ pub fn watch_step() -> Watch {
 }
 
 impl Seen {
-    /// Asks for an end the first time, and ends the second time; what comes after the search has
-    /// no end but that.
+    /// Ends the search at the first Ctrl-C and the process at the second; after the search, the
+    /// first one ends the process.
     fn interrupt(&self) {
         let over = self.over.load(Ordering::Relaxed);
         if self.stop.swap(true, Ordering::Relaxed) || over {
@@ -164,12 +164,12 @@ impl Drop for Session {
     fn drop(&mut self) {
         self.0.over.store(true, Ordering::Relaxed);
         if self.0.stop() {
-            note("the search was ended early: more might be found");
+            note("the search ended early: a longer search may find a cheaper program");
         }
     }
 }
 
-/// Returns `function 2 of 6: `, where there are several.
+/// Returns `function 2 of 6: ` if there are several functions.
 fn place(functions: &[Function], function: Function) -> String {
     let at = functions.iter().position(|one| *one == function);
     match (at, functions.len()) {

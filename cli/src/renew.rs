@@ -1,5 +1,5 @@
-//! `dalembert renew`: generated files made new from their own first lines, or compared with what
-//! would be generated.
+//! `dalembert renew`: regenerates files from the options in their first lines, or compares them
+//! with what would be generated.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,11 +10,10 @@ use dalembert_stamp::Stamp;
 use crate::code::certificates;
 use crate::files::{Files, first};
 use crate::output::{Context, Done, Failure, Outcome};
-use crate::progress;
 use crate::report::{Cell, Report, Table, cells};
 use crate::source::{Source, text};
 
-/// The longest file that is read.
+/// The size of the longest file that is read, bytes.
 const MAX_BYTES: u64 = 1 << 28;
 
 /// Arguments of `renew`.
@@ -22,7 +21,7 @@ const MAX_BYTES: u64 = 1 << 28;
 pub struct RenewArgs {
     /// The generated files [default: all in this folder and below it]
     files: Vec<PathBuf>,
-    /// Write nothing, and exit with 1 if a file is not what would be generated
+    /// Write nothing, and exit with 1 if a file is out of date
     #[arg(long)]
     check: bool,
 }
@@ -35,11 +34,11 @@ struct Found {
     language: Language,
 }
 
-/// A text for a file: the code, or the certificates beside it.
+/// The new text of a file: the code, or the certificates beside it.
 struct New {
     path: PathBuf,
     text: String,
-    /// The first line in which the file that is there differs; none where it is the same.
+    /// The first line in which the existing file differs; `None` if it is the same.
     differs: Option<usize>,
 }
 
@@ -87,24 +86,24 @@ pub(crate) fn run(args: &RenewArgs, context: &Context) -> Outcome {
     }
     for new in &stale {
         let (path, line) = (new.path.display(), new.differs.unwrap_or(1));
-        let why = format!("error: {path}:{line}: the file is not what would be generated");
+        let why = format!("error: {path}:{line}: the file is out of date");
         done.failed.push(why);
     }
     if !stale.is_empty() {
-        let help = "  = help: dalembert renew, without --check, writes what would be";
+        let help = "  = help: run `dalembert renew` without --check to update it";
         done.failed.push(help.into());
     }
     Ok(done)
 }
 
-/// Returns the files that were named, or all with a stamp in this folder and below it.
+/// Returns the named files, or all files with a stamp in this folder and below it.
 fn found(named: &[PathBuf]) -> Result<Vec<Found>, Failure> {
     let mut all = Vec::new();
     for path in named {
         let own = stamped(path, text(path, MAX_BYTES)?).ok_or_else(|| {
             Failure::Input(format!(
-                "error: `{}` does not begin as a file that this dalembert generates\n  = help: \
-                 `dalembert generate ROBOT.toml -o {0}` writes one that does",
+                "error: `{}` lacks the first lines of a file that this version of dalembert generates\n  = help: \
+                 `dalembert generate ROBOT.toml -o {0}` writes such a file",
                 path.display()
             ))
         });
@@ -133,8 +132,8 @@ fn stamped(path: &Path, text: String) -> Option<Found> {
     })
 }
 
-/// Adds the generated files of a folder and of those below it, in the order of their names; hidden
-/// ones, links and build folders are left out.
+/// Adds the generated files of a folder and its subfolders, in the order of their names; hidden
+/// folders, build folders and links are left out.
 fn walk(folder: &Path, all: &mut Vec<Found>) -> Result<(), Failure> {
     let fail = |error| Failure::Input(format!("error: `{}`: {error}", folder.display()));
     let entries = fs::read_dir(folder).map_err(fail)?;
@@ -150,7 +149,7 @@ fn walk(folder: &Path, all: &mut Vec<Found>) -> Result<(), Failure> {
             walk(&path, all)?;
         }
         if kind.is_file() && Language::of(&path).is_ok() {
-            // What cannot be read is nobody's here.
+            // An unreadable file counts as not generated.
             let text = first(&path, MAX_BYTES).unwrap_or_default();
             let path = path.strip_prefix(".").unwrap_or(&path);
             all.extend(stamped(path, String::from_utf8_lossy(&text).into_owned()));
@@ -159,15 +158,13 @@ fn walk(folder: &Path, all: &mut Vec<Found>) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Generates a file anew by its own stamp.
+/// Regenerates a file by its stamp.
 fn renewed(context: &Context, file: &Found) -> Result<Vec<New>, Failure> {
     let folder = file.path.parent().unwrap_or(Path::new(""));
     let source = Source::open(context, &folder.join(&file.stamp.robot))?;
     let mut request = source.request(&file.stamp.asked, file.language.scalars())?;
     request.language = file.language;
-    let session = progress::watch(&mut request);
-    let generated = source.generate(context, &request)?;
-    drop(session);
+    let generated = source.generate(context, &mut request)?;
     let code = generated.files(&request, &file.stamp.robot, &source.text);
     let code = code.into_iter().next().unwrap_or_default();
     let mut new = vec![New {
@@ -188,7 +185,7 @@ fn renewed(context: &Context, file: &Found) -> Result<Vec<New>, Failure> {
     Ok(new)
 }
 
-/// Returns the first line, from one, in which two texts differ; line ends may be of either kind.
+/// Returns the first line, counted from 1, in which two texts differ; CRLF in `old` counts as LF.
 fn difference(old: &str, new: &str) -> Option<usize> {
     let old = old.replace("\r\n", "\n");
     if old == new {

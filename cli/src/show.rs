@@ -1,4 +1,4 @@
-//! `dalembert show`: the arm in two views, as SVG.
+//! `dalembert show`: draws the arm in two views, as SVG.
 
 use std::path::PathBuf;
 
@@ -21,8 +21,8 @@ use crate::source::Source;
 pub struct ShowArgs {
     /// The robot: a robot file, a URDF or an MJCF
     robot: PathBuf,
-    /// The position of every joint, in rad or m, pi/2 or 90deg, separated by
-    /// commas [default: zeros]
+    /// The joint positions in rad or m, such as 0.3, pi/2 or 90deg, separated by commas
+    /// [default: zeros]
     #[arg(
         long,
         value_name = "Q",
@@ -58,7 +58,7 @@ pub(crate) fn run(args: &ShowArgs, context: &Context) -> Outcome {
     })
 }
 
-/// Returns where everything is, for programs: each pose is [R | p], row by row, in base axes.
+/// Returns the poses of links and hand as JSON: each is [R | p], row by row, in base axes.
 fn poses(robot: &Robot, at: &[f64]) -> Result<Report, WrongLength> {
     let runtime = Reference::<f64>::from_robot(robot);
     let q = DVector::from_column_slice(at);
@@ -82,8 +82,8 @@ fn poses(robot: &Robot, at: &[f64]) -> Result<Report, WrongLength> {
     Ok(report)
 }
 
-/// Returns what is odd about a position of a joint: beyond its limits, or more than a turn. A
-/// number by itself is of radians, and was perhaps meant otherwise.
+/// Returns a warning if a joint position is beyond its limits or more than a turn. A number without
+/// a unit is in radians, but may have been meant in degrees.
 fn doubtful(robot: &Robot, index: usize, text: &str, q: f64) -> Option<String> {
     let joint = robot.joints.get(index)?;
     let limits = joint
@@ -103,7 +103,7 @@ fn doubtful(robot: &Robot, index: usize, text: &str, q: f64) -> Option<String> {
     let help = match parse_decimal(text.trim()) {
         Ok(_) if turns => {
             let radians = q.to_radians();
-            format!("\n  = help: radians? {q} degrees are {radians:.4}, or write {q}deg")
+            format!("\n  = help: {q} is in radians; for degrees write {q}deg ({radians:.4} rad)")
         }
         _ => String::new(),
     };
@@ -113,19 +113,21 @@ fn doubtful(robot: &Robot, index: usize, text: &str, q: f64) -> Option<String> {
     ))
 }
 
-/// Returns where the joints are: at zero unless said.
+/// Returns the joint positions of the arguments; zeros by default.
 fn position(args: &ShowArgs, robot: &Robot) -> Result<Vec<f64>, Failure> {
     if args.at.is_empty() {
         return Ok(vec![0.0; robot.joints.len()]);
     }
-    let value = |text: &String| match parse_decimal(text.trim()) {
+    let value = |text: &String| {
+        match parse_decimal(text.trim()) {
         Ok(number) => Ok(f64::nearest_rational(&number)),
         Err(error) => Angle::parse(text).map(|angle| angle.to_f64()).map_err(|_| {
             Failure::Input(format!(
-                "error: --at: `{text}` is {error}\n  = help: a position a joint, in rad or m, \
+                "error: --at: `{text}` is {error}\n  = help: give one position per joint, in rad or m, \
                  separated by commas, e.g. 0,pi/2,0.1"
             ))
         }),
+    }
     };
     args.at.iter().map(value).collect()
 }

@@ -1,4 +1,4 @@
-//! Inputs: a robot of a path, what is asked of it, and other files.
+//! Inputs: robots, requests and other files.
 
 use std::path::{Path, PathBuf};
 
@@ -14,16 +14,17 @@ use dalembert_model::scene::Scene;
 use crate::files::first;
 use crate::import::ChainArgs;
 use crate::output::{Context, Failure};
+use crate::progress;
 
-/// A robot of a path: a robot file, a URDF or an MJCF.
+/// A robot from a robot file, a URDF or an MJCF.
 #[derive(Clone)]
 pub struct Source {
     pub path: PathBuf,
     pub robot: Robot,
     pub scenes: Vec<Scene>,
-    /// The functions that the robot file is for; none if it does not say.
+    /// The functions that the robot file lists; empty if it lists none.
     pub outputs: Vec<Function>,
-    /// The text of the file, and as a robot file.
+    /// The text of the file, and the text of the robot as a robot file.
     pub text: String,
     pub robot_file: String,
     /// Whether the file is a URDF or an MJCF.
@@ -31,15 +32,15 @@ pub struct Source {
 }
 
 impl Source {
-    /// Opens a robot; its warnings are said.
+    /// Opens a robot and prints its warnings.
     ///
     /// # Errors
-    /// The file cannot be read, everything that is wrong with it, or its warnings are denied.
+    /// The file cannot be read or has mistakes (all are listed), or its warnings are denied.
     pub fn open(context: &Context, path: &Path) -> Result<Source, Failure> {
         let opened = opened(path, &ChainArgs::default().options(path))?;
         let is_model = opened.imported.is_some();
         for note in opened.notes() {
-            // Of a model there is much to say, which `import` says.
+            // A model has many notes; `import` prints them.
             if !is_model || note.starts_with("warning") {
                 context.say(&note);
             }
@@ -47,7 +48,7 @@ impl Source {
         if is_model {
             let path = path.display();
             context.say(&format!(
-                "note: `{path}` is read as `dalembert import {path}` reads it, which says what it changes"
+                "note: `{path}` is imported with default options; `dalembert import {path}` shows what that changes"
             ));
         }
         context.undenied()?;
@@ -68,11 +69,11 @@ impl Source {
         })
     }
 
-    /// Reads what is asked of the robot, in these scalars where nobody says which; with the plan
-    /// beside the robot file, unless that is to be left alone.
+    /// Parses options to a request. Without a scalar option it asks for `scalars`; it has the plan
+    /// beside the robot file unless the options turn plans off.
     ///
     /// # Errors
-    /// Every mistake, flag by flag, or the plan cannot be read.
+    /// The options have mistakes (all are listed, by flag), or the plan cannot be read.
     pub fn request(&self, asked: &Asked, scalars: &[ScalarType]) -> Result<Request, Failure> {
         let request = Request::parse(asked, scalars, &self.outputs, &self.scenes);
         let mut request = request.map_err(|problems| Failure::Input(problems_of(&problems)))?;
@@ -82,10 +83,10 @@ impl Source {
         Ok(request)
     }
 
-    /// Reads what is asked of a function or a few: those that are named, or of the scene, or these.
+    /// Parses options to a request; `functions` are its default if the scene names none.
     ///
     /// # Errors
-    /// Those of [`Source::request`].
+    /// The errors of [`Source::request`].
     pub fn request_for(&self, asked: &Asked, functions: &[Function]) -> Result<Request, Failure> {
         let named = Source {
             outputs: functions.to_vec(),
@@ -94,10 +95,10 @@ impl Source {
         named.request(asked, &ScalarType::ALL)
     }
 
-    /// Returns the plan beside a robot file.
+    /// Returns the plan beside a robot file; a model has none.
     ///
     /// # Errors
-    /// It cannot be read.
+    /// The plan cannot be read.
     pub fn plan(&self) -> Result<Option<Plan>, Failure> {
         match self.is_model {
             true => Ok(None),
@@ -106,11 +107,12 @@ impl Source {
         }
     }
 
-    /// Generates code, and says its warnings; a plan that no longer fits is one.
+    /// Generates code, watched by the bar and Ctrl-C, and prints its warnings, for example that the plan no longer fits.
     ///
     /// # Errors
-    /// Those of generating.
-    pub fn generate(&self, context: &Context, request: &Request) -> Result<Generated, Failure> {
+    /// The code cannot be generated.
+    pub fn generate(&self, context: &Context, request: &mut Request) -> Result<Generated, Failure> {
+        let _session = progress::watch(request);
         let shown = self.path.display().to_string();
         let generated = generate_anew(&self.robot, request, &shown)?;
         for warning in &generated.warnings {
@@ -120,10 +122,10 @@ impl Source {
     }
 }
 
-/// Opens a robot; of a model, the chain that the options choose.
+/// Opens a robot; the options choose the chain of a model.
 ///
 /// # Errors
-/// The file cannot be read, or everything that is wrong with it.
+/// The file cannot be read or has mistakes; all are listed.
 pub fn opened(path: &Path, options: &Options) -> Result<Opened, Failure> {
     open(path, options).map_err(|error| match error {
         Unopened::System(error) => system(path, &error),
@@ -131,7 +133,7 @@ pub fn opened(path: &Path, options: &Options) -> Result<Opened, Failure> {
     })
 }
 
-/// Says what is wrong with what was asked, flag by flag.
+/// Lists the mistakes in options, flag by flag.
 fn problems_of(problems: &[Problem]) -> String {
     let one = |problem: &Problem| {
         let flag = problem.option.replace('_', "-");
@@ -147,13 +149,13 @@ fn problems_of(problems: &[Problem]) -> String {
 /// Returns the text of a whole file.
 ///
 /// # Errors
-/// It cannot be read, is longer than `most`, or is no text.
+/// The file cannot be read, is longer than `most` bytes, or is not UTF-8.
 pub fn text(path: &Path, most: u64) -> Result<String, Failure> {
     let bytes = first(path, most + 1).map_err(|error| system(path, &error))?;
     let shown = path.display();
     if bytes.len() as u64 > most {
         return Err(Failure::Input(format!(
-            "error: `{shown}` is longer than {} MiB, the most that is read",
+            "error: `{shown}` is longer than {} MiB, the limit",
             most >> 20
         )));
     }
@@ -161,7 +163,7 @@ pub fn text(path: &Path, most: u64) -> Result<String, Failure> {
     String::from_utf8(bytes).map_err(no_text)
 }
 
-/// Says what the system says of a path, in the words of every way in.
+/// Returns the failure for a system error at a path, in the words of [`RobotFileError`].
 pub fn system(path: &Path, error: &std::io::Error) -> Failure {
     let shown = path.display().to_string();
     let said = RobotFileError::of_system(path, &shown, error).to_string();

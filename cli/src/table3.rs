@@ -1,4 +1,4 @@
-//! The paper's Table 3 beside the counts of the formulas as they are written.
+//! The paper's Table 3 beside the operation counts of the textbook formulas.
 
 use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};
 use dalembert_model::number::Exact;
@@ -6,9 +6,9 @@ use dalembert_model::robot::{JointKind, Robot};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::count::{Count, Counter};
 
-/// Compares the formulations for the torques of a robot: the counts of the paper's polynomials at its
-/// number of joints, then those of the formula with its numbers, zeros and ones left out; each
-/// multiplications, then additions.
+/// Returns operation counts of three formulations for the torques of a robot: multiplications and
+/// additions by the paper's polynomials for its number of joints, then those of the formula with
+/// its numbers, where zeros and ones cost nothing.
 pub fn comparisons(robot: &Robot) -> [(&'static str, [u64; 4]); 3] {
     let table = [
         (Formulation::LagrangeEuler, "Lagrange–Euler"),
@@ -22,7 +22,7 @@ pub fn comparisons(robot: &Robot) -> [(&'static str, [u64; 4]); 3] {
     })
 }
 
-/// Returns the paper's counts for n joints: polynomials over a common denominator.
+/// Returns the paper's multiplications and additions for n joints, by its polynomials.
 fn paper(formulation: Formulation, n: u64) -> [u64; 2] {
     let powers = |[n4, n3, n2, n1, n0]: [u64; 5], denominator: u64| {
         ((((n4 * n + n3) * n + n2) * n + n1) * n + n0) / denominator
@@ -40,7 +40,7 @@ fn paper(formulation: Formulation, n: u64) -> [u64; 2] {
     }
 }
 
-/// Counts a formulation's operations with a robot's numbers: zeros and ones cost nothing.
+/// Counts multiplications and additions with a robot's numbers: zeros and ones cost nothing.
 fn as_written(formulation: Formulation, robot: &Robot) -> [u64; 2] {
     let counter = Counter::new();
     let arm = Arm::from_robot(robot, &mut |constant: &Exact| {

@@ -67,9 +67,10 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
     let targets = targets.transpose()?;
     let scene_robot =
         SceneRobot::of(&source.robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
-    let session = progress::watch(&mut request);
-    let mut functions = source.generate(context, &request)?.functions.into_iter();
-    drop(session);
+    let mut functions = source
+        .generate(context, &mut request)?
+        .functions
+        .into_iter();
     let exact = functions.next().map(|function| function.program);
     let mut exact = exact.ok_or_else(|| Failure::from(GenerateError::Empty))?;
     let relative_to = relative_to(args, scene.as_ref());

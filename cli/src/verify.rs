@@ -53,10 +53,8 @@ pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
     let given = args.given.as_deref();
     let given = given.map(|file| given_states(file, &source, &request));
     let given = given.transpose()?;
-    let session = progress::watch(&mut request);
     // What cannot be proved is not generated: this ends with the reason.
-    let generated = source.generate(context, &request)?;
-    drop(session);
+    let generated = source.generate(context, &mut request)?;
     let mut done = Done::from(Report::of(robot, request.scene.as_ref()));
     let mut proofs = Table::new("function=|proof=");
     for own in &generated.functions {

@@ -1,7 +1,7 @@
-//! Every output of robots that nobody chose stays below 100 u, f64 and f32, of the
-//! truth in 76 digits; what inverts D below 100 u times D's condition.
+//! The error of every output of random robots, f64 and f32, against 76 digits: below
+//! 100 u (unit roundoff), or 100 u times D's condition number if the output inverts D.
 //!
-//! The whole campaign is for releases: `cargo
+//! The whole campaign runs before releases: `cargo
 //! test --release -p dalembert-cli --test all -- accuracy_campaign --include-ignored
 //! --nocapture` prints the worst of each quantity.
 
@@ -12,16 +12,16 @@ use dalembert_cli::measure::{Bench, Code, VECTOR};
 use dalembert_codegen::workspace::{Quantity, SEED, SceneRobot, seeded};
 use dalembert_codegen::{Function, GenerateError, Request, ScalarType, generate};
 
-/// States a robot.
+/// The number of states per robot.
 const STATES: usize = 30;
 
 /// The worst error of a quantity in units of u, and how many robots had it.
 type Worst = BTreeMap<(Quantity, ScalarType), (f64, usize)>;
 
-/// Runs so many outputs a robot, in turn, that each is met by robots of every length.
+/// Runs `each` outputs per robot, in turn, so that each output meets robots of every length.
 fn campaign(count: usize, each: usize, longest: usize) -> Worst {
     let mut worst = Worst::new();
-    // A load is of functions that take it.
+    // `Load` only serves functions that take a load.
     let all = Function::ALL.into_iter();
     let outputs: Vec<Function> = all.filter(|f| *f != Function::Load).collect();
     let mut next = 0;
@@ -39,8 +39,8 @@ fn campaign(count: usize, each: usize, longest: usize) -> Worst {
             let what = format!("seed {seed}, {n} joints, {function}");
             let generated = match generate(&robot, &request) {
                 Ok(generated) => generated,
-                // An arm whose D is singular in every state, or whose base parameters
-                // cannot be written down: refused by name, which other tests are about.
+                // D is singular in every state, or the base parameters cannot be written
+                // down: other tests check that these arms are refused.
                 Err(GenerateError::Singular { .. } | GenerateError::Base(..)) => continue,
                 Err(error) => panic!("{what}: {error}"),
             };

@@ -1,4 +1,4 @@
-//! One program of all test files: they share what they link, and both cores.
+//! All test files in one program: it is linked once, and its tests share the cores.
 
 mod accuracy_campaign;
 mod couplings;

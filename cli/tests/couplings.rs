@@ -18,7 +18,7 @@ fn the_known_counts() {
     assert_eq!(counts("stanford", Quantity::Christoffel), [126, 64, 34]);
 }
 
-/// Returns an arm by standard DH, every number general but the joint kinds.
+/// Returns a robot file in standard DH with these joint kinds and general numbers.
 fn general(kinds: &[&str]) -> String {
     let mut text =
         String::from("name = \"general\"\nconvention = \"standard\"\ngravity = [1, 2, -9]\n");
@@ -36,7 +36,7 @@ fn general(kinds: &[&str]) -> String {
     text
 }
 
-/// Arms of general geometry have n(n² − 1)/3 independent symbols where all joints turn.
+/// Arms of general geometry with revolute joints have n(n² − 1)/3 independent symbols.
 #[test]
 fn general_arms_have_the_relations_of_every_arm() {
     for n in 1..=5 {

@@ -10,7 +10,7 @@ use dalembert_model::robot::Robot;
 
 use crate::robots::robot;
 
-/// Returns the joints of the Panda again and again, their right angles as they are often typed.
+/// Returns a chain that repeats the Panda's joints, with right angles as they are often typed.
 fn chain(n: usize) -> Robot {
     let general = Change::Typed.apply(&robot("panda")).unwrap();
     Change::Repeated(n).apply(&general).unwrap()

@@ -1,5 +1,5 @@
-//! NaN and ±inf reach the outputs whose function depends on them: exactly
-//! those in emitted code, at least those in the generic runtime.
+//! NaN and ±inf reach the outputs that depend on them: exactly those in
+//! emitted code, at least those in the generic runtime.
 
 use dalembert_cli::measure::Code;
 use dalembert_codegen::workspace::{Input, JointState, Operand, seeded};
@@ -8,7 +8,7 @@ use dalembert_codegen::{Function, Generated, Program, Request, ScalarType, gener
 use crate::extremes_support::runtime::runtime;
 use crate::robots::robot;
 
-/// Which of q, q̇ and q̈, and which joint.
+/// An entry of the state: 0, 1 or 2 for q, q̇ or q̈, and the joint.
 #[derive(Clone, Copy, PartialEq)]
 struct Entry(usize, usize);
 
@@ -22,7 +22,7 @@ fn reads(input: Input, place: Entry) -> bool {
     }
 }
 
-/// Returns which outputs a program makes out of an input.
+/// Returns which outputs of a program depend on an input.
 fn dependent(program: &Program, place: Entry) -> Vec<bool> {
     let mut steps: Vec<bool> = Vec::new();
     let of = |operand: &Operand, steps: &[bool]| match operand {
@@ -45,7 +45,7 @@ fn with(state: &JointState, place: Entry, value: f64) -> JointState {
     state
 }
 
-/// Returns whether an output changes with an input, at some of the states.
+/// Returns which outputs change with an input at some of the states.
 fn sensitive(code: &Code<'_>, states: &[JointState], place: Entry) -> Vec<bool> {
     let mut sensitive = Vec::new();
     for state in states {
@@ -90,10 +90,10 @@ fn what_is_not_finite_reaches_what_depends_on_it() {
                         let at =
                             || format!("{name} {function} {index} {} {} {bad}", place.0, place.1);
                         let finite = results[index].is_finite();
-                        // An operation may lose an infinity only as a NaN; none
-                        // of +, −, × makes it finite.
+                        // +, − and × may turn an infinity into a NaN, but never
+                        // into a finite number.
                         assert_eq!(finite, !dependent[index], "{}", at());
-                        // The program forgets no input that matters.
+                        // The program uses every input that matters.
                         if sensitive[index] {
                             assert!(dependent[index], "{}", at());
                             assert!(!of_runtime[index].is_finite(), "runtime {}", at());

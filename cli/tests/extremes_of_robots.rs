@@ -1,4 +1,4 @@
-//! The table of extremes on whole robots, and what divides next to a singular D.
+//! The table of extremes on whole robots, and functions that divide near a singular D.
 
 use dalembert_cli::extremes::{Row, Verdict, divided, inside, nearest_to_singular};
 use dalembert_cli::measure::{Bench, Code, VECTOR};
@@ -19,7 +19,7 @@ fn all_good(rows: &[Row]) {
     );
 }
 
-/// A mass that is wrong by 1e-14 of itself is more than rounding.
+/// A relative error of 1e-14 in a mass is more than rounding, and is found.
 #[test]
 fn planted_faults_are_found() {
     let robot = support::robot("puma560");
@@ -44,7 +44,7 @@ fn planted_faults_are_found() {
     assert!(mass > 2.0 * right.max(20.0), "{mass}");
 }
 
-/// A result that is no number is a failure where robots are.
+/// A NaN is a failure at states inside the limits.
 #[test]
 fn no_number_fails_inside_the_limits() {
     let robot = support::robot("planar2r");
@@ -56,8 +56,8 @@ fn no_number_fails_inside_the_limits() {
     assert_eq!(rows[0].verdict, Verdict::Failed);
 }
 
-/// Two equal rods: with a unit diagonal D has the condition (1 + r)/(1 − r), r being
-/// D_12/√(D_11 D_22), which is largest where the arm is stretched out.
+/// Two equal rods: scaled to a unit diagonal, D has the condition number (1 + r)/(1 − r) with
+/// r = D_12/√(D_11 D_22), which is largest where the arm is stretched out.
 #[test]
 fn the_search_finds_where_two_rods_are_nearest_to_singular() {
     let robot = support::robot("planar2r");
@@ -70,7 +70,7 @@ fn the_search_finds_where_two_rods_are_nearest_to_singular() {
     all_good(&divided(&robot, &Request::default(), STATES).unwrap());
 }
 
-/// Adds point masses at the ends of two links, of these masses.
+/// Returns an arm of two links with these point masses at their ends.
 fn points(masses: [&str; 2]) -> Robot {
     let joint = |mass: &str| {
         format!(
@@ -85,8 +85,8 @@ fn points(masses: [&str; 2]) -> Robot {
         .robot
 }
 
-/// Stretched out, both joints move the second mass alike, and of the first, a ten-thousandth
-/// of it, little is left. Digits are lost as the condition says, and no more.
+/// Stretched out, both joints move the second mass alike, and the first mass, a ten-thousandth
+/// of it, adds little. As many digits are lost as the condition number says, and no more.
 #[test]
 fn what_is_lost_next_to_singular_is_the_condition() {
     let rows = divided(&points(["1e-4", "1"]), &Request::default(), STATES).unwrap();
@@ -97,7 +97,7 @@ fn what_is_lost_next_to_singular_is_the_condition() {
     assert!(lost > VECTOR, "{lost} u: nothing was near singular");
 }
 
-/// Where D has no inverse in any state, that is said and nothing measured.
+/// If D has no inverse in any state, this is reported and nothing is measured.
 #[test]
 fn what_never_has_an_inverse_is_refused() {
     let rows = divided(&points(["1", "0"]), &Request::default(), STATES).unwrap();

@@ -1,4 +1,4 @@
-//! What must hold along a motion: Ḋ − 2C is skew-symmetric, and a passive arm keeps its energy.
+//! Identities along a motion: Ḋ − 2C is skew-symmetric, and a passive arm keeps its energy.
 
 use dalembert_codegen::workspace::{Emitted, JointState, seeded};
 use dalembert_codegen::{Function, Request, ScalarType, generate};
@@ -32,8 +32,8 @@ fn coriolis(code: &Emitted, state: &JointState) -> DMatrix<f64> {
     DMatrix::from_row_iterator(n, n, entries)
 }
 
-/// Returns Ḋ by dual numbers through a formula for D. Over the wide float: in doubles
-/// the formulas as written cancel up to 90 u of Ḋ themselves.
+/// Returns Ḋ by dual numbers through a formula for D. It uses the wide float: in doubles
+/// the textbook formulas themselves lose up to 90 u of Ḋ by cancellation.
 fn inertia_rate(robot: &Robot, state: &JointState) -> DMatrix<f64> {
     let arm = Arm::from_robot(robot, &mut |x| Dual::constant(Wide::from_exact(x)));
     let joints = robot.joints.iter().zip(state.q.iter().zip(&state.qd));
@@ -54,7 +54,7 @@ fn inertia_rate(robot: &Robot, state: &JointState) -> DMatrix<f64> {
 
 const U: f64 = f64::EPSILON / 2.0;
 
-/// Returns |S + Sᵀ| of S = Ḋ − 2C, relative to the larger of both in u, and q̇ᵀ S q̇ / |q̇|² likewise.
+/// Returns |S + Sᵀ| and q̇ᵀ S q̇ / |q̇|² for S = Ḋ − 2C, in u of the larger of Ḋ and 2C.
 fn asymmetry(rate: &DMatrix<f64>, c: &DMatrix<f64>, qd: &[f64]) -> [f64; 2] {
     let s = rate - 2.0 * c;
     let qd = DVector::from_column_slice(qd);
@@ -80,15 +80,15 @@ fn inertia_rate_less_twice_coriolis_is_skew() {
     }
 }
 
-/// A C with the right C q̇, and so the right h, that is no C: q̇ᵀ(Ḋ − 2C)q̇ = 0
-/// does not notice, the full matrix does.
+/// A wrong C with the right C q̇, and so the right h: q̇ᵀ(Ḋ − 2C)q̇ = 0 does not show
+/// the error, the full matrix does.
 #[test]
 fn a_wrong_coriolis_matrix_is_noticed() {
     let robot = robot("puma560");
     let code = coefficients(&robot);
     for state in seeded(&robot, 20, 0x5f) {
         let mut c = coriolis(&code, &state);
-        // A row more, perpendicular to q̇.
+        // Adds a vector perpendicular to q̇ to a row.
         c[(2, 0)] += state.qd[1];
         c[(2, 1)] -= state.qd[0];
         let [full, power] = asymmetry(&inertia_rate(&robot, &state), &c, &state.qd);
@@ -112,7 +112,7 @@ fn a_passive_arm_keeps_its_energy() {
     };
     let rates = |q: &Vector, qd: &Vector| {
         let (d, load) = motion(q, qd);
-        // By elimination: D is positive definite.
+        // Solves by elimination without pivoting: D is positive definite.
         let mut rows = d.insert_column(6, 0.0);
         rows.set_column(6, &-load);
         for i in 0..6 {

@@ -8,23 +8,23 @@ use crate::support::{good, temporary};
 
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 
-/// Built as a user would build it, outside this workspace and its target directory: with
+/// Builds the crate as a user would, outside this workspace and its target directory, with
 /// the checkout that the command comes from, since no registry has this version.
 #[test]
 fn it_builds_and_passes_at_once() {
     let folder = temporary("new").join("my-arm");
     let name = folder.to_str().unwrap();
     good(&["new", name]);
-    // The versions that everything else here is tested with.
+    // The versions of the dependencies that the workspace is tested with.
     fs::copy(format!("{ROOT}/Cargo.lock"), folder.join("Cargo.lock")).unwrap();
-    // One for all crates that tests build.
+    // One target directory for all crates that tests build.
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("crates");
     let cargo = |argument: &str| {
         let output = Command::new(env!("CARGO"))
             .args([argument, "--offline"])
             .current_dir(&folder)
             .env("CARGO_TARGET_DIR", &target)
-            // What this test was built with is none of its.
+            // The build flags of this test are not for the new crate.
             .env_remove("RUSTFLAGS")
             .env_remove("CARGO_ENCODED_RUSTFLAGS")
             .env_remove("RUSTC_WORKSPACE_WRAPPER")

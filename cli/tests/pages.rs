@@ -1,11 +1,11 @@
-//! The pages of the guide in `docs/` and of `tests/pages`: their commands are run, page by page in a
-//! folder, and print what is shown.
+//! Runs the commands on the pages of `docs/` and `tests/pages`, page by page in a folder, and
+//! compares their output with what the page shows.
 //!
-//! A block `console` has commands behind `$`, what a terminal shows of each, and `? N` where the exit
-//! code is not 0; `console result` has standard output alone. A line `...` stands for any lines. A block
-//! `toml file=NAME` (or `sh`) is written to that file, `toml append=NAME` to its end. What differs is written into
-//! the page before the test fails, so that running it once more, and reading the difference, is all
-//! that a change of a message takes.
+//! A `console` block has commands after `$`, their output on a terminal, and `? N` for an exit code
+//! other than 0; `console result` has standard output only. A line `...` stands for any lines. A
+//! `toml file=NAME` (or `sh`) block is written to that file; `toml append=NAME` is appended to it.
+//! Output that differs is written into the page before the test fails: after a change of a message,
+//! run the test once more and read the difference.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use std::process::{Command, Stdio};
 
 use crate::support::{robot, run, temporary};
 
-/// A fenced block: what stands behind the fence, and its lines.
+/// A fenced block: the text after the fence, and the range of its lines.
 type Block = (String, std::ops::Range<usize>);
 
 fn root() -> PathBuf {
@@ -50,7 +50,7 @@ fn blocks(lines: &[String]) -> Vec<Block> {
     blocks
 }
 
-/// Returns whether lines are those shown, where `...` stands for any.
+/// Returns whether lines match those shown, where `...` stands for any lines.
 fn shows(shown: &[&str], lines: &[&str]) -> bool {
     match shown {
         [] => lines.is_empty(),
@@ -59,7 +59,7 @@ fn shows(shown: &[&str], lines: &[&str]) -> bool {
     }
 }
 
-/// Returns a command with what it prints: as a terminal has it, warnings before the result.
+/// Runs a command; returns it with its output as on a terminal, warnings before the result.
 fn ran(command: &str, inside: &Path, result_alone: bool) -> Vec<String> {
     let bin = Path::new(env!("CARGO_BIN_EXE_dalembert")).parent().unwrap();
     let path = format!("{}:{}", bin.display(), std::env::var("PATH").unwrap());
@@ -73,7 +73,7 @@ fn ran(command: &str, inside: &Path, result_alone: bool) -> Vec<String> {
         .unwrap();
     let [out, err] = [output.stdout, output.stderr].map(|b| String::from_utf8(b).unwrap());
     let text = if result_alone { out } else { err + &out };
-    // Wherever the page is run.
+    // Replaces the paths of this machine.
     let text = text.replace(&root().display().to_string(), "$ROOT");
     let text = text.replace(&inside.display().to_string(), "$HERE");
     let mut lines = vec![format!("$ {command}")];
@@ -85,7 +85,7 @@ fn ran(command: &str, inside: &Path, result_alone: bool) -> Vec<String> {
     lines
 }
 
-/// Returns a block as it should be; nothing where it is.
+/// Returns the corrected block; `None` if it is right.
 fn checked(body: &[String], inside: &Path, result_alone: bool) -> Option<Vec<String>> {
     let mut fixed = Vec::new();
     let mut differs = false;
@@ -111,7 +111,7 @@ fn checked(body: &[String], inside: &Path, result_alone: bool) -> Option<Vec<Str
     differs.then_some(fixed)
 }
 
-/// Runs pages in one folder; what differs is written into them, and is said.
+/// Runs pages in one folder; writes what differs into them, then panics.
 fn run_pages(pages: &[PathBuf], inside: &Path) {
     let mut differing = Vec::new();
     for page in pages {
@@ -170,7 +170,7 @@ fn the_guide_shows_what_commands_print() {
         ],
     );
     run_pages(&guide(), &inside);
-    // What the pages make of the arm is what the code of the guide is compiled with.
+    // The guide's code is compiled with the robot file that the pages make.
     let compiled = root().join("examples/guide/robots/arm.toml");
     assert_eq!(read(&inside.join("arm.toml")), read(&compiled));
 }
@@ -197,7 +197,7 @@ pages!(
     show, terminal, tradeoff, verify
 );
 
-/// Pictures of the guide that are made elsewhere are those.
+/// The pictures of the guide are those that the commands draw.
 #[test]
 fn pictures_are_what_the_commands_draw() {
     let folder = root().join("docs/src");
@@ -213,8 +213,8 @@ fn pictures_are_what_the_commands_draw() {
     );
 }
 
-/// Every link of the guide and of the other pages leads somewhere, and every file of sources that
-/// CONTRIBUTING names is there.
+/// Every link in the guide and the other pages has a target, and every source file that
+/// CONTRIBUTING names exists.
 #[test]
 fn links_lead_somewhere() {
     let mut pages = guide();
@@ -228,7 +228,7 @@ fn links_lead_somewhere() {
     pages.extend(others.map(|page| root().join(page)));
     for page in pages {
         let text = read(&page);
-        // Code has brackets too.
+        // Leaves out code: it has brackets, too.
         let prose: Vec<&str> = text.split("```").step_by(2).collect();
         let links = prose.iter().flat_map(|part| part.split("](").skip(1));
         for link in links.filter_map(|rest| rest.split(')').next()) {

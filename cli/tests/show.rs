@@ -4,7 +4,7 @@ use std::fs;
 
 use crate::support::{good, robot, temporary};
 
-/// The outlines of the bodies of both views, each within its half of the paper.
+/// The outlines of the bodies stay within their view's half of the paper.
 #[test]
 fn bodies_stay_on_the_paper() {
     let folder = temporary("show_large");

@@ -1,5 +1,5 @@
-//! The table of steps: every row is a program of the function, none is dearer than the one before,
-//! and the last is what is generated.
+//! The table of steps: every row is a program of the function, no row costs more than the one
+//! before, and the last row is the generated program.
 
 use dalembert_cli::explain::{Explanation, explain};
 use dalembert_cli::steps::Code;
@@ -39,7 +39,7 @@ fn every_row_is_proved() {
     }
 }
 
-/// In a scene too: every row but the last, which gives accuracy up, is the
+/// In a scene, too, every row but the last, which gives up accuracy, equals the
 /// whole robot's at the scene's values; rounding alone costs it no digits.
 #[test]
 fn a_scene_is_explained() {
@@ -67,11 +67,11 @@ fn a_scene_is_explained() {
     assert!(small && last[0] > 1e6, "{errors:?}");
 }
 
-/// The last rows are what is generated, in its scalar and with its sines: all
-/// functions in the same one, though gravity alone could do with the other.
+/// The last rows are the generated programs, in their scalar and with their sines: all
+/// functions share one scalar, though gravity alone could use the other.
 #[test]
 fn the_last_row_is_what_is_generated() {
-    // At such accelerations f32 is off by a thousandth of the limits.
+    // At such accelerations the error of f32 is a thousandth of the limits.
     let scene = "\n[scene.move]\nbox = { velocity = [1, 1, 1], acceleration = [1e6, 1e6, 1e6] }\n\
                  tolerance = { value = 1e-5, relative_to = \"range\" }\n";
     let mut reading = support::reading_with("planar3r", scene);
@@ -137,7 +137,7 @@ fn steps_do_not_make_it_dearer() {
 
 #[test]
 fn rounding_of_every_row() {
-    // Some symbols h_ikm and two loads c_i vanish: nothing to relate dust to.
+    // Some symbols h_ikm and two loads c_i vanish: they have no relative error.
     for function in [Function::InverseDynamics, Function::DynamicCoefficients] {
         let stanford = of("stanford", function);
         let errors = stanford.rounding(20);

@@ -1,10 +1,10 @@
-//! How the command meets whoever types: a bar.
+//! The progress bar on a terminal.
 
 use std::process::Command;
 
 use crate::support::robot;
 
-/// A bar is shown on a terminal, which `script` of util-linux lends, once two seconds are over.
+/// A bar appears after two seconds on a terminal, which `script` of util-linux provides.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_bar_after_two_seconds() {

@@ -40,7 +40,7 @@ pub struct Arm {
     peer: [String; 3],
 }
 
-/// An arm with all that is made from its source.
+/// An arm with everything that is made from its source.
 #[derive(Clone, Debug)]
 pub struct Entry {
     /// The arm.
@@ -64,7 +64,7 @@ pub fn folder() -> &'static Path {
 /// Makes every arm of `arms.toml`, in its order.
 ///
 /// # Errors
-/// What is wrong with the table, with a source or with a pose.
+/// The table, a source or a pose is wrong.
 pub fn entries() -> Result<Vec<Entry>, Box<dyn Error>> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -123,8 +123,8 @@ impl Arm {
 }
 
 impl Entry {
-    /// Returns the row of the arm: its joints from the base on, as `3P 3R`, and the counts of a quick
-    /// search beside those of the best other tool.
+    /// Returns the table row of the arm: its joints from the base, as `3P 3R`, and the counts of a
+    /// quick search beside those of the best other tool.
     ///
     /// # Errors
     /// Nothing can be generated for the robot.

@@ -13,7 +13,7 @@ fn main() -> ExitCode {
     let done = match arguments.as_slice() {
         [] => write(),
         [word] if word == "--check" => check(),
-        _ => Err("error: the only argument known: --check".into()),
+        _ => Err("error: unknown argument; the only one is --check".into()),
     };
     if let Err(why) = &done {
         eprintln!("{why}");
@@ -44,7 +44,7 @@ fn check() -> Result<(), Box<dyn Error>> {
     }
 }
 
-/// Writes all files beside their places, then gives each its name: none is half written.
+/// Writes all files under temporary names, then renames them, so that none is half written.
 fn write() -> Result<(), Box<dyn Error>> {
     let (entries, files) = make()?;
     let notes = entries.iter().flat_map(|entry| &entry.notes);

@@ -24,18 +24,18 @@ fn text(name: &str) -> String {
 fn imports_and_pictures_are_what_is_checked_in() {
     for entry in &*ENTRIES {
         for (name, expected) in &entry.files {
-            // Not assert_eq: nobody reads two drawings on one line.
+            // Not assert_eq, which would print both drawings.
             assert!(text(name) == *expected, "{name}: run dalembert-gallery");
             assert!(expected.len() < 60_000, "{name} is large");
         }
-        // A robot file is read as the robot that was imported, its head and all.
+        // The robot file with its head gives the robot that was imported.
         let reading = read::parse(&text(&entry.arm.robot_file()), &read::Options::default());
         assert_eq!(reading.unwrap().robot, entry.robot, "{}", entry.arm.name);
     }
 }
 
-/// Lengths that vanish when frames are derived are zero, and no dust of 256 bits, which would cost
-/// operations as any other number does.
+/// Lengths that vanish when frames are derived are exactly zero: a rounding error of 256 bits would
+/// cost operations as any other number does.
 #[test]
 fn no_length_is_dust() {
     for joint in ENTRIES.iter().flat_map(|entry| &entry.robot.joints) {
@@ -46,7 +46,7 @@ fn no_length_is_dust() {
     }
 }
 
-/// The folders hold nothing that the command does not make or read, and every licence is named.
+/// The command makes or reads every file in the folders, and every licence is named.
 #[test]
 fn every_file_belongs_to_an_arm_with_a_licence() {
     let licences = text("LICENCES.md");
@@ -71,8 +71,8 @@ fn every_file_belongs_to_an_arm_with_a_licence() {
     assert_eq!(found, known);
 }
 
-/// The table's counts, of the arms that are searched in a second; `--check` of the command, in
-/// .ci/run, has all of them.
+/// Checks the table's counts for arms whose search takes a second; the command's `--check`, in
+/// .ci/run, checks all arms.
 #[test]
 fn the_table_has_the_counts() {
     let page = text("README.md");
@@ -85,8 +85,8 @@ fn the_table_has_the_counts() {
     }
 }
 
-/// The runtime is a recursion in link axes that folds away what a fixed base cannot
-/// feel; Lagrange–Euler folds nothing and shares no formula with it.
+/// The runtime is a recursion in link axes without the parameters that do not affect an arm
+/// on a fixed base; Lagrange–Euler keeps them all and shares no formula with it.
 #[test]
 fn torques_of_the_runtime_are_those_of_lagrange_euler() {
     let position = |(joint, &q): (&Joint, &f64)| match joint.kind {

@@ -1,5 +1,5 @@
-//! The command line: subcommands, what is the same in several of them, and how values are read. A
-//! subcommand's own arguments stand beside it.
+//! The command line: subcommands, shared arguments, and parsers of values. A subcommand's own
+//! arguments stand beside its code.
 
 mod options;
 pub mod values;
@@ -18,11 +18,11 @@ use crate::{
     verify::VerifyArgs,
 };
 
-/// Options that say how code is written.
-pub const CODE: &str = "How the code is written";
+/// The help heading of the options for the code.
+pub const CODE: &str = "Code options";
 
-/// Options that say how programs are found.
-const SEARCH: &str = "How programs are found";
+/// The help heading of the options for the search.
+const SEARCH: &str = "Search options";
 
 /// Verified, flat robot dynamics generated for one arm.
 ///
@@ -30,60 +30,60 @@ const SEARCH: &str = "How programs are found";
 #[derive(Debug, Parser)]
 #[command(name = "dalembert", version)]
 pub struct Args {
-    /// What to do
+    /// The subcommand
     #[command(subcommand)]
     pub command: Command,
     /// Print the report as JSON
     #[arg(long, global = true)]
     json: bool,
-    /// Write over files that this command did not write
+    /// Overwrite files that this command did not write
     #[arg(long, global = true)]
     force: bool,
-    /// Take warnings for errors: nothing is written, and the exit code is 1
+    /// Treat warnings as errors: nothing is written, and the exit code is 1
     #[arg(long, global = true)]
     deny_warnings: bool,
 }
 
 impl Args {
-    /// Returns what every subcommand may be asked for.
+    /// Returns the options that all subcommands share.
     pub fn context(&self) -> Context {
         Context::new(self.json, self.force, self.deny_warnings)
     }
 }
 
-/// What to do.
+/// The subcommands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Make a crate with an arm: robot file, generated code, a test of its numbers
+    /// Make a crate for an arm: robot file, generated code and a test of its torques
     New(NewArgs),
-    /// Make a robot file of a chain of a URDF or an MJCF
+    /// Make a robot file from a chain of a URDF or an MJCF
     Import(ImportArgs),
     /// List the functions: what each takes and returns, with units
     Outputs,
-    /// Generate code for a robot, proved before it is written
+    /// Generate code for a robot and prove it before it is written
     Generate(GenerateArgs),
-    /// Generate files anew whose robot file or text was edited
+    /// Regenerate files after an edit of the robot file or of their text
     Renew(RenewArgs),
     /// Count the operations of the generated functions
     Count(CountArgs),
     /// Draw the arm in two views, with frames, axes, masses and its table (SVG)
     Show(ShowArgs),
-    /// Prove the functions and measure what rounding costs
+    /// Prove the functions and measure their rounding errors
     Verify(VerifyArgs),
-    /// Check generated code by a second program that shares no code with the generator
+    /// Check generated code with a second program that shares no code with the generator
     Certify(CertifyArgs),
     /// Show how many operations each step of the generator saves
     Explain(ExplainArgs),
-    /// Measure what accuracy costs: certified error against operations
+    /// Measure the cost of accuracy: certified error against number of operations
     Tradeoff(TradeoffArgs),
-    /// Print what a shell completes: dalembert completions bash > ~/.local/share/bash-completion/completions/dalembert
+    /// Print shell completions: dalembert completions bash > ~/.local/share/bash-completion/completions/dalembert
     Completions {
         /// The shell
         shell: Shell,
     },
 }
 
-/// A robot and what is asked of it.
+/// A robot and the options of a request.
 #[derive(Debug, clap::Args)]
 pub struct TaskArgs {
     /// The robot: a robot file, a URDF or an MJCF

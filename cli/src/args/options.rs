@@ -9,12 +9,12 @@ use dalembert_codegen::{Asked, OPTIONS, OptionRow, Purpose};
 
 use super::{CODE, SEARCH};
 
-/// The options that are asked for on the command line: all of the table, or the few that matter to
-/// subcommands that look at programs and print none.
+/// The options that are given on the command line: all of the table, or the few that matter to
+/// subcommands that analyse programs and print no code.
 #[derive(Clone, Debug, Default)]
 pub struct Options<const ALL: bool = true>(pub Asked);
 
-/// The names of the few.
+/// The options of subcommands that print no code.
 const FEW: [&str; 3] = ["outputs", "scene", "effort"];
 
 impl<const ALL: bool> Options<ALL> {
@@ -37,7 +37,7 @@ impl<const ALL: bool> FromArgMatches for Options<ALL> {
         for row in Self::rows().filter(given) {
             let values = matches.get_many::<String>(row.name);
             let values: Vec<&str> = values.into_iter().flatten().map(String::as_str).collect();
-            // It is an option.
+            // This cannot fail: the name is in the table.
             let _ = self.0.set(row.name, &values.join(","));
         }
         Ok(())
@@ -54,8 +54,8 @@ impl<const ALL: bool> Args for Options<ALL> {
     }
 }
 
-/// Takes any text, and lists the words for help and completions: what is wrong with a word is said
-/// once, by the parser of requests.
+/// Accepts any text, and lists the known words for help and completions; only the parser of
+/// requests refuses unknown words.
 #[derive(Clone)]
 struct Words(fn() -> Vec<&'static str>);
 
@@ -117,7 +117,7 @@ fn arg(row: &'static OptionRow) -> Arg {
         false => arg,
     };
     match words.as_slice() {
-        // Named alone it is on, and takes no word that follows.
+        // Without a value it is on; a value needs `=`.
         ["off", "on"] => arg
             .num_args(0..=1)
             .require_equals(true)

@@ -1,8 +1,8 @@
-//! How values are read.
+//! Parsers of values.
 //!
-//! Clap lists the names and suggests the nearest for a slip. Numbers may begin
-//! with a hyphen, or clap would take a negative one for an option that it does
-//! not know: what a number should be is ours to say.
+//! Clap lists the names and suggests the nearest one for a typing error. Numbers
+//! may begin with a hyphen, or clap would take a negative one for an unknown
+//! option: these parsers report what a number should be.
 
 use std::ffi::OsStr;
 use std::path::PathBuf;
@@ -36,7 +36,7 @@ pub fn acceleration_parser() -> impl TypedValueParser<Value = Rational> {
     })
 }
 
-/// Reads the name of a robot or a module, as robot files have it.
+/// Parses the name of a robot or a module, by the rules of robot files.
 pub fn name_parser() -> impl TypedValueParser<Value = String> {
     StringValueParser::new().try_map(|text| match suggested_name(&text) {
         Some(good) if good == text => Ok(text),
@@ -47,12 +47,12 @@ pub fn name_parser() -> impl TypedValueParser<Value = String> {
     })
 }
 
-/// Returns a value by its word, of which clap lists all and suggests one.
+/// Parses a value by its word; clap lists all words and suggests the nearest.
 pub fn word_parser<W: Word + Send + Sync + 'static>() -> impl TypedValueParser<Value = W> {
     PossibleValuesParser::new(W::known()).try_map(|word| parse::<W>(&word))
 }
 
-/// Reads the path of what is certified; a model of a robot is refused, which has an argument of its own.
+/// Parses the path of a file to certify; refuses a robot, which is the argument of `--robot`.
 pub fn certified_parser() -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().try_map(|path| {
         match path.extension().and_then(OsStr::to_str) {

@@ -1,12 +1,12 @@
-//! A drawing of an arm as SVG, so that a wrong sign is seen: two views with frames, joint axes, centres
-//! of mass and inertias, and the table that they come from.
+//! A drawing of an arm as SVG, which makes a wrong sign visible: two views with frames, joint axes,
+//! centres of mass and inertias, and the table that they come from.
 //!
-//! A link's inertia is drawn as the solid ellipsoid of uniform density that has it. Bodies that no link
-//! can have are named below the table. The same robot and position give the same bytes: sines are
-//! libm's, numbers have one decimal.
+//! A link's inertia is drawn as the solid ellipsoid of uniform density that has this inertia.
+//! Impossible inertias are named below the table. The same robot and position give the same bytes:
+//! sines are libm's, and numbers have one decimal.
 //!
-//! - this file: what is drawn; [`page`]: lines, shapes and texts, in two projections; [`table`]: the DH
-//!   rows, masses and centres
+//! - this file: the arm and its bodies; `page`: lines, shapes and texts, in two projections;
+//!   `table`: the DH rows, masses and centres of mass
 
 mod page;
 mod table;
@@ -19,11 +19,11 @@ use nalgebra::DVector;
 
 use page::{Page, View};
 
-/// A link's mass, where it is.
+/// A link with mass.
 struct Body {
     mass: f64,
     centre: Vector<f64>,
-    /// About the centre in base axes.
+    /// The inertia about the centre of mass, in base axes.
     inertia: [[f64; 3]; 3],
 }
 
@@ -39,7 +39,7 @@ struct Scene<'r> {
 /// Draws the arm at a position, as SVG.
 ///
 /// # Errors
-/// The position has not one value a joint.
+/// The position does not have one value per joint.
 pub fn svg(robot: &Robot, q: &[f64]) -> Result<String, WrongLength> {
     let runtime = Reference::<f64>::from_robot(robot);
     let at = DVector::from_column_slice(q);
@@ -84,15 +84,15 @@ impl Body {
         5.0 * (diagonal - self.inertia[i][k]) / self.mass
     }
 
-    /// Returns the half axes in metres, and by how many degrees the first is turned from the right, of the
-    /// ellipse that is seen in a view; none of a point or of what is no body. The shadow of
-    /// xᵀ M⁻¹ x ≤ 1 on a plane is yᵀ N⁻¹ y ≤ 1, where N is M's block for that plane.
+    /// Returns the half axes of the ellipse in a view, m, and the angle of the first from the right,
+    /// degrees; `None` for a point or an impossible inertia. The shadow of xᵀ M⁻¹ x ≤ 1 on a plane
+    /// is yᵀ N⁻¹ y ≤ 1, where N is M's block for that plane.
     fn ellipse(&self, [right, up]: [usize; 2]) -> Option<([f64; 2], f64)> {
         let [a, b, c] = [(right, right), (right, up), (up, up)].map(|(i, k)| self.square(i, k));
         let (mean, difference) = (0.5 * (a + c), 0.5 * (a - c));
         let spread = libm::sqrt(difference * difference + b * b);
         let [large, small] = [mean + spread, mean - spread];
-        // A flat body seen from its side has rounding for a thickness.
+        // By rounding, a flat body seen from its side may be thinner than zero.
         let is_body = large > 0.0 && small >= -1e-9 * large;
         let turned = 0.5 * libm::atan2(b, difference).to_degrees();
         is_body.then(|| ([large, small.max(0.0)].map(libm::sqrt), turned))
@@ -100,7 +100,7 @@ impl Body {
 }
 
 impl Scene<'_> {
-    /// Points that both views must have room for.
+    /// Returns the points that both views must show.
     fn points(&self) -> Vec<Vector<f64>> {
         let mut points = vec![[0.0; 3], self.first.origin, self.hand.origin];
         points.extend(self.frames.iter().map(|frame| frame.origin));
@@ -108,7 +108,7 @@ impl Scene<'_> {
         points
     }
 
-    /// Returns the corners of boxes around the bodies, for which the paper must have room.
+    /// Returns the corners of boxes around the bodies; the paper must have room for them.
     fn outlines(&self) -> Vec<Vector<f64>> {
         let boxes = self.bodies.iter().filter_map(|body| {
             let half = [0, 1, 2].map(|k| libm::sqrt(body.square(k, k).max(0.0)));
@@ -119,7 +119,7 @@ impl Scene<'_> {
         boxes.flatten().collect()
     }
 
-    /// Returns a point and the direction of a joint's axis.
+    /// Returns a point on a joint's axis, and its direction.
     fn axis(&self, row: usize) -> (Vector<f64>, Vector<f64>) {
         let frame = match (self.robot.convention, row) {
             (Convention::Standard, 0) => &self.first,
@@ -139,12 +139,12 @@ impl Scene<'_> {
             let radius = (2.5 * libm::cbrt(body.mass)).clamp(1.5, 9.0);
             page.circle("m", centre, radius);
         }
-        // From frame to frame, and on to the hand.
+        // The links, from frame to frame and on to the hand.
         let origins = [&self.first].into_iter().chain(&self.frames);
         let origins = origins.chain([&self.hand]);
         page.chain(origins.map(|frame| view.place(&frame.origin)));
         let mut labels: Vec<([f64; 2], String)> = Vec::new();
-        // Those that follow others have the number of the joint that moves them.
+        // A joint that follows another has the number of the joint that moves it.
         for (row, joint) in self.robot.rows().into_iter().enumerate() {
             let (through, along) = self.axis(row);
             let end = |by: f64| {
@@ -166,7 +166,7 @@ impl Scene<'_> {
             view.triad(frame, 0.06, page);
         }
         view.triad(&self.hand, 0.1, page);
-        // Above everything, so that nothing runs through a text.
+        // Drawn last, so that no line crosses a text.
         view.head(page);
         let gravity = self.robot.gravity.each_ref().map(f64::nearest_rational);
         view.gravity(&gravity, page);
@@ -176,10 +176,10 @@ impl Scene<'_> {
     }
 }
 
-/// Adds a label at a point, or to the one that it would be written over, as those of coaxial joints
-/// would.
+/// Adds a label at a point; if it would overlap another label, as those of coaxial joints do, its
+/// text is appended to that.
 fn label(labels: &mut Vec<([f64; 2], String)>, at: [f64; 2], text: String) {
-    /// Texts nearer than this to each other, in pixels, are one.
+    /// Labels nearer than this, in pixels, overlap.
     const NEAR: [f64; 2] = [14.0, 12.0];
     let is_near = |other: &[f64; 2]| (0..2).all(|k| (other[k] - at[k]).abs() < NEAR[k]);
     match labels.iter_mut().find(|(other, _)| is_near(other)) {

@@ -7,12 +7,12 @@ const SIDE: f64 = 440.0;
 const HEAD: f64 = 64.0;
 /// The height of a line of the table.
 const ROW: f64 = 17.0;
-/// The room for a character of the table: the widest of common monospaced fonts.
+/// The width of a character of the table, pixels: that of the widest common monospaced font.
 const CHARACTER: f64 = 7.5;
 
-/// Colours of equal weight on white and on black. x, y and z of frames; t and s the axes of joints that
-/// turn and slide; m masses; e bodies; l links; b bars. A text has a rim of paper, so that it is read
-/// above a line.
+/// Colours for white and black paper. Classes: x, y and z axes of frames; t and s axes of revolute
+/// and prismatic joints; m masses; e bodies; l links; b bars. Texts have an outline in the colour of
+/// the paper, so that they are legible on lines.
 const STYLE: &str = "\
 svg{font:12px sans-serif;color:#222}\
 .p{fill:#fff}.i{fill:currentColor;stroke:#fff;stroke-width:3;paint-order:stroke}.c{font:12px monospace}\
@@ -27,15 +27,15 @@ svg{font:12px sans-serif;color:#222}\
 
 /// The meaning of the marks.
 const LEGEND: [&str; 2] = [
-    "frames: x red, y green, z blue; arrows with numbers: axes of joints, dashed where they slide",
+    "frames: x red, y green, z blue; numbered arrows: axes of joints, dashed if prismatic",
     "dots: centres of mass; ellipses: bodies of uniform density with the links' inertias",
 ];
 
-/// A drawing as it grows.
+/// An SVG drawing that is being written.
 pub(super) struct Page(String);
 
 impl Page {
-    /// Returns the paper with its title and, below two views, a table.
+    /// Starts a drawing: its title, room for two views, and a table below them.
     pub(super) fn new(title: &str, table: &[String]) -> Page {
         let rows = table.len() as f64;
         let widest = table.iter().map(|line| line.chars().count()).max();
@@ -53,7 +53,7 @@ impl Page {
             page.text("i", [16.0, 36.0 + 15.0 * line as f64], text);
         }
         for (index, line) in table.iter().enumerate() {
-            // Not everything that draws SVG keeps spaces.
+            // Some SVG viewers merge spaces.
             let y = HEAD + SIDE + ROW * (index as f64 + 1.0);
             page.text("i c", [16.0, y], &line.replace("  ", "\u{a0}\u{a0}"));
         }
@@ -71,7 +71,7 @@ impl Page {
         ));
     }
 
-    /// Draws a line with a point at its end; a ring where it is seen end on.
+    /// Draws an arrow; a ring if it is seen end on.
     pub(super) fn arrow(&mut self, class: &str, from: [f64; 2], to: [f64; 2]) {
         let [x, y] = [to[0] - from[0], to[1] - from[1]];
         let length = libm::sqrt(x * x + y * y);
@@ -98,9 +98,9 @@ impl Page {
         ));
     }
 
-    /// Draws a body's outline, turned by so many degrees upward.
+    /// Draws a body's outline, turned counterclockwise by `turned` degrees.
     pub(super) fn ellipse(&mut self, [x, y]: [f64; 2], [a, b]: [f64; 2], turned: f64) {
-        // Angles of the paper go downward.
+        // SVG turns clockwise.
         let turned = 0.0 - turned;
         self.element(&format!(
             "<ellipse class=\"e\" rx=\"{a:.1}\" ry=\"{b:.1}\" \
@@ -126,7 +126,7 @@ impl Page {
     }
 }
 
-/// Returns text as XML has it; what XML cannot have is replaced.
+/// Escapes text for XML, and replaces control characters.
 fn escaped(text: &str) -> String {
     let plain = |c: char| if c.is_control() { '\u{fffd}' } else { c };
     let plain: String = text.chars().map(plain).collect();
@@ -138,7 +138,7 @@ pub(super) struct View {
     name: &'static str,
     /// The coordinates that go to the right and upward.
     pub(super) coordinates: [usize; 2],
-    /// Pixels a metre, the same in both views.
+    /// Pixels per metre, the same in both views.
     pub(super) scale: f64,
     /// The point in the middle of the view, and its place on the paper.
     middle: [f64; 2],
@@ -147,15 +147,14 @@ pub(super) struct View {
     pub(super) reach: f64,
 }
 
-/// Room around what is drawn, as a part of a view.
+/// The margin around the arm, as a fraction of a view.
 const MARGIN: f64 = 0.16;
-/// Room around bodies, so that none covers a view's name or its bar.
+/// The margin around bodies, so that none covers a view's name or its scale bar.
 const EDGE: f64 = 0.07;
 
 impl View {
-    /// Returns the view from the front, x to the right and z upward, and from above, x to
-    /// the right and y upward. Both have room for what is drawn at the points, and
-    /// for the outlines of bodies.
+    /// Returns the views from the front (x to the right, z up) and from above (x to the right,
+    /// y up). Both have room for the points and for the outlines of bodies.
     pub(super) fn both(points: &[Vector<f64>], outlines: &[Vector<f64>]) -> [View; 2] {
         let ranges = [0, 1, 2].map(|k| {
             let values = points.iter().map(|point| point[k]);
@@ -165,7 +164,7 @@ impl View {
         });
         let reach = ranges.iter().map(|[low, high]| high - low);
         let reach = reach.fold(0.0, f64::max);
-        // An arm without lengths still has axes.
+        // An arm without lengths still has axes to draw.
         let has_lengths = reach > 0.0 && reach.is_finite();
         let reach = if has_lengths { reach } else { 1.0 };
         let middle = |k: usize| 0.5 * (ranges[k][0] + ranges[k][1]);
@@ -190,7 +189,7 @@ impl View {
         ]
     }
 
-    /// Returns where a point is on the paper.
+    /// Returns the position of a point on the paper.
     pub(super) fn place(&self, point: &Vector<f64>) -> [f64; 2] {
         let [right, up] = self.coordinates.map(|k| point[k]);
         [
@@ -199,7 +198,7 @@ impl View {
         ]
     }
 
-    /// Draws the view's name, and a bar that says how long a length is.
+    /// Draws the view's name and a scale bar.
     pub(super) fn head(&self, page: &mut Page) {
         let [x, y] = [self.at[0] - 0.5 * SIDE + 16.0, HEAD + 10.0];
         page.text("i", [x, y], self.name);
@@ -213,8 +212,7 @@ impl View {
         page.text("i", [x, from[1] - 5.0], &format!("{bar} m"));
     }
 
-    /// Draws where gravity pulls; ⊙ and ⊗ along the line of sight, towards the eye and away from
-    /// it.
+    /// Draws the direction of gravity: an arrow, or ⊙ towards the viewer and ⊗ away.
     pub(super) fn gravity(&self, gravity: &Vector<f64>, page: &mut Page) {
         let size = libm::sqrt(gravity.iter().map(|g| g * g).sum());
         let from = [self.at[0] + 0.5 * SIDE - 40.0, HEAD + 60.0];
@@ -222,7 +220,7 @@ impl View {
             return page.text("i", [from[0] - 60.0, from[1]], "no gravity");
         }
         let [right, up] = self.coordinates;
-        // Right × up points to who looks.
+        // Right × up points to the viewer.
         let sight = gravity[3 - right - up] * if (right + 1) % 3 == up { 1.0 } else { -1.0 };
         let [right, up] = [right, up].map(|k| 34.0 * gravity[k] / size);
         let to = [from[0] + right, from[1] - up];

@@ -6,7 +6,7 @@ use dalembert_model::robot::{Convention, Joint, JointKind, Placement, Robot};
 
 use crate::report::{Cell, Table};
 
-/// Returns the lines: what the table says of the whole arm, the DH rows, and bodies that no link can have.
+/// Returns the lines: facts about the whole arm, the DH rows, and impossible inertias.
 pub(super) fn lines(robot: &Robot, q: &[f64]) -> Vec<String> {
     let convention = match robot.convention {
         Convention::Standard => "standard DH",
@@ -26,7 +26,7 @@ pub(super) fn lines(robot: &Robot, q: &[f64]) -> Vec<String> {
     let rows = joints.map(|(i, joint)| row(i, joint).map(Cell::from).to_vec());
     let table = Table::new(heads).with(rows).to_string();
     lines.extend(table.lines().map(|line| line.trim_start().to_owned()));
-    // Below the table: such a sentence is wider than what is left beside it.
+    // Below the table, because such a sentence does not fit beside it.
     lines.extend(robot.joints.iter().enumerate().filter_map(|(i, joint)| {
         let why = joint.inertia.defect(&joint.mass)?.message();
         Some(format!("joint {}: {why}", i + 1))
@@ -65,7 +65,7 @@ fn placement(what: &str, placement: &Placement) -> String {
     format!("{what}: xyz ({xyz}), rpy ({rpy})")
 }
 
-/// Writes a number as the file has it, if that is short; six digits otherwise.
+/// Formats a number as the file has it if that is short, otherwise with six digits.
 fn number(value: &Rational) -> String {
     match write_decimal(value) {
         Some(text) if text.len() <= 10 => text,
@@ -80,7 +80,7 @@ fn angle(value: &Angle) -> String {
     }
 }
 
-/// Returns a position as it was given, if that is short; six digits otherwise.
+/// Formats a position as it was given if that is short, otherwise with six digits.
 fn short(value: f64) -> String {
     match format!("{value}") {
         text if text.len() <= 7 => text,
@@ -88,7 +88,7 @@ fn short(value: f64) -> String {
     }
 }
 
-/// Returns six digits, without zeros at the end.
+/// Formats a number with six digits, without zeros at the end.
 fn six(value: f64) -> String {
     let text = format!("{value:.5e}");
     let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));

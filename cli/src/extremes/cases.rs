@@ -7,6 +7,7 @@ use dalembert_codegen::workspace::{JointState, Random, seeded};
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Robot};
+use dalembert_model::scene::{Payload, Scene};
 use nalgebra::DVector;
 use num_traits::{Zero, pow};
 
@@ -122,6 +123,19 @@ impl Change {
             Change::Repeated(most) if n >= most => return None,
             Change::Typed if !has_right_angle => return None,
             Change::Weightless => made.gravity = Default::default(),
+            Change::Payload(e) => {
+                // At (0.1, 0, 0.1) m in the hand.
+                let payload = Payload {
+                    mass: power(e),
+                    com: [power(-1), Rational::zero(), power(-1)],
+                    inertia: Inertia::default(),
+                };
+                let carrying = Scene {
+                    payload: Some(payload),
+                    ..Scene::default()
+                };
+                made = carrying.apply(robot);
+            }
             Change::Repeated(most) => {
                 let unnamed = robot.joints.iter().map(|joint| Joint {
                     name: None,
@@ -150,7 +164,6 @@ impl Change {
                         joint.mass = power(0);
                     }
                 }
-                Change::Payload(e) if index == last => add_point(joint, &power(e)),
                 Change::FarBase if index == 0 => {
                     joint.d += power(6);
                     if robot.convention == Convention::Modified {
@@ -190,30 +203,6 @@ fn scale_length(joint: &mut Joint, factor: &Rational) {
         .chain(&mut joint.com);
     lengths.for_each(|length| *length *= factor);
     joint.inertia = joint.inertia.map(|entry| entry * factor * factor);
-}
-
-/// Adds a point mass at (0.1, 0, 0.1) m: about the common centre, the reduced mass at the distance.
-fn add_point(joint: &mut Joint, mass: &Rational) {
-    let total = &joint.mass + mass;
-    let reduced = &joint.mass * mass / &total;
-    let at = [power(-1), Rational::zero(), power(-1)];
-    let between: [Rational; 3] = std::array::from_fn(|i| &at[i] - &joint.com[i]);
-    for (com, between) in joint.com.iter_mut().zip(&between) {
-        *com += between * mass / &total;
-    }
-    let [x, y, z] = &between;
-    let point = [
-        y * y + z * z,
-        x * x + z * z,
-        x * x + y * y,
-        -(x * y),
-        -(y * z),
-        -(x * z),
-    ];
-    let sums = joint.inertia.entries().into_iter().zip(point);
-    let sums: Vec<Rational> = sums.map(|(own, point)| own + &reduced * point).collect();
-    joint.inertia = Inertia::of(std::array::from_fn(|k| sums[k].clone()));
-    joint.mass = total;
 }
 
 impl Motion {

@@ -1,7 +1,7 @@
-//! `dalembert new`: a crate with an arm of its own, which builds and passes.
+//! `dalembert new`: makes a crate for an arm, which builds and passes its test.
 //!
-//! - this file: the robot, and the folder, all of it or none
-//! - [`texts`]: what is in the files
+//! - this file: reads the robot and makes the folder, all of it or none
+//! - [`texts`]: the contents of the files
 
 mod texts;
 
@@ -23,7 +23,7 @@ use crate::source::Source;
 /// Arguments of `new`.
 #[derive(Debug, clap::Args)]
 pub struct NewArgs {
-    /// The folder of the crate, which is called after it
+    /// The folder of the new crate; its name is the crate's name, too
     folder: PathBuf,
     /// The robot: a robot file, a URDF or an MJCF [default: two links in a plane]
     #[arg(long, value_name = "ROBOT")]
@@ -61,7 +61,7 @@ pub(crate) fn run(args: &NewArgs, context: &Context) -> Outcome {
     let mut report = Report::default();
     let shown = folder.display().to_string();
     report.line(format!(
-        "{shown}: `cargo run` prints torques, `cargo test` compares them with those of a recursion"
+        "{shown}: `cargo run` prints torques, `cargo test` compares them with an independent recursion"
     ));
     report.value("crate", name);
     report.value("folder", shown);
@@ -79,7 +79,7 @@ pub(crate) fn run(args: &NewArgs, context: &Context) -> Outcome {
     })
 }
 
-/// Generates the code that is checked in.
+/// Generates the code that is checked in beside the robot file.
 fn code(file: &RobotFile) -> Result<String, Failure> {
     let asked = texts::ASKED.parse::<Asked>();
     let asked = asked.map_err(|error| Failure::Input(error.to_string()))?;
@@ -96,12 +96,12 @@ fn code(file: &RobotFile) -> Result<String, Failure> {
     Ok(files.concat())
 }
 
-/// Computes torques by the recursion that serves any arm, at three states.
+/// Computes torques at three states, by the recursion for any arm.
 fn states(robot: &Robot) -> Result<Vec<texts::State>, Failure> {
     let n = robot.joints.len();
     let runtime = Reference::<f64>::from_robot(robot);
     let state = |step: usize| {
-        // Sines of the library of all platforms, to two digits.
+        // libm's sines are the same on all platforms; they are rounded to two digits.
         let value = |k: usize, size: f64| {
             let sine = libm::sin((7 * step + 3 * k) as f64);
             (size * sine * 100.0).round() / 100.0
@@ -116,7 +116,7 @@ fn states(robot: &Robot) -> Result<Vec<texts::State>, Failure> {
     (1..=3).map(state).collect()
 }
 
-/// Returns the crate's name, which is the folder's; hyphens may be in it.
+/// Returns the crate's name, which is the folder's; hyphens are allowed.
 fn crate_name(folder: &Path) -> Result<String, Failure> {
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
     let refused = |help: String| {
@@ -137,14 +137,14 @@ fn crate_name(folder: &Path) -> Result<String, Failure> {
     }
 }
 
-/// Returns where the crate has dalembert from: the checkout that this program was built from, if it is
-/// still there, or the registry, where no folder holds this one and dalembert.
+/// Returns the source of the dependency on dalembert: the checkout that this program was built
+/// from, if it still exists, otherwise the registry.
 fn dependency() -> String {
     let checkout = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
     let manifest = fs::read_to_string(Path::new(checkout).join("Cargo.toml")).unwrap_or_default();
     let is_dalembert = manifest.lines().any(|line| line == "name = \"dalembert\"");
     match fs::canonicalize(checkout).ok().filter(|_| is_dalembert) {
-        // A debug string is a TOML string for every path that is text.
+        // For a path that is text, Rust's debug format is a TOML string.
         Some(whole) => format!("path = {:?}", whole.display().to_string()),
         None => format!("version = {:?}", env!("CARGO_PKG_VERSION")),
     }

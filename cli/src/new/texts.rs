@@ -1,6 +1,6 @@
-//! What is in the files of a new crate.
+//! The contents of the files of a new crate.
 
-/// A robot to begin with: two links in a vertical plane.
+/// The default robot: two links in a vertical plane.
 pub const ROBOT: &str = "\
 # Two links of a metre and a kilogram in a vertical plane: put your arm here.
 
@@ -30,13 +30,13 @@ limits = { position = [\"-pi\", \"pi\"], velocity = 3, acceleration = 10, torque
 /// The crates that the new one depends on.
 pub(super) const DEPENDENCIES: [&str; 1] = ["dalembert"];
 
-/// The options that the new crate asks for.
+/// The options of the code in the new crate.
 pub(super) const ASKED: &str = "outputs: inverse_dynamics, gravity; scalar: f64; sincos: together";
 
 /// q, q̇, q̈ and the torques there.
 pub(super) type State = [Vec<f64>; 4];
 
-/// Returns Cargo.toml. It is a workspace of its own, wherever it is put.
+/// Returns Cargo.toml, which makes the crate its own workspace, wherever it is put.
 pub(super) fn manifest(name: &str, dependency: &str) -> String {
     format!(
         "[package]\nname = \"{name}\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n\
@@ -47,7 +47,7 @@ pub(super) fn manifest(name: &str, dependency: &str) -> String {
     )
 }
 
-/// Returns src/main.rs: the macro, torques, and a test against those of a recursion.
+/// Returns src/main.rs: the macro, torques, and a test against the torques of a recursion.
 pub(super) fn source(robot: &str, states: &[State]) -> String {
     let joints = states.first().map_or(0, |[q, ..]| q.len());
     let rows = states.iter().map(|vectors| {
@@ -67,7 +67,7 @@ const SOURCE: &str = "\
 //! The torques of ROBOT.
 
 dalembert::dynamics! {
-    /// Generated in robots/ROBOT.rs: `dalembert renew` makes that new after an edit of the robot.
+    /// Generated in robots/ROBOT.rs: after an edit of the robot run `dalembert renew`.
     pub mod ROBOT = \"robots/ROBOT.toml\";
     outputs: inverse_dynamics, gravity;
     scalar: f64;
@@ -89,7 +89,7 @@ mod tests {
     type Vector = [f64; JOINTS];
 
     /// q, its rates and accelerations, and the torques there by a recursion that serves any arm:
-    /// `dalembert new` computed them. After an edit of the robot they are others.
+    /// `dalembert new` computed them. They change when the robot is edited.
     #[rustfmt::skip]
     const EXPECTED: [(Vector, Vector, Vector, Vector); COUNT] = [
 STATES

@@ -45,7 +45,7 @@ pub fn read(scalar: ScalarType) -> Vec<Extreme> {
         .collect()
 }
 
-/// Returns the numbers taken at their word: no angle is snapped.
+/// Returns the robot with its numbers exactly as they are: no angle is snapped.
 fn robot(json: &Value, scalar: ScalarType) -> Robot {
     let column = |key: &str| numbers(&json[key], scalar);
     let [alpha, a, d, offset, mass] = ["alpha", "a", "d", "off", "m"].map(column);
@@ -104,8 +104,8 @@ fn numbers(json: &Value, scalar: ScalarType) -> Vec<f64> {
     }
 }
 
-/// Draws states within the magnitudes of a state: the largest of |q|, |q̇| and |q̈| at a joint of
-/// the same kind.
+/// Draws 1000 states within the magnitudes of a state: the largest |q|, |q̇| and |q̈| of all joints
+/// of the same kind.
 pub fn drawn_like(robot: &Robot, state: &JointState) -> Vec<JointState> {
     let mut random = Random::new(0x7a11);
     let mut within = |values: &[f64]| -> Vec<f64> {

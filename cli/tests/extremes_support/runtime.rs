@@ -1,4 +1,4 @@
-//! The generic runtime as code that is measured.
+//! The generic runtime as [`Code`] to measure.
 
 use dalembert_cli::measure::Code;
 use dalembert_codegen::workspace::{Argument, JointState, Sizes};

@@ -1,11 +1,11 @@
-//! Running the command.
+//! Runs the command.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-/// How a run ended.
+/// The exit code and the output of a run.
 pub struct Ran {
     pub code: i32,
     pub out: String,
@@ -38,7 +38,7 @@ impl Ran {
 pub fn run(arguments: &[&str]) -> Ran {
     let output = Command::new(env!("CARGO_BIN_EXE_dalembert"))
         .args(arguments)
-        // What these tests were built with is not for a crate that the command builds.
+        // The wrapper of these tests is not for a crate that the command builds.
         .env_remove("RUSTC_WORKSPACE_WRAPPER")
         .output()
         .unwrap();
@@ -50,7 +50,7 @@ pub fn run(arguments: &[&str]) -> Ran {
     }
 }
 
-/// Runs the command, which ends well.
+/// Runs the command and expects success.
 #[track_caller]
 pub fn good(arguments: &[&str]) -> Ran {
     let ran = run(arguments);
@@ -58,7 +58,7 @@ pub fn good(arguments: &[&str]) -> Ran {
     ran
 }
 
-/// Returns a checked-in robot file.
+/// Returns the path of a checked-in robot file.
 pub fn robot(name: &str) -> String {
     let root = env!("CARGO_MANIFEST_DIR");
     format!("{root}/../generated/robots/{name}.toml")
@@ -72,7 +72,7 @@ pub fn temporary(name: &str) -> PathBuf {
     folder
 }
 
-/// Returns a checked-in robot with more in its file, in a folder of its own, and the file's name.
+/// Writes a checked-in robot file, with `more` appended, to a new folder; returns folder and file.
 pub fn arm(folder: &str, of: &str, more: &str) -> (PathBuf, String) {
     let folder = temporary(folder);
     let file = folder.join("arm.toml");

@@ -3,19 +3,19 @@
 use crate::run::Target;
 use crate::{Joints, Parameters, State, arm};
 
-/// Λ: how fast the error dies once s is zero, 1/s.
+/// Λ: the rate at which the error decays once s is zero, 1/s.
 const LAMBDA: f64 = 8.0;
 /// K, N·m·s.
 pub const DAMPING: Joints = [8.0, 8.0, 3.0];
-/// Γ: how fast what was learned changes.
+/// Γ: how fast the estimate changes.
 pub const GAIN: f64 = 15.0;
 
 /// A controller and its estimate of the arm.
 #[derive(Clone)]
 pub struct Controller {
-    /// π̂: at first the empty arm.
+    /// π̂: at first that of the empty arm.
     pub estimate: Parameters,
-    /// Γ; zero for one that does not learn.
+    /// Γ; a controller with zero gain does not learn.
     pub gain: f64,
 }
 
@@ -43,7 +43,7 @@ impl Wish {
 }
 
 impl Controller {
-    /// Creates a controller that takes the arm for empty at first; without gain it does not learn.
+    /// Creates a controller whose first estimate is the empty arm; zero gain turns learning off.
     pub fn new(gain: f64) -> Controller {
         Controller {
             estimate: arm::PASSIVITY_PARAMETERS,
@@ -51,14 +51,14 @@ impl Controller {
         }
     }
 
-    /// τ = Y π̂ − K s; and for `period` seconds the estimate goes along −Γ Yᵀ s.
+    /// Returns τ = Y π̂ − K s, and moves the estimate along −Γ Yᵀ s for `period` seconds.
     pub fn torques(&mut self, state: &State, target: &Target, period: f64) -> Joints {
         let Wish { v, a, s } = Wish::new(state, target);
         let y = arm::passivity_regressor(&state.q, &state.qd, &v, &a);
         self.answer(&y, &s, period)
     }
 
-    /// Computes the torques from Y and s.
+    /// Computes the torques from Y and s, and moves the estimate.
     pub fn answer(&mut self, y: &[Parameters; arm::N], s: &Joints, period: f64) -> Joints {
         let tau = core::array::from_fn(|i| product(&y[i], &self.estimate) - DAMPING[i] * s[i]);
         for (row, s) in y.iter().zip(s) {

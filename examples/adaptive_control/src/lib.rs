@@ -1,7 +1,7 @@
 //! An arm that learns what it carries while it moves: the adaptive controller of
 //! Slotine and Li (1987).
 //!
-//! With v = q̇_d − Λ(q − q_d), the velocity wished for, a = v̇ and s = q̇ − v, the law is
+//! With the reference velocity v = q̇_d − Λ(q − q_d), a = v̇ and s = q̇ − v, the law is
 //!
 //! ```text
 //! τ = Y π̂ − K s,    dπ̂/dt = −Γ Yᵀ s,    Y π = D a + C v + c + b∘v
@@ -15,11 +15,11 @@
 //! dV/dt = −sᵀ(K + b) s + ½ sᵀ(Ḋ − 2C) s + (π̂ − π)ᵀ(Yᵀ s + Γ⁻¹ dπ̂/dt) = −sᵀ(K + b) s
 //! ```
 //!
-//! since Ḋ − 2C is skew for the C of the Christoffel symbols. `regressor(q, q̇, q̈)` will not do: it
-//! would have C(q, v) v in the place of C(q, q̇) v.
+//! since Ḋ − 2C is skew-symmetric for the C of the Christoffel symbols. `regressor(q, v, a)` cannot
+//! replace Y: it has C(q, v) v in the place of C(q, q̇) v.
 //!
 //! - [`control`]: the law
-//! - [`run`]: where the arm should be, and the controller on the arm with its payload
+//! - [`run`]: the target motion, and the controller on the arm with its payload
 #![forbid(unsafe_code)]
 
 pub mod control;
@@ -33,7 +33,7 @@ dalembert::dynamics! {
 }
 
 dalembert::dynamics! {
-    /// The arm that is moved, with its payload. The controller does not see it.
+    /// The simulated arm with its payload, which the controller does not know.
     pub mod loaded = "robots/arm.toml";
     scene: loaded;
     outputs: forward_dynamics, inertia, passivity, regressor, passivity_regressor;

@@ -1,4 +1,4 @@
-//! The controller at 1 kHz on the arm that carries what it does not know.
+//! Runs the controller at 1 kHz on the arm with an unknown payload.
 
 use example_shared::{distance, largest};
 
@@ -8,14 +8,14 @@ use crate::{Joints, Parameters, State, arm, loaded};
 /// The period of the controller, s.
 const PERIOD: f64 = 1e-3;
 
-/// Positions, velocities and accelerations wished for, rad and s.
+/// Target positions, velocities and accelerations, rad and s.
 pub struct Target {
     pub q: Joints,
     pub qd: Joints,
     pub qdd: Joints,
 }
 
-/// About where every joint swings, rad.
+/// The pose from which every joint swings, rad.
 const CENTRE: Joints = [0.0, 0.4, -0.8];
 /// Amplitudes at each frequency, rad.
 const SWING: [Joints; 2] = [[0.6, 0.35, 0.5], [0.25, 0.15, 0.3]];
@@ -42,9 +42,9 @@ pub fn target(time: f64) -> Target {
     target
 }
 
-/// Follows the trajectory for so many seconds. Returns, of the last of them, the largest distance
-/// of a joint from its target, rad, and of a torque of the estimate, Y π̂, from that of the arm with
-/// its payload, N·m.
+/// Follows the trajectory for `duration` seconds. Returns the largest errors in the last second: of
+/// a joint's position, rad, and of a torque of the estimate, Y π̂, against that of the arm with its
+/// payload, N·m.
 pub fn run(mut controller: Controller, duration: f64) -> [f64; 2] {
     let mut state = State::at_rest(target(0.0).q);
     let mut most = [0.0; 2];
@@ -74,7 +74,7 @@ fn torque_error(state: &State, target: &Target, controller: &Controller) -> f64 
     distance(&estimate, &loaded::passivity(&state.q, &state.qd, &v, &a))
 }
 
-/// V = ½ sᵀD s + ½ (π̂ − π)ᵀ Γ⁻¹ (π̂ − π), with D and π of the arm with its payload.
+/// Returns V = ½ sᵀD s + ½ (π̂ − π)ᵀ Γ⁻¹ (π̂ − π), with D and π of the arm with its payload.
 pub fn energy(state: &State, target: &Target, estimate: &Parameters) -> f64 {
     let s = Wish::new(state, target).s;
     let momentum = loaded::inertia(&state.q).map(|row| product(&row, &s));

@@ -5,7 +5,7 @@ use adaptive_control::run::{energy, moved, target};
 use adaptive_control::{Joints, Parameters, State, arm, loaded};
 use example_shared::assert_shown;
 
-/// dV/dt = −sᵀ(K + b) s, whatever the estimate and wherever the arm is.
+/// dV/dt = −sᵀ(K + b) s for any estimate and any state.
 #[test]
 fn the_energy_of_the_error_falls_as_it_should() {
     for step in 0..200 {
@@ -14,8 +14,8 @@ fn the_energy_of_the_error_falls_as_it_should() {
     }
 }
 
-/// With the regressor of the torques, in which C(q, v) v stands for C(q, q̇) v, it is not,
-/// but for where q̇ happens to be v.
+/// With the regressor of the torques, which has C(q, v) v instead of C(q, q̇) v, the equation
+/// fails unless q̇ happens to be v.
 #[test]
 fn the_regressor_of_the_torques_will_not_do() {
     let off = |step| rate_is_off(step, |q, _, v, a| loaded::regressor(q, v, a));
@@ -25,7 +25,7 @@ fn the_regressor_of_the_torques_will_not_do() {
 
 type Regressor = fn(&Joints, &Joints, &Joints, &Joints) -> [Parameters; arm::N];
 
-/// Returns how far the rate of V is from −sᵀ(K + b) s, relative to it, near the trajectory.
+/// Returns the relative error of dV/dt = −sᵀ(K + b) s at a state near the trajectory.
 fn rate_is_off(step: u32, regressor: Regressor) -> f64 {
     let time = 0.1 * f64::from(step);
     let wanted = target(time);
@@ -41,7 +41,7 @@ fn rate_is_off(step: u32, regressor: Regressor) -> f64 {
     }
     let Wish { v, a, s } = Wish::new(&state, &wanted);
     let before = energy(&state, &wanted, &controller.estimate);
-    // The torques stay as they are meanwhile, and so does the rate of the estimate.
+    // The torques and the rate of the estimate are constant over the period.
     let fallen = |period: f64| {
         let mut controller = controller.clone();
         let y = regressor(&state.q, &state.qd, &v, &a);
@@ -49,7 +49,7 @@ fn rate_is_off(step: u32, regressor: Regressor) -> f64 {
         let (moved, wanted) = (moved(&state, &tau, period), target(time + period));
         (before - energy(&moved, &wanted, &controller.estimate)) / period
     };
-    // The error of a difference is halved with its step: what is left is of second order.
+    // Half the step halves the error of a difference: the combination is of second order.
     let found = 2.0 * fallen(0.5e-6) - fallen(1e-6);
     let viscous = [0.0, 0.0, 0.05];
     let damped: Joints = core::array::from_fn(|i| (DAMPING[i] + viscous[i]) * s[i]);

@@ -1,7 +1,7 @@
-//! Dynamics in f32 without std, allocator and unwinding.
+//! Dynamics in f32 without std, allocator or unwinding.
 //!
-//! On a microcontroller `main` would be the entry of the board's runtime;
-//! here it is that of the C library, so that the program can be run.
+//! On a microcontroller the board's runtime would call `main`; here the
+//! C library calls it, so that the program runs on a computer.
 #![no_std]
 #![no_main]
 
@@ -15,16 +15,16 @@ dalembert::dynamics! {
     scalar: f32;
 }
 
-/// 0 if the torques are right.
+/// Returns 0 if the torques are right.
 ///
-/// The symbol is the one that the C library calls, and there is no other: that
-/// is what the attribute's promise is about.
+/// `no_mangle` is safe here: the C library calls this symbol, and no other
+/// function has this name.
 #[unsafe(no_mangle)]
 pub extern "C" fn main(_count: c_int, _arguments: *const *const c_char) -> c_int {
     let upright = core::f32::consts::FRAC_PI_2;
     let swinging = arm::inverse_dynamics(&[0.3, 0.0], &[0.0, 2.0], &[1.0, 3.0]);
     let inertia = arm::inertia(&[0.3, upright]);
-    // The table alone, the pendulum's m g a + m a² q̈, and nothing coupled.
+    // The table's inertia alone, the pendulum's m g a + m a² q̈, and no coupling.
     let good = close(inertia[0][0], 0.5)
         && close(inertia[0][1], 0.0)
         && close(swinging[0], 0.5 + 0.5)

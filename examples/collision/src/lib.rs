@@ -1,9 +1,9 @@
-//! A UR10 that moves is pushed at its hand, and finds the push by its momentum.
+//! A moving UR10 is pushed at its hand, and detects the push by its momentum.
 //!
-//! - [`observer`]: the torques of what touches the arm, from the drives' and the motion
+//! - [`observer`]: the external torques, from the torques of the drives and the motion
 //! - [`simulate`]: the arm, its controller and the push, at 1 kHz
 //!
-//! The arm has no sensor of force: the observer takes positions, velocities and the torques of the
+//! The arm has no force sensor: the observer takes positions, velocities and the torques of the
 //! drives. De Luca and Mattone, "Sensorless robot collision detection and
 //! hybrid force/motion control", 2005.
 #![forbid(unsafe_code)]
@@ -16,7 +16,7 @@ use example_shared::largest;
 use observer::Observer;
 
 dalembert::dynamics! {
-    /// The arm, with what is asked of it at its hand.
+    /// The arm, with the functions that detect a push.
     pub mod ur10 = "../../generated/robots/ur10.toml";
     outputs: inverse_dynamics, forward_dynamics_with_wrench, momentum_observer, contact_wrench;
     scalar: f64;
@@ -34,11 +34,11 @@ pub type Wrench = [f64; 6];
 /// The period of controller and observer, s.
 pub const PERIOD: f64 = 1e-3;
 
-/// A torque of something outside above this is a push, N·m. Without one the observer is below a
+/// An external torque above this is a push, N·m. Without a push the observer stays below a
 /// thousandth of it.
 pub const THRESHOLD: f64 = 1.0;
 
-/// λ² of the estimate of a wrench: small beside J Jᵀ where the arm is bent.
+/// λ², the damping of the wrench estimate: small beside J Jᵀ where the arm is bent.
 const DAMPING: [f64; 1] = [1e-6];
 
 /// The closed loop's frequency, rad/s.
@@ -57,13 +57,13 @@ pub struct Push {
 pub struct Noticed {
     /// When, s.
     pub time: f64,
-    /// The largest torque of what touches the arm, N·m: above [`THRESHOLD`] it is a push.
+    /// The largest external torque, N·m: above [`THRESHOLD`] it is a push.
     pub torque: f64,
     /// The wrench on the hand that explains the torques.
     pub wrench: Wrench,
 }
 
-/// Returns where the arm should be, with its rates: slow circles of every joint about a bent pose.
+/// Returns the target's q, q̇ and q̈ at a time, s: slow swings of every joint from a bent pose.
 fn target(time: f64) -> [Joints; 3] {
     let centre = [0.2, -1.2, 1.6, -1.9, -1.4, 0.3];
     let (s, c) = time.sin_cos();
@@ -74,7 +74,7 @@ fn target(time: f64) -> [Joints; 3] {
     ]
 }
 
-/// Moves the arm for so many seconds while it is pushed.
+/// Simulates the pushed arm for `duration` seconds; returns the observer's results.
 pub fn simulate(push: &Push, duration: f64) -> Vec<Noticed> {
     let [q, qd, _] = target(0.0);
     let mut state = State { q, qd };

@@ -1,5 +1,5 @@
-//! Prints when a push was noticed, and what it was found to be; fails if it is missed or its
-//! size is off by more than 5 %.
+//! Prints when a push was noticed and its estimated force; fails if the push is missed or the
+//! size of the force is wrong by more than 5 %.
 
 use collision::{PERIOD, Push, THRESHOLD, simulate};
 

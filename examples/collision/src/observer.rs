@@ -1,11 +1,11 @@
-//! r = K (p − p₀ − ∫ (τ + β + r) dt), which follows the torques of what is outside.
+//! The residual r = K (p − p₀ − ∫ (τ + β + r) dt), which follows the external torques.
 
 use crate::{Joints, PERIOD, State, ur10};
 
-/// The bandwidth K, 1/s: r reaches the torques after a few times 1/K.
+/// The bandwidth K, 1/s: r reaches the external torques after a few times 1/K.
 const BANDWIDTH: f64 = 50.0;
 
-/// The observer's memory.
+/// The observer's state.
 pub struct Observer {
     /// p₀ + ∫ (τ + β + r) dt
     expected: Joints,
@@ -14,7 +14,7 @@ pub struct Observer {
 }
 
 impl Observer {
-    /// Begins at a state that nothing touches.
+    /// Creates an observer at a state in which nothing touches the arm.
     pub fn new(state: &State) -> Observer {
         Observer {
             expected: ur10::momentum_observer(&state.q, &state.qd).p,
@@ -22,8 +22,8 @@ impl Observer {
         }
     }
 
-    /// Takes what the drives gave for a period from one state to the next; returns the torques
-    /// of what is outside. β is the mean of both ends.
+    /// Takes the torques of the drives over the period from one state to the next; returns the
+    /// external torques. β is the mean of both ends.
     pub fn observe(&mut self, from: &State, to: &State, tau: &Joints) -> Joints {
         let before = ur10::momentum_observer(&from.q, &from.qd);
         let after = ur10::momentum_observer(&to.q, &to.qd);

@@ -1,4 +1,4 @@
-//! A push is found when it comes and as it is, and nothing is found without one.
+//! A push is found at its time and with its wrench; without a push nothing is found.
 
 use collision::{Push, THRESHOLD, simulate};
 use example_shared::{assert_shown, distance, largest};
@@ -20,7 +20,7 @@ fn a_push_is_found_within_five_percent() {
         let off = distance(&noticed.wrench, &PUSH.wrench);
         assert!(off <= 0.05 * largest(PUSH.wrench), "{noticed:?}");
     }
-    // When it is over, it is gone.
+    // After the push nothing is noticed.
     let mut later = all.iter().filter(|noticed| noticed.time > 2.3);
     assert!(later.all(|noticed| noticed.torque < THRESHOLD));
 }

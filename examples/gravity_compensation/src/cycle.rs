@@ -1,28 +1,28 @@
-//! What a microcontroller does every millisecond: ticks in, commands out.
+//! The control cycle of a microcontroller, every millisecond: ticks in, commands out.
 
 use crate::Servo;
 
 /// The period, s.
 pub const PERIOD: f32 = 1e-3;
-/// Full support comes after this time, s: who holds the arm feels it grow lighter.
+/// The time until full support, s: whoever holds the arm feels it grow lighter.
 const RAMP: f32 = 2.0;
-/// Speeds are means over this time, s: one tick in a millisecond is 1.5 rad/s.
+/// The time over which speeds are averaged, s: one tick per millisecond is 1.5 rad/s.
 const MEAN: f32 = 0.02;
-/// A hand that leads an arm is slower than this, rad/s; an arm that falls soon is not.
+/// The largest speed of an arm that is led by hand, rad/s; a falling arm soon exceeds it.
 const FASTEST: f32 = 2.0;
-/// What stops an arm that was pushed, N·m s/rad: without it only friction would.
+/// The damping that stops a pushed arm, N·m s/rad: without it only friction would.
 const DAMPING: f32 = 0.15;
-/// The share of friction that is given back: with all of it the arm would creep.
+/// The share of friction that is compensated: with all of it the arm would creep.
 const HELP: f32 = 0.5;
 /// The speed over which the sign of friction is smoothed, rad/s.
 const SMOOTH: f32 = 0.2;
 
-/// Why the arm was let go, and the joint that said so, from zero.
+/// The reason why the arm was released, with the joint, counted from zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// It moves faster than a hand moves it: a wrong sign, or a wrong zero.
+    /// The joint moves faster than a hand moves it: a wrong sign, or a wrong zero.
     Fast(usize),
-    /// Its angle jumped: a cable, or a servo that was reset.
+    /// The joint's angle jumped: a cable, or a servo that was reset.
     Jump(usize),
 }
 
@@ -37,7 +37,7 @@ pub struct Cycle<const N: usize> {
 }
 
 impl<const N: usize> Cycle<N> {
-    /// Makes one that supports nothing yet, from the generated function of the arm.
+    /// Creates a cycle, at first without support, from the arm's generated function.
     pub fn new(servos: [Servo; N], gravity: fn(&[f32; N]) -> [f32; N]) -> Self {
         Cycle {
             servos,
@@ -49,20 +49,20 @@ impl<const N: usize> Cycle<N> {
         }
     }
 
-    /// Returns why it let go of the arm, if it did.
+    /// Returns why the arm was released, if it was.
     pub fn stop(&self) -> Option<Stop> {
         self.stop
     }
 
-    /// Returns the commands for the ticks that the servos have now; call it every
-    /// [`PERIOD`]. After a [`Stop`] all commands are zero.
+    /// Returns the commands for the servos' present ticks; call it every [`PERIOD`].
+    /// After a [`Stop`] all commands are zero.
     pub fn step(&mut self, ticks: &[u16; N]) -> [i16; N] {
         let q: [f32; N] = core::array::from_fn(|i| self.servos[i].angle(ticks[i]));
         let before = self.q.replace(q).unwrap_or(q);
         for i in 0..N {
             let speed = (q[i] - before[i]) / PERIOD;
             self.qd[i] += (speed - self.qd[i]) * (PERIOD / MEAN);
-            // A joint that turns at its fastest moves by far less in a period.
+            // Even at the largest speed a joint moves by far less in a period.
             let jumped = (q[i] - before[i]).abs() > 20.0 * FASTEST * PERIOD;
             if jumped {
                 self.stop.get_or_insert(Stop::Jump(i));
@@ -84,7 +84,7 @@ impl<const N: usize> Cycle<N> {
     }
 }
 
-/// x / (|x| + w): a sign that is no step, and takes no root.
+/// Returns x / (|x| + w): a sign without a step, and without a square root.
 fn smooth_sign(speed: f32) -> f32 {
     speed / (speed.abs() + SMOOTH)
 }

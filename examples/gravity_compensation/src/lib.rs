@@ -1,10 +1,10 @@
-//! Open arms that float: they stay where a hand puts them.
+//! Open-source arms that float: they stay where a hand puts them.
 //!
-//! - [`Servo`]: ticks and units of a servo as radians and N·m
-//! - [`cycle`]: what a microcontroller does every millisecond
+//! - [`Servo`]: converts ticks and command units to radians and N·m
+//! - [`cycle`]: the control cycle of a microcontroller, every millisecond
 //!
 //! Nothing here needs std, an allocator or f64.
-// The SO-101's file has an angle of 5e-8 rad, of which the macro warns.
+// The macro warns of an angle of 5e-8 rad in the SO-101's file.
 #![allow(deprecated)]
 #![no_std]
 #![forbid(unsafe_code)]
@@ -27,28 +27,28 @@ dalembert::dynamics! {
     scalar: f32;
 }
 
-/// A joint's servo. All of it but the kind of servo is measured once on the arm.
+/// A joint's servo. All values but those of the servo's type are measured once on the arm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Servo {
-    /// Ticks of a turn.
+    /// Ticks per turn.
     pub ticks: f32,
     /// The tick at which the robot file's angle is zero.
     pub zero: f32,
-    /// 1 where more ticks are a larger angle, −1 where they are a smaller one.
+    /// 1 if the angle grows with the ticks, −1 if it falls.
     pub sign: f32,
-    /// Units of the command for 1 N·m.
+    /// Command units per N·m.
     pub units_per_torque: f32,
-    /// Units of the command for 1 rad/s: what the turning motor's own voltage takes of a duty;
-    /// zero where the servo controls the current.
+    /// Command units per rad/s: the part of the duty that the motor's back-EMF takes; zero if the
+    /// servo controls the current.
     pub units_per_speed: f32,
-    /// The torque that its gears take, N·m.
+    /// The friction torque of the gears, N·m.
     pub friction: f32,
-    /// No more than this, N·m.
+    /// The largest torque, N·m.
     pub most: f32,
 }
 
 impl Servo {
-    /// Returns the angle of a tick, rad.
+    /// Returns the angle at a tick, rad.
     pub fn angle(&self, tick: u16) -> f32 {
         self.sign * (f32::from(tick) - self.zero) * (TAU / self.ticks)
     }
@@ -57,13 +57,13 @@ impl Servo {
     pub fn command(&self, torque: f32, speed: f32) -> i16 {
         let torque = torque.clamp(-self.most, self.most);
         let units = torque * self.units_per_torque + speed * self.units_per_speed;
-        // To the nearest unit; what is no number becomes zero.
+        // Rounds to the nearest unit; NaN becomes zero.
         let half = if units < 0.0 { -0.5 } else { 0.5 };
         (self.sign * (units + half)) as i16
     }
 }
 
-/// Feetech STS3215 at 12 V, driven by its duty: 2.9 N·m at standstill and 4.7 rad/s without a
+/// Feetech STS3215 at 12 V, controlled by its duty: 2.9 N·m at standstill and 4.7 rad/s without a
 /// load, both at a duty of 1000.
 pub const STS3215: Servo = Servo {
     ticks: 4096.0,
@@ -75,7 +75,7 @@ pub const STS3215: Servo = Servo {
     most: 1.5,
 };
 
-/// ROBOTIS XM430-W350, driven by its current: 1.78 N·m for an ampere, 2.69 mA a unit.
+/// ROBOTIS XM430-W350, controlled by its current: 1.78 N·m per ampere, 2.69 mA per unit.
 pub const XM430: Servo = Servo {
     ticks: 4096.0,
     zero: 2048.0,

@@ -1,4 +1,4 @@
-//! What the arms carry of their own weight: the numbers of the guide.
+//! Prints the torques that hold the arms' own weight, as the page shows them.
 
 use gravity_compensation::{open_manipulator, so101};
 

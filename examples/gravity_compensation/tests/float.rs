@@ -1,27 +1,27 @@
-//! The arms in simulation, with servos that round, rub and brake as real ones do.
+//! Simulates the arms with servos that round, rub and brake as real ones do.
 
 use example_shared::{State, assert_shown, distance, largest};
 use gravity_compensation::cycle::{Cycle, PERIOD, Stop};
 use gravity_compensation::{OPEN_MANIPULATOR_SERVOS, SO101_SERVOS, Servo, open_manipulator, so101};
 
 dalembert::dynamics! {
-    /// The SO-101 that is moved: its rotors outweigh its wrist.
+    /// The simulated SO-101: its rotors outweigh its wrist.
     mod so101_plant = "robots/so101_geared.toml";
     outputs: forward_dynamics, gravity;
     scalar: f64;
 }
 
 dalembert::dynamics! {
-    /// The OpenMANIPULATOR-X that is moved.
+    /// The simulated OpenMANIPULATOR-X.
     mod open_manipulator_plant = "robots/open_manipulator_geared.toml";
     outputs: forward_dynamics, gravity;
     scalar: f64;
 }
 
-/// q̈ of q, q̇ and τ.
+/// A function that returns q̈ from q, q̇ and τ.
 type Acceleration<const N: usize> = fn(&[f64; N], &[f64; N], &[f64; N]) -> [f64; N];
 
-/// An arm with its servos, as they are and as the controller takes them for.
+/// A simulated arm with its servos, and a controller, which may assume other servos.
 struct Bench<const N: usize> {
     servos: [Servo; N],
     cycle: Cycle<N>,
@@ -34,21 +34,21 @@ impl<const N: usize> Bench<N> {
         core::array::from_fn(|i| tick(&self.servos[i], self.state.q[i]))
     }
 
-    /// Has a hand hold the arm still until the support is full.
+    /// Holds the arm still by hand until the support is full.
     fn hold(&mut self) {
         for _ in 0..2100 {
             self.cycle.step(&self.ticks());
         }
     }
 
-    /// Runs for a time under a torque at the second joint, and returns how far each joint got.
+    /// Simulates a torque at the second joint for `seconds`; returns how far each joint moved.
     fn run(&mut self, seconds: f64, push: impl Fn(f64) -> f64) -> [f64; N] {
         let from = self.state.q;
         let period = f64::from(PERIOD);
         for k in 0..(seconds / period).round() as usize {
             let commands = self.cycle.step(&self.ticks());
             let force = push(k as f64 * period);
-            // Gears rub: short steps follow them.
+            // The friction of the gears needs short steps.
             for _ in 0..4 {
                 self.state = self.state.step(period / 4.0, |at| {
                     let mut tau =
@@ -68,7 +68,7 @@ fn tick(servo: &Servo, q: f64) -> u16 {
     (turns * f64::from(servo.ticks) + f64::from(servo.zero)).round() as u16
 }
 
-/// Returns the torque at the joint: of a command, less the motor's own voltage, less friction.
+/// Returns the torque at the joint: that of the command, less back-EMF, less friction.
 fn torque(servo: &Servo, command: i16, speed: f64) -> f64 {
     let own = f64::from(servo.sign) * f64::from(command) - f64::from(servo.units_per_speed) * speed;
     let rub = f64::from(servo.friction) * speed / (speed * speed + 1e-4).sqrt();
@@ -99,13 +99,13 @@ fn an_so101_floats_and_falls_without_support() {
         let moved = largest(bench.run(3.0, |_| 0.0));
         assert_eq!(bench.cycle.stop(), None);
         assert!(moved < 0.001, "{q:?}: {moved}");
-        // Pushed it moves, and stays where it was put.
+        // A push moves it, and it stays where it was put.
         let pushed = bench.run(0.6, |time| if time < 0.3 { 0.25 } else { 0.0 })[1];
         let after = bench.run(2.0, |_| 0.0)[1];
         assert!((0.25..0.35).contains(&pushed), "{pushed}");
         assert!(after < 0.0115, "{after}");
     }
-    // The same arm, but for what its load says.
+    // The same arm without gravity compensation.
     let mut bench = so101_at(POSES[0], SO101_SERVOS);
     bench.cycle = Cycle::new(SO101_SERVOS, |_| [0.0; so101::N]);
     let fallen = largest(bench.run(1.0, |_| 0.0));
@@ -126,7 +126,7 @@ fn an_open_manipulator_floats() {
     assert_eq!(bench.cycle.stop(), None);
 }
 
-/// Signs, zeros and cables are what goes wrong first.
+/// The mistakes that happen first: signs, zeros and cables.
 #[test]
 fn mistakes_are_noticed() {
     let mut wrong = SO101_SERVOS;
@@ -135,19 +135,19 @@ fn mistakes_are_noticed() {
     bench.hold();
     let moved = bench.run(1.0, |_| 0.0);
     assert_eq!(bench.cycle.stop(), Some(Stop::Fast(1)), "{moved:?}");
-    // A servo that loses its turns.
+    // A servo whose angle jumps.
     let mut bench = so101_at(POSES[1], SO101_SERVOS);
     bench.run(0.1, |_| 0.0);
     let mut ticks = bench.ticks();
     ticks[3] += 400;
     assert_eq!(bench.cycle.step(&ticks), [0; so101::N]);
     assert_eq!(bench.cycle.stop(), Some(Stop::Jump(3)));
-    // Let go of it stays.
+    // Once released, it stays released.
     ticks[3] -= 400;
     assert_eq!(bench.cycle.step(&ticks), [0; so101::N]);
 }
 
-/// Nothing at first, all of it in the end, never more than the servo's limit.
+/// The support grows from nothing to all, and never exceeds the servo's limit.
 #[test]
 fn support_grows() {
     let largest = |commands: [i16; so101::N]| commands.into_iter().map(i16::abs).max();
@@ -168,7 +168,7 @@ fn support_grows() {
     }
 }
 
-/// In f32 as in f64, but for its digits.
+/// The f32 function agrees with f64 within 1e-6 N·m.
 #[test]
 fn f32_is_enough() {
     for q in POSES {

@@ -13,7 +13,7 @@ pub struct Target {
     pub qdd: Joints,
 }
 
-/// Returns the target at a time, s: swings of half a radian, a joint after the other.
+/// Returns the target at a time, s: every joint swings by half a radian, each 1 rad out of phase.
 pub fn target(time: f64) -> Target {
     let swing = |i: usize| 0.5 * (time + i as f64).sin();
     let rate = |i: usize| 0.5 * (time + i as f64).cos();
@@ -24,7 +24,7 @@ pub fn target(time: f64) -> Target {
     }
 }
 
-/// τ = D(q)(q̈ + 2ω ė + ω² e) + h(q, q̇) + c(q) + b∘q̇.
+/// Returns τ = D(q)(q̈ + 2ω ė + ω² e) + h(q, q̇) + c(q) + b∘q̇.
 pub fn torques(state: &State, target: &Target) -> Joints {
     let wanted = std::array::from_fn(|i| {
         let (error, rate) = (target.q[i] - state.q[i], target.qd[i] - state.qd[i]);
@@ -34,7 +34,7 @@ pub fn torques(state: &State, target: &Target) -> Joints {
 }
 
 /// Runs the arm and its controller for some seconds at 1 kHz. Returns the largest error of a joint
-/// in the second half, when that of the start has died away.
+/// in the second half, when the error at the start has died away.
 pub fn follow(seconds: u32) -> f64 {
     const PERIOD: f64 = 1e-3;
     let (q, qd) = ([0.0; arm::N], [0.0; arm::N]);

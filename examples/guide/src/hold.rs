@@ -1,8 +1,8 @@
-//! The arm held against gravity, with what is in its hand.
+//! Holds the arm against gravity, with a tool in its hand.
 
 use crate::{Joints, arm, carrying, with_a_kilogram};
 
-/// How much of a turn too far is pulled back, N·m/rad, and what it damps, N·m s/rad.
+/// The stiffness and the damping of [`hold`], N·m/rad and N·m s/rad.
 const STIFFNESS: f64 = 80.0;
 const DAMPING: f64 = 6.0;
 
@@ -11,7 +11,7 @@ pub fn float(q: &Joints) -> Joints {
     arm::gravity(q)
 }
 
-/// Returns the torques that bring it back to a pose, softly.
+/// Returns the torques that pull the arm softly to a pose.
 pub fn hold(q: &Joints, qd: &Joints, pose: &Joints) -> Joints {
     let load = arm::gravity(q);
     std::array::from_fn(|i| load[i] + STIFFNESS * (pose[i] - q[i]) - DAMPING * qd[i])
@@ -28,8 +28,8 @@ pub fn hold_a_tool(q: &Joints) -> Joints {
 
 /// Returns the mass in the hand that explains the torques measured at poses, in kg, by least squares.
 ///
-/// Torques are linear in a mass whose place in the hand is known, so a kilogram of it
-/// tells what any other mass does. `None` where no pose depends on the mass.
+/// Torques are linear in a mass at a known position in the hand, so the torques of one
+/// kilogram give those of any mass. `None` if the mass changes no torque at these poses.
 pub fn mass(measured: &[(Joints, Joints)]) -> Option<f64> {
     let (mut along, mut size) = (0.0, 0.0);
     for (q, tau) in measured {

@@ -1,7 +1,7 @@
 //! The code of the guide in `docs/`, where every block of Rust is a piece of this crate.
 //!
-//! - [`hold`]: an arm held against gravity, with a tool; a payload from torques
-//! - [`simulate`]: an arm that moves under torques
+//! - [`hold`]: holds the arm against gravity, with a tool; finds a payload from torques
+//! - [`simulate`]: moves the arm under torques
 //! - [`control`]: a controller that follows a motion
 #![forbid(unsafe_code)]
 
@@ -24,7 +24,7 @@ dalembert::dynamics! {
 }
 
 dalembert::dynamics! {
-    /// The same arm, what it carries and where gravity points as arguments.
+    /// The same arm with payload and gravity as arguments.
     pub mod carrying = "robots/arm.toml";
     outputs: inverse_dynamics, gravity;
     scalar: f64;
@@ -32,7 +32,7 @@ dalembert::dynamics! {
 }
 
 dalembert::dynamics! {
-    /// What picking takes: two torques, 1% of the actuators' limits.
+    /// The arm while it picks: two torques, within 1% of the actuators' limits.
     pub mod picking = "robots/arm.toml";
     scene: pick;
     scalar: f64;

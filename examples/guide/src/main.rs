@@ -23,7 +23,7 @@ fn main() {
     println!("to pick, at 1%  {pick:.1} ns");
 }
 
-/// Returns the time of a call, the best of some rounds.
+/// Returns the time of a call, ns: the best of 20 rounds.
 fn nanoseconds<T>(call: impl Fn(&Joints, &Joints, &Joints) -> T) -> f64 {
     const CALLS: u32 = 100_000;
     let mut best = f64::INFINITY;
@@ -31,7 +31,7 @@ fn nanoseconds<T>(call: impl Fn(&Joints, &Joints, &Joints) -> T) -> f64 {
         let start = Instant::now();
         let state = [[0.0, 0.6, -0.4], [0.0, 0.5, 0.5], [0.0, 2.0, 2.0]];
         for _ in 0..CALLS {
-            // The compiler knows no argument, and every result is wanted.
+            // The compiler cannot know the arguments, and cannot drop the call.
             let [q, qd, qdd] = black_box(state);
             black_box(call(&q, &qd, &qdd));
         }

@@ -1,4 +1,4 @@
-//! The arm as it moves under torques.
+//! Moves the arm under torques.
 
 use crate::{Joints, arm};
 

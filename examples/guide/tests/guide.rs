@@ -1,5 +1,5 @@
-//! Every block of Rust in the guide and in the pages of the examples is a piece of an example, and
-//! this crate does what the guide says.
+//! Checks that every Rust block in the guide and in the pages of the examples is part of an
+//! example, and that this crate does what the guide says.
 
 use std::fs;
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::path::Path;
 use guide::simulate::{State, step};
 use guide::{Joints, arm, carrying, control, hold, picking};
 
-/// Returns the texts of the files below a folder with this ending.
+/// Returns the texts of the files with an extension in a folder and below it.
 fn texts(folder: &Path, ending: &str) -> Vec<String> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -74,7 +74,7 @@ fn a_payload_is_found() {
     assert_eq!(hold::mass(&[]), None);
 }
 
-/// On the wall the first joint carries something, which it does not on the floor.
+/// Gravity loads the first joint of an arm on a wall, but not of an arm on the floor.
 #[test]
 fn a_tool_is_held_on_a_wall() {
     let empty = hold::measured(&[Q], 0.0)[0].1;

@@ -1,5 +1,5 @@
-//! Parts that the examples share: an arm that moves, and a page that shows what a program prints.
-//! A program of your own needs none of them.
+//! Code that the examples share: the motion of an arm, and a check that a page shows what a program
+//! prints. Your own program needs none of it.
 #![forbid(unsafe_code)]
 
 use std::process::Command;
@@ -12,13 +12,13 @@ pub struct State<const N: usize> {
 }
 
 impl<const N: usize> State<N> {
-    /// Returns the state of an arm that stands still.
+    /// Returns the state of an arm at rest.
     pub fn at_rest(q: [f64; N]) -> State<N> {
         State { q, qd: [0.0; N] }
     }
 
     /// Returns the state after `period` seconds, by one step of the classical Runge–Kutta
-    /// method; `acceleration` is the forward dynamics under torques that stay the same.
+    /// method; `acceleration` is the forward dynamics under constant torques.
     pub fn step(&self, period: f64, acceleration: impl Fn(&State<N>) -> [f64; N]) -> State<N> {
         let (mut at, mut end) = (*self, *self);
         for (weight, ahead) in [(1.0, 0.5), (2.0, 0.5), (2.0, 1.0), (1.0, 0.0)] {
@@ -37,19 +37,19 @@ impl<const N: usize> State<N> {
     }
 }
 
-/// Returns the largest distance of a joint.
+/// Returns the largest difference, over all joints, between two vectors.
 pub fn distance<const N: usize>(left: &[f64; N], right: &[f64; N]) -> f64 {
     largest(left.iter().zip(right).map(|(l, r)| l - r))
 }
 
-/// Returns the largest magnitude; NaN if a value is NaN, so that a motion that blew up is not
-/// taken for a good one.
+/// Returns the largest magnitude; NaN if a value is NaN, so that a simulation that diverged does
+/// not pass for a good one.
 pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     let larger = |most: f64, x: f64| if x > most || x.is_nan() { x } else { most };
     values.into_iter().map(f64::abs).fold(0.0, larger)
 }
 
-/// Runs a program, and panics unless it succeeds and the page shows what it prints.
+/// Runs a program; panics unless it succeeds and the page shows what it prints.
 pub fn assert_shown(program: &str, page: &str) {
     let output = Command::new(program).output().unwrap();
     let text = String::from_utf8_lossy(&output.stdout);

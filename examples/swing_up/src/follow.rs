@@ -1,4 +1,4 @@
-//! The plan on the arm.
+//! Runs the plan on the arm.
 
 use example_shared::largest;
 
@@ -9,16 +9,16 @@ use crate::plan::{self, Plan};
 /// The period of the controller, s.
 const PERIOD: f64 = 1e-3;
 
-/// Swings the arm up by the plan, its gains on the states between those planned, then
-/// holds it upright for so many seconds. `push` is what q̇₁ is off at the start, rad/s. Returns how
-/// far the end is from upright at rest, and the largest torque, N·m.
+/// Swings the arm up by the plan and its gains at 1 kHz, then holds it upright for `hold`
+/// seconds. `push` is the error of q̇₁ at the start, rad/s. Returns the largest error of the last
+/// state from upright at rest, and the largest torque, N·m.
 pub fn follow(plan: &Plan, hold: f64, push: f64) -> [f64; 2] {
     let each = (plan::PERIOD / PERIOD).round() as usize;
     let swing = each * plan.torques.len();
     let upright = plan::holding(PERIOD);
     let mut state = HANGING;
     state[2] += push;
-    // Where the plan is; it has a torque for longer than a period.
+    // The planned state; a torque of the plan lasts several periods.
     let mut planned = HANGING;
     let mut most = 0.0;
     for k in 0..swing + (hold / PERIOD).round() as usize {

@@ -1,11 +1,11 @@
-//! An acrobot, two links of which only the elbow has a motor, swings up and stays there.
+//! An acrobot (two links with a motor at the elbow only) swings up and stays upright.
 //!
-//! - [`model`]: a step of the arm and its slopes, by the generated derivatives
+//! - [`model`]: a time step of the arm and its derivatives, from generated code
 //! - [`plan`]: torques that swing it up, by differential dynamic programming
-//! - [`follow`]: the plan on the arm, with its gains; then the upright pose is held
+//! - [`follow`]: runs the plan and its gains on the arm, then holds the arm upright
 //!
-//! The motor has 6 N·m, and nothing turns the shoulder but what the elbow does: the arm swings
-//! one way, then the other, then up.
+//! The motor gives up to 6 N·m, and the shoulder has no motor: the arm swings one way, then the
+//! other, then up.
 #![forbid(unsafe_code)]
 
 pub mod follow;
@@ -19,10 +19,10 @@ dalembert::dynamics! {
     scalar: f64;
 }
 
-/// The most that the motor gives, N·m.
+/// The largest torque of the motor, N·m.
 pub const LIMIT: f64 = 6.0;
 
-/// Returns the torque as the motor gives it.
+/// Returns a torque clamped to the motor's limit.
 pub fn limited(torque: f64) -> f64 {
     torque.clamp(-LIMIT, LIMIT)
 }

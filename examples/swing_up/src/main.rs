@@ -1,4 +1,4 @@
-//! Prints what the plan costs and where the arm ends; fails if it is not upright.
+//! Prints the cost of each plan and the final error of the arm; fails if it is not upright.
 
 use swing_up::follow::follow;
 use swing_up::plan::{Derivatives, plan};

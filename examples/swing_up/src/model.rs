@@ -1,4 +1,4 @@
-//! A step of the arm and its slopes.
+//! A time step of the arm and its derivatives.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -6,11 +6,11 @@ use crate::planar2r;
 
 /// q₁, q₂, q̇₁, q̇₂: rad, rad/s.
 pub type State = SVector<f64, 4>;
-/// Second derivatives by the state.
+/// Second derivatives with respect to the state.
 pub type Square = SMatrix<f64, 4, 4>;
-/// Slopes of a state by the state and, last, the torque.
+/// Derivatives of a state with respect to the state and, last, the torque.
 pub type Slopes = SMatrix<f64, 4, 5>;
-/// Second derivatives by the state and, last, the torque.
+/// Second derivatives with respect to the state and, last, the torque.
 pub type Bend = SMatrix<f64, 5, 5>;
 
 /// Hanging at rest; q₁ is counted from the horizontal.
@@ -18,8 +18,8 @@ pub const HANGING: State = State::new(-core::f64::consts::FRAC_PI_2, 0.0, 0.0, 0
 /// Upright at rest.
 pub const UPRIGHT: State = State::new(core::f64::consts::FRAC_PI_2, 0.0, 0.0, 0.0);
 
-/// The stages of the classical Runge–Kutta method: six times the weight of the rate of each, and
-/// the part of the period that the next is ahead with it.
+/// The stages of the classical Runge–Kutta method: six times the weight of each stage's rate, and
+/// the fraction of the period by which that rate leads to the next stage.
 const STAGES: [(f64, f64); 4] = [(1.0, 0.5), (2.0, 0.5), (2.0, 1.0), (1.0, 0.0)];
 
 /// Returns the state after `period` seconds of a torque at the elbow, by one step of the
@@ -34,11 +34,11 @@ pub fn step(state: &State, torque: f64, period: f64) -> State {
     state + sum * (period / 6.0)
 }
 
-/// A stage of a step: its state, the slopes of this by the step's state and torque, with the torque
-/// itself as the last row, and those of the stage's rate by the stage's.
+/// A stage of a step: its state; the derivatives of its state and (last row) torque with respect to
+/// those of the step; and the derivatives of its rate with respect to its own state and torque.
 struct Stage(State, Bend, Slopes);
 
-/// Returns the stages of a step, by the chain rule from each to the next.
+/// Returns the stages of a step; derivatives follow by the chain rule from each to the next.
 fn stages(state: &State, torque: f64, period: f64) -> [Stage; 4] {
     let (mut at, mut by_both) = (*state, Bend::identity());
     STAGES.map(|(_, ahead)| {
@@ -53,7 +53,7 @@ fn stages(state: &State, torque: f64, period: f64) -> [Stage; 4] {
     })
 }
 
-/// Returns the slopes of [`step`] by the state and by the torque.
+/// Returns the derivatives of [`step`] with respect to the state and the torque.
 pub fn slopes(state: &State, torque: f64, period: f64) -> Slopes {
     let mut sum = Slopes::zeros();
     for (Stage(_, by_both, own), (weight, _)) in stages(state, torque, period).iter().zip(STAGES) {
@@ -62,9 +62,9 @@ pub fn slopes(state: &State, torque: f64, period: f64) -> Slopes {
     Slopes::identity() + sum * (period / 6.0)
 }
 
-/// Returns the second derivatives of λᵀ[`step`] by state and torque. Backward through the four
-/// stages: of the rate of each the step counts λᵀ times its weight, and what the stage after
-/// makes of it.
+/// Returns the second derivatives of λᵀ[`step`] with respect to state and torque. It goes backward
+/// through the four stages: the multiplier of a stage's rate is λ times its weight, plus its
+/// effect through the next stage.
 pub fn bends(state: &State, torque: f64, period: f64, multiplier: &State) -> Bend {
     let (mut bends, mut onward) = (Bend::zeros(), State::zeros());
     let stages = stages(state, torque, period);
@@ -76,7 +76,7 @@ pub fn bends(state: &State, torque: f64, period: f64, multiplier: &State) -> Ben
     bends
 }
 
-/// Returns the second derivatives of λᵀ(q̇, q̈), of which q̇ has none.
+/// Returns the second derivatives of λᵀ(q̇, q̈); those of q̇ are zero.
 fn rate_bends(state: &State, torque: f64, multiplier: &State) -> Bend {
     let [q1, q2, qd1, qd2] = (*state).into();
     let own = planar2r::forward_dynamics_second_derivatives(
@@ -106,7 +106,7 @@ fn rate(state: &State, torque: f64) -> State {
     State::new(qd1, qd2, qdd1, qdd2)
 }
 
-/// Returns the slopes of (q̇, q̈).
+/// Returns the derivatives of (q̇, q̈) with respect to the state and the torque.
 fn rate_slopes(state: &State, torque: f64) -> Slopes {
     let [q1, q2, qd1, qd2] = (*state).into();
     let slopes = planar2r::forward_dynamics_derivatives(&[q1, q2], &[qd1, qd2], &[0.0, torque]);

@@ -1,11 +1,11 @@
 //! Torques that swing the arm up: differential dynamic programming, with the second
-//! derivatives of the dynamics or without (iLQR), and with the motor's limit as Tassa,
-//! Mansard and Todorov (2014) have it.
+//! derivatives of the dynamics or without (iLQR), and with the motor's limit as in Tassa,
+//! Mansard and Todorov (2014).
 //!
-//! Backward from the end, the cost to go is approximated by a parabola of the state, and
-//! the best change of each torque follows with a gain on the state. Forward, the changed
-//! torques are tried on the arm, in smaller and smaller parts until the cost falls.
-//! Nothing is drawn at random: the same plan on every machine.
+//! Backward from the end, the cost to go is approximated by a quadratic in the state; its
+//! minimum gives the change of each torque and a gain on the state. Forward, smaller and
+//! smaller fractions of the changes are tried on the arm until the cost falls. Nothing is
+//! random: the plan is the same on every machine.
 
 use crate::limited;
 use crate::model::{Bend, HANGING, Square, State, UPRIGHT, bends, slopes, step};
@@ -20,32 +20,32 @@ const EFFORT: f64 = 0.1;
 const ELSEWHERE: State = State::new(0.5, 0.5, 0.05, 0.05);
 /// The cost of the last state, per rad² and (rad/s)².
 const END: State = State::new(1000.0, 1000.0, 100.0, 100.0);
-/// A plan that gets no better than by this is done.
+/// The search ends when a round lowers the cost by less than this.
 const ENOUGH: f64 = 1e-4;
-/// The least that a change of the next state is taken to cost besides.
+/// The smallest extra cost of a change of the next state.
 const LEAST_CAUTION: f64 = 1e-6;
-/// The most rounds there may be.
+/// The largest number of rounds.
 const ROUNDS: usize = 400;
 
-/// Torques, and the states that they lead through.
+/// Torques, and the states that they lead to.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// A torque a period, N·m.
+    /// One torque per period, N·m.
     pub torques: Vec<f64>,
-    /// One more: that at the end.
+    /// The state at the start of each period, and the last state.
     pub states: Vec<State>,
-    /// The feedback gains, a row a period.
+    /// The feedback gains, one row per period.
     pub gains: Vec<State>,
-    /// The cost before each round, and at last.
+    /// The cost before each round and after the last.
     pub costs: Vec<f64>,
 }
 
-/// Which derivatives of the dynamics a plan is made with.
+/// The derivatives of the dynamics that a plan uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Derivatives {
-    /// The first alone (iLQR).
+    /// First derivatives only (iLQR).
     First,
-    /// The second as well.
+    /// First and second derivatives.
     Second,
 }
 
@@ -53,12 +53,12 @@ pub enum Derivatives {
 pub fn plan(derivatives: Derivatives) -> Plan {
     let mut plan = Plan::still(HANGING, STEPS);
     plan.costs.push(plan.cost());
-    // What a change of the next state costs besides: where parabolas mislead, little is
-    // changed.
+    // The extra cost of a change of the next state: it keeps changes small where quadratics
+    // approximate badly.
     let mut caution = LEAST_CAUTION;
     for _ in 0..ROUNDS {
-        // Far from the best plan, parabolas of second derivatives may have no lowest point, or one
-        // that is of no use: then the first are the better guide.
+        // Far from the best plan, quadratics with second derivatives may have no minimum, or a
+        // useless one: then first derivatives work better.
         let bent = (derivatives == Derivatives::Second)
             .then(|| plan.better(LEAST_CAUTION, derivatives))
             .flatten()
@@ -79,15 +79,15 @@ pub fn plan(derivatives: Derivatives) -> Plan {
             break;
         }
     }
-    // Of parabolas that have a lowest point everywhere.
+    // Gains with first derivatives: those quadratics always have a minimum.
     if let Some((_, gains)) = plan.backward(PERIOD, LEAST_CAUTION, Derivatives::First) {
         plan.gains = gains;
     }
     plan
 }
 
-/// Returns the gain that holds the arm upright: the first of a backward pass, there, that goes on
-/// for long.
+/// Returns the gain that holds the arm upright: the first one of a backward pass over 20 s at the
+/// upright pose.
 pub fn holding(period: f64) -> State {
     let still = Plan::still(UPRIGHT, (20.0 / period) as usize);
     let changes = still.backward(period, 0.0, Derivatives::First);
@@ -95,7 +95,7 @@ pub fn holding(period: f64) -> State {
 }
 
 impl Plan {
-    /// Returns the plan that stays in a state where the arm can stay without torques.
+    /// Returns the plan that stays, without torques, in an equilibrium state.
     fn still(state: State, steps: usize) -> Plan {
         Plan {
             torques: vec![0.0; steps],
@@ -121,8 +121,8 @@ impl Plan {
         self.states[self.torques.len()] - UPRIGHT
     }
 
-    /// Returns the changes of the torques that parabolas advise, and the gains on the states; `None`
-    /// where a parabola has no lowest point.
+    /// Returns the changes of the torques at the minima of the quadratics, and the gains on the
+    /// states; `None` if a quadratic has no minimum.
     fn backward(
         &self,
         period: f64,
@@ -152,7 +152,7 @@ impl Plan {
             }
             let free = torque - of_torque / lowest;
             let change = limited(free) - torque;
-            // At its limit a torque does not answer.
+            // A torque at its limit has no feedback.
             let gain = match limited(free) == free {
                 true => wary * (-1.0 / lowest),
                 false => State::zeros(),
@@ -168,15 +168,15 @@ impl Plan {
                 + gain * gain.transpose() * of_torques
                 + gain * mixed.transpose()
                 + mixed * gain.transpose();
-            // What rounding leaves askew would grow, since upright the arm falls.
+            // Rounding makes it asymmetric; this would grow, since upright is unstable.
             bend = (bend + bend.transpose()) / 2.0;
             (changes[k], gains[k]) = (change, gain);
         }
         Some((changes, gains))
     }
 
-    /// Returns a better plan, and which part of the changes that parabolas advise it has: as much as
-    /// makes it better.
+    /// Returns a better plan, and its fraction of the changes: 1, halved until the cost falls.
+    /// `None` if it does not fall.
     fn better(&self, caution: f64, derivatives: Derivatives) -> Option<(Plan, f64)> {
         let (changes, gains) = self.backward(PERIOD, caution, derivatives)?;
         let mut part = 1.0;

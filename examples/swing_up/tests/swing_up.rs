@@ -1,4 +1,4 @@
-//! The arm comes up and stays up, and only by what it was planned with.
+//! The arm swings up and stays up, and does not without the plan's gains.
 
 use example_shared::assert_shown;
 use nalgebra::{SMatrix, SVector};
@@ -7,7 +7,7 @@ use swing_up::follow::follow;
 use swing_up::model::{State, bends, slopes, step};
 use swing_up::plan::{Derivatives, Plan, plan};
 
-/// By second derivatives in fewer rounds, to a plan that is as good.
+/// Second derivatives need fewer rounds for a plan that is as good.
 #[test]
 fn the_arm_swings_up_and_stays() {
     let [first, second] = [Derivatives::First, Derivatives::Second].map(plan);
@@ -22,7 +22,7 @@ fn the_arm_swings_up_and_stays() {
     assert!(second.cost() <= first.cost());
     let [off, most] = follow(&second, 3.0, 0.05);
     assert!(off < 1e-3 && most <= LIMIT, "{off} {most}");
-    // Without the plan's gains a push is not made up for.
+    // Without the plan's gains a push is not corrected.
     let mut deaf = second;
     deaf.gains.fill(State::zeros());
     assert!(follow(&deaf, 0.0, 0.05)[0] > 0.1);

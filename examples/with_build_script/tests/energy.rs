@@ -2,7 +2,7 @@
 
 use with_build_script::{arm, kinetic_energy};
 
-/// Power is what the energy gains: q̇ᵀ(τ − c) = d/dt ½ q̇ᵀ D q̇.
+/// Power is the rate of the energy: q̇ᵀ(τ − c) = d/dt ½ q̇ᵀ D q̇.
 #[test]
 fn work_becomes_energy() {
     let (q, qd, qdd) = ([0.3, -0.8], [1.1, 0.4], [-0.7, 0.9]);

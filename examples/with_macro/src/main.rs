@@ -1,5 +1,5 @@
-//! The macro, which takes the checked-in code beside each robot file: how much torque
-//! each arm needs to hold still, and to start moving.
+//! Uses the macro, which takes the checked-in code beside each robot file. Prints the
+//! torques that each arm needs to hold still and to start moving.
 
 dalembert::dynamics! {
     /// Unimation PUMA 560.
@@ -31,7 +31,7 @@ fn main() {
 
 #[test]
 fn the_torques_are_right() {
-    // The carriage needs nothing to stay, the load m g a sin 0.2.
+    // The carriage needs no force to stay; the load needs m g a sin 0.2.
     let lift = 50.0 * 9.81 * 2.0 * 0.2f64.sin();
     let [carriage, load] = crane::gravity(&[0.0, 0.2]);
     assert!(carriage.abs() < 1e-9 && (load.abs() - lift).abs() < 1e-9);
@@ -40,7 +40,7 @@ fn the_torques_are_right() {
     // 62 kg at 1 m/s² and 3 N·s/m at 0.5 m/s.
     let [carriage, _] = crane::inverse_dynamics(&[0.0, 0.2], &[0.5, 0.0], &[1.0, 0.0]);
     assert!((carriage - (62.0 + 1.5)).abs() < 1e-9);
-    // The axis of the waist is upright.
+    // The axis of the waist is vertical: gravity does not load it.
     let q = [0.1, -0.5, 0.3, 0.0, 0.7, 0.2];
     assert!(puma560::gravity(&q)[0].abs() < 1e-9);
     assert!(puma560::inverse_dynamics(&q, &[0.0; 6], &[1.0; 6])[0] > 0.1);
