@@ -158,8 +158,8 @@ fn whole_file(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
         let own = line.result.as_ref().ok();
         let bounded = own.filter(|own| own.tried == 0);
         table.row(cells![
-            &line.module,
-            &line.name,
+            line.module.as_str(),
+            line.name.as_str(),
             Cell::json(bounded.map(|own| own.edits)),
             Cell::json(bounded.map(|own| own.rounding)),
             Cell::json(own.map(Distance::units)),

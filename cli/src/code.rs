@@ -163,7 +163,11 @@ fn tolerance(report: &mut Report, function: Function, admitted: &Admitted, ended
             0 => String::new(),
             pairs => format!("+ {pairs} sincos"),
         };
-        cells![&own.words, own.operations, Cell::of(pairs, own.sincos)]
+        cells![
+            own.words.as_str(),
+            own.operations,
+            Cell::of(pairs, own.sincos)
+        ]
     });
     report.table(
         &format!("left_out/{function}"),

@@ -203,21 +203,10 @@ fn steps_of(own: &Explanation) -> Table {
         }
         let mut cells = cells![title, Cell::json(row.step)];
         cells.extend(counts(&row.counts));
-        cells.extend(rounding.map(units));
+        cells.extend(rounding.map(Cell::units));
         table.row(cells);
     }
     table.without_zeros("fma|div|sqrt|trig_mul|trig_add")
-}
-
-/// Three figures are more than an error is worth.
-fn units(error: f64) -> Cell {
-    let text = match error {
-        ..100.0 => format!("{error:.1}"),
-        ..1e6 => format!("{error:.0}"),
-        // Not rounding: what a tolerance gave up.
-        _ => format!("{error:.0e}"),
-    };
-    Cell::of(text, error)
 }
 
 /// Adds how many coefficients vanish or repeat, and, if they are asked for, each of them.
@@ -241,7 +230,7 @@ fn coefficients(report: &mut Report, couplings: &[Coupling], each: bool) {
                 Value::Equals(other) => other.clone(),
                 Value::OppositeOf(other) => format!("−{other}"),
             };
-            cells![name, value]
+            cells![name.as_str(), value]
         });
         let table = Table::new("name=|value=").with(rows);
         report.table(

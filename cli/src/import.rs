@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::slice;
 
 use dalembert_import::{
-    Arms, Change, Imported, Options, Shared, Text, Unopened, arms, import_text, is_model, open_text,
+    Arms, Change, Imported, Options, Shared, Text, arms, import_text, is_model, open_text,
 };
 use dalembert_model::number::Rational;
 use dalembert_model::read::{RobotWarning, Severity};
@@ -15,7 +15,7 @@ use crate::args::values::{acceleration_parser, lock_parser, name_parser};
 use crate::files::{Files, ends_in};
 use crate::output::{Context, Done, Failure, Outcome};
 use crate::report::{Cell, Report, Table, cells, counted};
-use crate::source::system;
+use crate::source::unopened;
 
 /// The default acceleration limit, rad/s² or m/s².
 const ACCELERATION: i64 = 10;
@@ -118,10 +118,7 @@ pub(crate) fn run(args: &ImportArgs, context: &Context) -> Outcome {
             Some(files.output(args.output.as_deref())?)
         }
     };
-    let source = open_text(path).map_err(|error| match error {
-        Unopened::System(error) => system(path, &error),
-        Unopened::Wrong(why) => Failure::Input(why),
-    })?;
+    let source = open_text(path).map_err(|error| unopened(path, error))?;
     if !is_model(source.as_str().as_bytes()) {
         return Err(Failure::Input(format!(
             "error: `{}` is not XML, so neither a URDF nor an MJCF\n  = help: a robot file needs no import: pass \

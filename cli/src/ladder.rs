@@ -43,11 +43,8 @@ impl Point {
     /// Returns which kind of variant it is: scalar and sines.
     pub fn kind(&self) -> usize {
         let polynomials = !self.certificate.sines.is_empty();
-        2 * usize::from(polynomials)
-            + match self.certificate.scalar {
-                ScalarType::F64 => 0,
-                ScalarType::F32 => 1,
-            }
+        let is_single = self.certificate.scalar == ScalarType::F32;
+        2 * usize::from(polynomials) + usize::from(is_single)
     }
 
     /// Returns what it costs, with the operations of its sines.

@@ -75,10 +75,9 @@ fn result(quantity: Quantity, robot: Option<&Robot>) -> [String; 3] {
         Axis::Load => "l".to_owned(),
     };
     let shape: Vec<String> = quantity.shape().0.iter().map(axis).collect();
-    let shape = if shape.is_empty() {
-        "1".to_owned()
-    } else {
-        shape.join("×")
+    let shape = match shape.is_empty() {
+        true => "1".to_owned(),
+        false => shape.join("×"),
     };
     let mut units: Vec<&str> = Vec::new();
     if let Some(robot) = robot {

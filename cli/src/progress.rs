@@ -82,8 +82,6 @@ pub struct Session(Arc<Seen>);
 struct Seen {
     /// The functions in the order of their searches.
     functions: Vec<Function>,
-    /// Whether the searches are the whole run rather than a step of it.
-    is_whole: bool,
     stop: AtomicBool,
     /// Whether no search is left that Ctrl-C could end early.
     over: AtomicBool,
@@ -93,7 +91,6 @@ struct Seen {
 pub fn watch(request: &mut Request) -> Session {
     let seen = Arc::new(Seen {
         functions: Function::in_order(&request.functions),
-        is_whole: true,
         stop: AtomicBool::new(false),
         over: AtomicBool::new(false),
     });
@@ -104,16 +101,6 @@ pub fn watch(request: &mut Request) -> Session {
     }
     request.watch = Watch::by(seen.clone());
     Session(seen)
-}
-
-/// Watches the searches within a step of a run; they are never ended early.
-pub fn watch_step() -> Watch {
-    Watch::by(Arc::new(Seen {
-        functions: Vec::new(),
-        is_whole: false,
-        stop: AtomicBool::new(false),
-        over: AtomicBool::new(true),
-    }))
 }
 
 impl Seen {
@@ -148,11 +135,8 @@ impl Observer for Seen {
         };
         let place = place(&self.functions, *function);
         bar().set_message(format!("{place}{function}, {part}{reached}"));
-        if self.is_whole {
-            let known = *rounds > 0;
-            bar().set_length(if known { *rounds as u64 } else { 1 });
-            bar().set_position(if known { *round as u64 } else { 0 });
-        }
+        bar().set_length((*rounds).max(1) as u64);
+        bar().set_position((*round).min(*rounds) as u64);
     }
 
     fn stop(&self) -> bool {

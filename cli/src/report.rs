@@ -1,6 +1,7 @@
 //! A report: every datum once, as text for people and as JSON for programs.
 
 use std::fmt::{self, Display};
+use std::iter;
 
 use dalembert_codegen::Counts;
 use dalembert_model::robot::Robot;
@@ -132,9 +133,15 @@ impl Cell {
         Cell::of(format!("{value:.digits$e}"), value)
     }
 
-    /// Returns a number to one digit behind the point.
-    pub fn units(value: f64) -> Cell {
-        Cell::of(format!("{value:.1}"), value)
+    /// Returns a rounding error in u: more than three figures are not worth reading.
+    pub fn units(error: f64) -> Cell {
+        let text = match error {
+            ..100.0 => format!("{error:.1}"),
+            ..1e6 => format!("{error:.0}"),
+            // No rounding: what a tolerance gave up.
+            _ => format!("{error:.0e}"),
+        };
+        Cell::of(text, error)
     }
 
     /// Returns a value that only programs read.
@@ -152,12 +159,6 @@ impl From<&str> for Cell {
 impl From<String> for Cell {
     fn from(text: String) -> Cell {
         Cell::of(text.clone(), text)
-    }
-}
-
-impl From<&String> for Cell {
-    fn from(text: &String) -> Cell {
-        text.as_str().into()
     }
 }
 
@@ -254,16 +255,12 @@ impl Table {
             Value::Null => String::new(),
             _ => cell.0.clone(),
         };
-        let heads = self
-            .columns
-            .iter()
-            .map(|column| column.key.clone())
-            .collect();
+        let keys = self.columns.iter();
+        let heads = keys.map(|column| column.key.clone()).collect();
         let rows = self.rows.iter().map(|row| row.iter().map(cell).collect());
         let lines = [heads].into_iter().chain(rows);
-        lines
-            .map(|line: Vec<String>| line.join(",") + "\n")
-            .collect()
+        let lines = lines.map(|line: Vec<String>| line.join(",") + "\n");
+        lines.collect()
     }
 }
 
@@ -275,11 +272,8 @@ impl Display for Table {
                 continue;
             }
             let cells = || self.rows.iter().map(|row| &row[place]);
-            let texts = || {
-                [column.title.as_str()]
-                    .into_iter()
-                    .chain(cells().map(|cell| cell.0.as_str()))
-            };
+            let title = column.title.as_str();
+            let texts = || iter::once(title).chain(cells().map(|cell| cell.0.as_str()));
             let wide = texts().map(width).max().unwrap_or(0);
             let is_left = place == 0 || !cells().any(|cell| cell.1.is_number());
             for (line, text) in lines.iter_mut().zip(texts()) {

@@ -6,7 +6,7 @@ use dalembert_codegen::workspace::{generate_anew, plan_file};
 use dalembert_codegen::{
     Asked, Function, Generated, Plan, Problem, Request, RobotFileError, ScalarType,
 };
-use dalembert_import::{Opened, Options, Unopened, open};
+use dalembert_import::{Unopened, open};
 use dalembert_model::read::Reading;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
@@ -37,7 +37,8 @@ impl Source {
     /// # Errors
     /// The file cannot be read or has mistakes (all are listed), or its warnings are denied.
     pub fn open(context: &Context, path: &Path) -> Result<Source, Failure> {
-        let opened = opened(path, &ChainArgs::default().options(path))?;
+        let opened = open(path, &ChainArgs::default().options(path));
+        let opened = opened.map_err(|error| unopened(path, error))?;
         let is_model = opened.imported.is_some();
         for note in opened.notes() {
             // A model has many notes; `import` prints them.
@@ -122,15 +123,12 @@ impl Source {
     }
 }
 
-/// Opens a robot; the options choose the chain of a model.
-///
-/// # Errors
-/// The file cannot be read or has mistakes; all are listed.
-pub fn opened(path: &Path, options: &Options) -> Result<Opened, Failure> {
-    open(path, options).map_err(|error| match error {
+/// Returns the failure of a robot or a model that cannot be opened.
+pub fn unopened(path: &Path, error: Unopened) -> Failure {
+    match error {
         Unopened::System(error) => system(path, &error),
         Unopened::Wrong(why) => Failure::Input(why),
-    })
+    }
 }
 
 /// Lists the mistakes in options, flag by flag.
@@ -164,7 +162,7 @@ pub fn text(path: &Path, most: u64) -> Result<String, Failure> {
 }
 
 /// Returns the failure for a system error at a path, in the words of [`RobotFileError`].
-pub fn system(path: &Path, error: &std::io::Error) -> Failure {
+fn system(path: &Path, error: &std::io::Error) -> Failure {
     let shown = path.display().to_string();
     let said = RobotFileError::of_system(path, &shown, error).to_string();
     let whole = std::path::absolute(path).ok();

@@ -175,8 +175,6 @@ fn climb(
     })?;
     // Every tolerance and the exact program: searched for, then falsified.
     progress::steps(2 * (1 + tolerances.len()));
-    let watch = progress::watch_step();
-    let frame = frame.watched(watch.over(exact.function));
     let ladder = Ladder::new(args.samples as usize, request.effort, &frame);
     let points = ladder.climb(tolerances, &progress::step);
     points.map_err(|error| Failure::Check(format!("error: {error}")))

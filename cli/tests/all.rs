@@ -8,12 +8,9 @@ mod extremes_of_chains;
 mod extremes_of_robots;
 mod extremes_support;
 mod identities_in_time;
-mod new;
 mod outputs_in_scenes;
 mod pages;
 #[path = "../../codegen/tests/support/mod.rs"]
 mod robots;
 mod show;
 mod steps;
-mod support;
-mod terminal;

@@ -1,22 +1,9 @@
-//! Coefficients that vanish or repeat: the known counts.
+//! Coefficients that vanish or repeat: the relations of every arm.
 
 use dalembert_cli::couplings::{Value, couplings, summary};
 use dalembert_codegen::workspace::Quantity;
 
 use crate::robots as support;
-
-fn counts(robot: &str, quantity: Quantity) -> [usize; 3] {
-    let couplings = couplings(&support::robot(robot)).unwrap();
-    summary(&couplings, quantity)
-}
-
-#[test]
-fn the_known_counts() {
-    assert_eq!(counts("puma560", Quantity::Christoffel), [126, 42, 35]);
-    assert_eq!(counts("puma560", Quantity::Inertia)[1], 2);
-    assert_eq!(counts("puma560", Quantity::Gravity)[1], 2);
-    assert_eq!(counts("stanford", Quantity::Christoffel), [126, 64, 34]);
-}
 
 /// Returns a robot file in standard DH with these joint kinds and general numbers.
 fn general(kinds: &[&str]) -> String {

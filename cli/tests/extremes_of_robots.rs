@@ -96,12 +96,3 @@ fn what_is_lost_next_to_singular_is_the_condition() {
     let lost = lost.fold(0.0, f64::max);
     assert!(lost > VECTOR, "{lost} u: nothing was near singular");
 }
-
-/// If D has no inverse in any state, this is reported and nothing is measured.
-#[test]
-fn what_never_has_an_inverse_is_refused() {
-    let rows = divided(&points(["1", "0"]), &Request::default(), STATES).unwrap();
-    assert_eq!(rows[0].verdict, Verdict::Singular);
-    let refused = rows[0].worst.as_ref().err().map(ToString::to_string);
-    assert!(refused.is_some_and(|said| said.contains("D is singular in every state")));
-}

@@ -1,26 +1,23 @@
 //! `dalembert show`: the drawing of an arm.
 
-use std::fs;
+use dalembert_cli::drawing;
 
-use crate::support::{good, robot, temporary};
+use crate::robots::{read_robot, source};
 
 /// The outlines of the bodies stay within their view's half of the paper.
 #[test]
 fn bodies_stay_on_the_paper() {
-    let folder = temporary("show_large");
-    let file = folder.join("large.toml");
-    let planar = fs::read_to_string(robot("planar2r")).unwrap();
+    let planar = source("planar2r", "");
     let large = planar.replace("[0, 0.08333333333333333, 0.08333333333333333,", "[1, 3, 3,");
     assert_ne!(large, planar);
-    fs::write(&file, large).unwrap();
-    let ran = good(&["show", file.to_str().unwrap(), "--at", "0.6,0.7"]);
+    let drawn = drawing::svg(&read_robot(&large), &[0.6, 0.7]).unwrap();
     let number = |text: &str, before: &str, after: char| -> f64 {
         let start = text.find(before).unwrap() + before.len();
         let rest = &text[start..];
         rest[..rest.find(after).unwrap()].parse().unwrap()
     };
     let mut seen = 0;
-    for line in ran.out.lines().filter(|line| line.contains("<ellipse")) {
+    for line in drawn.lines().filter(|line| line.contains("<ellipse")) {
         let [a, b] = [number(line, "rx=\"", '"'), number(line, "ry=\"", '"')];
         let x = number(line, "translate(", ' ');
         let y = number(line, &format!("translate({x:.1} "), ')');

@@ -3,14 +3,9 @@
 use std::fs;
 use std::sync::LazyLock;
 
-use dalembert_codegen::workspace::{JointState, seeded};
 use dalembert_gallery::{Entry, entries, folder};
-use dalembert_model::equations::{self, Formulation, JointPosition, SinCosPair};
-use dalembert_model::number::{Exact, Rounded};
+use dalembert_model::number::Rounded;
 use dalembert_model::read;
-use dalembert_model::reference::Reference;
-use dalembert_model::robot::{Joint, JointKind};
-use nalgebra::DVector;
 
 static ENTRIES: LazyLock<Vec<Entry>> =
     LazyLock::new(|| entries().unwrap_or_else(|why| panic!("{why}")));
@@ -81,34 +76,6 @@ fn the_table_has_the_counts() {
         if entry.robot.joints.len() <= 4 {
             let row = entry.row().unwrap();
             assert!(page.contains(&row), "the page has no row\n{row}");
-        }
-    }
-}
-
-/// The runtime is a recursion in link axes without the parameters that do not affect an arm
-/// on a fixed base; Lagrange–Euler keeps them all and shares no formula with it.
-#[test]
-fn torques_of_the_runtime_are_those_of_lagrange_euler() {
-    let position = |(joint, &q): (&Joint, &f64)| match joint.kind {
-        JointKind::Prismatic => JointPosition::Prismatic(q),
-        JointKind::Revolute => {
-            let (sin, cos) = q.sin_cos();
-            JointPosition::Revolute(SinCosPair { sin, cos })
-        }
-    };
-    for Entry { arm, robot, .. } in &*ENTRIES {
-        let runtime = Reference::<f64>::from_robot(robot);
-        let exact: equations::Arm<Exact> = equations::Arm::from_robot(robot, &mut Exact::clone);
-        let rounded = exact.map(f64::nearest);
-        for JointState { q, qd, qdd, .. } in seeded(robot, 3, 0x6761) {
-            let positions: Vec<_> = robot.joints.iter().zip(&q).map(position).collect();
-            let at = rounded.at(&positions);
-            let expected = Formulation::LagrangeEuler.inverse_dynamics(&rounded, &at, &qd, &qdd);
-            let [q, qd, qdd, expected] = [q, qd, qdd, expected].map(DVector::from_vec);
-            let found = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
-            let off = found - &expected;
-            let off = off.dot(&off) / expected.dot(&expected);
-            assert!(off < 1e-24, "{}: {off:e}", arm.name);
         }
     }
 }
