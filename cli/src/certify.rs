@@ -7,6 +7,7 @@ use dalembert_checker::exact::{self, Distance, Line, RATE};
 use dalembert_checker::file::MOST_BYTES;
 use dalembert_checker::{Fault, Output, audit, read};
 use dalembert_codegen::workspace::{SceneRobot, input_hash};
+use dalembert_stamp::Stamp;
 use serde_json::{Value, json};
 
 use crate::args::values::{certified_parser, positive_parser};
@@ -134,7 +135,22 @@ fn whole_file(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
             "error: --tolerance is for a certificate, and `{name}` is a generated file"
         )));
     }
-    let found = exact::check(source, &robot.robot_file, args.scene.as_deref());
+    let stamp = Stamp::read(source);
+    let named = stamp
+        .as_ref()
+        .and_then(|(stamp, _)| stamp.asked.get("scene"));
+    let scene = args.scene.as_deref().or(named);
+    let mut scenes = robot.scenes.iter();
+    let own = scenes.find(|own| Some(own.name.as_str()) == scene);
+    if own.is_some_and(|own| own.tolerance.is_some()) {
+        return Err(Failure::Input(format!(
+            "error: `{name}` was generated under a tolerance\n  = help: its certificate holds the bounds: \
+             `dalembert certify {} --robot {}`",
+            args.file.with_extension("certificate.json").display(),
+            args.robot.display()
+        )));
+    }
+    let found = exact::check(source, &robot.robot_file, scene);
     let found = found.map_err(|fault: Fault| Failure::Input(format!("error: {fault}")))?;
     let mut report = Report::default();
     report.line(

@@ -42,21 +42,7 @@ const MARK: &str = "<desc>by dalembert tradeoff</desc>\n";
 /// Those of plotters; writing to a string has none of its own.
 pub fn svg(title: &str, relative_to: &str, dots: &[Dot]) -> Result<String, Box<dyn Error>> {
     let mut text = String::new();
-    draw(&mut text, title, relative_to, dots)?;
-    let head = text
-        .find("<svg")
-        .and_then(|at| Some(at + text[at..].find('>')? + 1));
-    text.insert_str(head.unwrap_or(0), &format!("\n{MARK}"));
-    Ok(text)
-}
-
-fn draw(
-    text: &mut String,
-    title: &str,
-    relative_to: &str,
-    dots: &[Dot],
-) -> Result<(), Box<dyn Error>> {
-    let root = SVGBackend::with_string(text, (720, 440)).into_drawing_area();
+    let root = SVGBackend::with_string(&mut text, (720, 440)).into_drawing_area();
     root.fill(&WHITE)?;
     let observed = dots.iter().filter_map(|dot| dot.observed);
     let has_whiskers = observed.clone().next().is_some();
@@ -114,7 +100,13 @@ fn draw(
         .label_font(("sans-serif", 12))
         .draw()?;
     root.present()?;
-    Ok(())
+    // The text is written when the drawing ends.
+    drop((chart, root));
+    let head = text
+        .find("<svg")
+        .and_then(|at| Some(at + text[at..].find('>')? + 1));
+    text.insert_str(head.unwrap_or(0), &format!("\n{MARK}"));
+    Ok(text)
 }
 
 type Mark<'a> = DynElement<'static, SVGBackend<'a>, (f64, f64)>;

@@ -143,9 +143,8 @@ impl<'a> Ladder<'a> {
     /// Returns a variant with polynomials for its sines, if the tolerance admits any.
     fn polynomials(&self, tolerance: f64, certificate: &Certificate) -> Option<Certificate> {
         let tolerances = vec![tolerance; self.frame.scales.len()];
-        let found = self
-            .frame
-            .with_polynomials(certificate, &tolerances, BoundEffort::CERTIFY);
+        let frame = self.frame;
+        let found = frame.with_polynomials(certificate, &tolerances, BoundEffort::CERTIFY);
         found.ok().filter(|found| !found.sines.is_empty())
     }
 
@@ -201,15 +200,13 @@ impl<'a> Ladder<'a> {
                     &self.settings,
                     BoundEffort::CERTIFY,
                 );
-                found.unwrap_or_else(|_| self.exact_in(&scalars))
+                found.unwrap_or_else(|_| {
+                    let mut exact = self.exact.clone();
+                    exact.certificates.retain(|c| scalars.contains(&c.scalar));
+                    exact
+                })
             })
             .collect()
-    }
-
-    fn exact_in(&self, scalars: &[ScalarType]) -> Admitted {
-        let mut exact = self.exact.clone();
-        exact.certificates.retain(|c| scalars.contains(&c.scalar));
-        exact
     }
 }
 

@@ -25,15 +25,12 @@ pub(crate) fn run() -> Outcome {
         let json = results
             .iter()
             .map(|[symbol, shape, unit]| json!({ "symbol": symbol, "shape": shape, "unit": unit }));
+        let units: Vec<&str> = results.iter().map(|own| own[2].as_str()).collect();
         functions.row(cells![
             function.name(),
             Cell::of(arguments.join(", "), arguments),
             returned(&results),
-            results
-                .iter()
-                .map(|own| own[2].as_str())
-                .collect::<Vec<_>>()
-                .join("; "),
+            units.join("; "),
             function.summary(),
             Cell::json(json.collect::<Vec<_>>()),
         ]);
@@ -59,9 +56,8 @@ pub(crate) fn run() -> Outcome {
 
 /// Lists results with their shapes.
 fn returned(results: &[[String; 3]]) -> String {
-    let each = results
-        .iter()
-        .map(|[symbol, shape, _]| format!("{symbol} [{shape}]"));
+    let each = results.iter();
+    let each = each.map(|[symbol, shape, _]| format!("{symbol} [{shape}]"));
     each.collect::<Vec<_>>().join(", ")
 }
 

@@ -286,9 +286,8 @@ impl Display for Table {
         }
         // A head without titles is none, and so is one without rows.
         let mut lines = lines.iter().map(|line| line.trim_end());
-        let head = lines
-            .next()
-            .filter(|head| !head.is_empty() && !self.rows.is_empty());
+        let head = lines.next();
+        let head = head.filter(|head| !head.is_empty() && !self.rows.is_empty());
         head.into_iter()
             .chain(lines)
             .try_for_each(|line| writeln!(f, "{line}"))
