@@ -76,8 +76,8 @@ fn ran(command: &str, inside: &Path, result_alone: bool) -> Vec<String> {
     let [out, err] = [output.stdout, output.stderr].map(|b| String::from_utf8(b).unwrap());
     let text = if result_alone { out } else { err + &out };
     // Replaces the paths of this machine.
-    let text = text.replace(&root().display().to_string(), "$ROOT");
     let text = text.replace(&inside.display().to_string(), "$HERE");
+    let text = text.replace(&root().display().to_string(), "$ROOT");
     let mut lines = vec![format!("$ {command}")];
     lines.extend(text.lines().map(|line| line.trim_end().to_owned()));
     match output.status.code() {
