@@ -15,10 +15,7 @@ use crate::args::values::{acceleration_parser, lock_parser, name_parser};
 use crate::files::{Files, ends_in};
 use crate::output::{Context, Done, Failure, Outcome};
 use crate::report::{Cell, Report, Table, cells, counted};
-use crate::source::unopened;
-
-/// The default acceleration limit, rad/s² or m/s².
-const ACCELERATION: i64 = 10;
+use crate::source::{ACCELERATION, defaults, unopened};
 
 /// Arguments of `import`.
 ///
@@ -38,13 +35,6 @@ pub struct ImportArgs {
     /// list the arms that move each other
     #[arg(long, requires = "output", conflicts_with = "tip")]
     all: bool,
-    #[command(flatten)]
-    chain: ChainArgs,
-}
-
-/// The chain to take from a model, and how to read it.
-#[derive(Debug, Default, clap::Args)]
-pub struct ChainArgs {
     /// The base link, which does not move [default: the root]
     #[arg(long, value_name = "LINK")]
     base: Option<String>,
@@ -79,14 +69,12 @@ pub struct ChainArgs {
     name: Option<String>,
 }
 
-impl ChainArgs {
-    /// Returns the import options for the model at a path.
-    pub fn options(&self, path: &Path) -> Options {
-        let others = self
-            .lock_others
-            .iter()
-            .map(|value| ("*".to_owned(), value.clone()));
-        let acceleration = self.acceleration.clone();
+impl ImportArgs {
+    /// Returns the import options for the model.
+    fn options(&self) -> Options {
+        let defaults = defaults(&self.model);
+        let others = self.lock_others.iter();
+        let others = others.map(|value| ("*".to_owned(), value.clone()));
         Options {
             base: self.base.clone(),
             tip: self.tip.clone(),
@@ -95,13 +83,8 @@ impl ChainArgs {
             exact: self.exact,
             snap: self.snap,
             ignore_ties: self.ignore_ties,
-            acceleration: acceleration
-                .or_else(|| Some(Rational::from_integer(ACCELERATION.into()))),
-            file: path
-                .file_name()
-                .unwrap_or_default()
-                .to_string_lossy()
-                .into_owned(),
+            acceleration: self.acceleration.clone().or(defaults.acceleration),
+            file: defaults.file,
             name: self.name.clone(),
         }
     }
@@ -126,7 +109,7 @@ pub(crate) fn run(args: &ImportArgs, context: &Context) -> Outcome {
             path.display()
         )));
     }
-    let options = args.chain.options(path);
+    let options = args.options();
     let wrong =
         |errors: dalembert_model::read::Diagnostics| Failure::Input(source.render(&errors.0));
     let (made, shared) = match args.all {
@@ -178,7 +161,7 @@ fn say(args: &ImportArgs, context: &Context, made: &[Imported], source: &Text) {
         let (name, line) = source.line(snap.span.start);
         context.say(&format!("{name}:{line}: {snap}"));
     }
-    if args.chain.acceleration.is_none() {
+    if args.acceleration.is_none() {
         context.say(&format!(
             "the acceleration limit of every joint is set to {ACCELERATION} rad/s² or m/s², since models have \
              none; --acceleration changes it"

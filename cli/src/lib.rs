@@ -44,10 +44,69 @@ mod verify;
 
 use std::ffi::OsString;
 
-use clap::{CommandFactory, Parser};
+use clap::{CommandFactory, Parser, Subcommand};
+use clap_complete::Shell;
 
-use args::{Args, Command};
-use output::{Done, Failure, note};
+use output::{Context, Done, Failure, note};
+
+/// Verified, flat robot dynamics generated for one arm.
+///
+/// Exit codes: 0 good, 1 a check failed, 2 bad input.
+#[derive(Debug, Parser)]
+#[command(name = "dalembert", version)]
+struct Args {
+    /// The subcommand
+    #[command(subcommand)]
+    command: Command,
+    /// Print the report as JSON
+    #[arg(long, global = true)]
+    json: bool,
+    /// Overwrite files that this command did not write
+    #[arg(long, global = true)]
+    force: bool,
+    /// Treat warnings as errors: nothing is written, and the exit code is 1
+    #[arg(long, global = true)]
+    deny_warnings: bool,
+}
+
+impl Args {
+    /// Returns the options that all subcommands share.
+    fn context(&self) -> Context {
+        Context::new(self.json, self.force, self.deny_warnings)
+    }
+}
+
+/// The subcommands.
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Make a crate for an arm: robot file, generated code and a test of its torques
+    New(new::NewArgs),
+    /// Make a robot file from a chain of a URDF or an MJCF
+    Import(import::ImportArgs),
+    /// List the functions: what each takes and returns, with units
+    Outputs,
+    /// Generate code for a robot and prove it before it is written
+    Generate(generate::GenerateArgs),
+    /// Regenerate files after an edit of the robot file or of their text
+    Renew(renew::RenewArgs),
+    /// Count the operations of the generated functions
+    Count(count::CountArgs),
+    /// Draw the arm in two views, with frames, axes, masses and its table (SVG)
+    Show(show::ShowArgs),
+    /// Prove the functions and measure their rounding errors
+    Verify(verify::VerifyArgs),
+    /// Check generated code with a second program that shares no code with the generator
+    Certify(certify::CertifyArgs),
+    /// Show how many operations each step of the generator saves
+    Explain(explain::ExplainArgs),
+    /// Measure the cost of accuracy: certified error against number of operations
+    Tradeoff(tradeoff::TradeoffArgs),
+    /// Print shell completions: dalembert completions bash > ~/.local/share/bash-completion/completions/dalembert
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+}
 
 /// Runs the command with its arguments, the first of which is its name, and returns the exit
 /// code of the process. Wrong arguments and `--help` end the process.

@@ -6,13 +6,13 @@ use dalembert_codegen::workspace::{generate_anew, plan_file};
 use dalembert_codegen::{
     Asked, Function, Generated, Plan, Problem, Request, RobotFileError, ScalarType,
 };
-use dalembert_import::{Unopened, open};
+use dalembert_import::{Options, Unopened, open};
+use dalembert_model::number::Rational;
 use dalembert_model::read::Reading;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 
 use crate::files::first;
-use crate::import::ChainArgs;
 use crate::output::{Context, Failure};
 use crate::progress;
 
@@ -37,7 +37,7 @@ impl Source {
     /// # Errors
     /// The file cannot be read or has mistakes (all are listed), or its warnings are denied.
     pub fn open(context: &Context, path: &Path) -> Result<Source, Failure> {
-        let opened = open(path, &ChainArgs::default().options(path));
+        let opened = open(path, &defaults(path));
         let opened = opened.map_err(|error| unopened(path, error))?;
         let is_model = opened.imported.is_some();
         for note in opened.notes() {
@@ -120,6 +120,19 @@ impl Source {
             context.say(&format!("warning: {warning}"));
         }
         Ok(generated)
+    }
+}
+
+/// The limit of acceleration where none is given, rad/s² or m/s².
+pub const ACCELERATION: i64 = 10;
+
+/// Returns the import options for the model at a path where nobody gives others.
+pub fn defaults(path: &Path) -> Options {
+    let name = path.file_name().unwrap_or_default();
+    Options {
+        acceleration: Some(Rational::from_integer(ACCELERATION.into())),
+        file: name.to_string_lossy().into_owned(),
+        ..Options::default()
     }
 }
 
