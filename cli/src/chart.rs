@@ -33,7 +33,7 @@ const KINDS: [(&str, RGBColor); 4] = [
 ];
 const GREY: RGBColor = RGBColor(0x99, 0x99, 0x99);
 
-/// What a file of this program has near its beginning.
+/// The mark of this program near the beginning of a chart.
 const MARK: &str = "<desc>by dalembert tradeoff</desc>\n";
 
 /// Draws the chart; errors are relative to `relative_to`.

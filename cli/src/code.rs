@@ -1,4 +1,4 @@
-//! What was generated, as a report: operations, bounds under a tolerance, the proof, and, if
+//! The report of generated code: operations, bounds under a tolerance, the proof, and, if
 //! everything is asked for, what the search did and what rounding costs.
 
 use dalembert_codegen::workspace::{
@@ -10,7 +10,7 @@ use dalembert_model::robot::Robot;
 use crate::measure::{Bench, Code, largest};
 use crate::report::{COUNTS, Cell, Report, Table, cells, counted, counts};
 
-/// How much is said.
+/// The detail of a report.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Detail {
     /// Operations, and that they were proved.
@@ -221,7 +221,7 @@ fn refused(function: &GeneratedFunction) -> Option<String> {
     ))
 }
 
-/// Returns how many states take seconds at most, whatever the robot: the reference's
+/// Returns a number of states that takes seconds at most for any robot: the reference's
 /// work grows with the cube of the number of joints where it returns D.
 fn affordable_states(joints: usize) -> usize {
     const STATES: usize = 100;

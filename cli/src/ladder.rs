@@ -1,4 +1,4 @@
-//! What accuracy costs: variants of one function for several tolerances, each certified and run at
+//! The cost of accuracy: variants of one function for several tolerances, each certified and run at
 //! states that try to refute it.
 //!
 //! From the smallest tolerance up: each search also starts from the program of the one before, which
@@ -47,7 +47,7 @@ impl Point {
         2 * usize::from(polynomials) + usize::from(is_single)
     }
 
-    /// Returns what it costs, with the operations of its sines.
+    /// Counts its operations, those of its sines included.
     pub fn counts(&self) -> Counts {
         let (trig_mul, trig_add) = sincos_counts(&self.certificate.sines);
         Counts {
@@ -57,7 +57,7 @@ impl Point {
         }
     }
 
-    /// Returns how many values were replaced.
+    /// Counts the replaced values.
     pub fn edits(&self) -> usize {
         let stages = self.certificate.stages.iter();
         stages.map(|stage| stage.edits.len()).sum()
@@ -69,7 +69,7 @@ impl Point {
         counts.operations() + counts.trig_mul + counts.trig_add
     }
 
-    /// Returns what it costs, dimension by dimension: a narrower scalar is one too. Polynomials are
+    /// Returns its cost, dimension by dimension: a narrower scalar is one too. Polynomials are
     /// operations like others; what libm does is not known.
     fn cost(&self) -> [usize; 3] {
         let called = match self.certificate.sines.is_empty() {

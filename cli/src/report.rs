@@ -9,7 +9,7 @@ use dalembert_model::scene::Scene;
 use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 
-/// What a subcommand found.
+/// The findings of a subcommand.
 #[derive(Default)]
 pub struct Report(Vec<Part>);
 
@@ -118,7 +118,7 @@ struct Column {
     is_hidden: bool,
 }
 
-/// What people and programs read in a cell.
+/// A cell: a text for people and a value for programs.
 #[derive(Clone)]
 pub struct Cell(String, Value);
 

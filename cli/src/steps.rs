@@ -48,7 +48,7 @@ pub enum Code {
 /// One step.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// What programs call it.
+    /// The name for programs.
     pub step: &'static str,
     /// Its operation counts.
     pub counts: Counts,
@@ -57,7 +57,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// Returns what people call the step.
+    /// Returns the name of the step for people.
     pub fn title(&self) -> &'static str {
         let mut steps = STEPS.into_iter();
         let own = steps.find(|(step, _)| *step == self.step);
@@ -226,7 +226,7 @@ fn kept(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
     regrouping
 }
 
-/// Returns what a tolerance admits of a function: a row a scalar, as it is emitted.
+/// Returns the program that a tolerance admits: one row per scalar, as it is emitted.
 pub(super) fn tolerated(admitted: &Admitted) -> Result<Vec<Row>, GenerateError> {
     let row = |certificate: &Certificate| {
         let (function, scalar) = (certificate.emitted.function, certificate.scalar);

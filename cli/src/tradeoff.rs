@@ -206,7 +206,7 @@ fn tolerances(args: &TradeoffArgs, context: &Context) -> Vec<f64> {
     tolerances
 }
 
-/// Returns what was asked for, else the scene's scale, else the actuators.
+/// Returns the scale of the arguments, else that of the scene, else the actuators.
 fn relative_to(args: &TradeoffArgs, scene: Option<&Scene>) -> Scale {
     let own = scene.and_then(|scene| scene.tolerance.as_ref());
     let own = own.map(|tolerance| tolerance.relative_to);

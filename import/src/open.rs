@@ -17,7 +17,7 @@ pub struct Opened {
     pub robot_file: String,
     /// The robot with its outputs and scenes; the notes are about `robot_file`.
     pub reading: Reading,
-    /// What importing a model found; nothing for a robot file.
+    /// The result of importing a model; none for a robot file.
     pub imported: Option<Imported>,
 }
 
@@ -31,7 +31,7 @@ pub enum Unopened {
 }
 
 impl Opened {
-    /// Returns what there is to say of the file: its warnings and notes, as they are shown.
+    /// Returns the warnings and notes about the file, as they are shown.
     pub fn notes(&self) -> Vec<String> {
         let source = &self.source;
         match &self.imported {
