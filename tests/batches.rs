@@ -62,7 +62,6 @@ macro_rules! arm {
 arm!(together, sincos: together;);
 arm!(alone, sincos: libm;);
 arm!(polynomial, sincos: polynomial; sincos_error: 1e-5;);
-arm!(sums, formulation: angle_sums; sincos: together;);
 arm!(fused, fma: on; sincos: together;);
 // Bundles: structs of the user's, with matrices of other shapes, a number and quotients.
 arm!(
@@ -243,11 +242,6 @@ fn fused_products() {
 #[test]
 fn sines_by_polynomials() {
     check_arm!(polynomial, polynomial_f32);
-}
-
-#[test]
-fn sines_of_sums() {
-    check_arm!(sums, sums_f32);
 }
 
 /// The arm that is measured: hundreds of operations.

@@ -65,17 +65,17 @@ pub fn couplings(robot: &Robot) -> Option<Vec<Coupling>> {
         let edges = outputs.by_ref().take(quantity.len(sizes)).enumerate();
         for (index, &edge) in edges.filter(|(index, _)| is_first(quantity, *index, n)) {
             let name = quantity.entry(index, sizes);
-            let negative = edge.is_negative();
+            let negative = edge.negative;
             let value = if graph.is_zero(edge) {
                 Value::Zero
-            } else if let Some((other, sign)) = known.get(&(quantity, edge.node())) {
+            } else if let Some((other, sign)) = known.get(&(quantity, edge.node)) {
                 match *sign == negative {
                     true => Value::Equals(String::clone(other)),
                     false => Value::OppositeOf(String::clone(other)),
                 }
             } else {
-                known.insert((quantity, edge.node()), (name.clone(), negative));
-                match graph.node(edge.node()) {
+                known.insert((quantity, edge.node), (name.clone(), negative));
+                match graph.node(edge.node) {
                     Node::Constant(_) => Value::Constant,
                     _ => Value::Distinct,
                 }

@@ -8,19 +8,18 @@ use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 
 use dalembert_codegen::workspace::{
-    Admitted, Certificate, Columns, Folding, Found, Graph, Lowered, Task, cost, replay, search,
-    skeleton, trace, trace_chain, tune, tune::Tuned, watched,
+    Admitted, Certificate, Columns, Dag, Folding, Found, Lowered, Task, cost, replay, search,
+    search_graphs, skeleton, trace, trace_chain, tune, tune::Tuned,
 };
 use dalembert_codegen::{Counts, Function, GenerateError, Program, Request, ScalarType, Start};
 
 /// The steps: what programs and people call them. Each does more than the one before, until the next
 /// formulation.
 #[rustfmt::skip]
-const STEPS: [(&str, &str); 15] = [
+const STEPS: [(&str, &str); 13] = [
     ("lagrange_euler_written", "Lagrange–Euler, run with this robot's numbers"),
     ("lagrange_euler_folded", "  traced: folded, equal expressions shared"),
     ("lagrange_euler_fingerprints", "  fingerprints: equal values shared"),
-    ("lagrange_euler_e_graph", "  e-graph alone"),
     ("lagrange_euler_search", "  search alone"),
     ("newton_euler_folded", "Newton–Euler in link axes, traced"),
     ("newton_euler_fingerprints", "  fingerprints"),
@@ -28,7 +27,6 @@ const STEPS: [(&str, &str); 15] = [
     ("base_parameters", "  base parameters"),
     ("tuned_regrouping", "  regrouping tuned link by link"),
     ("unit_of_length", "  unit of length"),
-    ("e_graph", "  e-graph, all forms"),
     ("search", "  search, all forms"),
     ("plan", "kept in the plan"),
     ("tolerance", "what the tolerance admits"),
@@ -127,7 +125,7 @@ impl Steps<'_> {
         });
     }
 
-    fn graph(&mut self, step: &'static str, graph: &Graph) {
+    fn graph(&mut self, step: &'static str, graph: &Dag) {
         let program = Program::in_scene(self.task.scene_robot, self.function, graph);
         self.program(step, program);
     }
@@ -151,11 +149,12 @@ impl Steps<'_> {
         });
         self.graph("lagrange_euler_folded", &trace.graph);
         let graphs = std::slice::from_ref(&trace.graph);
-        let watch = Some(request.watch.over(self.function));
+        let watch = request.watch.over(self.function);
+        let goes_on = |_: [usize; 2], _: &Dag| !watch.is_over();
+        let limits = |operations| request.effort.limits(operations);
         // Whatever it costs in digits: that is what the row is to show.
-        if let Some(found) = watched(graphs, &[], request.effort, None, &|_| true, watch) {
+        if let Some(found) = search_graphs(graphs, &[], &limits, &|_| true, &goes_on) {
             self.graph("lagrange_euler_fingerprints", &found.start);
-            self.graph("lagrange_euler_e_graph", &found.saturated);
             self.graph("lagrange_euler_search", &found.graph);
         }
     }
@@ -197,9 +196,8 @@ impl Steps<'_> {
     /// Adds what the search made of all forms, and what the plan keeps; returns the last of them: what
     /// is generated, or what a tolerance is applied to.
     fn searched(&mut self, found: &Found) -> Result<Program, GenerateError> {
-        let found = &found.simplified;
-        let mut last = Program::in_scene(self.task.scene_robot, self.function, &found.graph);
-        self.graph("e_graph", &found.saturated);
+        let graph = &found.searched.graph;
+        let mut last = Program::in_scene(self.task.scene_robot, self.function, graph);
         self.program("search", last.clone());
         if let Some(entry) = replay(self.task, self.function)? {
             last = entry.program.clone();

@@ -113,14 +113,12 @@ fn steps_do_not_make_it_dearer() {
         "lagrange_euler_written",
         "lagrange_euler_folded",
         "lagrange_euler_fingerprints",
-        "lagrange_euler_e_graph",
         "lagrange_euler_search",
         "newton_euler_fingerprints",
         "chain",
         "base_parameters",
         "tuned_regrouping",
         "unit_of_length",
-        "e_graph",
         "search",
     ];
     for pair in falling.windows(2) {

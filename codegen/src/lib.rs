@@ -12,14 +12,14 @@
 //! - `function`: the functions that can be generated
 //! - `words`: values that users name by a word
 //! - `program`: straight-line code, its inputs, scalars, counts and text
-//! - `graph`: the formulas as a graph with exact constants and fingerprints
+//! - `dag`: the formulas as a graph with exact constants and fingerprints
 //! - `interval`: intervals, rounded outward
 //! - `split`: the error of emitted code by cause
 //! - `watch`: watching a long search, and ending it early
-//! - `simplify`: fewer operations, same function
+//! - `search`: fewer operations, same function
 //! - `scene`: the robot in its scene: locked joints, results asked for
 //! - `trace`: the equations as a graph
-//! - `portfolio`: the formulations to start from, tuned to the robot
+//! - `seeds`: the formulations to start from, tuned to the robot
 //! - `schedule`: from a graph to straight-line code
 //! - `edits`: programs with less work in them, and how far they are off
 //! - `sincos`: sine and cosine by polynomials with proved errors
@@ -49,23 +49,24 @@ mod approximate;
 mod ask;
 mod bound;
 mod certificate;
+mod dag;
 mod edits;
 mod emit;
 mod falsify;
 mod function;
 mod generate;
-mod graph;
 mod interval;
 mod language;
 mod parallel;
 mod plan;
-mod portfolio;
+
 mod program;
 mod random;
 mod robot_file;
 mod scene;
 mod schedule;
-mod simplify;
+mod search;
+mod seeds;
 mod sincos;
 mod split;
 mod states;
@@ -92,13 +93,13 @@ pub use language::Language;
 #[doc(inline)]
 pub use plan::{Plan, PlanError};
 #[doc(inline)]
-pub use portfolio::Start;
-#[doc(inline)]
 pub use program::{Counts, Program, ScalarType};
 #[doc(inline)]
 pub use robot_file::{RobotFile, RobotFileError};
 #[doc(inline)]
-pub use simplify::Effort;
+pub use search::Effort;
+#[doc(inline)]
+pub use seeds::Start;
 #[doc(inline)]
 pub use sincos::SinCos;
 #[doc(inline)]

@@ -9,9 +9,9 @@ use dalembert_model::number::Exact;
 use dalembert_model::outputs::Motion;
 use dalembert_model::scalar::Scalar;
 
+use crate::dag::symbol::Symbol;
+use crate::dag::{Builder, Dag, Folding, Node};
 use crate::function::{Argument, Function};
-use crate::graph::symbol::Symbol;
-use crate::graph::{Builder, Folding, Graph, Node};
 use crate::program::{Counts, Input};
 use crate::scene::SceneRobot;
 
@@ -19,7 +19,7 @@ use crate::scene::SceneRobot;
 #[derive(Clone, Debug)]
 pub struct Trace {
     /// Folded as it was built, nothing more.
-    pub graph: Graph,
+    pub graph: Dag,
     /// The operations of the formula as it was executed, before folding.
     pub traced: Counts,
 }
@@ -53,9 +53,8 @@ pub(crate) fn depends_on_coulomb(scene_robot: &SceneRobot, function: Function) -
         return false;
     }
     let graph = trace(scene_robot, function, Formulation::NewtonEulerLink).graph;
-    let live = graph.live();
-    let mut nodes = graph.nodes.iter().zip(&live);
-    nodes.any(|(node, live)| *live && matches!(node, Node::Input(Input::PerSpeed(_))))
+    let mut live = graph.live();
+    live.any(|(_, node)| matches!(node, Node::Input(Input::PerSpeed(_))))
 }
 
 /// Runs a formulation with symbols in a scene.
@@ -70,11 +69,11 @@ pub fn trace(scene_robot: &SceneRobot, function: Function, formulation: Formulat
     let outputs = posed.results(scene_robot, function, formulation);
     let outputs: Vec<_> = outputs
         .iter()
-        .map(|output| output.value(&mut builder.borrow_mut()))
+        .map(|output| output.edge(&mut builder.borrow_mut()))
         .collect();
     drop(posed);
     let traced = builder.borrow().asked();
     let graph = std::mem::replace(&mut *builder.borrow_mut(), Builder::new(Folding::Syntactic))
-        .finish(&outputs);
+        .finish(outputs);
     Trace { graph, traced }
 }

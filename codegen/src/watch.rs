@@ -17,8 +17,6 @@ use crate::program::Counts;
 pub enum Part {
     /// The formulations are traced and their regrouping is tuned.
     Formulations,
-    /// Equality saturation.
-    EGraph,
     /// Discovery and extraction in turns.
     Search,
     /// The program is proved and measured.
@@ -33,7 +31,6 @@ impl fmt::Display for Part {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Part::Formulations => "formulations",
-            Part::EGraph => "e-graph",
             Part::Search => "search",
             Part::Proof => "proof",
             Part::Omissions => "omissions",

@@ -19,6 +19,7 @@ pub use crate::bound::{
 #[cfg(feature = "certificates")]
 pub use crate::certificate::format::write as write_certificates;
 pub use crate::certificate::{Certificate, Refuted};
+pub use crate::dag::{Dag, Edge, Fingerprint, Folding, Node, Points};
 pub use crate::edits::{
     Edit, EditSite, Stage, difference,
     text::{read_edit, write_edit},
@@ -27,21 +28,17 @@ pub use crate::emit::figures::bound_of;
 pub use crate::falsify::{Falsification, falsify};
 pub use crate::function::{Argument, Columns, Quantity, RuntimeParameter, Sizes};
 pub use crate::generate::{
-    MAX_OUTPUTS, ToleranceError, Unbounded,
-    early::price,
-    generate_anew,
+    MAX_OUTPUTS, ToleranceError, Unbounded, generate_anew,
     keep::keep,
     search::{Found, replay, search},
     tolerate::admitted,
 };
-pub use crate::graph::{Edge, Fingerprint, Folding, Graph, Node, Points};
 pub use crate::interval::Interval;
 pub use crate::language::{
     Printed, function::write as write_function, names::Names, read::TextError,
 };
 pub use crate::parallel::each;
 pub use crate::plan::{Edited, Entry, file as plan_file};
-pub use crate::portfolio::{Source, skeleton, skeleton_for, trace_chain};
 pub use crate::program::{
     AngleSum, Difference, Input, Library, Literal, Lowered, LoweredTrig, Operand, Operation,
     Output, Step, Trig,
@@ -57,7 +54,8 @@ pub use crate::scene::{
     base::{BaseParameters, Parameter},
     input_hash, motion,
 };
-pub use crate::simplify::{WaySource, cost, watched};
+pub use crate::search::{Limits, Pass, Schedule, cost, price, search as search_graphs};
+pub use crate::seeds::{Source, skeleton, skeleton_for, trace_chain};
 pub use crate::sincos::{
     AngleKernel, Sines, angle_name, choose::Candidates, counts as sincos_counts, lowered, need,
     stated,
@@ -80,5 +78,5 @@ pub mod scale {
     pub use crate::bound::scale::{actuator, range};
 }
 pub mod tune {
-    pub use crate::portfolio::tune::{Tuned, start};
+    pub use crate::seeds::tune::{Tuned, start};
 }

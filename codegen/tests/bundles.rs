@@ -61,7 +61,7 @@ fn work_is_shared() {
     let robot = support::robot("planar3r");
     for (text, most) in [
         ("motion=forward_kinematics+jacobian", 16),
-        ("model=inertia+coriolis_matrix+gravity", 43),
+        ("model=inertia+coriolis_matrix+gravity", 44),
         ("servo=inverse_dynamics+jacobian+forward_kinematics", 62),
     ] {
         let whole = bundle(text);

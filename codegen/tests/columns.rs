@@ -1,7 +1,7 @@
 //! Functions of any number of states beside those of one: the same program over vectors, read
 //! back. What brings a wrong value is refused.
 
-use dalembert_codegen::workspace::{Library, Lowered, Printed, TextError, keep, parse};
+use dalembert_codegen::workspace::{Library, Lowered, Printed, TextError, keep};
 use dalembert_codegen::{
     Function, Generated, GeneratedFunction, Plan, Request, ScalarType, SinCos, Start, generate,
 };
@@ -33,15 +33,14 @@ fn read(text: &str, generated: &Generated, sincos: SinCos) -> Result<Lowered, Te
     Lowered::parse_rust(text, &Printed::of(&function.program, &code), true)
 }
 
-/// Arms that turn and slide, sums of angles, every kind of sines: with columns or without, the
+/// Arms that turn and slide, every kind of sines: with columns or without, the
 /// same program is read.
 #[test]
 fn the_same_program_in_columns() {
-    let sums = parse::<Start>("angle_sums").unwrap();
     let torques = [Function::InverseDynamics];
     for (name, start, functions) in [
         ("planar2r", Start::Auto, None),
-        ("planar3r", sums, Some(&torques)),
+        ("planar3r", Start::Auto, Some(&torques)),
         ("stanford", Start::Auto, Some(&torques)),
     ] {
         let robot = support::robot(name);

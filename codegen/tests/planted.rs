@@ -2,12 +2,14 @@
 //! text check catch every one.
 
 use dalembert_codegen::workspace::{
-    Disproof, Library, Lowered, Operand, Operation, Printed, SceneRobot, prove, write_function,
+    Disproof, Library, Lowered, Operand, Operation, Points, Printed, SceneRobot, prove,
+    write_function,
 };
 use dalembert_codegen::{Function, Program, ScalarType};
 use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::field::Field;
 
 use crate::support;
 
@@ -62,6 +64,35 @@ fn a_wrong_sign() {
             output.negative = !output.negative;
             let zero = matches!(&output.value, Operand::Constant(c) if c.is_zero());
             assert_eq!(refused(&robot, &wrong), !zero, "{} {index}", robot.name);
+        }
+    }
+}
+
+/// The search compares values modulo 2⁶¹ − 1, where a constant and what is that much larger are one:
+/// the proof has another prime.
+#[test]
+fn a_constant_that_the_search_cannot_tell() {
+    let prime = Exact::from(Rational::from_integer(Field::P.into()));
+    for (robot, program) in programs() {
+        let is_constant = |index: &usize| {
+            let step = &program.steps[*index];
+            step.operation != Operation::Fused && matches!(step.right, Operand::Constant(_))
+        };
+        let indices = (0..program.steps.len()).filter(is_constant);
+        for index in indices.take(20) {
+            let mut wrong = program.clone();
+            let Operand::Constant(constant) = &mut wrong.steps[index].right else {
+                unreachable!("filtered");
+            };
+            let false_one = constant.add(&prime);
+            let print = |x: &Exact| Points::SEARCH.constant(x);
+            assert_eq!(
+                print(constant),
+                print(&false_one),
+                "no difference to the search"
+            );
+            *constant = false_one;
+            assert!(refused(&robot, &wrong), "{} t{}", robot.name, index + 1);
         }
     }
 }

@@ -4,17 +4,21 @@
 use std::path::Path;
 
 use crate::support::draw::robots;
-use dalembert_codegen::workspace::{Task, WaySource, search};
-use dalembert_codegen::{Function, Request};
+use dalembert_codegen::workspace::{
+    Dag, Folding, Limits, Schedule, Task, cost, search, search_graphs,
+};
+use dalembert_codegen::{Effort, Function, Request};
 use dalembert_model::read::{self, Options};
 use dalembert_model::robot::Robot;
 
-/// Torques by whole recursions, matrices by composite bodies, poses by no regrouping.
-const FUNCTIONS: [Function; 4] = [
+/// Torques by whole recursions, matrices by composite bodies, poses by no regrouping, and what has
+/// most in common.
+const FUNCTIONS: [Function; 5] = [
     Function::InverseDynamics,
     Function::Inertia,
     Function::Coriolis,
     Function::ForwardKinematics,
+    Function::InverseDynamicsDerivatives,
 ];
 
 fn all() -> Vec<Robot> {
@@ -35,16 +39,41 @@ fn all() -> Vec<Robot> {
     robots
 }
 
-/// Returns the operations of all functions of all robots.
-fn operations(robots: &[Robot], without: Option<WaySource>) -> usize {
+/// A source that is left out, and the limits that leave it out.
+type Row = (&'static str, fn(Limits) -> Limits);
+
+const SOURCES: [Row; 4] = [
+    ("rules", |limits| Limits { rules: 0, ..limits }),
+    ("pairs", |limits| Limits { pairs: 0, ..limits }),
+    ("resubstitution", |limits| Limits {
+        substitutes: 0,
+        ..limits
+    }),
+    ("annealing", |limits| Limits {
+        schedules: [Schedule::cool(0); 2],
+        ..limits
+    }),
+];
+
+/// Returns the cheapest program's operations over a search from each list of graphs.
+fn operations(cases: &[Vec<Dag>], alter: impl Fn(Limits) -> Limits) -> usize {
+    let limits = |operations| alter(Effort::Quick.limits(operations));
+    let found = cases.iter().map(|seeds| {
+        let found = search_graphs(seeds, &[], &limits, &|_| true, &|_, _| true);
+        found.unwrap().graph.counts().operations()
+    });
+    found.sum()
+}
+
+#[test]
+#[ignore = "minutes in release mode"]
+fn every_source_earns() {
+    let robots = all();
     let cases = robots
         .iter()
         .flat_map(|robot| FUNCTIONS.map(|function| (robot, function)));
-    let of = |(robot, function): (&Robot, Function)| {
-        let request = Request {
-            without,
-            ..Request::of(&[function])
-        };
+    let seeds = |(robot, function): (&Robot, Function)| -> Vec<Dag> {
+        let request = Request::of(&[function]);
         let scene_robot = request.scene_robot(robot).unwrap();
         let task = Task {
             robot,
@@ -52,24 +81,28 @@ fn operations(robots: &[Robot], without: Option<WaySource>) -> usize {
             request: &request,
         };
         let found = search(&task, function).unwrap();
-        found.simplified.graph.counts().operations()
+        found.seeds.into_iter().map(|seed| seed.graph).collect()
     };
-    cases.map(of).sum()
-}
-
-#[test]
-#[ignore = "minutes in release mode"]
-fn every_source_earns() {
-    let robots = all();
-    let whole = operations(&robots, None);
+    let cases: Vec<Vec<Dag>> = cases.map(seeds).collect();
+    let whole = operations(&cases, |limits| limits);
     println!("all sources: {whole} operations");
-    for source in WaySource::ALL {
-        let lost = operations(&robots, Some(source)) as f64 - whole as f64;
-        let name = source.name();
+    let earns = |name: &str, without: usize| {
+        let lost = without as f64 - whole as f64;
         println!(
             "without {name}: {lost:+}, {:+.2} %",
             100.0 * lost / whole as f64
         );
         assert!(lost > 0.0, "{name}");
+    };
+    for (name, alter) in SOURCES {
+        earns(name, operations(&cases, alter));
     }
+    let cheapest = |seeds: &Vec<Dag>| {
+        let own = seeds
+            .iter()
+            .min_by_key(|dag| cost(&dag.rebuild(Folding::Semantic)));
+        vec![own.unwrap().clone()]
+    };
+    let alone: Vec<Vec<Dag>> = cases.iter().map(cheapest).collect();
+    earns("other forms and axes", operations(&alone, |limits| limits));
 }

@@ -31,8 +31,9 @@ impl Crate {
         let _ = fs::remove_dir_all(&folder);
         fs::create_dir_all(folder.join("src")).unwrap();
         fs::create_dir_all(folder.join("robots")).unwrap();
+        // A name of its own: cargo tells two crates of one target folder by their names alone.
         let manifest = format!(
-            "[package]\nname = \"taker\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n[dependencies]\n\
+            "[package]\nname = \"taker_{name}\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n[dependencies]\n\
              dalembert = {{ path = {ROOT:?}, default-features = false, features = [\"macros\"] }}\n\n[workspace]\n"
         );
         fs::write(folder.join("Cargo.toml"), manifest).unwrap();

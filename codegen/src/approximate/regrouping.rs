@@ -13,10 +13,10 @@ use dalembert_model::number::Exact;
 use crate::approximate::prune::{PruneSettings, appraise};
 use crate::bound::input_box::InputBox;
 use crate::parallel;
-use crate::portfolio;
 use crate::program::Program;
 use crate::scene::SceneRobot;
-use crate::simplify::{Effort, simplify};
+use crate::search::{Effort, search};
+use crate::seeds;
 use crate::watch::{FunctionWatch, Part};
 
 /// What a look at every regrouping and the closer one at a few take: samples, and
@@ -38,9 +38,10 @@ pub(super) fn descend(
     watch: Option<FunctionWatch<'_>>,
 ) -> Option<Program> {
     let (function, effort) = (program.function, Effort::Thorough);
-    if settings.sweeps == 0 || portfolio::skeleton(scene_robot).links.is_empty() {
+    if settings.sweeps == 0 || seeds::skeleton(scene_robot).links.is_empty() {
         return None;
     }
+    let quick = |operations| Effort::Quick.limits(operations);
     let descent = Descent {
         limits,
         allowances,
@@ -48,7 +49,7 @@ pub(super) fn descend(
         watch,
     };
     let forms = function.forms();
-    let tuned = portfolio::tuned(scene_robot, function, &forms, effort, None, &[], watch);
+    let tuned = seeds::tuned(scene_robot, function, &forms, effort, None, &[], watch);
     let mut best: Option<(Regrouping<Exact>, Program)> = None;
     let mut price = descent.price(program, LOOKS[1]);
     for round in 0..settings.sweeps {
@@ -59,7 +60,7 @@ pub(super) fn descend(
         let from = best
             .as_ref()
             .map_or(&tuned.regrouping, |(regrouping, _)| regrouping);
-        let mut regroupings = portfolio::regroupings(scene_robot, function, from);
+        let mut regroupings = seeds::regroupings(scene_robot, function, from);
         if round == 0 {
             regroupings.insert(0, from.clone());
         }
@@ -67,8 +68,8 @@ pub(super) fn descend(
             if descent.is_over() {
                 return None;
             }
-            let graph = portfolio::in_regrouping(scene_robot, function, regrouping, tuned.form);
-            let graph = simplify(&[graph], &[], Effort::Quick, &|_| true)?.graph;
+            let graph = seeds::in_regrouping(scene_robot, function, regrouping, tuned.form);
+            let graph = search(&[graph], &[], &quick, &|_| true, &|_, _| true)?.graph;
             let program = program.with_graph(&graph);
             Some((descent.price(&program, LOOKS[0]), regrouping, program))
         });

@@ -14,9 +14,9 @@ use crate::bound::expand::expand;
 use crate::bound::grid::{self, Wanted};
 use crate::bound::input_box::InputBox;
 use crate::bound::sensitivity::rounding;
+use crate::dag::{Dag, Folding};
 use crate::edits::Stage;
 use crate::function::Argument;
-use crate::graph::{Folding, Graph};
 use crate::interval::Interval;
 use crate::program::{Program, ScalarType};
 use crate::random::Random;
@@ -160,7 +160,7 @@ fn shown(
     let costs = rounding(program, scalar, sines, limits, 64);
     let graph = Stage::unedited(program.clone()).edited(Folding::Syntactic);
     let outputs = lower.iter().map(|&(i, j)| graph.outputs[entry(i, j)]);
-    let graph = Graph {
+    let graph = Dag {
         outputs: outputs.collect(),
         ..graph
     };

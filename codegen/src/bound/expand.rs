@@ -17,10 +17,10 @@
 
 use crate::bound::input_box::InputBox;
 use crate::bound::work;
+use crate::dag::{Dag, Node};
 use crate::function::Argument;
-use crate::graph::{Graph, Node};
 use crate::interval::Interval;
-use crate::program::Input;
+use crate::program::{Input, Operation};
 
 /// Powers packed: two rates (1 … 2n, sorted, 0 is none) in a byte each, then
 /// five bits a joint: the power of the cosine, and the sine's on top.
@@ -43,14 +43,14 @@ const TERMS: usize = 16;
 
 /// Returns the outputs written out; `None` if they are too large, or of higher degree
 /// than fits.
-pub(super) fn expand(graph: &Graph, limits: &InputBox) -> Option<Vec<Polynomial>> {
+pub(super) fn expand(graph: &Dag, limits: &InputBox) -> Option<Vec<Polynomial>> {
     let mut found: Vec<Polynomial> = vec![Vec::new(); graph.nodes.len()];
     visit(graph, limits, &mut |node, polynomial| {
         found[node] = polynomial.clone();
     })?;
     let outputs = graph.outputs.iter().map(|edge| {
-        let mut value = found[edge.node().index()].clone();
-        if edge.is_negative() {
+        let mut value = found[edge.index()].clone();
+        if edge.negative {
             for (_, coefficient) in &mut value {
                 *coefficient = -*coefficient;
             }
@@ -63,37 +63,39 @@ pub(super) fn expand(graph: &Graph, limits: &InputBox) -> Option<Vec<Polynomial>
 /// Shows each output's node, once and without a sign, written out; none is
 /// kept longer than others are made of it. `None` as [`expand`].
 pub(super) fn visit(
-    graph: &Graph,
+    graph: &Dag,
     limits: &InputBox,
     show: &mut dyn FnMut(usize, &Polynomial),
 ) -> Option<()> {
-    let live = graph.live();
-    if limits.joints() > MAX_JOINTS || mixes(graph, &live) {
+    let reads = graph.reads();
+    if limits.joints() > MAX_JOINTS || mixes(graph) {
         return None;
     }
     let mut last_use = vec![0; graph.nodes.len()];
     for (index, node) in graph.nodes.iter().enumerate() {
-        if live[index] {
+        if reads[index] > 0 {
             for operand in node.operands().into_iter().flatten() {
-                last_use[operand.index()] = index;
+                last_use[operand as usize] = index;
             }
         }
     }
     let mut is_output = vec![false; graph.nodes.len()];
     for output in &graph.outputs {
-        is_output[output.node().index()] = true;
+        is_output[output.index()] = true;
     }
     let mut values: Vec<Polynomial> = Vec::with_capacity(graph.nodes.len());
     let mut work = 0;
     for (index, node) in graph.nodes.iter().enumerate() {
-        let value = match *node {
-            _ if !live[index] => Vec::new(),
-            Node::Constant(c) => vec![(0, Interval::exact(&graph.constants[c as usize]))],
-            Node::Input(input) => leaf(input, limits)?,
-            Node::Sum(a, b) => sum(&values[a.index()], &values[b.index()], false),
-            Node::Difference(a, b) => sum(&values[a.index()], &values[b.index()], true),
-            Node::Product(a, b) => {
-                let (a, b) = (&values[a.index()], &values[b.index()]);
+        let value = match node {
+            _ if reads[index] == 0 => Vec::new(),
+            Node::Constant(constant) => vec![(0, Interval::exact(constant))],
+            Node::Input(input) => leaf(*input, limits)?,
+            Node::Apply(operation @ (Operation::Add | Operation::Sub), operands) => {
+                let [a, b] = operands.map(|id| &values[id as usize]);
+                sum(a, b, *operation == Operation::Sub)
+            }
+            Node::Apply(Operation::Mul | Operation::Fused, operands) => {
+                let [a, b] = operands.map(|id| &values[id as usize]);
                 work += a.len() * b.len();
                 work::count(1 + a.len() * b.len() / TERMS);
                 if work > MAX_WORK {
@@ -102,7 +104,7 @@ pub(super) fn visit(
                 product(a, b)?
             }
             // No polynomial.
-            Node::Quotient(..) => return None,
+            Node::Apply(Operation::Div, _) => return None,
         };
         if is_output[index] {
             show(index, &value);
@@ -113,10 +115,10 @@ pub(super) fn visit(
         } else {
             Vec::new()
         });
-        if live[index] {
+        if reads[index] > 0 {
             for operand in node.operands().into_iter().flatten() {
-                if last_use[operand.index()] == index {
-                    values[operand.index()] = Vec::new();
+                if last_use[operand as usize] == index {
+                    values[operand as usize] = Vec::new();
                 }
             }
         }
@@ -126,9 +128,9 @@ pub(super) fn visit(
 
 /// Returns whether a joint's position is read and its sine or cosine too: both would
 /// have the same place in a key.
-fn mixes(graph: &Graph, live: &[bool]) -> bool {
+fn mixes(graph: &Dag) -> bool {
     let (mut slides, mut turns) = (0u64, 0u64);
-    for (node, _) in graph.nodes.iter().zip(live).filter(|(_, live)| **live) {
+    for (_, node) in graph.live() {
         match node {
             Node::Input(Input::Entry(Argument::Position, joint)) => slides |= 1 << joint,
             Node::Input(Input::Sin(angle) | Input::Cos(angle)) => {
@@ -303,7 +305,7 @@ fn multiply(x: Key, y: Key, coefficient: Interval, out: &mut Polynomial) -> Opti
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::graph::{Builder, Folding};
+    use crate::dag::{Builder, Folding};
     use crate::program::AngleSum;
 
     /// sin q₁ − q₁ is no polynomial in the sine and cosine of one angle.
@@ -319,8 +321,8 @@ mod tests {
             let mut builder = Builder::new(Folding::Syntactic);
             let sine = builder.input(Input::Sin(AngleSum::joint(0)));
             let position = builder.input(Input::Entry(Argument::Position, slides));
-            let output = builder.sub(&sine, &position);
-            expand(&builder.finish(&[output]), &limits)
+            let output = builder.sub(sine, position);
+            expand(&builder.finish(vec![output]), &limits)
         };
         assert_eq!(written(0), None);
         assert_eq!(written(1).unwrap()[0].len(), 3);

@@ -3,7 +3,7 @@
 
 use super::subject::direct;
 use super::{Certificate, Refuted, shape, work};
-use crate::graph::Folding;
+use crate::dag::Folding;
 use crate::scene::SceneRobot;
 use crate::verify::exact::prove_same;
 

@@ -7,8 +7,8 @@ use crate::bound::definite::least_eigenvalue;
 use crate::bound::input_box::InputBox;
 use crate::bound::magnitude::{magnitudes, magnitudes_within, relative};
 use crate::bound::sensitivity::{BoundEffort, Sensitivity};
+use crate::dag::Dag;
 use crate::edits::{Stage, deviation, difference, has_edits};
-use crate::graph::Graph;
 use crate::language::{Printed, function};
 use crate::program::{Library, Program, ScalarType, has_inertia};
 use crate::scene::SceneRobot;
@@ -65,7 +65,7 @@ impl Subject<'_> {
                 .filter(|&i| found[i] > limits[i])
                 .collect();
             let above_limits: Vec<f64> = above.iter().map(|&i| limits[i]).collect();
-            let error = Graph {
+            let error = Dag {
                 outputs: above.iter().map(|&i| error.outputs[i]).collect(),
                 ..error
             };

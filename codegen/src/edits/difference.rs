@@ -15,25 +15,24 @@
 use std::collections::BTreeMap;
 
 use super::{Edit, EditSite, Stage};
-use crate::graph::builder::Value;
-use crate::graph::{Builder, Folding, Graph};
+use crate::dag::{Builder, Dag, Edge, Folding};
 use crate::program::{Operand, Operation, Program};
 
 impl Stage {
     /// Returns the edited program's graph, folded; what nothing reads is gone.
-    pub fn edited(&self, folding: Folding) -> Graph {
+    pub fn edited(&self, folding: Folding) -> Dag {
         let mut run = Run::new(self, folding);
         run.steps();
-        let outputs: Vec<Value> = self
+        let outputs: Vec<Edge> = self
             .program
             .outputs
             .iter()
             .map(|output| {
                 let value = run.after(&output.value);
-                run.builder.negate_if(&value, output.negative)
+                value.negated_if(output.negative)
             })
             .collect();
-        run.builder.finish(&outputs)
+        run.builder.finish(outputs)
     }
 
     /// Returns the edited program.
@@ -44,50 +43,50 @@ impl Stage {
 
 /// Returns what a program differs from another by: edited − exact, output by output, as
 /// they stand. Written out as polynomials, what they have in common cancels.
-pub(crate) fn deviation(exact: &Program, edited: &Program) -> Graph {
+pub(crate) fn deviation(exact: &Program, edited: &Program) -> Dag {
     let mut builder = Builder::new(Folding::Syntactic);
     let before = traced(exact, &mut builder);
     let after = traced(edited, &mut builder);
     let pairs = after.iter().zip(&before);
-    let sums: Vec<Value> = pairs.map(|(a, b)| builder.sub(a, b)).collect();
-    builder.finish(&sums)
+    let sums: Vec<Edge> = pairs.map(|(a, b)| builder.sub(*a, *b)).collect();
+    builder.finish(sums)
 }
 
 /// Returns the outputs of a program as values of a builder.
-pub(crate) fn traced(program: &Program, builder: &mut Builder) -> Vec<Value> {
-    let mut steps: Vec<Value> = Vec::with_capacity(program.steps.len());
-    let read = |operand: &Operand, steps: &[Value], builder: &mut Builder| match operand {
+pub(crate) fn traced(program: &Program, builder: &mut Builder) -> Vec<Edge> {
+    let mut steps: Vec<Edge> = Vec::with_capacity(program.steps.len());
+    let read = |operand: &Operand, steps: &[Edge], builder: &mut Builder| match operand {
         Operand::Input(input) => builder.input(*input),
-        Operand::Constant(constant) => Value::Constant(constant.clone()),
-        Operand::Step(index) => steps[*index].clone(),
+        Operand::Constant(constant) => builder.constant(constant),
+        Operand::Step(index) => steps[*index],
     };
     for step in &program.steps {
         let left = read(&step.left, &steps, builder);
         let right = read(&step.right, &steps, builder);
-        steps.push(operate(builder, step.operation, &left, &right));
+        steps.push(builder.apply(step.operation, left, right));
     }
     let outputs = program.outputs.iter().map(|output| {
         let value = read(&output.value, &steps, builder);
-        builder.negate_if(&value, output.negative)
+        value.negated_if(output.negative)
     });
     outputs.collect()
 }
 
 /// Returns the errors of all stages together: edited − exact, output by output. Each
 /// stage's edited program must be equal to the next stage's program.
-pub fn difference(stages: &[Stage]) -> Graph {
+pub fn difference(stages: &[Stage]) -> Dag {
     let mut builder = Builder::new(Folding::Syntactic);
-    let mut sums: Vec<Value> = Vec::new();
+    let mut sums: Vec<Edge> = Vec::new();
     for stage in stages {
         let mut run = Run::with(stage, builder);
         run.steps();
-        let deltas: Vec<Value> = stage
+        let deltas: Vec<Edge> = stage
             .program
             .outputs
             .iter()
             .map(|output| {
                 let delta = run.delta(&output.value);
-                run.builder.negate_if(&delta, output.negative)
+                delta.negated_if(output.negative)
             })
             .collect();
         builder = run.builder;
@@ -95,10 +94,10 @@ pub fn difference(stages: &[Stage]) -> Graph {
             deltas
         } else {
             let pairs = sums.iter().zip(&deltas);
-            pairs.map(|(a, b)| builder.add(a, b)).collect()
+            pairs.map(|(a, b)| builder.add(*a, *b)).collect()
         };
     }
-    builder.finish(&sums)
+    builder.finish(sums)
 }
 
 /// A stage's values before (x) and after (x') its edits, and Δx.
@@ -107,9 +106,9 @@ struct Run<'a> {
     /// The edit of each place; its first, if a place has several.
     edits: BTreeMap<EditSite, &'a Edit>,
     builder: Builder,
-    exact: Vec<Value>,
-    edited: Vec<Value>,
-    deltas: Vec<Value>,
+    exact: Vec<Edge>,
+    edited: Vec<Edge>,
+    deltas: Vec<Edge>,
 }
 
 impl<'a> Run<'a> {
@@ -133,50 +132,50 @@ impl<'a> Run<'a> {
         self.edits.get(&place).copied()
     }
 
-    fn before(&mut self, operand: &Operand) -> Value {
+    fn before(&mut self, operand: &Operand) -> Edge {
         match operand {
             Operand::Input(input) => self.builder.input(*input),
-            Operand::Constant(constant) => Value::Constant(constant.clone()),
-            Operand::Step(index) => self.exact[*index].clone(),
+            Operand::Constant(constant) => self.builder.constant(constant),
+            Operand::Step(index) => self.exact[*index],
         }
     }
 
-    fn after(&mut self, operand: &Operand) -> Value {
+    fn after(&mut self, operand: &Operand) -> Edge {
         match operand {
             Operand::Input(input) => match self.edit(EditSite::Input(*input)) {
                 Some(edit) => self.replacement(edit),
                 None => self.builder.input(*input),
             },
-            Operand::Constant(constant) => Value::Constant(constant.clone()),
-            Operand::Step(index) => self.edited[*index].clone(),
+            Operand::Constant(constant) => self.builder.constant(constant),
+            Operand::Step(index) => self.edited[*index],
         }
     }
 
-    fn replacement(&mut self, edit: &Edit) -> Value {
+    fn replacement(&mut self, edit: &Edit) -> Edge {
         let value = self.after(&edit.value);
-        self.builder.negate_if(&value, edit.negative)
+        value.negated_if(edit.negative)
     }
 
     /// Returns replacement after − operand before
-    fn moved(&mut self, edit: &Edit, operand: &Operand) -> Value {
+    fn moved(&mut self, edit: &Edit, operand: &Operand) -> Edge {
         let after = self.replacement(edit);
         let before = self.before(operand);
-        self.builder.sub(&after, &before)
+        self.builder.sub(after, before)
     }
 
-    fn delta(&mut self, operand: &Operand) -> Value {
+    fn delta(&mut self, operand: &Operand) -> Edge {
         match operand {
             Operand::Input(input) => match self.edit(EditSite::Input(*input)) {
                 Some(edit) => self.moved(edit, operand),
-                None => Value::zero(),
+                None => self.builder.zero(),
             },
-            Operand::Constant(_) => Value::zero(),
-            Operand::Step(index) => self.deltas[*index].clone(),
+            Operand::Constant(_) => self.builder.zero(),
+            Operand::Step(index) => self.deltas[*index],
         }
     }
 
     /// Returns an operand of a step: before, after, and the difference.
-    fn operand(&mut self, operand: &Operand, place: EditSite) -> [Value; 3] {
+    fn operand(&mut self, operand: &Operand, place: EditSite) -> [Edge; 3] {
         let before = self.before(operand);
         match self.edit(place) {
             None => [before, self.after(operand), self.delta(operand)],
@@ -191,36 +190,36 @@ impl<'a> Run<'a> {
         for (index, step) in self.stage.program.steps.iter().enumerate() {
             let [a, a_after, da] = self.operand(&step.left, EditSite::Left(index));
             let [b, b_after, db] = self.operand(&step.right, EditSite::Right(index));
-            let exact = operate(&mut self.builder, step.operation, &a, &b);
-            self.exact.push(exact.clone());
+            let exact = self.builder.apply(step.operation, a, b);
+            self.exact.push(exact);
             let (edited, delta) = match self.edit(EditSite::Step(index)) {
                 None => (
-                    operate(&mut self.builder, step.operation, &a_after, &b_after),
-                    self.unedited(step.operation, [&b, &da, &db, &a_after]),
+                    self.builder.apply(step.operation, a_after, b_after),
+                    self.unedited(step.operation, [b, da, db, a_after]),
                 ),
                 Some(edit) => {
                     let edited = self.replacement(edit);
                     // s·r' − x = s·Δr + (s·r − x); for an operand of the sum
                     // the second part is the other operand.
                     let right = if step.operation == Operation::Sub {
-                        self.builder.negate_if(&b, true)
+                        b.negated_if(true)
                     } else {
-                        b.clone()
+                        b
                     };
                     let sum = matches!(step.operation, Operation::Add | Operation::Sub);
                     let minus = step.operation == Operation::Sub;
                     let rest = if sum && edit.value == step.left && !edit.negative {
-                        self.builder.negate_if(&right, true)
+                        right.negated_if(true)
                     } else if sum && edit.value == step.right && edit.negative == minus {
-                        self.builder.negate_if(&a, true)
+                        a.negated_if(true)
                     } else {
                         let before = self.before(&edit.value);
-                        let before = self.builder.negate_if(&before, edit.negative);
-                        self.builder.sub(&before, &exact)
+                        let before = before.negated_if(edit.negative);
+                        self.builder.sub(before, exact)
                     };
                     let moved = self.delta(&edit.value);
-                    let moved = self.builder.negate_if(&moved, edit.negative);
-                    (edited, self.builder.add(&moved, &rest))
+                    let moved = moved.negated_if(edit.negative);
+                    (edited, self.builder.add(moved, rest))
                 }
             };
             self.edited.push(edited);
@@ -228,34 +227,24 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn unedited(&mut self, operation: Operation, [b, da, db, a_after]: [&Value; 4]) -> Value {
+    fn unedited(&mut self, operation: Operation, [b, da, db, a_after]: [Edge; 4]) -> Edge {
         match operation {
             Operation::Add => self.builder.add(da, db),
             Operation::Sub => self.builder.sub(da, db),
             Operation::Mul | Operation::Fused => {
                 let left = self.builder.mul(a_after, db);
                 let right = self.builder.mul(b, da);
-                self.builder.add(&left, &right)
+                self.builder.add(left, right)
             }
             // (a + Δa)/(b + Δb) − a/b = (Δa − (a/b) Δb)/(b + Δb)
             Operation::Div => {
                 let before = self.builder.sub(a_after, da);
-                let quotient = self.builder.div(&before, b);
-                let part = self.builder.mul(&quotient, db);
-                let moved = self.builder.sub(da, &part);
+                let quotient = self.builder.div(before, b);
+                let part = self.builder.mul(quotient, db);
+                let moved = self.builder.sub(da, part);
                 let divisor = self.builder.add(b, db);
-                self.builder.div(&moved, &divisor)
+                self.builder.div(moved, divisor)
             }
         }
-    }
-}
-
-/// Returns a step's operation on values.
-fn operate(builder: &mut Builder, operation: Operation, a: &Value, b: &Value) -> Value {
-    match operation {
-        Operation::Add => builder.add(a, b),
-        Operation::Sub => builder.sub(a, b),
-        Operation::Mul | Operation::Fused => builder.mul(a, b),
-        Operation::Div => builder.div(a, b),
     }
 }

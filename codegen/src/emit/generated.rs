@@ -2,10 +2,10 @@
 
 use crate::approximate::admitted::Admitted;
 use crate::function::Function;
-use crate::portfolio::Source;
 use crate::program::{Counts, Library, Lowered, Program, ScalarType};
 use crate::scene::ParametersKey;
-use crate::simplify::Pass;
+use crate::search::Pass;
+use crate::seeds::Source;
 use crate::sincos::{self, AngleKernel, Sines};
 use crate::verify::accuracy::Refused;
 use crate::verify::exact::Proof;

@@ -4,8 +4,8 @@
 //! cheaper program stays, and an early end is never worse than no patience.
 
 use super::{GeneratedFunction, Request, Task, functions};
-use crate::program::{Program, ScalarType};
-use crate::simplify::{CostModel, Effort};
+use crate::program::ScalarType;
+use crate::search::{Effort, price};
 use crate::watch::Watch;
 
 /// Puts the quick search's functions in the place of dearer ones.
@@ -28,15 +28,8 @@ pub(super) fn no_dearer_than_quick(
         return;
     }
     for (function, quick) in generated.iter_mut().zip(quick) {
-        if price(&quick.program) < price(&function.program) {
+        if price(&quick.program.counts()) < price(&function.program.counts()) {
             *function = quick;
         }
     }
-}
-
-/// Returns what programs are compared by, in hundredths of an operation: operations,
-/// and what sines and cosines are worth to the search.
-pub fn price(program: &Program) -> u64 {
-    let angles = program.trig.iter().map(|trig| trig.angle);
-    CostModel::OPERATIONS.price(&program.counts(), angles)
 }

@@ -204,8 +204,8 @@ impl fmt::Display for GenerateError {
             GenerateError::Disproved(function, disproof) => write!(f, "`{function}`: {disproof}"),
             GenerateError::Vanishing(function, value) => write!(
                 f,
-                "`{function}`: the constant {value} is divisible by 2^61 - 1, modulo which the \
-                 search tells values apart: change its last digit"
+                "`{function}`: the constant {value} is divisible by 2^61 - 1 or 2^61 - 45, modulo \
+                 which search and proof tell values apart: change its last digit"
             ),
             GenerateError::Defect(function, scalar, why) => {
                 let scalar = scalar.map_or(String::new(), |scalar| format!(" in {scalar}"));

@@ -2,12 +2,12 @@
 
 use dalembert_model::robot::Robot;
 
-use super::early::price;
 use super::{Generated, GeneratedFunction, Request};
 use crate::function::Function;
 use crate::plan::{Edited, Entry, Plan};
 use crate::program::{Program, ScalarType};
 use crate::scene::{SceneKey, input_hash};
+use crate::search::price;
 
 /// A plan with what was generated in it.
 #[derive(Clone, Debug)]
@@ -41,7 +41,7 @@ pub fn keep(robot: &Robot, request: &Request, generated: &Generated, plan: Optio
             let as_good = |other: &Entry| {
                 other.scene == entry.scene
                     && other.parameters == entry.parameters
-                    && price(emitted(other)) <= price(emitted(&entry))
+                    && price(&emitted(other).counts()) <= price(&emitted(&entry).counts())
             };
             if generated.ended && other.is_some_and(as_good) {
                 own.push((name, scalar));
@@ -121,7 +121,10 @@ mod tests {
         dear.functions[0].program.steps.push(step);
         let prices = |kept, found: &_| {
             let Kept { plan, own } = keep(&robot, &request, found, kept);
-            let prices = plan.entries.iter().map(|entry| price(emitted(entry)));
+            let prices = plan
+                .entries
+                .iter()
+                .map(|entry| price(&emitted(entry).counts()));
             let prices: Vec<u64> = prices.collect();
             assert_eq!(prices.len(), 2, "one a scalar");
             assert_eq!(prices[0], prices[1]);

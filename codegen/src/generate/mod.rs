@@ -42,7 +42,7 @@ use crate::language::{Language, Printed};
 use crate::parallel;
 use crate::program::{Lowered, Program, ScalarType, has_inertia};
 use crate::scene::{ParametersKey, SceneRobot, input_hash};
-use crate::simplify::Effort;
+use crate::search::Effort;
 use crate::sincos::{self, SinCos, Sines};
 use crate::task::{Prefer, Request, Task};
 use crate::trace::depends_on_coulomb;

@@ -7,7 +7,7 @@ use dalembert_model::outputs::{PayloadDependence, RuntimeParameter};
 use crate::approximate::error::Unbounded;
 use crate::function::{Argument, Function};
 use crate::language::Language;
-use crate::portfolio::Start;
+use crate::seeds::Start;
 use crate::task::Task;
 
 /// Why a parameter cannot be an argument.
@@ -112,7 +112,7 @@ pub(super) fn check(task: &Task<'_>) -> Result<(), ParameterError> {
     if !scene_robot.has(RuntimeParameter::Payload) {
         return Ok(());
     }
-    if !request.start.has_chain() {
+    if request.start != Start::Auto {
         return Err(ParameterError::Formulation(request.start));
     }
     let mut functions = request.functions.iter();

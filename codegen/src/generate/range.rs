@@ -5,20 +5,21 @@ use dalembert_model::equations::Arm;
 use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::field::{Field, ProofField};
 
 use super::GenerateError;
 use crate::bound::input_box::InputBox;
 use crate::bound::ranges::{Finding, ranges};
+use crate::dag::Points;
 use crate::function::Argument;
-use crate::graph::Points;
 use crate::program::{Operand, Program, ScalarType};
 use crate::scene::SceneRobot;
 
-/// Returns a parameter that the search cannot tell from zero.
+/// Returns a parameter that the search or the proof cannot tell from zero.
 pub(super) fn vanishing(scene_robot: &SceneRobot) -> Option<Exact> {
     let mut lost = None;
     let mut constant = |value: &Exact| {
-        if Points::lose(value) {
+        if Points::lose::<{ Field::P }>(value) || Points::lose::<{ ProofField::P }>(value) {
             lost.get_or_insert_with(|| value.clone());
         }
         value.clone()

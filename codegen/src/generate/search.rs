@@ -4,15 +4,14 @@ use dalembert_model::equations::chain::Regrouping;
 use dalembert_model::number::Exact;
 
 use super::{GenerateError, Task};
+use crate::dag::Dag;
 use crate::function::Function;
-use crate::graph::Graph;
 use crate::plan::Entry;
-use crate::portfolio::start::{Approach, Problem};
-use crate::portfolio::tune::Tuned;
-use crate::portfolio::{self, Limit, Source, Variant};
 use crate::program::{Counts, Program, ScalarType};
 use crate::scene::{ParametersKey, SceneKey};
-use crate::simplify::{self, Effort, Pass, Simplified};
+use crate::search::{self, Effort, Pass, Searched};
+use crate::seeds::start::{Approach, Problem};
+use crate::seeds::{Limit, Seed, Source, Tuned};
 use crate::verify::accuracy::{AccuracyFilter, Refused};
 use crate::watch::{FunctionWatch, Part};
 
@@ -63,28 +62,27 @@ pub(super) fn found(
     function: Function,
 ) -> Result<(Source, Vec<Pass>, Program, Option<Refused>), GenerateError> {
     let found = search(task, function)?;
-    let (seed, simplified) = (&found.variants[found.simplified.seed], &found.simplified);
-    let mut passes = vec![Pass {
-        name: "traced",
-        counts: seed.traced,
-    }];
-    passes.extend(simplified.passes.iter().cloned());
-    let program = Program::in_scene(task.scene_robot, function, &simplified.graph);
-    passes.push(Pass {
-        name: "final",
-        counts: program.counts(),
-    });
-    Ok((seed.source, passes, program, found.refused))
+    let (seed, searched) = (found.seed(), &found.searched);
+    let program = Program::in_scene(task.scene_robot, function, &searched.graph);
+    let counts = [
+        seed.traced,
+        seed.graph.counts(),
+        searched.start.counts(),
+        program.counts(),
+    ];
+    let passes = Pass::NAMES.into_iter().zip(counts);
+    let passes = passes.map(|(name, counts)| Pass { name, counts });
+    Ok((seed.source, passes.collect(), program, found.refused))
 }
 
 /// What a search found, and from what.
 pub struct Found {
-    /// The regrouping of the regrouped variants, if there are such.
+    /// The regrouping of the chain forms, if there are such.
     pub tuned: Option<Tuned>,
     /// What it started from.
-    pub variants: Vec<Variant>,
-    /// Its program, and those on the way.
-    pub simplified: Simplified,
+    pub seeds: Vec<Seed>,
+    /// Its program.
+    pub searched: Searched,
     /// What would be cheaper, but for its rounding error.
     pub refused: Option<Refused>,
 }
@@ -112,10 +110,10 @@ pub fn search(task: &Task<'_>, function: Function) -> Result<Found, GenerateErro
     let is_quick = task.request.effort == Effort::Quick;
     let quick = search.quick(is_quick.then_some(watch))?;
     if is_quick || watch.is_over() {
-        tell(Part::Proof, Some(quick.simplified.graph.counts()));
+        tell(Part::Proof, Some(quick.searched.graph.counts()));
         return Ok(quick);
     }
-    tell(Part::Formulations, Some(quick.simplified.graph.counts()));
+    tell(Part::Formulations, Some(quick.searched.graph.counts()));
     let mut found = search.run(Effort::Thorough, true, &[], Some(watch))?;
     if found.cost() > quick.cost() {
         found = quick;
@@ -124,9 +122,12 @@ pub fn search(task: &Task<'_>, function: Function) -> Result<Found, GenerateErro
             .refused
             .and_then(|refused| search.refused(refused.counts, refused.error, &found));
     }
-    tell(Part::Proof, Some(found.simplified.graph.counts()));
+    tell(Part::Proof, Some(found.searched.graph.counts()));
     Ok(found)
 }
+
+/// What costs one part in so many more than the cheapest is as good.
+const NEAR: u64 = 50;
 
 struct Search<'a> {
     task: Task<'a>,
@@ -140,17 +141,33 @@ impl Search<'_> {
     /// where the other one ended.
     fn quick(&self, watch: Option<FunctionWatch<'_>>) -> Result<Found, GenerateError> {
         let free = self.run(Effort::Quick, false, &[], watch)?;
-        if self.judge.accepts(&free.simplified.graph) {
+        if self.judge.accepts(&free.searched.graph) {
             return Ok(free);
         }
-        let from: Vec<Regrouping<Exact>> =
-            free.tuned.iter().map(|t| t.regrouping.clone()).collect();
-        let mut found = self.run(Effort::Quick, true, &from, watch)?;
-        let graph = &free.simplified.graph;
+        let again = Approach {
+            tuned: free.tuned.clone(),
+            seeds: free.seeds.clone(),
+            helpers: Vec::new(),
+        };
+        let mut found = self.from(again, Effort::Quick, true, watch);
+        let is_near = |found: &Found| {
+            let most = free.cost() + free.cost() / NEAR;
+            found.cost() <= most && self.judge.accepts(&found.searched.graph)
+        };
+        if !found.as_ref().is_some_and(is_near) {
+            let tuned = free.tuned.iter();
+            let from: Vec<Regrouping<Exact>> = tuned.map(|t| t.regrouping.clone()).collect();
+            let other = self.run(Effort::Quick, true, &from, watch)?;
+            let order = |found: &Found| (!self.judge.accepts(&found.searched.graph), found.cost());
+            let both = found.into_iter().chain([other]);
+            found = both.min_by_key(order);
+        }
+        let mut found = found.ok_or(GenerateError::Empty)?;
+        let graph = &free.searched.graph;
         let error = self.judge.error(graph);
         // The limit holds for every result: what breaks it for one may be cheaper and have a
         // smaller largest error than what keeps it for all.
-        if free.cost() <= found.cost() && error < self.judge.error(&found.simplified.graph) {
+        if free.cost() <= found.cost() && error < self.judge.error(&found.searched.graph) {
             return Ok(free);
         }
         found.refused = self.refused(graph.counts(), error, &found);
@@ -159,7 +176,7 @@ impl Search<'_> {
 
     /// Returns a refused program, worth a word only where it is cheaper.
     fn refused(&self, counts: Counts, error: f64, taken: &Found) -> Option<Refused> {
-        let graph = &taken.simplified.graph;
+        let graph = &taken.searched.graph;
         let is_cheaper = counts.operations() < graph.counts().operations();
         is_cheaper.then(|| Refused {
             counts,
@@ -177,13 +194,12 @@ impl Search<'_> {
     ) -> Result<Found, GenerateError> {
         let (scene_robot, function) = (self.task.scene_robot, self.function);
         let start = self.task.request.start;
-        let excess = |graph: &Graph, bound| self.judge.excess(graph, bound);
+        let excess = |graph: &Dag, bound| self.judge.excess(graph, bound);
         let limit: Option<Limit<'_>> = limited.then_some(&excess);
         let approaches = start.approaches(&Problem {
             scene_robot,
             function,
             effort,
-            without: self.task.request.without,
             limit,
             from,
             watch,
@@ -192,7 +208,7 @@ impl Search<'_> {
             .into_iter()
             .filter_map(|approach| self.from(approach, effort, limited, watch));
         // The first of the cheapest, of those that are accurate enough if there are such.
-        let refused = |found: &Found| limited && !self.judge.accepts(&found.simplified.graph);
+        let refused = |found: &Found| limited && !self.judge.accepts(&found.searched.graph);
         found
             .min_by_key(|found| (refused(found), found.cost()))
             .ok_or(GenerateError::Empty)
@@ -205,35 +221,36 @@ impl Search<'_> {
         limited: bool,
         watch: Option<FunctionWatch<'_>>,
     ) -> Option<Found> {
-        let (scene_robot, function) = (self.task.scene_robot, self.function);
-        let start = self.task.request.start;
         let Approach {
             tuned,
-            variants,
-            others,
+            seeds,
+            helpers,
         } = approach;
-        let graphs: Vec<Graph> = variants.iter().map(|v| v.graph.clone()).collect();
-        let mut helpers = others;
-        helpers.extend(start.helpers(scene_robot));
-        if let Some(tuned) = &tuned
-            && effort == Effort::Thorough
-        {
-            helpers.extend(portfolio::neighbours(scene_robot, function, tuned));
-        }
-        let without = self.task.request.without;
-        let accept = |graph: &Graph| !limited || self.judge.accepts(graph);
-        let simplified = simplify::watched(&graphs, &helpers, effort, without, &accept, watch);
+        let graphs: Vec<Dag> = seeds.iter().map(|seed| seed.graph.clone()).collect();
+        let accept = |graph: &Dag| !limited || self.judge.accepts(graph);
+        let goes_on = |rounds: [usize; 2], best: &Dag| {
+            let is_over = watch.is_some_and(|watch| {
+                watch.step(Part::Search, rounds, Some(best.counts()));
+                watch.is_over()
+            });
+            !is_over
+        };
         Some(Found {
             tuned,
-            variants,
-            simplified: simplified?,
+            seeds,
+            searched: search::search(&graphs, &helpers, &|n| effort.limits(n), &accept, &goes_on)?,
             refused: None,
         })
     }
 }
 
 impl Found {
+    /// Returns the seed that the search started from.
+    pub fn seed(&self) -> &Seed {
+        &self.seeds[self.searched.seed]
+    }
+
     fn cost(&self) -> u64 {
-        simplify::cost(&self.simplified.graph)
+        search::cost(&self.searched.graph)
     }
 }

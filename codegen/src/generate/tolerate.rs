@@ -17,7 +17,8 @@ use crate::generate::{GenerateError, GeneratedFunction, NoSines, Request, Task};
 use crate::plan::Edited;
 use crate::program::{Program, ScalarType};
 use crate::scene::SceneKey;
-use crate::simplify::Effort;
+use crate::search::Effort;
+use crate::seeds::Start;
 use crate::sincos::SinCos;
 
 /// Replaces the programs, if the scene has a tolerance. Returns the scalars to
@@ -246,7 +247,7 @@ fn proved(budget: &ErrorBudget<'_>, found: Admitted) -> Result<Admitted, Generat
 
 /// Another regrouping may be looked for only where the start may be any.
 fn thorough(request: &Request) -> PruneSettings {
-    let sweeps = match request.start.may_regroup() {
+    let sweeps = match request.start == Start::Auto {
         true => PruneSettings::THOROUGH.sweeps,
         false => 0,
     };

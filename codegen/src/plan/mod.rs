@@ -22,10 +22,10 @@ pub(crate) use file::PlanFileError;
 
 use crate::edits;
 use crate::function::Function;
-use crate::portfolio::{Source, Start};
 use crate::program::{Program, ScalarType};
 use crate::scene::{ParametersKey, SceneKey};
-use crate::simplify::Pass;
+use crate::search::Pass;
+use crate::seeds::{Source, Start};
 use crate::split::ErrorByCause;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::scene::Scene;

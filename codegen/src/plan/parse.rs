@@ -8,11 +8,11 @@ use super::error::{PlanError, PlanFault};
 use super::variant::Variant;
 use super::{Entry, Plan};
 use crate::function::{BundleError, Function};
-use crate::portfolio::{Source, Start};
 use crate::program::text::{read_results, read_step};
 use crate::program::{Counts, Program, ScalarType};
 use crate::scene::{ParametersKey, SceneKey};
-use crate::simplify::Pass;
+use crate::search::Pass;
+use crate::seeds::{Source, Start};
 use crate::words::Word;
 
 /// The longest plan that is read.

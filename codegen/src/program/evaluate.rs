@@ -1,7 +1,7 @@
 //! The one way to run straight-line code in a scalar.
 
 use dalembert_model::number::Exact;
-use dalembert_model::scalar::Divide;
+use dalembert_model::scalar::{Divide, Scalar};
 
 use super::fused::fusion;
 use super::{Input, Operand, Operation, Output, Program, Step};
@@ -43,6 +43,7 @@ pub(crate) fn evaluate<'c, C, I, S: Divide>(
 
 impl Operation {
     /// Returns the operation in a scalar.
+    #[inline]
     pub fn apply<S: Divide>(self, left: &S, right: &S) -> S {
         match self {
             Operation::Add => left.add(right),
@@ -50,6 +51,22 @@ impl Operation {
             Operation::Mul | Operation::Fused => left.mul(right),
             Operation::Div => left.div(right),
         }
+    }
+
+    /// Returns the operation on constants; none of a quotient by what is no rational number, or
+    /// zero.
+    pub(crate) fn exactly(self, left: &Exact, right: &Exact) -> Option<Exact> {
+        Some(match self {
+            Operation::Add => left.add(right),
+            Operation::Sub => left.sub(right),
+            Operation::Mul | Operation::Fused => left.mul(right),
+            Operation::Div => return left.divide(right.as_rational()?),
+        })
+    }
+
+    /// Returns whether the operands may be exchanged.
+    pub(crate) fn commutes(self) -> bool {
+        matches!(self, Operation::Add | Operation::Mul | Operation::Fused)
     }
 }
 

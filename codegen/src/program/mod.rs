@@ -95,7 +95,7 @@ pub struct Step<C = Exact, I = Input> {
 }
 
 /// The operations of emitted code.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Operation {
     /// left + right
     Add,

@@ -384,8 +384,8 @@ mod tests {
 
     use super::*;
     use crate::language::Language;
-    use crate::portfolio::Start;
-    use crate::simplify::Effort;
+    use crate::search::Effort;
+    use crate::seeds::Start;
 
     fn read(text: &str) -> Result<Request, Vec<Problem>> {
         Request::parse(&text.parse().unwrap(), &ScalarType::ALL, &[], &[])

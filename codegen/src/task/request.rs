@@ -7,10 +7,10 @@ use dalembert_model::scene::Scene;
 use crate::function::Function;
 use crate::language::Language;
 use crate::plan::Plan;
-use crate::portfolio::{Start, load};
 use crate::program::{Library, ScalarType};
 use crate::scene::{SceneError, SceneRobot};
-use crate::simplify::{Effort, WaySource};
+use crate::search::Effort;
+use crate::seeds::{Start, load};
 use crate::sincos::SinCos;
 use crate::watch::Watch;
 
@@ -62,9 +62,6 @@ pub struct Request {
     /// is refused where that is not enough. They are counted, never timed: the
     /// same everywhere. No limit if `None`.
     pub work: Option<u64>,
-    /// The source that a search leaves out, to see what it earns.
-    #[doc(hidden)]
-    pub without: Option<WaySource>,
 }
 
 impl Default for Request {
@@ -88,7 +85,6 @@ impl Default for Request {
             scene: None,
             cheapest_scalar: false,
             work: None,
-            without: None,
         }
     }
 }

@@ -5,11 +5,11 @@ use std::cell::Cell;
 use dalembert_model::equations::Formulation;
 
 use super::rounding::Rounding;
+use crate::dag::Dag;
 use crate::function::Function;
-use crate::graph::Graph;
-use crate::portfolio;
 use crate::program::{Counts, Program};
 use crate::scene::SceneRobot;
+use crate::seeds;
 
 /// An error of this many u is nothing to mend.
 const FLOOR: f64 = 4.0;
@@ -58,7 +58,7 @@ impl<'a> AccuracyFilter<'a> {
             (n <= MAX_MEASURED).then_some(Formulation::NewtonEulerLink)
         };
         let reference_formulation = formulation.map(|formulation| {
-            let textbook = portfolio::textbook(scene_robot, function, formulation).graph;
+            let textbook = seeds::textbook(scene_robot, function, formulation).graph;
             estimate(scene_robot, function, &textbook)
         });
         AccuracyFilter {
@@ -80,13 +80,13 @@ impl<'a> AccuracyFilter<'a> {
     }
 
     /// Returns whether the program is accurate enough.
-    pub(crate) fn accepts(&self, graph: &Graph) -> bool {
+    pub(crate) fn accepts(&self, graph: &Dag) -> bool {
         self.excess(graph, 1.0_f64.next_up()) <= 1.0
     }
 
     /// Returns the program's error over the largest that is accepted; zero where
     /// nothing is measured. An error at or above the bound need not be exact.
-    pub(crate) fn excess(&self, graph: &Graph, bound: f64) -> f64 {
+    pub(crate) fn excess(&self, graph: &Dag, bound: f64) -> f64 {
         let Some(reference_formulation) = &self.reference_formulation else {
             return 0.0;
         };
@@ -102,12 +102,12 @@ impl<'a> AccuracyFilter<'a> {
     }
 
     /// Returns the program's largest normwise error, in units of u.
-    pub(crate) fn error(&self, graph: &Graph) -> f64 {
+    pub(crate) fn error(&self, graph: &Dag) -> f64 {
         estimate(self.scene_robot, self.function, graph).worst()
     }
 }
 
-fn estimate(scene_robot: &SceneRobot, function: Function, graph: &Graph) -> Rounding {
+fn estimate(scene_robot: &SceneRobot, function: Function, graph: &Dag) -> Rounding {
     let program = Program::in_scene(scene_robot, function, graph);
     Rounding::estimate(scene_robot, &program)
 }

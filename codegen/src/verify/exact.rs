@@ -1,6 +1,6 @@
 //! The exact proof: the final program equals Lagrange–Euler as written.
 //!
-//! Both are evaluated with their exact constants modulo p = 2⁶¹ − 1 at four points that follow
+//! Both are evaluated with their exact constants modulo p = 2⁶¹ − 45 at four points that follow
 //! from the SHA-256 of robot, scene and program. Above [`WRITTEN_LIMIT`] joints the reference is
 //! the link-frame recursion, itself proved against Lagrange–Euler for every joint kind and
 //! convention at up to that many joints by tests.
@@ -10,7 +10,8 @@
 //! probability at most k/2⁶⁰ (Schwartz–Zippel; a residue is drawn with at most 2⁻⁶⁰), so at four
 //! with at most (2³⁰/2⁶⁰)⁴ < 1e-36: larger degrees are refused. A difference all of whose
 //! coefficients p divides is not seen here, and has to get past the check of what was generated in
-//! 256 bits; constants that p divides are refused.
+//! 256 bits; constants that p divides are refused. The search finds equal values modulo another
+//! prime, 2⁶¹ − 1: no mistake that it makes there is hidden here.
 //!
 //! A solution of equations, such as q̈, is also put into them: at every point the formula's own
 //! values must solve D q̈ + h + c + b∘q̇ = τ with D and the loads as written.
@@ -78,7 +79,7 @@ pub enum Disproof {
     },
     /// The program has another number of outputs.
     Shape,
-    /// Constants or divisors vanish, or have no value, modulo 2⁶¹ − 1.
+    /// Constants or divisors vanish, or have no value, modulo 2⁶¹ − 45.
     Unfit,
     /// The degree is so large that a miss is not unlikely.
     Large,
@@ -93,7 +94,7 @@ impl fmt::Display for Proof {
         };
         write!(
             f,
-            "equals {formula} at {POINTS} random points modulo 2⁶¹ − 1 (a wrong program passes \
+            "equals {formula} at {POINTS} random points modulo 2⁶¹ − 45 (a wrong program passes \
              with probability below 1e{})",
             Proof::FAILURE_EXPONENT
         )
@@ -113,7 +114,7 @@ impl fmt::Display for Disproof {
             ),
             Disproof::Shape => f.write_str("the number of outputs differs from the formula's"),
             Disproof::Unfit => f.write_str(
-                "constants or divisors vanish modulo 2⁶¹ − 1: write parameters as short decimals",
+                "constants or divisors vanish modulo 2⁶¹ − 45: write parameters as short decimals",
             ),
             Disproof::Large => f.write_str("the program's degree is too large to be proved"),
         }

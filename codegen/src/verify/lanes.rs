@@ -17,11 +17,6 @@ impl Lanes {
         Lanes([value; LANES])
     }
 
-    #[inline]
-    pub(super) fn vanishes(&self) -> bool {
-        self.0.iter().all(|x| *x == 0.0)
-    }
-
     // Plain loops, inlined: compilers make calls of arrays' own `map` and `from_fn` here.
     #[inline(always)]
     fn map(mut self, f: impl Fn(f64) -> f64) -> Lanes {
@@ -83,6 +78,10 @@ impl Scalar for Lanes {
     #[inline]
     fn half(&self) -> Self {
         self.map(|x| 0.5 * x)
+    }
+    #[inline]
+    fn is_zero(&self) -> bool {
+        self.0.iter().all(|x| *x == 0.0)
     }
 }
 

@@ -2,9 +2,9 @@
 //!
 //! - [`accuracy`]: which programs round well enough, for choices between them
 //! - [`rounding`]: what rounding costs a program, estimated; `lanes`: at states side by side
-//! - [`exact`]: the program equals Lagrange–Euler as written, modulo 2⁶¹ − 1
+//! - [`exact`]: the program equals Lagrange–Euler as written, modulo 2⁶¹ − 45
 //! - `points`: points that are drawn from the statement; `degree`: degrees, from above
-//! - [`parameters`]: base parameters give every torque, modulo 2⁶¹ − 1
+//! - [`parameters`]: base parameters give every torque, modulo 2⁶¹ − 45
 //! - [`singular`]: whether D has an inverse, and which joint it lacks one for
 //! - [`condition`]: how close D is to singular at a state
 //! - [`reference`](mod@reference): true values, to 60 digits

@@ -8,12 +8,12 @@ use dalembert_model::number::Exact;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::write as write_robot;
 use dalembert_model::scalar::Divide;
-use dalembert_model::scalar::field::Field;
+use dalembert_model::scalar::field::ProofField;
 use dalembert_model::scalar::sparse::Sparse;
 use dalembert_model::scene::write as write_scene;
 use hmac_sha256::Hash;
 
-use crate::graph::fingerprint::Points;
+use crate::dag::Points;
 use crate::program::Input;
 use crate::scene::SceneRobot;
 
@@ -23,8 +23,9 @@ pub(super) const POINTS: usize = 4;
 /// The number of points drawn before a statement is given up because values are missing.
 const MAX_DRAWS: usize = 16;
 
-/// A residue modulo 2⁶¹ − 1.
-pub(super) type Residue = Sparse<Field>;
+/// A residue modulo 2⁶¹ − 45. The search has another prime: what it takes for equal by chance, or
+/// because its prime divides a difference, is not equal here.
+pub(super) type Residue = Sparse<ProofField>;
 
 /// The values of inputs and constants that a formula or program is evaluated with.
 pub(super) trait Leaves {
@@ -75,17 +76,19 @@ impl Leaves for Point {
         Sparse::Value(self.points.input_at(input, self.index))
     }
 
-    /// Returns a constant's residue, lost where 2⁶¹ − 1 divides a coefficient or a denominator:
+    /// Returns a constant's residue, lost where 2⁶¹ − 45 divides a coefficient or a denominator:
     /// the field cannot tell it from zero.
     fn constant(&self, constant: &Exact) -> Residue {
         match self.points.constant_at(constant, self.index) {
-            Some(value) if !Points::lose(constant) => Sparse::constant(constant, value),
+            Some(value) if !Points::lose::<{ ProofField::P }>(constant) => {
+                Sparse::constant(constant, value)
+            }
             _ => Sparse::Lost,
         }
     }
 }
 
 /// Returns the residues as integers, `None` if any is lost.
-pub(super) fn integers(values: &[Residue]) -> Option<Vec<Field>> {
+pub(super) fn integers(values: &[Residue]) -> Option<Vec<ProofField>> {
     values.iter().map(Sparse::value).collect()
 }

@@ -18,8 +18,8 @@ use dalembert_model::scalar::Scalar;
 use num_traits::Signed;
 
 use super::lanes::{LANES, Lanes};
-use crate::program::adjoint::{Leaf, backward};
-use crate::program::{Input, Operand, Operation, Program};
+use crate::dag::{Dag, Edge, Id, Leaves, Node};
+use crate::program::{AngleSum, Input, Operation, Program, Speed};
 use crate::scene::SceneRobot;
 use crate::states::JointState;
 
@@ -52,16 +52,23 @@ impl Rounding {
         first: &Cell<usize>,
         is_enough: impl Fn(&Rounding) -> bool,
     ) -> Rounding {
-        let network = Network::new(program);
+        let graph = program.graph();
+        let is_exact: Vec<bool> = graph
+            .nodes
+            .iter()
+            .map(|node| is_exact(&graph, node))
+            .collect();
         let states = scene_robot.states(STATES, SEED);
-        let runs = states.chunks(LANES).map(|states| network.run(states));
-        let mut runs: Vec<(usize, Run)> = runs.enumerate().collect();
+        let runs = states
+            .chunks(LANES)
+            .filter_map(|states| graph.values(&AtStates::new(&graph, &program.speeds, states)));
+        let mut runs: Vec<(usize, Vec<Lanes>)> = runs.enumerate().collect();
         let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-        let size = |output: usize| {
-            let values = runs.iter().flat_map(|(_, run)| run.outputs[output].0);
+        let size = |output: &Edge| {
+            let values = runs.iter().flat_map(|(_, values)| values[output.index()].0);
             largest(&mut values.map(f64::abs))
         };
-        let sizes: Vec<f64> = (0..program.outputs.len()).map(size).collect();
+        let sizes: Vec<f64> = graph.outputs.iter().map(size).collect();
         let mut ranges = Vec::new();
         for quantity in program.function.quantities() {
             let start = ranges.last().map_or(0, |range: &Range<usize>| range.end);
@@ -73,12 +80,17 @@ impl Rounding {
         };
         let ratio = |error: f64, size: f64| if size > 0.0 { error / size } else { 0.0 };
         runs.sort_by_key(|(index, _)| *index != first.get());
-        for (index, run) in runs {
-            let errors = network.errors(&run);
+        let mut adjoints = Vec::new();
+        for (index, values) in runs {
+            let outputs = graph.outputs.iter();
+            let errors =
+                outputs.map(|output| error(&graph, *output, &values, &is_exact, &mut adjoints));
+            let errors: Vec<Lanes> = errors.collect();
             for (quantity, range) in ranges.iter().enumerate() {
-                let (values, own) = (&run.outputs[range.clone()], &errors[range.clone()]);
+                let (outputs, own) = (&graph.outputs[range.clone()], &errors[range.clone()]);
                 let normwise = largest(&mut (0..LANES).map(|lane| {
-                    let size = largest(&mut values.iter().map(|value| value.0[lane].abs()));
+                    let results = outputs.iter().map(|output| values[output.index()].0[lane]);
+                    let size = largest(&mut results.map(f64::abs));
                     ratio(largest(&mut own.iter().map(|error| error.0[lane])), size)
                 }));
                 let each = own.iter().zip(&sizes[range.clone()]);
@@ -119,188 +131,84 @@ impl Rounding {
     }
 }
 
-/// A program whose constants are shared: one rounding each, wherever it is used.
-struct Network<'a> {
-    program: &'a Program,
-    /// The rounded constants; whether each is a power of two, which costs no
-    /// digit as it stands and none as a factor.
-    constants: Vec<(f64, bool)>,
-    /// The constants that each step reads.
-    shared: Vec<[Option<usize>; 2]>,
-}
+/// The inputs of a program at a few states.
+struct AtStates(BTreeMap<Input, Lanes>);
 
-/// A program's values at a few states.
-struct Run {
-    values: Vec<Lanes>,
-    /// The operands of each step.
-    operands: Vec<[Lanes; 2]>,
-    /// The sine and the cosine of each angle, in the order of `trig`.
-    pairs: Vec<(Lanes, Lanes)>,
-    outputs: Vec<Lanes>,
-}
-
-impl<'a> Network<'a> {
-    fn new(program: &'a Program) -> Self {
-        let mut known: BTreeMap<&'a Exact, usize> = BTreeMap::new();
-        let mut constants = Vec::new();
-        let mut place = |operand: &'a Operand| match operand {
-            Operand::Constant(value) => Some(*known.entry(value).or_insert_with(|| {
-                constants.push((f64::nearest(value), is_power_of_two(value)));
-                constants.len() - 1
-            })),
-            Operand::Input(_) | Operand::Step(_) => None,
-        };
-        let steps = program.steps.iter();
-        let shared = steps.map(|step| [place(&step.left), place(&step.right)]);
-        Network {
-            shared: shared.collect(),
-            program,
-            constants,
-        }
-    }
-
-    /// Computes the values at a few states; lanes beyond repeat the last of them.
-    fn run(&self, states: &[JointState]) -> Run {
+impl AtStates {
+    /// Reads the inputs; lanes beyond the states repeat the last of them.
+    fn new(graph: &Dag, speeds: &[Speed], states: &[JointState]) -> AtStates {
         let each = |of: &dyn Fn(&JointState) -> f64| {
             Lanes(from_fn(|lane| {
                 let state = states.get(lane).or(states.last());
                 state.map_or(f64::NAN, of)
             }))
         };
-        let steps = &self.program.steps;
-        // The sine and the cosine of each angle, in the order of `trig`.
-        let trig = &self.program.trig;
-        let angles = trig.iter().map(|trig| {
-            let angle = each(&|state| {
-                let signed = |(joint, negative): (usize, bool)| match negative {
-                    true => -state.q[joint],
-                    false => state.q[joint],
-                };
-                trig.angle.terms().map(signed).sum()
-            });
-            let pairs = angle.0.map(libm::sincos);
-            (
-                Lanes(pairs.map(|pair| pair.0)),
-                Lanes(pairs.map(|pair| pair.1)),
-            )
-        });
-        let pairs: Vec<(Lanes, Lanes)> = angles.collect();
-        let place = |angle| trig.iter().position(|trig| trig.angle == angle);
-        let pair = |angle| place(angle).and_then(|place| pairs.get(place));
         let speed = |joint: usize, state: &JointState| {
-            let own = self.program.speeds.iter().find(|own| own.joint == joint)?;
+            let own = speeds.iter().find(|own| own.joint == joint)?;
             let (qd, square) = (state.qd.get(joint)?, f64::nearest(&own.square));
             Some(per_speed(qd, &square, |x| libm::sqrt(*x)))
         };
-        let input = |input: Input| match input {
+        let angle = |angle: AngleSum, state: &JointState| {
+            let signed = |(joint, negative): (usize, bool)| match negative {
+                true => -state.q[joint],
+                false => state.q[joint],
+            };
+            angle.terms().map(signed).sum::<f64>()
+        };
+        let lanes = |input: Input| match input {
+            Input::Sin(sum) => each(&|state| libm::sin(angle(sum, state))),
+            Input::Cos(sum) => each(&|state| libm::cos(angle(sum, state))),
             Input::PerSpeed(joint) => each(&|state| speed(joint, state).unwrap_or(f64::NAN)),
             Input::Entry(argument, joint) => each(&|state| state.entry(argument, joint)),
-            Input::Sin(angle) => pair(angle).map_or(Lanes::zero(), |pair| pair.0),
-            Input::Cos(angle) => pair(angle).map_or(Lanes::one(), |pair| pair.1),
         };
-        let mut values: Vec<Lanes> = Vec::with_capacity(steps.len());
-        let mut operands: Vec<[Lanes; 2]> = Vec::with_capacity(steps.len());
-        for (step, shared) in steps.iter().zip(&self.shared) {
-            let read = |(operand, shared): (&Operand, Option<usize>)| match (operand, shared) {
-                (_, Some(constant)) => Lanes::all(self.constants[constant].0),
-                (operand, None) => value(operand, &values, input),
-            };
-            let [x, y] = [(&step.left, shared[0]), (&step.right, shared[1])].map(read);
-            operands.push([x, y]);
-            values.push(step.operation.apply(&x, &y));
-        }
-        let outputs = self.program.outputs.iter();
-        let outputs = outputs.map(|output| value(&output.value, &values, input));
-        Run {
-            outputs: outputs.collect(),
-            values,
-            operands,
-            pairs,
-        }
-    }
-
-    /// Returns each output's error, in units of u.
-    fn errors(&self, run: &Run) -> Vec<Lanes> {
-        let outputs = self.program.outputs.iter();
-        let errors = outputs.map(|output| self.error(&output.value, run));
-        errors.collect()
-    }
-
-    /// Returns the root of the sum of squares of all errors, as they reach an output.
-    fn error(&self, output: &Operand, run: &Run) -> Lanes {
-        let Run {
-            values,
-            operands,
-            pairs,
-            ..
-        } = run;
-        let mut squares = Lanes::zero();
-        let mut constants = vec![Lanes::zero(); self.constants.len()];
-        let mut slopes = vec![(Lanes::zero(), Lanes::zero()); pairs.len()];
-        let mut note = |operand: &Operand, slope: &Lanes| {
-            let Operand::Input(input @ (Input::Sin(angle) | Input::Cos(angle))) = operand else {
-                return;
-            };
-            let mut trig = self.program.trig.iter().zip(&mut slopes);
-            match (trig.find(|(trig, _)| trig.angle == *angle), input) {
-                (Some((_, (sin, _))), Input::Sin(_)) => *sin = sin.add(slope),
-                (Some((_, (_, cos))), _) => *cos = cos.add(slope),
-                (None, _) => {}
-            }
-        };
-        match output {
-            Operand::Step(top) => {
-                let visit = |index: usize, slope: &Lanes| {
-                    let step = &self.program.steps[index];
-                    let mut shared = self.shared[index].iter().flatten();
-                    let is_exact = match step.operation {
-                        Operation::Fused => true,
-                        Operation::Mul => shared.any(|constant| self.constants[*constant].1),
-                        Operation::Add | Operation::Sub | Operation::Div => false,
-                    };
-                    let arrives = !slope.vanishes();
-                    if arrives && !is_exact {
-                        squares = squares.add(&slope.mul(&values[index]).square());
-                    }
-                    arrives
-                };
-                let leaf = |leaf: Leaf<'_, Exact, Input>, slope: Lanes| match self.shared[leaf.step]
-                    [leaf.side]
-                {
-                    Some(constant) => constants[constant] = constants[constant].add(&slope),
-                    None => note(leaf.operand, &slope),
-                };
-                backward(
-                    &self.program.steps,
-                    *top,
-                    |index| operands[index],
-                    visit,
-                    leaf,
-                );
-            }
-            Operand::Constant(value) if !is_power_of_two(value) => {
-                squares = squares.add(&Lanes::all(f64::nearest(value)).square());
-            }
-            operand => note(operand, &Lanes::one()),
-        }
-        for ((value, is_exact), slope) in self.constants.iter().zip(&constants) {
-            if !is_exact {
-                squares = squares.add(&slope.mul(&Lanes::all(*value)).square());
-            }
-        }
-        for ((sin, cos), slope) in pairs.iter().zip(&slopes) {
-            let own = slope.0.mul(sin).square().add(&slope.1.mul(cos).square());
-            squares = squares.add(&own);
-        }
-        squares.sqrt()
+        let inputs = graph.live().filter_map(|(_, node)| match node {
+            Node::Input(input) => Some((*input, lanes(*input))),
+            _ => None,
+        });
+        AtStates(inputs.collect())
     }
 }
 
-fn value(operand: &Operand, values: &[Lanes], input: impl Fn(Input) -> Lanes) -> Lanes {
-    match operand {
-        Operand::Input(of) => input(*of),
-        Operand::Constant(constant) => Lanes::all(f64::nearest(constant)),
-        Operand::Step(step) => values[*step],
+impl Leaves for AtStates {
+    type Value = Lanes;
+
+    fn constant(&self, constant: &Exact) -> Option<Lanes> {
+        Some(Lanes::all(f64::nearest(constant)))
+    }
+
+    fn input(&self, input: &Input) -> Option<Lanes> {
+        self.0.get(input).copied()
+    }
+}
+
+/// Returns the root of the sum of squares of all errors as they reach an output, in units of u.
+fn error(
+    graph: &Dag,
+    output: Edge,
+    values: &[Lanes],
+    is_exact: &[bool],
+    adjoints: &mut Vec<Lanes>,
+) -> Lanes {
+    graph.adjoints(output.node, values, adjoints);
+    let mut squares = Lanes::zero();
+    for ((adjoint, value), is_exact) in adjoints.iter().zip(values).zip(is_exact) {
+        if !is_exact && !adjoint.is_zero() {
+            squares = squares.add(&adjoint.mul(value).square());
+        }
+    }
+    squares.sqrt()
+}
+
+/// Returns whether a node loses no digit: a power of two, a product with one, a fused product, an
+/// entry of an argument. Sines are rounded.
+fn is_exact(graph: &Dag, node: &Node) -> bool {
+    let is_power = |id: &Id| matches!(graph.node(*id), Node::Constant(c) if is_power_of_two(c));
+    match node {
+        Node::Constant(constant) => is_power_of_two(constant),
+        Node::Input(input) => input.angle().is_none(),
+        Node::Apply(Operation::Fused, _) => true,
+        Node::Apply(Operation::Mul, operands) => operands.iter().any(is_power),
+        Node::Apply(..) => false,
     }
 }
 

@@ -1,28 +1,45 @@
-//! Integers modulo the prime p = 2⁶¹ − 1.
+//! Integers modulo a prime p just below 2⁶¹.
 //!
 //! Two formulas that agree at a random point of the field are the same
-//! rational function but for a chance of at most degree/p.
+//! rational function but for a chance of at most degree/p. There are three primes, so that
+//! what was found by one is checked by another: a false constant that the first cannot tell
+//! from the true one the second can.
 
 use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
 
 use super::{Divide, Scalar};
 
-/// A residue modulo 2⁶¹ − 1, kept below it.
+/// A residue modulo a prime, kept below it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
-pub struct Field(u64);
+pub struct Modulo<const PRIME: u64>(u64);
 
-impl Field {
-    /// The prime 2⁶¹ − 1.
-    pub const P: u64 = (1 << 61) - 1;
+/// The field of searches: integers modulo 2⁶¹ − 1.
+pub type Field = Modulo<{ (1 << 61) - 1 }>;
+
+/// The field of proofs: integers modulo 2⁶¹ − 45.
+pub type ProofField = Modulo<{ (1 << 61) - 45 }>;
+
+/// The field that confirms fractions found in the field of searches: integers modulo
+/// 2⁶¹ − 229.
+pub type SecondField = Modulo<{ (1 << 61) - 229 }>;
+
+impl<const PRIME: u64> Modulo<PRIME> {
+    /// The prime.
+    pub const P: u64 = PRIME;
     /// 0
-    pub const ZERO: Field = Field(0);
+    pub const ZERO: Self = Modulo(0);
     /// 1
-    pub const ONE: Field = Field(1);
+    pub const ONE: Self = Modulo(1);
+    /// 2⁶¹ modulo the prime.
+    const EXCESS: u64 = {
+        assert!(PRIME < 1 << 61 && PRIME > (1 << 61) - (1 << 10) && PRIME % 4 == 3);
+        (1 << 61) - PRIME
+    };
 
     /// Returns the residue of a non-negative integer.
     pub const fn new(x: u64) -> Self {
-        Field(x % Self::P)
+        Modulo(x % PRIME)
     }
 
     /// Returns the residue of an integer.
@@ -33,8 +50,8 @@ impl Field {
 
     /// Returns the residue of a rational, `None` if p divides its denominator.
     pub fn from_rational(x: &BigRational) -> Option<Self> {
-        let inverse = residue(x.denom()).inverse()?;
-        Some(residue(x.numer()).mul(&inverse))
+        let inverse = Self::residue(x.denom()).inverse()?;
+        Some(Self::residue(x.numer()).mul(&inverse))
     }
 
     /// Returns the residue as an integer in 0 … p − 1.
@@ -72,21 +89,22 @@ impl Field {
         let cos = Self::ONE.sub(&square).mul(&scale);
         (sin, cos)
     }
-}
 
-/// Returns the residue of an integer, word by word: 2⁶⁴ ≡ 8.
-fn residue(x: &BigInt) -> Field {
-    let words = x.iter_u64_digits().rev();
-    let size = words.fold(Field::ZERO, |sum, word| {
-        sum.mul(&Field(8)).add(&Field::new(word))
-    });
-    match x.sign() {
-        Sign::Minus => size.neg(),
-        Sign::Plus | Sign::NoSign => size,
+    /// Returns the residue of an integer, word by word.
+    fn residue(x: &BigInt) -> Self {
+        let shift = Modulo(Self::EXCESS << 3); // 2⁶⁴
+        let words = x.iter_u64_digits().rev();
+        let size = words.fold(Self::ZERO, |sum, word| {
+            sum.mul(&shift).add(&Self::new(word))
+        });
+        match x.sign() {
+            Sign::Minus => size.neg(),
+            Sign::Plus | Sign::NoSign => size,
+        }
     }
 }
 
-impl Scalar for Field {
+impl<const PRIME: u64> Scalar for Modulo<PRIME> {
     fn zero() -> Self {
         Self::ZERO
     }
@@ -96,33 +114,39 @@ impl Scalar for Field {
     fn add(&self, other: &Self) -> Self {
         // Both are below 2⁶¹: no overflow.
         let sum = self.0 + other.0;
-        Field(if sum >= Self::P { sum - Self::P } else { sum })
+        Modulo(if sum >= PRIME { sum - PRIME } else { sum })
     }
     fn sub(&self, other: &Self) -> Self {
         self.add(&other.neg())
     }
     fn mul(&self, other: &Self) -> Self {
         let product = u128::from(self.0) * u128::from(other.0);
-        // 2⁶¹ ≡ 1: the high part counts as it stands.
-        let low = (product as u64) & Self::P;
-        let high = (product >> 61) as u64;
-        Field(low).add(&Field(high))
+        // The part above 2⁶¹ counts EXCESS times. What that gives is below 2⁷¹, and again.
+        const LOW: u128 = (1 << 61) - 1;
+        let fold = |x: u128| (x & LOW) + (x >> 61) * u128::from(Self::EXCESS);
+        let once = fold(product);
+        let folded = if Self::EXCESS == 1 { once } else { fold(once) } as u64;
+        Modulo(if folded >= PRIME {
+            folded - PRIME
+        } else {
+            folded
+        })
     }
     fn neg(&self) -> Self {
-        Field(if self.0 == 0 { 0 } else { Self::P - self.0 })
+        Modulo(if self.0 == 0 { 0 } else { PRIME - self.0 })
     }
     fn half(&self) -> Self {
         // p is odd: one of x and x + p is even.
         let even = if self.0 & 1 == 0 {
             self.0
         } else {
-            self.0 + Self::P
+            self.0 + PRIME
         };
-        Field(even >> 1)
+        Modulo(even >> 1)
     }
 }
 
-impl Divide for Field {
+impl<const PRIME: u64> Divide for Modulo<PRIME> {
     /// Returns the quotient; zero where the divisor is zero, which proofs exclude by
     /// [`divides`](Divide::divides).
     fn div(&self, other: &Self) -> Self {
@@ -157,7 +181,7 @@ impl Points {
             // The one value that is no residue is drawn once in 2⁶¹ times.
             let x = self.bits() >> 3;
             if x < Field::P {
-                return Field(x);
+                return Modulo(x);
             }
         }
     }
@@ -182,46 +206,58 @@ mod tests {
     use super::*;
 
     #[test]
-    fn is_the_field() {
+    fn are_fields() {
+        is_a_field::<{ Field::P }>();
+        is_a_field::<{ ProofField::P }>();
+        is_a_field::<{ SecondField::P }>();
+    }
+
+    fn is_a_field<const PRIME: u64>() {
+        type Own<const PRIME: u64> = Modulo<PRIME>;
+        let (one, zero) = (Own::<PRIME>::ONE, Own::<PRIME>::ZERO);
         let mut points = Points::new(1);
+        let mut draw = || Own::<PRIME>::new(points.bits());
         for _ in 0..1000 {
-            let [a, b, c] = [points.field(), points.field(), points.field()];
+            let [a, b, c] = [draw(), draw(), draw()];
             assert_eq!(a.mul(&b.add(&c)), a.mul(&b).add(&a.mul(&c)));
             assert_eq!(a.half().double(), a);
             assert_eq!(a.sub(&b).add(&b), a);
-            assert_eq!(a.mul(&a.inverse().unwrap()), Field::ONE);
-            let wide = u128::from(a.0) * u128::from(b.0) % u128::from(Field::P);
+            assert_eq!(a.mul(&a.inverse().unwrap()), one);
+            let wide = u128::from(a.0) * u128::from(b.0) % u128::from(PRIME);
             assert_eq!(u128::from(a.mul(&b).0), wide);
-            let (sin, cos) = Field::circle_point(a);
-            assert_eq!(sin.mul(&sin).add(&cos.mul(&cos)), Field::ONE);
+            let (sin, cos) = Own::circle_point(a);
+            assert_eq!(sin.mul(&sin).add(&cos.mul(&cos)), one);
         }
-        let top = Field::ZERO.sub(&Field::ONE);
-        assert_eq!(top.0, Field::P - 1);
-        assert_eq!(top.mul(&top), Field::ONE);
-        assert_eq!(top.add(&Field::ONE), Field::ZERO);
-        assert_eq!(Field::ZERO.neg(), Field::ZERO);
-        assert_eq!(Field::ZERO.inverse(), None);
+        let top = zero.sub(&one);
+        assert_eq!(top.0, PRIME - 1);
+        assert_eq!(top.mul(&top), one);
+        assert_eq!(top.add(&one), zero);
+        assert_eq!(zero.neg(), zero);
+        assert_eq!(zero.inverse(), None);
+        takes_integers_and_rationals::<PRIME>();
     }
 
-    #[test]
-    fn takes_integers_and_rationals() {
-        assert_eq!(Field::from_i64(-1).add(&Field::ONE), Field::ZERO);
-        assert_eq!(Field::from_i64(i64::MIN), Field::from_i64(-4));
+    fn takes_integers_and_rationals<const PRIME: u64>() {
+        type Own<const PRIME: u64> = Modulo<PRIME>;
+        assert_eq!(Own::<PRIME>::from_i64(-1), Own::ZERO.sub(&Own::ONE));
+        let least = BigRational::from_integer(BigInt::from(i64::MIN));
+        let least = Own::<PRIME>::from_rational(&least).unwrap();
+        assert_eq!(Own::<PRIME>::from_i64(i64::MIN), least);
         let third = BigRational::new(BigInt::from(-1), BigInt::from(3));
-        let residue = Field::from_rational(&third).unwrap();
-        assert_eq!(residue.mul(&Field::new(3)), Field::from_i64(-1));
-        let pole = BigRational::new(BigInt::from(1), BigInt::from(Field::P));
-        assert_eq!(Field::from_rational(&pole), None);
+        let residue = Own::<PRIME>::from_rational(&third).unwrap();
+        assert_eq!(residue.mul(&Own::new(3)), Own::from_i64(-1));
+        let pole = BigRational::new(BigInt::from(1), BigInt::from(PRIME));
+        assert_eq!(Own::<PRIME>::from_rational(&pole), None);
         // Beyond a word: powers of what is a word.
         for base in [-9_876_543_210_987_654_321_i128, 3] {
             let large = num_traits::pow(BigInt::from(base), 40);
-            let small = Field::from_rational(&BigInt::from(base).into()).unwrap();
+            let small = Own::<PRIME>::from_rational(&BigInt::from(base).into()).unwrap();
             let quotient = BigRational::new(-large.clone(), &large + 1);
             let expected = small
                 .pow(40)
                 .neg()
-                .mul(&small.pow(40).add(&Field::ONE).inverse().unwrap());
-            assert_eq!(Field::from_rational(&quotient), Some(expected));
+                .mul(&small.pow(40).add(&Own::ONE).inverse().unwrap());
+            assert_eq!(Own::from_rational(&quotient), Some(expected));
         }
     }
 }

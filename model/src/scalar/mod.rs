@@ -5,7 +5,7 @@
 //! and counting scalars can fold them without a global state.
 //!
 //! - floats (this file): the generic runtime
-//! - [`field`]: integers modulo 2⁶¹ − 1, in which the search compares values and proofs are made
+//! - [`field`]: integers modulo primes: in one the search compares values, in another proofs are made
 //! - [`sparse`]: values of any scalar that know when they are zero or one by structure
 //! - [`dual`]: a value with its rate of change, for derivatives
 //! - [`sincos_pair`]: sine and cosine of an angle

@@ -32,7 +32,7 @@ use crate::bound::magnitude::{BoxEffort, magnitudes_within};
 use crate::edits::{Stage, deviation, has_edits};
 use crate::program::Program;
 use crate::random::Random;
-use crate::simplify::Effort;
+use crate::search::Effort;
 use crate::verify::exact::prove_same;
 use crate::watch::FunctionWatch;
 pub(crate) use omissions::Omission;

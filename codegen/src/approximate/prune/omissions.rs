@@ -2,8 +2,8 @@
 
 use dalembert_model::number::{Exact, Rounded};
 
+use crate::dag::Folding;
 use crate::edits::{Edit, EditSite, Stage};
-use crate::graph::Folding;
 use crate::program::text::input_name;
 use crate::program::{Counts, Operand, Operation, Program};
 

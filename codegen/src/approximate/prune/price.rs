@@ -3,10 +3,9 @@
 
 use super::columns::{Nodes, Value};
 use crate::program::{Input, Operand, Operation};
-use crate::simplify::CostModel;
 
-/// A sine/cosine pair weighs as much as this many operations.
-pub(super) const SINCOS: u32 = (CostModel::TOLERATED.sincos / CostModel::TOLERATED.add) as u32;
+/// A sine/cosine pair weighs as much as this many operations, which its polynomials take.
+pub(super) const SINCOS: u32 = 8;
 
 /// Operations that stay, sines and cosines weighed.
 pub(super) fn price(nodes: &Nodes, edits: &[Option<Value>], scratch: &mut Scratch) -> u32 {
@@ -160,10 +159,10 @@ mod tests {
     use std::collections::HashMap;
 
     use super::*;
+    use crate::dag::pattern::{Algebra, Pattern, is_constant};
+    use crate::dag::tests::BY_SHAPE;
+    use crate::dag::{Builder, Edge, Folding};
     use crate::function::{Argument, Function};
-    use crate::graph::pattern::{Algebra, Pattern, is_constant};
-    use crate::graph::tests::BY_SHAPE;
-    use crate::graph::{Builder, Folding, Value as Symbol};
     use crate::program::Program;
 
     /// Numbers as inputs, which edits replace by their values.
@@ -173,7 +172,7 @@ mod tests {
     }
 
     impl Unfolded {
-        fn constant(&mut self, value: f64) -> Symbol {
+        fn constant(&mut self, value: f64) -> Edge {
             let input = Input::Entry(Argument::Acceleration, self.known.len());
             self.known.push((input, value));
             self.builder.input(input)
@@ -181,18 +180,18 @@ mod tests {
     }
 
     impl Algebra for Unfolded {
-        type Value = Symbol;
-        fn number(&mut self, number: u64) -> Symbol {
+        type Value = Edge;
+        fn number(&mut self, number: u64) -> Edge {
             self.constant(number as f64)
         }
-        fn neg(&mut self, a: &Symbol) -> Symbol {
-            self.builder.negate_if(a, true)
+        fn neg(&mut self, a: &Edge) -> Edge {
+            a.negated_if(true)
         }
-        fn operate(&mut self, symbol: &str, a: &Symbol, b: &Symbol) -> Symbol {
+        fn operate(&mut self, symbol: &str, a: &Edge, b: &Edge) -> Edge {
             match symbol {
-                "+" => self.builder.add(a, b),
-                "-" => self.builder.sub(a, b),
-                _ => self.builder.mul(a, b),
+                "+" => self.builder.add(*a, *b),
+                "-" => self.builder.sub(*a, *b),
+                _ => self.builder.mul(*a, *b),
             }
         }
     }
@@ -215,7 +214,7 @@ mod tests {
             values.insert(name, value);
         }
         let value = pattern.evaluate(&mut unfolded, &values);
-        let graph = unfolded.builder.finish(&[value]);
+        let graph = unfolded.builder.finish(vec![value]);
         let program = Program::new(Function::Gravity, 9, &graph);
         let nodes = Nodes::new(&program, &[]);
         let mut edits = vec![None; nodes.len()];

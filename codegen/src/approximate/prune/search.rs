@@ -9,13 +9,13 @@ use crate::approximate::motions::Motions;
 use crate::bound::definite::is_definite;
 use crate::bound::input_box::InputBox;
 use crate::bound::{magnitude, sample};
+use crate::dag::{Dag, Folding};
 use crate::edits::{Stage, deviation, difference, has_edits};
-use crate::graph::{Folding, Graph};
 use crate::interval::Interval;
 use crate::program::columns::Columns;
 use crate::program::{Program, ScalarType, has_inertia};
 use crate::random::Random;
-use crate::simplify::{Effort, simplify};
+use crate::search::{Effort, search};
 use crate::states::JointState;
 
 /// Rounds in which constants are corrected after edits are chosen.
@@ -292,7 +292,7 @@ impl Search<'_> {
     }
 
     /// Returns the variant, its errors still to be found, and the program of them.
-    fn variant(&self, original: &Nodes, state: &State, greedy: &mut Greedy<'_>) -> (Pruned, Graph) {
+    fn variant(&self, original: &Nodes, state: &State, greedy: &mut Greedy<'_>) -> (Pruned, Dag) {
         let mut stages = self.base.stages.clone();
         stages.push(Stage {
             program: self.base.program.clone(),
@@ -365,15 +365,22 @@ fn outputs(program: &Program, states: &[JointState]) -> Vec<f64> {
 }
 
 /// Returns the last stage's edited program, simplified if asked.
-fn finish(stages: &[Stage], effort: Effort, search: bool) -> Program {
+fn finish(stages: &[Stage], effort: Effort, is_searched: bool) -> Program {
     let last = &stages[stages.len() - 1];
     let graph = last.edited(Folding::Semantic);
-    let program = |graph: &Graph| last.program.with_graph(graph);
-    if !search {
+    let program = |graph: &Dag| last.program.with_graph(graph);
+    if !is_searched {
         return program(&graph);
     }
-    match simplify(std::slice::from_ref(&graph), &[], effort, &|_| true) {
-        Some(simplified) => program(&simplified.graph),
+    let limits = |operations| effort.limits(operations);
+    match search(
+        std::slice::from_ref(&graph),
+        &[],
+        &limits,
+        &|_| true,
+        &|_, _| true,
+    ) {
+        Some(found) => program(&found.graph),
         None => program(&graph),
     }
 }

@@ -78,8 +78,8 @@ mod tests {
     use super::*;
     use crate::approximate::motions::positions;
     use crate::bound::input_box::InputBox;
+    use crate::dag::{Builder, Folding};
     use crate::function::{Argument, Function};
-    use crate::graph::{Builder, Folding};
     use crate::interval::Interval;
     use crate::program::{AngleSum, Input};
     use crate::random::Random;
@@ -93,13 +93,14 @@ mod tests {
         let mut builder = Builder::new(Folding::Syntactic);
         let [sine, cosine] = [Input::Sin, Input::Cos].map(|of| of(AngleSum::joint(0)));
         let [sine, cosine] = [sine, cosine].map(|input| builder.input(input));
-        let number = |n: i64, d: i64| {
+        let numbers = [(3, 1), (1, 8)];
+        let [three, eighth] = numbers.map(|(n, d): (i64, i64)| {
             let number = Rational::new(n.into(), d.into());
-            crate::graph::builder::Value::Constant(Exact::from(number))
-        };
-        let large = builder.mul(&number(3, 1), &cosine);
-        let small = builder.mul(&number(1, 8), &sine);
-        let sum = builder.add(&large, &small);
+            builder.constant(&Exact::from(number))
+        });
+        let large = builder.mul(three, cosine);
+        let small = builder.mul(eighth, sine);
+        let sum = builder.add(large, small);
         let program = Program {
             function: Function::Gravity,
             joints: 1,
@@ -111,7 +112,7 @@ mod tests {
             steps: Vec::new(),
             outputs: Vec::new(),
         }
-        .with_graph(&builder.finish(&[sum]));
+        .with_graph(&builder.finish(vec![sum]));
         let limits = InputBox {
             position: vec![Interval::symmetric(3.0)],
             velocity: vec![Interval::ZERO],

@@ -7,13 +7,12 @@ use dalembert_model::number::{Exact, Rational};
 use dalembert_model::scalar::Scalar;
 
 use super::terms::{Model, Terms, nothing};
+use crate::dag::{Builder as GraphBuilder, Dag, Folding};
 use crate::edits::traced;
-use crate::graph::builder::Value;
-use crate::graph::{Builder as GraphBuilder, Folding, Graph};
-use crate::portfolio::{self, Sums, angle_sums, regrouped, skeleton, trace_chain, tuned};
 use crate::program::Program;
 use crate::scene::{FittedLink, SceneRobot};
-use crate::simplify::{self, Effort, simplify};
+use crate::search::{Effort, cost, search};
+use crate::seeds::{self, regrouped, skeleton, trace_chain, tuned};
 
 /// A writer of programs for the models of one function.
 pub(super) struct Builder<'a> {
@@ -39,7 +38,7 @@ impl Builder<'_> {
             form,
             Folding::Semantic,
         );
-        simplify::cost(&graph.0)
+        cost(&graph.0)
     }
 
     /// Searches for the program of a model; outputs that it has not are zero.
@@ -48,18 +47,17 @@ impl Builder<'_> {
         let (function, effort) = (self.exact.function, Effort::Quick);
         let forms = self.forms();
         let tuned = tuned(&fitted, function, &forms, effort, None, &[], None);
-        let variants = regrouped(&fitted, function, &forms, &tuned.regrouping);
-        let graphs: Vec<Graph> = variants.into_iter().map(|variant| variant.graph).collect();
-        let helpers = [angle_sums(&fitted, Sums::Products)];
-        let found = simplify(&graphs, &helpers, effort, &|_| true)?;
+        let seeds = regrouped(&fitted, function, &forms, &tuned);
+        let graphs: Vec<Dag> = seeds.into_iter().map(|seed| seed.graph).collect();
+        let found = search(&graphs, &[], &|n| effort.limits(n), &|_| true, &|_, _| true)?;
         let small = Program::in_scene(&fitted, function, &found.graph);
         let mut builder = GraphBuilder::new(Folding::Semantic);
         let values = traced(&small, &mut builder);
-        let mut outputs = vec![Value::zero(); self.exact.outputs.len()];
+        let mut outputs = vec![builder.zero(); self.exact.outputs.len()];
         for (&output, value) in self.terms.outputs.iter().zip(values) {
             outputs[output] = value;
         }
-        Some(self.exact.with_graph(&builder.finish(&outputs)))
+        Some(self.exact.with_graph(&builder.finish(outputs)))
     }
 
     fn forms(&self) -> Vec<Form> {
@@ -68,7 +66,7 @@ impl Builder<'_> {
 
     /// Returns the chain with these terms, and the rows that are not zero.
     fn fitted(&self, terms: &[usize], factors: &[f64]) -> SceneRobot {
-        let mut links = nothing(&portfolio::skeleton(self.scene_robot));
+        let mut links = nothing(&seeds::skeleton(self.scene_robot));
         for (&term, &factor) in terms.iter().zip(factors) {
             let term = &self.terms.all[term];
             add(&mut links[term.link], &term.unit, &short(factor));

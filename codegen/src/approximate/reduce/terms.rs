@@ -7,11 +7,11 @@ use dalembert_model::scalar::Scalar;
 
 use crate::approximate::motions::Motions;
 use crate::bound::input_box::InputBox;
-use crate::graph::Folding;
-use crate::portfolio::{skeleton, trace_chain};
+use crate::dag::Folding;
 use crate::program::columns::Columns;
 use crate::program::{Program, ScalarType};
 use crate::scene::{FittedLink, SceneRobot};
+use crate::seeds::{skeleton, trace_chain};
 use crate::states::JointState;
 
 /// An output that is never more than this part of its allowance is zero.
@@ -90,7 +90,7 @@ impl Terms {
             let mut links = nothing(&skeleton);
             links[link] = unit.clone();
             let fitted = scene_robot.fitted(links, &exact.rows);
-            let skeleton = crate::portfolio::skeleton(&fitted);
+            let skeleton = crate::seeds::skeleton(&fitted);
             let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
             let form = *function.forms().first()?;
             let graph = trace_chain(&fitted, function, &chain, form, Folding::Semantic).0;

@@ -3,24 +3,24 @@
 use std::collections::BTreeMap;
 
 use super::{Forms, Monomial, Work};
+use crate::dag::{Dag, Node};
 use crate::function::Argument;
-use crate::graph::{Graph, Node};
 use crate::interval::Interval;
-use crate::program::{AngleSum, Input};
+use crate::program::{AngleSum, Input, Operation};
 
 /// Above this much work a product, rates are taken as plain intervals.
 const MAX_PRODUCTS: usize = 400_000;
 
 impl Forms {
     /// Returns `None` if keeping the rates apart would be too much work.
-    pub(super) fn compile(graph: &Graph, joints: usize, rates: bool) -> Option<Forms> {
+    pub(super) fn compile(graph: &Dag, joints: usize, rates: bool) -> Option<Forms> {
         let mut forms = Forms::empty(joints);
         forms.rates = rates;
         let mut slots: Vec<BTreeMap<Monomial, u32>> = Vec::with_capacity(graph.nodes.len());
         let mut factors: BTreeMap<Vec<u8>, u32> = BTreeMap::from([(Vec::new(), 0)]);
         let mut positions = vec![false; joints];
         let mut products = 0;
-        for (node, live) in graph.nodes.iter().zip(graph.live()) {
+        for (node, reads) in graph.nodes.iter().zip(graph.reads()) {
             let mut slot: BTreeMap<Monomial, u32> = BTreeMap::new();
             let mut place = |monomial: Monomial, forms: &mut Forms| {
                 *slot.entry(monomial).or_insert_with(|| {
@@ -28,42 +28,42 @@ impl Forms {
                     forms.coefficients as u32 - 1
                 })
             };
-            match *node {
-                _ if !live => {}
-                Node::Constant(c) => {
+            match node {
+                _ if reads == 0 => {}
+                Node::Constant(constant) => {
                     let out = place([0; 2], &mut forms);
-                    let value = Interval::exact(&graph.constants[c as usize]);
+                    let value = Interval::exact(constant);
                     forms.work.push(Work::Constant(out, value));
                 }
                 Node::Input(input) => {
                     let first = forms.coefficients as u32;
-                    place(forms.leaf(input), &mut forms);
-                    forms.work.push(Work::Leaf(first, input));
-                    for joint in position_joints(input) {
+                    place(forms.leaf(*input), &mut forms);
+                    forms.work.push(Work::Leaf(first, *input));
+                    for joint in position_joints(*input) {
                         positions[joint] = true;
                     }
                 }
-                Node::Sum(a, b) | Node::Difference(a, b) => {
-                    for (&monomial, &x) in &slots[a.index()] {
+                Node::Apply(Operation::Add | Operation::Sub, [a, b]) => {
+                    for (&monomial, &x) in &slots[*a as usize] {
                         let out = place(monomial, &mut forms);
                         forms.work.push(Work::Add(out, x));
                     }
-                    for (&monomial, &x) in &slots[b.index()] {
+                    for (&monomial, &x) in &slots[*b as usize] {
                         let out = place(monomial, &mut forms);
-                        let minus = matches!(node, Node::Difference(..));
+                        let minus = matches!(node, Node::Apply(Operation::Sub, _));
                         let work = if minus { Work::Sub } else { Work::Add };
                         forms.work.push(work(out, x));
                     }
                 }
                 // No polynomial.
-                Node::Quotient(..) => return None,
-                Node::Product(a, b) => {
-                    products += slots[a.index()].len() * slots[b.index()].len();
+                Node::Apply(Operation::Div, _) => return None,
+                Node::Apply(Operation::Mul | Operation::Fused, [a, b]) => {
+                    products += slots[*a as usize].len() * slots[*b as usize].len();
                     if rates && products > MAX_PRODUCTS {
                         return None;
                     }
-                    for (left, &x) in &slots[a.index()] {
-                        for (right, &y) in &slots[b.index()] {
+                    for (left, &x) in &slots[*a as usize] {
+                        for (right, &y) in &slots[*b as usize] {
                             let (monomial, rest) = multiply(left, right);
                             let next = factors.len() as u32;
                             let factor = *factors.entry(rest.clone()).or_insert_with(|| {
@@ -79,9 +79,9 @@ impl Forms {
             slots.push(slot);
         }
         for edge in &graph.outputs {
-            let slot = &slots[edge.node().index()];
+            let slot = &slots[edge.index()];
             let terms = slot.iter().map(|(&m, &x)| (m, x)).collect();
-            forms.outputs.push((edge.is_negative(), terms));
+            forms.outputs.push((edge.negative, terms));
         }
         forms.positions = (0..joints).filter(|&j| positions[j]).collect();
         Some(forms)

@@ -29,7 +29,7 @@
 mod compile;
 mod evaluate;
 
-use crate::graph::Graph;
+use crate::dag::Dag;
 use crate::interval::Interval;
 use crate::program::Input;
 
@@ -76,7 +76,7 @@ pub(crate) struct Scratch {
 
 impl Forms {
     /// Compiles a graph's live part.
-    pub(crate) fn new(graph: &Graph, joints: usize) -> Forms {
+    pub(crate) fn new(graph: &Dag, joints: usize) -> Forms {
         Forms::compile(graph, joints, true)
             .or_else(|| Forms::compile(graph, joints, false))
             .unwrap_or_else(|| Forms::empty(joints))

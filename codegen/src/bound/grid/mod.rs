@@ -42,8 +42,8 @@ use std::f64::consts::PI;
 
 use crate::bound::expand::{Key, Polynomial, rates};
 use crate::bound::input_box::InputBox;
+use crate::dag::{Dag, Node};
 use crate::function::Argument;
-use crate::graph::{Graph, Node};
 use crate::interval::Interval;
 use crate::program::Input;
 use crate::random::Random;
@@ -95,7 +95,7 @@ impl GridEffort {
 }
 
 /// Returns which joints slide: a position that is read as it stands.
-pub(super) fn sliding(graph: &Graph, joints: usize) -> Vec<bool> {
+pub(super) fn sliding(graph: &Dag, joints: usize) -> Vec<bool> {
     let mut sliding = vec![false; joints];
     for node in &graph.nodes {
         if let Node::Input(Input::Entry(Argument::Position, joint)) = node {

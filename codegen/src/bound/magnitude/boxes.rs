@@ -13,11 +13,11 @@ use std::collections::BinaryHeap;
 use super::{BoxEffort, relative};
 use crate::bound::form::{Forms, Scratch};
 use crate::bound::input_box::InputBox;
-use crate::graph::Graph;
+use crate::dag::Dag;
 
 /// Bounds as [`magnitudes`](super::magnitudes), by sub-boxes alone.
 pub(super) fn branch_and_bound(
-    graph: &Graph,
+    graph: &Dag,
     whole: &InputBox,
     scales: &[f64],
     goal: f64,

@@ -10,7 +10,7 @@ use crate::bound::distinct::Distinct;
 use crate::bound::expand::{Polynomial, expand};
 use crate::bound::grid::{self, Aim, GridEffort};
 use crate::bound::input_box::InputBox;
-use crate::graph::Graph;
+use crate::dag::Dag;
 use crate::parallel;
 use boxes::branch_and_bound;
 
@@ -41,7 +41,7 @@ const ENOUGH: f64 = 0.85;
 
 /// Bounds of |output| over the box, one an output. `scales` say what a unit
 /// of each output is worth: the largest |output|/scale is tightened.
-pub fn magnitudes(graph: &Graph, whole: &InputBox, scales: &[f64], budget: BoxEffort) -> Vec<f64> {
+pub fn magnitudes(graph: &Dag, whole: &InputBox, scales: &[f64], budget: BoxEffort) -> Vec<f64> {
     let (graph, scales, distinct) = distinct_outputs(graph, scales);
     let aims = scales.iter().map(|_| Aim::Least(0.0));
     let most = written_out(&graph, whole, aims, budget);
@@ -52,12 +52,7 @@ pub fn magnitudes(graph: &Graph, whole: &InputBox, scales: &[f64], budget: BoxEf
 /// Returns the same for who searches: an output is shown to be at most its limit, and need not be
 /// shown to be below [`ENOUGH`] of it; or, where it cannot be, the number is larger, about as
 /// large as the output is, and no bound.
-pub(crate) fn judged(
-    graph: &Graph,
-    whole: &InputBox,
-    limits: &[f64],
-    budget: BoxEffort,
-) -> Vec<f64> {
+pub(crate) fn judged(graph: &Dag, whole: &InputBox, limits: &[f64], budget: BoxEffort) -> Vec<f64> {
     let (graph, limits, distinct) = distinct_outputs(graph, limits);
     let aims = limits
         .iter()
@@ -70,7 +65,7 @@ pub(crate) fn judged(
 /// Returns the same as [`magnitudes`], if every output is shown to be at most its limit; at a
 /// grid, the first for which it is not ends the search.
 pub(crate) fn magnitudes_within(
-    graph: &Graph,
+    graph: &Dag,
     whole: &InputBox,
     limits: &[f64],
     budget: BoxEffort,
@@ -85,11 +80,11 @@ pub(crate) fn magnitudes_within(
 }
 
 /// Returns equal outputs once: a sign does not matter to a magnitude; a scale does to the search.
-fn distinct_outputs(graph: &Graph, scales: &[f64]) -> (Graph, Vec<f64>, Distinct) {
+fn distinct_outputs(graph: &Dag, scales: &[f64]) -> (Dag, Vec<f64>, Distinct) {
     let pairs = graph.outputs.iter().zip(scales);
-    let keys = pairs.map(|(edge, scale)| Some((edge.node(), scale.to_bits())));
+    let keys = pairs.map(|(edge, scale)| Some((edge.node, scale.to_bits())));
     let distinct = Distinct::by(keys);
-    let graph = Graph {
+    let graph = Dag {
         outputs: distinct.pick(&graph.outputs),
         ..graph.clone()
     };
@@ -99,7 +94,7 @@ fn distinct_outputs(graph: &Graph, scales: &[f64]) -> (Graph, Vec<f64>, Distinct
 /// Bounds at a grid, if there is one: of all outputs, or up to the first that is
 /// not within what it is to be.
 fn written_out(
-    graph: &Graph,
+    graph: &Dag,
     whole: &InputBox,
     aims: impl Iterator<Item = Aim>,
     budget: BoxEffort,
@@ -147,9 +142,8 @@ pub(crate) fn relative(x: f64, scale: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dag::{Builder, Folding};
     use crate::function::Argument;
-    use crate::graph::builder::Value;
-    use crate::graph::{Builder, Folding};
     use crate::interval::Interval;
     use crate::program::{AngleSum, Input};
     use dalembert_model::number::{Exact, Rational};
@@ -160,8 +154,8 @@ mod tests {
         let mut builder = Builder::new(Folding::Syntactic);
         let rate = builder.input(Input::Entry(Argument::Velocity, 0));
         let cosine = builder.input(Input::Cos(AngleSum::joint(0)));
-        let load = builder.mul(&rate, &cosine);
-        let graph = builder.finish(&[load]);
+        let load = builder.mul(rate, cosine);
+        let graph = builder.finish(vec![load]);
         let mut limits = InputBox {
             position: vec![Interval::symmetric(1.0)],
             velocity: vec![Interval::ZERO],
@@ -169,9 +163,9 @@ mod tests {
         };
         let bound = |limits: &InputBox| magnitudes(&graph, limits, &[1.0], BoxEffort::QUICK)[0];
         assert_eq!(bound(&limits), 0.0);
-        let zero = Builder::new(Folding::Syntactic).finish(&[Value::Constant(Exact::from(
-            Rational::from_integer(0.into()),
-        ))]);
+        let mut builder = Builder::new(Folding::Syntactic);
+        let zero = builder.zero();
+        let zero = builder.finish(vec![zero]);
         assert_eq!(magnitudes(&zero, &limits, &[0.0], BoxEffort::QUICK), [0.0]);
         // Nor is there a step from one subnormal to the next.
         limits.velocity = vec![Interval::symmetric(5e-324)];
@@ -194,8 +188,9 @@ mod tests {
         let mut builder = Builder::new(Folding::Syntactic);
         let rate = builder.input(Input::Entry(Argument::Acceleration, 0));
         let small = Rational::new(4.into(), 100_000.into());
-        let error = builder.mul(&rate, &Value::Constant(Exact::from(small)));
-        let graph = builder.finish(&[error]);
+        let small = builder.constant(&Exact::from(small));
+        let error = builder.mul(rate, small);
+        let graph = builder.finish(vec![error]);
         let limits = InputBox {
             position: vec![Interval::symmetric(3.0)],
             velocity: vec![Interval::ZERO],

@@ -7,7 +7,7 @@ use super::gradient::Gradient;
 use crate::bound::expand::visit;
 use crate::bound::grid::{self, Aim, GridEffort};
 use crate::bound::input_box::InputBox;
-use crate::graph::Edge;
+use crate::dag::Edge;
 use crate::program::{Input, Program};
 
 /// How close a bound is to come to a value that is taken: sums of products of
@@ -61,7 +61,7 @@ impl Extremes {
             });
         })?;
         let most: Vec<f64> = most.into_iter().collect::<Option<_>>()?;
-        let of = |edge: &Edge| most[edge.node().index()];
+        let of = |edge: &Edge| most[edge.index()];
         let adjoints = gradient.adjoints.iter().map(|adjoints| {
             let mut steps = vec![0.0; program.steps.len()];
             for (step, edge) in &adjoints.steps {

@@ -6,15 +6,15 @@ use std::rc::Rc;
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
 
-use crate::graph::symbol::Symbol;
-use crate::graph::{Builder, Edge, Folding, Graph};
+use crate::dag::symbol::Symbol;
+use crate::dag::{Builder, Dag, Edge, Folding};
 use crate::program::adjoint::{Leaf, backward};
 use crate::program::{Input, Operand, Program};
 
 /// A graph with the value of each step and, output by output, the derivatives
 /// of the output with respect to them: all of them its outputs.
 pub(super) struct Gradient {
-    pub graph: Graph,
+    pub graph: Dag,
     /// Of each step, in the graph.
     pub values: Vec<Edge>,
     /// Of each output.
@@ -50,10 +50,7 @@ impl Gradient {
         let adjoints: Vec<_> = outputs
             .map(|output| adjoints(program, &output.value, operands))
             .collect();
-        let edge = |value: &Symbol| {
-            let value = value.value(&mut builder.borrow_mut());
-            builder.borrow_mut().edge(&value)
-        };
+        let edge = |value: &Symbol| value.edge(&mut builder.borrow_mut());
         let values: Vec<Edge> = values.iter().map(edge).collect();
         let adjoints = adjoints.iter().map(|(steps, sines)| Adjoints {
             steps: steps.iter().map(|(step, x)| (*step, edge(x))).collect(),
@@ -62,7 +59,7 @@ impl Gradient {
         let adjoints: Vec<Adjoints> = adjoints.collect();
         let mut graph = builder
             .replace(Builder::new(Folding::Syntactic))
-            .finish(&[]);
+            .finish(Vec::new());
         graph.outputs.clone_from(&values);
         for Adjoints { steps, sines } in &adjoints {
             graph.outputs.extend(steps.iter().map(|(_, edge)| *edge));

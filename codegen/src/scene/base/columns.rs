@@ -1,15 +1,15 @@
-//! Columns of a regressor modulo 2⁶¹ − 1, at random states.
+//! Columns of a regressor modulo a prime, at random states.
 
 use dalembert_model::equations::following::gather;
 use dalembert_model::equations::regressor::Column;
 use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::{RuntimeParameter, Written};
-use dalembert_model::scalar::field::Field;
+use dalembert_model::scalar::field::Modulo;
 use dalembert_model::scalar::sparse::Sparse;
 
+use crate::dag::Points;
 use crate::function::{Argument, Quantity};
-use crate::graph::fingerprint::Points;
 use crate::program::Input;
 use crate::scene::SceneRobot;
 
@@ -18,11 +18,11 @@ const SEED: u64 = 0x6261_7365;
 
 /// Returns the columns, each over the rows of enough random states for every independent pair to
 /// differ; `None` if a constant has no value.
-pub(super) fn values(
+pub(super) fn values<const P: u64>(
     scene_robot: &SceneRobot,
     quantity: Quantity,
     columns: &[Column<Exact>],
-) -> Option<Vec<Vec<Field>>> {
+) -> Option<Vec<Vec<Modulo<P>>>> {
     let points = Points::new(SEED);
     // Constant angles are the same in every state.
     let constant = |value: &Exact| match points.constant_at(value, 0) {
@@ -31,7 +31,7 @@ pub(super) fn values(
     };
     let arm = Arm::from_robot(scene_robot.robot(), &mut { constant });
     let columns: Vec<_> = columns.iter().map(|c| c.map(constant)).collect();
-    let mut found: Vec<Vec<Field>> = vec![Vec::new(); columns.len()];
+    let mut found: Vec<Vec<Modulo<P>>> = vec![Vec::new(); columns.len()];
     let states = columns.len() / scene_robot.rows().len().max(1) + 4;
     for state in 0..states {
         let input = |input: Input| Sparse::Value(points.input_at(input, state));
@@ -51,7 +51,7 @@ pub(super) fn values(
         let rows: Vec<usize> = (0..arm.links.len()).collect();
         // Joints that follow are gathered at their leaders.
         gather(&arm.following, &rows, columns.len(), &mut entries);
-        let rows: Vec<&[Sparse<Field>]> = entries.chunks(columns.len().max(1)).collect();
+        let rows: Vec<&[Sparse<Modulo<P>>]> = entries.chunks(columns.len().max(1)).collect();
         for &joint in scene_robot.rows() {
             let row = scene_robot.robot().row_of(joint);
             for (column, entry) in found.iter_mut().zip(rows[row]) {

@@ -11,12 +11,12 @@
 //! What an arm and a scene leave unfelt beyond that (axes that are parallel or
 //! vertical, rates that are zero, joints that nobody asks for) shows as columns
 //! that vanish or depend on others. They are found by elimination modulo
-//! 2⁶¹ − 1 at random states: columns that are independent there are
+//! two primes at random states: columns that are independent there are
 //! independent. That the others depend on them as they seem to is only a finding;
 //! [`crate::verify::parameters`] proves it.
 //!
 //! - `moments`: the moments that links keep; `origins`: about which points
-//! - `columns`: columns at random states, modulo the prime; `elimination`
+//! - `columns`: columns at random states, modulo a prime; `elimination`
 
 mod columns;
 mod elimination;
@@ -35,7 +35,7 @@ use dalembert_model::scalar::Scalar;
 use super::SceneRobot;
 use crate::function::Quantity;
 use columns::values;
-use elimination::{fraction, reduced};
+use elimination::{Reduced, reduced};
 use moments::{MAX_TERMS, Moment, kept, parts};
 
 /// A parameter of the robot file, about the origin of the link's DH frame.
@@ -108,7 +108,7 @@ impl fmt::Display for NoBase {
             ),
             NoBase::Unfit => write!(
                 f,
-                "a parameter is divisible by 2^61 - 1, modulo which columns are compared: \
+                "a parameter is divisible by 2^61 - 1 or 2^61 - 229, modulo which columns are compared: \
                  change its last digit, or {full}"
             ),
         }
@@ -150,8 +150,11 @@ impl BaseParameters {
         let drives: Vec<Column<Exact>> = of_drives(robot);
         candidates.extend(drives.iter().cloned());
 
-        let columns = values(scene_robot, quantity, &candidates).ok_or(NoBase::Unfit)?;
-        let reduced = reduced(columns);
+        let reduced = Reduced::of(
+            reduced(values(scene_robot, quantity, &candidates).ok_or(NoBase::Unfit)?),
+            reduced(values(scene_robot, quantity, &candidates).ok_or(NoBase::Unfit)?),
+        )
+        .ok_or(NoBase::Irrational)?;
         let mut base = BaseParameters {
             columns: reduced
                 .pivots
@@ -163,11 +166,9 @@ impl BaseParameters {
         // What each candidate is over the base columns.
         let mut over: Vec<Vec<(usize, Exact)>> = Vec::with_capacity(candidates.len());
         for coefficients in &reduced.coefficients {
-            let exact = coefficients.iter().map(|(pivot, x)| {
-                let fraction = fraction(*x).ok_or(NoBase::Irrational)?;
-                Ok((*pivot, Exact::from(fraction)))
-            });
-            over.push(exact.collect::<Result<_, NoBase>>()?);
+            let exact = coefficients.iter();
+            let exact = exact.map(|(pivot, x)| (*pivot, Exact::from(x.clone())));
+            over.push(exact.collect());
         }
         for (link, segment) in chain.links.iter().enumerate() {
             for probe in &segment.probes {

@@ -1,0 +1,338 @@
+//! Folds and shares as a graph grows.
+
+use dalembert_model::number::{Exact, Rational};
+use dalembert_model::scalar::Scalar;
+use rustc_hash::FxHashMap;
+
+use super::{Dag, Edge, Fingerprint, Id, Node, Points};
+use crate::program::{Counts, Input, Operation};
+
+/// Products of constants with more monomials stay two operations: polynomials in odd angles would
+/// grow without end.
+const MAX_TERMS: usize = 1_000;
+
+/// How much a builder recognises.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Folding {
+    /// Zeros, ones, constants, signs and syntactically equal nodes.
+    Syntactic,
+    /// Also nodes with equal, opposite or constant fingerprints.
+    Semantic,
+}
+
+/// A graph under construction.
+pub(crate) struct Builder {
+    dag: Dag,
+    prints: Vec<Fingerprint>,
+    folding: Folding,
+    known: FxHashMap<Node, Id>,
+    /// The edge that has a canonical print.
+    by_print: FxHashMap<Fingerprint, Edge>,
+    /// Values where every angle, position and rate is zero, as far as they were asked for.
+    at_rest: FxHashMap<Id, Option<Exact>>,
+    asked: Counts,
+}
+
+impl Builder {
+    /// Creates an empty graph.
+    pub(crate) fn new(folding: Folding) -> Builder {
+        Builder {
+            dag: Dag {
+                nodes: Vec::new(),
+                outputs: Vec::new(),
+            },
+            prints: Vec::new(),
+            folding,
+            known: FxHashMap::default(),
+            by_print: FxHashMap::default(),
+            at_rest: FxHashMap::default(),
+            asked: Counts::default(),
+        }
+    }
+
+    /// Returns the operations asked for so far: the formula as executed, before any folding but
+    /// that of constants.
+    pub(crate) fn asked(&self) -> Counts {
+        self.asked
+    }
+
+    /// Returns the graph of these outputs.
+    pub(crate) fn finish(mut self, outputs: Vec<Edge>) -> Dag {
+        self.dag.outputs = outputs;
+        self.dag
+    }
+
+    /// Returns the fingerprint of an edge.
+    pub(crate) fn print(&self, edge: Edge) -> Fingerprint {
+        self.prints[edge.index()].negate_if(edge.negative)
+    }
+
+    /// Returns a constant; its sign is the edge's.
+    pub(crate) fn constant(&mut self, constant: &Exact) -> Edge {
+        let negative = constant.leads_negative();
+        let size = match negative {
+            true => constant.neg(),
+            false => constant.clone(),
+        };
+        let node = Node::Constant(size);
+        let edge = match self.known.get(&node) {
+            Some(&node) => Edge {
+                node,
+                negative: false,
+            },
+            None => {
+                let print = node.leaf_print();
+                self.intern(node, print)
+            }
+        };
+        edge.negated_if(negative)
+    }
+
+    /// Returns zero.
+    pub(crate) fn zero(&mut self) -> Edge {
+        self.constant(&Exact::zero())
+    }
+
+    /// Returns an input.
+    pub(crate) fn input(&mut self, input: Input) -> Edge {
+        let node = Node::Input(input);
+        let print = node.leaf_print();
+        self.intern(node, print)
+    }
+
+    /// Applies an operation. A divisor vanishes in no state in which the program has values.
+    pub(crate) fn apply(&mut self, operation: Operation, a: Edge, b: Edge) -> Edge {
+        match operation {
+            Operation::Add => self.add(a, b),
+            Operation::Sub => self.sub(a, b),
+            Operation::Mul | Operation::Fused => self.mul(a, b),
+            Operation::Div => self.div(a, b),
+        }
+    }
+
+    /// Returns the constant that an edge leads to.
+    pub(crate) fn exact(&self, edge: Edge) -> Option<Exact> {
+        let size = self.size(edge)?;
+        Some(match edge.negative {
+            true => size.neg(),
+            false => size.clone(),
+        })
+    }
+
+    /// Returns the constant that an edge leads to, up to sign.
+    fn size(&self, edge: Edge) -> Option<&Exact> {
+        match self.dag.node(edge.node) {
+            Node::Constant(constant) => Some(constant),
+            _ => None,
+        }
+    }
+
+    /// Returns a + b
+    pub(crate) fn add(&mut self, a: Edge, b: Edge) -> Edge {
+        let constants = [a, b].map(|edge| self.size(edge));
+        if let [Some(x), Some(y)] = constants {
+            let sum = match a.negative == b.negative {
+                true => x.add(y),
+                false => x.sub(y),
+            };
+            return self.constant(&sum).negated_if(a.negative);
+        }
+        let [x_is_zero, y_is_zero] = constants.map(|x| x.is_some_and(Scalar::is_zero));
+        self.asked.add += 1;
+        if x_is_zero {
+            return b;
+        }
+        if y_is_zero {
+            return a;
+        }
+        if a == b.negated_if(true) {
+            return self.zero();
+        }
+        let [a, b] = if a.node <= b.node { [a, b] } else { [b, a] };
+        let operation = match a.negative == b.negative {
+            true => Operation::Add,
+            false => Operation::Sub,
+        };
+        self.operation(operation, a.node, b.node)
+            .negated_if(a.negative)
+    }
+
+    /// Returns a − b
+    pub(crate) fn sub(&mut self, a: Edge, b: Edge) -> Edge {
+        self.add(a, b.negated_if(true))
+    }
+
+    /// Returns a · b
+    pub(crate) fn mul(&mut self, a: Edge, b: Edge) -> Edge {
+        let negative = a.negative != b.negative;
+        let product = match [a, b].map(|edge| self.size(edge)) {
+            [Some(x), Some(y)] => {
+                let product = x.mul(y);
+                self.constant(&product)
+            }
+            constants => {
+                let [x, y] = constants.map(|x| x.cloned());
+                self.asked.mul += 1;
+                match (x, y) {
+                    (Some(x), _) => self.scale(x, b.node),
+                    (_, Some(y)) => self.scale(y, a.node),
+                    (None, None) => {
+                        let [a, b] = [a.node.min(b.node), a.node.max(b.node)];
+                        self.operation(Operation::Mul, a, b)
+                    }
+                }
+            }
+        };
+        product.negated_if(negative)
+    }
+
+    /// Returns a constant times what is none.
+    fn scale(&mut self, x: Exact, node: Id) -> Edge {
+        if x.is_zero() {
+            return self.constant(&x);
+        }
+        if x.leads_negative() {
+            return self.scale(x.neg(), node).negated_if(true);
+        }
+        if x.is_one() {
+            return Edge {
+                node,
+                negative: false,
+            };
+        }
+        // c·(d·y) = (c·d)·y: one operation, and the inner one may die.
+        if let Node::Apply(Operation::Mul, [a, b]) = *self.dag.node(node) {
+            for (factor, rest) in [(a, b), (b, a)] {
+                if let Node::Constant(inner) = self.dag.node(factor)
+                    && x.terms() * inner.terms() <= MAX_TERMS
+                {
+                    let folded = x.mul(inner);
+                    return self.scale(folded, rest);
+                }
+            }
+        }
+        // 2·y = y + y is no dearer and never inexact.
+        match x.as_rational() == Some(&Rational::from_integer(2.into())) {
+            true => self.operation(Operation::Add, node, node),
+            false => {
+                let x = self.constant(&x).node;
+                self.operation(Operation::Mul, x.min(node), x.max(node))
+            }
+        }
+    }
+
+    /// Returns a / b
+    pub(crate) fn div(&mut self, a: Edge, b: Edge) -> Edge {
+        let divisor = self.exact(b);
+        let inverse = divisor.and_then(|y| Exact::one().divide(y.as_rational()?));
+        if let Some(inverse) = inverse {
+            let inverse = self.constant(&inverse);
+            return self.mul(a, inverse);
+        }
+        if self.size(a).is_some_and(Scalar::is_zero) {
+            return a;
+        }
+        self.asked.div += 1;
+        let quotient = match a.node == b.node {
+            true => self.constant(&Exact::one()),
+            false => self.operation(Operation::Div, a.node, b.node),
+        };
+        quotient.negated_if(a.negative != b.negative)
+    }
+
+    fn operation(&mut self, operation: Operation, a: Id, b: Id) -> Edge {
+        let node = Node::Apply(operation, [a, b]);
+        if let Some(&node) = self.known.get(&node) {
+            return Edge {
+                node,
+                negative: false,
+            };
+        }
+        let (x, y) = (&self.prints[a as usize], &self.prints[b as usize]);
+        let print = Fingerprint::apply(operation, x, y);
+        if self.folding == Folding::Semantic {
+            if print == Fingerprint::zero() {
+                return self.zero();
+            }
+            let (canonical, negative) = print.canonical();
+            if let Some(edge) = self.by_print.get(&canonical) {
+                return edge.negated_if(negative);
+            }
+            // Confirmed: a chance hit of the print would differ.
+            if print.is_constant()
+                && let Some(value) = self.value_at_rest(operation, a, b)
+                && Points::SEARCH.constant(&value) == Some(print)
+            {
+                return self.constant(&value);
+            }
+        }
+        self.intern(node, print)
+    }
+
+    /// Evaluates an operation where every angle, position and rate is zero: what does not depend on
+    /// the state has that value. None where a divisor is no rational number there, or zero.
+    fn value_at_rest(&mut self, operation: Operation, a: Id, b: Id) -> Option<Exact> {
+        // Of what is asked for alone: at rest, long constants of odd angles multiply.
+        let mut pending = vec![a, b];
+        while let Some(&id) = pending.last() {
+            let value = match self.dag.node(id) {
+                _ if self.at_rest.contains_key(&id) => None,
+                Node::Constant(constant) => Some(Some(constant.clone())),
+                Node::Input(Input::Cos(_)) => Some(Some(Exact::one())),
+                Node::Input(_) => Some(Some(Exact::zero())),
+                Node::Apply(own, operands) => {
+                    let missing = operands.iter().filter(|id| !self.at_rest.contains_key(id));
+                    let before = pending.len();
+                    pending.extend(missing);
+                    if pending.len() > before {
+                        continue;
+                    }
+                    Some(self.at_rest(*own, *operands))
+                }
+            };
+            pending.pop();
+            if let Some(value) = value {
+                self.at_rest.insert(id, value);
+            }
+        }
+        self.at_rest(operation, [a, b])
+    }
+
+    fn at_rest(&self, operation: Operation, operands: [Id; 2]) -> Option<Exact> {
+        let [x, y] = operands.map(|id| self.at_rest.get(&id)?.as_ref());
+        operation.exactly(x?, y?)
+    }
+
+    fn intern(&mut self, node: Node, print: Fingerprint) -> Edge {
+        let next = self.dag.nodes.len() as Id;
+        let id = *self.known.entry(node.clone()).or_insert(next);
+        if id == next {
+            self.dag.nodes.push(node);
+            self.prints.push(print);
+            let (canonical, negative) = print.canonical();
+            let own = Edge { node: id, negative };
+            self.by_print.entry(canonical).or_insert(own);
+        }
+        Edge {
+            node: id,
+            negative: false,
+        }
+    }
+
+    /// Copies the live nodes of a graph; returns the edges of its nodes, zero of dead ones.
+    pub(crate) fn copy(&mut self, dag: &Dag) -> Vec<Edge> {
+        let mut edges: Vec<Edge> = Vec::with_capacity(dag.nodes.len());
+        for (node, reads) in dag.nodes.iter().zip(dag.reads()) {
+            let edge = match node {
+                _ if reads == 0 => self.zero(),
+                Node::Constant(constant) => self.constant(constant),
+                Node::Input(input) => self.input(*input),
+                Node::Apply(operation, [a, b]) => {
+                    self.apply(*operation, edges[*a as usize], edges[*b as usize])
+                }
+            };
+            edges.push(edge);
+        }
+        edges
+    }
+}

@@ -1,0 +1,203 @@
+//! Semantic fingerprints: a node's values at random points of a prime field.
+//!
+//! Every sin/cos pair is a rational point of the circle, so sin² + cos² = 1
+//! holds in the field; decimal constants are exact there. Two nodes are
+//! polynomials of degree d in the points' parameters (d is below a few
+//! hundred); if they differ, they agree at one point with probability at most
+//! d/p ≈ 2⁻⁵³ (Schwartz–Zippel), and at all [`POINTS`] of them with the power
+//! of that. Points 0 and 1 share the constant angles: a node with
+//! equal values there does not depend on the state.
+
+use std::hash::{Hash, Hasher};
+
+use dalembert_model::equations::SinCosPair;
+use dalembert_model::number::{Angle, Exact, Rational};
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::field::{Field, Modulo};
+
+use crate::program::{Input, Operation};
+
+/// How many points a fingerprint has.
+pub(crate) const POINTS: usize = 3;
+
+/// The values of one node at every point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Fingerprint(pub [Field; POINTS]);
+
+/// By its first value, which is as good as random: equal prints have the same, and
+/// others hardly ever.
+impl Hash for Fingerprint {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.0[0].hash(state);
+    }
+}
+
+impl Fingerprint {
+    /// Returns the print of zero.
+    pub fn zero() -> Self {
+        Fingerprint([Field::zero(); POINTS])
+    }
+    /// Returns that of an operation's result. A divisor that is zero at a point has a chance of
+    /// 2⁻⁶¹ if it is not zero everywhere.
+    #[inline]
+    pub fn apply(operation: Operation, a: &Fingerprint, b: &Fingerprint) -> Fingerprint {
+        // Plain loops: compilers make calls of arrays' own `map` and `from_fn` here.
+        let mut print = *a;
+        for (x, y) in print.0.iter_mut().zip(&b.0) {
+            *x = operation.apply(x, y);
+        }
+        print
+    }
+    /// Returns that of the negated node.
+    #[inline]
+    pub fn neg(&self) -> Fingerprint {
+        let mut print = *self;
+        for x in &mut print.0 {
+            *x = x.neg();
+        }
+        print
+    }
+    /// Returns that of the node, negated if `negative`.
+    pub fn negate_if(&self, negative: bool) -> Fingerprint {
+        if negative { self.neg() } else { *self }
+    }
+    /// Returns the print up to sign, and whether it had to be negated.
+    #[inline]
+    pub fn canonical(&self) -> (Fingerprint, bool) {
+        // The first value decides, unless it is its own negative: zero.
+        let first = self.0.iter().find(|x| **x != Field::ZERO);
+        match first.is_some_and(|x| x.neg() < *x) {
+            true => (self.neg(), true),
+            false => (*self, false),
+        }
+    }
+    /// Returns whether the node is the same in every state.
+    pub fn is_constant(&self) -> bool {
+        self.0[0] == self.0[1]
+    }
+}
+
+/// Points of the field, which follow from a seed: the search has a fixed one, a proof the hash of
+/// its statement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Points {
+    seed: u64,
+}
+
+impl Points {
+    /// The points that the simplifier uses.
+    pub const SEARCH: Points = Points { seed: 0x5eed };
+
+    /// Creates the points of a seed.
+    pub(crate) fn new(seed: u64) -> Points {
+        Points { seed }
+    }
+
+    /// Returns the print of an input.
+    pub fn input(&self, input: Input) -> Fingerprint {
+        Fingerprint(core::array::from_fn(|point| self.input_at(input, point)))
+    }
+
+    /// Returns the value of an input at a point.
+    pub(crate) fn input_at<const P: u64>(&self, input: Input, point: usize) -> Modulo<P> {
+        let draw = |kind: u64, joint: usize| {
+            Modulo::new(mix([self.seed, point as u64, kind, joint as u64]))
+        };
+        match input {
+            Input::Sin(angle) => angle.pair(|joint| self.joint(joint, point)).sin,
+            Input::Cos(angle) => angle.pair(|joint| self.joint(joint, point)).cos,
+            // Beyond all arguments.
+            Input::PerSpeed(joint) => draw(64, joint),
+            // From 2, around 5, which is that of constant angles.
+            Input::Entry(argument, joint) => match argument.index() as u64 {
+                index @ 0..=2 => draw(index + 2, joint),
+                index => draw(index + 3, joint),
+            },
+        }
+    }
+
+    fn joint<const P: u64>(&self, joint: usize, point: usize) -> SinCosPair<Modulo<P>> {
+        circle(mix([self.seed, point as u64, 1, joint as u64]))
+    }
+
+    /// Returns the print of a constant; `None` if a denominator is divisible by the
+    /// prime (no decimal's is).
+    pub fn constant(&self, value: &Exact) -> Option<Fingerprint> {
+        if let Some(rational) = value.as_rational() {
+            return Field::from_rational(rational).map(|x| Fingerprint([x; POINTS]));
+        }
+        let mut print = [Field::zero(); POINTS];
+        // Coefficients are the same at every point.
+        let mut residues = Vec::new();
+        for (point, x) in print.iter_mut().enumerate() {
+            let shared = if point == 1 { 0 } else { point };
+            let mut known = residues.clone().into_iter();
+            let mut coefficient = |value: &Rational| {
+                known.next().or_else(|| {
+                    let residue = Field::from_rational(value)?;
+                    residues.push(residue);
+                    Some(residue)
+                })
+            };
+            *x = value.map(&mut coefficient, &mut |angle| {
+                circle(mix([self.seed, shared as u64, 5, hash_angle(angle)]))
+            })?;
+        }
+        Some(Fingerprint(print))
+    }
+
+    /// Returns the value of a constant at a point, which has its own constant angles; `None` if
+    /// the prime divides a denominator.
+    pub(crate) fn constant_at<const P: u64>(
+        &self,
+        value: &Exact,
+        point: usize,
+    ) -> Option<Modulo<P>> {
+        value.map(&mut |x: &Rational| Modulo::from_rational(x), &mut |angle| {
+            circle(mix([self.seed, point as u64, 5, hash_angle(angle)]))
+        })
+    }
+
+    /// Returns whether a field cannot tell a constant from zero: its prime divides
+    /// one of the coefficients.
+    pub fn lose<const P: u64>(value: &Exact) -> bool {
+        let coefficient = &mut |x: &Rational| {
+            let residue = Modulo::<P>::from_rational(x);
+            residue.filter(|x| *x != Modulo::ZERO)
+        };
+        let pair = &mut |_: &Angle| circle(0);
+        !value.is_zero() && value.map(coefficient, pair).is_none()
+    }
+}
+
+fn circle<const P: u64>(parameter: u64) -> SinCosPair<Modulo<P>> {
+    let (sin, cos) = Modulo::circle_point(Modulo::new(parameter));
+    SinCosPair { sin, cos }
+}
+
+/// Returns one well-mixed word from several (SplitMix64 over the words).
+fn mix(words: [u64; 4]) -> u64 {
+    words
+        .into_iter()
+        .fold(0x9e37_79b9_7f4a_7c15, |state, word| {
+            let mut z = (state ^ word).wrapping_add(0x9e37_79b9_7f4a_7c15);
+            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            z ^ (z >> 31)
+        })
+}
+
+/// Returns the same on every machine: over the digits of the exact value.
+fn hash_angle(angle: &Angle) -> u64 {
+    // The number of digits tells where the numerator ends.
+    let word = |kind: u64, value: &Rational| {
+        let digits = value.numer().iter_u64_digits();
+        let start = mix([kind, digits.len() as u64, 0, 0]);
+        let digits = digits.chain(value.denom().iter_u64_digits());
+        digits.fold(start, |hash, digit| mix([hash, digit, 0, 1]))
+    };
+    match angle {
+        Angle::PiTimes(value) => word(0, value),
+        Angle::Radians(value) => word(1, value),
+    }
+}

@@ -1,0 +1,140 @@
+//! Ways that only the fingerprints show: a ∘ b or (a ∘ b) ∘ c that happens to be a class.
+//!
+//! A hit at every point of the field is an identity but for a chance below 1e-40; the final
+//! program is proved at other points all the same.
+
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::field::Field;
+use egg::Id as Class;
+use rustc_hash::FxHashMap;
+
+use super::egraph::{Classes, Kind, Way, way};
+use crate::program::Operation;
+
+/// Keys that were noted, by some of their bits: small enough to stay in a processor's cache.
+struct Sieve(Vec<u64>);
+
+impl Sieve {
+    /// Makes a sieve that lets one in eight of other keys pass.
+    fn new(keys: usize) -> Sieve {
+        Sieve(vec![0; (8 * keys).next_power_of_two().max(64) / 64])
+    }
+
+    /// Lets a key pass; returns whether it passed before.
+    fn note(&mut self, key: Field) -> bool {
+        let (word, bit) = self.place(key);
+        let known = self.0[word] & bit != 0;
+        self.0[word] |= bit;
+        known
+    }
+
+    fn passes(&self, key: Field) -> bool {
+        let (word, bit) = self.place(key);
+        self.0[word] & bit != 0
+    }
+
+    fn place(&self, key: Field) -> (usize, u64) {
+        let place = key.value() as usize & (64 * self.0.len() - 1);
+        (place / 64, 1 << (place % 64))
+    }
+}
+
+/// Returns the key of a value: up to sign, at the first point.
+fn key(x: Field) -> Field {
+    x.min(x.neg())
+}
+
+/// Visits the key of every sum, difference and product of the pool.
+fn pairs_of(pool: &[(Class, Field)], mut visit: impl FnMut(Field, Way)) {
+    for (index, &(a, x)) in pool.iter().enumerate() {
+        for &(b, y) in &pool[index..] {
+            visit(key(x.add(&y)), way(Operation::Add, [a, b]));
+            visit(key(x.sub(&y)), way(Operation::Sub, [a, b]));
+            visit(key(x.mul(&y)), way(Operation::Mul, [a, b]));
+        }
+    }
+}
+
+fn keyed(classes: &Classes, pool: &[Class]) -> Vec<(Class, Field)> {
+    pool.iter()
+        .map(|&id| (id, classes.print(id).0[0]))
+        .collect()
+}
+
+/// Tries every pair of the pool for every class.
+pub(super) fn pairs(classes: &mut Classes, pool: &[Class]) {
+    let mut known = Sieve::new(classes.ids().len());
+    for &id in classes.ids() {
+        known.note(key(classes.print(id).0[0]));
+    }
+    let mut found = Vec::new();
+    pairs_of(&keyed(classes, pool), |key, way| {
+        if known.passes(key) {
+            found.push(way);
+        }
+    });
+    found.into_iter().for_each(|way| classes.offer(way, None));
+}
+
+/// Tries (a ∘ b) ∘ c for every class y of the pool over the pool: y ∓ c or y / c then has the key
+/// of a pair. Of all these keys, hundreds of thousands, only those come into a map that are met
+/// twice.
+pub(super) fn resubstitute(classes: &mut Classes, pool: &[Class]) {
+    let keys = keyed(classes, pool);
+    let inverses = keys.iter().filter_map(|&(c, z)| Some((c, z.inverse()?)));
+    let inverses: Vec<(Class, Field)> = inverses.collect();
+    let quotients = |visit: &mut dyn FnMut(Field, Class, Class)| {
+        for &(y, x) in &keys {
+            for &(c, inverse) in inverses.iter().filter(|(c, _)| *c != y) {
+                visit(key(x.mul(&inverse)), y, c);
+            }
+        }
+    };
+    let mut met = Sieve::new(5 * pool.len() * pool.len() / 2);
+    let mut again = Sieve::new(5 * pool.len() * pool.len() / 2);
+    let mut meet = |key| {
+        if met.note(key) {
+            again.note(key);
+        }
+    };
+    pairs_of(&keys, |key, _| meet(key));
+    quotients(&mut |key, _, _| meet(key));
+    let mut pairs: Vec<(Field, Way)> = Vec::new();
+    pairs_of(&keys, |key, way| {
+        if again.passes(key) {
+            pairs.push((key, way));
+        }
+    });
+    let mut first: FxHashMap<Field, Way> = FxHashMap::default();
+    for &(key, way) in &pairs {
+        first.entry(key).or_insert(way);
+    }
+    let mut found: Vec<(Class, Class, Kind, Way)> = Vec::new();
+    let mut meet = |key: Field, y: Class, c: Class, outer: Kind| {
+        if let Some(&inner) = first.get(&key)
+            && !inner.1.contains(&y)
+        {
+            found.push((y, c, outer, inner));
+        }
+    };
+    for &(key, (op, [y, c])) in &pairs {
+        if op != Operation::Mul && y != c {
+            meet(key, y, c, Kind::Sum);
+            meet(key, c, y, Kind::Sum);
+        }
+    }
+    quotients(&mut |key, y, c| {
+        if again.passes(key) {
+            meet(key, y, c, Kind::Product);
+        }
+    });
+    found.sort_unstable();
+    for (y, c, outer, (op, ends)) in found {
+        let inner = if op == Operation::Mul {
+            Kind::Product
+        } else {
+            Kind::Sum
+        };
+        classes.nest(y, outer, c, inner, ends);
+    }
+}

@@ -1,0 +1,84 @@
+//! How much a search may do: counted in rounds, pairs and moves, never in time, so that the result
+//! is the same on every machine.
+
+use super::extract::Schedule;
+use crate::words::words;
+
+words! {
+    /// The levels of the command line and the macro.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+    pub enum Effort: "effort" {
+        /// Well below a second for a six-joint arm, in a release build.
+        #[default]
+        Quick = "quick",
+        /// Up to two minutes a function.
+        Thorough = "thorough",
+    }
+}
+
+/// A program of at most so many operations is a small one.
+const SMALL: usize = 250;
+
+/// What a search may do.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// Rounds at most.
+    pub rounds: usize,
+    /// Rounds without a gain before it stops.
+    pub patience: usize,
+    /// The most classes among which all pairs are tried, if the program's own are not more; none are
+    /// tried where it is zero.
+    pub pairs: usize,
+    /// The most classes among which two-operation substitutes are tried.
+    pub substitutes: usize,
+    /// How often rules are applied in a round.
+    pub rules: usize,
+    /// Annealing of rounds, in turns.
+    pub schedules: [Schedule; 2],
+}
+
+impl Limits {
+    /// Those of a single round without rules or annealing: what a program is about worth.
+    pub(super) const GLANCE: Limits = Limits {
+        rounds: 1,
+        patience: 0,
+        pairs: 500,
+        substitutes: 1_000,
+        rules: 0,
+        schedules: [Schedule::cool(0); 2],
+    };
+}
+
+impl Effort {
+    /// Returns the rounds of the regrouping's descent.
+    pub fn regrouping_rounds(self) -> usize {
+        match self {
+            Effort::Quick => 1,
+            Effort::Thorough => 3,
+        }
+    }
+
+    /// Returns the limits for a program of so many operations. A small one gets many short rounds
+    /// of a quick search: a SCARA's torques need some without any gain to come from 71 to 62, and a
+    /// long round finds no more in them.
+    pub fn limits(self, operations: usize) -> Limits {
+        let (rounds, patience, pairs, substitutes, moves) = match self {
+            Effort::Quick if operations <= SMALL => (30, 8, 500, 700, 20_000),
+            Effort::Quick => (8, 2, 500, 700, 40_000),
+            Effort::Thorough => (120, 25, 2_500, 3_000, 300_000),
+        };
+        Limits {
+            rounds,
+            patience,
+            pairs,
+            substitutes,
+            rules: 2,
+            schedules: match self {
+                Effort::Quick if operations <= SMALL => {
+                    [Schedule::cool(moves), Schedule::hot(moves)]
+                }
+                _ => [Schedule::cool(moves); 2],
+            },
+        }
+    }
+}

@@ -1,0 +1,398 @@
+//! The e-graph of one function: every equality that the search knows.
+//!
+//! It is egg's, with fingerprints as its analysis. A class is a value up to sign; an e-node
+//! computes it from the canonical values of other classes. E-nodes with equal prints are united
+//! as the second one is added, so congruence has nothing left to unite, and the root of a class
+//! is its first e-node for good.
+
+use dalembert_model::scalar::Scalar;
+use egg::{
+    Analysis, DidMerge, EGraph, Id as Class, Pattern, SearchMatches, Searcher, define_language,
+};
+use rustc_hash::FxHashMap;
+
+use crate::dag::{Builder, Dag, Edge, Fingerprint, Folding, Node};
+use crate::program::Operation;
+
+define_language! {
+    /// An operation on two classes, or a leaf by its place in the list of leaves.
+    pub enum ENode {
+        "+" = Add([Class; 2]),
+        "-" = Sub([Class; 2]),
+        "*" = Mul([Class; 2]),
+        "/" = Div([Class; 2]),
+        Leaf(u32),
+    }
+}
+
+/// One way to compute a class. Operands ascend, except those of a quotient.
+pub(super) type Way = (Operation, [Class; 2]);
+
+/// Returns the way of an operation on two classes.
+#[inline]
+pub(super) fn way(op: Operation, [a, b]: [Class; 2]) -> Way {
+    match op != Operation::Div && b < a {
+        true => (op, [b, a]),
+        false => (op, [a, b]),
+    }
+}
+
+impl ENode {
+    /// Returns the way of an e-node; none of a leaf.
+    pub(super) fn way(&self) -> Option<Way> {
+        match *self {
+            ENode::Add(ends) => Some((Operation::Add, ends)),
+            ENode::Sub(ends) => Some((Operation::Sub, ends)),
+            ENode::Mul(ends) => Some((Operation::Mul, ends)),
+            ENode::Div(ends) => Some((Operation::Div, ends)),
+            ENode::Leaf(_) => None,
+        }
+    }
+
+    fn from_way((operation, ends): Way) -> ENode {
+        match operation {
+            Operation::Add => ENode::Add(ends),
+            Operation::Sub => ENode::Sub(ends),
+            Operation::Mul | Operation::Fused => ENode::Mul(ends),
+            Operation::Div => ENode::Div(ends),
+        }
+    }
+}
+
+/// What is known of each e-node and of each print.
+#[derive(Clone, Default)]
+pub(super) struct Prints {
+    prints: Vec<Fingerprint>,
+    /// The leaf that each class is.
+    leaf: Vec<Option<u32>>,
+    /// Leaves with their fingerprints.
+    leaves: Vec<(Node, Fingerprint)>,
+    by_print: FxHashMap<Fingerprint, Class>,
+    /// Classes, first made first.
+    roots: Vec<Class>,
+}
+
+impl Analysis<ENode> for Prints {
+    type Data = ();
+
+    fn make(egraph: &mut EGraph<ENode, Self>, node: &ENode, _: Class) {
+        let own = &mut egraph.analysis;
+        let (print, leaf) = match (node, node.way()) {
+            (_, Some(way)) => (own.way_print(way), None),
+            (ENode::Leaf(leaf), _) => (own.leaves[*leaf as usize].1, Some(*leaf)),
+            _ => (Fingerprint::zero(), None),
+        };
+        own.prints.push(print.canonical().0);
+        own.leaf.push(leaf);
+    }
+
+    fn merge(&mut self, (): &mut (), (): ()) -> DidMerge {
+        DidMerge(false, false)
+    }
+
+    fn modify(egraph: &mut EGraph<ENode, Self>, id: Class) {
+        let own = &mut egraph.analysis;
+        let root = *own
+            .by_print
+            .entry(own.prints[usize::from(id)])
+            .or_insert(id);
+        match root == id {
+            true if own.roots.last() < Some(&id) => own.roots.push(id),
+            true => {
+                // A leaf needs no operation any more.
+                if let Some(leaf) = own.leaf[usize::from(id)] {
+                    egraph[id].nodes = vec![ENode::Leaf(leaf)];
+                }
+            }
+            false => {
+                let leaf = own.leaf[usize::from(id)];
+                let known = &mut own.leaf[usize::from(root)];
+                *known = known.or(leaf);
+                egraph.union(root, id);
+            }
+        }
+    }
+}
+
+impl Prints {
+    fn way_print(&self, (operation, ends): Way) -> Fingerprint {
+        let print = |id: Class| &self.prints[usize::from(id)];
+        Fingerprint::apply(operation, print(ends[0]), print(ends[1]))
+    }
+}
+
+/// A graph with the fingerprints of its leaves: rounds of a search read the same graphs.
+pub(super) struct Printed<'a> {
+    dag: &'a Dag,
+    prints: Vec<Fingerprint>,
+}
+
+impl<'a> Printed<'a> {
+    /// Reads a graph.
+    pub(super) fn new(dag: &'a Dag) -> Printed<'a> {
+        Printed {
+            dag,
+            prints: dag.nodes.iter().map(Node::leaf_print).collect(),
+        }
+    }
+}
+
+/// A class with a sign; the value zero has none.
+pub(super) type Signed = Option<(Class, bool)>;
+
+fn flip(value: Signed, negative: bool) -> Signed {
+    value.map(|(class, sign)| (class, sign != negative))
+}
+
+/// A program: the way of each class, by the index of the class.
+pub(super) type Choice = Vec<Option<Way>>;
+
+/// All classes of one function.
+#[derive(Default)]
+pub(super) struct Classes {
+    egraph: EGraph<ENode, Prints>,
+    pub(super) outputs: Vec<Signed>,
+}
+
+impl Classes {
+    /// Returns the classes, first made first.
+    pub(super) fn ids(&self) -> &[Class] {
+        &self.egraph.analysis.roots
+    }
+
+    /// Returns a number above the index of every class.
+    pub(super) fn bound(&self) -> usize {
+        self.egraph.nodes().len()
+    }
+
+    /// Returns the canonical print of a class.
+    pub(super) fn print(&self, class: Class) -> &Fingerprint {
+        &self.egraph.analysis.prints[usize::from(class)]
+    }
+
+    /// Returns the print of a way.
+    pub(super) fn way_print(&self, way: Way) -> Fingerprint {
+        self.egraph.analysis.way_print(way)
+    }
+
+    /// Returns the leaf that a class is: then it has no ways.
+    pub(super) fn leaf(&self, class: Class) -> Option<&Node> {
+        let own = &self.egraph.analysis;
+        own.leaf[usize::from(class)].map(|leaf| &own.leaves[leaf as usize].0)
+    }
+
+    /// Returns the class of a print.
+    pub(super) fn find(&self, print: &Fingerprint) -> Signed {
+        let (canonical, negative) = print.canonical();
+        let class = self.egraph.analysis.by_print.get(&canonical)?;
+        Some((*class, negative))
+    }
+
+    /// Returns every way with the class that it computes, in the order they were added.
+    pub(super) fn ways(&self) -> impl Iterator<Item = (Class, Way)> {
+        let nodes = self.egraph.nodes().iter().enumerate();
+        nodes.filter_map(|(place, node)| {
+            let class = self.egraph.find(Class::from(place));
+            let way = node.way().filter(|_| self.leaf(class).is_none())?;
+            Some((class, way))
+        })
+    }
+
+    /// Returns where a pattern matches.
+    pub(super) fn matches<'p>(
+        &mut self,
+        pattern: &'p Pattern<ENode>,
+    ) -> Vec<SearchMatches<'p, ENode>> {
+        self.egraph.rebuild();
+        pattern.search(&self.egraph)
+    }
+
+    /// Adds a leaf with its fingerprint.
+    fn add_leaf(&mut self, leaf: &Node, print: &Fingerprint) -> Signed {
+        if *print == Fingerprint::zero() {
+            return None;
+        }
+        let (_, negative) = print.canonical();
+        match self.find(print) {
+            Some(known) if self.leaf(known.0).is_some() => Some(known),
+            _ => {
+                // The class stands for its canonical value.
+                let leaf = match leaf {
+                    Node::Constant(c) if negative => Node::Constant(c.neg()),
+                    leaf => leaf.clone(),
+                };
+                let leaf = (leaf, print.canonical().0);
+                self.egraph.analysis.leaves.push(leaf);
+                let index = self.egraph.analysis.leaves.len() as u32 - 1;
+                Some((self.egraph.add(ENode::Leaf(index)), negative))
+            }
+        }
+    }
+
+    /// Adds a way; returns its class with the sign of the result.
+    pub(super) fn add(&mut self, way: Way) -> Signed {
+        if let (Some(Node::Constant(a)), Some(Node::Constant(b))) =
+            (self.leaf(way.1[0]), self.leaf(way.1[1]))
+            && let Some(constant) = way.0.exactly(a, b)
+        {
+            let leaf = Node::Constant(constant);
+            return self.add_leaf(&leaf, &leaf.leaf_print());
+        }
+        let print = self.way_print(way);
+        let known = self.find(&print);
+        match known {
+            _ if print == Fingerprint::zero() => None,
+            // A leaf needs no way, and no value of its own helps.
+            Some((class, _)) if way.1.contains(&class) || self.leaf(class).is_some() => known,
+            _ => Some((self.egraph.add(ENode::from_way(way)), print.canonical().1)),
+        }
+    }
+
+    /// Adds a way if it computes a class that is known; this one, if one is given.
+    pub(super) fn offer(&mut self, way: Way, class: Option<Class>) {
+        if let Some((found, _)) = self.find(&self.way_print(way))
+            && class.is_none_or(|class| class == found)
+        {
+            self.add(way);
+        }
+    }
+
+    /// Adds the nodes of a graph; returns the class of each and the ways of the graph.
+    pub(super) fn absorb(&mut self, graph: &Printed) -> (Vec<Signed>, Choice) {
+        let Printed { dag, prints } = graph;
+        let mut values: Vec<Signed> = Vec::with_capacity(dag.nodes.len());
+        let mut choice: Choice = Vec::new();
+        for (node, print) in dag.nodes.iter().zip(prints) {
+            let Node::Apply(op, ends) = node else {
+                values.push(self.add_leaf(node, print));
+                continue;
+            };
+            let (x, y) = (values[ends[0] as usize], values[ends[1] as usize]);
+            values.push(match (op, x, y) {
+                (_, Some((a, s)), Some((b, t))) => {
+                    let (op, negative) = match op {
+                        Operation::Add | Operation::Sub if (s == t) == (*op == Operation::Add) => {
+                            (Operation::Add, s)
+                        }
+                        Operation::Add | Operation::Sub => (Operation::Sub, s),
+                        op => (*op, s != t),
+                    };
+                    let way = way(op, [a, b]);
+                    // b − a is the opposite of a − b.
+                    let swapped = op == Operation::Sub && way.1[0] != a;
+                    let value = flip(self.add(way), negative != swapped);
+                    if let Some((class, _)) = value {
+                        choice.resize(self.bound(), None);
+                        choice[usize::from(class)].get_or_insert(way);
+                    }
+                    value
+                }
+                (Operation::Add | Operation::Sub, x, None) => x,
+                (Operation::Add, None, y) => y,
+                (Operation::Sub, None, y) => flip(y, true),
+                _ => None,
+            });
+        }
+        choice.resize(self.bound(), None);
+        (values, choice)
+    }
+
+    /// Adds the graph whose outputs are wanted; returns its classes and its ways.
+    pub(super) fn begin(&mut self, dag: &Dag) -> (Vec<Class>, Choice) {
+        let (values, choice) = self.absorb(&Printed::new(dag));
+        let outputs = dag.outputs.iter();
+        self.outputs = outputs
+            .map(|e| flip(values[e.node as usize], e.negative))
+            .collect();
+        let mut own: Vec<Class> = Vec::new();
+        let mut seen = vec![false; self.bound()];
+        for (class, _) in values.into_iter().flatten() {
+            if !std::mem::replace(&mut seen[usize::from(class)], true) {
+                own.push(class);
+            }
+        }
+        (own, choice)
+    }
+
+    /// Returns the graph that computes the outputs by the chosen ways, which must not go in circles.
+    pub(super) fn graph(&self, choice: &Choice) -> Dag {
+        let mut builder = Builder::new(Folding::Semantic);
+        let mut edges: Vec<Option<Edge>> = vec![None; self.bound()];
+        let mut pending: Vec<Class> = self.outputs.iter().flatten().map(|o| o.0).collect();
+        while let Some(&class) = pending.last() {
+            let place = usize::from(class);
+            let edge = match (self.leaf(class), choice[place]) {
+                _ if edges[place].is_some() => None,
+                (Some(Node::Input(input)), _) => Some(builder.input(*input)),
+                (Some(Node::Constant(constant)), _) => Some(builder.constant(constant)),
+                (_, Some((operation, ends))) => match ends.map(|id| edges[usize::from(id)]) {
+                    [Some(a), Some(b)] => Some(builder.apply(operation, a, b)),
+                    ready => {
+                        let missing = ends.into_iter().zip(ready);
+                        let missing = missing.filter(|(_, edge)| edge.is_none());
+                        pending.extend(missing.map(|(id, _)| id));
+                        continue;
+                    }
+                },
+                _ => Some(builder.zero()),
+            };
+            // The edge is the class up to sign; make it the canonical one.
+            if let Some(edge) = edge {
+                edges[place] = Some(edge.negated_if(builder.print(edge) != *self.print(class)));
+            }
+            pending.pop();
+        }
+        let zero = builder.zero();
+        let outputs = self.outputs.iter().map(|output| match output {
+            Some((class, negative)) => edges[usize::from(*class)]
+                .unwrap_or(zero)
+                .negated_if(*negative),
+            None => zero,
+        });
+        let outputs = outputs.collect();
+        builder.finish(outputs)
+    }
+}
+
+/// Operations up to sign: a sum and a difference are one kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) enum Kind {
+    Sum,
+    Product,
+}
+
+impl Kind {
+    /// Returns its operations.
+    pub(super) fn operations(self) -> &'static [Operation] {
+        match self {
+            Kind::Sum => &[Operation::Add, Operation::Sub],
+            Kind::Product => &[Operation::Mul],
+        }
+    }
+}
+
+impl Classes {
+    /// Adds (b ∘ c) ∘ a as a way of a class, with those signs that give it; the inner value may
+    /// be new.
+    pub(super) fn nest(
+        &mut self,
+        class: Class,
+        outer: Kind,
+        a: Class,
+        inner: Kind,
+        [b, c]: [Class; 2],
+    ) {
+        for &op in inner.operations() {
+            let inner = way(op, [b, c]);
+            let value = self.way_print(inner).canonical().0;
+            for &op in outer.operations() {
+                let whole = Fingerprint::apply(op, &value, self.print(a)).canonical().0;
+                if whole == *self.print(class)
+                    && let Some((middle, _)) = self.add(inner)
+                {
+                    self.offer(way(op, [middle, a]), Some(class));
+                }
+            }
+        }
+    }
+}

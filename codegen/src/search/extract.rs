@@ -1,0 +1,328 @@
+//! Extraction: one way for each class that the outputs need, at the least cost of the whole graph.
+//!
+//! Shared work is paid once, so choosing the cheapest tree for each class makes a shared program
+//! worse. The search starts from the program that came in and keeps the best it has seen. A move
+//! gives one class another way; reference counts give the change in cost, and a move that would
+//! close a circle is refused.
+
+use std::collections::BTreeMap;
+
+use super::egraph::{Choice, Classes, Way};
+use super::order::Order;
+use super::price;
+use crate::dag::Node;
+use crate::random::Random;
+
+/// How long to anneal, and between which temperatures, in additions.
+#[derive(Clone, Copy, Debug)]
+pub struct Schedule {
+    moves: usize,
+    hot: f64,
+    cold: f64,
+}
+
+impl Schedule {
+    /// Creates a schedule of so many moves. Hotter than this destroys a program of 300 operations.
+    pub const fn cool(moves: usize) -> Schedule {
+        Schedule {
+            moves,
+            hot: 0.2,
+            cold: 0.04,
+        }
+    }
+
+    /// Creates one that leaves what a small program is stuck in.
+    pub(super) const fn hot(moves: usize) -> Schedule {
+        Schedule {
+            moves,
+            hot: 1.0,
+            cold: 0.1,
+        }
+    }
+}
+
+/// Nothing: what leaves read.
+const NOTHING: u32 = 0;
+const NONE: u32 = u32::MAX;
+
+/// A way as the search sees it: leaves have one that costs nothing; a sine and a cosine read their
+/// angle, which costs their evaluation.
+#[derive(Clone, Copy)]
+struct Step {
+    cost: u64,
+    reads: [u32; 2],
+    /// The way in the e-graph.
+    way: Option<Way>,
+}
+
+pub(super) struct Extraction<'a> {
+    classes: &'a Classes,
+    /// The ways of all classes, class after class, and where each class's begin.
+    steps: Vec<Step>,
+    starts: Vec<u32>,
+    outputs: Vec<u32>,
+    /// The chosen way of each class, an index into `steps`.
+    chosen: Vec<u32>,
+    /// How often each class is read by chosen ways of live classes.
+    uses: Vec<u32>,
+    /// Live classes with a choice, in no order, and the place of each.
+    live: Vec<u32>,
+    place: Vec<u32>,
+    pub(super) cost: u64,
+    /// Each class after what its chosen way reads.
+    order: Order,
+}
+
+impl<'a> Extraction<'a> {
+    /// Starts from a choice without circles that is complete below the outputs.
+    pub(super) fn new(classes: &'a Classes, seed: &Choice) -> Self {
+        let (ids, mut places) = (classes.ids(), vec![NONE; classes.bound()]);
+        ids.iter()
+            .enumerate()
+            .for_each(|(at, id)| places[usize::from(*id)] = at as u32 + 1);
+        let angle = |id| match classes.leaf(id) {
+            Some(Node::Input(input)) => input.angle(),
+            _ => None,
+        };
+        let mut angles = BTreeMap::new();
+        for angle in ids.iter().filter_map(|&id| angle(id)) {
+            let next = (ids.len() + 1 + angles.len()) as u32;
+            angles.entry(angle).or_insert(next);
+        }
+        // Nothing, the classes, the angles.
+        let count = 1 + ids.len() + angles.len();
+        let mut ways: Vec<Vec<Step>> = vec![Vec::new(); count];
+        let free = |read| Step {
+            cost: 0,
+            reads: [read; 2],
+            way: None,
+        };
+        for (at, &id) in ids.iter().enumerate() {
+            let read = angle(id).map_or(NOTHING, |angle| angles[&angle]);
+            if classes.leaf(id).is_some() {
+                ways[at + 1].push(free(read));
+            }
+        }
+        for &at in angles.values() {
+            ways[at as usize].push(Step {
+                cost: price::SINCOS,
+                ..free(NOTHING)
+            });
+        }
+        for (class, way) in classes.ways() {
+            let reads = way.1.map(|id| places[usize::from(id)]);
+            let step = Step {
+                cost: price::operation(way.0),
+                reads,
+                way: Some(way),
+            };
+            ways[places[usize::from(class)] as usize].push(step);
+        }
+        let mut starts = vec![0u32];
+        for own in &ways {
+            starts.push(starts[starts.len() - 1] + own.len() as u32);
+        }
+        let outputs = classes.outputs.iter().flatten();
+        let mut search = Extraction {
+            classes,
+            steps: ways.concat(),
+            starts,
+            outputs: outputs.map(|(id, _)| places[usize::from(*id)]).collect(),
+            chosen: vec![NONE; count],
+            uses: vec![0; count],
+            live: Vec::new(),
+            place: vec![NONE; count],
+            cost: 0,
+            order: Order::new(count),
+        };
+        search.uses[NOTHING as usize] = 1;
+        search.seed(seed, &places);
+        search.sort();
+        search.revive();
+        search
+    }
+
+    /// Chooses the seed's ways, then, until nothing changes, ways of other classes that read what
+    /// has one.
+    fn seed(&mut self, seed: &Choice, places: &[u32]) {
+        for (id, way) in seed
+            .iter()
+            .enumerate()
+            .filter_map(|(id, way)| Some((id, (*way)?)))
+        {
+            let own = places[id];
+            if own != NONE {
+                let found = self
+                    .ways(own)
+                    .find(|&w| self.steps[w as usize].way == Some(way));
+                self.chosen[own as usize] = found.unwrap_or(NONE);
+            }
+        }
+        let mut changed = true;
+        while std::mem::take(&mut changed) {
+            for id in 1..self.chosen.len() as u32 {
+                if self.chosen[id as usize] == NONE
+                    && let Some(way) = self.ways(id).find(|&way| self.is_ready(way))
+                {
+                    self.chosen[id as usize] = way;
+                    changed = true;
+                }
+            }
+        }
+    }
+
+    fn ways(&self, id: u32) -> std::ops::Range<u32> {
+        self.starts[id as usize]..self.starts[id as usize + 1]
+    }
+
+    /// Returns whether all that a way reads can be computed.
+    fn is_ready(&self, way: u32) -> bool {
+        let reads = self.steps[way as usize].reads;
+        reads
+            .iter()
+            .all(|&id| id == NOTHING || self.chosen[id as usize] != NONE)
+    }
+
+    fn reads(steps: &[Step], chosen: &[u32], id: u32) -> [u32; 2] {
+        let step = steps.get(chosen[id as usize] as usize);
+        step.map_or([NOTHING; 2], |step| step.reads)
+    }
+
+    fn sort(&mut self) {
+        let (steps, chosen) = (&self.steps, &self.chosen);
+        self.order.sort(|id| Self::reads(steps, chosen, id));
+    }
+
+    /// Returns whether a class may take a way: nothing that it reads depends on the class.
+    fn admits(&mut self, id: u32, way: u32) -> bool {
+        let (steps, chosen) = (&self.steps, &self.chosen);
+        self.order.admits(id, steps[way as usize].reads, |id| {
+            Self::reads(steps, chosen, id)
+        })
+    }
+
+    fn revive(&mut self) {
+        for at in 0..self.outputs.len() {
+            self.acquire(self.outputs[at]);
+        }
+    }
+
+    /// Counts one use more. A class that comes to life has the way that it had last.
+    fn acquire(&mut self, id: u32) {
+        self.uses[id as usize] += 1;
+        if self.uses[id as usize] > 1 {
+            return;
+        }
+        if let Some(&step) = self.steps.get(self.chosen[id as usize] as usize) {
+            self.cost += step.cost;
+            if self.ways(id).len() > 1 {
+                self.place[id as usize] = self.live.len() as u32;
+                self.live.push(id);
+            }
+            step.reads.into_iter().for_each(|read| self.acquire(read));
+        }
+    }
+
+    /// Counts one use less. An unused class frees what it reads.
+    fn release(&mut self, id: u32) {
+        self.uses[id as usize] -= 1;
+        if self.uses[id as usize] > 0 {
+            return;
+        }
+        if let Some(&step) = self.steps.get(self.chosen[id as usize] as usize) {
+            self.cost -= step.cost;
+            if self.ways(id).len() > 1 {
+                let place = self.place[id as usize] as usize;
+                self.live.swap_remove(place);
+                if let Some(&moved) = self.live.get(place) {
+                    self.place[moved as usize] = place as u32;
+                }
+            }
+            step.reads.into_iter().for_each(|read| self.release(read));
+        }
+    }
+
+    /// Gives a live class another way, if nothing that it reads depends on the class; returns
+    /// whether it did.
+    fn switch(&mut self, id: u32, way: u32) -> bool {
+        if !self.is_ready(way) || !self.admits(id, way) {
+            return false;
+        }
+        let old = self.steps[self.chosen[id as usize] as usize];
+        let new = self.steps[way as usize];
+        self.cost -= old.cost;
+        old.reads.into_iter().for_each(|read| self.release(read));
+        self.chosen[id as usize] = way;
+        self.cost += new.cost;
+        new.reads.into_iter().for_each(|read| self.acquire(read));
+        true
+    }
+
+    /// Sweeps over the live classes, taking every change that lowers the cost, until a sweep saves
+    /// nothing.
+    pub(super) fn climb(&mut self) {
+        loop {
+            let before = self.cost;
+            let mut live = self.live.clone();
+            live.sort_unstable();
+            for id in live {
+                for way in self.ways(id) {
+                    let (cost, now) = (self.cost, self.chosen[id as usize]);
+                    let moves = self.uses[id as usize] > 0 && way != now && self.switch(id, way);
+                    if moves && self.cost >= cost {
+                        self.switch(id, now);
+                    }
+                }
+            }
+            if self.cost >= before {
+                return;
+            }
+        }
+    }
+
+    /// Anneals; ends with the best program seen.
+    pub(super) fn anneal(&mut self, schedule: Schedule, random: &mut Random) {
+        let mut best = (self.cost, self.chosen.clone());
+        let ratio = schedule.cold / schedule.hot;
+        let mut temperature = schedule.hot;
+        for step in 0..schedule.moves {
+            if step % 256 == 0 {
+                let part = step as f64 / schedule.moves as f64;
+                temperature = 100.0 * schedule.hot * libm::pow(ratio, part);
+            }
+            if self.live.is_empty() {
+                return;
+            }
+            let id = self.live[random.below(self.live.len())];
+            let way = self.starts[id as usize] + random.below(self.ways(id).len()) as u32;
+            let (before, now) = (self.cost, self.chosen[id as usize]);
+            if way == now || !self.switch(id, way) {
+                continue;
+            }
+            let rise = self.cost as f64 - before as f64;
+            if rise > 0.0 && random.unit() >= libm::exp(-rise / temperature) {
+                self.switch(id, now);
+            } else if self.cost < best.0 || (self.cost == best.0 && step % 64 == 0) {
+                // Of equal programs now and then a later one: the next round starts from there.
+                best.0 = self.cost;
+                best.1.clone_from(&self.chosen);
+            }
+        }
+        for at in 0..self.outputs.len() {
+            self.release(self.outputs[at]);
+        }
+        self.chosen = best.1;
+        self.sort();
+        self.revive();
+    }
+
+    /// Returns the chosen ways.
+    pub(super) fn choice(&self) -> Choice {
+        let mut choice: Choice = vec![None; self.classes.bound()];
+        for (at, &id) in self.classes.ids().iter().enumerate() {
+            let step = self.steps.get(self.chosen[at + 1] as usize);
+            choice[usize::from(id)] = step.and_then(|step| step.way);
+        }
+        choice
+    }
+}

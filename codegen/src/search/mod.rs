@@ -1,0 +1,141 @@
+//! The search for the fewest operations: discovery and extraction in turns, to a plateau.
+//!
+//! - this file: [`search`], and one round of it
+//! - [`effort`]: how much a search may do; [`price`]: what it minimises; [`pass`]: what each step
+//!   left
+//! - `egraph`: values up to sign by fingerprint, and the ways to compute each
+//! - `rules`: identities of algebra, applied by pattern
+//! - `discover`: ways that only the fingerprints show
+//! - `extract`: the cheapest program that the ways allow; `order`: no way in a circle
+
+mod discover;
+mod effort;
+mod egraph;
+mod extract;
+mod order;
+mod pass;
+mod price;
+mod rules;
+#[cfg(test)]
+mod tests;
+
+use egg::Id as Class;
+
+use crate::dag::{Dag, Folding};
+use crate::random::Random;
+pub use effort::{Effort, Limits};
+use egraph::{Classes, Printed};
+use extract::Extraction;
+pub use extract::Schedule;
+pub use pass::Pass;
+pub use price::{cost, price};
+
+/// The most values of a program that are paired with each other in every search.
+const MAX_OWN: usize = 1_500;
+/// The e-nodes, for each one that was there, at which rules stop.
+const GROWTH: usize = 20;
+
+/// What a search found.
+#[derive(Clone, Debug)]
+pub struct Searched {
+    /// The cheapest program.
+    pub graph: Dag,
+    /// The index of the seed that it started from.
+    pub seed: usize,
+    /// That seed, merged by fingerprint.
+    pub start: Dag,
+}
+
+/// Searches for the cheapest program of a function from one or more graphs of it; never returns a
+/// dearer one than the cheapest of them. `helpers` offer their values only. A program that `accept`
+/// refuses is not taken, unless it refuses every seed. `goes_on` hears of each round, of how many,
+/// and of the best program so far, and may end the search; `limits` follow from the operations of
+/// the first program. Returns none if there is no seed.
+pub fn search(
+    seeds: &[Dag],
+    helpers: &[Dag],
+    limits: &dyn Fn(usize) -> Limits,
+    accept: &dyn Fn(&Dag) -> bool,
+    goes_on: &dyn Fn([usize; 2], &Dag) -> bool,
+) -> Option<Searched> {
+    let merged = seeds.iter().map(|seed| seed.rebuild(Folding::Semantic));
+    let mut merged: Vec<(usize, Dag)> = merged.enumerate().collect();
+    merged.sort_by_key(|(_, dag)| cost(dag));
+    let accepted = merged.iter().position(|(_, dag)| accept(dag));
+    let is_strict = accepted.is_some();
+    let (seed, start) = match accepted {
+        None if merged.is_empty() => return None,
+        place => merged.swap_remove(place.unwrap_or(0)),
+    };
+    let limits = limits(start.counts().operations());
+    // What no output needs would only be in the way.
+    let others = seeds.iter().chain(helpers);
+    let others: Vec<Dag> = others.map(|dag| dag.rebuild(Folding::Syntactic)).collect();
+    let offers: Vec<Printed> = others.iter().map(Printed::new).collect();
+    let mut best = start.clone();
+    let (mut random, mut idle) = (Random::new(1), 0);
+    for number in 0..limits.rounds {
+        if idle > limits.patience || !goes_on([number, limits.rounds], &best) {
+            break;
+        }
+        let schedule = limits.schedules[number % 2];
+        let found = round(&best, &offers, &limits, schedule, &mut random);
+        let (before, after) = (cost(&best), cost(&found));
+        let is_taken = after <= before && (!is_strict || accept(&found));
+        idle = if is_taken && after < before {
+            0
+        } else {
+            idle + 1
+        };
+        if is_taken {
+            best = found;
+        }
+    }
+    Some(Searched {
+        graph: best,
+        seed,
+        start,
+    })
+}
+
+/// Estimates what the search would make of a program, by one short round.
+pub(crate) fn glance(program: &Dag) -> Dag {
+    round(
+        program,
+        &[],
+        &Limits::GLANCE,
+        Schedule::cool(0),
+        &mut Random::new(1),
+    )
+}
+
+/// Runs one round from a program: what rules, other graphs and the fingerprints offer, then
+/// extraction.
+fn round(
+    program: &Dag,
+    offers: &[Printed],
+    limits: &Limits,
+    schedule: Schedule,
+    random: &mut Random,
+) -> Dag {
+    let mut classes = Classes::default();
+    let (own, choice) = classes.begin(program);
+    rules::saturate(&mut classes, limits.rules, GROWTH);
+    for graph in offers {
+        classes.absorb(graph);
+    }
+    // The program's own classes come first, then those of the rules, then the other graphs'.
+    let most = limits.pairs.max(own.len().min(MAX_OWN));
+    let pool: Vec<Class> = classes.ids().iter().take(most).copied().collect();
+    if limits.pairs > 0 {
+        discover::pairs(&mut classes, &pool);
+    }
+    if own.len() <= limits.substitutes {
+        discover::resubstitute(&mut classes, &own);
+    }
+    let mut extraction = Extraction::new(&classes, &choice);
+    extraction.climb();
+    extraction.anneal(schedule, random);
+    extraction.climb();
+    classes.graph(&extraction.choice())
+}

@@ -1,0 +1,94 @@
+//! Algebraic identities, a row each: a pattern, and (?b ∘ ?c) ∘ ?a as another way to compute it.
+//!
+//! Patterns are over values up to sign: ± is a sum or a difference, and fingerprints tell which
+//! signs the right side has. Distribution is no row: it would double the e-graph for every product
+//! of sums, and formulations bring the expanded forms along.
+
+use std::sync::LazyLock;
+
+use egg::{Language, Pattern, PatternAst, Var};
+
+use super::egraph::{Classes, ENode, Kind};
+
+/// Name, left side, and the kinds of the outer and the inner operation of the right side.
+pub(super) const RULES: &[(&str, &str, Kind, Kind)] = &[
+    (
+        "factor",
+        "(± (* ?a ?b) (* ?a ?c))",
+        Kind::Product,
+        Kind::Sum,
+    ),
+    (
+        "mul-associates",
+        "(* (* ?a ?b) ?c)",
+        Kind::Product,
+        Kind::Product,
+    ),
+    ("add-associates", "(± (± ?a ?b) ?c)", Kind::Sum, Kind::Sum),
+];
+
+/// The rows with every choice of signs and every order of operands on the left.
+static READ: LazyLock<Vec<(Pattern<ENode>, Kind, Kind)>> = LazyLock::new(|| {
+    let mut read = Vec::new();
+    for &(name, left, outer, inner) in RULES {
+        let mut texts = vec![left.to_owned()];
+        for _ in left.matches('±') {
+            let signed = |text: &String| ["+", "-"].map(|sign| text.replacen('±', sign, 1));
+            texts = texts.iter().flat_map(signed).collect();
+        }
+        for text in texts {
+            let pattern = text.parse::<PatternAst<ENode>>();
+            let pattern = pattern.unwrap_or_else(|why| unreachable!("{name}: {why}"));
+            let mut orders = vec![pattern];
+            for place in 0..orders[0].len() {
+                let mut swapped = orders.clone();
+                let node = |order: &mut PatternAst<ENode>| {
+                    order[egg::Id::from(place)].children_mut().reverse();
+                };
+                swapped.iter_mut().for_each(node);
+                orders.extend(
+                    swapped
+                        .into_iter()
+                        .filter(|order| *order != orders[0])
+                        .collect::<Vec<_>>(),
+                );
+                orders.dedup();
+            }
+            read.extend(
+                orders
+                    .into_iter()
+                    .map(|left| (Pattern::new(left), outer, inner)),
+            );
+        }
+    }
+    read
+});
+
+/// Applies every rule to everything there is, `iterations` times or until the e-graph has grown to
+/// `growth` times its size.
+pub(super) fn saturate(classes: &mut Classes, iterations: usize, growth: usize) {
+    let [a, b, c] = ["?a", "?b", "?c"].map(|name| {
+        let variable = name.parse::<Var>();
+        variable.unwrap_or_else(|why| unreachable!("{name}: {why}"))
+    });
+    let most = growth * classes.bound();
+    for _ in 0..iterations {
+        let size = classes.bound();
+        let matches = READ
+            .iter()
+            .map(|(left, outer, inner)| (classes.matches(left), outer, inner));
+        for (found, outer, inner) in matches.collect::<Vec<_>>() {
+            for (class, bound) in found
+                .iter()
+                .flat_map(|f| f.substs.iter().map(|s| (f.eclass, s)))
+            {
+                if classes.bound() < most {
+                    classes.nest(class, *outer, bound[a], *inner, [bound[b], bound[c]]);
+                }
+            }
+        }
+        if classes.bound() == size {
+            break;
+        }
+    }
+}

@@ -1,0 +1,281 @@
+//! Functions by the chain formulas, traced in a regrouping and a form.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use dalembert_model::equations::chain::composite::Composite;
+use dalembert_model::equations::chain::{Chain, Regrouping, Skeleton};
+use dalembert_model::equations::matrix::{Vector, scaled};
+use dalembert_model::equations::regressor::{Column, LinkParameter};
+use dalembert_model::equations::{Arm, DhVariables, Formulation};
+use dalembert_model::number::Exact;
+use dalembert_model::outputs::{Motion, Regrouped, RuntimeParameter, Shared, Written};
+
+use super::numbers::Numbers;
+use super::{Form, MAX_QUICK_LINKS, Seed, Source, Tuned, tune};
+use crate::dag::symbol::Symbol;
+use crate::dag::{Builder, Dag, Folding};
+use crate::function::{Argument, Function, Quantity};
+use crate::program::{Counts, Input};
+use crate::scene::SceneRobot;
+use crate::trace::symbols;
+
+/// Traces a function by the chain formulas; also the operations as executed.
+pub fn trace_chain(
+    scene_robot: &SceneRobot,
+    function: Function,
+    chain: &Chain<Exact>,
+    form: Form,
+    folding: Folding,
+) -> (Dag, Counts) {
+    let builder = Rc::new(RefCell::new(Builder::new(folding)));
+    let mut numbers = Numbers::of(scene_robot, function, &builder);
+    let mut chain = chain.map(|constant| numbers.symbol(constant));
+    let mut gravity = None;
+    if scene_robot.takes(function, RuntimeParameter::Gravity) {
+        let taken: Vector<Symbol> = core::array::from_fn(|axis| {
+            Symbol::input(&builder, Input::Entry(Argument::Gravity, axis))
+        });
+        chain.gravity = scaled(&chain.per_unit, &in_frame_0(scene_robot, &taken));
+        gravity = Some(taken);
+    }
+    drop(numbers);
+    let whole = symbols(scene_robot, &function.arguments(), &builder);
+    let rows = &scene_robot.chained_rows();
+    let following = &scene_robot.following(|x: &Exact| Symbol::from(x.clone()));
+    let motion = &whole.of_joints(rows);
+    let chain = chain.at_speeds(&motion.per_speed);
+    let (chain, at) = &chain.posed(&motion.q);
+    let composite = Composite::new(chain, at);
+    let of_frame = |quantity: &Quantity| quantity.is_regrouped() && quantity.is_of_frame();
+    let arm = (function.quantities().iter().any(of_frame)).then(|| arm(scene_robot, None, &whole));
+    let position = arm.as_ref().map_or_else(Vec::new, |arm| arm.at(&whole.q));
+    let regrouped = Regrouped {
+        chain,
+        at,
+        composite,
+        motion,
+        form,
+        textbook: arm.as_ref().map(|arm| textbook(arm, &position, &whole)),
+        joints: rows,
+        following: &following
+            .iter()
+            .filter_map(|own| own.among(rows))
+            .collect::<Vec<_>>(),
+        shared: Shared::default(),
+    };
+    let mut outputs = Vec::new();
+    for &quantity in function.quantities() {
+        let (rows, values) = match quantity.regrouped(&regrouped) {
+            Some(values) => (rows.clone(), values),
+            None => (
+                (0..whole.q.len()).collect(),
+                written(scene_robot, quantity, &whole, gravity.as_ref()),
+            ),
+        };
+        let selected = scene_robot.select_of(quantity, &rows, following, values);
+        let mut builder = builder.borrow_mut();
+        outputs.extend(selected.iter().map(|output| output.edge(&mut builder)));
+    }
+    let traced = builder.borrow().asked();
+    let graph = std::mem::replace(&mut *builder.borrow_mut(), Builder::new(folding));
+    (graph.finish(outputs), traced)
+}
+
+/// Returns a quantity that the chain formulas do not give, by the recursion in link
+/// axes.
+fn written(
+    scene_robot: &SceneRobot,
+    quantity: Quantity,
+    motion: &Motion<Symbol>,
+    gravity: Option<&Vector<Symbol>>,
+) -> Vec<Symbol> {
+    let arm = arm(scene_robot, gravity, motion);
+    quantity.written(&textbook(&arm, &arm.at(&motion.q), motion))
+}
+
+/// Returns the whole arm in motion.
+fn arm(
+    scene_robot: &SceneRobot,
+    gravity: Option<&Vector<Symbol>>,
+    motion: &Motion<Symbol>,
+) -> Arm<Symbol> {
+    let arm = Arm::from_robot(scene_robot.robot(), &mut |x: &Exact| {
+        Symbol::from(x.clone())
+    });
+    let arm = match gravity {
+        Some(gravity) => arm.with_gravity(gravity),
+        None => arm,
+    };
+    arm.at_speeds(&motion.per_speed)
+}
+
+/// Returns what the recursion in link axes is given.
+fn textbook<'a>(
+    arm: &'a Arm<Symbol>,
+    at: &'a [DhVariables<Symbol>],
+    motion: &'a Motion<Symbol>,
+) -> Written<'a, Symbol> {
+    Written {
+        formulation: Formulation::NewtonEulerLink,
+        arm,
+        at,
+        motion,
+        // Regressors the chain formulas give.
+        columns: &[],
+    }
+}
+
+/// Returns what moves, with exact parameters, the base folded.
+pub fn skeleton(scene_robot: &SceneRobot) -> Skeleton<Exact> {
+    with_columns(scene_robot, &[])
+}
+
+/// Returns a vector of base axes in those of frame 0.
+fn in_frame_0(scene_robot: &SceneRobot, vector: &Vector<Symbol>) -> Vector<Symbol> {
+    let arm = Arm::from_robot(scene_robot.robot(), &mut |x: &Exact| {
+        Symbol::from(x.clone())
+    });
+    arm.with_gravity(vector).gravity
+}
+
+/// Returns the same for a function: if it is a regressor, with its columns; if it takes a
+/// load, with a payload whose parameters are unknown.
+pub fn skeleton_for(scene_robot: &SceneRobot, function: Function) -> Skeleton<Exact> {
+    if !scene_robot.takes(function, RuntimeParameter::Payload) {
+        return with_columns(scene_robot, &scene_robot.columns(function, Exact::clone));
+    }
+    let last = scene_robot.robot().rows().len().saturating_sub(1);
+    let columns = LinkParameter::ALL.map(|parameter| Column::Body {
+        joint: last,
+        body: parameter.unit(),
+    });
+    with_columns(scene_robot, &columns).with_values(&scene_robot.unknowns().values())
+}
+
+fn with_columns(scene_robot: &SceneRobot, columns: &[Column<Exact>]) -> Skeleton<Exact> {
+    let arm = Arm::from_robot(scene_robot.robot(), &mut Exact::clone).fold_base();
+    let mut skeleton = Skeleton::with_columns(&arm, &scene_robot.merged(), columns);
+    let fitted = scene_robot.fitted_links().unwrap_or_default();
+    for (segment, link) in skeleton.links.iter_mut().zip(fitted) {
+        segment.body = link.body.clone();
+        segment.armature = link.armature.clone();
+        segment.friction.viscous = link.viscous.clone();
+    }
+    skeleton
+}
+
+/// The most graphs that a search is offered.
+const MAX_SEEDS: usize = 16;
+
+/// Returns a function in its regrouping in the chain forms, in the chain's own axes and in others:
+/// what is dear in one choice of axes may be cheap in another, and the search mixes them. Where
+/// there are too many, the forms are told in the chain's own axes, and the cheapest in others.
+pub(crate) fn regrouped(
+    scene_robot: &SceneRobot,
+    function: Function,
+    forms: &[Form],
+    tuned: &Tuned,
+) -> Vec<Seed> {
+    let mut chain = Chain::new(&skeleton_for(scene_robot, function), &tuned.regrouping);
+    let axes = axes(&chain);
+    let others = || forms.iter().filter(|form| **form != tuned.form);
+    let mut chosen: Vec<(&Vec<i32>, Form)> = Vec::new();
+    let own = axes.first().into_iter();
+    chosen.extend(own.flat_map(|own| forms.iter().map(move |form| (own, *form))));
+    chosen.extend(axes.iter().skip(1).map(|axes| (axes, tuned.form)));
+    let rest = axes.iter().skip(1);
+    chosen.extend(rest.flat_map(|axes| others().map(move |form| (axes, *form))));
+    let mut seeds: Vec<Seed> = Vec::new();
+    for (axes, form) in chosen {
+        if seeds.len() == MAX_SEEDS {
+            break;
+        }
+        for (link, axes) in chain.links.iter_mut().zip(axes) {
+            link.axes = *axes;
+        }
+        let (graph, traced) = trace_chain(scene_robot, function, &chain, form, Folding::Syntactic);
+        // Of an arm with few links several forms are one.
+        if seeds.iter().all(|seed| seed.graph != graph) {
+            seeds.push(Seed {
+                source: Source::Regrouped,
+                graph,
+                traced,
+            });
+        }
+    }
+    seeds
+}
+
+/// Returns whether axes meet at the base, so that the forms that need it differ from the others.
+pub(crate) fn has_shoulder(scene_robot: &SceneRobot, function: Function) -> bool {
+    let arm = skeleton_for(scene_robot, function);
+    Chain::new(&arm, &Regrouping::base(&arm)).has_shoulder()
+}
+
+/// Returns the regroupings that differ from one in one link; none of chains too long to
+/// look at each.
+pub(crate) fn regroupings(
+    scene_robot: &SceneRobot,
+    function: Function,
+    regrouping: &Regrouping<Exact>,
+) -> Vec<Regrouping<Exact>> {
+    let arm = skeleton_for(scene_robot, function);
+    match arm.links.len() <= MAX_QUICK_LINKS {
+        true => tune::neighbours(&arm, regrouping),
+        false => Vec::new(),
+    }
+}
+
+/// Returns a function in a regrouping and a form, merged by fingerprint.
+pub(crate) fn in_regrouping(
+    scene_robot: &SceneRobot,
+    function: Function,
+    regrouping: &Regrouping<Exact>,
+    form: Form,
+) -> Dag {
+    merged(
+        scene_robot,
+        function,
+        &Chain::new(&skeleton_for(scene_robot, function), regrouping),
+        form,
+    )
+}
+
+pub(super) fn merged(
+    scene_robot: &SceneRobot,
+    function: Function,
+    chain: &Chain<Exact>,
+    form: Form,
+) -> Dag {
+    trace_chain(scene_robot, function, chain, form, Folding::Semantic).0
+}
+
+/// Returns the chain's own axes, each link's, those before each group of parallel
+/// axes, those after it, then what differs from the first two in one link.
+fn axes(chain: &Chain<Exact>) -> Vec<Vec<i32>> {
+    let freedom = chain.freedoms();
+    let links = chain.links.iter().zip(&freedom);
+    let own: Vec<i32> = links
+        .map(|(link, &[less, more])| link.axes.clamp(less, more))
+        .collect();
+    let natural = vec![0; own.len()];
+    let mut all = vec![own.clone(), natural.clone()];
+    all.extend([0, 1].map(|side| freedom.iter().map(|bounds| bounds[side]).collect()));
+    for from in [own, natural] {
+        for (i, &[less, more]) in freedom.iter().enumerate() {
+            for axes in less..=more {
+                let mut choice = from.clone();
+                choice[i] = axes;
+                all.push(choice);
+            }
+        }
+    }
+    let mut different: Vec<Vec<i32>> = Vec::new();
+    for choice in all {
+        if !different.contains(&choice) {
+            different.push(choice);
+        }
+    }
+    different
+}

@@ -1,0 +1,156 @@
+//! The cheapest regrouping for a function: from where to descend, and by which price.
+
+use std::cell::Cell;
+
+use dalembert_model::equations::chain::{Chain, Regrouping};
+use dalembert_model::number::Exact;
+use dalembert_model::outputs::RuntimeParameter;
+
+use super::chain::{merged, skeleton_for};
+use super::tune::{self, Tuned};
+use super::{Form, MAX_QUICK_LINKS};
+use crate::dag::Dag;
+use crate::function::Function;
+use crate::scene::SceneRobot;
+use crate::search::{Effort, cost, glance};
+use crate::watch::{FunctionWatch, Part};
+
+/// The starts of longer chains are compared without a round of the search.
+const MAX_TRIED: usize = 3;
+
+/// How far a program is above the error that is allowed: at most one where it
+/// is admitted. At or above the bound, which is the second argument, it need not be exact.
+pub(crate) type Limit<'a> = &'a dyn Fn(&Dag, f64) -> f64;
+
+/// Above every price of an admitted program. What is refused is compared by
+/// its error, so that a descent from there first goes where it is admitted.
+const REFUSED: u64 = 1 << 48;
+
+/// Returns the price of a program under a limit; `below` is the price to beat.
+fn price(graph: &Dag, limit: Option<Limit<'_>>, below: u64) -> u64 {
+    let cost = cost(graph);
+    let Some(limit) = limit.filter(|_| cost < below) else {
+        return cost;
+    };
+    // What is refused loses to all that is admitted, and to what is refused for less.
+    let bound = match below.checked_sub(REFUSED) {
+        None => 1.0,
+        Some(refused) => (refused as f64 / 1e6).max(1.0),
+    };
+    match limit(graph, bound.next_up()) {
+        admitted if admitted <= 1.0 => cost,
+        refused => REFUSED + (refused * 1e6) as u64,
+    }
+}
+
+/// Returns the regrouping that is cheapest for a function in one of these forms within a limit,
+/// if there is one; the best so far where the watch is over. `from` are regroupings to
+/// start from, besides those that every robot has.
+pub(crate) fn tuned(
+    scene_robot: &SceneRobot,
+    function: Function,
+    forms: &[Form],
+    effort: Effort,
+    limit: Option<Limit<'_>>,
+    from: &[Regrouping<Exact>],
+    watch: Option<FunctionWatch<'_>>,
+) -> Tuned {
+    let arm = skeleton_for(scene_robot, function);
+    let tried = Cell::new(0);
+    let is_over = || {
+        tried.set(tried.get() + 1);
+        watch.is_some_and(|watch| {
+            watch.step(Part::Formulations, [tried.get(), 0], None);
+            watch.is_over()
+        })
+    };
+    let merged = |chain: &Chain<Exact>, form| merged(scene_robot, function, chain, form);
+    // What the search makes of a regrouping is not what the regrouping costs at first.
+    let quick = |chain: &Chain<Exact>, form: Form, below: u64| match is_over() {
+        true => u64::MAX,
+        false => price(&glance(&merged(chain, form)), limit, below),
+    };
+    if scene_robot.takes(function, RuntimeParameter::Payload)
+        && let Some(load) = scene_robot.load()
+    {
+        // The numbers of the load are those of one regrouping, for all functions.
+        return tune::form(
+            &arm,
+            load.regrouping.clone(),
+            forms,
+            |chain, form, below| price(&merged(chain, form), limit, below),
+        );
+    }
+    let start = tune::start(&arm);
+    let with = |axes: Vec<i32>| {
+        let mut from = start.clone();
+        for (link, axes) in from.links.iter_mut().zip(axes) {
+            link.axes = axes;
+        }
+        from
+    };
+    let mut starts: Vec<Regrouping<Exact>> = starts(&Chain::new(&arm, &start))
+        .into_iter()
+        .map(with)
+        .collect();
+    if effort == Effort::Quick && starts.len() > 1 {
+        // One descent: from where the others look dearer already. Of a short chain
+        // a round of the search is cheap, and tells more than the folded formula.
+        starts.sort_by_cached_key(|from| {
+            let chain = Chain::new(&arm, from);
+            match arm.links.len() <= MAX_TRIED {
+                true => quick(&chain, forms[0], u64::MAX),
+                false => price(&merged(&chain, forms[0]), limit, u64::MAX),
+            }
+        });
+        starts.truncate(1);
+    }
+    starts.extend_from_slice(from);
+    let mut tuned: Option<Tuned> = None;
+    for from in starts {
+        let mut found = tune::tune(
+            &arm,
+            from,
+            forms,
+            effort.regrouping_rounds(),
+            |chain, form, below| match is_over() {
+                true => u64::MAX,
+                false => price(&merged(chain, form), limit, below),
+            },
+        );
+        if arm.links.len() <= MAX_QUICK_LINKS {
+            found.price = quick(&Chain::new(&arm, &found.regrouping), found.form, u64::MAX);
+        }
+        if tuned.as_ref().is_none_or(|best| found.price < best.price) {
+            tuned = Some(found);
+        }
+    }
+    let mut tuned = tuned.unwrap_or(Tuned {
+        regrouping: start,
+        form: forms[0],
+        price: u64::MAX,
+    });
+    if effort == Effort::Thorough && arm.links.len() <= MAX_QUICK_LINKS && !is_over() {
+        tuned = tune::tune(&arm, tuned.regrouping, &[tuned.form], 2, quick);
+    }
+    tuned
+}
+
+/// Axes that a descent starts from: each link's own; the last link's before
+/// it turns; those before each group.
+fn starts(chain: &Chain<Exact>) -> Vec<Vec<i32>> {
+    let n = chain.links.len();
+    let freedoms = chain.freedoms();
+    let before: Vec<i32> = freedoms.iter().map(|[less, _]| *less).collect();
+    let mut last = vec![0; n];
+    if n > 0 {
+        last[n - 1] = before[n - 1].max(-1);
+    }
+    let mut starts = vec![vec![0; n]];
+    for axes in [last, before] {
+        if n <= MAX_QUICK_LINKS && !starts.contains(&axes) {
+            starts.push(axes);
+        }
+    }
+    starts
+}

@@ -1,0 +1,50 @@
+//! The load's numbers: in which regrouping of the chain they are.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use dalembert_model::equations::chain::Chain;
+use dalembert_model::number::Exact;
+use dalembert_model::outputs::RuntimeParameter;
+
+use super::chain::{skeleton_for, trace_chain};
+use super::descent::tuned;
+use super::numbers::Numbers;
+use crate::dag::{Builder, Folding, Node};
+use crate::function::{Argument, Function};
+use crate::program::Input;
+use crate::scene::SceneRobot;
+use crate::scene::load::LoadParameters;
+use crate::search::Effort;
+
+/// Returns the robot in its scene with the load's numbers, if a payload is an argument:
+/// those of the regrouping in which torques cost least, as far as torques depend on them. No
+/// other quantity that takes a load depends on more. The same for every request, so that
+/// whoever has the parameters has the load.
+#[must_use]
+pub(crate) fn chosen(scene_robot: SceneRobot) -> SceneRobot {
+    if !scene_robot.has(RuntimeParameter::Payload) {
+        return scene_robot;
+    }
+    let (full, function) = (scene_robot.in_full_motion(), Function::InverseDynamics);
+    let forms = function.forms();
+    let best = tuned(&full, function, &forms, Effort::Quick, None, &[], None);
+    let chain = Chain::new(&skeleton_for(&full, function), &best.regrouping);
+    let (graph, _) = trace_chain(&full, function, &chain, best.form, Folding::Semantic);
+    let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
+    // As the trace meets them.
+    let mut numbers = Numbers::of(&full, function, &builder);
+    chain.map(|number| numbers.symbol(number));
+    let met = numbers.met();
+    let is_read = |index: usize| {
+        let entry = Node::Input(Input::Entry(Argument::Load, index));
+        graph.live().any(|(_, node)| *node == entry)
+    };
+    let read = met
+        .into_iter()
+        .enumerate()
+        .filter(|(index, _)| is_read(*index));
+    let read: Vec<Exact> = read.map(|(_, number)| number).collect();
+    let load = LoadParameters::new(&scene_robot, read, best.regrouping);
+    scene_robot.with_load(load)
+}

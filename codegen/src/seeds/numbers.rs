@@ -1,0 +1,78 @@
+//! The numbers of a chain as formulas read them.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use dalembert_model::number::Exact;
+use dalembert_model::outputs::RuntimeParameter;
+use dalembert_model::scalar::Scalar;
+
+use crate::dag::Builder;
+use crate::dag::symbol::Symbol;
+use crate::function::{Argument, Function};
+use crate::program::Input;
+use crate::scene::SceneRobot;
+use crate::scene::load::{LoadParameters, Unknowns, place};
+
+/// The numbers of a chain as symbols: those that depend on a payload are entries of
+/// the load.
+pub(super) struct Numbers<'a> {
+    builder: &'a Rc<RefCell<Builder>>,
+    unknowns: Option<Unknowns>,
+    chosen: Option<&'a LoadParameters>,
+    /// Where none are chosen yet: all, in the order in which they are met.
+    met: Vec<Exact>,
+}
+
+impl<'a> Numbers<'a> {
+    pub(super) fn of(
+        scene_robot: &'a SceneRobot,
+        function: Function,
+        builder: &'a Rc<RefCell<Builder>>,
+    ) -> Numbers<'a> {
+        let is_loaded = scene_robot.takes(function, RuntimeParameter::Payload);
+        Numbers {
+            builder,
+            unknowns: is_loaded.then(|| scene_robot.unknowns()),
+            chosen: scene_robot.load(),
+            met: Vec::new(),
+        }
+    }
+
+    /// Returns where none were chosen: those that depend on a payload, as they were met.
+    pub(super) fn met(self) -> Vec<Exact> {
+        self.met
+    }
+
+    pub(super) fn symbol(&mut self, number: &Exact) -> Symbol {
+        let is_unknown = |unknowns: &Unknowns| unknowns.occur_in(number);
+        if !self.unknowns.as_ref().is_some_and(is_unknown) {
+            return Symbol::from(number.clone());
+        }
+        let found = match self.chosen {
+            // What no torque depends on may be anything.
+            Some(chosen) => chosen.place(number),
+            None => Some(self.meet(number)),
+        };
+        let Some((index, is_negative)) = found else {
+            return Symbol::zero();
+        };
+        let entry = Symbol::input(self.builder, Input::Entry(Argument::Load, index));
+        match is_negative {
+            true => entry.neg(),
+            false => entry,
+        }
+    }
+
+    fn meet(&mut self, number: &Exact) -> (usize, bool) {
+        if let Some(known) = place(&self.met, number) {
+            return known;
+        }
+        let is_negative = number.leads_negative();
+        self.met.push(match is_negative {
+            true => number.neg(),
+            false => number.clone(),
+        });
+        (self.met.len() - 1, is_negative)
+    }
+}

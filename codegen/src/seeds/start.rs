@@ -1,0 +1,172 @@
+//! What a function's search starts from, by the formulation that was asked for.
+
+use dalembert_model::equations::Formulation;
+use dalembert_model::equations::chain::Regrouping;
+use dalembert_model::number::Exact;
+use dalembert_model::outputs::RuntimeParameter;
+
+use super::{Form, Limit, Seed, Source, Tuned, has_shoulder, regrouped, textbook, tuned};
+use crate::dag::Dag;
+use crate::function::Function;
+use crate::scene::SceneRobot;
+use crate::search::Effort;
+use crate::watch::FunctionWatch;
+use crate::words::Word;
+
+/// The formulations that can be asked for by name. Of the recursion in link axes it is
+/// the one that is cheapest.
+pub(super) const TEXTBOOK: [Formulation; 3] = [
+    Formulation::LagrangeEuler,
+    Formulation::Dalembert,
+    Formulation::NewtonEulerLink,
+];
+
+/// Which formulation a function starts from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Start {
+    /// The cheapest, with the others' values at hand.
+    #[default]
+    Auto,
+    /// One textbook formulation only.
+    Only(Formulation),
+}
+
+impl Start {
+    /// Returns the choices of the command line and the macro.
+    pub fn all() -> impl Iterator<Item = Start> {
+        [Start::Auto].into_iter().chain(TEXTBOOK.map(Start::Only))
+    }
+
+    /// Returns its name on the command line, in the macro and in plans.
+    pub fn name(self) -> &'static str {
+        match self {
+            Start::Auto => "auto",
+            Start::Only(formulation) => Source::Textbook(formulation).name(),
+        }
+    }
+
+    /// Returns the approaches, each searched by itself: the cheapest program that is found is
+    /// taken.
+    pub(crate) fn approaches(self, problem: &Problem<'_>) -> Vec<Approach> {
+        let (scene_robot, function) = (problem.scene_robot, problem.function);
+        let mut quantities = function.quantities().iter();
+        match self {
+            Start::Only(form) => vec![Approach::of_one(textbook(scene_robot, function, form))],
+            Start::Auto if function == Function::Load => {
+                let definition = textbook(scene_robot, function, Formulation::NewtonEulerLink);
+                vec![Approach::of_one(Seed {
+                    source: Source::Definition,
+                    ..definition
+                })]
+            }
+            Start::Auto if quantities.any(|quantity| quantity.is_regrouped()) => {
+                vec![by_chain(problem)]
+            }
+            Start::Auto => by_textbook(problem),
+        }
+    }
+}
+
+impl Word for Start {
+    const WHAT: &'static str = "formulation";
+
+    fn all() -> Vec<(&'static str, Start)> {
+        Start::all().map(|start| (start.name(), start)).collect()
+    }
+}
+
+/// What one search starts from.
+pub(crate) struct Approach {
+    /// The regrouping that was chosen, if one was.
+    pub tuned: Option<Tuned>,
+    /// The graphs, of which the cheapest is the first program.
+    pub seeds: Vec<Seed>,
+    /// Graphs of the function that only offer their values.
+    pub helpers: Vec<Dag>,
+}
+
+impl Approach {
+    fn of_one(seed: Seed) -> Approach {
+        Approach {
+            tuned: None,
+            seeds: vec![seed],
+            helpers: Vec::new(),
+        }
+    }
+}
+
+/// The problem that a search is to solve.
+#[derive(Clone, Copy)]
+pub(crate) struct Problem<'a> {
+    pub scene_robot: &'a SceneRobot,
+    pub function: Function,
+    pub effort: Effort,
+    /// What a program may be off, if there is a limit.
+    pub limit: Option<Limit<'a>>,
+    /// Regroupings to start from, besides those that every robot has.
+    pub from: &'a [Regrouping<Exact>],
+    pub watch: Option<FunctionWatch<'a>>,
+}
+
+/// Returns what the chain formulas do not give: from the recursion or Lagrange–Euler, whichever
+/// is cheaper, and from forms that turn fewer axes or see levers in the joints' axes, each with
+/// Lagrange–Euler's values and those of products of axes at hand. These are small, and what is
+/// dearer by itself often ends lower: all are searched from.
+fn by_textbook(problem: &Problem<'_>) -> Vec<Approach> {
+    let textbook = |form| textbook(problem.scene_robot, problem.function, form);
+    let recursion = textbook(Formulation::NewtonEulerLink);
+    let products = textbook(Formulation::LagrangeEuler);
+    let printed = textbook(Formulation::NewtonEulerLinkAsPrinted);
+    let helpers = vec![products.graph.clone(), printed.graph.clone()];
+    let mut others = vec![
+        printed,
+        textbook(Formulation::Dalembert),
+        textbook(Formulation::NewtonEulerBase),
+    ];
+    others.retain(|seed| seed.graph != recursion.graph);
+    others.dedup_by(|second, first| second.graph == first.graph);
+    let others = others.into_iter().map(|seed| Approach {
+        helpers: helpers.clone(),
+        ..Approach::of_one(seed)
+    });
+    let both = Approach {
+        tuned: None,
+        seeds: vec![recursion, products],
+        helpers: Vec::new(),
+    };
+    [both].into_iter().chain(others).collect()
+}
+
+/// Returns the chain formulas in all of their forms, in the regrouping that is cheapest, with the
+/// recursion's values at hand.
+fn by_chain(problem: &Problem<'_>) -> Approach {
+    let Problem {
+        scene_robot,
+        function,
+        effort,
+        limit,
+        from,
+        watch,
+    } = *problem;
+    let has_shoulder = has_shoulder(scene_robot, function);
+    let mut forms = function.forms();
+    forms.retain(|form| has_shoulder || !form.shoulder);
+    let tuned = tuned(scene_robot, function, &forms, effort, limit, from, watch);
+    // Seen in other axes the hand has hardly a value in common.
+    forms.retain(|form: &Form| form.hand == tuned.form.hand);
+    let mut seeds = regrouped(scene_robot, function, &forms, &tuned);
+    // The textbook recursion gives D column by column and h_ikm by polarisation, with
+    // n² of work a link or more: no match. It has no load, but a body in the hand.
+    let mut quantities = function.quantities().iter();
+    let is_loaded = scene_robot.takes(function, RuntimeParameter::Payload);
+    if !is_loaded && quantities.all(|quantity| quantity.starts_from_recursion()) {
+        let recursion = textbook(scene_robot, function, Formulation::NewtonEulerLink);
+        seeds.push(recursion);
+    }
+    Approach {
+        tuned: Some(tuned),
+        seeds,
+        helpers: Vec::new(),
+    }
+}
