@@ -9,8 +9,8 @@ use std::fs;
 use std::path::Path;
 
 use dalembert_codegen::workspace::{
-    BoundEffort, Certificate, InputBox, Library, Printed, SceneRobot, Sensitivity, lowered,
-    plan_file, scale, trace, within, write_function,
+    BoundEffort, Certificate, InputBox, Library, Printed, Sensitivity, Setup, plan_file, scale,
+    trace, within, write_function,
 };
 use dalembert_codegen::{Function, Program, Request, ScalarType, generate};
 use dalembert_model::equations::Formulation;
@@ -44,7 +44,7 @@ fn the_bench_of_sines_is_up_to_date() {
         .collect();
     let sensitivity = Sensitivity::of(program, &limits, fineness);
     let sines = within(program, scalar, &limits.position, &allowances, &sensitivity).unwrap();
-    let certificate = libm.with_sines(&SceneRobot::whole(&robot), &sines, &sensitivity);
+    let certificate = libm.with_sines(&Setup::whole(&robot), &sines, &sensitivity);
     for bound in &certificate.bounds {
         assert!(bound.total() <= TOLERANCE, "{bound:?}");
     }
@@ -61,7 +61,7 @@ fn the_bench_of_sines_is_up_to_date() {
         ("together", Library::Together, &[][..], ""),
         ("polynomials", Library::Libm, sines.as_slice(), ""),
     ] {
-        let code = lowered(program, scalar, library, sines);
+        let code = program.code(scalar, library, sines);
         let code = write_function(&Printed::of(program, &code), library, &[]);
         text += &format!(
             "\n#[allow(clippy::all, clippy::pedantic)]\npub mod {name} {{\n{before}{code}}}\n"
@@ -79,11 +79,11 @@ fn the_recursion_in_symbols_is_up_to_date() {
         let file = root().join(format!("generated/robots/{name}.toml"));
         let source = fs::read_to_string(&file).unwrap();
         let reading = read::parse(&source, &read::Options::default()).unwrap();
-        let scene_robot = SceneRobot::whole(&reading.robot);
+        let setup = Setup::whole(&reading.robot);
         let function = Function::InverseDynamics;
-        let traced = trace(&scene_robot, function, Formulation::NewtonEulerLink);
-        let program = Program::in_scene(&scene_robot, function, &traced.graph);
-        let code = lowered(&program, ScalarType::F64, Library::Libm, &[]);
+        let traced = trace(setup.task(function), Formulation::NewtonEulerLink);
+        let program = Program::in_scene(setup.task(function), &traced.graph);
+        let code = program.in_doubles();
         let code = write_function(&Printed::of(&program, &code), Library::Libm, &[]);
         text +=
             &format!("\n#[allow(clippy::all, clippy::pedantic)]\npub mod {name} {{\n{code}}}\n");

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use dalembert_checker::exact::{self, Distance, Line, RATE};
 use dalembert_checker::file::MOST_BYTES;
 use dalembert_checker::{Fault, Output, audit, read};
-use dalembert_codegen::workspace::{SceneRobot, input_hash};
+use dalembert_codegen::workspace::{Setup, input_hash};
 use dalembert_stamp::Stamp;
 use serde_json::{Value, json};
 
@@ -230,7 +230,7 @@ fn origin(file: &Path, source: &str, robot: &Source) -> Result<Option<String>, F
     let own = &robot.robot;
     // A certificate has the hash of the robot in its scene.
     let scenes = robot.scenes.iter().map(Some).chain([None]);
-    let placed = scenes.filter_map(|scene| SceneRobot::of(own, scene).ok());
+    let placed = scenes.filter_map(|scene| Setup::of(own, scene).ok());
     let mut hashes: Vec<String> = placed.map(|placed| input_hash(placed.robot())).collect();
     let hash = input_hash(own);
     hashes.push(hash.clone());

@@ -73,7 +73,7 @@ fn operations(generated: &Generated, detail: Detail) -> Table {
         let mut row = cells![function.function.to_string()];
         row.extend(counts(&own));
         row.extend(cells![
-            function.program.depth(),
+            function.program.graph().depth(),
             calls(generated, function.function),
             format!("{}{plan}", function.source.name()),
             format!("proved, p(wrong) < 1e{}", Proof::FAILURE_EXPONENT),
@@ -108,7 +108,7 @@ fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Gene
     }
     // What a tolerance admits has its certificates.
     let has_tolerance = generated.functions.iter().any(|own| own.admitted.is_some());
-    if let Some(own) = request.scene_robot(robot).ok().filter(|_| !has_tolerance) {
+    if let Some(own) = request.setup(robot).ok().filter(|_| !has_tolerance) {
         let states = affordable_states(robot.joints.len());
         let drawn = own.states(states, SEED);
         let bench = Bench::new(own);
@@ -240,7 +240,7 @@ fn calls(generated: &Generated, function: Function) -> usize {
         return 0;
     };
     let text = &emitted.text;
-    let called = text.trig.iter().filter(|trig| trig.kernel.is_none());
+    let called = text.pairs.iter().filter(|pair| pair.kernel.is_none());
     let angles = match text.library {
         Library::Libm => called.count(),
         Library::Together => called.count().min(1),

@@ -10,9 +10,7 @@ use dalembert_model::equations::Formulation;
 use dalembert_model::robot::Robot;
 
 use dalembert_codegen::Function;
-use dalembert_codegen::workspace::{
-    Folding, MAX_OUTPUTS, Node, Quantity, SceneRobot, Sizes, trace,
-};
+use dalembert_codegen::workspace::{Folding, MAX_OUTPUTS, Node, Quantity, Setup, Sizes, trace};
 
 /// The value of a coefficient.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -55,7 +53,7 @@ pub fn couplings(robot: &Robot) -> Option<Vec<Coupling>> {
         0..=6 => Formulation::LagrangeEuler,
         _ => Formulation::NewtonEulerLink,
     };
-    let graph = trace(&SceneRobot::whole(robot), function, formulation)
+    let graph = trace(Setup::whole(robot).task(function), formulation)
         .graph
         .rebuild(Folding::Semantic);
     let mut outputs = graph.outputs.iter();

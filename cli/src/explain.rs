@@ -2,7 +2,7 @@
 //! Table 3 of the paper; and the coefficients that vanish or repeat.
 
 use dalembert_codegen::workspace::{
-    AngleSum, Argument, Input, JointState, Quantity, SEED, SceneRobot, Task, admitted, input_hash,
+    Argument, Input, Job, JointState, Quantity, SEED, Setup, admitted, input_hash,
 };
 use dalembert_codegen::{Function, GenerateError, Program, Request, ScalarType};
 use dalembert_model::equations::{Arm, Formulation};
@@ -38,7 +38,7 @@ const STATES: usize = 200;
 #[derive(Clone, Debug)]
 pub struct Explanation {
     /// The robot, in its scene.
-    pub scene_robot: SceneRobot,
+    pub setup: Setup,
     /// Which function.
     pub function: Function,
     /// The steps, in their order; the last is what is generated.
@@ -53,11 +53,10 @@ pub struct Explanation {
 /// # Errors
 /// Those of [`generate`](dalembert_codegen::generate).
 pub fn explain(robot: &Robot, request: &Request) -> Result<Vec<Explanation>, GenerateError> {
-    let scene_robot =
-        SceneRobot::of(robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
-    let task = Task {
+    let setup = Setup::of(robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
+    let job = Job {
         robot,
-        scene_robot: &scene_robot,
+        setup: &setup,
         request,
     };
     let mut explanations: Vec<Explanation> = Vec::new();
@@ -66,16 +65,16 @@ pub fn explain(robot: &Robot, request: &Request) -> Result<Vec<Explanation>, Gen
         if explanations.iter().any(|own| own.function == function) {
             continue;
         }
-        let (rows, program) = steps::exact(&task, function)?;
+        let (rows, program) = steps::exact(&job, function)?;
         programs.push(program);
         explanations.push(Explanation {
-            scene_robot: scene_robot.clone(),
+            setup: setup.clone(),
             function,
             rows,
         });
     }
     let programs: Vec<&Program> = programs.iter().collect();
-    let admitted = admitted(&task, &programs)?;
+    let admitted = admitted(&job, &programs)?;
     for (explanation, admitted) in explanations.iter_mut().zip(admitted.iter().flatten()) {
         explanation.rows.extend(steps::tolerated(admitted)?);
     }
@@ -86,14 +85,14 @@ impl Explanation {
     /// Measures what rounding costs each row, of a vector and of an entry, in u, at states inside the limits of the robot, or of its
     /// scene.
     pub fn rounding(&self, states: usize) -> Vec<[f64; 2]> {
-        let (scene_robot, function) = (&self.scene_robot, self.function);
-        let bench = Bench::new(scene_robot.clone());
-        let drawn = scene_robot.states(states, SEED);
+        let (setup, function) = (&self.setup, self.function);
+        let bench = Bench::new(setup.clone());
+        let drawn = setup.states(states, SEED);
         let samples = |scalar| bench.samples(function, scalar, &drawn, &drawn);
         let double = samples(ScalarType::F64);
-        let exact: Arm<Exact> = Arm::from_robot(scene_robot.robot(), &mut Exact::clone);
+        let exact: Arm<Exact> = Arm::from_robot(setup.robot(), &mut Exact::clone);
         let arm = exact.map(f64::nearest);
-        let sizes = scene_robot.sizes(function);
+        let sizes = setup.sizes(function);
         let row = |row: &Row| {
             let scalar = row.scalar();
             let code = Measured {
@@ -103,10 +102,10 @@ impl Explanation {
                 vanishing: vec![false; function.outputs(sizes)],
                 run: match &row.code {
                     Code::Formula(own) => {
-                        Box::new(|state| formula(scene_robot, &arm, *own, function, state))
+                        Box::new(|state| formula(setup, &arm, *own, function, state))
                     }
                     Code::Program(program) => {
-                        let text = program.lower(ScalarType::F64, |_| None);
+                        let text = program.in_doubles();
                         Box::new(move |state| text.run_at(state))
                     }
                     Code::Emitted(text, _) => Box::new(|state| text.run_at(state)),
@@ -124,27 +123,24 @@ impl Explanation {
 
 /// Returns a formulation over f64, its constants rounded once.
 fn formula(
-    scene_robot: &SceneRobot,
+    setup: &Setup,
     arm: &Arm<f64>,
     formulation: Formulation,
     function: Function,
     state: &JointState,
 ) -> Vec<f64> {
-    let pair = |angle: AngleSum| {
-        // A motion reads the angles of single joints only.
-        libm::sincos(angle.terms().map(|(joint, _)| state.q[joint]).sum())
-    };
     let input = |input| match input {
-        Input::Sin(angle) => pair(angle).0,
-        Input::Cos(angle) => pair(angle).1,
+        Input::Sin(joint) => libm::sincos(state.q[joint]).0,
+        Input::Cos(joint) => libm::sincos(state.q[joint]).1,
         Input::PerSpeed(joint) => {
             let qd = state.entry(Argument::Velocity, joint);
-            scene_robot.per_speed(joint, &qd, f64::nearest, |x| libm::sqrt(*x))
+            setup.per_speed(joint, &qd, f64::nearest, |x| libm::sqrt(*x))
         }
         Input::Entry(argument, joint) => state.entry(argument, joint),
     };
-    let posed = scene_robot.posed(function, arm.clone(), input, f64::nearest);
-    posed.results(scene_robot, function, formulation)
+    let task = setup.task(function);
+    let posed = task.posed_arm(arm.clone(), &(f64::nearest, input));
+    posed.results(formulation)
 }
 
 /// Runs the subcommand.

@@ -8,8 +8,7 @@
 use std::ops::Range;
 
 use dalembert_codegen::workspace::{
-    Emitted, Granted, JointState, LEAST_PART, Quantity, Reference, Runtime, SceneRobot, Sizes,
-    TrueValue,
+    Emitted, Granted, JointState, LEAST_PART, Quantity, Reference, Runtime, Setup, Sizes, TrueValue,
 };
 use dalembert_codegen::{Function, ScalarType};
 use dalembert_model::number::Rounded;
@@ -100,7 +99,7 @@ pub struct Bench {
 
 impl Bench {
     /// Prepares the measurement of a robot's functions.
-    pub fn new(robot: SceneRobot) -> Bench {
+    pub fn new(robot: Setup) -> Bench {
         let sizes = robot.robot().joints.iter();
         let sizes = sizes.flat_map(|joint| [&joint.mass, &joint.a, &joint.d]);
         let largest = sizes

@@ -8,7 +8,7 @@ use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 
 use dalembert_codegen::workspace::{
-    Admitted, Certificate, Columns, Dag, Folding, Found, Lowered, Task, cost, replay, search,
+    self, Admitted, Certificate, Columns, Dag, Folding, Found, Job, cost, replay, search,
     search_graphs, skeleton, trace, trace_chain, tune, tune::Tuned,
 };
 use dalembert_codegen::{Counts, Function, GenerateError, Program, Request, ScalarType, Start};
@@ -40,7 +40,7 @@ pub enum Code {
     /// A program.
     Program(Box<Program>),
     /// A text as it is emitted, with its own sines if it has such.
-    Emitted(Box<Lowered>, ScalarType),
+    Emitted(Box<workspace::Code>, ScalarType),
 }
 
 /// One step.
@@ -80,7 +80,7 @@ const MAX_WRITTEN: usize = 8;
 /// # Errors
 /// Those of the search; of a regressor no column comes from regrouped parameters.
 pub(super) fn exact(
-    task: &Task<'_>,
+    job: &Job<'_>,
     function: Function,
 ) -> Result<(Vec<Row>, Program), GenerateError> {
     if function.columns() != Columns::None {
@@ -90,17 +90,17 @@ pub(super) fn exact(
     let anew = Request {
         start: Start::Auto,
         plan: None,
-        ..task.request.clone()
+        ..job.request.clone()
     };
-    let found = search(&task.with(&anew), function)?;
+    let found = search(&job.with(&anew), function)?;
     let tuned = found.tuned.as_ref();
     let tuned = tuned.ok_or(GenerateError::Unexplained(function))?;
     let mut steps = Steps {
-        task,
+        job,
         function,
         rows: Vec::new(),
     };
-    if task.robot.joints.len() <= MAX_WRITTEN {
+    if job.robot.joints.len() <= MAX_WRITTEN {
         steps.lagrange_euler();
     }
     steps.newton_euler();
@@ -111,7 +111,7 @@ pub(super) fn exact(
 
 /// The steps of one function, as far as they were taken.
 struct Steps<'t> {
-    task: &'t Task<'t>,
+    job: &'t Job<'t>,
     function: Function,
     rows: Vec<Row>,
 }
@@ -126,19 +126,18 @@ impl Steps<'_> {
     }
 
     fn graph(&mut self, step: &'static str, graph: &Dag) {
-        let program = Program::in_scene(self.task.scene_robot, self.function, graph);
+        let program = Program::in_scene(self.job.setup.task(self.function), graph);
         self.program(step, program);
     }
 
     /// Adds Lagrange–Euler: as written, traced, merged; then what the general machinery
     /// makes of it alone.
     fn lagrange_euler(&mut self) {
-        let (scene_robot, request) = (self.task.scene_robot, self.task.request);
-        let trace = trace(scene_robot, self.function, Formulation::LagrangeEuler);
-        let joints = scene_robot.robot().joints.iter().enumerate();
-        let turning = joints.filter(|(i, joint)| {
-            scene_robot.lock(*i).is_none() && joint.kind == JointKind::Revolute
-        });
+        let (setup, request) = (self.job.setup, self.job.request);
+        let trace = trace(setup.task(self.function), Formulation::LagrangeEuler);
+        let joints = setup.robot().joints.iter().enumerate();
+        let turning = joints
+            .filter(|(i, joint)| setup.lock(*i).is_none() && joint.kind == JointKind::Revolute);
         self.rows.push(Row {
             step: "lagrange_euler_written",
             counts: Counts {
@@ -162,7 +161,7 @@ impl Steps<'_> {
     /// Adds Newton–Euler in link axes.
     fn newton_euler(&mut self) {
         let formulation = Formulation::NewtonEulerLink;
-        let graph = trace(self.task.scene_robot, self.function, formulation).graph;
+        let graph = trace(self.job.setup.task(self.function), formulation).graph;
         self.graph("newton_euler_folded", &graph);
         self.graph(
             "newton_euler_fingerprints",
@@ -173,8 +172,8 @@ impl Steps<'_> {
     /// Adds the chain form in one regrouping after the other, each in its cheapest form: nothing
     /// moved; everything that can; per link as much as is cheapest, origins too; and the unit of length.
     fn chain(&mut self, tuned: &Tuned) {
-        let (scene_robot, function) = (self.task.scene_robot, self.function);
-        let arm = skeleton(scene_robot);
+        let (setup, function) = (self.job.setup, self.function);
+        let arm = skeleton(setup);
         let mut metres = tuned.regrouping.clone();
         (metres.unit, metres.per_unit) = (Exact::one(), Exact::one());
         for (step, regrouping) in [
@@ -186,7 +185,7 @@ impl Steps<'_> {
             let chain = Chain::new(&arm, regrouping);
             let forms = function.forms().into_iter();
             let graphs = forms
-                .map(|form| trace_chain(scene_robot, function, &chain, form, Folding::Semantic).0);
+                .map(|form| trace_chain(setup.task(function), &chain, form, Folding::Semantic).0);
             if let Some(cheapest) = graphs.min_by_key(cost) {
                 self.graph(step, &cheapest);
             }
@@ -197,9 +196,9 @@ impl Steps<'_> {
     /// is generated, or what a tolerance is applied to.
     fn searched(&mut self, found: &Found) -> Result<Program, GenerateError> {
         let graph = &found.searched.graph;
-        let mut last = Program::in_scene(self.task.scene_robot, self.function, graph);
+        let mut last = Program::in_scene(self.job.setup.task(self.function), graph);
         self.program("search", last.clone());
-        if let Some(entry) = replay(self.task, self.function)? {
+        if let Some(entry) = replay(self.job, self.function)? {
             last = entry.program.clone();
             self.program("plan", last.clone());
         }
@@ -228,7 +227,7 @@ fn kept(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
 pub(super) fn tolerated(admitted: &Admitted) -> Result<Vec<Row>, GenerateError> {
     let row = |certificate: &Certificate| {
         let (function, scalar) = (certificate.emitted.function, certificate.scalar);
-        let text = Lowered::parse(&certificate.text, function, scalar)
+        let text = workspace::Code::parse(&certificate.text, function, scalar)
             .map_err(|error| GenerateError::Defect(function, Some(scalar), error.to_string()))?;
         Ok(Row {
             step: "tolerance",

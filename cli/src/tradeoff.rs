@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use dalembert_codegen::workspace::{ErrorBudget, SceneKey, SceneRobot, prove};
+use dalembert_codegen::workspace::{ErrorBudget, SceneKey, Setup, prove};
 use dalembert_codegen::{GenerateError, Program, Request, ScalarType};
 use dalembert_model::scene::{Scale, Scene};
 use serde_json::Value;
@@ -65,8 +65,7 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
         Ok::<[Target; 2], Failure>([csv?, svg?])
     });
     let targets = targets.transpose()?;
-    let scene_robot =
-        SceneRobot::of(&source.robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
+    let setup = Setup::of(&source.robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
     let mut functions = source
         .generate(context, &mut request)?
         .functions
@@ -74,19 +73,10 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
     let exact = functions.next().map(|function| function.program);
     let mut exact = exact.ok_or_else(|| Failure::from(GenerateError::Empty))?;
     let relative_to = relative_to(args, scene.as_ref());
-    let climb = |exact: &Program| {
-        climb(
-            args,
-            &request,
-            &scene_robot,
-            exact,
-            relative_to,
-            &tolerances,
-        )
-    };
+    let climb = |exact: &Program| climb(args, &request, &setup, exact, relative_to, &tolerances);
     let mut points = climb(&exact)?;
     // What a tolerance led to may be exact, and cheaper than what the exact search found.
-    if let Some(better) = better(&scene_robot, &exact, &points) {
+    if let Some(better) = better(&setup, &exact, &points) {
         points = climb(&better)?;
         exact = better;
     }
@@ -162,12 +152,12 @@ fn exact_request(
 fn climb(
     args: &TradeoffArgs,
     request: &Request,
-    scene_robot: &SceneRobot,
+    setup: &Setup,
     exact: &Program,
     relative_to: Scale,
     tolerances: &[f64],
 ) -> Result<Vec<Point>, Failure> {
-    let frame = ErrorBudget::new(scene_robot, exact, relative_to).map_err(|refusal| {
+    let frame = ErrorBudget::new(setup, exact, relative_to).map_err(|refusal| {
         Failure::Input(format!(
             "error: {}: {refusal}\n  = help: give the limits in the robot file, or the box of a scene",
             args.robot.display()
@@ -181,13 +171,13 @@ fn climb(
 }
 
 /// Returns the cheapest program of a tolerance that is proved exact and cheaper than the exact search's.
-fn better(scene_robot: &SceneRobot, exact: &Program, points: &[Point]) -> Option<Program> {
+fn better(setup: &Setup, exact: &Program, points: &[Point]) -> Option<Program> {
     let programs = points.iter().map(|point| &point.certificate.emitted);
     let fewer = |own: &&Program| own.counts().operations() < exact.counts().operations();
     let mut fewer: Vec<&Program> = programs.filter(fewer).collect();
     fewer.sort_by_key(|own| own.counts().operations());
     let mut fewer = fewer.into_iter();
-    fewer.find(|own| prove(scene_robot, own).is_ok()).cloned()
+    fewer.find(|own| prove(setup, own).is_ok()).cloned()
 }
 
 /// Returns the tolerances, ascending, each once.

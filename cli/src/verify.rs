@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use dalembert_codegen::workspace::{
-    Emitted, JointState, Quantity, SEED, STATES, angle_name, bound_of, falsify,
+    Emitted, JointState, Quantity, SEED, STATES, bound_of, falsify,
 };
 use dalembert_codegen::{Function, GenerateError, Generated, Request, ScalarType};
 use serde_json::Value;
@@ -61,10 +61,10 @@ pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
         proofs.row(cells![own.function.to_string(), own.proof.to_string()]);
     }
     done.report.table("proofs", "", proofs);
-    let scene_robot = request.scene_robot(robot).map_err(GenerateError::Scene)?;
-    let states = scene_robot.states(args.states, SEED);
+    let setup = request.setup(robot).map_err(GenerateError::Scene)?;
+    let states = setup.states(args.states, SEED);
     let claimed = claims(&generated, &mut done)?;
-    let bench = Bench::new(scene_robot);
+    let bench = Bench::new(setup);
     if let Some((file, states)) = args.given.as_ref().zip(given) {
         // A state rounded to f32 is another state.
         let emitted = generated.emitted.iter();
@@ -225,14 +225,14 @@ fn sines(generated: &Generated, states: &[JointState], done: &mut Done) {
             continue;
         };
         let proved = function.sines(emitted.scalar).iter();
-        for ((angle, seen), own) in emitted.sines(states).into_iter().zip(proved) {
+        for ((joint, seen), own) in emitted.sines(states).into_iter().zip(proved) {
             // The sine that it is held against has an ulp of its own.
             let proved = own.errors.worst() + f64::EPSILON;
             failed += usize::from(seen > proved);
             table.row(cells![
                 emitted.function.to_string(),
                 emitted.scalar.name(),
-                angle_name(angle),
+                format!("q{}", joint + 1),
                 Cell::power(seen, 1),
                 Cell::of(bound_of(proved, 2), proved),
                 if seen <= proved { "ok" } else { "FAILED" },

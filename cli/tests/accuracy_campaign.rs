@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use crate::robots::draw::robots;
 use dalembert_cli::measure::{Bench, Code, VECTOR};
-use dalembert_codegen::workspace::{Quantity, SEED, SceneRobot, seeded};
+use dalembert_codegen::workspace::{Quantity, SEED, Setup, seeded};
 use dalembert_codegen::{Function, GenerateError, Request, ScalarType, generate};
 
 /// The number of states per robot.
@@ -30,7 +30,7 @@ fn campaign(count: usize, each: usize, longest: usize) -> Worst {
         if n > longest {
             continue;
         }
-        let bench = Bench::new(SceneRobot::whole(&robot));
+        let bench = Bench::new(Setup::whole(&robot));
         let states = seeded(&robot, STATES, SEED ^ seed);
         for _ in 0..each {
             let function = outputs[next % outputs.len()];

@@ -4,7 +4,7 @@ use std::slice;
 
 use dalembert_cli::extremes::cases::Change;
 use dalembert_cli::measure::{Bench, Code, VECTOR};
-use dalembert_codegen::workspace::{Emitted, SceneRobot, parse, seeded};
+use dalembert_codegen::workspace::{Emitted, Setup, parse, seeded};
 use dalembert_codegen::{Function, GenerateError, Request, ScalarType, generate};
 use dalembert_model::robot::Robot;
 
@@ -25,7 +25,7 @@ fn request(function: Function, start: &str) -> Request {
 }
 
 fn is_within_the_bound(robot: &Robot, emitted: &Emitted, states: usize) {
-    let bench = Bench::new(SceneRobot::whole(robot));
+    let bench = Bench::new(Setup::whole(robot));
     for state in seeded(robot, states, 1) {
         for found in bench.measure(
             &Code::of(emitted),

@@ -14,9 +14,7 @@ struct Entry(usize, usize);
 
 fn reads(input: Input, place: Entry) -> bool {
     match input {
-        Input::Sin(angle) | Input::Cos(angle) => {
-            place.0 == 0 && angle.terms().any(|(joint, _)| joint == place.1)
-        }
+        Input::Sin(joint) | Input::Cos(joint) => place == Entry(0, joint),
         Input::PerSpeed(joint) => place == Entry(1, joint),
         Input::Entry(argument, joint) => place == Entry(argument.index(), joint),
     }

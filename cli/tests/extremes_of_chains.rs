@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use dalembert_cli::extremes::Held;
 use dalembert_cli::measure::{Bench, Code, ENTRY, VECTOR};
-use dalembert_codegen::workspace::{Emitted, Quantity, SceneRobot};
+use dalembert_codegen::workspace::{Emitted, Quantity, Setup};
 use dalembert_codegen::{Function, Request, ScalarType, Start, generate};
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::Robot;
@@ -79,7 +79,7 @@ fn categories_meet_their_criteria(scalar: ScalarType, range: Range<usize>) {
         let (robot, state) = (&case.robot, &case.state);
         let known = robots.iter().position(|(known, ..)| known == robot);
         let known = known.unwrap_or_else(|| {
-            let bench = Bench::new(SceneRobot::whole(robot));
+            let bench = Bench::new(Setup::whole(robot));
             robots.push((robot.clone(), bench, emitted(robot, scalar)));
             robots.len() - 1
         });

@@ -2,7 +2,7 @@
 
 use dalembert_cli::extremes::{Row, Verdict, divided, inside, nearest_to_singular};
 use dalembert_cli::measure::{Bench, Code, VECTOR};
-use dalembert_codegen::workspace::{Literal, Operand, SceneRobot, seeded};
+use dalembert_codegen::workspace::{Literal, Node, Setup, seeded};
 use dalembert_codegen::{Function, Request, generate};
 use dalembert_model::number::Rational;
 use dalembert_model::read;
@@ -29,7 +29,7 @@ fn planted_faults_are_found() {
         change(&mut wrong, part);
         let request = Request::of(&[Function::InverseDynamics]);
         let generated = generate(&wrong, &request).unwrap();
-        let bench = Bench::new(SceneRobot::whole(&robot));
+        let bench = Bench::new(Setup::whole(&robot));
         let states = seeded(&robot, STATES, 1);
         let found = bench.measure(&Code::of(&generated.emitted[0]), &states, &states);
         assert_eq!(found.len(), 1, "{joint}");
@@ -50,8 +50,9 @@ fn no_number_fails_inside_the_limits() {
     let robot = support::robot("planar2r");
     let generated = generate(&robot, &Request::of(&[Function::Gravity])).unwrap();
     let mut broken = generated.emitted[0].clone();
-    broken.text.outputs[0].value = Operand::Constant(Literal(f64::NAN));
-    let bench = Bench::new(SceneRobot::whole(&robot));
+    let output = broken.text.dag.outputs[0];
+    broken.text.dag.nodes[output.index()] = Node::Constant(Literal(f64::NAN));
+    let bench = Bench::new(Setup::whole(&robot));
     let rows = inside(&bench, [&broken].into_iter(), &seeded(&robot, STATES, 1));
     assert_eq!(rows[0].verdict, Verdict::Failed);
 }
@@ -61,7 +62,7 @@ fn no_number_fails_inside_the_limits() {
 #[test]
 fn the_search_finds_where_two_rods_are_nearest_to_singular() {
     let robot = support::robot("planar2r");
-    let bench = Bench::new(SceneRobot::whole(&robot));
+    let bench = Bench::new(Setup::whole(&robot));
     let (condition, q) = nearest_to_singular(&robot, &bench);
     let r = (5.0 / 6.0) / (8.0f64 / 9.0).sqrt();
     let expected = (1.0 + r) / (1.0 - r);

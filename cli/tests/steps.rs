@@ -3,7 +3,7 @@
 
 use dalembert_cli::explain::{Explanation, explain};
 use dalembert_cli::steps::Code;
-use dalembert_codegen::workspace::{SceneRobot, prove};
+use dalembert_codegen::workspace::{Setup, prove};
 use dalembert_codegen::{Function, Request, ScalarType, generate};
 use dalembert_model::number::Rational;
 use dalembert_model::scene::Scale;
@@ -31,7 +31,7 @@ fn every_row_is_proved() {
                 if let Code::Program(program) = row.code {
                     let step = row.step;
                     assert_eq!(row.counts, program.counts());
-                    prove(&SceneRobot::whole(&robot), &program)
+                    prove(&Setup::whole(&robot), &program)
                         .unwrap_or_else(|e| panic!("{name} {step}: {e}"));
                 }
             }
@@ -48,13 +48,13 @@ fn a_scene_is_explained() {
     let reading = support::reading_with("planar3r", scene);
     let request = Request::default().in_scene(&reading.scenes[0]);
     let explained = explain(&reading.robot, &request).unwrap().remove(0);
-    let scene_robot = SceneRobot::of(&reading.robot, Some(&reading.scenes[0])).unwrap();
+    let setup = Setup::of(&reading.robot, Some(&reading.scenes[0])).unwrap();
     let (last, exact) = explained.rows.split_last().unwrap();
     assert_eq!(last.step, "tolerance");
     for row in exact {
         if let Code::Program(program) = &row.code {
             let step = row.step;
-            prove(&scene_robot, program).unwrap_or_else(|e| panic!("{step}: {e}"));
+            prove(&setup, program).unwrap_or_else(|e| panic!("{step}: {e}"));
         }
     }
     let searched = operations(&explained, "search");

@@ -11,8 +11,7 @@ use crate::bound::sample::{climb, draw};
 use crate::bound::sensitivity::{Rounding, rounding};
 use crate::certificate::Certificate;
 use crate::language::read::TextError;
-use crate::program::columns::Columns;
-use crate::program::{Lowered, ScalarType};
+use crate::program::{Code, ScalarType};
 use crate::random::Random;
 use crate::states::JointState;
 
@@ -72,7 +71,7 @@ pub fn falsify(
                 errors[output][0]
             });
             tops.push(climb(limits, edited, MOVES, &mut climbing, &mut |state| {
-                falsifier.emitted.rounded(output, state)
+                rounded(&falsifier.emitted, output, state)
             }));
             random.bits();
         }
@@ -101,8 +100,8 @@ const LAST: [f64; 4] = [1e-3, 1e-4, 1e-5, 3e-6];
 /// Both texts, and what was seen of them.
 struct Falsifier<'c> {
     certificate: &'c Certificate,
-    emitted: Lowered,
-    exact: Lowered,
+    emitted: Code,
+    exact: Code,
     granted: Vec<Rounding>,
     falsification: Falsification,
 }
@@ -115,8 +114,8 @@ impl<'c> Falsifier<'c> {
         let limits = &certificate.limits;
         Ok(Falsifier {
             certificate,
-            emitted: Lowered::parse(printed, function, certificate.scalar)?,
-            exact: program.lower(ScalarType::F64, |_| None),
+            emitted: Code::parse(printed, function, certificate.scalar)?,
+            exact: program.in_doubles(),
             granted: rounding(program, ScalarType::F64, &[], limits, 64),
             falsification: Falsification {
                 observed: vec![0.0; certificate.scales.len()],
@@ -147,15 +146,8 @@ impl<'c> Falsifier<'c> {
     fn errors(&mut self, states: &[JointState]) -> Vec<Vec<f64>> {
         let Certificate { scalar, limits, .. } = self.certificate;
         let states: Vec<JointState> = states.iter().map(|s| held(s, *scalar, limits)).collect();
-        let exact = self.exact.run_columns(&Columns::<f64>::of(&states));
-        let emitted = match scalar {
-            ScalarType::F64 => self.emitted.run_columns(&Columns::<f64>::of(&states)),
-            ScalarType::F32 => {
-                let single = self.emitted.run_columns(&Columns::<f32>::of(&states));
-                let wide = |column: Vec<f32>| column.into_iter().map(f64::from).collect();
-                single.into_iter().map(wide).collect()
-            }
-        };
+        let exact = self.exact.run_at_many(&states);
+        let emitted = self.emitted.run_at_many(&states);
         self.falsification.states += states.len();
         let mut all = Vec::with_capacity(emitted.len());
         for (i, (emitted, exact)) in emitted.iter().zip(&exact).enumerate() {
@@ -179,6 +171,17 @@ impl<'c> Falsifier<'c> {
         }
         all
     }
+}
+
+/// Computes the first-order rounding error that an output may have at a state, in units of u: the
+/// sum of |value·adjoint| over all operations.
+fn rounded(code: &Code, output: usize, state: &JointState) -> f64 {
+    let (values, mut adjoints) = (code.values_at(state), Vec::new());
+    let top = code.dag.outputs[output].node;
+    code.dag.adjoints(top, &values, &mut adjoints);
+    let operations = code.dag.operations().map(|(id, ..)| id as usize);
+    let errors = operations.take_while(|id| *id <= top as usize);
+    errors.map(|id| (values[id] * adjoints[id]).abs()).sum()
 }
 
 /// Moves so many coordinates, by no more than a part of their ranges.

@@ -11,13 +11,13 @@
 //! - `states`: joint states inside a robot's limits
 //! - `function`: the functions that can be generated
 //! - `words`: values that users name by a word
-//! - `program`: straight-line code, its inputs, scalars, counts and text
-//! - `dag`: the formulas as a graph with exact constants and fingerprints
+//! - `dag`: straight-line code as a graph, and the formulas with exact constants and fingerprints
+//! - `program`: programs and their code in a scalar, as it runs and is written
 //! - `interval`: intervals, rounded outward
 //! - `split`: the error of emitted code by cause
 //! - `watch`: watching a long search, and ending it early
 //! - `search`: fewer operations, same function
-//! - `scene`: the robot in its scene: locked joints, results asked for
+//! - `setup`: the robot in its scene: locked joints, results asked for
 //! - `trace`: the equations as a graph
 //! - `seeds`: the formulations to start from, tuned to the robot
 //! - `schedule`: from a graph to straight-line code
@@ -63,10 +63,10 @@ mod plan;
 mod program;
 mod random;
 mod robot_file;
-mod scene;
 mod schedule;
 mod search;
 mod seeds;
+mod setup;
 mod sincos;
 mod split;
 mod states;
@@ -103,10 +103,10 @@ pub use seeds::Start;
 #[doc(inline)]
 pub use sincos::SinCos;
 #[doc(inline)]
-pub use task::in_scene::UnknownScene;
-#[doc(inline)]
 pub use task::options::{OPTIONS, OptionRow, Problem, Purpose};
 #[doc(inline)]
 pub use task::{Fma, Prefer, Request};
 #[doc(inline)]
 pub use watch::Watch;
+#[doc(inline)]
+pub use words::Complaint;

@@ -1,12 +1,11 @@
 //! From a graph to straight-line code, and back.
 
 use dalembert_model::scalar::Scalar;
-use rustc_hash::FxHashMap;
 
-use crate::dag::{Dag, Edge, Id, Node};
+use crate::dag::{Dag, Edge, Id, Node, Writer};
 use crate::function::Function;
 use crate::program::{Operand, Output, Program, Step};
-use crate::scene::SceneRobot;
+use crate::setup::Task;
 
 impl Program {
     /// Creates the program of a graph of a function of a whole robot.
@@ -30,92 +29,79 @@ impl Program {
     }
 
     /// Creates the program of a graph of a function in a scene.
-    pub fn in_scene(scene_robot: &SceneRobot, function: Function, graph: &Dag) -> Program {
+    pub fn in_scene(task: Task<'_>, graph: &Dag) -> Program {
+        let Task { setup, function } = task;
         let empty = Program {
-            rows: scene_robot.rows().to_vec(),
-            arguments: scene_robot.arguments(function),
-            load: scene_robot.sizes(function).load,
-            speeds: scene_robot.speeds(),
-            ..Program::empty(function, scene_robot.joints().len())
+            rows: setup.rows().to_vec(),
+            arguments: setup.arguments(function),
+            load: setup.sizes(function).load,
+            speeds: setup.speeds(),
+            ..Program::empty(function, setup.joints().len())
         };
         empty.with_graph(graph)
     }
 
     /// Returns the graph of the program.
-    pub(crate) fn graph(&self) -> Dag {
-        let mut graph = Dag {
-            nodes: Vec::new(),
-            outputs: Vec::new(),
-        };
-        let mut leaves: FxHashMap<Node, Id> = FxHashMap::default();
+    pub fn graph(&self) -> Dag {
+        let mut writer = Writer::default();
         let mut places: Vec<Id> = Vec::with_capacity(self.steps.len());
-        let mut place = |operand: &Operand, places: &[Id], graph: &mut Dag| {
-            let leaf = match operand {
-                Operand::Step(step) => return places[*step],
-                Operand::Constant(constant) => Node::Constant(constant.clone()),
-                Operand::Input(input) => Node::Input(*input),
-            };
-            *leaves.entry(leaf).or_insert_with_key(|leaf| {
-                graph.nodes.push(leaf.clone());
-                graph.nodes.len() as Id - 1
-            })
+        let place = |operand: &Operand, places: &[Id], writer: &mut Writer<_, _>| match operand {
+            Operand::Step(step) => places[*step],
+            Operand::Constant(constant) => writer.leaf(Node::Constant(constant.clone())),
+            Operand::Input(input) => writer.leaf(Node::Input(*input)),
         };
         for step in &self.steps {
-            let [a, b] = [&step.left, &step.right].map(|own| place(own, &places, &mut graph));
-            places.push(graph.nodes.len() as Id);
-            graph.nodes.push(Node::Apply(step.operation, [a, b]));
+            let operands = [&step.left, &step.right].map(|own| place(own, &places, &mut writer));
+            places.push(writer.apply(step.operation, operands));
         }
-        for output in &self.outputs {
-            let node = place(&output.value, &places, &mut graph);
-            graph.outputs.push(Edge {
-                node,
-                negative: output.negative,
-            });
-        }
-        graph
+        let outputs = self.outputs.iter().map(|output| Edge {
+            node: place(&output.value, &places, &mut writer),
+            negative: output.negative,
+        });
+        let outputs = outputs.collect();
+        writer.finish(outputs)
     }
 
     /// Returns the same function with the same arguments and results, by another
-    /// graph.
+    /// graph in the order in which code is printed.
     #[must_use]
     pub fn with_graph(&self, graph: &Dag) -> Program {
-        let graph = graph.scheduled();
-        let mut place = vec![usize::MAX; graph.nodes.len()];
-        let mut steps = Vec::new();
-        let operand = |id: Id, place: &[usize]| match graph.node(id) {
+        self.with_code(&graph.scheduled())
+    }
+
+    /// Returns the same function with the same arguments and results, by another graph whose
+    /// operations are in this order.
+    #[must_use]
+    pub(crate) fn with_code(&self, graph: &Dag) -> Program {
+        let numbers = graph.numbers();
+        let operand = |id: Id| match graph.node(id) {
             Node::Constant(constant) => Operand::Constant(constant.clone()),
             Node::Input(input) => Operand::Input(*input),
-            Node::Apply(..) => Operand::Step(place[id as usize]),
+            // An operation has a number, from one.
+            Node::Apply(..) => Operand::Step(numbers[id as usize].unwrap_or(1) - 1),
         };
-        for (index, node) in graph.nodes.iter().enumerate() {
-            if let Node::Apply(operation, operands) = node {
-                let [left, right] = operands.map(|id| operand(id, &place));
-                place[index] = steps.len();
-                steps.push(Step {
-                    operation: *operation,
-                    left,
-                    right,
-                });
-            }
-        }
-        let outputs = graph
-            .outputs
-            .iter()
-            .map(|edge| match graph.node(edge.node) {
-                Node::Constant(constant) if edge.negative => {
-                    Output::of(Operand::Constant(constant.neg()))
-                }
-                _ => Output {
-                    negative: edge.negative,
-                    value: operand(edge.node, &place),
-                },
+        let steps = graph
+            .operations()
+            .map(|(_, operation, [left, right])| Step {
+                operation,
+                left: operand(left),
+                right: operand(right),
             });
-        let outputs = outputs.collect();
+        let outputs = graph.outputs.iter();
+        let outputs = outputs.map(|edge| match graph.node(edge.node) {
+            Node::Constant(constant) if edge.negative => {
+                Output::of(Operand::Constant(constant.neg()))
+            }
+            _ => Output {
+                negative: edge.negative,
+                value: operand(edge.node),
+            },
+        });
         let mut program = Program {
             trig: Vec::new(),
             speeds: Vec::new(),
-            steps,
-            outputs,
+            steps: steps.collect(),
+            outputs: outputs.collect(),
             rows: self.rows.clone(),
             arguments: self.arguments.clone(),
             ..*self

@@ -95,6 +95,10 @@ impl JointState {
     }
 }
 
+/// Entries of each argument, in the order of [`Argument::ALL`]; those that nothing reads may be
+/// missing.
+pub type State<T> = [Vec<T>; Argument::COUNT];
+
 /// The number of states of the floating check unless another is given.
 pub const STATES: usize = 200;
 

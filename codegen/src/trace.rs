@@ -4,16 +4,16 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use dalembert_model::equations::{Arm, Formulation};
+use dalembert_model::equations::Formulation;
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::Motion;
 use dalembert_model::scalar::Scalar;
 
 use crate::dag::symbol::Symbol;
 use crate::dag::{Builder, Dag, Folding, Node};
-use crate::function::{Argument, Function};
+use crate::function::Argument;
 use crate::program::{Counts, Input};
-use crate::scene::SceneRobot;
+use crate::setup::{Setup, Task};
 
 /// A traced function.
 #[derive(Clone, Debug)]
@@ -28,11 +28,11 @@ pub struct Trace {
 /// state only these are inputs: a search pairs whatever a graph has, and what
 /// nothing reads would only be in its way.
 pub(crate) fn symbols(
-    scene_robot: &SceneRobot,
+    setup: &Setup,
     arguments: &[Argument],
     builder: &Rc<RefCell<Builder>>,
 ) -> Motion<Symbol> {
-    scene_robot.motion(reader(arguments, builder), |constant| {
+    setup.motion(reader(arguments, builder), |constant| {
         Symbol::from(constant.clone())
     })
 }
@@ -48,30 +48,30 @@ fn reader(arguments: &[Argument], builder: &Rc<RefCell<Builder>>) -> impl Fn(Inp
 
 /// Returns whether a function of a robot in its scene depends on what Coulomb friction reads of
 /// speeds.
-pub(crate) fn depends_on_coulomb(scene_robot: &SceneRobot, function: Function) -> bool {
-    if !scene_robot.has_coulomb() {
+pub(crate) fn depends_on_coulomb(task: Task<'_>) -> bool {
+    let Task { setup, function: _ } = task;
+    if !setup.has_coulomb() {
         return false;
     }
-    let graph = trace(scene_robot, function, Formulation::NewtonEulerLink).graph;
+    let graph = trace(task, Formulation::NewtonEulerLink).graph;
     let mut live = graph.live();
     live.any(|(_, node)| matches!(node, Node::Input(Input::PerSpeed(_))))
 }
 
 /// Runs a formulation with symbols in a scene.
-pub fn trace(scene_robot: &SceneRobot, function: Function, formulation: Formulation) -> Trace {
+pub fn trace(task: Task<'_>, formulation: Formulation) -> Trace {
+    let Task { setup, function } = task;
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
     let constant = |constant: &Exact| Symbol::from(constant.clone());
-    let arm = Arm::from_robot(scene_robot.robot(), &mut { constant });
     // As the textbook has it, a payload is a body and no load.
-    let mut arguments = scene_robot.arguments(function);
+    let mut arguments = setup.arguments(function);
     arguments.push(Argument::Payload);
-    let posed = scene_robot.posed(function, arm, reader(&arguments, &builder), constant);
-    let outputs = posed.results(scene_robot, function, formulation);
+    let leaves = (constant, reader(&arguments, &builder));
+    let outputs = task.textbook(formulation, &leaves);
     let outputs: Vec<_> = outputs
         .iter()
         .map(|output| output.edge(&mut builder.borrow_mut()))
         .collect();
-    drop(posed);
     let traced = builder.borrow().asked();
     let graph = std::mem::replace(&mut *builder.borrow_mut(), Builder::new(Folding::Syntactic))
         .finish(outputs);

@@ -85,19 +85,52 @@ impl Word for bool {
     }
 }
 
+/// What is wrong with a word that a user wrote, and the likely fix.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Complaint {
+    /// What is wrong.
+    pub message: String,
+    /// The likely fix; empty if none is known.
+    pub help: String,
+}
+
+impl Complaint {
+    /// Complains of a text.
+    pub(crate) fn new(message: impl Into<String>, help: impl Into<String>) -> Complaint {
+        let (message, help) = (message.into(), help.into());
+        Complaint { message, help }
+    }
+
+    /// Complains of a word that is none of these: of the nearest, or all of them.
+    pub(crate) fn unknown(message: String, word: &str, known: &[&str], none: &str) -> Complaint {
+        let help = match (closest(word, known), known) {
+            (Some(meant), _) => format!("did you mean `{meant}`?"),
+            (None, []) => none.to_owned(),
+            (None, known) => format!("known: {}", known.join(", ")),
+        };
+        Complaint { message, help }
+    }
+}
+
+impl fmt::Display for Complaint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.help.as_str() {
+            "" => f.write_str(&self.message),
+            help => write!(f, "{}: {help}", self.message),
+        }
+    }
+}
+
+impl std::error::Error for Complaint {}
+
 /// Returns the value of a word.
 ///
 /// # Errors
-/// `UnknownWord`, with the word that was probably meant.
-pub fn parse<W: Word>(text: &str) -> Result<W, UnknownWord> {
+/// The word that was probably meant.
+pub fn parse<W: Word>(text: &str) -> Result<W, Complaint> {
     W::from_name(text).ok_or_else(|| {
-        let known = W::known();
-        UnknownWord {
-            what: W::WHAT,
-            found: text.to_owned(),
-            meant: closest(text, &known),
-            known,
-        }
+        let message = format!("unknown {} `{text}`", W::WHAT);
+        Complaint::unknown(message, text, &W::known(), "")
     })
 }
 
@@ -113,55 +146,7 @@ pub fn parse<W: Word>(text: &str) -> Result<W, UnknownWord> {
 ///
 /// # Errors
 /// What is wrong with it, and the likely fix.
-pub fn bundle(text: &str) -> Result<Function, NoBundle> {
-    Function::parse(text).map_err(NoBundle)
+pub fn bundle(text: &str) -> Result<Function, Complaint> {
+    let complain = |error: &BundleError| Complaint::new(error.message(), for_bundle(error));
+    Function::parse(text).map_err(|error| complain(&error))
 }
-
-/// Why a text makes no bundle. Other than the error by itself, it says which
-/// output was probably meant.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NoBundle(pub BundleError);
-
-impl fmt::Display for NoBundle {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.0.message(), for_bundle(&self.0))
-    }
-}
-
-impl std::error::Error for NoBundle {}
-
-/// A word that names nothing.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct UnknownWord {
-    /// The kind of word that it should be: `output`, `scalar`, …
-    pub what: &'static str,
-    /// The word.
-    pub found: String,
-    /// The word that was probably meant.
-    pub meant: Option<&'static str>,
-    /// Every word there is.
-    pub known: Vec<&'static str>,
-}
-
-impl UnknownWord {
-    /// Returns what is wrong.
-    pub(crate) fn message(&self) -> String {
-        format!("unknown {} `{}`", self.what, self.found)
-    }
-
-    /// Returns the likely fix.
-    pub(crate) fn help(&self) -> String {
-        match self.meant {
-            Some(meant) => format!("did you mean `{meant}`?"),
-            None => format!("known: {}", self.known.join(", ")),
-        }
-    }
-}
-
-impl fmt::Display for UnknownWord {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.message(), self.help())
-    }
-}
-
-impl std::error::Error for UnknownWord {}

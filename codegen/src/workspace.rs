@@ -19,7 +19,7 @@ pub use crate::bound::{
 #[cfg(feature = "certificates")]
 pub use crate::certificate::format::write as write_certificates;
 pub use crate::certificate::{Certificate, Refuted};
-pub use crate::dag::{Dag, Edge, Fingerprint, Folding, Node, Points};
+pub use crate::dag::{Dag, Edge, Fingerprint, Folding, Id, Leaves, Node, Points};
 pub use crate::edits::{
     Edit, EditSite, Stage, difference,
     text::{read_edit, write_edit},
@@ -40,36 +40,29 @@ pub use crate::language::{
 pub use crate::parallel::each;
 pub use crate::plan::{Edited, Entry, file as plan_file};
 pub use crate::program::{
-    AngleSum, Difference, Input, Library, Literal, Lowered, LoweredTrig, Operand, Operation,
-    Output, Step, Trig,
-    columns::Columns as ProgramColumns,
-    fused::fusion,
-    kernel::{Angle, Kernel, Term},
+    Code, Difference, Input, Library, Literal, Need, Operand, Operation, Output, Pair, Step, Trig,
+    kernel::{Angle, Kernel},
     machine::Machine,
-    run::State,
 };
 pub use crate::random::Random;
-pub use crate::scene::{
-    SceneKey, SceneRobot,
+pub use crate::search::{Limits, Pass, Schedule, cost, price, search as search_graphs};
+pub use crate::seeds::{Source, skeleton, skeleton_for, trace_chain};
+pub use crate::setup::{
+    Posed, SceneKey, Setup, Task,
     base::{BaseParameters, Parameter},
     input_hash, motion,
 };
-pub use crate::search::{Limits, Pass, Schedule, cost, price, search as search_graphs};
-pub use crate::seeds::{Source, skeleton, skeleton_for, trace_chain};
-pub use crate::sincos::{
-    AngleKernel, Sines, angle_name, choose::Candidates, counts as sincos_counts, lowered, need,
-    stated,
-};
+pub use crate::sincos::{AngleKernel, Sines, choose::Candidates, counts as sincos_counts, stated};
 pub use crate::split::ErrorByCause;
-pub use crate::states::{JointState, SEED, STATES, positions, seeded};
-pub use crate::task::Task;
+pub use crate::states::{JointState, SEED, STATES, State, positions, seeded};
+pub use crate::task::Job;
 pub use crate::trace::{Trace, trace};
 pub use crate::verify::{
     exact::{Disproof, Proof, prove, prove_same},
-    floating::{BOUND, Emitted, Granted, LEAST_PART, Runtime},
+    measure::{BOUND, Emitted, Granted, LEAST_PART, Runtime},
     parameters::prove_base,
-    reference::{Reference, TrueValue},
     rounding::Rounding,
+    truth::{Reference, TrueValue},
 };
 pub use crate::watch::{Observer, Part, Progress};
 pub use crate::words::{Word, bundle, parse};

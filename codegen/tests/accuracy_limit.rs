@@ -2,7 +2,7 @@
 //! that a robot's last digits do not decide.
 
 use crate::support::{arm_file, dose, read_robot};
-use dalembert_codegen::workspace::{Rounding, Runtime, SceneRobot, seeded};
+use dalembert_codegen::workspace::{Rounding, Runtime, Setup, seeded};
 use dalembert_codegen::{Function, GeneratedFunction, Prefer, Request, ScalarType, generate};
 
 /// Returns τ by a quick search.
@@ -92,8 +92,8 @@ fn the_estimate_is_what_is_observed() {
         };
         let generated = generate(&robot, &request).unwrap();
         let program = &generated.functions[0].program;
-        let estimate = Rounding::estimate(&SceneRobot::whole(&robot), program).worst();
-        let runtime = Runtime::in_scene(SceneRobot::whole(&robot));
+        let estimate = Rounding::estimate(&Setup::whole(&robot), program).worst();
+        let runtime = Runtime::in_scene(Setup::whole(&robot));
         let largest = |values: &[f64]| values.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
         let mut observed = 0.0f64;
         for state in seeded(&robot, 300, 7) {

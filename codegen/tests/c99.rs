@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use dalembert_codegen::workspace::{Library, Lowered, Names, Printed, RuntimeParameter};
+use dalembert_codegen::workspace::{Code, Library, Names, Printed, RuntimeParameter};
 use dalembert_codegen::{
     Fma, Function, Language, Request, RobotFile, ScalarType, SinCos, generate,
 };
@@ -445,7 +445,7 @@ fn every_change_of_a_line_is_found() {
         let printed = Printed::of(&function.program, &code);
         let names = Names::new("planar2r", language, ScalarType::F32);
         let is_same = |lines: &[String]| {
-            let read = Lowered::parse_c(&lines.join("\n"), &printed, false, &names);
+            let read = Code::parse_c(&lines.join("\n"), &printed, false, &names);
             read.is_ok_and(|read| read.difference(&code).is_none())
         };
         let lines: Vec<String> = generated.text().lines().map(String::from).collect();

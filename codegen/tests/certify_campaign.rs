@@ -3,7 +3,7 @@
 //! whole campaign is in `src/certificate/README.md`; this is its smaller dose.
 
 use dalembert_codegen::workspace::{
-    BoundEffort, BoxEffort, Certificate, ErrorBudget, PruneSettings, SceneRobot, falsify,
+    BoundEffort, BoxEffort, Certificate, ErrorBudget, PruneSettings, Setup, falsify,
 };
 use dalembert_codegen::{Function, Request, ScalarType, generate};
 use dalembert_model::scene::{Scale, Scene};
@@ -52,8 +52,8 @@ fn campaign(name: &str, tolerance: f64, scalars: &[ScalarType], guesses: usize) 
         .functions
         .remove(0)
         .program;
-    let scene_robot = SceneRobot::of(&reading.robot, bare.as_ref()).unwrap();
-    let frame = ErrorBudget::new(&scene_robot, &exact, Scale::Range).unwrap();
+    let setup = Setup::of(&reading.robot, bare.as_ref()).unwrap();
+    let frame = ErrorBudget::new(&setup, &exact, Scale::Range).unwrap();
     let settings = PruneSettings {
         samples: 24,
         guesses,

@@ -70,7 +70,7 @@ fn a_pruned_inertia_is_certified_to_be_positive_definite() {
     assert!(counts.1.operations() < counts.0.operations(), "{counts:?}");
     let honest = certificate(&robot, &pruned.stages, &pruned.program, &limits);
     assert!(honest.lambda_min.is_some_and(|least| least > 0.0));
-    let text = pruned.program.lower(ScalarType::F64, |_| None);
+    let text = pruned.program.in_doubles();
     let mut random = Random::new(3);
     for _ in 0..3000 {
         let d = text.run_at(&draw(&limits, &mut random));
@@ -155,7 +155,7 @@ fn a_singular_d_gets_no_certificate() {
         };
         let emitted = stage.program(Folding::Semantic);
         let bound = least_eigenvalue(&emitted, ScalarType::F64, &[], &limits);
-        let text = emitted.lower(ScalarType::F64, |_| None);
+        let text = emitted.in_doubles();
         let mut random = Random::new(4);
         let singular = (0..2000).any(|_| {
             let d = text.run_at(&draw(&limits, &mut random));

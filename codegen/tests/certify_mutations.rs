@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use dalembert_checker::{Claim, Verdict, audit, read as claims};
 use dalembert_codegen::workspace::{
-    Certificate, Edited, Entry, JointState, Library, Random, Runtime, SceneRobot, input_hash, parse,
+    Certificate, Edited, Entry, JointState, Library, Random, Runtime, Setup, input_hash, parse,
 };
 use dalembert_codegen::{Function, Generated, Plan, Request, ScalarType, SinCos, generate};
 use dalembert_model::read::{self, Reading};
@@ -186,8 +186,8 @@ fn execute(text: &str, state: &JointState, scalar: ScalarType) -> Option<Vec<f64
 
 /// Returns whether what was shown of a claim is true at corners and random states, as far as
 /// doubles can tell: E, or the scene's tolerance.
-fn is_true(claim: &Claim, verdict: &Verdict, scene_robot: &SceneRobot) -> bool {
-    let runtime = Runtime::in_scene(scene_robot.clone());
+fn is_true(claim: &Claim, verdict: &Verdict, setup: &Setup) -> bool {
+    let runtime = Runtime::in_scene(setup.clone());
     let function = Function::parse(&claim.function).unwrap();
     let scalar = parse::<ScalarType>(&claim.scalar).unwrap();
     let mut random = Random::new(7);
@@ -228,7 +228,7 @@ fn is_true(claim: &Claim, verdict: &Verdict, scene_robot: &SceneRobot) -> bool {
 /// file's first.
 fn judge(texts: impl Iterator<Item = String>, source: &str) -> usize {
     let robot = reading(source).unwrap();
-    let scene_robot = SceneRobot::new(&robot.robot, &robot.scenes[0]).unwrap();
+    let setup = Setup::new(&robot.robot, &robot.scenes[0]).unwrap();
     let mut refused = 0;
     for text in texts {
         let Ok(claims) = claims(&text) else {
@@ -239,7 +239,7 @@ fn judge(texts: impl Iterator<Item = String>, source: &str) -> usize {
             claim.scene = Some("pick".into());
             match audit(&claim, source, None) {
                 Ok(verdict) if verdict.is_shown() => assert!(
-                    is_true(&claim, &verdict, &scene_robot),
+                    is_true(&claim, &verdict, &setup),
                     "accepted, and false:\n{text}"
                 ),
                 _ => refused += 1,
@@ -305,21 +305,21 @@ fn kind(
 #[test]
 fn honest_certificates_hold_and_the_judge_can_tell() {
     let reading = reading(ROBOT).unwrap();
-    let scene_robot = SceneRobot::new(&reading.robot, &reading.scenes[0]).unwrap();
+    let setup = Setup::new(&reading.robot, &reading.scenes[0]).unwrap();
     for honest in honest() {
         let claim = claims(&honest.to_json()).unwrap().remove(0);
         let verdict = audit(&claim, ROBOT, None).unwrap();
         assert!(verdict.is_shown(), "{verdict:?}");
-        assert!(is_true(&claim, &verdict, &scene_robot));
+        assert!(is_true(&claim, &verdict, &setup));
         // The judge is no rubber stamp.
         let mut lie = verdict.clone();
         for output in &mut lie.outputs {
             (output.claimed, output.tolerated) = (output.claimed * 1e-3, None);
         }
-        assert!(!is_true(&claim, &lie, &scene_robot));
+        assert!(!is_true(&claim, &lie, &setup));
         let mut lie = claim.clone();
         lie.text = lie.text.replacen(" + ", " - ", 1);
-        assert!(!is_true(&lie, &verdict, &scene_robot));
+        assert!(!is_true(&lie, &verdict, &setup));
     }
 }
 
@@ -433,7 +433,7 @@ fn scenes() {
         let Some(robot) = reading(&changed).filter(|_| changed != ROBOT) else {
             continue;
         };
-        if SceneRobot::new(&robot.robot, &robot.scenes[0]).is_err() {
+        if Setup::new(&robot.robot, &robot.scenes[0]).is_err() {
             continue;
         }
         refused += judge(std::iter::once(texts[tried % 2].clone()), &changed);

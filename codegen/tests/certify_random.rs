@@ -4,7 +4,7 @@
 use crate::support;
 use crate::support::draw::{Draw, robots};
 use dalembert_codegen::workspace::{
-    Certificate, ErrorBudget, InputBox, PruneSettings, Pruned, SceneRobot, Stage, falsify, prune,
+    Certificate, ErrorBudget, InputBox, PruneSettings, Pruned, Setup, Stage, falsify, prune,
 };
 use dalembert_codegen::{Function, Program, ScalarType, Start};
 use dalembert_model::number::{Angle, Rational};
@@ -59,8 +59,8 @@ fn bounds_hold_and_are_close() {
         let what = format!("seed {seed}, {} joints", robot.joints.len());
         let generated = support::from(&robot, Function::InverseDynamics, Start::Auto);
         let program = &generated.functions[0].program;
-        let scene_robot = SceneRobot::whole(&robot);
-        let scales = ErrorBudget::new(&scene_robot, program, Scale::Range)
+        let setup = Setup::whole(&robot);
+        let scales = ErrorBudget::new(&setup, program, Scale::Range)
             .unwrap()
             .scales;
         let limits = InputBox::of(&robot).unwrap();

@@ -2,8 +2,8 @@
 //! from the tolerance, and are caught when they lie.
 
 use dalembert_codegen::workspace::{
-    BoundEffort, Certificate, InputBox, Library, Literal, Printed, SceneRobot, Sensitivity, Sines,
-    Term, falsify, lowered, scale, sincos_counts, stated, within, write_function,
+    BoundEffort, Certificate, InputBox, Library, Literal, Node, Printed, Sensitivity, Setup, Sines,
+    falsify, scale, sincos_counts, stated, within, write_function,
 };
 use dalembert_codegen::{Function, Program, Request, ScalarType, Start, generate};
 use dalembert_model::number::Rational;
@@ -60,13 +60,13 @@ impl Case {
         let (robot, program) = (&self.robot, &self.program);
         let libm = Certificate::make(robot, &[], program, scalar, &self.limits, &self.scales);
         let sensitivity = Sensitivity::of(program, &self.limits, BoundEffort::CERTIFY);
-        libm.with_sines(&SceneRobot::whole(robot), sines, &sensitivity)
+        libm.with_sines(&Setup::whole(robot), sines, &sensitivity)
     }
 
     /// Returns the certificate with other sines in its text, and the same claims.
     fn with_other(&self, honest: &Certificate, sines: Sines) -> Certificate {
         let mut other = honest.clone();
-        let code = lowered(&self.program, honest.scalar, Library::Libm, &sines);
+        let code = self.program.code(honest.scalar, Library::Libm, &sines);
         other.text = write_function(&Printed::of(&self.program, &code), Library::Libm, &[]);
         other.sines = sines;
         other
@@ -116,26 +116,17 @@ fn a_changed_coefficient_is_caught_by_the_sampler() {
     let case = planar();
     let sines = case.sines(ScalarType::F64, TOLERANCE);
     let honest = case.certificate(ScalarType::F64, &sines);
-    let literals = |sines: &Sines| {
-        let steps = sines[0].kernel.steps.iter().enumerate();
-        let is = |term: &Term| matches!(term, Term::Constant(_));
-        let found = steps.filter(|(_, step)| is(&step.left) || is(&step.right));
-        found.map(|(index, _)| index).collect::<Vec<usize>>()
-    };
-    for index in literals(&sines) {
+    for index in 0..sines[0].kernel.dag.nodes.len() {
         let mut changed = sines.clone();
-        let step = &mut changed[0].kernel.steps[index];
-        for term in [&mut step.left, &mut step.right] {
-            if let Term::Constant(Literal(value)) = term {
-                *value *= 1.0 + 1e-2;
-            }
-        }
+        let Node::Constant(Literal(value)) = &mut changed[0].kernel.dag.nodes[index] else {
+            continue;
+        };
+        *value *= 1.0 + 1e-2;
         let lie = case.with_other(&honest, changed.clone());
         let found = falsify(&lie, 2000, 2, 3).unwrap();
         assert!(
             found.violation.is_some(),
-            "x{}: {:?}",
-            index + 1,
+            "node {index}: {:?}",
             found.observed
         );
     }

@@ -1,7 +1,7 @@
 //! Functions of any number of states beside those of one: the same program over vectors, read
 //! back. What brings a wrong value is refused.
 
-use dalembert_codegen::workspace::{Library, Lowered, Printed, TextError, keep};
+use dalembert_codegen::workspace::{Code, Library, Printed, TextError, keep};
 use dalembert_codegen::{
     Function, Generated, GeneratedFunction, Plan, Request, ScalarType, SinCos, Start, generate,
 };
@@ -25,12 +25,12 @@ fn request(batch: bool, sincos: SinCos, start: Start) -> Request {
 }
 
 /// Reads τ and its columns back out of a text.
-fn read(text: &str, generated: &Generated, sincos: SinCos) -> Result<Lowered, TextError> {
+fn read(text: &str, generated: &Generated, sincos: SinCos) -> Result<Code, TextError> {
     let torques = |f: &&GeneratedFunction| f.function == Function::InverseDynamics;
     let function = generated.functions.iter().find(torques).unwrap();
     let library = sincos.library(Library::Libm);
     let code = function.code(ScalarType::F64, library);
-    Lowered::parse_rust(text, &Printed::of(&function.program, &code), true)
+    Code::parse_rust(text, &Printed::of(&function.program, &code), true)
 }
 
 /// Arms that turn and slide, every kind of sines: with columns or without, the

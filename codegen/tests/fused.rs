@@ -1,21 +1,13 @@
 //! Products that are fused with sums: which they are, that the text is the program
 //! and the program the formula, what rounding costs then, and certificates.
 
-use dalembert_codegen::workspace::{
-    Certificate, JointState, Lowered, ProgramColumns as Columns, Rounding, Runtime, SEED, STATES,
-    SceneRobot, State, keep, seeded,
-};
+use dalembert_codegen::workspace::{Certificate, Code, JointState, Rounding, Setup, keep};
 use dalembert_codegen::{Fma, Function, Generated, Request, ScalarType, generate};
 use dalembert_model::read::Reading;
 use dalembert_model::robot::Robot;
-use serde_json::Value;
 
 use crate::shown::shown;
 use crate::support;
-
-const ROBOTS: [&str; 6] = [
-    "stanford", "planar3r", "planar2r", "puma560", "ur10", "panda",
-];
 
 fn generated(robot: &Robot, request: &Request) -> Generated {
     generate(robot, request).unwrap_or_else(|error| panic!("{error}"))
@@ -28,50 +20,6 @@ fn fused(request: &Request) -> Request {
     }
 }
 
-/// Returns q, q̇, q̈ and the torques of an independent library.
-fn golden(name: &str) -> Vec<(JointState, Vec<f64>)> {
-    let folder =
-        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../model/tests/data/golden");
-    let text = std::fs::read_to_string(folder.join(format!("{name}.json"))).unwrap();
-    let json: Value = serde_json::from_str(&text).unwrap();
-    let states = json["states"].as_array().unwrap().iter();
-    let state = |json: &Value| (support::given(json), support::numbers(&json["tau"]));
-    states.map(state).collect()
-}
-
-/// Generating proves the program with its fused products and reads the text back.
-/// Both scalars stay within the bound, and the torques are those of an independent
-/// library.
-#[test]
-fn six_robots_are_right() {
-    for &name in support::dose(&ROBOTS, 2) {
-        let robot = support::robot(name);
-        let request = Request {
-            functions: Function::ALL[..6].to_vec(),
-            ..fused(&Request::default())
-        };
-        let generated = generated(&robot, &request);
-        let runtime = Runtime::new(&robot);
-        let states = seeded(&robot, STATES, SEED);
-        assert_eq!(generated.emitted.len(), 12);
-        support::rounds_well(&generated.emitted, &runtime, &states, name);
-        let torques = |emitted: &&_| is_torques(emitted);
-        let emitted = generated.emitted.iter().find(torques).unwrap();
-        assert!(emitted.text.counts().fma > 0, "{name}");
-        for (state, tau) in golden(name) {
-            let found = emitted.text.run_at(&state);
-            let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-            let error = most(&mut found.iter().zip(&tau).map(|(a, b)| (a - b).abs()));
-            let size = most(&mut tau.iter().map(|x| x.abs()));
-            assert!(error <= 1e-12 * size, "{name}: {error:e} of {size:e}");
-        }
-    }
-}
-
-fn is_torques(emitted: &dalembert_codegen::workspace::Emitted) -> bool {
-    (emitted.function, emitted.scalar) == (Function::InverseDynamics, ScalarType::F64)
-}
-
 /// Every sum with a product that nobody else reads takes one: so many operations
 /// less, and the estimate of their roundings is no larger. Without the option
 /// there are none, and what is fused is the same program.
@@ -82,7 +30,7 @@ fn a_fused_product_saves_an_operation_and_a_rounding() {
         let plain = support::one(&robot, Function::InverseDynamics)
             .functions
             .remove(0);
-        let scene_robot = SceneRobot::whole(&robot);
+        let setup = Setup::whole(&robot);
         let program = plain.program.fused();
         let (before, after) = (plain.counts(), program.counts());
         assert_eq!(before.fma, 0);
@@ -91,7 +39,7 @@ fn a_fused_product_saves_an_operation_and_a_rounding() {
         assert!(4 * after.fma > before.mul, "{name}: {after}");
         assert_eq!(program.fused(), program);
         let [before, after] =
-            [&plain.program, &program].map(|program| Rounding::estimate(&scene_robot, program));
+            [&plain.program, &program].map(|program| Rounding::estimate(&setup, program));
         assert!(after.worst() < before.worst(), "{name}");
         let pairs = after.per_output.iter().zip(&before.per_output);
         assert!(
@@ -122,7 +70,7 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
                 .replace("f64", "f32")
                 .replace("libm::sincos", "libm::sincosf"),
         };
-        Lowered::parse(&text, Function::Gravity, scalar).unwrap()
+        Code::parse(&text, Function::Gravity, scalar).unwrap()
     };
     let text = read(ScalarType::F64);
     assert_eq!(text.counts().to_string(), "1 mul, 0 add, 3 fma, 1 sincos");
@@ -146,11 +94,11 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
             ..JointState::default()
         })
         .collect();
-    let columns = text.run_columns(&Columns::<f64>::of(&states));
+    let columns = text.run_at_many(&states);
     let mut twice = 0;
     for (k, state) in states.iter().enumerate() {
         let q = state.q[0];
-        let own = text.run(State::of(|argument| state.of(argument)));
+        let own = text.run_at(state);
         assert_eq!(own, once(q));
         assert_eq!([columns[0][k], columns[1][k]], once(q));
         let found = read(ScalarType::F32).run_at(state);
@@ -174,7 +122,7 @@ fn every_slip_is_noticed() {
     let generated = generated(&robot, &request);
     let (text, program) = (&generated.text(), &generated.functions[0].program);
     let is_program = |text: &str| {
-        let read = Lowered::parse(text, Function::InverseDynamics, ScalarType::F64);
+        let read = Code::parse(text, Function::InverseDynamics, ScalarType::F64);
         read.is_ok_and(|read| read.matches(program, request.library(), &[]).is_ok())
     };
     assert!(is_program(text));

@@ -2,30 +2,16 @@
 //! code, proofs, scenes and languages, against Pinocchio.
 
 use dalembert_codegen::workspace::{
-    BOUND, Columns, JointState, Quantity, Reference, Runtime, SceneRobot, TrueValue, prove,
+    BOUND, Columns, JointState, Quantity, Reference, Runtime, Setup, TrueValue,
 };
-use dalembert_codegen::{
-    Function, GenerateError, Generated, Language, Request, ScalarType, generate,
-};
-use dalembert_model::number::Rational;
-use dalembert_model::outputs::RuntimeParameter;
-use dalembert_model::read::{self, Reading};
-use dalembert_model::robot::Robot;
+use dalembert_codegen::{Function, Language};
 use serde_json::Value;
 
+use crate::support::case::Case;
 use crate::support::{self, numbers};
 
 /// The bound against the file, normwise.
 const FILE: f64 = 1e-12;
-
-fn reading(more: &str) -> Reading {
-    let source = support::arm_file("wafer") + more;
-    read::parse(&source, &read::Options::default()).unwrap_or_else(|errors| panic!("{errors}"))
-}
-
-fn robot() -> Robot {
-    reading("").robot
-}
 
 /// Returns what can be had of an arm whose joints follow others.
 fn functions() -> Vec<Function> {
@@ -34,10 +20,6 @@ fn functions() -> Vec<Function> {
     let is_linear = |function: &Function| function.columns() != Columns::None;
     all.filter(|function| function.takes_followers() && !is_linear(function))
         .collect()
-}
-
-fn generated(robot: &Robot, request: Request) -> Generated {
-    generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Returns the largest entry of what a function sums: its result, and itself without the wished
@@ -61,21 +43,22 @@ fn the_code_gives_what_pinocchio_gives() {
     let folder = env!("CARGO_MANIFEST_DIR");
     let file = format!("{folder}/../import/tests/data/wafer.golden.json");
     let json: Value = serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap();
-    let (robot, all) = (robot(), functions());
-    let runtime = Runtime::new(&robot);
-    let scene_robot = SceneRobot::whole(&robot);
-    let truth = Reference::new(&scene_robot);
+    let (robot, all) = (
+        support::read_robot(&support::arm_file("wafer")),
+        functions(),
+    );
+    let (runtime, setup) = (Runtime::new(&robot), Setup::whole(&robot));
+    let truth = Reference::new(&setup);
     let every = if cfg!(debug_assertions) { 2 } else { 1 };
     let mut compared = 0;
     for &function in all.iter().step_by(every) {
-        let request = Request::of(&[function]);
-        let generated = generated(&robot, request);
+        let generated = support::one(&robot, function);
         assert!(generated.text().contains("pub const N: usize = 4;"));
         assert_eq!(generated.functions[0].program.joints, 4);
         // The runtime's recursion errs more here than the code does.
         for emitted in &generated.emitted {
             let u = emitted.scalar.unit_roundoff();
-            for state in scene_robot.states(30, 3) {
+            for state in setup.states(30, 3) {
                 let state = state.in_scalar(emitted.scalar);
                 let (found, known) = (emitted.run(&state), truth.run(function, &state));
                 let granted = runtime.granted(function, &state);
@@ -127,56 +110,19 @@ fn the_code_gives_what_pinocchio_gives() {
     assert!(compared >= 5 * 23 / every, "{compared}");
 }
 
-/// A joint locked that leads, others asked for alone, payload and gravity as arguments.
-#[test]
-fn scenes_and_arguments_follow() {
-    let reading = reading(
-        "\n[scene.held]\nlock = { shoulder = 0.5 }\n\n[scene.one]\njoints = [\"shoulder\"]\n",
-    );
-    let asked = [
-        Function::InverseDynamics,
-        Function::ManipulatorEquation,
-        Function::ForwardDynamics,
-        Function::Jacobian,
-    ];
-    let scenes = reading.scenes.iter().cloned().map(Some);
-    for scene in scenes.chain([None]) {
-        let parameters = match &scene {
-            Some(_) => Vec::new(),
-            None => RuntimeParameter::ALL.to_vec(),
-        };
-        let request = Request {
-            functions: match parameters.as_slice() {
-                [] => asked.to_vec(),
-                _ => asked[..3].to_vec(),
-            },
-            scene,
-            parameters,
-            scalars: vec![ScalarType::F64],
-            ..Request::default()
-        };
-        let scene_robot = request.scene_robot(&reading.robot).unwrap();
-        let own = generated(&reading.robot, request);
-        let states = scene_robot.states(20, 5);
-        let runtime = Runtime::in_scene(scene_robot);
-        support::rounds_well(&own.emitted, &runtime, &states, "");
-    }
-}
-
 /// A PUMA whose forearm keeps its direction, as a parallelogram has it: base parameters, and
 /// less work than with one joint more.
 #[test]
 fn a_parallelogram_costs_less_than_free_joints() {
     let free = support::source("puma560", "");
-    let free = free.split("\n[scene").next().unwrap();
     let tied = free.replace(
         "name = \"elbow\"\n",
         "name = \"elbow\"\nmimic = { joint = 2, multiplier = -1 }\n",
     );
-    let [free, tied] = [free, &tied].map(support::read_robot);
+    let [free, tied] = [&free, &tied].map(|source| support::read_robot(source));
     assert_eq!(tied.joints.len(), 5);
     let runtime = Runtime::new(&tied);
-    let states = SceneRobot::whole(&tied).states(30, 9);
+    let states = Setup::whole(&tied).states(30, 9);
     for function in [
         Function::InverseDynamics,
         Function::Inertia,
@@ -196,64 +142,13 @@ fn a_parallelogram_costs_less_than_free_joints() {
     }
 }
 
-/// Of another multiplier or leader a program is disproved.
-#[test]
-fn another_multiplier_is_no_proof() {
-    let robot = robot();
-    for function in [Function::InverseDynamics, Function::ForwardDynamics] {
-        let program = support::one(&robot, function).functions.remove(0).program;
-        assert!(prove(&SceneRobot::whole(&robot), &program).is_ok());
-        for follower in 0..3 {
-            let mut other = robot.clone();
-            other.followers[follower].multiplier += Rational::from_integer(1.into());
-            assert!(prove(&SceneRobot::whole(&other), &program).is_err());
-        }
-        let mut other = robot.clone();
-        other.followers[2].leader = 3;
-        assert!(prove(&SceneRobot::whole(&other), &program).is_err());
-    }
-}
-
 #[test]
 fn other_languages_have_as_many_entries() {
     for language in [Language::C, Language::Cuda] {
-        let request = Request {
-            language,
-            ..Request::of(&[Function::InverseDynamics])
-        };
-        let text = generated(&robot(), request).text();
-        assert!(
-            text.contains("q[4]") || text.contains("q[static 4]"),
-            "{text}"
-        );
-        assert!(text.contains("-2 q3"), "{text}");
+        let mut case = Case::new("wafer", "", "outputs: inverse_dynamics");
+        case.request.language = language;
+        let text = case.generated().text();
+        let has_four = text.contains("q[4]") || text.contains("q[static 4]");
+        assert!(has_four && text.contains("-2 q3"), "{text}");
     }
-}
-
-#[test]
-fn what_does_not_follow_is_refused_by_name() {
-    let refused = |request: Request, robot: &Robot| generate(robot, &request).unwrap_err();
-    for function in [
-        Function::LinkPoses,
-        Function::ReactionWrenches,
-        Function::FullRegressor,
-        Function::InverseDynamicsSecondDerivatives,
-    ] {
-        let request = Request::of(&[function]);
-        let error = refused(request, &robot());
-        assert_eq!(error, GenerateError::Follows(function));
-        assert!(error.to_string().starts_with(&format!("`{function}` ")));
-    }
-    let reading = reading(
-        "\n[scene.coarse]\ntolerance = { value = 1e-3, relative_to = \"range\" }\nbox = { acceleration = [1, 1, 1, 1] }\n",
-    );
-    let request = Request {
-        scene: Some(reading.scenes[0].clone()),
-        ..Request::of(&[Function::InverseDynamics])
-    };
-    let error = refused(request, &reading.robot).to_string();
-    assert!(
-        error.contains("joints of the robot follow others (`mimic`)"),
-        "{error}"
-    );
 }

@@ -6,7 +6,7 @@
 
 use crate::support;
 use crate::support::draw::{Draw, robots};
-use dalembert_codegen::workspace::{Argument, Runtime, SEED, State, seeded};
+use dalembert_codegen::workspace::{JointState, Runtime, SEED, seeded};
 use dalembert_codegen::{Function, Request, ScalarType, Start, generate};
 use dalembert_model::scene::Scene;
 
@@ -90,11 +90,11 @@ fn a_scene_at_rest_is_inertia_and_gravity() {
         for state in seeded(&robot, 10, seed) {
             // Whatever was read of the velocities would show.
             let unread = vec![f64::NAN; n];
-            let at = State::of(|argument| match argument {
-                Argument::Velocity => &unread,
-                argument => state.of(argument),
-            });
-            let (tau, d, c) = (rest.run(at), inertia.run(at), gravity.run(at));
+            let at = JointState {
+                qd: unread,
+                ..state.clone()
+            };
+            let [tau, d, c] = [&rest, &inertia, &gravity].map(|text| text.run_at(&at));
             let expected: Vec<f64> = (0..n)
                 .map(|i| c[i] + (0..n).map(|k| d[i * n + k] * state.qdd[k]).sum::<f64>())
                 .collect();

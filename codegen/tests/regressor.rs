@@ -2,17 +2,15 @@
 //! as few columns as there can be; and what a wrong combination is refused with.
 
 use dalembert_codegen::workspace::{
-    BOUND, BaseParameters, Disproof, Parameter, Quantity, Runtime, SceneRobot, ToleranceError,
-    Unbounded, prove_base, seeded,
+    BOUND, BaseParameters, Disproof, Parameter, Quantity, Runtime, Setup, prove_base, seeded,
 };
-use dalembert_codegen::{Function, GenerateError, Generated, Language, Request};
+use dalembert_codegen::{Function, Generated, Language};
 use dalembert_model::equations::Arm;
-use dalembert_model::number::{Angle, Exact, Rational, Rounded};
-use dalembert_model::robot::{Position, Robot};
+use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::scalar::Scalar;
-use dalembert_model::scene::Scene;
 
 use crate::support;
+use crate::support::case::Case;
 
 const ROBOTS: [&str; 6] = [
     "planar2r", "planar3r", "puma560", "stanford", "ur10", "panda",
@@ -43,12 +41,30 @@ const PASSIVITY: Linear = Linear {
     sum: Function::Passivity,
 };
 
-fn generate(linear: Linear, robot: &Robot, scene: Option<&Scene>) -> Generated {
-    let request = Request {
-        scene: scene.cloned(),
-        ..Request::of(&[linear.regressor])
+/// Returns a regressor's case.
+fn case(linear: Linear, robot: &str, more: &str) -> Case {
+    // A planar arm with rotors and friction, and with friction of its second joint.
+    let with = |drives: [&str; 2]| {
+        let mut parts = support::source("planar2r", more).replace("[[joint]]\n", "[[joint]]\n@");
+        for drive in drives {
+            parts = parts.replacen('@', drive, 1);
+        }
+        parts
     };
-    dalembert_codegen::generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
+    let scene = if more.contains("[scene.some]") {
+        "; scene: some"
+    } else {
+        ""
+    };
+    let source = match robot {
+        "driven" => with([
+            "armature = 0.2\nviscous = \"2/7\"\n",
+            "armature = 0.3\nviscous = \"3/7\"\n",
+        ]),
+        "rubbed" => with(["", "viscous = \"1/7\"\n"]),
+        robot => Case::source(robot, more),
+    };
+    Case::of(&source, &format!("outputs: {}{scene}", linear.regressor))
 }
 
 /// Returns the constants with π of the text, a module each.
@@ -90,17 +106,12 @@ fn printed_in_c(text: &str) -> Vec<Vec<f64>> {
 fn headers_have_the_same_parameters() {
     for linear in [TORQUES, PASSIVITY] {
         for name in ["planar2r", "stanford"] {
-            let robot = support::robot(name);
-            let expected = printed(linear, &generate(linear, &robot, None).text());
+            let mut case = case(linear, name, "");
+            let expected = printed(linear, &case.generated().text());
             assert_eq!(expected.len(), 2);
             for language in [Language::C, Language::Cuda] {
-                let request = Request {
-                    language,
-                    ..Request::of(&[linear.regressor])
-                };
-                let text = dalembert_codegen::generate(&robot, &request)
-                    .unwrap()
-                    .text();
+                case.request.language = language;
+                let text = case.generated().text();
                 assert_eq!(printed_in_c(&text), expected, "{name}");
                 let said = format!("and `{name}_{}` is", linear.constant.to_lowercase());
                 assert!(text.contains(&said) && !text.contains(linear.constant));
@@ -111,10 +122,10 @@ fn headers_have_the_same_parameters() {
 
 /// Returns the rank of Y over all links' parameters, in f64 from the runtime: elimination
 /// with the largest pivot there is, columns brought to one length first.
-fn rank(runtime: &Runtime, scene_robot: &SceneRobot) -> usize {
-    let rows = scene_robot.rows().len();
-    let columns = 10 * scene_robot.joints().len();
-    let states = seeded(scene_robot.robot(), columns / rows + 10, 0x72616e6b);
+fn rank(runtime: &Runtime, setup: &Setup) -> usize {
+    let rows = setup.rows().len();
+    let columns = 10 * setup.joints().len();
+    let states = seeded(setup.robot(), columns / rows + 10, 0x72616e6b);
     let values = states
         .iter()
         .flat_map(|state| runtime.run(Function::FullRegressor, state));
@@ -160,26 +171,27 @@ fn rank(runtime: &Runtime, scene_robot: &SceneRobot) -> usize {
     }
 }
 
-/// Returns the emitted Y times the printed π against the runtime's torques, relative to
-/// what the sums are made of; and as many columns as the rank.
-fn check(linear: Linear, robot: &Robot, scene: Option<&Scene>, drives: usize) -> Generated {
-    let scene_robot = SceneRobot::of(robot, scene).unwrap();
-    let runtime = Runtime::in_scene(scene_robot.clone());
-    let base = rank(&runtime, &scene_robot) + drives;
-    with_columns(linear, robot, scene, base)
+/// Compares the emitted Y times the printed π with the runtime's torques, relative to
+/// what the sums are made of; with as many columns as the rank and so many of drives.
+#[track_caller]
+fn check(linear: Linear, robot: &str, more: &str, drives: usize) -> Generated {
+    let case = case(linear, robot, more);
+    let setup = case.request.setup(case.robot()).unwrap();
+    let base = rank(&Runtime::in_scene(setup.clone()), &setup) + drives;
+    with_columns(linear, &case, base)
 }
 
-/// Returns the same with so many columns.
-fn with_columns(linear: Linear, robot: &Robot, scene: Option<&Scene>, base: usize) -> Generated {
-    let generated = generate(linear, robot, scene);
-    let scene_robot = SceneRobot::of(robot, scene).unwrap();
-    let runtime = Runtime::in_scene(scene_robot.clone());
+/// Compares the same with so many columns.
+#[track_caller]
+fn with_columns(linear: Linear, case: &Case, base: usize) -> Generated {
+    let (robot, generated) = (case.robot(), case.generated());
+    let (runtime, states) = case.runtime(50, 0x7275);
     let parameters = printed(linear, &generated.text());
     assert_eq!(generated.emitted.len(), 2);
     for (emitted, pi) in generated.emitted.iter().zip(&parameters) {
         assert_eq!(pi.len(), base, "{}", robot.name);
         assert_eq!(emitted.sizes.base, base);
-        for state in seeded(scene_robot.robot(), 50, 0x7275) {
+        for state in &states {
             let state = state.in_scalar(emitted.scalar);
             let tau = runtime.run(linear.sum, &state);
             let y = emitted.run(&state);
@@ -214,7 +226,7 @@ fn torques_of_the_checked_in_robots() {
     let most = [22, 50, 599, 526, 496, 977];
     let bases = [6, 9, 36, 33, 36, 43];
     for ((name, base), most) in ROBOTS.into_iter().zip(bases).zip(most) {
-        let generated = check(TORQUES, &support::robot(name), None, 0);
+        let generated = check(TORQUES, name, "", 0);
         assert_eq!(generated.emitted[0].sizes.base, base);
         let found = generated.functions[0].counts().operations();
         assert!(found <= most, "{name}: {found}");
@@ -225,9 +237,8 @@ fn torques_of_the_checked_in_robots() {
 #[test]
 fn torques_of_other_arms() {
     for name in ["scara", "gantry", "rprpr"] {
-        let robot = support::read_robot(&support::arm_file(name));
-        check(TORQUES, &robot, None, 0);
-        check(PASSIVITY, &robot, None, 0);
+        check(TORQUES, name, "", 0);
+        check(PASSIVITY, name, "", 0);
     }
 }
 
@@ -236,7 +247,7 @@ fn torques_of_other_arms() {
 fn passivity_of_the_checked_in_robots() {
     let most = [23, 51, 653];
     for (name, most) in ["planar2r", "planar3r", "puma560"].into_iter().zip(most) {
-        let generated = check(PASSIVITY, &support::robot(name), None, 0);
+        let generated = check(PASSIVITY, name, "", 0);
         let found = generated.functions[0].counts().operations();
         assert!(found <= most, "{name}: {found}");
     }
@@ -246,51 +257,24 @@ fn passivity_of_the_checked_in_robots() {
 /// is felt as the first link's inertia is.
 #[test]
 fn drives_have_columns() {
-    let mut robot = support::robot("planar2r");
-    for (joint, value) in robot.joints.iter_mut().zip([2, 3]) {
-        joint.armature = Rational::new(value.into(), 10.into());
-        joint.viscous = Rational::new(value.into(), 7.into());
-    }
     for linear in [TORQUES, PASSIVITY] {
-        let generated = check(linear, &robot, None, 3);
+        let text = check(linear, "driven", "", 3).text();
         for said in ["Izz1 + m2 + armature1 |", "| armature2 |", "| viscous1 |"] {
-            assert!(
-                generated.text().contains(said),
-                "{said}: {}",
-                generated.text()
-            );
+            assert!(text.contains(said), "{said}: {text}");
         }
     }
-}
-
-fn scene(change: impl FnOnce(&mut Scene)) -> Scene {
-    let mut scene = Scene {
-        name: "some".into(),
-        ..Scene::default()
-    };
-    change(&mut scene);
-    scene
 }
 
 /// What a scene holds still or does not ask for needs fewer parameters.
 #[test]
 fn torques_in_scenes() {
-    let angle = |n: i64, d: i64| Position::Angle(Angle::PiTimes(Rational::new(n.into(), d.into())));
-    let plane = scene(|scene| {
-        scene.lock = vec![(0, angle(0, 1)), (3, angle(0, 1)), (5, angle(1, 6))];
-    });
-    let pick = scene(|scene| {
-        scene.joints = Some(vec![2, 0]);
-        scene.velocity_zero = true;
-    });
-    let held = scene(|scene| {
-        scene.lock = vec![(4, angle(1, 4))];
-        scene.joints = Some(vec![4, 1]);
-    });
-    let still = scene(|scene| (scene.velocity_zero, scene.acceleration_zero) = (true, true));
-    let robot = support::robot("puma560");
-    for scene in [plane, pick, held, still] {
-        check(TORQUES, &robot, Some(&scene), 0);
+    for scene in [
+        "lock = { 1 = 0, 4 = 0, 6 = \"pi/6\" }",
+        "joints = [3, 1]\nvelocity = \"zero\"",
+        "lock = { 5 = \"pi/4\" }\njoints = [5, 2]",
+        "velocity = \"zero\"\nacceleration = \"zero\"",
+    ] {
+        check(TORQUES, "puma560", &format!("\n[scene.some]\n{scene}\n"), 0);
     }
 }
 
@@ -298,13 +282,10 @@ fn torques_in_scenes() {
 /// inertias have columns, which torques at rest have not.
 #[test]
 fn passivity_in_scenes() {
-    let mut robot = support::robot("planar2r");
-    robot.joints[1].viscous = Rational::new(1.into(), 7.into());
-    let still = scene(|scene| (scene.velocity_zero, scene.acceleration_zero) = (true, true));
-    with_columns(TORQUES, &robot, Some(&still), 4);
-    with_columns(PASSIVITY, &robot, Some(&still), 7);
-    let pick = scene(|scene| scene.joints = Some(vec![1]));
-    check(PASSIVITY, &robot, Some(&pick), 1);
+    let still = "\n[scene.some]\nvelocity = \"zero\"\nacceleration = \"zero\"\n";
+    with_columns(TORQUES, &case(TORQUES, "rubbed", still), 4);
+    with_columns(PASSIVITY, &case(PASSIVITY, "rubbed", still), 7);
+    check(PASSIVITY, "rubbed", "\n[scene.some]\njoints = [2]\n", 1);
 }
 
 /// π from the combinations is the torques' π exactly, and a combination that is
@@ -312,11 +293,11 @@ fn passivity_in_scenes() {
 #[test]
 fn wrong_combinations_are_refused() {
     let robot = support::robot("puma560");
-    let scene_robot = SceneRobot::whole(&robot);
-    let base = scene_robot.base(TORQUES.quantity).unwrap();
-    assert_eq!(prove_base(&scene_robot, TORQUES.regressor, base), Ok(()));
+    let setup = Setup::whole(&robot);
+    let base = setup.base(TORQUES.quantity).unwrap();
+    assert_eq!(prove_base(setup.task(TORQUES.regressor), base), Ok(()));
     let arm = Arm::from_robot(&robot, &mut Exact::clone);
-    let printed = &printed(TORQUES, &generate(TORQUES, &robot, None).text())[0];
+    let printed = &printed(TORQUES, &case(TORQUES, "puma560", "").generated().text())[0];
     let values: Vec<f64> = base.values(&arm).iter().map(f64::nearest).collect();
     assert_eq!(*printed, values);
 
@@ -324,7 +305,7 @@ fn wrong_combinations_are_refused() {
         let parameter = parameter.to_string();
         let expected = Err(Disproof::Dependence { parameter });
         for linear in [TORQUES, PASSIVITY] {
-            assert_eq!(prove_base(&scene_robot, linear.regressor, wrong), expected);
+            assert_eq!(prove_base(setup.task(linear.regressor), wrong), expected);
         }
     };
     for column in [0, 8, 20, 35] {
@@ -338,25 +319,4 @@ fn wrong_combinations_are_refused() {
     let mut short = base.clone();
     let (parameter, _) = short.combinations[35].pop().unwrap();
     refused(&short, parameter);
-}
-
-/// No tolerance: what a column's error does depends on the parameter.
-#[test]
-fn tolerances_are_refused() {
-    let source = "\n[scene.some]\ntolerance = { value = 1e-2, relative_to = \"range\" }\n";
-    let reading = support::reading_with("puma560", source);
-    let regressors = [
-        Function::Regressor,
-        Function::FullRegressor,
-        Function::PassivityRegressor,
-    ];
-    for function in regressors {
-        let request = Request {
-            scene: reading.scenes.first().cloned(),
-            ..Request::of(&[function])
-        };
-        let error = dalembert_codegen::generate(&reading.robot, &request).unwrap_err();
-        let why = ToleranceError::Function(Unbounded::Parameters);
-        assert_eq!(error, GenerateError::Tolerance(function, why));
-    }
 }

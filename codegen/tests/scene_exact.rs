@@ -1,55 +1,24 @@
 //! A scene's code is the full model's at the scene's values: proved, and run.
 
-use dalembert_codegen::workspace::{
-    Argument, Disproof, Input, Operand, Runtime, SceneRobot, keep, prove, seeded,
-};
-use dalembert_codegen::{
-    Function, GenerateError, Generated, Plan, Program, Request, ScalarType, generate,
-};
-use dalembert_model::number::{Angle, Rational};
+use dalembert_codegen::workspace::{Argument, Input, Node, Runtime, seeded};
+use dalembert_codegen::{Generated, Request, generate};
 use dalembert_model::outputs::Axis;
-use dalembert_model::robot::{Position, Robot};
-use dalembert_model::scene::{Payload, Scene};
+use dalembert_model::scene::Scene;
 
 use crate::support;
-
-fn ratio(numerator: i64, denominator: i64) -> Rational {
-    Rational::new(numerator.into(), denominator.into())
-}
-
-fn pi_times(numerator: i64, denominator: i64) -> Position {
-    Position::Angle(Angle::PiTimes(ratio(numerator, denominator)))
-}
-
-fn radians(numerator: i64, denominator: i64) -> Position {
-    Position::Angle(Angle::Radians(ratio(numerator, denominator)))
-}
-
-fn named(scene: Scene) -> Scene {
-    Scene {
-        name: "test".into(),
-        ..scene
-    }
-}
-
-fn request(scene: &Scene, functions: &[Function]) -> Request {
-    Request {
-        scalars: vec![ScalarType::F64],
-        scene: Some(scene.clone()),
-        ..Request::of(functions)
-    }
-}
-
-fn run(robot: &Robot, scene: &Scene, functions: &[Function]) -> Generated {
-    generate(robot, &request(scene, functions)).unwrap_or_else(|error| panic!("{error}"))
-}
+use crate::support::case::Case;
 
 /// Compares the scene's text against the runtime of the whole robot, at states that have the
-/// scene's values; nothing here goes through [`SceneRobot`].
-fn check_floats(robot: &Robot, scene: &Scene, generated: &Generated) {
+/// scene's values; nothing here goes through what the generator makes of the scene. What is locked
+/// must not be read.
+fn check(robot: &str, scene: &str, outputs: &str) -> Generated {
+    let asked = format!("outputs: {outputs}; scene: test; scalar: f64");
+    let case = Case::new(robot, &format!("\n[scene.test]\n{scene}\n"), &asked);
+    let (robot, scene) = (case.robot(), case.request.scene.as_ref().unwrap());
+    let generated = case.generated();
     let whole = Runtime::new(&scene.apply(robot));
-    let rows = scene.rows(robot.joints.len());
     let n = robot.joints.len();
+    let rows = scene.rows(n);
     for mut state in seeded(robot, 20, 7) {
         for (joint, at) in &scene.lock {
             state.q[*joint] = at.to_f64();
@@ -63,12 +32,11 @@ fn check_floats(robot: &Robot, scene: &Scene, generated: &Generated) {
         }
         for emitted in &generated.emitted {
             let full = whole.run(emitted.function, &state);
-            // Locked entries must not be read.
             let mut noisy = state.clone();
             for (joint, _) in &scene.lock {
-                noisy.q[*joint] = f64::NAN;
-                noisy.qd[*joint] = f64::NAN;
-                noisy.qdd[*joint] = f64::NAN;
+                for entries in [&mut noisy.q, &mut noisy.qd, &mut noisy.qdd] {
+                    entries[*joint] = f64::NAN;
+                }
             }
             let found = emitted.run(&noisy);
             let largest = full.iter().fold(1.0f64, |most, x| most.max(x.abs()));
@@ -79,10 +47,7 @@ fn check_floats(robot: &Robot, scene: &Scene, generated: &Generated) {
                 for axis in quantity.shape().0 {
                     let (length, places) = match *axis {
                         Axis::Joints => (n, rows.clone()),
-                        Axis::Fixed(_)
-                        | Axis::LinkParameters
-                        | Axis::BaseParameters
-                        | Axis::Load => {
+                        _ => {
                             let length = axis.length(emitted.sizes);
                             (length, (0..length).collect())
                         }
@@ -103,133 +68,63 @@ fn check_floats(robot: &Robot, scene: &Scene, generated: &Generated) {
             }
         }
     }
+    for function in &generated.functions {
+        let graph = function.program.graph();
+        let reads = |input: Input| match input {
+            Input::Sin(joint) | Input::Cos(joint) | Input::PerSpeed(joint) => Some(joint),
+            Input::Entry(argument, joint) => Argument::STATE.contains(&argument).then_some(joint),
+        };
+        let is_locked = |node: &Node| match node {
+            Node::Input(input) => reads(*input).is_some_and(|joint| scene.locked(joint).is_some()),
+            _ => false,
+        };
+        let is_row = |joint: usize| rows.contains(&joint) && scene.locked(joint).is_some();
+        let held = (0..n).any(is_row);
+        assert!(
+            held || !graph.nodes.iter().any(is_locked),
+            "{}",
+            function.function
+        );
+    }
+    generated
 }
 
 #[test]
 fn locked_scenes_are_the_full_model() {
-    let some = [
-        Function::InverseDynamics,
-        Function::Gravity,
-        Function::ManipulatorEquation,
-    ];
-    let lock = |lock: Vec<(usize, Position)>| {
-        named(Scene {
-            lock,
-            ..Scene::default()
-        })
-    };
-    for (robot, scenes) in [
-        (
-            "puma560",
-            vec![
-                lock(vec![
-                    (3, pi_times(0, 1)),
-                    (4, pi_times(1, 2)),
-                    (5, radians(1, 3)),
-                ]),
-                lock(vec![
-                    (0, radians(1, 2)),
-                    (3, pi_times(1, 1)),
-                    (5, pi_times(1, 6)),
-                ]),
-                lock(vec![(1, pi_times(-1, 4)), (2, pi_times(1, 4))]),
-            ],
-        ),
-        (
-            "stanford",
-            vec![
-                lock(vec![(2, Position::Length(ratio(1, 2)))]),
-                lock(vec![
-                    (0, pi_times(0, 1)),
-                    (1, pi_times(1, 2)),
-                    (4, radians(-3, 10)),
-                ]),
-            ],
-        ),
-        (
-            "panda",
-            vec![lock(vec![
-                (0, pi_times(0, 1)),
-                (2, pi_times(1, 2)),
-                (4, pi_times(0, 1)),
-                (6, pi_times(1, 4)),
-            ])],
-        ),
+    let some = "inverse_dynamics, gravity, manipulator_equation";
+    for (robot, lock) in [
+        ("puma560", "4 = 0, 5 = \"pi/2\", 6 = \"1/3\""),
+        ("puma560", "1 = 0.5, 4 = \"pi\", 6 = \"pi/6\""),
+        ("puma560", "2 = \"-pi/4\", 3 = \"pi/4\""),
+        ("stanford", "3 = 0.5"),
+        ("stanford", "1 = 0, 2 = \"pi/2\", 5 = -0.3"),
+        ("panda", "1 = 0, 3 = \"pi/2\", 5 = 0, 7 = \"pi/4\""),
     ] {
-        let robot = support::robot(robot);
-        for scene in scenes {
-            let generated = run(&robot, &scene, &some);
-            check_floats(&robot, &scene, &generated);
-            for function in &generated.functions {
-                let locked = |joint: usize| scene.locked(joint).is_some();
-                assert!(!reads(&function.program, locked), "{}", function.function);
-            }
-        }
+        check(robot, &format!("lock = {{ {lock} }}"), some);
     }
-}
-
-/// Returns whether a program reads anything of some joints.
-fn reads(program: &Program, joint: impl Fn(usize) -> bool) -> bool {
-    let steps = program.steps.iter().flat_map(|s| [&s.left, &s.right]);
-    let outputs = program.outputs.iter().map(|output| &output.value);
-    steps.chain(outputs).any(|operand| match operand {
-        Operand::Input(Input::Sin(angle) | Input::Cos(angle)) => {
-            angle.terms().any(|(i, _)| joint(i))
-        }
-        Operand::Input(
-            Input::Entry(Argument::Position, i)
-            | Input::Entry(Argument::Velocity, i)
-            | Input::Entry(Argument::Acceleration, i),
-        ) => joint(*i),
-        _ => false,
-    })
 }
 
 #[test]
 fn every_function_over_chosen_joints() {
-    let robot = support::robot("planar3r");
-    let payload = Payload {
-        mass: ratio(5, 2),
-        com: [ratio(1, 20), ratio(0, 1), ratio(1, 10)],
-        inertia: Default::default(),
-    };
+    let first = "inverse_dynamics, inertia, coriolis, gravity, manipulator_equation, \
+                 dynamic_coefficients";
+    let payload = "payload = { mass = 2.5, com = [0.05, 0, 0.1] }";
     for scene in [
-        Scene {
-            joints: Some(vec![2, 0]),
-            payload: Some(payload.clone()),
-            ..Scene::default()
-        },
-        Scene {
-            lock: vec![(1, pi_times(1, 3))],
-            gravity: Some([ratio(1, 1), ratio(-3, 1), ratio(1, 2)]),
-            acceleration_zero: true,
-            ..Scene::default()
-        },
+        format!("joints = [3, 1]\n{payload}"),
+        "lock = { 2 = \"pi/3\" }\ngravity = [1, -3, 0.5]\nacceleration = \"zero\"".to_owned(),
         // The torque that a brake holds.
-        Scene {
-            joints: Some(vec![1, 0]),
-            lock: vec![(1, pi_times(1, 3)), (2, pi_times(1, 2))],
-            velocity_zero: true,
-            payload: Some(payload),
-            ..Scene::default()
-        },
+        format!(
+            "joints = [2, 1]\nlock = {{ 2 = \"pi/3\", 3 = \"pi/2\" }}\nvelocity = \"zero\"\n{payload}"
+        ),
     ] {
-        let scene = named(scene);
-        let generated = run(&robot, &scene, &Function::ALL[..6]);
-        check_floats(&robot, &scene, &generated);
+        check("planar3r", &scene, first);
     }
 }
 
 #[test]
 fn the_text_says_what_is_left() {
-    let robot = support::robot("puma560");
-    let scene = named(Scene {
-        lock: (3..6).map(|joint| (joint, pi_times(0, 1))).collect(),
-        velocity_zero: true,
-        ..Scene::default()
-    });
-    let functions = [Function::InverseDynamics, Function::Inertia];
-    let text = run(&robot, &scene, &functions).text();
+    let scene = "lock = { 4 = 0, 5 = 0, 6 = 0 }\nvelocity = \"zero\"";
+    let text = check("puma560", scene, "inverse_dynamics, inertia").text();
     for part in [
         "pub const N: usize = 6;",
         "pub const JOINTS: [usize; 3] = [0, 1, 2];",
@@ -241,90 +136,17 @@ fn the_text_says_what_is_left() {
     }
 }
 
-/// The proof is against the full model at the scene's values: another value,
-/// another payload, or rows in another order are no match.
-#[test]
-fn another_scene_disproves() {
-    let robot = support::robot("puma560");
-    let scene = |angle: Position, mass: i64| {
-        named(Scene {
-            joints: Some(vec![0, 1]),
-            lock: vec![(2, angle)],
-            payload: Some(Payload {
-                mass: ratio(mass, 1),
-                com: [ratio(0, 1), ratio(0, 1), ratio(1, 20)],
-                inertia: Default::default(),
-            }),
-            ..Scene::default()
-        })
-    };
-    let own = scene(pi_times(1, 2), 2);
-    let generated = run(&robot, &own, &[Function::Gravity]);
-    let program = &generated.functions[0].program;
-    let proved = |scene: &Scene| {
-        let scene_robot = SceneRobot::new(&robot, scene).unwrap_or_else(|error| panic!("{error}"));
-        prove(&scene_robot, program)
-    };
-    assert!(proved(&own).is_ok());
-    for other in [scene(pi_times(1, 3), 2), scene(pi_times(1, 2), 3)] {
-        assert!(matches!(proved(&other), Err(Disproof::Output { .. })));
-    }
-    let turned = Scene {
-        joints: Some(vec![1, 0]),
-        ..own
-    };
-    assert_eq!(proved(&turned), Err(Disproof::Shape));
-}
-
-#[test]
-fn plans_tell_scenes_apart() {
-    let robot = support::robot("planar3r");
-    let scene = named(Scene {
-        joints: Some(vec![1, 0]),
-        lock: vec![(2, pi_times(1, 2))],
-        velocity_zero: true,
-        ..Scene::default()
-    });
-    let mut wanted = request(&scene, &[Function::InverseDynamics]);
-    let first = generate(&robot, &wanted).unwrap_or_else(|error| panic!("{error}"));
-    let kept = keep(&robot, &wanted, &first, None).plan;
-    let read = Plan::parse(&kept.write()).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(read, kept);
-    wanted.plan = Some(read);
-    let again = generate(&robot, &wanted).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(again.text(), first.text());
-    // Not the whole robot's.
-    let whole = Request {
-        scene: None,
-        ..wanted.clone()
-    };
-    let whole = generate(&robot, &whole).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(whole.functions[0].program.rows, [0, 1, 2]);
-    // Nor that of the scene as it is now.
-    wanted.scene = Some(Scene {
-        lock: vec![(2, pi_times(1, 3))],
-        ..scene
-    });
-    let stale = generate(&robot, &wanted).map(|generated| generated.text());
-    let stale = stale.expect_err("the plan is of the scene as it was");
-    assert_eq!(
-        stale,
-        GenerateError::StaleScene {
-            scene: "test".into()
-        }
-    );
-    assert!(stale.to_string().contains("the scene `test`"), "{stale}");
-}
-
 #[test]
 fn a_scene_of_another_robot_is_refused() {
-    let robot = support::robot("planar2r");
-    let scene = named(Scene {
+    let scene = Scene {
+        name: "test".into(),
         joints: Some(vec![0, 4]),
         ..Scene::default()
-    });
-    let error = generate(&robot, &request(&scene, &[Function::Gravity]))
-        .map(|generated| generated.text())
-        .expect_err("has two joints");
+    };
+    let request = Request {
+        scene: Some(scene),
+        ..Request::default()
+    };
+    let error = generate(&support::robot("planar2r"), &request).unwrap_err();
     assert!(error.to_string().contains("there is no joint 5"), "{error}");
 }

@@ -2,8 +2,8 @@
 //! back, and as near to libm's as was proved.
 
 use dalembert_codegen::workspace::{
-    AngleKernel, AngleSum, BOUND, Candidates, ErrorByCause, Input, Interval, Library, Lowered,
-    Operand, Output, Printed, Runtime, SceneRobot, Trig, need, seeded, write_function,
+    AngleKernel, BOUND, Candidates, Code, ErrorByCause, Input, Interval, Library, Need, Operand,
+    Output, Printed, Runtime, Setup, Trig, seeded, write_function,
 };
 use dalembert_codegen::{
     Function, GenerateError, Generated, Program, Request, ScalarType, SinCos, generate,
@@ -32,7 +32,7 @@ fn polynomials_are_printed_counted_read_back_and_near() {
         let generated = with(&robot, 1e-5).unwrap();
         assert!(!generated.text().contains("libm"), "{name}");
         let states = seeded(&robot, 200, 3);
-        let runtime = Runtime::in_scene(SceneRobot::whole(&robot));
+        let runtime = Runtime::in_scene(Setup::whole(&robot));
         for emitted in &generated.emitted {
             let function = &generated.functions[0];
             let counts = function.counts_in(emitted.scalar);
@@ -51,8 +51,8 @@ fn polynomials_are_printed_counted_read_back_and_near() {
             let seen = emitted.sines(&states);
             let proved = function.sines(emitted.scalar);
             assert_eq!(seen.len(), proved.len());
-            for ((angle, seen), proved) in seen.into_iter().zip(proved) {
-                assert_eq!(angle, proved.angle);
+            for ((joint, seen), proved) in seen.into_iter().zip(proved) {
+                assert_eq!(joint, proved.joint);
                 assert!(proved.errors.worst() <= 1e-5);
                 assert!(
                     seen > 0.0 && seen <= proved.errors.worst() + f64::EPSILON,
@@ -66,15 +66,17 @@ fn polynomials_are_printed_counted_read_back_and_near() {
 /// Returns the sine and cosine of one angle, as far as they are wanted: a function of two
 /// results.
 fn pair(sin: bool, cos: bool) -> Program {
-    let angle = AngleSum::joint(0);
-    let (sine, cosine) = (Input::Sin(angle), Input::Cos(angle));
+    let (sine, cosine) = (Input::Sin(0), Input::Cos(0));
     let outputs = match (sin, cos) {
         (true, false) => [sine, sine],
         (false, true) => [cosine, cosine],
         _ => [sine, cosine],
     };
     Program {
-        trig: vec![Trig { angle, sin, cos }],
+        trig: vec![Trig {
+            joint: 0,
+            need: Need { sin, cos },
+        }],
         outputs: outputs
             .map(|input| Output::of(Operand::Input(input)))
             .to_vec(),
@@ -102,21 +104,20 @@ fn kernels_of_narrow_ranges_are_read_back() {
             let range = Interval::new(centre - half, centre + half).unwrap();
             for (sin, cos) in [(true, true), (true, false), (false, true)] {
                 let program = pair(sin, cos);
-                let candidates = Candidates::new(need(&program.trig[0]), scalar, range);
+                let candidates = Candidates::new(program.trig[0].need, scalar, range);
                 for (most, enough) in [(f64::INFINITY, 0.0), (1.0, 1e-2)] {
                     for choice in candidates.front(most, enough) {
                         let sines = [AngleKernel {
-                            angle: program.trig[0].angle,
+                            joint: program.trig[0].joint,
                             range,
                             form: choice.form.to_string(),
                             kernel: choice.kernel,
                             errors: choice.errors,
                         }];
-                        let kernel = |_: AngleSum| Some(&sines[0].kernel);
-                        let code = program.lower(scalar, kernel);
+                        let code = program.code(scalar, Library::Libm, &sines);
                         let text =
                             write_function(&Printed::of(&program, &code), Library::Libm, &[]);
-                        let found = Lowered::parse(&text, program.function, scalar).unwrap();
+                        let found = Code::parse(&text, program.function, scalar).unwrap();
                         let same = found.matches(&program, Library::Libm, &sines);
                         assert_eq!(same, Ok(()), "{}\n{text}", sines[0].form);
                         read += 1;
@@ -163,7 +164,7 @@ fn a_text_with_other_sines_is_not_the_function() {
     let generated = with(&robot, 1e-5).unwrap();
     let (function, scalar) = (&generated.functions[0], ScalarType::F64);
     let matches = |text: &str| {
-        let read = Lowered::parse(text, FUNCTION, scalar).map_err(|e| e.to_string())?;
+        let read = Code::parse(text, FUNCTION, scalar).map_err(|e| e.to_string())?;
         read.matches(&function.program, Library::Libm, function.sines(scalar))
             .map_err(|difference| difference.to_string())
     };
@@ -187,7 +188,7 @@ fn a_text_with_other_sines_is_not_the_function() {
     let text = generated.text()[..block].to_owned() + called + &generated.text()[end..];
     assert!(matches(&text).is_err());
     // Nor is it one of libm's sines.
-    let read = Lowered::parse(&generated.text(), FUNCTION, scalar).unwrap();
+    let read = Code::parse(&generated.text(), FUNCTION, scalar).unwrap();
     assert!(read.matches(&function.program, Library::Libm, &[]).is_err());
     let called = read.with_libm();
     assert!(

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::support::draw::robots;
 use dalembert_codegen::workspace::{
-    Dag, Folding, Limits, Schedule, Task, cost, search, search_graphs,
+    Dag, Folding, Job, Limits, Schedule, cost, search, search_graphs,
 };
 use dalembert_codegen::{Effort, Function, Request};
 use dalembert_model::read::{self, Options};
@@ -74,13 +74,13 @@ fn every_source_earns() {
         .flat_map(|robot| FUNCTIONS.map(|function| (robot, function)));
     let seeds = |(robot, function): (&Robot, Function)| -> Vec<Dag> {
         let request = Request::of(&[function]);
-        let scene_robot = request.scene_robot(robot).unwrap();
-        let task = Task {
+        let setup = request.setup(robot).unwrap();
+        let job = Job {
             robot,
-            scene_robot: &scene_robot,
+            setup: &setup,
             request: &request,
         };
-        let found = search(&task, function).unwrap();
+        let found = search(&job, function).unwrap();
         found.seeds.into_iter().map(|seed| seed.graph).collect()
     };
     let cases: Vec<Vec<Dag>> = cases.map(seeds).collect();

@@ -1,12 +1,11 @@
 //! Watching a search and ending it early.
 
-use std::sync::Arc;
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 use dalembert_codegen::workspace::{Observer, Part, Progress, price};
-use dalembert_codegen::{Effort, Function, Generated, Request, ScalarType, Watch, generate};
+use dalembert_codegen::{Effort, Function, Generated, Request, Watch};
 
-use crate::support;
+use crate::support::case::Case;
 
 /// Writes down what it is told, and wants an end at a part.
 struct Clerk {
@@ -25,31 +24,32 @@ impl Observer for Clerk {
     }
 }
 
-fn watched(effort: Effort, until: Option<Part>) -> (Generated, Vec<Progress>) {
-    let clerk = Arc::new(Clerk {
-        until,
-        seen: Mutex::default(),
-    });
-    let request = Request {
-        scalars: vec![ScalarType::F64],
-        effort,
-        watch: Watch::by(clerk.clone()),
-        ..Request::of(&[Function::InverseDynamics, Function::Gravity])
-    };
-    let generated = generate(&support::robot("planar3r"), &request).unwrap();
+fn clerk(until: Option<Part>) -> Arc<Clerk> {
+    let seen = Mutex::default();
+    Arc::new(Clerk { until, seen })
+}
+
+/// Generates a case under the eyes of a clerk; returns what he saw, too.
+fn watched(mut case: Case, effort: Effort, until: Option<Part>) -> (Generated, Vec<Progress>) {
+    let clerk = clerk(until);
+    (case.request.effort, case.request.watch) = (effort, Watch::by(clerk.clone()));
+    let generated = case.generated();
     let seen = clerk.seen.lock().unwrap().clone();
     (generated, seen)
 }
 
+fn two() -> Case {
+    Case::new(
+        "planar3r",
+        "",
+        "outputs: inverse_dynamics, gravity; scalar: f64",
+    )
+}
+
 #[test]
 fn watching_changes_nothing() {
-    let (generated, seen) = watched(Effort::Quick, None);
-    let alone = Request {
-        scalars: vec![ScalarType::F64],
-        ..Request::of(&[Function::InverseDynamics, Function::Gravity])
-    };
-    let alone = generate(&support::robot("planar3r"), &alone).unwrap();
-    assert!(generated.text() == alone.text());
+    let (generated, seen) = watched(two(), Effort::Quick, None);
+    assert!(generated.text() == two().generated().text());
     for function in [Function::InverseDynamics, Function::Gravity] {
         let parts = seen.iter().filter(|progress| progress.function == function);
         let mut parts: Vec<Part> = parts.map(|progress| progress.part).collect();
@@ -64,7 +64,7 @@ fn watching_changes_nothing() {
 #[test]
 fn an_early_end_keeps_the_best_so_far() {
     for until in [Part::Formulations, Part::Search] {
-        let (generated, seen) = watched(Effort::Thorough, Some(until));
+        let (generated, seen) = watched(two(), Effort::Thorough, Some(until));
         let rounds = seen.iter().filter(|p| p.part == Part::Search).count();
         assert!(rounds <= 1, "{until}: {rounds} rounds");
         for function in &generated.functions {
@@ -77,33 +77,13 @@ fn an_early_end_keeps_the_best_so_far() {
     }
 }
 
-const SCENE: &str = r#"
-[scene.hold]
-outputs = ["gravity"]
-tolerance = { value = 0.3, relative_to = "range" }
-scalar = "f64"
-"#;
-
 /// With a tolerance, its search and its bounds are told too; an end keeps a
 /// variant that is certified (or `generate` fails).
 #[test]
 fn a_tolerance_is_watched() {
-    let reading = support::reading_with("planar2r", SCENE);
-    let run = |effort, until| {
-        let clerk = Arc::new(Clerk {
-            until,
-            seen: Mutex::default(),
-        });
-        let request = Request {
-            effort,
-            watch: Watch::by(clerk.clone()),
-            ..Request::default()
-        };
-        let request = request.in_scene(&reading.scenes[0]);
-        let generated = generate(&reading.robot, &request).unwrap();
-        let seen = clerk.seen.lock().unwrap().clone();
-        (generated, seen)
-    };
+    let hold = "\n[scene.hold]\noutputs = [\"gravity\"]\n\
+                tolerance = { value = 0.3, relative_to = \"range\" }\nscalar = \"f64\"\n";
+    let case = || Case::new("planar2r", hold, "scene: hold");
     let rounds = |seen: &[Progress]| {
         let rounds = seen.iter().filter(|p| p.part == Part::Omissions);
         // A better exact program begins anew, and restarts run side by side: of none a round
@@ -116,77 +96,52 @@ fn a_tolerance_is_watched() {
         }
         rounds.len()
     };
-    let (generated, seen) = run(Effort::Thorough, None);
+    let (generated, seen) = watched(case(), Effort::Thorough, None);
     let all = rounds(&seen);
-    let bounds = seen.iter().filter(|p| p.part == Part::Bounds);
-    assert!(
-        bounds.count() >= 4,
-        "of the exact program and of the variant"
-    );
-    let (ended, seen) = run(Effort::Thorough, Some(Part::Omissions));
+    let bounds = seen.iter().filter(|p| p.part == Part::Bounds).count();
+    assert!(bounds >= 4, "of the exact program and of the variant");
+    let (ended, seen) = watched(case(), Effort::Thorough, Some(Part::Omissions));
     assert!(rounds(&seen) < all);
     let admitted = ended.functions[0].admitted.as_ref().unwrap();
-    let bounds = admitted.certificates.iter().flat_map(|c| &c.bounds);
-    assert!(bounds.clone().count() > 0 && bounds.clone().all(|bound| bound.total() <= 0.3));
-    assert!(
-        ended.functions[0].counts().operations() >= generated.functions[0].counts().operations()
-    );
+    let mut bounds = admitted
+        .certificates
+        .iter()
+        .flat_map(|c| &c.bounds)
+        .peekable();
+    assert!(bounds.peek().is_some() && bounds.all(|bound| bound.total() <= 0.3));
+    let operations = |own: &Generated| own.functions[0].counts().operations();
+    assert!(operations(&ended) >= operations(&generated));
 }
 
 /// Whenever the end is asked for, it is no worse than not to have begun: no
 /// function is dearer than by the quick search, which leaves something out.
 #[test]
 fn an_early_end_is_no_worse_than_the_quick_search() {
-    let reading = support::reading_with("planar3r", PICK);
-    let run = |effort, until| {
-        let seen = Mutex::default();
-        let watch = Watch::by(Arc::new(Clerk { until, seen }));
-        let request = Request {
-            effort,
-            watch,
-            ..Request::default()
-        };
-        let request = request.in_scene(&reading.scenes[0]);
-        generate(&reading.robot, &request).unwrap()
+    let pick = "\n[scene.pick]\noutputs = [\"inverse_dynamics\"]\nlock = { 1 = 0 }\n\
+                box = { velocity = [1, 1, 1], acceleration = [1, 2, 2] }\n\
+                tolerance = { value = 0.1, relative_to = \"range\" }\nscalar = \"f64\"\n";
+    let run = |effort, until| watched(Case::new("planar3r", pick, "scene: pick"), effort, until).0;
+    let leaves_out = |own: &Generated| {
+        let admitted = own.functions[0].admitted.as_ref();
+        admitted.is_some_and(|admitted| !admitted.stages.is_empty())
     };
     let quick = run(Effort::Quick, None);
-    assert!(!quick.ended);
-    let left_out = quick.functions[0].admitted.as_ref().unwrap();
-    assert!(!left_out.stages.is_empty());
+    assert!(!quick.ended && leaves_out(&quick));
     for until in [Part::Formulations, Part::Search] {
         let ended = run(Effort::Thorough, Some(until));
-        assert!(ended.ended);
-        let admitted = ended.functions[0].admitted.as_ref().unwrap();
-        assert!(!admitted.stages.is_empty(), "{until}");
+        assert!(ended.ended && leaves_out(&ended), "{until}");
         for (ended, quick) in ended.functions.iter().zip(&quick.functions) {
-            let (ours, theirs) = (ended.counts(), quick.counts());
-            assert!(
-                price(&ended.program.counts()) <= price(&quick.program.counts()),
-                "{until}: {ours}, quick: {theirs}"
-            );
+            let [ours, theirs] = [ended, quick].map(|own| price(&own.program.counts()));
+            assert!(ours <= theirs, "{until}: {ours}, quick: {theirs}");
         }
     }
 }
 
-const PICK: &str = r#"
-[scene.pick]
-outputs = ["inverse_dynamics"]
-lock = { 1 = 0 }
-box = { velocity = [1, 1, 1], acceleration = [1, 2, 2] }
-tolerance = { value = 0.1, relative_to = "range" }
-scalar = "f64"
-"#;
-
 /// A hash of the request, which build scripts take, must not see who watches.
 #[test]
 fn a_request_prints_the_same_with_an_observer() {
-    let clerk = Arc::new(Clerk {
-        until: None,
-        seen: Mutex::default(),
-    });
-    let watch = Watch::by(clerk);
     let request = Request {
-        watch,
+        watch: Watch::by(clerk(None)),
         ..Request::default()
     };
     assert_eq!(format!("{request:?}"), format!("{:?}", Request::default()));

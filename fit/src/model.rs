@@ -10,7 +10,7 @@
 mod derive;
 mod evaluate;
 
-use dalembert_codegen::workspace::{Parameter, Quantity, SceneRobot};
+use dalembert_codegen::workspace::{Parameter, Quantity, Setup};
 use dalembert_model::equations::Arm;
 use dalembert_model::equations::chain::{Body, Chain, Regrouping, Skeleton};
 use dalembert_model::equations::regressor::LinkParameter;
@@ -105,7 +105,7 @@ impl Model {
             ));
         }
         let n = robot.joints.len();
-        let scene = SceneRobot::whole(&candidates(robot, options));
+        let scene = Setup::whole(&candidates(robot, options));
         let base = scene.base(Quantity::BaseRegressor);
         let base = base.map_err(|why| Error::NoBaseParameters(why.to_string()))?;
         let arm = Arm::from_robot(robot, &mut Exact::clone).fold_base();

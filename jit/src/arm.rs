@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use dalembert_codegen::workspace::{Argument, Lowered, Sizes, parse};
+use dalembert_codegen::workspace::{Argument, Code, Sizes, parse};
 use dalembert_codegen::{
     Counts, Function as Output, Generated, Language, Plan, Request, RobotFileError, ScalarType,
     generate,
@@ -280,7 +280,7 @@ fn compiled(entry: &Entry, proved: &Proved) -> Result<Function, LoadError> {
     };
     let scalar = parse::<ScalarType>(&proved.scalar).map_err(|_| damaged())?;
     let text = entry.rust.get(proved.file).ok_or_else(damaged)?;
-    let program = Lowered::parse(text, output, scalar).map_err(|_| damaged())?;
+    let program = Code::parse(text, output, scalar).map_err(|_| damaged())?;
     let sizes = proved.sizes();
     let arguments = proved.arguments.iter().map(|name| {
         let argument = Argument::from_name(name)?;

@@ -1,6 +1,6 @@
 //! The comparison of machine code with the program that it was made of.
 
-use dalembert_codegen::workspace::{Argument, Lowered, Machine, State};
+use dalembert_codegen::workspace::{Argument, Code, Machine, State};
 
 use crate::compile::Signature;
 use crate::error::{CallError, CompileError};
@@ -61,13 +61,12 @@ fn is_same<T: Machine>(left: T, right: T) -> bool {
     left.to_bits() == right.to_bits() || (left.is_nan() && right.is_nan())
 }
 
-fn expected<T: Machine>(program: &Lowered, signature: &Signature, state: &[Vec<T>]) -> Vec<T> {
-    let of = |wanted| {
-        let mut arguments = signature.arguments.iter();
-        let place = arguments.position(|&(argument, _)| argument == wanted);
-        place.map_or(&[][..], |place| &state[place])
-    };
-    program.run(State::of(of))
+fn expected<T: Machine>(program: &Code, signature: &Signature, state: &[Vec<T>]) -> Vec<T> {
+    let mut arguments: State<T> = Default::default();
+    for (&(argument, _), entries) in signature.arguments.iter().zip(state) {
+        arguments[argument.index()].clone_from(entries);
+    }
+    program.run(&arguments).unwrap_or_default()
 }
 
 /// Finds the first result that differs.
@@ -81,11 +80,11 @@ fn differing<T: Machine>(expected: &[T], found: &[T]) -> Option<usize> {
 
 /// Compares the code for one state, which `call` runs, with the program.
 pub(crate) fn check<T: Machine + Default>(
-    program: &Lowered,
+    program: &Code,
     signature: &Signature,
     call: impl Fn(&[&[T]], &mut [T]) -> Result<(), CallError>,
 ) -> Result<(), CompileError> {
-    let mut found = vec![T::default(); program.outputs.len()];
+    let mut found = vec![T::default(); program.dag.outputs.len()];
     for (state, arguments) in drawn::<T>(signature).iter().enumerate() {
         let slices: Vec<&[T]> = arguments.iter().map(Vec::as_slice).collect();
         // The lengths are the signature's: it can only be called.
@@ -100,7 +99,7 @@ pub(crate) fn check<T: Machine + Default>(
 /// Compares the code for many states, which `call` runs at [`STATES`] of them, with the program;
 /// `place` says where the entries of an argument or a result lie.
 pub(crate) fn check_many<T: Machine + Default>(
-    program: &Lowered,
+    program: &Code,
     signature: &Signature,
     place: impl Fn(usize) -> Place,
     call: impl Fn(&[Rows<'_, T>], &mut [RowsMut<'_, T>]) -> Result<(), CallError>,

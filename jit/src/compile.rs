@@ -7,7 +7,7 @@ use cranelift_codegen::settings::{self, Configurable};
 use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
 use cranelift_jit::{JITBuilder, JITModule};
 use cranelift_module::{FuncId, Linkage, Module, default_libcall_names};
-use dalembert_codegen::workspace::{Argument, Lowered};
+use dalembert_codegen::workspace::{Argument, Code};
 
 use crate::emit::{Emitter, Lanes, bytes};
 use crate::error::CompileError;
@@ -66,7 +66,7 @@ impl States {
 
 /// Compiles a program.
 pub(crate) fn compile(
-    code: &Lowered,
+    code: &Code,
     signature: &Signature,
     states: States,
     library: *const u8,
@@ -106,7 +106,7 @@ pub(crate) fn compile(
 
 fn define(
     module: &mut JITModule,
-    code: &Lowered,
+    code: &Code,
     signature: &Signature,
     states: States,
 ) -> Result<FuncId, CompileError> {
@@ -158,7 +158,7 @@ impl Lanes {
 
 fn one(
     emitter: &Emitter<'_>,
-    code: &Lowered,
+    code: &Code,
     signature: &Signature,
     parameters: &[Value],
 ) -> Result<(), CompileError> {
@@ -193,7 +193,7 @@ fn address(emitter: &Emitter<'_>, table: Value, index: usize) -> Value {
 /// Emits as many states as vectors take: the loop ends before those that are left.
 fn many(
     emitter: &Emitter<'_>,
-    code: &Lowered,
+    code: &Code,
     signature: &Signature,
     parameters: &[Value],
     layout: States,

@@ -7,7 +7,7 @@
 //!   number of threads may run it at once.
 //! - Memory that holds code is never writable and executable at once: `JITModule` maps it
 //!   to be written, then makes it executable, and nothing is defined in it afterwards.
-//! - The memory lives as long as [`Code`], and every call borrows that.
+//! - The memory lives as long as [`InMemory`], and every call borrows that.
 #![allow(unsafe_code)]
 
 use std::mem::ManuallyDrop;
@@ -15,7 +15,7 @@ use std::sync::OnceLock;
 
 use cranelift_jit::JITModule;
 use dalembert_codegen::ScalarType;
-use dalembert_codegen::workspace::{Lowered, Machine};
+use dalembert_codegen::workspace::{Code, Machine};
 
 use crate::check::{STATES, check, check_many};
 use crate::compile::{Linked, Signature, States, compile};
@@ -24,7 +24,7 @@ use crate::error::{CallError, CompileError};
 use crate::rows::{Place, Rows, RowsMut};
 
 /// Memory with a function in it.
-struct Code {
+struct InMemory {
     /// Taken when dropped, to free the memory.
     module: ManuallyDrop<JITModule>,
     entry: *const u8,
@@ -32,20 +32,20 @@ struct Code {
 
 // SAFETY: the module is not touched between its making and its end, and the address is of
 // memory that nobody writes: both may be anywhere.
-unsafe impl Send for Code {}
+unsafe impl Send for InMemory {}
 // SAFETY: as above; shared, only the address is read, and the code has no state.
-unsafe impl Sync for Code {}
+unsafe impl Sync for InMemory {}
 
-impl Code {
-    fn new(linked: Linked) -> Code {
-        Code {
+impl InMemory {
+    fn new(linked: Linked) -> InMemory {
+        InMemory {
             module: ManuallyDrop::new(linked.module),
             entry: linked.entry,
         }
     }
 }
 
-impl Drop for Code {
+impl Drop for InMemory {
     fn drop(&mut self) {
         // SAFETY: taken once, here, and not read afterwards.
         let module = unsafe { ManuallyDrop::take(&mut self.module) };
@@ -132,9 +132,9 @@ fn library_address(scalar: ScalarType) -> *const u8 {
 ///
 /// It was compared with the program, to the last bit, at 64 states before anybody got it.
 pub struct Native {
-    program: Lowered,
+    program: Code,
     signature: Signature,
-    one: Code,
+    one: InMemory,
     apart: Many,
     adjacent: Many,
 }
@@ -143,7 +143,7 @@ pub struct Native {
 #[derive(Default)]
 struct Many {
     /// Compiled when it is asked for.
-    code: OnceLock<Result<Code, CompileError>>,
+    code: OnceLock<Result<InMemory, CompileError>>,
     /// The result of its comparison with the program.
     checked: OnceLock<Result<(), CallError>>,
 }
@@ -153,8 +153,8 @@ impl Native {
     ///
     /// # Errors
     /// [`CompileError`]: among others, the code computes other bits than the program.
-    pub fn compile(program: Lowered, signature: Signature) -> Result<Native, CompileError> {
-        let (expected, found) = (signature.results.iter().sum(), program.outputs.len());
+    pub fn compile(program: Code, signature: Signature) -> Result<Native, CompileError> {
+        let (expected, found) = (signature.results.iter().sum(), program.dag.outputs.len());
         if expected != found {
             return Err(CompileError::Results { expected, found });
         }
@@ -163,7 +163,7 @@ impl Native {
         let native = Native {
             program,
             signature,
-            one: Code::new(one),
+            one: InMemory::new(one),
             apart: Many::default(),
             adjacent: Many::default(),
         };
@@ -194,7 +194,7 @@ impl Native {
     }
 
     /// Returns the program.
-    pub fn program(&self) -> &Lowered {
+    pub fn program(&self) -> &Code {
         &self.program
     }
 
@@ -223,7 +223,11 @@ impl Native {
         for ((place, expected), argument) in lengths.zip(arguments) {
             length(place, expected, argument.len())?;
         }
-        length(expected.len(), self.program.outputs.len(), results.len())?;
+        length(
+            expected.len(),
+            self.program.dag.outputs.len(),
+            results.len(),
+        )?;
         let mut addresses = [std::ptr::null(); MOST_ARGUMENTS];
         for (address, argument) in addresses.iter_mut().zip(arguments) {
             *address = argument.as_ptr();
@@ -312,7 +316,7 @@ impl Native {
     /// Runs the states of a range; places were checked for all of them.
     fn run_many<T: Real>(
         &self,
-        many: &Code,
+        many: &InMemory,
         read: &Shared<Vec<(*const T, &Place)>>,
         written: &Shared<Vec<(*mut T, &Place)>>,
         states: std::ops::Range<usize>,
@@ -351,7 +355,7 @@ impl Native {
         }
         let lanes = Lanes::Vector.count(self.program.scalar);
         let rest = states.start + states.len() / lanes * lanes..states.end;
-        let mut found = vec![T::default(); self.program.outputs.len()];
+        let mut found = vec![T::default(); self.program.dag.outputs.len()];
         for state in rest {
             let arguments: Vec<Vec<T>> = read
                 .0
@@ -374,11 +378,11 @@ impl Native {
         }
     }
 
-    fn many(&self, states: States) -> Result<&Code, CallError> {
+    fn many(&self, states: States) -> Result<&InMemory, CallError> {
         let many = self.of(states).code.get_or_init(|| {
             let library = library_address(self.program.scalar);
             let linked = compile(&self.program, &self.signature, states, library)?;
-            Ok(Code::new(linked))
+            Ok(InMemory::new(linked))
         });
         many.as_ref()
             .map_err(|error| CallError::Compile(error.clone()))

@@ -129,7 +129,7 @@ impl Call<'_> {
             });
             return Some(array.map(|array| vec![array]));
         }
-        let mut values = vec![T::default(); native.program().outputs.len()];
+        let mut values = vec![T::default(); native.program().dag.outputs.len()];
         if let Err(error) = native.call(slices, &mut values) {
             return Some(Err(self.failed(&error)));
         }

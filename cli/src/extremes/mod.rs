@@ -8,7 +8,7 @@ pub mod cases;
 use std::fmt;
 
 use dalembert_codegen::workspace::{
-    Argument, Emitted, JointState, Quantity, Random, SEED, SceneRobot, each, positions, seeded,
+    Argument, Emitted, JointState, Quantity, Random, SEED, Setup, each, positions, seeded,
 };
 use dalembert_codegen::{Function, GenerateError, Generated, Request, ScalarType, generate};
 use dalembert_model::robot::Robot;
@@ -151,7 +151,7 @@ pub fn torques(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Ro
         };
         let drawn = motion.draw(&changed, states, SEED);
         let scales = motion.scales().draw(&changed, SCALES, SEED);
-        let bench = Bench::new(SceneRobot::whole(&changed));
+        let bench = Bench::new(Setup::whole(&changed));
         let made = other.as_ref().unwrap_or(&own);
         Ok(rows(&bench, made, (case, *held), [&drawn, &scales]))
     };
@@ -210,7 +210,7 @@ pub fn divided(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Ro
         }
         generated => generated?,
     };
-    let bench = Bench::new(SceneRobot::whole(robot));
+    let bench = Bench::new(Setup::whole(robot));
     let (_, q) = nearest_to_singular(robot, &bench);
     let mut drawn = seeded(robot, 2 * states, SEED);
     for state in drawn.iter_mut().skip(states) {

@@ -27,14 +27,14 @@ use crate::certificate::subject::Subject;
 use crate::certificate::{Certificate, Refuted, Shared};
 use crate::edits::Stage;
 use crate::program::{Library, Program, ScalarType, has_inertia};
-use crate::scene::SceneRobot;
+use crate::setup::Setup;
 use crate::watch::{FunctionWatch, Part};
 
 /// What errors of a function are bounded in and relative to.
 #[derive(Clone, Debug)]
 pub struct ErrorBudget<'a> {
     /// The full model.
-    pub scene_robot: &'a SceneRobot,
+    pub setup: &'a Setup,
     /// The exact program.
     pub exact: &'a Program,
     /// Where bounds hold.
@@ -60,21 +60,20 @@ impl<'a> ErrorBudget<'a> {
     /// # Errors
     /// [`ToleranceError::Missing`] limits, or a program that cannot be read back.
     pub fn new(
-        scene_robot: &'a SceneRobot,
+        setup: &'a Setup,
         exact: &'a Program,
         relative_to: Scale,
     ) -> Result<ErrorBudget<'a>, ToleranceError> {
         Unbounded::find(exact).map_or(Ok(()), |why| Err(ToleranceError::Function(why)))?;
-        let limits =
-            InputBox::within(scene_robot, exact.function).map_err(ToleranceError::Missing)?;
+        let limits = InputBox::within(setup, exact.function).map_err(ToleranceError::Missing)?;
         let scales = match relative_to {
             Scale::Actuator => {
-                scale::actuator(scene_robot.robot(), exact).map_err(ToleranceError::Scale)?
+                scale::actuator(setup.robot(), exact).map_err(ToleranceError::Scale)?
             }
             Scale::Range => scale::range(exact, &limits),
         };
         Ok(ErrorBudget {
-            scene_robot,
+            setup,
             exact,
             limits,
             scales,
@@ -147,7 +146,7 @@ impl<'a> ErrorBudget<'a> {
     /// Returns what is claimed of a variant.
     fn subject<'s>(&'s self, stages: &'s [Stage], emitted: &'s Program) -> Subject<'s> {
         Subject {
-            scene_robot: self.scene_robot,
+            setup: self.setup,
             stages,
             emitted,
             limits: &self.limits,
@@ -236,7 +235,7 @@ impl<'a> ErrorBudget<'a> {
                 lambda_min: claim.lambda_min,
                 ..subject.claim(claim.scalar, claim.bounds.clone())
             };
-            certificate.check_programs(self.scene_robot)?;
+            certificate.check_programs(self.setup)?;
             certificates.push(certificate);
         }
         Ok(Admitted::of(stages, emitted, certificates))
@@ -288,7 +287,7 @@ impl<'a> ErrorBudget<'a> {
         let spent = || match settings.work {
             Some(limit) if meter.is_over() => Err(ToleranceError::Work {
                 limit,
-                scene: (self.scene_robot.scene()).map_or(String::new(), |scene| scene.name.clone()),
+                scene: (self.setup.scene()).map_or(String::new(), |scene| scene.name.clone()),
             }),
             _ => Ok(()),
         };
@@ -304,17 +303,10 @@ impl<'a> ErrorBudget<'a> {
             };
             let (exact, limits, watch) = (self.exact, &self.limits, self.watch);
             let start = start.get_or_insert_with(|| {
-                regrouping::descend(
-                    self.scene_robot,
-                    exact,
-                    limits,
-                    &allowances,
-                    settings,
-                    watch,
-                )
+                regrouping::descend(self.setup, exact, limits, &allowances, settings, watch)
             });
             let starts = Starts {
-                scene_robot: self.scene_robot,
+                setup: self.setup,
                 exact,
                 equal: start.as_ref(),
                 limits,
@@ -368,13 +360,13 @@ impl<'a> ErrorBudget<'a> {
             .map(|(left, scale)| (left * scale).max(0.0))
             .collect();
         let sensitivity = self.sensitivity(emitted, bound_effort);
-        let positions = sine_positions(self.scene_robot.robot(), emitted, *scalar, &self.limits);
+        let positions = sine_positions(self.setup.robot(), *scalar, &self.limits);
         // A tolerance may admit more than D bears.
         for part in [1.0, 0.1, 0.01] {
             let allowances: Vec<f64> = allowances.iter().map(|allowed| allowed * part).collect();
             let sines = sines::within(emitted, *scalar, &positions, &allowances, &sensitivity);
             let sines = sines.map_err(NoPolynomials::TooAccurate)?;
-            let found = certificate.with_sines(self.scene_robot, &sines, &sensitivity);
+            let found = certificate.with_sines(self.setup, &sines, &sensitivity);
             within(&found, tolerances).map_err(NoPolynomials::Above)?;
             if found.lambda_min.is_some() || !has_inertia(emitted) {
                 return Ok(found);
@@ -396,7 +388,7 @@ impl<'a> ErrorBudget<'a> {
         bound_effort: BoundEffort,
     ) -> Result<Certificate, ToleranceError> {
         let sensitivity = self.sensitivity(emitted, bound_effort);
-        let found = certificate.with_emitted(self.scene_robot, emitted.clone(), &sensitivity);
+        let found = certificate.with_emitted(self.setup, emitted.clone(), &sensitivity);
         within(&found, tolerances)?;
         Ok(found)
     }

@@ -14,9 +14,9 @@ use crate::approximate::prune::{PruneSettings, appraise};
 use crate::bound::input_box::InputBox;
 use crate::parallel;
 use crate::program::Program;
-use crate::scene::SceneRobot;
 use crate::search::{Effort, search};
 use crate::seeds;
+use crate::setup::Setup;
 use crate::watch::{FunctionWatch, Part};
 
 /// What a look at every regrouping and the closer one at a few take: samples, and
@@ -30,7 +30,7 @@ const CLOSER: usize = 12;
 /// Returns an exact program that pruning is about to leave less of than of the given
 /// one; `None` if none was found.
 pub(super) fn descend(
-    scene_robot: &SceneRobot,
+    setup: &Setup,
     program: &Program,
     limits: &InputBox,
     allowances: &[f64],
@@ -38,7 +38,7 @@ pub(super) fn descend(
     watch: Option<FunctionWatch<'_>>,
 ) -> Option<Program> {
     let (function, effort) = (program.function, Effort::Thorough);
-    if settings.sweeps == 0 || seeds::skeleton(scene_robot).links.is_empty() {
+    if settings.sweeps == 0 || seeds::skeleton(setup).links.is_empty() {
         return None;
     }
     let quick = |operations| Effort::Quick.limits(operations);
@@ -48,8 +48,8 @@ pub(super) fn descend(
         settings,
         watch,
     };
-    let forms = function.forms();
-    let tuned = seeds::tuned(scene_robot, function, &forms, effort, None, &[], watch);
+    let (task, forms) = (setup.task(function), function.forms());
+    let tuned = seeds::tuned(task, &forms, effort, None, &[], watch);
     let mut best: Option<(Regrouping<Exact>, Program)> = None;
     let mut price = descent.price(program, LOOKS[1]);
     for round in 0..settings.sweeps {
@@ -60,7 +60,7 @@ pub(super) fn descend(
         let from = best
             .as_ref()
             .map_or(&tuned.regrouping, |(regrouping, _)| regrouping);
-        let mut regroupings = seeds::regroupings(scene_robot, function, from);
+        let mut regroupings = seeds::regroupings(task, from);
         if round == 0 {
             regroupings.insert(0, from.clone());
         }
@@ -68,7 +68,7 @@ pub(super) fn descend(
             if descent.is_over() {
                 return None;
             }
-            let graph = seeds::in_regrouping(scene_robot, function, regrouping, tuned.form);
+            let graph = seeds::in_regrouping(task, regrouping, tuned.form);
             let graph = search(&[graph], &[], &quick, &|_| true, &|_, _| true)?.graph;
             let program = program.with_graph(&graph);
             Some((descent.price(&program, LOOKS[0]), regrouping, program))

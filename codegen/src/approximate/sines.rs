@@ -11,7 +11,7 @@
 
 use crate::bound::sensitivity::Sensitivity;
 use crate::interval::Interval;
-use crate::program::kernel::Kernel;
+use crate::program::kernel::{Kernel, KernelWriter};
 use crate::program::{Program, ScalarType, Trig};
 use crate::sincos::choose::{Candidates, Choice};
 use crate::sincos::proof::Errors;
@@ -82,10 +82,13 @@ fn uniform(
     sensitivity: &Sensitivity,
 ) -> f64 {
     let unit = |trig: &Trig| AngleKernel {
-        angle: trig.angle,
+        joint: trig.joint,
         range: Interval::ALL,
         form: String::new(),
-        kernel: Kernel::default(),
+        kernel: Kernel {
+            need: trig.need,
+            dag: KernelWriter::default().finish(Vec::new()),
+        },
         errors: Errors {
             sin: UNIT,
             cos: UNIT,
@@ -108,8 +111,8 @@ fn groups(
     error: f64,
 ) -> Vec<(Vec<usize>, Vec<Choice>)> {
     let key = |trig: &Trig| {
-        let range = sincos::range_of(trig.angle, positions, scalar);
-        (range, trig.sin, trig.cos)
+        let range = sincos::range_of(trig.joint, positions);
+        (range, trig.need)
     };
     let mut groups: Vec<(Vec<usize>, Vec<Choice>)> = Vec::new();
     for (index, trig) in program.trig.iter().enumerate() {
@@ -120,7 +123,7 @@ fn groups(
         match groups.iter_mut().find(same) {
             Some((members, _)) => members.push(index),
             None => {
-                let candidates = Candidates::new(sincos::need(trig), scalar, key(trig).0);
+                let candidates = Candidates::new(trig.need, scalar, key(trig).0);
                 groups.push((vec![index], candidates.front(error * MAX, error)));
             }
         }

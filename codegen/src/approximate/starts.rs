@@ -11,7 +11,7 @@ use crate::approximate::reduce;
 use crate::bound::input_box::InputBox;
 use crate::parallel;
 use crate::program::Program;
-use crate::scene::SceneRobot;
+use crate::setup::Setup;
 use crate::watch::FunctionWatch;
 
 /// Starts that are about to leave this much more than the best are not edited.
@@ -22,7 +22,7 @@ const AGAIN: usize = 2;
 
 /// The programs to start from, and the errors that edits may cost.
 pub(super) struct Starts<'a> {
-    pub scene_robot: &'a SceneRobot,
+    pub setup: &'a Setup,
     /// The exact program.
     pub exact: &'a Program,
     /// An equal one to edit in its place.
@@ -47,7 +47,7 @@ impl Starts<'_> {
         if self.settings.models > 0 && self.price(None) < self.cost(None) {
             let models = models.get_or_insert_with(|| {
                 let (exact, limits) = (self.exact, self.limits);
-                reduce::programs(self.scene_robot, exact, limits, self.allowances, self.watch)
+                reduce::programs(self.setup, exact, limits, self.allowances, self.watch)
             });
             starts = self.promising(starts, models);
         }

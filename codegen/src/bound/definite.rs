@@ -188,7 +188,7 @@ fn negative(
     entry: &impl Fn(usize, usize) -> usize,
 ) -> Option<usize> {
     let n = program.rows.len();
-    let code = program.lower(ScalarType::F64, |_| None);
+    let code = program.in_doubles();
     let mut random = Random::new(0x1d3f);
     let drawn = (0..SAMPLES).map(|_| {
         let of = |q: &Interval| q.low() + q.width() * random.unit();
@@ -263,7 +263,7 @@ fn scales(
     entry: impl Fn(usize, usize) -> usize,
 ) -> Result<Vec<f64>, Indefinite> {
     let middle = at_rest(middle(limits));
-    let values = program.lower(ScalarType::F64, |_| None).run_at(&middle);
+    let values = program.in_doubles().run_at(&middle);
     let scale = |i: usize| {
         let diagonal = values[entry(i, i)];
         if !(diagonal > 0.0 && diagonal.is_finite()) {

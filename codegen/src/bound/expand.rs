@@ -133,9 +133,7 @@ fn mixes(graph: &Dag) -> bool {
     for (_, node) in graph.live() {
         match node {
             Node::Input(Input::Entry(Argument::Position, joint)) => slides |= 1 << joint,
-            Node::Input(Input::Sin(angle) | Input::Cos(angle)) => {
-                angle.terms().for_each(|(joint, _)| turns |= 1 << joint);
-            }
+            Node::Input(Input::Sin(joint) | Input::Cos(joint)) => turns |= 1 << joint,
             _ => {}
         }
     }
@@ -185,23 +183,8 @@ fn leaf(input: Input, limits: &InputBox) -> Option<Polynomial> {
             let middle = (0, Interval::point(q.mid()));
             vec![middle, (cosine(joint), Interval::point(q.radius()))]
         }
-        Input::Sin(angle) | Input::Cos(angle) => {
-            // The pair of the sum by the addition theorems.
-            let (mut sin, mut cos) = (Vec::new(), vec![(0, Interval::ONE)]);
-            for (joint, negative) in angle.terms() {
-                let one = Interval::ONE;
-                let s = vec![(sine(joint), if negative { -one } else { one })];
-                let c = vec![(cosine(joint), one)];
-                let next = sum(&product(&sin, &c)?, &product(&cos, &s)?, false);
-                cos = sum(&product(&cos, &c)?, &product(&sin, &s)?, true);
-                sin = next;
-            }
-            if matches!(input, Input::Sin(_)) {
-                sin
-            } else {
-                cos
-            }
-        }
+        Input::Sin(joint) => vec![(sine(joint), Interval::ONE)],
+        Input::Cos(joint) => vec![(cosine(joint), Interval::ONE)],
     })
 }
 
@@ -306,7 +289,6 @@ fn multiply(x: Key, y: Key, coefficient: Interval, out: &mut Polynomial) -> Opti
 mod tests {
     use super::*;
     use crate::dag::{Builder, Folding};
-    use crate::program::AngleSum;
 
     /// sin q₁ − q₁ is no polynomial in the sine and cosine of one angle.
     #[test]
@@ -319,7 +301,7 @@ mod tests {
         };
         let written = |slides: usize| {
             let mut builder = Builder::new(Folding::Syntactic);
-            let sine = builder.input(Input::Sin(AngleSum::joint(0)));
+            let sine = builder.input(Input::Sin(0));
             let position = builder.input(Input::Entry(Argument::Position, slides));
             let output = builder.sub(sine, position);
             expand(&builder.finish(vec![output]), &limits)

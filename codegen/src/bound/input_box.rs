@@ -8,8 +8,8 @@ use dalembert_model::robot::{Joint, JointKind, Limits, Position, Robot};
 
 use crate::function::{Argument, Function};
 use crate::interval::Interval;
-use crate::program::{AngleSum, Input};
-use crate::scene::SceneRobot;
+use crate::program::Input;
+use crate::setup::Setup;
 
 /// Intervals of joint positions, velocities and accelerations, one a joint.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,10 +68,7 @@ impl InputBox {
     /// # Errors
     /// A limit of motion that the robot does not have.
     pub fn of(robot: &Robot) -> Result<InputBox, MissingLimit> {
-        InputBox::reading(
-            &SceneRobot::whole(robot),
-            &Function::InverseDynamics.arguments(),
-        )
+        InputBox::reading(&Setup::whole(robot), &Function::InverseDynamics.arguments())
     }
 
     /// Returns the states of a robot in its scene that a function reads: its box, or the robot's
@@ -80,18 +77,18 @@ impl InputBox {
     ///
     /// # Errors
     /// As [`InputBox::of`].
-    pub fn within(scene_robot: &SceneRobot, function: Function) -> Result<InputBox, MissingLimit> {
-        InputBox::reading(scene_robot, &scene_robot.arguments(function))
+    pub fn within(setup: &Setup, function: Function) -> Result<InputBox, MissingLimit> {
+        InputBox::reading(setup, &setup.arguments(function))
     }
 
-    fn reading(scene_robot: &SceneRobot, arguments: &[Argument]) -> Result<InputBox, MissingLimit> {
+    fn reading(setup: &Setup, arguments: &[Argument]) -> Result<InputBox, MissingLimit> {
         let mut limits = InputBox {
             position: Vec::new(),
             velocity: Vec::new(),
             acceleration: Vec::new(),
         };
         let mut missing: BTreeMap<&'static str, Vec<usize>> = BTreeMap::new();
-        for (joint, row) in scene_robot.robot().joints.iter().enumerate() {
+        for (joint, row) in setup.robot().joints.iter().enumerate() {
             // Where a limit is missing, the box is not returned.
             let mut or_missing = |found: Option<Interval>, limit| {
                 found.unwrap_or_else(|| {
@@ -99,7 +96,7 @@ impl InputBox {
                     Interval::ZERO
                 })
             };
-            if let Some(at) = scene_robot.scene().and_then(|scene| scene.locked(joint)) {
+            if let Some(at) = setup.scene().and_then(|scene| scene.locked(joint)) {
                 limits.position.push(around(at));
                 limits.velocity.push(Interval::ZERO);
                 limits.acceleration.push(Interval::ZERO);
@@ -147,26 +144,11 @@ impl InputBox {
         self.position.len()
     }
 
-    /// Returns the values that an angle takes.
-    pub fn angle(&self, angle: AngleSum) -> Interval {
-        angle
-            .terms()
-            .fold(Interval::ZERO, |sum, (joint, negative)| {
-                let q = self.position[joint];
-                match (negative, sum == Interval::ZERO) {
-                    (false, true) => q,
-                    (true, true) => -q,
-                    (false, false) => sum + q,
-                    (true, false) => sum - q,
-                }
-            })
-    }
-
     /// Returns the values that an input takes.
     pub fn input(&self, input: Input) -> Interval {
         match input {
-            Input::Sin(angle) => self.angle(angle).sin(),
-            Input::Cos(angle) => self.angle(angle).cos(),
+            Input::Sin(joint) => self.position[joint].sin(),
+            Input::Cos(joint) => self.position[joint].cos(),
             // Of what reads it no bound is known; this one is true.
             Input::PerSpeed(_) => Interval::ALL,
             Input::Entry(argument, joint) => {

@@ -115,7 +115,7 @@ pub(crate) fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
 /// its largest over the box or just below, so an error relative to it is not
 /// understated.
 pub fn range(program: &Program, limits: &InputBox) -> Vec<f64> {
-    let exact = program.lower(ScalarType::F64, |_| None);
+    let exact = program.in_doubles();
     let granted = rounding(program, ScalarType::F64, &[], limits, 64);
     let mut random = Random::new(0x7a46e);
     let mut most = vec![0.0f64; program.outputs.len()];

@@ -4,15 +4,15 @@
 use super::subject::direct;
 use super::{Certificate, Refuted, shape, work};
 use crate::dag::Folding;
-use crate::scene::SceneRobot;
+use crate::setup::Setup;
 use crate::verify::exact::prove_same;
 
 impl Certificate {
     /// Checks that the programs are of this robot and scene, and that the edits lead from
     /// each to the next. What a certificate claims of them, `dalembert-checker` checks.
-    pub(crate) fn check_programs(&self, scene_robot: &SceneRobot) -> Result<(), Refuted> {
+    pub(crate) fn check_programs(&self, setup: &Setup) -> Result<(), Refuted> {
         work::check(self).map_err(Refuted::Work)?;
-        shape::check(self, scene_robot)?;
+        shape::check(self, setup)?;
         self.check_edits()
     }
 

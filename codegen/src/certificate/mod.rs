@@ -36,9 +36,9 @@ use crate::bound::turns::turns_freely;
 use crate::edits::Stage;
 use crate::interval::Interval;
 use crate::program::{Library, Program, ScalarType};
-use crate::scene::SceneKey;
-use crate::scene::SceneRobot;
-use crate::sincos::{AngleKernel, Sines};
+use crate::setup::SceneKey;
+use crate::setup::Setup;
+use crate::sincos::Sines;
 use crate::split::ErrorByCause;
 pub(crate) use bounds::Shared;
 pub use refuted::Refuted;
@@ -113,11 +113,13 @@ impl Certificate {
     /// Where a joint [turns freely](turns_freely), one turn is certified and its
     /// sine reaches further: so does the certificate.
     pub fn positions(&self, robot: &Robot, joint: usize) -> Option<Interval> {
-        if !turns_freely(robot, &self.emitted.trig, joint) {
+        if !turns_freely(robot, joint) {
             return self.limits.position.get(joint).copied();
         }
-        let of = |sine: &&AngleKernel| sine.angle.terms().any(|(of, _)| of == joint);
-        self.sines.iter().find(of).map(|sine| sine.range)
+        let mut sines = self.sines.iter();
+        sines
+            .find(|sine| sine.joint == joint)
+            .map(|sine| sine.range)
     }
 
     /// Bounds the emitted program's error and writes the claim down.
@@ -132,7 +134,7 @@ impl Certificate {
         scales: &[f64],
     ) -> Certificate {
         let subject = Subject {
-            scene_robot: &SceneRobot::whole(robot),
+            setup: &Setup::whole(robot),
             stages,
             emitted,
             limits,
@@ -170,12 +172,12 @@ impl Certificate {
     #[must_use]
     pub fn with_sines(
         &self,
-        scene_robot: &SceneRobot,
+        setup: &Setup,
         sines: &Sines,
         sensitivity: &Sensitivity,
     ) -> Certificate {
         let sines = [(self.scalar, sines.clone())];
-        let subject = self.subject(scene_robot, &sines);
+        let subject = self.subject(setup, &sines);
         let scaled = self.bounds.iter().map(|bound| bound.model);
         let mut bounds = subject.bounds(self.scalar, &vec![0.0; self.scales.len()], sensitivity);
         for (bound, model) in bounds.iter_mut().zip(scaled) {
@@ -193,7 +195,7 @@ impl Certificate {
     #[must_use]
     pub fn with_emitted(
         &self,
-        scene_robot: &SceneRobot,
+        setup: &Setup,
         emitted: Program,
         sensitivity: &Sensitivity,
     ) -> Certificate {
@@ -201,7 +203,7 @@ impl Certificate {
             emitted,
             ..self.clone()
         };
-        other.with_sines(scene_robot, &self.sines, sensitivity)
+        other.with_sines(setup, &self.sines, sensitivity)
     }
 
     /// Returns the claim about the text that calls this library, unless polynomials give its
@@ -240,13 +242,9 @@ impl Certificate {
         all
     }
 
-    fn subject<'a>(
-        &'a self,
-        scene_robot: &'a SceneRobot,
-        sines: &'a [(ScalarType, Sines)],
-    ) -> Subject<'a> {
+    fn subject<'a>(&'a self, setup: &'a Setup, sines: &'a [(ScalarType, Sines)]) -> Subject<'a> {
         Subject {
-            scene_robot,
+            setup,
             stages: &self.stages,
             emitted: &self.emitted,
             limits: &self.limits,

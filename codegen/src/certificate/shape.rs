@@ -13,14 +13,14 @@ use crate::function::Argument;
 use crate::program::Input;
 use crate::program::text::input_name;
 use crate::program::{Operand, Program};
-use crate::scene::SceneRobot;
+use crate::setup::Setup;
 
 /// Returns whether all parts of a claim fit the scene and each other.
-pub(super) fn check(certificate: &Certificate, scene_robot: &SceneRobot) -> Result<(), Refuted> {
+pub(super) fn check(certificate: &Certificate, setup: &Setup) -> Result<(), Refuted> {
     let Certificate {
         emitted, limits, ..
     } = certificate;
-    let (n, outputs) = (scene_robot.joints().len(), emitted.outputs.len());
+    let (n, outputs) = (setup.joints().len(), emitted.outputs.len());
     let lists = [&limits.position, &limits.velocity, &limits.acceleration];
     let fits = !certificate.stages.is_empty()
         && lists.iter().all(|list| list.len() == n)
@@ -29,10 +29,7 @@ pub(super) fn check(certificate: &Certificate, scene_robot: &SceneRobot) -> Resu
     if !fits {
         return Err(Refuted::Shape);
     }
-    let checker = Checker {
-        scene_robot,
-        emitted,
-    };
+    let checker = Checker { setup, emitted };
     for (index, stage) in certificate.stages.iter().enumerate() {
         let name = format!("the program of stage {}", index + 1);
         checker.program(&name, &stage.program)?;
@@ -47,28 +44,28 @@ pub(super) fn check(certificate: &Certificate, scene_robot: &SceneRobot) -> Resu
 }
 
 struct Checker<'a> {
-    scene_robot: &'a SceneRobot,
+    setup: &'a Setup,
     emitted: &'a Program,
 }
 
 impl Checker<'_> {
     fn program(&self, name: &str, program: &Program) -> Result<(), Refuted> {
         let function = self.emitted.function;
-        let rows = self.scene_robot.rows();
+        let rows = self.setup.rows();
         let signature = [
             ("function", program.function == function),
             (
                 "number of joints",
-                program.joints == self.scene_robot.joints().len(),
+                program.joints == self.setup.joints().len(),
             ),
             ("list of rows", program.rows == rows),
             (
                 "list of arguments",
-                program.arguments == self.scene_robot.arguments(function),
+                program.arguments == self.setup.arguments(function),
             ),
             (
                 "number of results",
-                program.outputs.len() == function.outputs(self.scene_robot.sizes(function)),
+                program.outputs.len() == function.outputs(self.setup.sizes(function)),
             ),
         ];
         if let Some((what, _)) = signature.into_iter().find(|(_, same)| !same) {
@@ -112,10 +109,10 @@ impl Checker<'_> {
     }
 
     fn wrong(&self, input: Input) -> Option<WrongInput> {
-        let joints = &self.scene_robot.robot().joints;
+        let joints = &self.setup.robot().joints;
         let of = |joint: usize, kind: Option<JointKind>| match joints.get(joint) {
             None => Some(WrongInput::NoJoint),
-            Some(_) if self.scene_robot.lock(joint).is_some() => Some(WrongInput::Locked),
+            Some(_) if self.setup.lock(joint).is_some() => Some(WrongInput::Locked),
             Some(row) => match (kind, row.kind) {
                 (Some(JointKind::Revolute), JointKind::Prismatic) => Some(WrongInput::Slides),
                 (Some(JointKind::Prismatic), JointKind::Revolute) => Some(WrongInput::Turns),
@@ -123,9 +120,8 @@ impl Checker<'_> {
             },
         };
         let (argument, wrong) = match input {
-            Input::Sin(angle) | Input::Cos(angle) => {
-                let mut terms = angle.terms();
-                let wrong = terms.find_map(|(joint, _)| of(joint, Some(JointKind::Revolute)));
+            Input::Sin(joint) | Input::Cos(joint) => {
+                let wrong = of(joint, Some(JointKind::Revolute));
                 (Argument::Position, wrong)
             }
             // No bound is known of what its root costs.

@@ -11,8 +11,8 @@ use crate::dag::Dag;
 use crate::edits::{Stage, deviation, difference, has_edits};
 use crate::language::{Printed, function};
 use crate::program::{Library, Program, ScalarType, has_inertia};
-use crate::scene::SceneRobot;
-use crate::scene::{SceneKey, input_hash};
+use crate::setup::Setup;
+use crate::setup::{SceneKey, input_hash};
 use crate::sincos::{self, AngleKernel, Sines};
 use crate::split::ErrorByCause;
 use crate::verify::exact::prove_same;
@@ -24,7 +24,7 @@ const NEAR: f64 = 1.07;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Subject<'a> {
     /// The full model.
-    pub scene_robot: &'a SceneRobot,
+    pub setup: &'a Setup,
     /// What was edited; none for an exact program.
     pub stages: &'a [Stage],
     /// The program that is emitted, with exact constants.
@@ -135,9 +135,9 @@ impl Subject<'_> {
     /// nothing is claimed of the least eigenvalue.
     pub(crate) fn claim(&self, scalar: ScalarType, bounds: Vec<ErrorByCause>) -> Certificate {
         Certificate {
-            robot: self.scene_robot.robot().name.clone(),
-            input: input_hash(self.scene_robot.robot()),
-            scene: self.scene_robot.scene().map(SceneKey::of),
+            robot: self.setup.robot().name.clone(),
+            input: input_hash(self.setup.robot()),
+            scene: self.setup.scene().map(SceneKey::of),
             scalar,
             limits: self.limits.clone(),
             scales: self.scales.to_vec(),
@@ -187,6 +187,6 @@ pub(super) fn printed(
     library: Library,
     sines: &[AngleKernel],
 ) -> String {
-    let code = sincos::lowered(program, scalar, library, sines);
+    let code = program.code(scalar, library, sines);
     function::write(&Printed::of(program, &code), library, &[])
 }

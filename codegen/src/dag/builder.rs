@@ -5,7 +5,7 @@ use dalembert_model::scalar::Scalar;
 use rustc_hash::FxHashMap;
 
 use super::{Dag, Edge, Fingerprint, Id, Node, Points};
-use crate::program::{Counts, Input, Operation};
+use crate::dag::{Counts, Input, Operation};
 
 /// Products of constants with more monomials stay two operations: polynomials in odd angles would
 /// grow without end.

@@ -1,16 +1,24 @@
 //! Straight-line code as a graph: from the traced formula to the program.
 //!
 //! - this file: [`Dag`], its nodes and edges
+//! - [`input`]: what code reads: sines, cosines, positions, rates
+//! - `operation`: the operations in any scalar; [`counts`]: what they cost
 //! - [`builder`]: folds and shares as a graph grows
 //! - [`print`]: fingerprints, values at random points of a prime field
 //! - [`symbol`]: the scalar that traces the equations into a builder
 //! - [`schedule`](Dag::scheduled): the order in which code is printed
+//! - [`writer`]: code in a given order
+//! - [`fusion`]: sums with the products that they take
 //!
 //! A [`Dag`] is a list of nodes, operands before users, and what it returns. Leaves are nodes as
 //! operations are, so that a constant is one wherever it is read. Negation is free, so it is no
 //! node: outputs and operands of a builder carry signs.
 
 pub(crate) mod builder;
+pub(crate) mod counts;
+pub(crate) mod fusion;
+pub(crate) mod input;
+mod operation;
 #[cfg(test)]
 pub(crate) mod pattern;
 pub(crate) mod print;
@@ -18,6 +26,7 @@ mod schedule;
 pub(crate) mod symbol;
 #[cfg(test)]
 pub(crate) mod tests;
+pub(crate) mod writer;
 
 use std::collections::BTreeSet;
 
@@ -26,12 +35,14 @@ use dalembert_model::scalar::{Divide, Scalar};
 
 pub(crate) use builder::Builder;
 pub use builder::Folding;
+pub use counts::Counts;
+pub use input::Input;
+pub use operation::Operation;
 pub use print::{Fingerprint, Points};
-
-use crate::program::{AngleSum, Counts, Input, Operation};
+pub(crate) use writer::Writer;
 
 /// The index of a node.
-pub(crate) type Id = u32;
+pub type Id = u32;
 
 /// A leaf, or an operation on earlier nodes.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -63,13 +74,27 @@ pub struct Dag<C = Exact, I = Input> {
 }
 
 /// The values of constants and inputs in a scalar: at a state, at a point of a field, as symbols.
-pub(crate) trait Leaves<C = Exact, I = Input> {
+/// What a state lacks is no number.
+pub trait Leaves<C = Exact, I = Input> {
     /// The scalar.
     type Value: Divide;
-    /// Returns the value of a constant; none if the scalar has none.
-    fn constant(&self, constant: &C) -> Option<Self::Value>;
-    /// Returns the value of an input; none if there is none.
-    fn input(&self, input: &I) -> Option<Self::Value>;
+    /// Returns the value of a constant.
+    fn constant(&self, constant: &C) -> Self::Value;
+    /// Returns the value of an input.
+    fn input(&self, input: I) -> Self::Value;
+}
+
+/// Leaves by two functions: of constants, and of inputs.
+impl<C, I, S: Divide, F: Fn(&C) -> S, G: Fn(I) -> S> Leaves<C, I> for (F, G) {
+    type Value = S;
+
+    fn constant(&self, constant: &C) -> S {
+        self.0(constant)
+    }
+
+    fn input(&self, input: I) -> S {
+        self.1(input)
+    }
 }
 
 impl<C, I> Node<C, I> {
@@ -104,25 +129,48 @@ impl<C, I> Dag<C, I> {
         &self.nodes[id as usize]
     }
 
-    /// Evaluates every node; none if a leaf has no value.
-    pub(crate) fn values<L: Leaves<C, I>>(&self, leaves: &L) -> Option<Vec<L::Value>> {
+    /// Evaluates every node.
+    pub fn values<L: Leaves<C, I>>(&self, leaves: &L) -> Vec<L::Value>
+    where
+        I: Copy,
+    {
         let mut values: Vec<L::Value> = Vec::with_capacity(self.nodes.len());
-        for node in &self.nodes {
+        for (node, id) in self.nodes.iter().zip(0..) {
             let value = match node {
-                Node::Constant(constant) => leaves.constant(constant)?,
-                Node::Input(input) => leaves.input(input)?,
-                Node::Apply(operation, [a, b]) => {
-                    operation.apply(&values[*a as usize], &values[*b as usize])
+                Node::Constant(constant) => leaves.constant(constant),
+                Node::Input(input) => leaves.input(*input),
+                Node::Apply(operation, operands) => {
+                    let at = |id: Id| &values[id as usize];
+                    match self.fusion(id) {
+                        None => operation.apply(at(operands[0]), at(operands[1])),
+                        Some(fusion) => fusion.apply(fusion.factors.map(at), at(fusion.addend)),
+                    }
                 }
             };
             values.push(value);
         }
-        Some(values)
+        values
+    }
+
+    /// Computes the outputs.
+    pub fn run<L: Leaves<C, I>>(&self, leaves: &L) -> Vec<L::Value>
+    where
+        I: Copy,
+    {
+        let values = self.values(leaves);
+        let outputs = self.outputs.iter().map(|edge| {
+            let value = &values[edge.index()];
+            match edge.negative {
+                true => value.neg(),
+                false => value.clone(),
+            }
+        });
+        outputs.collect()
     }
 
     /// Computes the derivative of a node by itself and by each node before it, given the values of
     /// the nodes.
-    pub(crate) fn adjoints<S: Divide>(&self, top: Id, values: &[S], adjoints: &mut Vec<S>) {
+    pub fn adjoints<S: Divide>(&self, top: Id, values: &[S], adjoints: &mut Vec<S>) {
         adjoints.clear();
         adjoints.resize(top as usize, S::zero());
         adjoints.push(S::one());
@@ -181,8 +229,8 @@ impl Dag {
         matches!(self.node(output.node), Node::Constant(c) if c.is_zero())
     }
 
-    /// Returns the angles whose sine or cosine the outputs need.
-    pub fn angles(&self) -> BTreeSet<AngleSum> {
+    /// Returns the joints whose sine or cosine the outputs need.
+    pub fn angles(&self) -> BTreeSet<usize> {
         let angle = |(_, node): (usize, &Node)| match node {
             Node::Input(input) => input.angle(),
             _ => None,
@@ -192,20 +240,14 @@ impl Dag {
 
     /// Counts the operations that the outputs need.
     pub fn counts(&self) -> Counts {
-        let mut counts = Counts::default();
-        for (_, node) in self.live() {
-            if let Node::Apply(operation, _) = node {
-                match operation {
-                    Operation::Add | Operation::Sub => counts.add += 1,
-                    Operation::Mul | Operation::Fused => counts.mul += 1,
-                    Operation::Div => counts.div += 1,
-                }
-            }
+        let operation = |(_, node): (usize, &Node)| match node {
+            Node::Apply(operation, _) => Some(*operation),
+            _ => None,
+        };
+        Counts {
+            sincos: self.angles().len(),
+            ..Counts::of_operations(self.live().filter_map(operation))
         }
-        let angles = self.angles();
-        counts.sincos = angles.len();
-        counts.add += angles.iter().map(|angle| angle.additions()).sum::<usize>();
-        counts
     }
 
     /// Returns the same outputs through another builder: folded, and merged by fingerprint if the

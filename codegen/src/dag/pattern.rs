@@ -5,9 +5,9 @@ use std::collections::HashMap;
 
 use dalembert_model::number::{Exact, Rational};
 
+use crate::dag::Input;
 use crate::dag::{Builder, Dag, Edge, Folding};
 use crate::function::Argument;
-use crate::program::Input;
 
 /// A pattern.
 #[derive(Clone, Debug)]

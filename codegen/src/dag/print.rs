@@ -15,7 +15,7 @@ use dalembert_model::number::{Angle, Exact, Rational};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Modulo};
 
-use crate::program::{Input, Operation};
+use crate::dag::{Input, Operation};
 
 /// How many points a fingerprint has.
 pub(crate) const POINTS: usize = 3;
@@ -104,8 +104,8 @@ impl Points {
             Modulo::new(mix([self.seed, point as u64, kind, joint as u64]))
         };
         match input {
-            Input::Sin(angle) => angle.pair(|joint| self.joint(joint, point)).sin,
-            Input::Cos(angle) => angle.pair(|joint| self.joint(joint, point)).cos,
+            Input::Sin(joint) => self.joint(joint, point).sin,
+            Input::Cos(joint) => self.joint(joint, point).cos,
             // Beyond all arguments.
             Input::PerSpeed(joint) => draw(64, joint),
             // From 2, around 5, which is that of constant angles.

@@ -56,8 +56,8 @@ impl<C: Clone, I: Clone> Dag<C, I> {
 mod tests {
     use super::*;
     use crate::dag::pattern::graph;
+    use crate::dag::{Input, Operation};
     use crate::function::Argument;
-    use crate::program::{Input, Operation};
     use Operation::{Add, Mul};
 
     fn operations(dag: &Dag) -> Vec<Operation> {

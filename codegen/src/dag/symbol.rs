@@ -7,7 +7,7 @@ use dalembert_model::number::{Exact, Rational};
 use dalembert_model::scalar::{Divide, Scalar};
 
 use super::{Builder, Edge};
-use crate::program::Input;
+use crate::dag::Input;
 
 /// A constant, which needs no context, or a node of a shared builder.
 ///
@@ -164,9 +164,9 @@ impl Scalar for Symbol {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dag::Operation;
     use crate::dag::{Fingerprint, Folding, Points};
     use crate::function::Argument;
-    use crate::program::Operation;
     use dalembert_model::number::Angle;
 
     /// (1/c)·x with c the cosine of an odd angle: constants without a builder

@@ -6,8 +6,8 @@ use dalembert_model::number::{Exact, Rational};
 
 use super::pattern::{InBuilder, Pattern, is_constant};
 use super::{Builder, Edge, Folding};
+use crate::dag::Input;
 use crate::function::Argument;
-use crate::program::Input;
 
 /// Every builder folds these.
 pub(crate) const BY_SHAPE: &[(&str, &str)] = &[

@@ -10,13 +10,13 @@ use super::figures::{decimal, placed};
 use crate::function::{Argument, Function};
 use crate::language::function::{GRAVITY, LOAD, PAYLOAD};
 use crate::program::ScalarType;
-use crate::scene::SceneRobot;
+use crate::setup::Setup;
 
 /// Returns what gravity is, for the header.
-pub(super) fn gravity(robot: &Robot, scene_robot: &SceneRobot) -> String {
+pub(super) fn gravity(robot: &Robot, setup: &Setup) -> String {
     let components: Vec<String> = robot.gravity.iter().map(decimal).collect();
     let file = components.join(", ");
-    match scene_robot.has(RuntimeParameter::Gravity) {
+    match setup.has(RuntimeParameter::Gravity) {
         false => format!("gravity ({file}) m/s² in base axes."),
         true => {
             format!("gravity is the argument `g` in m/s² and base axes ({file} in the robot file).")
@@ -25,29 +25,26 @@ pub(super) fn gravity(robot: &Robot, scene_robot: &SceneRobot) -> String {
 }
 
 /// The types of arguments that are no joint vectors; nothing where there are none.
-pub(super) fn types(scene_robot: &SceneRobot, scalar: ScalarType) -> String {
+pub(super) fn types(setup: &Setup, scalar: ScalarType) -> String {
     let mut text = String::new();
-    if scene_robot.has(RuntimeParameter::Gravity) {
+    if setup.has(RuntimeParameter::Gravity) {
         text += &gravity_type(scalar);
     }
-    if !scene_robot.has(RuntimeParameter::Payload) {
+    if !setup.has(RuntimeParameter::Payload) {
         return text;
     }
-    text += &payload_type(
-        scalar,
-        &payload_frame(scene_robot).replace(" at ", "\n/// at "),
-    );
+    text += &payload_type(scalar, &payload_frame(setup).replace(" at ", "\n/// at "));
     text += "/// The regrouped parameters that a payload changes: what [`load`] returns, and what the other\n\
              /// functions take. Compute it once for each tool; its numbers are this module's own.\n";
-    let length = Argument::Load.length(scene_robot.sizes(Function::Load));
+    let length = Argument::Load.length(setup.sizes(Function::Load));
     newtype(&mut text, LOAD, scalar, length);
     text
 }
 
 /// Returns where the frame that payloads are given in is.
-fn payload_frame(scene_robot: &SceneRobot) -> String {
-    let n = scene_robot.joints().len();
-    match scene_robot.robot().payload_frame.as_ref() {
+fn payload_frame(setup: &Setup) -> String {
+    let n = setup.joints().len();
+    match setup.robot().payload_frame.as_ref() {
         None => format!("that of joint {n} in the table"),
         Some(frame) => format!(
             "which is in that of joint {n} in the table at {}",
@@ -57,11 +54,11 @@ fn payload_frame(scene_robot: &SceneRobot) -> String {
 }
 
 /// Describes an argument of C, of a payload each of its numbers.
-pub(super) fn described(argument: Argument, scene_robot: &SceneRobot) -> Vec<String> {
+pub(super) fn described(argument: Argument, setup: &Setup) -> Vec<String> {
     if argument != Argument::Payload {
         return vec![argument.meaning().to_owned()];
     }
-    let frame = payload_frame(scene_robot);
+    let frame = payload_frame(setup);
     let text = format!(
         "A body fixed to the last link, beside what the robot file has there; zeros: none.\n  \
          [0] its mass, kg; [1] to [3] its centre of mass x, y, z, m, in the last link's frame,\n  \
@@ -119,16 +116,16 @@ fn newtype(text: &mut String, name: &str, scalar: ScalarType, length: usize) {
 }
 
 /// Returns what a function's arguments are that are no joint vectors.
-pub(super) fn doc(function: Function, scene_robot: &SceneRobot) -> Vec<String> {
+pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
     let mut lines = Vec::new();
-    if scene_robot.takes(function, RuntimeParameter::Gravity) {
+    if setup.takes(function, RuntimeParameter::Gravity) {
         lines.extend([
             String::new(),
             "`g` is the acceleration of gravity in base axes, m/s². Where the base is tilted, turn it into".into(),
             "the base's axes; where it moves without turning, subtract its acceleration.".into(),
         ]);
     }
-    if scene_robot.takes(function, RuntimeParameter::Payload) {
+    if setup.takes(function, RuntimeParameter::Payload) {
         lines.extend([
             String::new(),
             "`load` is what [`load`] returns of what the hand carries. Proved with all ten numbers of".into(),

@@ -7,7 +7,8 @@ use dalembert_sines::text::Angle;
 use crate::language::Printed;
 use crate::language::c99::{Names, float, largest};
 use crate::language::called::Called;
-use crate::program::kernel::{Kernel, Term};
+use crate::language::dialect::Lines;
+use crate::program::kernel::Kernel;
 use crate::program::{Library, Literal, ScalarType};
 use crate::sincos::routine::routine;
 
@@ -54,24 +55,16 @@ impl Words {
     fn of(names: &Names) -> Words {
         let dialect = names.dialect();
         let kernel: Kernel = routine(dialect.scalar);
-        let term = |term: Term| match term {
-            Term::Input(_) => "x0".to_owned(),
-            Term::Constant(value) => dialect.literal(value),
-            Term::Step(step) => format!("x{}", step + 1),
-        };
-        let steps = kernel.steps.iter().enumerate().map(|(index, step)| {
-            let (left, right) = (term(step.left), term(step.right));
-            let value = dialect.operation(step.operation, &left, &right);
-            dialect.declare(&format!("x{}", index + 1), &value)
-        });
-        let [sine, cosine] =
-            [kernel.sin, kernel.cos].map(|value| value.map_or_else(String::new, |v| term(v.value)));
+        let lines = Lines::of_kernel(dialect, &kernel, "x0", "x");
+        let [sine, cosine] = kernel
+            .results()
+            .map(|result| result.map_or_else(String::new, |edge| lines.result(edge)));
         Words {
             float: float(dialect.scalar),
             inline: dialect.function,
             f: dialect.scalar.math_suffix(),
             largest: dialect.literal(Literal(largest(dialect.scalar))),
-            steps: steps.collect(),
+            steps: lines.statements().collect(),
             sine,
             cosine,
         }

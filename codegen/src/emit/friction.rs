@@ -3,11 +3,11 @@
 use super::figures::decimal;
 use super::generated::GeneratedFunction;
 use crate::function::Argument;
-use crate::scene::SceneRobot;
+use crate::setup::Setup;
 
 /// Returns the equation of the friction that is in it, joint by joint; nothing of functions
 /// that have none in them.
-pub(super) fn doc(generated: &GeneratedFunction, scene_robot: &SceneRobot) -> Vec<String> {
+pub(super) fn doc(generated: &GeneratedFunction, setup: &Setup) -> Vec<String> {
     let program = &generated.program;
     if program.speeds.is_empty() {
         return Vec::new();
@@ -31,7 +31,7 @@ pub(super) fn doc(generated: &GeneratedFunction, scene_robot: &SceneRobot) -> Ve
         "|---|---|---|".into(),
     ];
     for speed in &program.speeds {
-        let joint = &scene_robot.robot().joints[speed.joint];
+        let joint = &setup.robot().joints[speed.joint];
         let (force, width) = (decimal(&joint.coulomb), decimal(&joint.coulomb_width));
         lines.push(format!("| {} | {force} | {width} |", speed.joint + 1));
     }

@@ -2,10 +2,10 @@
 
 use crate::approximate::admitted::Admitted;
 use crate::function::Function;
-use crate::program::{Counts, Library, Lowered, Program, ScalarType};
-use crate::scene::ParametersKey;
+use crate::program::{Code, Counts, Library, Program, ScalarType};
 use crate::search::Pass;
 use crate::seeds::Source;
+use crate::setup::ParametersKey;
 use crate::sincos::{self, AngleKernel, Sines};
 use crate::verify::accuracy::Refused;
 use crate::verify::exact::Proof;
@@ -48,8 +48,8 @@ impl GeneratedFunction {
 
     /// Returns the program in a scalar, each constant rounded once: what is printed. Sines
     /// without polynomials are the library's.
-    pub fn code(&self, scalar: ScalarType, library: Library) -> Lowered {
-        sincos::lowered(&self.program, scalar, library, self.sines(scalar))
+    pub fn code(&self, scalar: ScalarType, library: Library) -> Code {
+        self.program.code(scalar, library, self.sines(scalar))
     }
 
     /// Returns its counts, without the polynomials of sines.

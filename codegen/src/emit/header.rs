@@ -10,8 +10,8 @@ use super::{GeneratedFunction, c_sines, fused, parameters};
 use crate::function::Function;
 use crate::language::c99::{self, LONGEST, Names};
 use crate::language::{Language, Printed, columns, cuda};
-use crate::program::{Library, Lowered, ScalarType};
-use crate::task::Task;
+use crate::program::{Code, Library, ScalarType};
+use crate::task::Job;
 
 /// Where gcc may fuse products and sums by itself: in straight lines of alternating sums and
 /// differences (`tree-slp-vectorize`) it does whatever it is told of contraction.
@@ -57,16 +57,16 @@ pub(crate) fn misnamed(
 
 /// Prints the whole file: in each scalar, the functions' programs.
 pub(crate) fn write(
-    task: &Task<'_>,
+    job: &Job<'_>,
     functions: &[GeneratedFunction],
-    codes: &[(ScalarType, Vec<Lowered>)],
+    codes: &[(ScalarType, Vec<Code>)],
 ) -> String {
-    let Task {
+    let Job {
         robot,
-        scene_robot,
+        setup,
         request,
-    } = *task;
-    let name = task.module_name();
+    } = *job;
+    let name = job.module_name();
     let names = Names::new(&name, request.language, ScalarType::F64);
     let mut text = String::new();
     let guard = names.constant(match request.language {
@@ -75,8 +75,8 @@ pub(crate) fn write(
     });
     let (restrict, unfused) = (names.constant("RESTRICT"), names.constant("UNFUSED"));
     let codes_of = || codes.iter().flat_map(|(_, codes)| codes);
-    let calls = |code: &&Lowered| code.trig.iter().any(|trig| trig.kernel.is_none());
-    let is_fused = |code: &&Lowered| code.counts().fma > 0;
+    let calls = |code: &&Code| code.pairs.iter().any(|pair| pair.kernel.is_none());
+    let is_fused = |code: &&Code| code.counts().fma > 0;
     let needs_math =
         codes_of().any(|code| calls(&code) || is_fused(&code) || !code.speeds.is_empty());
     let includes = [("math", needs_math), ("stddef", request.batch)];
@@ -133,26 +133,26 @@ pub(crate) fn write(
     for (scalar, codes) in codes {
         let scalar = *scalar;
         let names = Names::new(&name, request.language, scalar);
-        comment(&mut text, &header(robot, scene_robot, functions, scalar));
+        comment(&mut text, &header(robot, setup, functions, scalar));
         let is_batch = request.batch;
         let printed = functions.iter().zip(codes);
         let printed = printed.map(|(own, code)| Printed::of(&own.program, code));
         c_sines::write(&mut text, printed, &names, is_batch);
-        if let Some(state_box) = StateBox::of(functions, scene_robot, scalar) {
+        if let Some(state_box) = StateBox::of(functions, setup, scalar) {
             state_box.write_c(&mut text, scalar, &names);
         }
         for (index, (generated, code)) in functions.iter().zip(codes).enumerate() {
             // One π for all that are over the same columns.
             let (function, mut earlier) = (generated.function, functions[..index].iter());
             if !earlier.any(|other| other.function.columns() == function.columns()) {
-                text.push_str(&parameters::write_c(function, scene_robot, &names));
+                text.push_str(&parameters::write_c(function, setup, &names));
             }
             let printed = Printed::of(&generated.program, code);
             if let Some(structure) = c99::structure(&printed, &names) {
                 text.push('\n');
                 text.push_str(&structure);
             }
-            let mut doc = function_doc(task, generated, scalar);
+            let mut doc = function_doc(job, generated, scalar);
             let of_rust = fused::doc(&generated.program);
             if !of_rust.is_empty() {
                 doc.retain(|line| line.is_empty() || !of_rust.contains(line));
@@ -171,13 +171,13 @@ pub(crate) fn write(
             doc.push(String::new());
             for argument in printed.arguments {
                 let (name, length) = (argument.name(), argument.length(printed.sizes));
-                let mut lines = described(*argument, scene_robot).into_iter();
+                let mut lines = described(*argument, setup).into_iter();
                 let first = lines.next().unwrap_or_default();
                 doc.push(format!("{name}[{length}]: {first}"));
                 doc.extend(lines);
             }
             for quantity in function.quantities() {
-                let rows = scene_robot.rows();
+                let rows = setup.rows();
                 let count = quantity.len(printed.sizes);
                 let units = (0..count).map(|i| quantity.unit(i, rows, printed.sizes, robot));
                 let mut units: Vec<&str> = units.collect();

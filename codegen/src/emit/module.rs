@@ -13,9 +13,9 @@ use super::state_box::StateBox;
 use super::{arguments, fused, parameters, sines, variant};
 use crate::emit::GeneratedFunction;
 use crate::language::{Printed, columns, function, result};
-use crate::program::{Lowered, ScalarType};
-use crate::scene::SceneRobot;
-use crate::task::Task;
+use crate::program::{Code, ScalarType};
+use crate::setup::Setup;
+use crate::task::Job;
 
 /// What generated code must not be told: that not every function is called or
 /// seen from outside, that literals carry all the digits they need, that names
@@ -24,19 +24,19 @@ const ALLOWED: &str = "dead_code, unreachable_pub, clippy::all, clippy::pedantic
 
 /// Prints the contents of the module: the functions' programs in one scalar.
 pub(crate) fn write(
-    task: &Task<'_>,
+    job: &Job<'_>,
     functions: &[GeneratedFunction],
-    codes: &[Lowered],
+    codes: &[Code],
     scalar: ScalarType,
 ) -> String {
-    let Task {
+    let Job {
         robot,
-        scene_robot,
+        setup,
         request,
-    } = *task;
+    } = *job;
     let n = robot.joints.len();
     let mut text = String::new();
-    for line in header(robot, scene_robot, functions, scalar) {
+    for line in header(robot, setup, functions, scalar) {
         let space = if line.is_empty() { "" } else { " " };
         let _ = writeln!(text, "//!{space}{line}");
     }
@@ -47,8 +47,8 @@ pub(crate) fn write(
         "#![cfg_attr(rustfmt, rustfmt_skip)]\n#![allow({ALLOWED})]\n"
     );
     let _ = writeln!(text, "/// The number of joints.\npub const N: usize = {n};");
-    let rows = scene_robot.rows();
-    if scene_robot.scene().is_some() {
+    let rows = setup.rows();
+    if setup.scene().is_some() {
         let _ = writeln!(
             text,
             "/// The joints that results are over, in their order, from zero.\n\
@@ -56,8 +56,8 @@ pub(crate) fn write(
             rows.len()
         );
     }
-    text.push_str(&arguments::types(scene_robot, scalar));
-    if let Some(state_box) = StateBox::of(functions, scene_robot, scalar) {
+    text.push_str(&arguments::types(setup, scalar));
+    if let Some(state_box) = StateBox::of(functions, setup, scalar) {
         state_box.write(&mut text, scalar);
     }
     for (index, (generated, code)) in functions.iter().zip(codes).enumerate() {
@@ -71,13 +71,9 @@ pub(crate) fn write(
         let columns = generated.function.columns();
         let mut earlier = functions[..index].iter();
         if !earlier.any(|other| other.function.columns() == columns) {
-            text.push_str(&parameters::constant(
-                generated.function,
-                scene_robot,
-                scalar,
-            ));
+            text.push_str(&parameters::constant(generated.function, setup, scalar));
         }
-        let doc = function_doc(task, generated, scalar);
+        let doc = function_doc(job, generated, scalar);
         let printed = Printed::of(&generated.program, code);
         text.push_str(&function::write(&printed, request.library(), &doc));
         if request.batch {
@@ -104,7 +100,7 @@ fn followed(own: &Follower, number: usize) -> String {
 /// Writes robot, conventions, DH table, counts and proof.
 pub(super) fn header(
     robot: &Robot,
-    scene_robot: &SceneRobot,
+    setup: &Setup,
     functions: &[GeneratedFunction],
     scalar: ScalarType,
 ) -> Vec<String> {
@@ -122,7 +118,7 @@ pub(super) fn header(
         String::new(),
         format!(
             "SI units, radians; {convention} DH; {}",
-            arguments::gravity(robot, scene_robot)
+            arguments::gravity(robot, setup)
         ),
     ];
     if let Some(base) = &robot.base {
@@ -190,7 +186,7 @@ pub(super) fn header(
             tilted.join(", joint ")
         ));
     }
-    if let Some(scene) = scene_robot.scene() {
+    if let Some(scene) = setup.scene() {
         lines.push(String::new());
         lines.extend(describe(scene, robot));
     }
@@ -263,11 +259,11 @@ fn table(functions: &[GeneratedFunction]) -> Vec<String> {
 
 /// Returns the documentation of a function in a scalar.
 pub(super) fn function_doc(
-    task: &Task<'_>,
+    job: &Job<'_>,
     generated: &GeneratedFunction,
     scalar: ScalarType,
 ) -> Vec<String> {
-    let scene_robot = task.scene_robot;
+    let setup = job.setup;
     let mut lines = vec![
         generated.function.summary().to_owned(),
         String::new(),
@@ -290,12 +286,12 @@ pub(super) fn function_doc(
             "joint moves no inertia a pivot is zero, and results are infinite or NaN.".into(),
         );
     }
-    lines.extend(friction::doc(generated, scene_robot));
-    lines.extend(arguments::doc(generated.function, scene_robot));
-    lines.extend(parameters::doc(generated.function, scene_robot));
+    lines.extend(friction::doc(generated, setup));
+    lines.extend(arguments::doc(generated.function, setup));
+    lines.extend(parameters::doc(generated.function, setup));
     lines.extend(sines::doc(generated.sines(scalar), scalar));
     if let Some(admitted) = &generated.admitted {
-        lines.extend(variant::describe(admitted, scene_robot, scalar));
+        lines.extend(variant::describe(admitted, setup, scalar));
     }
     lines
 }

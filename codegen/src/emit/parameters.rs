@@ -11,11 +11,11 @@ use super::figures::decimal;
 use crate::function::{Columns, Function};
 use crate::language::c99::{Names, float};
 use crate::program::{Literal, ScalarType};
-use crate::scene::SceneRobot;
-use crate::scene::base::{BaseParameters, Parameter};
+use crate::setup::Setup;
+use crate::setup::base::{BaseParameters, Parameter};
 
 /// Returns what the columns of a function's regressor are; nothing of other functions.
-pub(super) fn doc(function: Function, scene_robot: &SceneRobot) -> Vec<String> {
+pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
     let mut lines = match function.columns() {
         Columns::None => return Vec::new(),
         Columns::Links | Columns::Base(_) => vec![String::new()],
@@ -24,7 +24,7 @@ pub(super) fn doc(function: Function, scene_robot: &SceneRobot) -> Vec<String> {
         "m2 is the mass of link 2, mx2, my2 and mz2 its first moments, m x, m y and m z, Ixx2 to",
         "Ixz2 the entries of its tensor, all about the origin and in the axes of its DH frame.",
     ];
-    match over_base(function, scene_robot) {
+    match over_base(function, setup) {
         Some(((sum, constant), base)) => {
             lines.push(format!(
                 "{sum} = Y π, and `{constant}` is this robot's π. No fewer columns give all"
@@ -50,7 +50,7 @@ pub(super) fn doc(function: Function, scene_robot: &SceneRobot) -> Vec<String> {
                 "Columns are m1, mx1, my1, mz1, Ixx1, Iyy1, Izz1, Ixy1, Iyz1, Ixz1, then those of"
                     .into(),
             );
-            let friction = match scene_robot.has_coulomb() {
+            let friction = match setup.has_coulomb() {
                 true => "friction, viscous and Coulomb,",
                 false => "viscous friction",
             };
@@ -62,9 +62,9 @@ pub(super) fn doc(function: Function, scene_robot: &SceneRobot) -> Vec<String> {
 }
 
 /// Returns the constant π; nothing of functions that are over no base parameters.
-pub(super) fn constant(function: Function, scene_robot: &SceneRobot, scalar: ScalarType) -> String {
+pub(super) fn constant(function: Function, setup: &Setup, scalar: ScalarType) -> String {
     let mut text = String::new();
-    let Some((name, values)) = values(function, scene_robot, scalar) else {
+    let Some((name, values)) = values(function, setup, scalar) else {
         return text;
     };
     // Writing to a string cannot fail.
@@ -82,10 +82,10 @@ pub(super) fn constant(function: Function, scene_robot: &SceneRobot, scalar: Sca
 }
 
 /// Returns the function that writes π in C; nothing of functions that are over no base parameters.
-pub(super) fn write_c(function: Function, scene_robot: &SceneRobot, names: &Names) -> String {
+pub(super) fn write_c(function: Function, setup: &Setup, names: &Names) -> String {
     let mut text = String::new();
     let dialect = names.dialect();
-    let Some((name, values)) = values(function, scene_robot, dialect.scalar) else {
+    let Some((name, values)) = values(function, setup, dialect.scalar) else {
         return text;
     };
     let (float, restrict) = (float(dialect.scalar), names.constant("RESTRICT"));
@@ -109,11 +109,11 @@ pub(super) fn write_c(function: Function, scene_robot: &SceneRobot, names: &Name
 /// Returns π of a function that is over base parameters, and its name.
 fn values(
     function: Function,
-    scene_robot: &SceneRobot,
+    setup: &Setup,
     scalar: ScalarType,
 ) -> Option<(&'static str, Vec<Literal>)> {
-    let ((_, name), base) = over_base(function, scene_robot)?;
-    let arm = Arm::from_robot(scene_robot.robot(), &mut Exact::clone);
+    let ((_, name), base) = over_base(function, setup)?;
+    let arm = Arm::from_robot(setup.robot(), &mut Exact::clone);
     let values = base.values(&arm).into_iter();
     let values = values.map(|value| Literal(scalar.round(&value)));
     Some((name, values.collect()))
@@ -131,12 +131,12 @@ pub(super) fn name(function: Function) -> Option<&'static str> {
 /// their values, and what they are.
 fn over_base(
     function: Function,
-    scene_robot: &SceneRobot,
+    setup: &Setup,
 ) -> Option<((&'static str, &'static str), &BaseParameters)> {
     let Columns::Base(quantity) = function.columns() else {
         return None;
     };
-    Some((quantity.linear()?, scene_robot.base(quantity).ok()?))
+    Some((quantity.linear()?, setup.base(quantity).ok()?))
 }
 
 fn has_drives(base: &BaseParameters) -> bool {

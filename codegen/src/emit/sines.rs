@@ -2,7 +2,7 @@
 
 use super::figures::bound_of;
 use crate::program::ScalarType;
-use crate::sincos::{AngleKernel, angle_name, counts};
+use crate::sincos::{AngleKernel, counts};
 
 /// Returns what a function's documentation says about its sines.
 pub(super) fn doc(sines: &[AngleKernel], scalar: ScalarType) -> Vec<String> {
@@ -19,8 +19,8 @@ pub(super) fn doc(sines: &[AngleKernel], scalar: ScalarType) -> Vec<String> {
     ];
     for sine in sines {
         lines.push(format!(
-            "| {} | {:?} | {:?} | {} | {} |",
-            angle_name(sine.angle),
+            "| q{} | {:?} | {:?} | {} | {} |",
+            sine.joint + 1,
             scalar.above(sine.range.low()),
             -scalar.above(-sine.range.high()),
             bound_of(sine.errors.worst(), 2),

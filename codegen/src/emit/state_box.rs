@@ -12,7 +12,7 @@ use crate::function::Argument;
 use crate::interval::Interval;
 use crate::language::c99::{Names, float};
 use crate::program::ScalarType;
-use crate::scene::SceneRobot;
+use crate::setup::Setup;
 use crate::sincos;
 
 /// The ranges of each argument's entries; none for those that nothing bounds.
@@ -24,14 +24,14 @@ impl StateBox {
     /// Returns where all of the functions hold; `None` if that is everywhere.
     pub(super) fn of(
         functions: &[GeneratedFunction],
-        scene_robot: &SceneRobot,
+        setup: &Setup,
         scalar: ScalarType,
     ) -> Option<StateBox> {
-        let joints = scene_robot.robot().joints.len();
+        let joints = setup.robot().joints.len();
         let columns = Argument::STATE.into_iter().map(|argument| {
             let mut column = vec![None; joints];
             for generated in functions {
-                bound(&mut column, argument, generated, scene_robot, scalar);
+                bound(&mut column, argument, generated, setup, scalar);
             }
             (argument, column)
         });
@@ -140,7 +140,7 @@ fn bound(
     column: &mut [Option<Interval>],
     argument: Argument,
     generated: &GeneratedFunction,
-    scene_robot: &SceneRobot,
+    setup: &Setup,
     scalar: ScalarType,
 ) {
     if let Some(admitted) = &generated.admitted {
@@ -152,16 +152,16 @@ fn bound(
             return;
         }
         for (joint, place) in column.iter_mut().enumerate() {
-            if scene_robot.lock(joint).is_none()
-                && let Some(range) = held(certificate, scene_robot, argument, joint)
+            if setup.lock(joint).is_none()
+                && let Some(range) = held(certificate, setup, argument, joint)
             {
                 *place = Some(narrower(*place, range));
             }
         }
     } else if argument == Argument::Position {
-        let positions = sincos::positions(scene_robot.robot(), scalar);
+        let positions = sincos::positions(setup.robot(), scalar);
         let sines = generated.sines(scalar).iter();
-        for (joint, _) in sines.flat_map(|sine| sine.angle.terms()) {
+        for joint in sines.map(|sine| sine.joint) {
             if let (Some(place), Some(range)) = (column.get_mut(joint), positions.get(joint)) {
                 *place = Some(narrower(*place, *range));
             }

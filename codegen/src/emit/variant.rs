@@ -10,15 +10,11 @@ use crate::certificate::Certificate;
 use crate::function::Argument;
 use crate::interval::Interval;
 use crate::program::ScalarType;
-use crate::scene::SceneRobot;
+use crate::setup::Setup;
 use crate::split::ErrorByCause;
 
 /// Returns a line each: the certificate, the box, what was left out.
-pub(super) fn describe(
-    admitted: &Admitted,
-    scene_robot: &SceneRobot,
-    scalar: ScalarType,
-) -> Vec<String> {
+pub(super) fn describe(admitted: &Admitted, setup: &Setup, scalar: ScalarType) -> Vec<String> {
     let mut all = admitted.certificates.iter();
     let Some(certificate) = all.find(|certificate| certificate.scalar == scalar) else {
         return Vec::new();
@@ -32,9 +28,9 @@ pub(super) fn describe(
     let quantities = certificate.emitted.function.quantities();
     lines.extend(scale::sentences(certificate.relative_to, quantities));
     lines.push(String::new());
-    lines.extend(bounds(certificate, scene_robot));
+    lines.extend(bounds(certificate, setup));
     lines.push(String::new());
-    lines.extend(states(certificate, scene_robot));
+    lines.extend(states(certificate, setup));
     lines.push(String::new());
     let left_out = omissions(&admitted.stages);
     if left_out.is_empty() && !admitted.stages.is_empty() {
@@ -80,8 +76,8 @@ fn saved(omission: &Omission) -> String {
     }
 }
 
-fn bounds(certificate: &Certificate, scene_robot: &SceneRobot) -> Vec<String> {
-    let units = scale::units(&certificate.emitted, scene_robot.robot());
+fn bounds(certificate: &Certificate, setup: &Setup) -> Vec<String> {
+    let units = scale::units(&certificate.emitted, setup.robot());
     let mut lines = vec![
         "| output | T | E | left out | sin/cos | rounding |".to_owned(),
         "|---|---|---|---|---|---|".to_owned(),
@@ -109,18 +105,18 @@ fn bounds(certificate: &Certificate, scene_robot: &SceneRobot) -> Vec<String> {
 /// Returns the entries of an argument for which a certificate holds; `None` for all.
 pub(super) fn held(
     certificate: &Certificate,
-    scene_robot: &SceneRobot,
+    setup: &Setup,
     argument: Argument,
     joint: usize,
 ) -> Option<Interval> {
     match argument {
-        Argument::Position => certificate.positions(scene_robot.robot(), joint),
+        Argument::Position => certificate.positions(setup.robot(), joint),
         _ => certificate.limits.of_argument(argument).get(joint).copied(),
     }
 }
 
 /// Returns the box, for what the function reads; what is printed is inside it.
-fn states(certificate: &Certificate, scene_robot: &SceneRobot) -> Vec<String> {
+fn states(certificate: &Certificate, setup: &Setup) -> Vec<String> {
     let limits = &certificate.limits;
     let columns = &certificate.emitted.arguments;
     let names: Vec<&str> = columns.iter().map(|argument| argument.symbol()).collect();
@@ -129,8 +125,8 @@ fn states(certificate: &Certificate, scene_robot: &SceneRobot) -> Vec<String> {
         format!("|{}", "---|".repeat(columns.len() + 1)),
     ];
     for joint in 0..limits.joints() {
-        let range = |&argument: &Argument| match held(certificate, scene_robot, argument, joint) {
-            _ if scene_robot.lock(joint).is_some() => "locked".to_owned(),
+        let range = |&argument: &Argument| match held(certificate, setup, argument, joint) {
+            _ if setup.lock(joint).is_some() => "locked".to_owned(),
             Some(range) => inside(range.low(), range.high()),
             None => "any".to_owned(),
         };

@@ -1,20 +1,19 @@
-//! What was proved, tried: emitted code is run before it is handed out.
+//! What was proved, tried: programs are run before they are handed out.
 //!
-//! A proof in a prime field may miss, with a chance that nobody will see, and
-//! whoever writes it may err. Two states of the robot tell: the text, read back,
-//! against the robot's own recursion in 256 bits. How far it may be off follows
-//! from its own numbers ([`running`]); with a tolerance, from its certificate.
+//! A proof in a prime field may miss, with a chance that nobody will see, and whoever writes it may
+//! err. Two states of the robot tell: the program with its exact constants, in 256 bits, against
+//! the robot's own recursion in 256 bits. With a tolerance the text, read back, against its
+//! certificate.
 
 use crate::bound::sample::draw;
-use crate::certificate::Certificate;
 use crate::falsify::held;
 use crate::generate::{GenerateError, GeneratedFunction};
+use crate::program::ScalarType;
 use crate::random::Random;
-use crate::scene::SceneRobot;
+use crate::setup::Setup;
 use crate::states::JointState;
-use crate::verify::floating::Emitted;
-use crate::verify::reference::Reference;
-use crate::verify::running;
+use crate::verify::measure::Emitted;
+use crate::verify::truth::Reference;
 
 /// Two states: what is wrong, is wrong almost everywhere.
 const STATES: usize = 2;
@@ -22,62 +21,122 @@ const STATES: usize = 2;
 /// A seed of its own.
 const SEED: u64 = 0x0074_7269_616c;
 
-/// Runs every emitted function.
+/// Runs every function.
 pub(super) fn check(
-    scene_robot: &SceneRobot,
+    setup: &Setup,
     functions: &[GeneratedFunction],
     emitted: &[Emitted],
 ) -> Result<(), GenerateError> {
-    // Limits may reach beyond f32, and the reference is of finite numbers.
-    let states: Vec<JointState> = scene_robot
-        .states(STATES, SEED)
+    let reference = Reference::new(setup);
+    functions
         .iter()
-        .map(JointState::in_finite_single)
-        .collect();
-    let reference = Reference::new(scene_robot);
-    for generated in functions {
-        let certificates = generated.admitted.iter().flat_map(|a| &a.certificates);
-        let certificates: Vec<&Certificate> = certificates.collect();
-        for emitted in emitted.iter().filter(|e| e.function == generated.function) {
-            let scalar = emitted.scalar;
-            let claim = certificates.iter().find(|claim| claim.scalar == scalar);
-            let mut random = Random::new(SEED);
-            for state in &states {
-                let (state, bounds) = match claim {
-                    Some(claim) => {
-                        let limits = &claim.limits;
-                        let state = held(&draw(limits, &mut random), scalar, limits);
-                        (state, claim.errors())
-                    }
-                    None => {
-                        let (library, sines) = (emitted.text.library, generated.sines(scalar));
-                        let program = &generated.program;
-                        let bounds = running::errors(program, scalar, library, sines, state);
-                        (state.clone(), bounds)
-                    }
-                };
-                let truth = reference.run(generated.function, &state);
-                let results = emitted.run(&state);
-                for (index, ((result, truth), bound)) in
-                    results.iter().zip(&truth).zip(bounds).enumerate()
-                {
-                    let error = truth.error(*result);
-                    if error > bound {
-                        let most = match claim {
-                            Some(_) => "its certificate allows",
-                            None => "rounding is no more than",
-                        };
-                        let why = format!(
-                            "it passed its proof, but gave a wrong result when it was run: {} is \
-                             {error:.3e} off the robot's own recursion, and {most} {bound:.3e}",
-                            generated.program.entry(index)
-                        );
-                        let function = generated.function;
-                        return Err(GenerateError::Defect(function, Some(scalar), why));
-                    }
-                }
+        .try_for_each(|generated| match &generated.admitted {
+            None => exact(&reference, generated),
+            Some(_) => {
+                let mut own = emitted
+                    .iter()
+                    .filter(|own| own.function == generated.function);
+                own.try_for_each(|emitted| tolerated(&reference, generated, emitted))
             }
+        })
+}
+
+/// Compares an exact program with the recursion.
+fn exact(reference: &Reference, generated: &GeneratedFunction) -> Result<(), GenerateError> {
+    // Limits may reach beyond f32, and the reference is of finite numbers.
+    let states = reference.setup().states(STATES, SEED);
+    for state in states.iter().map(JointState::in_finite_single) {
+        let truth = reference.run(generated.function, &state);
+        let results = reference.run_program(&generated.program, &state);
+        let differences = truth.iter().zip(&results).map(|(a, b)| a.difference(b));
+        if let Some((index, error)) = differences.enumerate().find(|(_, error)| *error > 0.0) {
+            let why = "in 256 bits both are equal";
+            return Err(wrong(generated, index, None, error, why));
         }
     }
     Ok(())
+}
+
+/// Compares a text with the recursion, where a tolerance admitted it.
+fn tolerated(
+    reference: &Reference,
+    generated: &GeneratedFunction,
+    emitted: &Emitted,
+) -> Result<(), GenerateError> {
+    let scalar = emitted.scalar;
+    let mut certificates = generated.admitted.iter().flat_map(|all| &all.certificates);
+    let Some(claim) = certificates.find(|claim| claim.scalar == scalar) else {
+        return Ok(());
+    };
+    let mut random = Random::new(SEED);
+    for _ in 0..STATES {
+        let state = held(&draw(&claim.limits, &mut random), scalar, &claim.limits);
+        let truth = reference.run(generated.function, &state);
+        let pairs = emitted.run(&state).into_iter().zip(&truth);
+        let errors = pairs.map(|(result, truth)| truth.error(result));
+        let mut both = errors.zip(claim.errors()).enumerate();
+        if let Some((index, (error, bound))) = both.find(|(_, (error, bound))| error > bound) {
+            let why = format!("its certificate allows {bound:.3e}");
+            return Err(wrong(generated, index, Some(scalar), error, &why));
+        }
+    }
+    Ok(())
+}
+
+fn wrong(
+    generated: &GeneratedFunction,
+    index: usize,
+    scalar: Option<ScalarType>,
+    error: f64,
+    why: &str,
+) -> GenerateError {
+    let entry = generated.program.entry(index);
+    let why = format!(
+        "it passed its proof, but gave a wrong result when it was run: {entry} is {error:.3e} off \
+         the robot's own recursion, and {why}"
+    );
+    GenerateError::Defect(generated.function, scalar, why)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::function::Function;
+    use crate::generate::generate;
+    use crate::program::Operand;
+    use crate::task::Request;
+    use dalembert_model::number::{Exact, Rational};
+    use dalembert_model::read::{self, Options};
+    use dalembert_model::scalar::Scalar;
+
+    /// A constant that is off in its fortieth digit is found, where doubles would see nothing.
+    #[test]
+    fn a_wrong_digit_is_found() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
+        let text = std::fs::read_to_string(folder.join("planar2r.toml")).unwrap();
+        let robot = read::parse(&text, &Options::default()).unwrap().robot;
+        let request = Request::of(&[Function::InverseDynamics]);
+        let generated = generate(&robot, &request).unwrap();
+        let reference = Reference::new(&Setup::whole(&robot));
+        let mut function = generated.functions[0].clone();
+        assert_eq!(exact(&reference, &function), Ok(()));
+        let tiny = Exact::from(Rational::new(
+            1.into(),
+            num_bigint::BigInt::from(10).pow(40),
+        ));
+        for index in 0..function.program.steps.len() {
+            let program = function.program.clone();
+            let Operand::Constant(constant) = &mut function.program.steps[index].right else {
+                continue;
+            };
+            *constant = constant.add(&tiny);
+            let error = exact(&reference, &function).unwrap_err().to_string();
+            assert!(
+                error.contains("it passed its proof"),
+                "t{}: {error}",
+                index + 1
+            );
+            function.program = program;
+        }
+    }
 }

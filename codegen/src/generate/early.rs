@@ -3,24 +3,24 @@
 //! could have had at once. So that one is run as well, function by function the
 //! cheaper program stays, and an early end is never worse than no patience.
 
-use super::{GeneratedFunction, Request, Task, functions};
+use super::{GeneratedFunction, Job, Request, functions};
 use crate::program::ScalarType;
 use crate::search::{Effort, price};
 use crate::watch::Watch;
 
 /// Puts the quick search's functions in the place of dearer ones.
 pub(super) fn no_dearer_than_quick(
-    task: &Task<'_>,
+    job: &Job<'_>,
     generated: &mut [GeneratedFunction],
     scalars: &[ScalarType],
 ) {
     let quick = Request {
         effort: Effort::Quick,
         watch: Watch::default(),
-        ..task.request.clone()
+        ..job.request.clone()
     };
     // Where it finds nothing, what is there already stays.
-    let Ok((quick, theirs)) = functions(&task.with(&quick)) else {
+    let Ok((quick, theirs)) = functions(&job.with(&quick)) else {
         return;
     };
     if theirs != scalars {

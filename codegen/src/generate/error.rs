@@ -10,8 +10,8 @@ use crate::function::{Argument, Function};
 use crate::generate::language::Lacks;
 use crate::language::Language;
 use crate::program::ScalarType;
-use crate::scene::SceneError;
-use crate::scene::base::NoBase;
+use crate::setup::SceneError;
+use crate::setup::base::NoBase;
 use crate::verify::exact::Disproof;
 
 /// Why nothing was generated.

@@ -6,8 +6,8 @@ use super::{Generated, GeneratedFunction, Request};
 use crate::function::Function;
 use crate::plan::{Edited, Entry, Plan};
 use crate::program::{Program, ScalarType};
-use crate::scene::{SceneKey, input_hash};
 use crate::search::price;
+use crate::setup::{SceneKey, input_hash};
 
 /// A plan with what was generated in it.
 #[derive(Clone, Debug)]

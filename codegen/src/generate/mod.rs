@@ -40,14 +40,14 @@ use crate::function::{Columns, Function};
 use crate::language::c99::Names;
 use crate::language::{Language, Printed};
 use crate::parallel;
-use crate::program::{Lowered, Program, ScalarType, has_inertia};
-use crate::scene::{ParametersKey, SceneRobot, input_hash};
+use crate::program::{Code, Program, ScalarType, has_inertia};
 use crate::search::Effort;
+use crate::setup::{ParametersKey, Setup, input_hash};
 use crate::sincos::{self, SinCos, Sines};
-use crate::task::{Prefer, Request, Task};
+use crate::task::{Job, Prefer, Request};
 use crate::trace::depends_on_coulomb;
 use crate::verify::exact::prove;
-use crate::verify::floating::Emitted;
+use crate::verify::measure::Emitted;
 use crate::verify::parameters::prove_base;
 use crate::verify::singular::without_inertia;
 pub use anew::generate_anew;
@@ -132,61 +132,61 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     let asked = request;
     let request = &*language::with_short_name(robot, asked);
     check(robot, request)?;
-    let scene_robot = &request.scene_robot(robot).map_err(GenerateError::Scene)?;
-    let task = &Task {
+    let setup = &request.setup(robot).map_err(GenerateError::Scene)?;
+    let job = &Job {
         robot,
-        scene_robot,
+        setup,
         request,
     };
-    if task.tolerance().is_some() {
+    if job.tolerance().is_some() {
         let mut functions = request.functions.iter();
-        if let Some(&function) = functions.find(|&&f| depends_on_coulomb(scene_robot, f)) {
+        if let Some(&function) = functions.find(|&&f| depends_on_coulomb(setup.task(f))) {
             let why = ToleranceError::Function(Unbounded::Friction);
             return Err(GenerateError::Tolerance(function, why));
         }
     }
-    parameters::check(task).map_err(GenerateError::Parameter)?;
-    let (mut functions, scalars) = functions(task)?;
+    parameters::check(job).map_err(GenerateError::Parameter)?;
+    let (mut functions, scalars) = functions(job)?;
     let ended = request.effort == Effort::Thorough && request.watch.is_over();
     if ended {
-        early::no_dearer_than_quick(task, &mut functions, &scalars);
+        early::no_dearer_than_quick(job, &mut functions, &scalars);
     }
     let mut warnings = Vec::from_iter(language::renamed(robot, asked, request));
     for generated in &mut functions {
         if generated.sines.is_empty() {
-            generated.sines = sines(task, generated, &scalars)?;
+            generated.sines = sines(job, generated, &scalars)?;
         }
         for &scalar in &scalars {
             check_constants(&generated.program, scalar, &mut warnings)?;
-            let robot = scene_robot.robot();
+            let robot = setup.robot();
             warn_of_overflow(robot, &generated.program, scalar, &mut warnings);
         }
     }
     // What is printed, and what the text is compared with once it is read back.
-    let in_scalar = |&scalar: &ScalarType| -> (ScalarType, Vec<Lowered>) {
+    let in_scalar = |&scalar: &ScalarType| -> (ScalarType, Vec<Code>) {
         let all = functions.iter();
         let code = all.map(|generated| generated.code(scalar, request.library()));
         (scalar, code.collect())
     };
-    let codes: Vec<(ScalarType, Vec<Lowered>)> = scalars.iter().map(in_scalar).collect();
+    let codes: Vec<(ScalarType, Vec<Code>)> = scalars.iter().map(in_scalar).collect();
     let texts = match request.language {
         Language::Rust => {
             let codes = codes.iter();
             let one =
-                |(scalar, codes): &(_, Vec<_>)| module::write(task, &functions, codes, *scalar);
+                |(scalar, codes): &(_, Vec<_>)| module::write(job, &functions, codes, *scalar);
             codes.map(one).collect()
         }
-        Language::C | Language::Cuda => vec![header::write(task, &functions, &codes)],
+        Language::C | Language::Cuda => vec![header::write(job, &functions, &codes)],
     };
     let mut emitted = Vec::new();
     for (index, (_, codes)) in codes.iter().enumerate() {
         // Headers have all scalars in one text.
         let text = &texts[index.min(texts.len() - 1)];
         for (generated, code) in functions.iter().zip(codes) {
-            emitted.push(read_back(task, text, generated, code)?);
+            emitted.push(read_back(job, text, generated, code)?);
         }
     }
-    contradiction::check(scene_robot, &functions, &emitted)?;
+    contradiction::check(setup, &functions, &emitted)?;
     Ok(Generated {
         functions,
         scalars,
@@ -243,86 +243,86 @@ type Found = (Vec<GeneratedFunction>, Vec<ScalarType>);
 /// scalars to emit. With a tolerance the certificate says what rounding may
 /// cost, and the cheapest exact programs are what to start from; those that
 /// cost fewer digits have their turn if it refuses these.
-fn functions(task: &Task<'_>) -> Result<Found, GenerateError> {
-    let request = task.request;
-    if task.tolerance().is_none() || request.prefer != Prefer::Accuracy {
-        return attempt(task);
+fn functions(job: &Job<'_>) -> Result<Found, GenerateError> {
+    let request = job.request;
+    if job.tolerance().is_none() || request.prefer != Prefer::Accuracy {
+        return attempt(job);
     }
     let cheapest = &Request {
         prefer: Prefer::Operations,
         ..request.clone()
     };
-    match attempt(&task.with(cheapest)) {
-        Err(GenerateError::Tolerance(_, ToleranceError::Above { .. })) => attempt(task),
+    match attempt(&job.with(cheapest)) {
+        Err(GenerateError::Tolerance(_, ToleranceError::Above { .. })) => attempt(job),
         found => found,
     }
 }
 
-fn attempt(task: &Task<'_>) -> Result<Found, GenerateError> {
-    let mut functions = Function::in_order(&task.request.functions);
-    if task.scene_robot.has(RuntimeParameter::Payload) {
+fn attempt(job: &Job<'_>) -> Result<Found, GenerateError> {
+    let mut functions = Function::in_order(&job.request.functions);
+    if job.setup.has(RuntimeParameter::Payload) {
         functions.insert(0, Function::Load);
     }
-    let proved = |function: &Function| proved(task, *function);
-    let found: Result<_, _> = match task.request.effort {
+    let proved = |function: &Function| proved(job, *function);
+    let found: Result<_, _> = match job.request.effort {
         Effort::Quick => parallel::each(&functions, proved).into_iter().collect(),
         // Who watches a long search sees one function after the other.
         Effort::Thorough => functions.iter().map(proved).collect(),
     };
     let mut functions: Vec<GeneratedFunction> = found?;
-    let scalars = tolerate(task, &mut functions)?;
+    let scalars = tolerate(job, &mut functions)?;
     Ok((functions, scalars))
 }
 
 /// Returns a function with its program, from the plan or searched for, and the program's proof.
-fn proved(task: &Task<'_>, function: Function) -> Result<GeneratedFunction, GenerateError> {
-    let scene_robot = task.scene_robot;
+fn proved(job: &Job<'_>, function: Function) -> Result<GeneratedFunction, GenerateError> {
+    let setup = job.setup;
     let base = match function.columns() {
-        Columns::Base(quantity) => Some(scene_robot.base(quantity)),
+        Columns::Base(quantity) => Some(setup.base(quantity)),
         Columns::Links | Columns::None => None,
     };
     let base = base.transpose();
     let base = base.map_err(|why| GenerateError::Base(function, why))?;
-    let outputs = function.outputs(scene_robot.sizes(function));
+    let outputs = function.outputs(setup.sizes(function));
     if outputs > MAX_OUTPUTS {
         return Err(GenerateError::TooLarge { function, outputs });
     }
     if let Some(base) = base {
-        prove_base(scene_robot, function, base)
+        prove_base(setup.task(function), base)
             .map_err(|why| GenerateError::Disproved(function, why))?;
     }
     if function.inverts_inertia()
-        && let Some(joint) = without_inertia(scene_robot, function)
+        && let Some(joint) = without_inertia(setup.task(function))
     {
-        let joint = scene_robot.robot().joint_label(joint);
+        let joint = setup.robot().joint_label(joint);
         return Err(GenerateError::Singular { function, joint });
     }
-    let entry = replay(task, function)?;
+    let entry = replay(job, function)?;
     let (source, passes, program, refused) = match entry {
         Some(entry) => {
             // Widths are the robot's: a plan has none.
-            let program = entry.program.clone().with_speeds(scene_robot.speeds());
+            let program = entry.program.clone().with_speeds(setup.speeds());
             (entry.source, entry.passes.clone(), program, None)
         }
-        None => found(task, function)?,
+        None => found(job, function)?,
     };
-    let finished = match task.tolerance() {
+    let finished = match job.tolerance() {
         // Errors are bounded, and parts left out of it, first.
         Some(_) => program.clone(),
-        None => task.finished(&program),
+        None => job.finished(&program),
     };
     let (program, found) = match finished == program {
         true => (program, None),
         false => (finished, Some(program)),
     };
-    let proof = prove(scene_robot, &program).map_err(|disproof| match vanishing(scene_robot) {
+    let proof = prove(setup, &program).map_err(|disproof| match vanishing(setup) {
         Some(value) => GenerateError::Vanishing(function, value.to_string()),
         None => GenerateError::Disproved(function, disproof),
     })?;
     Ok(GeneratedFunction {
         function,
         source,
-        parameters: ParametersKey::of(scene_robot, function),
+        parameters: ParametersKey::of(setup.task(function)),
         planned: entry.is_some(),
         sines: Vec::new(),
         program,
@@ -336,24 +336,24 @@ fn proved(task: &Task<'_>, function: Function) -> Result<GeneratedFunction, Gene
 
 /// Returns the polynomials of a program's sines in each scalar.
 fn sines(
-    task: &Task<'_>,
+    job: &Job<'_>,
     generated: &GeneratedFunction,
     scalars: &[ScalarType],
 ) -> Result<Vec<(ScalarType, Sines)>, GenerateError> {
-    let SinCos::Polynomial { error } = task.request.sincos else {
+    let SinCos::Polynomial { error } = job.request.sincos else {
         return Ok(Vec::new());
     };
     if generated.admitted.is_some() {
         // It has what its tolerance admits, or no sines.
         return Ok(Vec::new());
     }
-    let (scene_robot, error) = (task.scene_robot, error.unwrap_or(SinCos::ERROR));
+    let (setup, error) = (job.setup, error.unwrap_or(SinCos::ERROR));
     let fail = |why| GenerateError::SinCos(generated.function, why);
     let all = scalars.iter().map(|&scalar| {
-        let positions = sincos::positions(scene_robot.robot(), scalar);
+        let positions = sincos::positions(setup.robot(), scalar);
         let sines = sincos::polynomials(&generated.program, scalar, &positions, error);
         let sines = sines.map_err(|why| fail(NoSines::TooAccurate(Box::new(why))))?;
-        if spoil_inertia(scene_robot, &generated.program, scalar, &sines) {
+        if spoil_inertia(setup, &generated.program, scalar, &sines) {
             return Err(fail(NoSines::Indefinite { error }));
         }
         Ok((scalar, sines))
@@ -363,14 +363,9 @@ fn sines(
 
 /// Returns whether D, if it is an output, can be shown to be positive definite at all positions
 /// with exact sines, and with these no more.
-fn spoil_inertia(
-    scene_robot: &SceneRobot,
-    program: &Program,
-    scalar: ScalarType,
-    sines: &Sines,
-) -> bool {
+fn spoil_inertia(setup: &Setup, program: &Program, scalar: ScalarType, sines: &Sines) -> bool {
     // Of a joint that slides without an end, no box has all positions.
-    let Ok(limits) = InputBox::within(scene_robot, Function::Inertia) else {
+    let Ok(limits) = InputBox::within(setup, Function::Inertia) else {
         return false;
     };
     has_inertia(program)
@@ -379,20 +374,20 @@ fn spoil_inertia(
 }
 
 fn read_back(
-    task: &Task<'_>,
+    job: &Job<'_>,
     text: &str,
     generated: &GeneratedFunction,
-    code: &Lowered,
+    code: &Code,
 ) -> Result<Emitted, GenerateError> {
-    let request = task.request;
+    let request = job.request;
     let scalar = code.scalar;
     let fail = |why| GenerateError::Defect(generated.function, Some(scalar), why);
     let printed = Printed::of(&generated.program, code);
     let read = match request.language {
-        Language::Rust => Lowered::parse_rust(text, &printed, request.batch),
+        Language::Rust => Code::parse_rust(text, &printed, request.batch),
         Language::C | Language::Cuda => {
-            let names = Names::new(&task.module_name(), request.language, scalar);
-            Lowered::parse_c(text, &printed, request.batch, &names)
+            let names = Names::new(&job.module_name(), request.language, scalar);
+            Code::parse_c(text, &printed, request.batch, &names)
         }
     };
     let read = read.map_err(|error| fail(error.to_string()))?;

@@ -8,7 +8,7 @@ use crate::approximate::error::Unbounded;
 use crate::function::{Argument, Function};
 use crate::language::Language;
 use crate::seeds::Start;
-use crate::task::Task;
+use crate::task::Job;
 
 /// Why a parameter cannot be an argument.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -79,17 +79,13 @@ impl fmt::Display for ParameterError {
 }
 
 /// Refuses, before anything is searched for, what cannot be.
-pub(super) fn check(task: &Task<'_>) -> Result<(), ParameterError> {
-    let Task {
-        scene_robot,
-        request,
-        ..
-    } = *task;
+pub(super) fn check(job: &Job<'_>) -> Result<(), ParameterError> {
+    let Job { setup, request, .. } = *job;
     let Some(&first) = request.parameters.first() else {
         return Ok(());
     };
     let scene = request.scene.as_ref();
-    if task.tolerance().is_some() {
+    if job.tolerance().is_some() {
         let mut functions = request.functions.iter();
         let taking = functions.find_map(|&function| {
             let mut taken = request.parameters.iter();
@@ -105,11 +101,11 @@ pub(super) fn check(task: &Task<'_>) -> Result<(), ParameterError> {
         return Err(ParameterError::Batch(first));
     }
     let given = scene.filter(|scene| scene.gravity.is_some());
-    if let (true, Some(scene)) = (scene_robot.has(RuntimeParameter::Gravity), given) {
+    if let (true, Some(scene)) = (setup.has(RuntimeParameter::Gravity), given) {
         let scene = scene.name.clone();
         return Err(ParameterError::Gravity { scene });
     }
-    if !scene_robot.has(RuntimeParameter::Payload) {
+    if !setup.has(RuntimeParameter::Payload) {
         return Ok(());
     }
     if request.start != Start::Auto {
@@ -121,7 +117,7 @@ pub(super) fn check(task: &Task<'_>) -> Result<(), ParameterError> {
     {
         return Err(ParameterError::Unregrouped(function));
     }
-    match scene_robot.load().is_some_and(|load| !load.rows.is_empty()) {
+    match setup.load().is_some_and(|load| !load.rows.is_empty()) {
         true => Ok(()),
         false => Err(ParameterError::Unfelt),
     }

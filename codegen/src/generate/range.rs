@@ -13,10 +13,10 @@ use crate::bound::ranges::{Finding, ranges};
 use crate::dag::Points;
 use crate::function::Argument;
 use crate::program::{Operand, Program, ScalarType};
-use crate::scene::SceneRobot;
+use crate::setup::Setup;
 
 /// Returns a parameter that the search or the proof cannot tell from zero.
-pub(super) fn vanishing(scene_robot: &SceneRobot) -> Option<Exact> {
+pub(super) fn vanishing(setup: &Setup) -> Option<Exact> {
     let mut lost = None;
     let mut constant = |value: &Exact| {
         if Points::lose::<{ Field::P }>(value) || Points::lose::<{ ProofField::P }>(value) {
@@ -24,8 +24,8 @@ pub(super) fn vanishing(scene_robot: &SceneRobot) -> Option<Exact> {
         }
         value.clone()
     };
-    Arm::from_robot(scene_robot.robot(), &mut constant);
-    scene_robot.motion(|_| Exact::zero(), constant);
+    Arm::from_robot(setup.robot(), &mut constant);
+    setup.motion(|_| Exact::zero(), constant);
     lost
 }
 

@@ -3,25 +3,21 @@
 use dalembert_model::equations::chain::Regrouping;
 use dalembert_model::number::Exact;
 
-use super::{GenerateError, Task};
+use super::{GenerateError, Job};
 use crate::dag::Dag;
 use crate::function::Function;
 use crate::plan::Entry;
 use crate::program::{Counts, Program, ScalarType};
-use crate::scene::{ParametersKey, SceneKey};
 use crate::search::{self, Effort, Pass, Searched};
 use crate::seeds::start::{Approach, Problem};
 use crate::seeds::{Limit, Seed, Source, Tuned};
+use crate::setup::{ParametersKey, SceneKey, Task};
 use crate::verify::accuracy::{AccuracyFilter, Refused};
 use crate::watch::{FunctionWatch, Part};
 
 /// Returns the plan's program, the first requested scalar's that it has.
-pub fn replay<'a>(task: &Task<'a>, function: Function) -> Result<Option<&'a Entry>, GenerateError> {
-    let Task {
-        scene_robot,
-        request,
-        ..
-    } = *task;
+pub fn replay<'a>(job: &Job<'a>, function: Function) -> Result<Option<&'a Entry>, GenerateError> {
+    let Job { setup, request, .. } = *job;
     let Some(plan) = &request.plan else {
         return Ok(None);
     };
@@ -29,8 +25,8 @@ pub fn replay<'a>(task: &Task<'a>, function: Function) -> Result<Option<&'a Entr
     if function == Function::Load {
         return Ok(None);
     }
-    let scene = scene_robot.scene();
-    let parameters = ParametersKey::of(scene_robot, function);
+    let scene = setup.scene();
+    let parameters = ParametersKey::of(setup.task(function));
     let find = |scene| {
         let mut scalars = request.scalars.iter();
         let found = |&scalar: &ScalarType| {
@@ -42,7 +38,7 @@ pub fn replay<'a>(task: &Task<'a>, function: Function) -> Result<Option<&'a Entr
     };
     let found = find(scene);
     // A box or a tolerance by itself leaves the equations as they are.
-    if found.is_none() && scene_robot.has_whole_model() {
+    if found.is_none() && setup.has_whole_model() {
         return Ok(find(None));
     }
     match (found, scene) {
@@ -58,12 +54,12 @@ pub fn replay<'a>(task: &Task<'a>, function: Function) -> Result<Option<&'a Entr
 
 /// Searches for a program.
 pub(super) fn found(
-    task: &Task<'_>,
+    job: &Job<'_>,
     function: Function,
 ) -> Result<(Source, Vec<Pass>, Program, Option<Refused>), GenerateError> {
-    let found = search(task, function)?;
+    let found = search(job, function)?;
     let (seed, searched) = (found.seed(), &found.searched);
-    let program = Program::in_scene(task.scene_robot, function, &searched.graph);
+    let program = Program::in_scene(job.setup.task(function), &searched.graph);
     let counts = [
         seed.traced,
         seed.graph.counts(),
@@ -90,16 +86,17 @@ pub struct Found {
 /// Searches for the cheapest program.
 ///
 /// A thorough search contains the quick one: it is never dearer.
-pub fn search(task: &Task<'_>, function: Function) -> Result<Found, GenerateError> {
+pub fn search(job: &Job<'_>, function: Function) -> Result<Found, GenerateError> {
+    let task = job.setup.task(function);
     let search = Search {
-        task: *task,
-        function,
-        judge: match task.is_lenient() {
-            true => AccuracyFilter::lenient(task.scene_robot, function),
-            false => AccuracyFilter::new(task.scene_robot, function),
+        job: *job,
+        task,
+        judge: match job.is_lenient() {
+            true => AccuracyFilter::lenient(task),
+            false => AccuracyFilter::new(task),
         },
     };
-    let watch = task.request.watch.over(function);
+    let watch = job.request.watch.over(function);
     // Who wants an end before a function's turn gets the quick search for it.
     if watch.is_over() {
         return search.quick(None);
@@ -107,7 +104,7 @@ pub fn search(task: &Task<'_>, function: Function) -> Result<Found, GenerateErro
     let tell = |part, best| watch.step(part, [0, 1], best);
     tell(Part::Formulations, None);
     // Nobody ends the quick search inside a thorough one: that is at least as good.
-    let is_quick = task.request.effort == Effort::Quick;
+    let is_quick = job.request.effort == Effort::Quick;
     let quick = search.quick(is_quick.then_some(watch))?;
     if is_quick || watch.is_over() {
         tell(Part::Proof, Some(quick.searched.graph.counts()));
@@ -130,8 +127,8 @@ pub fn search(task: &Task<'_>, function: Function) -> Result<Found, GenerateErro
 const NEAR: u64 = 50;
 
 struct Search<'a> {
+    job: Job<'a>,
     task: Task<'a>,
-    function: Function,
     judge: AccuracyFilter<'a>,
 }
 
@@ -192,13 +189,11 @@ impl Search<'_> {
         from: &[Regrouping<Exact>],
         watch: Option<FunctionWatch<'_>>,
     ) -> Result<Found, GenerateError> {
-        let (scene_robot, function) = (self.task.scene_robot, self.function);
-        let start = self.task.request.start;
+        let start = self.job.request.start;
         let excess = |graph: &Dag, bound| self.judge.excess(graph, bound);
         let limit: Option<Limit<'_>> = limited.then_some(&excess);
         let approaches = start.approaches(&Problem {
-            scene_robot,
-            function,
+            task: self.task,
             effort,
             limit,
             from,

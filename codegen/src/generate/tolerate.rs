@@ -13,23 +13,23 @@ use crate::approximate::prune::PruneSettings;
 use crate::bound::sensitivity::BoundEffort;
 use crate::bound::work::Meter;
 use crate::certificate::Certificate;
-use crate::generate::{GenerateError, GeneratedFunction, NoSines, Request, Task};
+use crate::generate::{GenerateError, GeneratedFunction, Job, NoSines, Request};
 use crate::plan::Edited;
 use crate::program::{Program, ScalarType};
-use crate::scene::SceneKey;
 use crate::search::Effort;
 use crate::seeds::Start;
+use crate::setup::SceneKey;
 use crate::sincos::SinCos;
 
 /// Replaces the programs, if the scene has a tolerance. Returns the scalars to
 /// emit.
 pub(super) fn tolerate(
-    task: &Task<'_>,
+    job: &Job<'_>,
     functions: &mut [GeneratedFunction],
 ) -> Result<Vec<ScalarType>, GenerateError> {
     let programs: Vec<&Program> = functions.iter().map(|f| &f.program).collect();
-    let Some(all) = admitted(task, &programs)? else {
-        return Ok(task.request.scalars.clone());
+    let Some(all) = admitted(job, &programs)? else {
+        return Ok(job.request.scalars.clone());
     };
     // One a certificate, the same of every function.
     let certificates = all
@@ -38,7 +38,7 @@ pub(super) fn tolerate(
         .flat_map(|admitted| &admitted.certificates);
     let scalars = certificates.map(|certificate| certificate.scalar).collect();
     for (function, admitted) in functions.iter_mut().zip(all) {
-        function.program = task.finished(&admitted.program);
+        function.program = job.finished(&admitted.program);
         let sines = admitted.certificates.iter();
         let sines = sines.filter(|c| !c.sines.is_empty());
         function.sines = sines.map(|c| (c.scalar, c.sines.clone())).collect();
@@ -50,11 +50,11 @@ pub(super) fn tolerate(
 /// Returns what the scene's tolerance admits in place of each exact program; `None` if
 /// it has none.
 pub fn admitted(
-    task: &Task<'_>,
+    job: &Job<'_>,
     programs: &[&Program],
 ) -> Result<Option<Vec<Admitted>>, GenerateError> {
-    let request = task.request;
-    let Some(tolerance) = task.tolerance() else {
+    let request = job.request;
+    let Some(tolerance) = job.tolerance() else {
         return Ok(None);
     };
     let mut choices = vec![request.scalars.clone()];
@@ -70,13 +70,13 @@ pub fn admitted(
     }
     let mut budgets = Vec::new();
     for program in programs {
-        let budget = ErrorBudget::new(task.scene_robot, program, tolerance.relative_to);
+        let budget = ErrorBudget::new(job.setup, program, tolerance.relative_to);
         budgets.push(budget.map_err(|why| GenerateError::Tolerance(program.function, why))?);
     }
     let meter = Meter::new(request.work);
     let last = choices.len() - 1;
     for (index, scalars) in choices.into_iter().enumerate() {
-        match in_scalars(task, &budgets, tolerance, &scalars, meter) {
+        match in_scalars(job, &budgets, tolerance, &scalars, meter) {
             Ok(admitted) => return Ok(Some(admitted)),
             // What rounding alone forbids, the wider scalar may do.
             Err(
@@ -97,7 +97,7 @@ pub fn admitted(
 /// Returns what a tolerance admits of every function in these scalars. Whether it admits
 /// the exact programs is seen first: a refusal comes before any search.
 fn in_scalars(
-    task: &Task<'_>,
+    job: &Job<'_>,
     budgets: &[ErrorBudget<'_>],
     tolerance: &Tolerance,
     scalars: &[ScalarType],
@@ -106,9 +106,9 @@ fn in_scalars(
     let mut planned = Vec::new();
     for budget in budgets {
         let tolerances = budget.tolerances(tolerance);
-        let usable = usable(task, budget, &tolerances, scalars)?;
+        let usable = usable(job, budget, &tolerances, scalars)?;
         if usable.is_none() {
-            let exact = budget.unedited(scalars, bound_effort(task));
+            let exact = budget.unedited(scalars, bound_effort(job));
             let refused = exact.within(&tolerances);
             let refused = refused.and_then(|()| budget.definite(scalars));
             refused.map_err(|why| GenerateError::Tolerance(budget.exact.function, why))?;
@@ -116,12 +116,12 @@ fn in_scalars(
         planned.push(usable);
     }
     let each = budgets.iter().zip(planned);
-    each.map(|(budget, planned)| chosen(task, budget, planned, tolerance, scalars, meter))
+    each.map(|(budget, planned)| chosen(job, budget, planned, tolerance, scalars, meter))
         .collect()
 }
 
-fn bound_effort(task: &Task<'_>) -> BoundEffort {
-    match task.request.effort {
+fn bound_effort(job: &Job<'_>) -> BoundEffort {
+    match job.request.effort {
         Effort::Quick => BoundEffort::QUICK,
         Effort::Thorough => BoundEffort::CERTIFY,
     }
@@ -131,13 +131,13 @@ fn bound_effort(task: &Task<'_>) -> BoundEffort {
 /// can edit, and its bounds are what documentation and certificate will say: they
 /// are found anew.
 fn usable(
-    task: &Task<'_>,
+    job: &Job<'_>,
     budget: &ErrorBudget<'_>,
     tolerances: &[f64],
     scalars: &[ScalarType],
 ) -> Result<Option<Admitted>, GenerateError> {
     let function = budget.exact.function;
-    let kept = kept(task, budget, scalars)?;
+    let kept = kept(job, budget, scalars)?;
     let usable = kept.filter(|kept| kept.within(tolerances).is_ok());
     if let Some(usable) = &usable {
         budget
@@ -149,14 +149,14 @@ fn usable(
 
 /// Returns what a tolerance admits of one function: the plan's variant, or the cheapest found.
 fn chosen(
-    task: &Task<'_>,
+    job: &Job<'_>,
     budget: &ErrorBudget<'_>,
     planned: Option<Admitted>,
     tolerance: &Tolerance,
     scalars: &[ScalarType],
     meter: Meter,
 ) -> Result<Admitted, GenerateError> {
-    let request = task.request;
+    let request = job.request;
     let function = budget.exact.function;
     let fail = |refusal| GenerateError::Tolerance(function, refusal);
     let watch = request.watch.over(function);
@@ -168,7 +168,7 @@ fn chosen(
         false => budget.clone().watched(watch),
     };
     let tolerances = budget.tolerances(tolerance);
-    let bound_effort = bound_effort(task);
+    let bound_effort = bound_effort(job);
     let settings = match request.effort {
         Effort::Thorough if !over => thorough(request),
         _ => PruneSettings::QUICK,
@@ -217,7 +217,7 @@ fn chosen(
             }
         }
     };
-    let finished = task.finished(&admitted.program);
+    let finished = job.finished(&admitted.program);
     if finished != admitted.program {
         let with = |certificate: &Certificate| {
             let found = budget.with_emitted(certificate, &finished, &tolerances, bound_effort);
@@ -236,7 +236,7 @@ fn chosen(
 /// of one that a plan kept. The scalars share both.
 fn proved(budget: &ErrorBudget<'_>, found: Admitted) -> Result<Admitted, GenerateError> {
     let programs = found.certificates.first();
-    match programs.map(|certificate| certificate.check_programs(budget.scene_robot)) {
+    match programs.map(|certificate| certificate.check_programs(budget.setup)) {
         Some(Err(why)) => {
             let why = format!("what was left out is not what was written down: {why}");
             Err(GenerateError::Defect(budget.exact.function, None, why))
@@ -259,12 +259,12 @@ fn thorough(request: &Request) -> PruneSettings {
 
 /// Returns the plan's variant, if it has the same one for each of the scalars.
 fn kept(
-    task: &Task<'_>,
+    job: &Job<'_>,
     budget: &ErrorBudget<'_>,
     scalars: &[ScalarType],
 ) -> Result<Option<Admitted>, GenerateError> {
-    let (request, function) = (task.request, budget.exact.function);
-    let (Some(plan), Some(scene)) = (&request.plan, task.scene_robot.scene()) else {
+    let (request, function) = (job.request, budget.exact.function);
+    let (Some(plan), Some(scene)) = (&request.plan, job.setup.scene()) else {
         return Ok(None);
     };
     let scene_key = Some(SceneKey::of(scene));

@@ -26,6 +26,9 @@ impl Scalar for Interval {
     fn half(&self) -> Self {
         *self * Interval::point(0.5)
     }
+    fn is_zero(&self) -> bool {
+        *self == Interval::ZERO
+    }
 }
 
 impl Divide for Interval {

@@ -21,13 +21,13 @@ use dalembert_sines::{LARGEST, LARGEST_F32};
 
 use super::angles;
 use super::called::Called;
-use super::dialect::Dialect;
+use super::dialect::{Dialect, Lines};
 use super::function::reads;
 pub(crate) use super::names::{LONGEST, Names, float};
 use super::{Language, Printed, speed};
 use crate::function::{Argument, Function, Quantity};
-use crate::program::kernel::{Kernel, Term, Value};
-use crate::program::{AngleSum, Library, Lowered, LoweredTrig, ScalarType};
+use crate::program::text::input_name;
+use crate::program::{Code, Input, Library, Pair, ScalarType};
 
 impl Dialect {
     /// Returns C99.
@@ -162,8 +162,8 @@ pub(crate) fn single(printed: &Printed<'_>, names: &Names) -> String {
 }
 
 /// Returns whether sines are of the crate's algorithm, which calls others for angles that are far.
-fn is_together(code: &Lowered) -> bool {
-    code.library == Library::Together && code.trig.iter().any(|trig| trig.kernel.is_none())
+fn is_together(code: &Code) -> bool {
+    code.library == Library::Together && code.pairs.iter().any(|pair| pair.kernel.is_none())
 }
 
 /// Returns where the numbers of a result go, in their order; none of a number that is returned.
@@ -182,7 +182,7 @@ pub(crate) fn targets(printed: &Printed<'_>) -> Vec<String> {
 
 /// Returns whether the function is told whether angles may be far: in batches that are vectors,
 /// where calls would be in the way.
-pub(crate) fn is_told(code: &Lowered, names: &Names) -> bool {
+pub(crate) fn is_told(code: &Code, names: &Names) -> bool {
     names.language() == Language::C && is_together(code)
 }
 
@@ -194,9 +194,9 @@ pub(crate) fn unread(printed: &Printed<'_>) -> Vec<Argument> {
         .collect()
 }
 
-/// Returns the name of a step of an angle's polynomials, counted from zero.
-pub(crate) fn kernel_name(angle: AngleSum, step: usize) -> String {
-    format!("x{angle}_{}", step + 1)
+/// Returns what the operations of an angle's polynomials are called, before their number.
+pub(crate) fn kernel_prefix(joint: usize) -> String {
+    format!("x{}_", joint + 1)
 }
 
 /// Prints the function.
@@ -210,36 +210,30 @@ pub(crate) fn write(printed: &Printed<'_>, names: &Names, is_told: bool) -> Stri
     };
     line(&names.constant("UNFUSED"));
     let called = Called::of(code, printed.sizes.joints, names, is_told);
-    for trig in &code.trig {
-        let angle = trig.angle;
-        if angle.additions() > 0 {
-            line(&dialect.declare(&format!("a{angle}"), &angles::sum(angle)));
-        }
-        if called.is_some() && Called::is_of(trig) {
+    for pair in &code.pairs {
+        let joint = pair.joint;
+        if called.is_some() && Called::is_of(pair) {
             continue;
         }
-        let (argument, pair) = (angles::operand(angle), format!("p{angle}"));
-        if let (None, Library::Together) = (&trig.kernel, code.library) {
+        let (argument, both) = (angles::operand(joint), format!("p{}", joint + 1));
+        if let (None, Library::Together) = (&pair.kernel, code.library) {
             let [kind, function] = ["sincos_t", "sincos"].map(|word| names.of(word));
             line(&format!(
-                "const {kind} {pair} = {function}({far}, {argument});"
+                "const {kind} {both} = {function}({far}, {argument});"
             ));
         }
-        if let Some(kernel) = &trig.kernel {
-            for statement in kernel_lines(kernel, angle, &argument, dialect) {
-                line(&statement);
-            }
+        let kernel = pair.kernel.as_ref();
+        let prefix = kernel_prefix(joint);
+        let lines = kernel.map(|own| Lines::of_kernel(dialect, own, &argument, &prefix));
+        if let Some(lines) = &lines {
+            lines.statements().for_each(|statement| line(&statement));
         }
-        for (name, is_sine) in taken(trig) {
+        let mut results = lines.iter().flat_map(Lines::results);
+        for (name, is_sine) in taken(pair) {
             let function = if is_sine { "sin" } else { "cos" };
-            let value = match (&trig.kernel, code.library) {
-                (Some(kernel), _) => {
-                    let value = if is_sine { kernel.sin } else { kernel.cos };
-                    value.map_or_else(String::new, |value| {
-                        kernel_value(value, angle, &argument, dialect)
-                    })
-                }
-                (None, Library::Together) => format!("{pair}.{function}"),
+            let value = match (results.next(), code.library) {
+                (Some(value), _) => value,
+                (None, Library::Together) => format!("{both}.{function}"),
                 (None, Library::Libm) => dialect.call("", function, &argument),
             };
             line(&dialect.declare(&name, &value));
@@ -249,9 +243,9 @@ pub(crate) fn write(printed: &Printed<'_>, names: &Names, is_told: bool) -> Stri
         for statement in called.lines(names) {
             line(&statement);
         }
-        for trig in code.trig.iter().filter(|trig| Called::is_of(trig)) {
-            for (name, is_sine) in taken(trig) {
-                let value = called.value(trig.angle, is_sine).unwrap_or_default();
+        for pair in code.pairs.iter().filter(|pair| Called::is_of(pair)) {
+            for (name, is_sine) in taken(pair) {
+                let value = called.value(pair.joint, is_sine).unwrap_or_default();
                 line(&dialect.declare(&name, &value));
             }
         }
@@ -260,18 +254,13 @@ pub(crate) fn write(printed: &Printed<'_>, names: &Names, is_told: bool) -> Stri
     let mut line = |line: &str| {
         let _ = writeln!(text, "    {line}");
     };
-    for statement in (0..code.steps.len()).filter_map(|step| dialect.statement(code, step)) {
-        line(&statement);
-    }
+    let lines = Lines::new(dialect, code);
+    lines.statements().for_each(|statement| line(&statement));
     for argument in unread(printed) {
         line(&format!("(void){};", argument.name()));
     }
-    let values = code.outputs.iter().map(|output| {
-        let sign = if output.negative { "-" } else { "" };
-        format!("{sign}{}", dialect.operand(&output.value))
-    });
     let targets = targets(printed);
-    for (index, value) in values.enumerate() {
+    for (index, value) in lines.results().enumerate() {
         match targets.get(index) {
             Some(target) => line(&format!("{target} = {value};")),
             None => line(&format!("return {value};")),
@@ -282,39 +271,11 @@ pub(crate) fn write(printed: &Printed<'_>, names: &Names, is_told: bool) -> Stri
 }
 
 /// Returns the names of what is taken of an angle, and whether each is its sine.
-fn taken(trig: &LoweredTrig) -> impl Iterator<Item = (String, bool)> {
-    let both = [
-        (trig.sin, format!("s{}", trig.angle), true),
-        (trig.cos, format!("c{}", trig.angle), false),
-    ];
-    let taken = both.into_iter().filter(|(is_taken, ..)| *is_taken);
-    taken.map(|(_, name, is_sine)| (name, is_sine))
-}
-
-fn kernel_lines<'k>(
-    kernel: &'k Kernel,
-    angle: AngleSum,
-    argument: &'k str,
-    dialect: Dialect,
-) -> impl Iterator<Item = String> + 'k {
-    kernel.steps.iter().enumerate().map(move |(index, step)| {
-        let [left, right] = [step.left, step.right].map(|t| term(t, angle, argument, dialect));
-        let value = dialect.operation(step.operation, &left, &right);
-        dialect.declare(&kernel_name(angle, index), &value)
-    })
-}
-
-fn kernel_value(value: Value, angle: AngleSum, argument: &str, dialect: Dialect) -> String {
-    let sign = if value.negative { "-" } else { "" };
-    format!("{sign}{}", term(value.value, angle, argument, dialect))
-}
-
-fn term(term: Term, angle: AngleSum, argument: &str, dialect: Dialect) -> String {
-    match term {
-        Term::Input(_) => argument.to_owned(),
-        Term::Constant(value) => dialect.literal(value),
-        Term::Step(step) => kernel_name(angle, step),
-    }
+fn taken(pair: &Pair) -> impl Iterator<Item = (String, bool)> {
+    let sine = pair.need.sin.then_some((Input::Sin(pair.joint), true));
+    let cosine = pair.need.cos.then_some((Input::Cos(pair.joint), false));
+    let taken = sine.into_iter().chain(cosine);
+    taken.map(|(input, is_sine)| (input_name(input), is_sine))
 }
 
 /// Up to this magnitude sines are computed without a library.

@@ -2,8 +2,7 @@
 //! compilers make vectors of.
 //!
 //! ```text
-//! const double a2p3 = q[1] + q[2];
-//! const double angles[2] = {q[0], a2p3};
+//! const double angles[2] = {q[0], q[2]};
 //! double sines[2];
 //! double cosines[2];
 //! arm_sines_2(angles, sines, cosines);
@@ -13,28 +12,23 @@
 use super::Language;
 use super::angles;
 use super::names::{Names, float};
-use crate::program::{AngleSum, Library, Lowered, LoweredTrig};
+use crate::program::{Code, Library, Pair};
 
 /// The angles of a call, in the order of their sines.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Called {
     /// The first, where they are positions of neighbouring joints, as they stand in `q`.
     pub(super) first: Option<usize>,
-    pub(crate) angles: Vec<AngleSum>,
+    pub(crate) angles: Vec<usize>,
 }
 
 impl Called {
     /// Returns the call of a function, if it has one. In CUDA, and in a function that batches
     /// call, vectors are made of states, and each angle has a call of its own.
-    pub(crate) fn of(
-        code: &Lowered,
-        joints: usize,
-        names: &Names,
-        is_told: bool,
-    ) -> Option<Called> {
+    pub(crate) fn of(code: &Code, joints: usize, names: &Names, is_told: bool) -> Option<Called> {
         let has_call = code.library == Library::Together && names.language() == Language::C;
-        let called = code.trig.iter().filter(|trig| Called::is_of(trig));
-        let angles: Vec<AngleSum> = called.map(|trig| trig.angle).collect();
+        let called = code.pairs.iter().filter(|pair| Called::is_of(pair));
+        let angles: Vec<usize> = called.map(|pair| pair.joint).collect();
         if is_told || !has_call || angles.is_empty() {
             return None;
         }
@@ -45,19 +39,13 @@ impl Called {
     }
 
     /// Returns whether an angle's sines are not polynomials of its own.
-    pub(super) fn is_of(trig: &LoweredTrig) -> bool {
-        trig.kernel.is_none()
+    pub(super) fn is_of(pair: &Pair) -> bool {
+        pair.kernel.is_none()
     }
 
     /// Returns the angles of neighbouring joints: an even number, if that takes one joint more at
     /// the most, since vectors hold two or four.
-    fn neighbours(angles: &[AngleSum], joints: usize) -> Option<Called> {
-        let joint = |angle: &AngleSum| match angle.additions() {
-            0 => Some(angle.terms().next()?.0),
-            _ => None,
-        };
-        let own: Option<Vec<usize>> = angles.iter().map(joint).collect();
-        let own = own?;
+    fn neighbours(own: &[usize], joints: usize) -> Option<Called> {
         let (mut first, mut last) = (*own.iter().min()?, *own.iter().max()?);
         let is_odd = |count: usize| count > 1 && count % 2 == 1;
         if own.len() == last + 1 - first && is_odd(own.len()) {
@@ -75,7 +63,7 @@ impl Called {
     pub(super) fn from(first: usize, count: usize) -> Called {
         Called {
             first: Some(first),
-            angles: (first..first + count).map(AngleSum::joint).collect(),
+            angles: (first..first + count).collect(),
         }
     }
 
@@ -107,8 +95,8 @@ impl Called {
     }
 
     /// Returns what stands for the sine, or else the cosine, of one of the angles.
-    pub(super) fn value(&self, angle: AngleSum, is_sine: bool) -> Option<String> {
-        let place = self.angles.iter().position(|own| *own == angle)?;
+    pub(super) fn value(&self, joint: usize, is_sine: bool) -> Option<String> {
+        let place = self.angles.iter().position(|own| *own == joint)?;
         let array = if is_sine { "sines" } else { "cosines" };
         Some(format!("{array}[{place}]"))
     }

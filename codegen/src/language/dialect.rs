@@ -1,9 +1,10 @@
 //! How a language writes the lines of a function: one table, by which they are printed and
 //! read back.
 
-use crate::program::fused::{Fusion, fusion};
+use crate::dag::{Dag, Edge, Id, Node};
+use crate::program::kernel::{Angle, Kernel};
 use crate::program::text::input_name;
-use crate::program::{Literal, Lowered, Operand, Operation, ScalarType};
+use crate::program::{Code, Input, Literal, Operation, ScalarType};
 
 /// The words of a language for one scalar. In a pattern, `{}` stands for a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,45 +101,107 @@ impl Dialect {
             .then(|| self.scalar.parse(digits));
         value.flatten().map(Literal)
     }
+}
 
-    /// Returns the name or literal of an operand.
-    pub(crate) fn operand(&self, operand: &Operand<Literal>) -> String {
-        match operand {
-            Operand::Input(input) => input_name(*input),
-            Operand::Constant(value) => self.literal(*value),
-            Operand::Step(index) => format!("t{}", index + 1),
+/// The lines of straight-line code in a language: one an operation.
+pub(crate) struct Lines<'c, I> {
+    dialect: Dialect,
+    dag: &'c Dag<Literal, I>,
+    numbers: Vec<Option<usize>>,
+    /// What an operation's name begins with, before its number.
+    prefix: String,
+    input: Box<dyn Fn(&I) -> String + 'c>,
+}
+
+impl<'c> Lines<'c, Input> {
+    /// Returns the lines of a program.
+    pub(crate) fn new(dialect: Dialect, code: &'c Code) -> Lines<'c, Input> {
+        Lines {
+            dialect,
+            dag: &code.dag,
+            numbers: code.dag.numbers(),
+            prefix: "t".to_owned(),
+            input: Box::new(|input| input_name(*input)),
+        }
+    }
+}
+
+impl<'c> Lines<'c, Angle> {
+    /// Returns the lines of the polynomials of an angle.
+    pub(crate) fn of_kernel(
+        dialect: Dialect,
+        kernel: &'c Kernel,
+        angle: &'c str,
+        prefix: &str,
+    ) -> Lines<'c, Angle> {
+        Lines {
+            dialect,
+            dag: &kernel.dag,
+            numbers: kernel.dag.numbers(),
+            prefix: prefix.to_owned(),
+            input: Box::new(|_| angle.to_owned()),
+        }
+    }
+}
+
+impl<I> Lines<'_, I> {
+    /// Returns the name or literal of a node.
+    pub(crate) fn operand(&self, id: Id) -> String {
+        match self.dag.node(id) {
+            Node::Input(input) => (self.input)(input),
+            Node::Constant(value) => self.dialect.literal(*value),
+            Node::Apply(..) => {
+                let number = self.numbers[id as usize].unwrap_or_default();
+                format!("{}{number}", self.prefix)
+            }
         }
     }
 
-    /// Returns one operation as one line: `let t3 = t1 * s2;`, or `let t5 = t3.mul_add(s2,
+    /// Returns a result.
+    pub(crate) fn result(&self, output: Edge) -> String {
+        let sign = if output.negative { "-" } else { "" };
+        format!("{sign}{}", self.operand(output.node))
+    }
+
+    /// Lists the results.
+    pub(crate) fn results(&self) -> impl Iterator<Item = String> {
+        self.dag.outputs.iter().map(|output| self.result(*output))
+    }
+
+    /// Lists the lines.
+    pub(crate) fn statements(&self) -> impl Iterator<Item = String> {
+        self.dag
+            .operations()
+            .filter_map(|(id, ..)| self.statement(id))
+    }
+
+    /// Returns an operation as one line: `let t3 = t1 * s2;`, or `let t5 = t3.mul_add(s2,
     /// t1);` for a sum and the product that it takes, which has no line of its own.
-    pub(crate) fn statement(&self, code: &Lowered, index: usize) -> Option<String> {
-        let step = code.steps.get(index)?;
-        if step.operation == Operation::Fused {
+    pub(crate) fn statement(&self, id: Id) -> Option<String> {
+        let Node::Apply(operation, operands) = self.dag.node(id) else {
+            return None;
+        };
+        if *operation == Operation::Fused {
             return None;
         }
-        let value = match fusion(&code.steps, index) {
+        let dialect = self.dialect;
+        let value = match self.dag.fusion(id) {
             None => {
-                let (left, right) = (self.operand(&step.left), self.operand(&step.right));
-                self.operation(step.operation, &left, &right)
+                let [left, right] = operands.map(|id| self.operand(id));
+                dialect.operation(*operation, &left, &right)
             }
-            Some(Fusion {
-                product,
-                negative,
-                addend,
-                minus,
-            }) => {
-                let left = self.operand(&product.left);
-                let left = match negative {
-                    true => filled(self.negative, &[&left]),
+            Some(fusion) => {
+                let [left, right] = fusion.factors.map(|id| self.operand(id));
+                let left = match fusion.negative {
+                    true => filled(dialect.negative, &[&left]),
                     false => left,
                 };
-                let sign = if minus { "-" } else { "" };
-                let addend = format!("{sign}{}", self.operand(addend));
-                filled(self.fused, &[&left, &self.operand(&product.right), &addend])
+                let sign = if fusion.minus { "-" } else { "" };
+                let addend = format!("{sign}{}", self.operand(fusion.addend));
+                filled(dialect.fused, &[&left, &right, &addend])
             }
         };
-        Some(self.declare(&format!("t{}", index + 1), &value))
+        Some(dialect.declare(&self.operand(id), &value))
     }
 }
 

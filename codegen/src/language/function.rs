@@ -6,12 +6,12 @@
 
 use std::fmt::Write;
 
+use crate::dag::Id;
 use crate::function::{Argument, Function, Sizes};
-use crate::language::dialect::Dialect;
+use crate::language::dialect::{Dialect, Lines};
 use crate::language::result::{self, array_type};
 use crate::language::{Printed, speed, trig};
-use crate::program::fused::pieces;
-use crate::program::{Input, Library, Literal, Lowered, Operand, Output, ScalarType};
+use crate::program::{Code, Input, Library, ScalarType};
 
 /// A function of more operations than this is printed in blocks.
 pub(crate) const FLAT: usize = 1000;
@@ -54,7 +54,8 @@ pub fn write(printed: &Printed<'_>, library: Library, doc: &[String]) -> String 
     speed::write(&mut text, dialect, printed.code, library.path());
     write_steps(&mut text, printed.code, dialect);
     let (function, sizes) = (printed.function, printed.sizes);
-    let items = printed.code.outputs.iter().map(|o| result_item(o, dialect));
+    let lines = Lines::new(dialect, printed.code);
+    let items = lines.results();
     result::write(&mut text, function, function.structure(), sizes, items);
     text.push_str("}\n");
     text
@@ -69,25 +70,36 @@ fn write_doc(text: &mut String, doc: &[String]) {
 }
 
 /// Prints the arithmetic, in blocks if it is long.
-pub(super) fn write_steps(text: &mut String, code: &Lowered, dialect: Dialect) {
-    if code.steps.len() <= FLAT {
-        for index in 0..code.steps.len() {
-            if let Some(line) = dialect.statement(code, index) {
-                push(text, format_args!("    {line}"));
-            }
+pub(super) fn write_steps(text: &mut String, code: &Code, dialect: Dialect) {
+    let lines = Lines::new(dialect, code);
+    let ids: Vec<Id> = code.dag.operations().map(|(id, ..)| id).collect();
+    if ids.len() <= FLAT {
+        for line in lines.statements() {
+            push(text, format_args!("    {line}"));
         }
         return;
     }
     let last_use = last_uses(code);
-    for block in pieces(&code.steps, BLOCK) {
-        let end = block.end;
+    let mut rest = ids.as_slice();
+    while !rest.is_empty() {
+        let mut length = BLOCK.min(rest.len());
+        // None ends between a product and the sum that takes it.
+        if rest
+            .get(length)
+            .is_some_and(|&id| code.dag.fusion(id).is_some())
+        {
+            length += 1;
+        }
+        let (block, after) = rest.split_at(length);
+        let end = after.first().copied().unwrap_or(Id::MAX);
+        rest = after;
         // A block hands on what is read after it: that much is live.
         let mut live = String::new();
-        for step in block.clone().filter(|&step| last_use[step] >= end) {
-            let _ = write!(live, "t{}, ", step + 1);
+        for &id in block.iter().filter(|&&id| last_use[id as usize] >= end) {
+            let _ = write!(live, "{}, ", lines.operand(id));
         }
         push(text, format_args!("    let ({}) = {{", live.trim_end()));
-        for line in block.filter_map(|index| dialect.statement(code, index)) {
+        for line in block.iter().filter_map(|&id| lines.statement(id)) {
             push(text, format_args!("        {line}"));
         }
         push(text, format_args!("        ({})", live.trim_end()));
@@ -95,20 +107,14 @@ pub(super) fn write_steps(text: &mut String, code: &Lowered, dialect: Dialect) {
     }
 }
 
-/// Returns the last step that reads each step; past the end for results.
-fn last_uses(code: &Lowered) -> Vec<usize> {
-    let mut last = vec![0; code.steps.len()];
-    for (index, step) in code.steps.iter().enumerate() {
-        for operand in [&step.left, &step.right] {
-            if let Operand::Step(read) = operand {
-                last[*read] = index;
-            }
-        }
+/// Returns the last operation that reads each node; past the end for results.
+fn last_uses(code: &Code) -> Vec<Id> {
+    let mut last = vec![0; code.dag.nodes.len()];
+    for (id, _, operands) in code.dag.operations() {
+        operands.iter().for_each(|read| last[*read as usize] = id);
     }
-    for output in &code.outputs {
-        if let Operand::Step(read) = output.value {
-            last[read] = usize::MAX;
-        }
+    for output in &code.dag.outputs {
+        last[output.index()] = Id::MAX;
     }
     last
 }
@@ -156,31 +162,19 @@ pub(crate) fn result_type(function: Function, sizes: Sizes, scalar: ScalarType) 
     }
 }
 
-pub(super) fn reads(code: &Lowered, argument: Argument) -> bool {
-    let is = |operand: &Operand<Literal>| match operand {
-        Operand::Input(input) => input.argument() == argument,
-        _ => false,
-    };
-    (argument == Argument::Position && !code.trig.is_empty())
-        || code.steps.iter().any(|s| is(&s.left) || is(&s.right))
-        || code.outputs.iter().any(|output| is(&output.value))
+/// Returns whether the code depends on an argument.
+pub(super) fn reads(code: &Code, argument: Argument) -> bool {
+    let is = |input: &Input| input.argument() == argument;
+    (argument == Argument::Position && !code.pairs.is_empty()) || code.inputs().any(is)
 }
 
 /// Returns whether an entry of the argument is read; a sine is none.
-pub(super) fn reads_entry(code: &Lowered, argument: Argument) -> bool {
-    let is = |operand: &Operand<Literal>| match operand {
-        Operand::Input(Input::Entry(read, _)) => *read == argument,
-        Operand::Input(Input::PerSpeed(_)) => argument == Argument::Velocity,
-        _ => false,
-    };
-    code.steps.iter().any(|s| is(&s.left) || is(&s.right))
-        || code.outputs.iter().any(|output| is(&output.value))
-}
-
-/// Returns a number of the result.
-pub(super) fn result_item(output: &Output<Literal>, dialect: Dialect) -> String {
-    let sign = if output.negative { "-" } else { "" };
-    format!("{sign}{}", dialect.operand(&output.value))
+pub(super) fn reads_entry(code: &Code, argument: Argument) -> bool {
+    code.inputs().any(|input| match input {
+        Input::Entry(read, _) => *read == argument,
+        Input::PerSpeed(_) => argument == Argument::Velocity,
+        Input::Sin(_) | Input::Cos(_) => false,
+    })
 }
 
 /// Appends a line. Writing to a string cannot fail.

@@ -29,7 +29,7 @@ mod trig;
 use std::path::Path;
 
 use crate::function::{Argument, Function, Sizes};
-use crate::program::{Lowered, Program, ScalarType};
+use crate::program::{Code, Program, ScalarType};
 use crate::words::words;
 
 words! {
@@ -93,12 +93,12 @@ pub struct Printed<'a> {
     /// What the lengths of arguments and results follow from.
     pub sizes: Sizes,
     /// What it does.
-    pub code: &'a Lowered,
+    pub code: &'a Code,
 }
 
 impl<'a> Printed<'a> {
-    /// Returns a program that was lowered to this code.
-    pub fn of(program: &'a Program, code: &'a Lowered) -> Printed<'a> {
+    /// Returns a program that this code was made of.
+    pub fn of(program: &'a Program, code: &'a Code) -> Printed<'a> {
         Printed {
             function: program.function,
             arguments: &program.arguments,

@@ -10,8 +10,8 @@
 
 use std::fmt::Write;
 
-use crate::language::dialect::Dialect;
-use crate::program::kernel::{Kernel, Term, Value};
+use crate::language::dialect::{Dialect, Lines};
+use crate::program::kernel::Kernel;
 
 /// Writes the block that computes one angle's sine and cosine; `argument` is how the code names
 /// the angle.
@@ -22,26 +22,16 @@ pub(super) fn write(
     kernel: &Kernel,
     dialect: Dialect,
 ) {
-    let term = |term: Term| match term {
-        Term::Input(_) => argument.to_owned(),
-        Term::Constant(value) => dialect.literal(value),
-        Term::Step(step) => format!("x{}", step + 1),
-    };
-    let value = |value: Value| {
-        let sign = if value.negative { "-" } else { "" };
-        format!("{sign}{}", term(value.value))
-    };
+    let lines = Lines::of_kernel(dialect, kernel, argument, "x");
     // Writing to a string cannot fail.
     let _ = writeln!(text, "    let {names} = {{");
-    for (index, step) in kernel.steps.iter().enumerate() {
-        let (left, right) = (term(step.left), term(step.right));
-        let (number, symbol) = (index + 1, step.operation.symbol());
-        let _ = writeln!(text, "        let x{number} = {left} {symbol} {right};");
+    for line in lines.statements() {
+        let _ = writeln!(text, "        {line}");
     }
-    let result = match (kernel.sin, kernel.cos) {
-        (Some(sin), Some(cos)) => format!("({}, {})", value(sin), value(cos)),
-        (Some(only), None) | (None, Some(only)) => value(only),
-        (None, None) => "()".to_owned(),
+    let results: Vec<String> = lines.results().collect();
+    let result = match results.as_slice() {
+        [only] => only.clone(),
+        results => format!("({})", results.join(", ")),
     };
     let _ = writeln!(text, "        {result}\n    }};");
 }

@@ -9,10 +9,10 @@ use std::fmt::Write;
 
 use crate::language::dialect::Dialect;
 use crate::program::text::input_name;
-use crate::program::{Input, Literal, Lowered, Operation};
+use crate::program::{Code, Input, Literal, Operation};
 
 /// Prints those that are read. Roots are correctly rounded, whoever computes them.
-pub(super) fn write(text: &mut String, dialect: Dialect, code: &Lowered, path: &str) {
+pub(super) fn write(text: &mut String, dialect: Dialect, code: &Code, path: &str) {
     let one = dialect.literal(Literal(1.0));
     for own in &code.speeds {
         let (name, joint) = (input_name(Input::PerSpeed(own.joint)), own.joint);

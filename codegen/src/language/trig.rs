@@ -4,38 +4,33 @@
 //! ```text
 //! let (s1, c1) = libm::sincos(q[0]);
 //!
-//! let a1p2 = q[0] + q[1];
-//! let ([s1, s1p2], [c1, _]) = dalembert_sines::sincos(&[q[0], a1p2]);
+//! let ([s1, s2], [c1, _]) = dalembert_sines::sincos(&[q[0], q[1]]);
 //! ```
 
 use std::fmt::Write;
 
 use crate::language::dialect::Dialect;
 use crate::language::{angles, sines};
-use crate::program::{Library, Lowered, LoweredTrig};
+use crate::program::text::input_name;
+use crate::program::{Code, Input, Library, Need, Pair};
 
 /// Prints them.
-pub(super) fn write(text: &mut String, code: &Lowered) {
+pub(super) fn write(text: &mut String, code: &Code) {
     let dialect = Dialect::rust(code.scalar);
-    for trig in &code.trig {
-        if trig.angle.additions() > 0 {
-            // Writing to a string cannot fail.
-            let _ = writeln!(
-                text,
-                "    let a{} = {};",
-                trig.angle,
-                angles::sum(trig.angle)
-            );
-        }
-        if is_together(trig, code) {
+    for pair in &code.pairs {
+        if is_together(pair, code) {
             continue;
         }
-        let (pair, angle) = (angles::pair(trig), angles::operand(trig.angle));
-        match &trig.kernel {
-            Some(kernel) => sines::write(text, &pair, &angle, kernel, dialect),
+        let (names, angle) = (
+            angles::names(pair.joint, pair.need),
+            angles::operand(pair.joint),
+        );
+        match &pair.kernel {
+            Some(kernel) => sines::write(text, &names, &angle, kernel, dialect),
             None => {
-                let value = dialect.call("libm", called(trig), &angle);
-                let _ = writeln!(text, "    let {pair} = {value};");
+                let value = dialect.call("libm", called(pair.need), &angle);
+                // Writing to a string cannot fail.
+                let _ = writeln!(text, "    let {names} = {value};");
             }
         }
     }
@@ -43,34 +38,47 @@ pub(super) fn write(text: &mut String, code: &Lowered) {
 }
 
 /// Returns whether an angle's sines are of those that one call gives.
-pub(super) fn is_together(trig: &LoweredTrig, code: &Lowered) -> bool {
-    code.library == Library::Together && trig.kernel.is_none()
+pub(super) fn is_together(pair: &Pair, code: &Code) -> bool {
+    code.library == Library::Together && pair.kernel.is_none()
 }
 
 /// Returns the name of the function that gives what is taken of an angle.
-pub(super) fn called(trig: &LoweredTrig) -> &'static str {
-    match (trig.sin, trig.cos) {
+pub(super) fn called(need: Need) -> &'static str {
+    match (need.sin, need.cos) {
         (true, false) => "sin",
         (false, true) => "cos",
         _ => "sincos",
     }
 }
 
-/// Prints one call for all of them; what is not needed gets no name.
-fn together(text: &mut String, code: &Lowered) {
-    let called = || code.trig.iter().filter(|trig| is_together(trig, code));
-    if called().next().is_none() {
+/// Lists the angles whose sines one call gives.
+pub(super) fn taken(code: &Code) -> impl Iterator<Item = &Pair> {
+    code.pairs.iter().filter(|pair| is_together(pair, code))
+}
+
+/// Lists the names of the sines, and of the cosines, of angles that one call gives; what is not
+/// needed gets no name.
+pub(super) fn taken_names(code: &Code) -> [String; 2] {
+    let each = |name: &dyn Fn(&Pair) -> Option<String>| {
+        let names = taken(code).map(|pair| name(pair).unwrap_or_else(|| "_".to_owned()));
+        names.collect::<Vec<String>>().join(", ")
+    };
+    [
+        each(&|pair| pair.need.sin.then(|| input_name(Input::Sin(pair.joint)))),
+        each(&|pair| pair.need.cos.then(|| input_name(Input::Cos(pair.joint)))),
+    ]
+}
+
+/// Prints one call for all of them.
+fn together(text: &mut String, code: &Code) {
+    let angles: Vec<String> = taken(code)
+        .map(|pair| angles::operand(pair.joint))
+        .collect();
+    if angles.is_empty() {
         return;
     }
-    let name = |needed: bool, letter: char, trig: &LoweredTrig| match needed {
-        true => format!("{letter}{}", trig.angle),
-        false => "_".to_owned(),
-    };
-    let sin: Vec<String> = called().map(|trig| name(trig.sin, 's', trig)).collect();
-    let cos: Vec<String> = called().map(|trig| name(trig.cos, 'c', trig)).collect();
-    let angles: Vec<String> = called().map(|trig| angles::operand(trig.angle)).collect();
-    let suffix = code.scalar.math_suffix();
-    let (sin, cos, angles) = (sin.join(", "), cos.join(", "), angles.join(", "));
+    let (suffix, angles) = (code.scalar.math_suffix(), angles.join(", "));
+    let [sin, cos] = taken_names(code);
     let _ = writeln!(
         text,
         "    let ([{sin}], [{cos}]) = dalembert_sines::sincos{suffix}(&[{angles}]);"

@@ -10,9 +10,9 @@ use super::{Entry, Plan};
 use crate::function::{BundleError, Function};
 use crate::program::text::{read_results, read_step};
 use crate::program::{Counts, Program, ScalarType};
-use crate::scene::{ParametersKey, SceneKey};
 use crate::search::Pass;
 use crate::seeds::{Source, Start};
+use crate::setup::{ParametersKey, SceneKey};
 use crate::words::Word;
 
 /// The longest plan that is read.

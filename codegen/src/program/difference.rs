@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use super::Lowered;
+use super::{Code, Literal};
+use crate::dag::{Dag, Id, Node};
 
 /// The first part in which two programs differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,23 +43,39 @@ impl fmt::Display for Difference {
 
 impl std::error::Error for Difference {}
 
-impl Lowered {
+impl Code {
     /// Returns the first difference between two programs; `None` if they are equal.
-    pub fn difference(&self, other: &Lowered) -> Option<Difference> {
-        let mut steps = self.steps.iter().zip(&other.steps);
-        let mut outputs = self.outputs.iter().zip(&other.outputs);
+    pub fn difference(&self, other: &Code) -> Option<Difference> {
+        let counts = [self, other].map(|code| code.dag.operations().count());
         match self == other {
             true => None,
             false if self.scalar != other.scalar => Some(Difference::Scalar),
             false if self.library != other.library => Some(Difference::Library),
-            false if self.trig != other.trig => Some(Difference::Sines),
+            false if self.pairs != other.pairs => Some(Difference::Sines),
             false if self.speeds != other.speeds => Some(Difference::Speeds),
-            false if self.steps.len() != other.steps.len() => Some(Difference::Operations),
-            false if self.outputs.len() != other.outputs.len() => Some(Difference::Results),
-            false => Some(match steps.position(|(a, b)| a != b) {
-                Some(index) => Difference::Operation(index),
-                None => Difference::Result(outputs.position(|(a, b)| a != b).unwrap_or(0)),
-            }),
+            false if counts[0] != counts[1] => Some(Difference::Operations),
+            false if self.dag.outputs.len() != other.dag.outputs.len() => Some(Difference::Results),
+            false => Some(self.first_difference(other)),
+        }
+    }
+
+    /// Compares operations and results one by one: equal operations read equal ones before them.
+    fn first_difference(&self, other: &Code) -> Difference {
+        let operand = |dag: &Dag<Literal>, numbers: &[Option<usize>], id: Id| match dag.node(id) {
+            Node::Apply(..) => Err(numbers[id as usize]),
+            leaf => Ok(leaf.clone()),
+        };
+        let [ours, theirs] = [&self.dag, &other.dag];
+        let numbers = [ours.numbers(), theirs.numbers()];
+        let same = |a: Id, b: Id| operand(ours, &numbers[0], a) == operand(theirs, &numbers[1], b);
+        let mut operations = ours.operations().zip(theirs.operations());
+        let operation = operations
+            .position(|((_, a, [x, y]), (_, b, [z, w]))| a != b || !same(x, z) || !same(y, w));
+        let mut outputs = ours.outputs.iter().zip(&theirs.outputs);
+        let result = outputs.position(|(a, b)| a.negative != b.negative || !same(a.node, b.node));
+        match operation {
+            Some(index) => Difference::Operation(index),
+            None => Difference::Result(result.unwrap_or(0)),
         }
     }
 }

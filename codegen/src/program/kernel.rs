@@ -1,76 +1,81 @@
 //! Straight-line code in one angle that gives its sine and cosine.
 //!
-//! A kernel is what is printed, read back, run and proved: one operation a
-//! step, literals as they stand in the text. Which kind of polynomial it is
-//! does not matter to any of these.
+//! A kernel is what is printed, read back, run and proved, with literals as they stand in the text.
+//! Which kind of polynomial it is does not matter to any of these.
 
 use super::machine::Machine;
-use super::{Literal, Operand, Operation, Output, Step, evaluate};
+use super::{Literal, Operation};
+use crate::dag::{Dag, Edge, Id, Leaves, Node, Writer};
 
 /// The one input of a kernel: its angle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Angle;
 
-/// An operand of a kernel's step.
-pub type Term = Operand<Literal, Angle>;
+/// Whether sine and cosine are wanted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Need {
+    /// Whether the sine is wanted.
+    pub sin: bool,
+    /// Whether the cosine is wanted.
+    pub cos: bool,
+}
 
-/// The angle as an operand.
-pub(crate) const ANGLE: Term = Operand::Input(Angle);
+impl Need {
+    /// Returns how many are wanted.
+    pub fn count(self) -> usize {
+        usize::from(self.sin) + usize::from(self.cos)
+    }
 
-/// A kernel's step.
-pub(crate) type KernelStep = Step<Literal, Angle>;
-
-/// A kernel's result.
-pub(crate) type Value = Output<Literal, Angle>;
-
-/// Returns a literal as an operand.
-pub(crate) fn literal(value: f64) -> Term {
-    Operand::Constant(Literal(value))
+    /// Returns what is of the sine and of the cosine, from the list of what is wanted.
+    pub fn each<T>(self, wanted: impl IntoIterator<Item = T>) -> [Option<T>; 2] {
+        let mut wanted = wanted.into_iter();
+        [self.sin, self.cos].map(|is_wanted| if is_wanted { wanted.next() } else { None })
+    }
 }
 
 /// The code of one angle.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Kernel {
-    /// Operands before users.
-    pub steps: Vec<KernelStep>,
-    /// The sine, if it is wanted.
-    pub sin: Option<Value>,
-    /// The cosine, if it is wanted.
-    pub cos: Option<Value>,
+    /// The results of the code.
+    pub need: Need,
+    /// The operations; the results are the sine and the cosine, as far as they are wanted.
+    pub dag: Dag<Literal, Angle>,
 }
 
-impl Kernel {
-    /// Appends an operation.
-    pub fn push(&mut self, operation: Operation, left: Term, right: Term) -> Term {
-        self.steps.push(Step {
-            operation,
-            left,
-            right,
-        });
-        Term::Step(self.steps.len() - 1)
+/// Writes a kernel.
+pub(crate) type KernelWriter = Writer<Literal, Angle>;
+
+impl KernelWriter {
+    /// Returns the angle.
+    pub(crate) fn angle(&mut self) -> Id {
+        self.leaf(Node::Input(Angle))
+    }
+
+    /// Returns a literal.
+    pub(crate) fn literal(&mut self, value: f64) -> Id {
+        self.leaf(Node::Constant(Literal(value)))
     }
 
     /// Returns left·right
-    pub fn mul(&mut self, left: Term, right: Term) -> Term {
-        self.push(Operation::Mul, left, right)
+    pub(crate) fn mul(&mut self, left: Id, right: Id) -> Id {
+        self.apply(Operation::Mul, [left, right])
     }
 
     /// Returns left + literal; a negative literal is subtracted, which is the same.
-    pub fn add_literal(&mut self, left: Term, value: f64) -> Term {
-        if value < 0.0 {
-            self.push(Operation::Sub, left, literal(-value))
-        } else {
-            self.push(Operation::Add, left, literal(value))
-        }
+    pub(crate) fn add_literal(&mut self, left: Id, value: f64) -> Id {
+        let operation = match value < 0.0 {
+            true => Operation::Sub,
+            false => Operation::Add,
+        };
+        let literal = self.literal(value.abs());
+        self.apply(operation, [left, literal])
     }
 
     /// Returns Σ c_k·x^k by Horner's scheme; the constant alone is a literal.
-    pub fn horner(&mut self, x: Term, coefficients: &[f64]) -> Term {
+    pub(crate) fn horner(&mut self, x: Id, coefficients: &[f64]) -> Id {
         let mut coefficients = coefficients.iter().rev();
-        let Some(&first) = coefficients.next() else {
-            return literal(0.0);
-        };
-        let mut sum = literal(first);
+        let first = coefficients.next().copied().unwrap_or(0.0);
+        let mut sum = self.literal(first);
         for &c in coefficients {
             let product = self.mul(x, sum);
             // A coefficient that vanishes by symmetry takes no addition.
@@ -83,69 +88,58 @@ impl Kernel {
         sum
     }
 
-    /// Multiplications and additions.
+    /// Returns the kernel with these results, as far as they are wanted, and without what none of
+    /// them needs.
+    pub(crate) fn kernel(self, need: Need, results: [Edge; 2]) -> Kernel {
+        let wanted = results.into_iter().zip([need.sin, need.cos]);
+        let wanted = wanted.filter_map(|(result, is_wanted)| is_wanted.then_some(result));
+        let dag = self.finish(wanted.collect());
+        Kernel {
+            need,
+            dag: dag.map(|literal| *literal, |angle| *angle),
+        }
+    }
+}
+
+/// An angle of a machine's numbers.
+struct At<T>(T);
+
+impl<T: Machine> Leaves<Literal, Angle> for At<T> {
+    type Value = T;
+
+    fn constant(&self, constant: &Literal) -> T {
+        T::literal(constant.0)
+    }
+
+    fn input(&self, _: Angle) -> T {
+        self.0
+    }
+}
+
+impl Kernel {
+    /// Returns the sine and the cosine, each if it is wanted.
+    pub fn results(&self) -> [Option<Edge>; 2] {
+        self.need.each(self.dag.outputs.iter().copied())
+    }
+
+    /// Counts multiplications and additions.
     pub fn counts(&self) -> (usize, usize) {
-        let is_mul = |step: &&KernelStep| step.operation == Operation::Mul;
-        let mul = self.steps.iter().filter(is_mul).count();
-        (mul, self.steps.len() - mul)
+        let operations = self.dag.operations();
+        operations.fold((0, 0), |(mul, add), (_, operation, _)| match operation {
+            Operation::Mul => (mul + 1, add),
+            _ => (mul, add + 1),
+        })
     }
 
-    /// Multiplications and additions together.
+    /// Counts multiplications and additions together.
     pub fn operations(&self) -> usize {
-        self.steps.len()
+        self.dag.operations().count()
     }
 
-    /// Leaves out what neither result needs.
-    #[must_use]
-    pub fn without_dead(&self) -> Kernel {
-        let mut live = vec![false; self.steps.len()];
-        let mark = |live: &mut Vec<bool>, term: Term| {
-            if let Term::Step(step) = term {
-                live[step] = true;
-            }
-        };
-        for value in [self.sin, self.cos].into_iter().flatten() {
-            mark(&mut live, value.value);
-        }
-        for index in (0..self.steps.len()).rev() {
-            if live[index] {
-                mark(&mut live, self.steps[index].left);
-                mark(&mut live, self.steps[index].right);
-            }
-        }
-        let mut place = Vec::with_capacity(self.steps.len());
-        let mut kernel = Kernel::default();
-        let moved = |place: &[usize], term: Term| match term {
-            Term::Step(step) => Term::Step(place[step]),
-            other => other,
-        };
-        for (step, live) in self.steps.iter().zip(live) {
-            place.push(kernel.steps.len());
-            if live {
-                let (left, right) = (moved(&place, step.left), moved(&place, step.right));
-                kernel.push(step.operation, left, right);
-            }
-        }
-        let value = |value: Option<Value>| {
-            value.map(|value| Value {
-                value: moved(&place, value.value),
-                ..value
-            })
-        };
-        (kernel.sin, kernel.cos) = (value(self.sin), value(self.cos));
-        kernel
-    }
-
-    /// Runs it bit for bit. A result that is not wanted, or of a step that is
-    /// not there, is the angle.
+    /// Runs it bit for bit. A result that is not wanted is the angle.
     pub fn run<T: Machine>(&self, angle: T) -> (T, T) {
-        let unwanted = Value::of(ANGLE);
-        let results = [&self.sin, &self.cos].map(|value| value.as_ref().unwrap_or(&unwanted));
-        let constant = |value: &Literal| Some(T::literal(value.0));
-        let run = evaluate(&self.steps, results, |_| Some(angle), constant);
-        match run.as_deref() {
-            Some(&[sin, cos]) => (sin, cos),
-            _ => (angle, angle),
-        }
+        let results = self.dag.run(&At(angle));
+        let [sin, cos] = self.need.each(results);
+        (sin.unwrap_or(angle), cos.unwrap_or(angle))
     }
 }

@@ -1,5 +1,6 @@
 //! The library of the sines and cosines that code calls.
 
+use super::kernel::Need;
 use super::machine::Machine;
 
 /// The library of the sines and cosines that emitted code calls.
@@ -33,8 +34,8 @@ impl Library {
     }
 
     /// Returns sine and cosine as it computes them, to the last bit.
-    pub fn pair<T: Machine>(self, angle: T, sin: bool, cos: bool) -> (T, T) {
-        match (self, sin, cos) {
+    pub fn pair<T: Machine>(self, angle: T, need: Need) -> (T, T) {
+        match (self, need.sin, need.cos) {
             (Library::Together, ..) => angle.together(),
             (Library::Libm, true, false) => (angle.sin(), angle),
             (Library::Libm, false, true) => (angle, angle.cos()),

@@ -3,6 +3,18 @@
 use dalembert_model::scalar::Divide;
 
 use super::ScalarType;
+use crate::function::Argument;
+use crate::states::{JointState, State};
+
+impl JointState {
+    /// Returns the state's entries as a machine's numbers, each rounded.
+    pub fn numbers<T: Machine>(&self) -> State<T> {
+        Argument::ALL.map(|argument| {
+            let entries = self.of(argument).iter();
+            entries.map(|&x| T::literal(x)).collect()
+        })
+    }
+}
 
 /// A float that emitted code runs in.
 pub trait Machine: Divide + Copy {

@@ -1,35 +1,25 @@
 //! Straight-line code, and what it is made of.
 //!
 //! - this file: [`Program`]: sines and cosines first, then arithmetic
-//! - [`input`]: what a program reads: sines, cosines, positions, rates
 //! - [`speed`]: what it reads of speeds for Coulomb friction
 //! - [`scalar_type`]: the floats that code is printed in; constants rounded once
-//! - [`counts`]: what a program costs
-//! - `lowered`: the same over literals: each constant rounded once, sines by a
+//! - [`code`]: the same over literals: each constant rounded once, sines by a
 //!   library or by the polynomials of a [`kernel`]; `difference`: where two differ
 //! - [`library`]: who computes the sines that are called
 //! - [`fused`]: products that are fused with a sum
-//! - `evaluate`: runs either in any scalar; [`run`]: as emitted code runs, bit
-//!   for bit, [`columns`]: at many states at once
-//! - `map`: the same over other constants and inputs, or with steps elsewhere
 //! - [`adjoint`]: backwards in any scalar: what a result changes by
 //! - [`text`]: operands and steps as plans and certificates write them
-//! - [`machine`]: floats that run as emitted code does
+//! - [`machine`]: floats that run as emitted code does; [`lanes`]: several side by side
 
 pub(crate) mod adjoint;
-pub(crate) mod columns;
-pub(crate) mod counts;
+pub(crate) mod code;
 mod difference;
-mod evaluate;
 pub(crate) mod fused;
-pub(crate) mod input;
 pub(crate) mod kernel;
+pub(crate) mod lanes;
 pub(crate) mod library;
 mod literal;
-mod lowered;
 pub(crate) mod machine;
-mod map;
-pub(crate) mod run;
 pub(crate) mod scalar_type;
 pub(crate) mod speed;
 pub(crate) mod text;
@@ -38,14 +28,13 @@ use std::collections::BTreeMap;
 
 use dalembert_model::number::Exact;
 
+pub use crate::dag::{Counts, Input, Operation};
 use crate::function::{Argument, Columns, Function, Sizes};
-pub use counts::Counts;
+pub use code::{Code, Pair};
 pub use difference::Difference;
-pub(crate) use evaluate::evaluate;
-pub use input::{AngleSum, Input};
+pub use kernel::Need;
 pub use library::Library;
 pub use literal::Literal;
-pub use lowered::{Lowered, LoweredTrig};
 pub use scalar_type::ScalarType;
 pub(crate) use speed::Speed;
 
@@ -62,7 +51,7 @@ pub struct Program {
     pub arguments: Vec<Argument>,
     /// The number of entries of the load; zero where the load is neither argument nor result.
     pub load: usize,
-    /// The angles whose sine or cosine it needs, ascending.
+    /// The joints whose sine or cosine it needs, ascending.
     pub trig: Vec<Trig>,
     /// The joints of which r = 1/√(q̇² + w²) is read, ascending.
     pub speeds: Vec<Speed>,
@@ -75,12 +64,10 @@ pub struct Program {
 /// One sine/cosine evaluation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Trig {
-    /// The angle.
-    pub angle: AngleSum,
-    /// `true` if the sine is needed.
-    pub sin: bool,
-    /// `true` if the cosine is needed.
-    pub cos: bool,
+    /// The joint.
+    pub joint: usize,
+    /// Which of them is needed.
+    pub need: Need,
 }
 
 /// One operation over constants C and inputs I.
@@ -92,22 +79,6 @@ pub struct Step<C = Exact, I = Input> {
     pub left: Operand<C, I>,
     /// Right operand.
     pub right: Operand<C, I>,
-}
-
-/// The operations of emitted code.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Operation {
-    /// left + right
-    Add,
-    /// left − right
-    Sub,
-    /// left · right
-    Mul,
-    /// left / right
-    Div,
-    /// left · right, not rounded: the next step, a sum or a difference, takes it
-    /// and rounds once (`fused`).
-    Fused,
 }
 
 /// An operand of a step.
@@ -130,32 +101,12 @@ pub struct Output<C = Exact, I = Input> {
     pub value: Operand<C, I>,
 }
 
-impl Operation {
-    /// Every operation.
-    pub const ALL: [Operation; 5] = [
-        Operation::Add,
-        Operation::Sub,
-        Operation::Mul,
-        Operation::Div,
-        Operation::Fused,
-    ];
-
-    /// Returns the operation of a symbol of Rust's.
-    pub fn from_symbol(symbol: &str) -> Option<Operation> {
-        let is = |operation: &Operation| {
-            *operation != Operation::Fused && symbol.chars().eq([operation.symbol()])
-        };
-        Operation::ALL.into_iter().find(is)
-    }
-
-    /// Returns its symbol, Rust's but for a fused product, which has none there.
-    pub fn symbol(self) -> char {
+impl<C: Clone, I: Clone> Operand<C, I> {
+    /// Returns the operand where steps have moved to these places.
+    pub(crate) fn moved(&self, place: &[usize]) -> Self {
         match self {
-            Operation::Add => '+',
-            Operation::Sub => '-',
-            Operation::Mul => '*',
-            Operation::Div => '/',
-            Operation::Fused => '×',
+            Operand::Step(step) => Operand::Step(place.get(*step).copied().unwrap_or(usize::MAX)),
+            other => other.clone(),
         }
     }
 }
@@ -173,7 +124,7 @@ impl<C, I> Output<C, I> {
 impl Program {
     /// Lists the sines and cosines that steps and outputs read.
     pub(crate) fn collect_trig(&mut self) {
-        let mut trig: BTreeMap<AngleSum, Trig> = BTreeMap::new();
+        let mut trig: BTreeMap<usize, Trig> = BTreeMap::new();
         let operands = self.steps.iter().flat_map(|step| [&step.left, &step.right]);
         for operand in operands.chain(self.outputs.iter().map(|output| &output.value)) {
             if let Operand::Input(input) = operand {
@@ -193,10 +144,8 @@ impl Program {
 
     /// Counts the operations.
     pub fn counts(&self) -> Counts {
-        let steps = Counts::of_steps(&self.steps);
-        let angles: usize = self.trig.iter().map(|t| t.angle.additions()).sum();
+        let steps = Counts::of_operations(self.steps.iter().map(|step| step.operation));
         let own = Counts {
-            add: steps.add + angles,
             sincos: self.trig.len(),
             ..steps
         };
@@ -223,6 +172,18 @@ impl Program {
         sizes
     }
 
+    /// Returns whether no step and no result reads a step that is not computed yet.
+    pub(crate) fn is_straight(&self) -> bool {
+        let before = |count: usize| move |operand: &Operand| !matches!(operand, Operand::Step(read) if *read >= count);
+        let mut steps = self.steps.iter().enumerate();
+        steps.all(|(index, step)| [&step.left, &step.right].into_iter().all(before(index)))
+            && self
+                .outputs
+                .iter()
+                .map(|output| &output.value)
+                .all(before(self.steps.len()))
+    }
+
     /// Returns whether the program divides.
     pub fn divides(&self) -> bool {
         let mut steps = self.steps.iter();
@@ -236,16 +197,15 @@ pub(crate) fn has_inertia(program: &Program) -> bool {
     quantities.any(|quantity| quantity.is_definite())
 }
 
-fn note_trig(trig: &mut BTreeMap<AngleSum, Trig>, input: Input) {
-    if let Some(angle) = input.angle() {
-        let entry = trig.entry(angle).or_insert(Trig {
-            angle,
-            sin: false,
-            cos: false,
+fn note_trig(trig: &mut BTreeMap<usize, Trig>, input: Input) {
+    if let Some(joint) = input.angle() {
+        let entry = trig.entry(joint).or_insert(Trig {
+            joint,
+            need: Need::default(),
         });
         match input {
-            Input::Sin(_) => entry.sin = true,
-            _ => entry.cos = true,
+            Input::Sin(_) => entry.need.sin = true,
+            _ => entry.need.cos = true,
         }
     }
 }

@@ -19,9 +19,6 @@ pub struct Speed<C = Exact> {
     pub square: C,
 }
 
-/// The operations of one reciprocal speed: a product, a sum, a root and a quotient.
-pub(crate) const OPERATIONS: [usize; 4] = [1; 4];
-
 impl Speed<Literal> {
     /// Returns r as the code computes it, from the velocities; none if there is none of
     /// the joint.

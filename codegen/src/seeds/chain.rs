@@ -15,40 +15,40 @@ use super::numbers::Numbers;
 use super::{Form, MAX_QUICK_LINKS, Seed, Source, Tuned, tune};
 use crate::dag::symbol::Symbol;
 use crate::dag::{Builder, Dag, Folding};
-use crate::function::{Argument, Function, Quantity};
+use crate::function::{Argument, Quantity};
 use crate::program::{Counts, Input};
-use crate::scene::SceneRobot;
+use crate::setup::{Setup, Task};
 use crate::trace::symbols;
 
 /// Traces a function by the chain formulas; also the operations as executed.
 pub fn trace_chain(
-    scene_robot: &SceneRobot,
-    function: Function,
+    task: Task<'_>,
     chain: &Chain<Exact>,
     form: Form,
     folding: Folding,
 ) -> (Dag, Counts) {
+    let Task { setup, function } = task;
     let builder = Rc::new(RefCell::new(Builder::new(folding)));
-    let mut numbers = Numbers::of(scene_robot, function, &builder);
+    let mut numbers = Numbers::of(task, &builder);
     let mut chain = chain.map(|constant| numbers.symbol(constant));
     let mut gravity = None;
-    if scene_robot.takes(function, RuntimeParameter::Gravity) {
+    if setup.takes(function, RuntimeParameter::Gravity) {
         let taken: Vector<Symbol> = core::array::from_fn(|axis| {
             Symbol::input(&builder, Input::Entry(Argument::Gravity, axis))
         });
-        chain.gravity = scaled(&chain.per_unit, &in_frame_0(scene_robot, &taken));
+        chain.gravity = scaled(&chain.per_unit, &in_frame_0(setup, &taken));
         gravity = Some(taken);
     }
     drop(numbers);
-    let whole = symbols(scene_robot, &function.arguments(), &builder);
-    let rows = &scene_robot.chained_rows();
-    let following = &scene_robot.following(|x: &Exact| Symbol::from(x.clone()));
+    let whole = symbols(setup, &function.arguments(), &builder);
+    let rows = &setup.chained_rows();
+    let following = &setup.following(|x: &Exact| Symbol::from(x.clone()));
     let motion = &whole.of_joints(rows);
     let chain = chain.at_speeds(&motion.per_speed);
     let (chain, at) = &chain.posed(&motion.q);
     let composite = Composite::new(chain, at);
     let of_frame = |quantity: &Quantity| quantity.is_regrouped() && quantity.is_of_frame();
-    let arm = (function.quantities().iter().any(of_frame)).then(|| arm(scene_robot, None, &whole));
+    let arm = (function.quantities().iter().any(of_frame)).then(|| arm(setup, None, &whole));
     let position = arm.as_ref().map_or_else(Vec::new, |arm| arm.at(&whole.q));
     let regrouped = Regrouped {
         chain,
@@ -70,10 +70,10 @@ pub fn trace_chain(
             Some(values) => (rows.clone(), values),
             None => (
                 (0..whole.q.len()).collect(),
-                written(scene_robot, quantity, &whole, gravity.as_ref()),
+                written(setup, quantity, &whole, gravity.as_ref()),
             ),
         };
-        let selected = scene_robot.select_of(quantity, &rows, following, values);
+        let selected = setup.select_of(quantity, &rows, following, values);
         let mut builder = builder.borrow_mut();
         outputs.extend(selected.iter().map(|output| output.edge(&mut builder)));
     }
@@ -85,24 +85,18 @@ pub fn trace_chain(
 /// Returns a quantity that the chain formulas do not give, by the recursion in link
 /// axes.
 fn written(
-    scene_robot: &SceneRobot,
+    setup: &Setup,
     quantity: Quantity,
     motion: &Motion<Symbol>,
     gravity: Option<&Vector<Symbol>>,
 ) -> Vec<Symbol> {
-    let arm = arm(scene_robot, gravity, motion);
+    let arm = arm(setup, gravity, motion);
     quantity.written(&textbook(&arm, &arm.at(&motion.q), motion))
 }
 
 /// Returns the whole arm in motion.
-fn arm(
-    scene_robot: &SceneRobot,
-    gravity: Option<&Vector<Symbol>>,
-    motion: &Motion<Symbol>,
-) -> Arm<Symbol> {
-    let arm = Arm::from_robot(scene_robot.robot(), &mut |x: &Exact| {
-        Symbol::from(x.clone())
-    });
+fn arm(setup: &Setup, gravity: Option<&Vector<Symbol>>, motion: &Motion<Symbol>) -> Arm<Symbol> {
+    let arm = Arm::from_robot(setup.robot(), &mut |x: &Exact| Symbol::from(x.clone()));
     let arm = match gravity {
         Some(gravity) => arm.with_gravity(gravity),
         None => arm,
@@ -127,36 +121,35 @@ fn textbook<'a>(
 }
 
 /// Returns what moves, with exact parameters, the base folded.
-pub fn skeleton(scene_robot: &SceneRobot) -> Skeleton<Exact> {
-    with_columns(scene_robot, &[])
+pub fn skeleton(setup: &Setup) -> Skeleton<Exact> {
+    with_columns(setup, &[])
 }
 
 /// Returns a vector of base axes in those of frame 0.
-fn in_frame_0(scene_robot: &SceneRobot, vector: &Vector<Symbol>) -> Vector<Symbol> {
-    let arm = Arm::from_robot(scene_robot.robot(), &mut |x: &Exact| {
-        Symbol::from(x.clone())
-    });
+fn in_frame_0(setup: &Setup, vector: &Vector<Symbol>) -> Vector<Symbol> {
+    let arm = Arm::from_robot(setup.robot(), &mut |x: &Exact| Symbol::from(x.clone()));
     arm.with_gravity(vector).gravity
 }
 
 /// Returns the same for a function: if it is a regressor, with its columns; if it takes a
 /// load, with a payload whose parameters are unknown.
-pub fn skeleton_for(scene_robot: &SceneRobot, function: Function) -> Skeleton<Exact> {
-    if !scene_robot.takes(function, RuntimeParameter::Payload) {
-        return with_columns(scene_robot, &scene_robot.columns(function, Exact::clone));
+pub fn skeleton_for(task: Task<'_>) -> Skeleton<Exact> {
+    let Task { setup, function } = task;
+    if !setup.takes(function, RuntimeParameter::Payload) {
+        return with_columns(setup, &setup.columns(function, Exact::clone));
     }
-    let last = scene_robot.robot().rows().len().saturating_sub(1);
+    let last = setup.robot().rows().len().saturating_sub(1);
     let columns = LinkParameter::ALL.map(|parameter| Column::Body {
         joint: last,
         body: parameter.unit(),
     });
-    with_columns(scene_robot, &columns).with_values(&scene_robot.unknowns().values())
+    with_columns(setup, &columns).with_values(&setup.unknowns().values())
 }
 
-fn with_columns(scene_robot: &SceneRobot, columns: &[Column<Exact>]) -> Skeleton<Exact> {
-    let arm = Arm::from_robot(scene_robot.robot(), &mut Exact::clone).fold_base();
-    let mut skeleton = Skeleton::with_columns(&arm, &scene_robot.merged(), columns);
-    let fitted = scene_robot.fitted_links().unwrap_or_default();
+fn with_columns(setup: &Setup, columns: &[Column<Exact>]) -> Skeleton<Exact> {
+    let arm = Arm::from_robot(setup.robot(), &mut Exact::clone).fold_base();
+    let mut skeleton = Skeleton::with_columns(&arm, &setup.merged(), columns);
+    let fitted = setup.fitted_links().unwrap_or_default();
     for (segment, link) in skeleton.links.iter_mut().zip(fitted) {
         segment.body = link.body.clone();
         segment.armature = link.armature.clone();
@@ -171,13 +164,9 @@ const MAX_SEEDS: usize = 16;
 /// Returns a function in its regrouping in the chain forms, in the chain's own axes and in others:
 /// what is dear in one choice of axes may be cheap in another, and the search mixes them. Where
 /// there are too many, the forms are told in the chain's own axes, and the cheapest in others.
-pub(crate) fn regrouped(
-    scene_robot: &SceneRobot,
-    function: Function,
-    forms: &[Form],
-    tuned: &Tuned,
-) -> Vec<Seed> {
-    let mut chain = Chain::new(&skeleton_for(scene_robot, function), &tuned.regrouping);
+pub(crate) fn regrouped(task: Task<'_>, forms: &[Form], tuned: &Tuned) -> Vec<Seed> {
+    let _function = task.function;
+    let mut chain = Chain::new(&skeleton_for(task), &tuned.regrouping);
     let axes = axes(&chain);
     let others = || forms.iter().filter(|form| **form != tuned.form);
     let mut chosen: Vec<(&Vec<i32>, Form)> = Vec::new();
@@ -194,7 +183,7 @@ pub(crate) fn regrouped(
         for (link, axes) in chain.links.iter_mut().zip(axes) {
             link.axes = *axes;
         }
-        let (graph, traced) = trace_chain(scene_robot, function, &chain, form, Folding::Syntactic);
+        let (graph, traced) = trace_chain(task, &chain, form, Folding::Syntactic);
         // Of an arm with few links several forms are one.
         if seeds.iter().all(|seed| seed.graph != graph) {
             seeds.push(Seed {
@@ -208,19 +197,18 @@ pub(crate) fn regrouped(
 }
 
 /// Returns whether axes meet at the base, so that the forms that need it differ from the others.
-pub(crate) fn has_shoulder(scene_robot: &SceneRobot, function: Function) -> bool {
-    let arm = skeleton_for(scene_robot, function);
+pub(crate) fn has_shoulder(task: Task<'_>) -> bool {
+    let arm = skeleton_for(task);
     Chain::new(&arm, &Regrouping::base(&arm)).has_shoulder()
 }
 
 /// Returns the regroupings that differ from one in one link; none of chains too long to
 /// look at each.
 pub(crate) fn regroupings(
-    scene_robot: &SceneRobot,
-    function: Function,
+    task: Task<'_>,
     regrouping: &Regrouping<Exact>,
 ) -> Vec<Regrouping<Exact>> {
-    let arm = skeleton_for(scene_robot, function);
+    let arm = skeleton_for(task);
     match arm.links.len() <= MAX_QUICK_LINKS {
         true => tune::neighbours(&arm, regrouping),
         false => Vec::new(),
@@ -228,27 +216,12 @@ pub(crate) fn regroupings(
 }
 
 /// Returns a function in a regrouping and a form, merged by fingerprint.
-pub(crate) fn in_regrouping(
-    scene_robot: &SceneRobot,
-    function: Function,
-    regrouping: &Regrouping<Exact>,
-    form: Form,
-) -> Dag {
-    merged(
-        scene_robot,
-        function,
-        &Chain::new(&skeleton_for(scene_robot, function), regrouping),
-        form,
-    )
+pub(crate) fn in_regrouping(task: Task<'_>, regrouping: &Regrouping<Exact>, form: Form) -> Dag {
+    merged(task, &Chain::new(&skeleton_for(task), regrouping), form)
 }
 
-pub(super) fn merged(
-    scene_robot: &SceneRobot,
-    function: Function,
-    chain: &Chain<Exact>,
-    form: Form,
-) -> Dag {
-    trace_chain(scene_robot, function, chain, form, Folding::Semantic).0
+pub(super) fn merged(task: Task<'_>, chain: &Chain<Exact>, form: Form) -> Dag {
+    trace_chain(task, chain, form, Folding::Semantic).0
 }
 
 /// Returns the chain's own axes, each link's, those before each group of parallel

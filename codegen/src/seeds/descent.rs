@@ -10,9 +10,8 @@ use super::chain::{merged, skeleton_for};
 use super::tune::{self, Tuned};
 use super::{Form, MAX_QUICK_LINKS};
 use crate::dag::Dag;
-use crate::function::Function;
-use crate::scene::SceneRobot;
 use crate::search::{Effort, cost, glance};
+use crate::setup::Task;
 use crate::watch::{FunctionWatch, Part};
 
 /// The starts of longer chains are compared without a round of the search.
@@ -47,15 +46,15 @@ fn price(graph: &Dag, limit: Option<Limit<'_>>, below: u64) -> u64 {
 /// if there is one; the best so far where the watch is over. `from` are regroupings to
 /// start from, besides those that every robot has.
 pub(crate) fn tuned(
-    scene_robot: &SceneRobot,
-    function: Function,
+    task: Task<'_>,
     forms: &[Form],
     effort: Effort,
     limit: Option<Limit<'_>>,
     from: &[Regrouping<Exact>],
     watch: Option<FunctionWatch<'_>>,
 ) -> Tuned {
-    let arm = skeleton_for(scene_robot, function);
+    let Task { setup, function } = task;
+    let arm = skeleton_for(task);
     let tried = Cell::new(0);
     let is_over = || {
         tried.set(tried.get() + 1);
@@ -64,14 +63,14 @@ pub(crate) fn tuned(
             watch.is_over()
         })
     };
-    let merged = |chain: &Chain<Exact>, form| merged(scene_robot, function, chain, form);
+    let merged = |chain: &Chain<Exact>, form| merged(task, chain, form);
     // What the search makes of a regrouping is not what the regrouping costs at first.
     let quick = |chain: &Chain<Exact>, form: Form, below: u64| match is_over() {
         true => u64::MAX,
         false => price(&glance(&merged(chain, form)), limit, below),
     };
-    if scene_robot.takes(function, RuntimeParameter::Payload)
-        && let Some(load) = scene_robot.load()
+    if setup.takes(function, RuntimeParameter::Payload)
+        && let Some(load) = setup.load()
     {
         // The numbers of the load are those of one regrouping, for all functions.
         return tune::form(

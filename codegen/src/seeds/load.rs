@@ -13,27 +13,27 @@ use super::numbers::Numbers;
 use crate::dag::{Builder, Folding, Node};
 use crate::function::{Argument, Function};
 use crate::program::Input;
-use crate::scene::SceneRobot;
-use crate::scene::load::LoadParameters;
 use crate::search::Effort;
+use crate::setup::Setup;
+use crate::setup::load::LoadParameters;
 
 /// Returns the robot in its scene with the load's numbers, if a payload is an argument:
 /// those of the regrouping in which torques cost least, as far as torques depend on them. No
 /// other quantity that takes a load depends on more. The same for every request, so that
 /// whoever has the parameters has the load.
 #[must_use]
-pub(crate) fn chosen(scene_robot: SceneRobot) -> SceneRobot {
-    if !scene_robot.has(RuntimeParameter::Payload) {
-        return scene_robot;
+pub(crate) fn chosen(setup: Setup) -> Setup {
+    if !setup.has(RuntimeParameter::Payload) {
+        return setup;
     }
-    let (full, function) = (scene_robot.in_full_motion(), Function::InverseDynamics);
+    let (full, function) = (setup.in_full_motion(), Function::InverseDynamics);
     let forms = function.forms();
-    let best = tuned(&full, function, &forms, Effort::Quick, None, &[], None);
-    let chain = Chain::new(&skeleton_for(&full, function), &best.regrouping);
-    let (graph, _) = trace_chain(&full, function, &chain, best.form, Folding::Semantic);
+    let best = tuned(full.task(function), &forms, Effort::Quick, None, &[], None);
+    let chain = Chain::new(&skeleton_for(full.task(function)), &best.regrouping);
+    let (graph, _) = trace_chain(full.task(function), &chain, best.form, Folding::Semantic);
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
     // As the trace meets them.
-    let mut numbers = Numbers::of(&full, function, &builder);
+    let mut numbers = Numbers::of(full.task(function), &builder);
     chain.map(|number| numbers.symbol(number));
     let met = numbers.met();
     let is_read = |index: usize| {
@@ -45,6 +45,6 @@ pub(crate) fn chosen(scene_robot: SceneRobot) -> SceneRobot {
         .enumerate()
         .filter(|(index, _)| is_read(*index));
     let read: Vec<Exact> = read.map(|(_, number)| number).collect();
-    let load = LoadParameters::new(&scene_robot, read, best.regrouping);
-    scene_robot.with_load(load)
+    let load = LoadParameters::new(&setup, read, best.regrouping);
+    setup.with_load(load)
 }

@@ -18,9 +18,8 @@ pub(crate) mod tune;
 use dalembert_model::equations::Formulation;
 
 use crate::dag::Dag;
-use crate::function::Function;
 use crate::program::Counts;
-use crate::scene::SceneRobot;
+use crate::setup::Task;
 use crate::trace::trace;
 pub(crate) use chain::{has_shoulder, in_regrouping, regrouped, regroupings};
 pub use chain::{skeleton, skeleton_for, trace_chain};
@@ -76,12 +75,8 @@ pub struct Seed {
 }
 
 /// Returns a textbook formulation, traced as it stands.
-pub(crate) fn textbook(
-    scene_robot: &SceneRobot,
-    function: Function,
-    formulation: Formulation,
-) -> Seed {
-    let trace = trace(scene_robot, function, formulation);
+pub(crate) fn textbook(task: Task<'_>, formulation: Formulation) -> Seed {
+    let trace = trace(task, formulation);
     Seed {
         source: Source::Textbook(formulation),
         graph: trace.graph,

@@ -9,10 +9,10 @@ use dalembert_model::scalar::Scalar;
 
 use crate::dag::Builder;
 use crate::dag::symbol::Symbol;
-use crate::function::{Argument, Function};
+use crate::function::Argument;
 use crate::program::Input;
-use crate::scene::SceneRobot;
-use crate::scene::load::{LoadParameters, Unknowns, place};
+use crate::setup::Task;
+use crate::setup::load::{LoadParameters, Unknowns, place};
 
 /// The numbers of a chain as symbols: those that depend on a payload are entries of
 /// the load.
@@ -25,16 +25,13 @@ pub(super) struct Numbers<'a> {
 }
 
 impl<'a> Numbers<'a> {
-    pub(super) fn of(
-        scene_robot: &'a SceneRobot,
-        function: Function,
-        builder: &'a Rc<RefCell<Builder>>,
-    ) -> Numbers<'a> {
-        let is_loaded = scene_robot.takes(function, RuntimeParameter::Payload);
+    pub(super) fn of(task: Task<'a>, builder: &'a Rc<RefCell<Builder>>) -> Numbers<'a> {
+        let Task { setup, function } = task;
+        let is_loaded = setup.takes(function, RuntimeParameter::Payload);
         Numbers {
             builder,
-            unknowns: is_loaded.then(|| scene_robot.unknowns()),
-            chosen: scene_robot.load(),
+            unknowns: is_loaded.then(|| setup.unknowns()),
+            chosen: setup.load(),
             met: Vec::new(),
         }
     }

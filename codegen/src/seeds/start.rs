@@ -8,8 +8,8 @@ use dalembert_model::outputs::RuntimeParameter;
 use super::{Form, Limit, Seed, Source, Tuned, has_shoulder, regrouped, textbook, tuned};
 use crate::dag::Dag;
 use crate::function::Function;
-use crate::scene::SceneRobot;
 use crate::search::Effort;
+use crate::setup::Task;
 use crate::watch::FunctionWatch;
 use crate::words::Word;
 
@@ -49,12 +49,13 @@ impl Start {
     /// Returns the approaches, each searched by itself: the cheapest program that is found is
     /// taken.
     pub(crate) fn approaches(self, problem: &Problem<'_>) -> Vec<Approach> {
-        let (scene_robot, function) = (problem.scene_robot, problem.function);
+        let task = problem.task;
+        let function = task.function;
         let mut quantities = function.quantities().iter();
         match self {
-            Start::Only(form) => vec![Approach::of_one(textbook(scene_robot, function, form))],
+            Start::Only(form) => vec![Approach::of_one(textbook(task, form))],
             Start::Auto if function == Function::Load => {
-                let definition = textbook(scene_robot, function, Formulation::NewtonEulerLink);
+                let definition = textbook(task, Formulation::NewtonEulerLink);
                 vec![Approach::of_one(Seed {
                     source: Source::Definition,
                     ..definition
@@ -99,8 +100,7 @@ impl Approach {
 /// The problem that a search is to solve.
 #[derive(Clone, Copy)]
 pub(crate) struct Problem<'a> {
-    pub scene_robot: &'a SceneRobot,
-    pub function: Function,
+    pub task: Task<'a>,
     pub effort: Effort,
     /// What a program may be off, if there is a limit.
     pub limit: Option<Limit<'a>>,
@@ -114,7 +114,7 @@ pub(crate) struct Problem<'a> {
 /// Lagrange–Euler's values and those of products of axes at hand. These are small, and what is
 /// dearer by itself often ends lower: all are searched from.
 fn by_textbook(problem: &Problem<'_>) -> Vec<Approach> {
-    let textbook = |form| textbook(problem.scene_robot, problem.function, form);
+    let textbook = |form| textbook(problem.task, form);
     let recursion = textbook(Formulation::NewtonEulerLink);
     let products = textbook(Formulation::LagrangeEuler);
     let printed = textbook(Formulation::NewtonEulerLinkAsPrinted);
@@ -142,26 +142,26 @@ fn by_textbook(problem: &Problem<'_>) -> Vec<Approach> {
 /// recursion's values at hand.
 fn by_chain(problem: &Problem<'_>) -> Approach {
     let Problem {
-        scene_robot,
-        function,
+        task,
         effort,
         limit,
         from,
         watch,
     } = *problem;
-    let has_shoulder = has_shoulder(scene_robot, function);
+    let Task { setup, function } = task;
+    let has_shoulder = has_shoulder(task);
     let mut forms = function.forms();
     forms.retain(|form| has_shoulder || !form.shoulder);
-    let tuned = tuned(scene_robot, function, &forms, effort, limit, from, watch);
+    let tuned = tuned(task, &forms, effort, limit, from, watch);
     // Seen in other axes the hand has hardly a value in common.
     forms.retain(|form: &Form| form.hand == tuned.form.hand);
-    let mut seeds = regrouped(scene_robot, function, &forms, &tuned);
+    let mut seeds = regrouped(task, &forms, &tuned);
     // The textbook recursion gives D column by column and h_ikm by polarisation, with
     // n² of work a link or more: no match. It has no load, but a body in the hand.
     let mut quantities = function.quantities().iter();
-    let is_loaded = scene_robot.takes(function, RuntimeParameter::Payload);
+    let is_loaded = setup.takes(function, RuntimeParameter::Payload);
     if !is_loaded && quantities.all(|quantity| quantity.starts_from_recursion()) {
-        let recursion = textbook(scene_robot, function, Formulation::NewtonEulerLink);
+        let recursion = textbook(task, Formulation::NewtonEulerLink);
         seeds.push(recursion);
     }
     Approach {

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use super::forms::{Centre, Form, Need};
+use super::forms::{Centre, Form};
 use super::proof::{Errors, prove};
 use super::series::{FARTHEST, Fit};
 use crate::interval::Interval;
 use crate::program::ScalarType;
-use crate::program::kernel::Kernel;
+use crate::program::kernel::{Kernel, KernelWriter, Need};
 use crate::sincos::reduction;
 
 /// A kernel with its proof.
@@ -77,12 +77,9 @@ impl Candidates {
             }
         }
         let written = {
-            let mut kernel = Kernel::default();
-            kernel.sin = Some(crate::program::kernel::Value::of(reduction::write(
-                &mut kernel,
-                scalar,
-            )));
-            reduction::split(&kernel, scalar)
+            let mut kernel = KernelWriter::default();
+            let rest = reduction::write(&mut kernel, scalar);
+            reduction::split(&reduction::alone(kernel, rest), scalar)
         };
         let rest = written.and_then(|(constants, _)| reduction::rest(constants, scalar, range));
         if let Some(rest) = rest

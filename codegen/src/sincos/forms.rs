@@ -19,7 +19,8 @@ use num_traits::One;
 
 use super::reduction;
 use super::series::{Fit, Wave};
-use crate::program::kernel::{ANGLE, Kernel, Term, Value, literal};
+use crate::dag::{Edge, Node};
+use crate::program::kernel::{Kernel, KernelWriter, Need};
 use crate::program::{Literal, Operation, ScalarType};
 
 /// Where a polynomial's variable is zero.
@@ -63,23 +64,14 @@ impl fmt::Display for Form {
     }
 }
 
-/// What a form reads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Need {
-    /// Whether the sine is wanted.
-    pub sin: bool,
-    /// Whether the cosine is wanted.
-    pub cos: bool,
-}
-
 impl Form {
     /// Returns its kernel; `fit` is of the form's centre and halvings. Without a fit
     /// every coefficient is one: the kernel has the right number of steps.
     pub fn kernel(&self, fit: Option<&Fit>, need: Need, scalar: ScalarType) -> Kernel {
-        let mut kernel = Kernel::default();
+        let mut kernel = KernelWriter::default();
         let rest = match self.reduced {
             true => reduction::write(&mut kernel, scalar),
-            false => ANGLE,
+            false => kernel.angle(),
         };
         let shift = match self.centre {
             Centre::Quarter(0) => None,
@@ -111,11 +103,9 @@ impl Form {
         };
         for level in (0..self.halvings as usize).rev() {
             let squared = kernel.mul(s, s);
-            let lambda = literal(round(&lambdas[level], scalar));
-            (s, c) = (
-                kernel.mul(s, c),
-                kernel.push(Operation::Sub, lambda, squared),
-            );
+            let product = kernel.mul(s, c);
+            let lambda = kernel.literal(round(&lambdas[level], scalar));
+            (s, c) = (product, kernel.apply(Operation::Sub, [lambda, squared]));
         }
         let turned = match self.centre {
             Centre::Quarter(k) => k.rem_euclid(4),
@@ -123,19 +113,20 @@ impl Form {
         };
         // Over narrow ranges a result may be a constant, whose sign is a literal's: as
         // such it is read back.
-        let value = |negative, term| match term {
-            Term::Constant(Literal(x)) if negative => Value::of(literal(-x)),
-            value => Value { negative, value },
+        let mut value = |negative, node| match *kernel.node(node) {
+            Node::Constant(Literal(x)) if negative => Edge {
+                node: kernel.literal(-x),
+                negative: false,
+            },
+            _ => Edge { node, negative },
         };
-        let (sin, cos) = match turned {
-            0 => (value(false, s), value(false, c)),
-            1 => (value(false, c), value(true, s)),
-            2 => (value(true, s), value(true, c)),
-            _ => (value(true, c), value(false, s)),
+        let results = match turned {
+            0 => [value(false, s), value(false, c)],
+            1 => [value(false, c), value(true, s)],
+            2 => [value(true, s), value(true, c)],
+            _ => [value(true, c), value(false, s)],
         };
-        kernel.sin = need.sin.then_some(sin);
-        kernel.cos = need.cos.then_some(cos);
-        kernel.without_dead()
+        kernel.kernel(need, results)
     }
 
     /// Estimates how far the form is from sine and cosine: the fits' errors through the

@@ -25,11 +25,10 @@ use std::fmt;
 
 use crate::interval::Interval;
 use crate::program::kernel::Kernel;
-use crate::program::{AngleSum, Library, Lowered, Program, ScalarType, Trig};
+use crate::program::{Code, Library, Program, ScalarType, Trig};
 use crate::words::Word;
 use choose::Candidates;
 use dalembert_model::robot::{JointKind, Robot};
-use forms::Need;
 use proof::Errors;
 
 /// How emitted code gets sines and cosines.
@@ -97,8 +96,8 @@ impl Word for SinCos {
 /// The code of one angle's sine and cosine, and what was proved of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AngleKernel {
-    /// Which angle.
-    pub angle: AngleSum,
+    /// The joint whose angle it is.
+    pub joint: usize,
     /// Where the errors hold: every float of the scalar in it.
     pub range: Interval,
     /// What kind of polynomials, in words.
@@ -116,8 +115,8 @@ pub type Sines = Vec<AngleKernel>;
 /// A wanted error that no polynomial reaches.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TooAccurate {
-    /// The angle.
-    pub angle: AngleSum,
+    /// The joint.
+    pub joint: usize,
     /// Its range.
     pub range: Interval,
     /// The scalar.
@@ -130,7 +129,7 @@ pub struct TooAccurate {
 
 impl fmt::Display for TooAccurate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let angle = angle_name(self.angle);
+        let angle = format!("q{}", self.joint + 1);
         let (low, high) = (self.range.low(), self.range.high());
         let (scalar, wanted) = (self.scalar, self.wanted);
         if wanted.is_nan() || wanted <= 0.0 {
@@ -180,19 +179,9 @@ pub(crate) fn positions(robot: &Robot, scalar: ScalarType) -> Vec<Interval> {
         .collect()
 }
 
-/// Returns the values that an angle takes as the emitted code adds it.
-pub(crate) fn range_of(angle: AngleSum, positions: &[Interval], scalar: ScalarType) -> Interval {
-    let (mut sum, mut reach) = (Interval::ZERO, 0.0);
-    for (index, (joint, negative)) in angle.terms().enumerate() {
-        let q = positions.get(joint).copied().unwrap_or(Interval::ALL);
-        let q = if negative { -q } else { q };
-        sum = if index == 0 { q } else { sum + q };
-        reach += q.magnitude();
-    }
-    match angle.additions() {
-        0 => sum,
-        additions => sum.widened(1.01 * additions as f64 * scalar.unit_roundoff() * reach),
-    }
+/// Returns the positions that a joint takes.
+pub(crate) fn range_of(joint: usize, positions: &[Interval]) -> Interval {
+    positions.get(joint).copied().unwrap_or(Interval::ALL)
 }
 
 /// Returns the cheapest polynomials for a program whose every sine and cosine errs
@@ -208,16 +197,14 @@ pub(crate) fn polynomials(
 ) -> Result<Sines, TooAccurate> {
     let mut sines: Sines = Vec::new();
     for trig in &program.trig {
-        let range = range_of(trig.angle, positions, scalar);
+        let range = range_of(trig.joint, positions);
         // Joints with the same limits share the search.
         let known = sines.iter().find(|known| {
-            known.range == range
-                && need_of(&known.kernel) == need(trig)
-                && known.errors.worst() <= error
+            known.range == range && known.kernel.need == trig.need && known.errors.worst() <= error
         });
         let kernel = match known {
             Some(known) => AngleKernel {
-                angle: trig.angle,
+                joint: trig.joint,
                 ..known.clone()
             },
             None => one(trig, scalar, range, error)?,
@@ -227,21 +214,6 @@ pub(crate) fn polynomials(
     Ok(sines)
 }
 
-/// Returns what is wanted of an angle.
-pub fn need(trig: &Trig) -> Need {
-    Need {
-        sin: trig.sin,
-        cos: trig.cos,
-    }
-}
-
-fn need_of(kernel: &Kernel) -> Need {
-    Need {
-        sin: kernel.sin.is_some(),
-        cos: kernel.cos.is_some(),
-    }
-}
-
 fn one(
     trig: &Trig,
     scalar: ScalarType,
@@ -249,19 +221,19 @@ fn one(
     error: f64,
 ) -> Result<AngleKernel, TooAccurate> {
     let best = match error > 0.0 {
-        true => Candidates::new(need(trig), scalar, range).cheapest(error),
+        true => Candidates::new(trig.need, scalar, range).cheapest(error),
         false => None,
     };
     match best {
         Some(choice) if choice.errors.worst() <= error => Ok(AngleKernel {
-            angle: trig.angle,
+            joint: trig.joint,
             range,
             form: choice.form.to_string(),
             kernel: choice.kernel,
             errors: choice.errors,
         }),
         best => Err(TooAccurate {
-            angle: trig.angle,
+            joint: trig.joint,
             range,
             scalar,
             wanted: error,
@@ -276,37 +248,18 @@ pub(crate) fn of(all: &[(ScalarType, Sines)], scalar: ScalarType) -> &[AngleKern
     found.map_or(&[], |(_, sines)| sines)
 }
 
-/// Returns a program in a scalar with these polynomials; other angles are the library's.
-pub fn lowered(
-    program: &Program,
-    scalar: ScalarType,
-    library: Library,
-    sines: &[AngleKernel],
-) -> Lowered {
-    let kernel = |angle| {
-        let found = sines.iter().find(|sine| sine.angle == angle);
-        found.map(|sine| &sine.kernel)
-    };
-    program.lower(scalar, kernel).calling(library)
+impl Program {
+    /// Returns the program in a scalar with these polynomials; other angles are the library's.
+    pub fn code(&self, scalar: ScalarType, library: Library, sines: &[AngleKernel]) -> Code {
+        Code::new(self, scalar, library, |joint| {
+            let sine = sines.iter().find(|sine| sine.joint == joint)?;
+            Some(sine.kernel.clone())
+        })
+    }
 }
 
 /// Multiplications and additions of the angles' polynomials.
 pub fn counts(sines: &[AngleKernel]) -> (usize, usize) {
     let counts = sines.iter().map(|angle| angle.kernel.counts());
     counts.fold((0, 0), |(m, a), (mul, add)| (m + mul, a + add))
-}
-
-/// Returns `q2 + q3`, one-based.
-pub fn angle_name(angle: AngleSum) -> String {
-    let mut name = String::new();
-    for (index, (joint, negative)) in angle.terms().enumerate() {
-        name += match (index, negative) {
-            (0, false) => "",
-            (0, true) => "-",
-            (_, false) => " + ",
-            (_, true) => " - ",
-        };
-        name += &format!("q{}", joint + 1);
-    }
-    name
 }

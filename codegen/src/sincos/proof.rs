@@ -18,10 +18,10 @@ use num_traits::One;
 use super::poly::Poly;
 use super::reduction;
 use super::series::{FARTHEST, Taylor, Wave};
+use crate::dag::{Edge, Node};
 use crate::interval::Interval;
-use crate::interval::rounding::{self, Forward};
-use crate::program::adjoint::backward;
-use crate::program::kernel::{Kernel, Term, Value};
+use crate::interval::rounding::Forward;
+use crate::program::kernel::Kernel;
 use crate::program::scalar_type::underflow;
 use crate::program::{Operation, ScalarType};
 
@@ -55,19 +55,19 @@ const CELLS: usize = 48;
 /// Bounds for every float of the scalar in the range; `None` if the kernel is
 /// nothing that can be bounded.
 pub(crate) fn prove(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Option<Errors> {
-    if kernel.steps.len() > MAX_STEPS {
+    if kernel.operations() > MAX_STEPS {
         return None;
     }
     if let Some((constants, left)) = reduction::split(kernel, scalar) {
         let rest = reduction::rest(constants, scalar, range)?;
         let errors = polynomial(&left, scalar, rest.range)?;
-        let add = |wanted: Option<Value>, x: f64| match wanted {
-            Some(_) => (x + rest.error).next_up(),
-            None => 0.0,
+        let add = |is_wanted: bool, x: f64| match is_wanted {
+            true => (x + rest.error).next_up(),
+            false => 0.0,
         };
         return Some(Errors {
-            sin: add(left.sin, errors.sin),
-            cos: add(left.cos, errors.cos),
+            sin: add(left.need.sin, errors.sin),
+            cos: add(left.need.cos, errors.cos),
         });
     }
     polynomial(kernel, scalar, range)
@@ -76,13 +76,13 @@ pub(crate) fn prove(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Opt
 fn polynomial(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Option<Errors> {
     let approximations = approximations(kernel, range)?;
     let rounding = rounding(kernel, scalar, range);
-    let one = |value: Option<Value>, approximation: f64, rounding: f64| match value {
-        None => 0.0,
-        Some(_) => (approximation + rounding).next_up(),
+    let one = |is_wanted: bool, approximation: f64, rounding: f64| match is_wanted {
+        false => 0.0,
+        true => (approximation + rounding).next_up(),
     };
     let errors = Errors {
-        sin: one(kernel.sin, approximations.sin, rounding.sin),
-        cos: one(kernel.cos, approximations.cos, rounding.cos),
+        sin: one(kernel.need.sin, approximations.sin, rounding.sin),
+        cos: one(kernel.need.cos, approximations.cos, rounding.cos),
     };
     errors.worst().is_finite().then_some(errors)
 }
@@ -93,29 +93,42 @@ pub(super) fn approximations(kernel: &Kernel, range: Interval) -> Option<Errors>
         return None;
     }
     let values = expand(kernel)?;
-    let one = |value: Option<Value>, wave| match value {
+    let one = |edge: Option<Edge>, wave| match edge {
         None => Some(0.0),
-        Some(value) => approximation(&result(value, &values)?, wave, range),
+        Some(edge) => approximation(&result(edge, &values), wave, range),
     };
+    let [sin, cos] = kernel.results();
     Some(Errors {
-        sin: one(kernel.sin, Wave::Sin)?,
-        cos: one(kernel.cos, Wave::Cos)?,
+        sin: one(sin, Wave::Sin)?,
+        cos: one(cos, Wave::Cos)?,
     })
 }
 
-/// Returns the polynomial of each step.
+/// Returns the polynomial of each node.
 fn expand(kernel: &Kernel) -> Option<Vec<Poly>> {
-    let mut values: Vec<Poly> = Vec::with_capacity(kernel.steps.len());
-    for step in &kernel.steps {
-        let (left, right) = (read(step.left, &values)?, read(step.right, &values)?);
+    let mut values: Vec<Poly> = Vec::with_capacity(kernel.dag.nodes.len());
+    for node in &kernel.dag.nodes {
+        let (operation, [left, right]) = match node {
+            Node::Input(_) => {
+                values.push(Poly::variable());
+                continue;
+            }
+            Node::Constant(value) => {
+                values.push(Poly::constant(value.0)?);
+                continue;
+            }
+            Node::Apply(operation, operands) => {
+                (operation, operands.map(|id| &values[id as usize]))
+            }
+        };
         let large = left.degree() + right.degree() > MAX_DEGREE;
         if large || left.bits() + right.bits() > MAX_BITS {
             return None;
         }
-        let value = match step.operation {
-            Operation::Add => left.add(&right),
-            Operation::Sub => left.sub(&right),
-            Operation::Mul | Operation::Fused => left.mul(&right),
+        let value = match operation {
+            Operation::Add => left.add(right),
+            Operation::Sub => left.sub(right),
+            Operation::Mul | Operation::Fused => left.mul(right),
             Operation::Div => return None,
         };
         values.push(value);
@@ -123,21 +136,12 @@ fn expand(kernel: &Kernel) -> Option<Vec<Poly>> {
     Some(values)
 }
 
-fn read(term: Term, values: &[Poly]) -> Option<Poly> {
-    match term {
-        Term::Input(_) => Some(Poly::variable()),
-        Term::Constant(value) => Poly::constant(value.0),
-        Term::Step(step) => values.get(step).cloned(),
+fn result(edge: Edge, values: &[Poly]) -> Poly {
+    let poly = &values[edge.index()];
+    match edge.negative {
+        true => Poly::integers(Vec::new()).sub(poly),
+        false => poly.clone(),
     }
-}
-
-fn result(value: Value, values: &[Poly]) -> Option<Poly> {
-    let poly = read(value.value, values)?;
-    Some(if value.negative {
-        Poly::integers(Vec::new()).sub(&poly)
-    } else {
-        poly
-    })
 }
 
 /// |p − wave| over a range, from above: over the whole, or the worst of
@@ -180,55 +184,54 @@ fn rounding(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
         };
         let cell = Interval::new(end(cell), high).unwrap_or(range);
         let ran = forward(kernel, scalar, cell);
-        let one = |value: Option<Value>| match value {
-            Some(value) => error(kernel, &ran, value.value, cell),
-            None => 0.0,
-        };
-        worst.sin = worst.sin.max(one(kernel.sin));
-        worst.cos = worst.cos.max(one(kernel.cos));
+        let errors = kernel
+            .results()
+            .map(|edge| edge.map_or(0.0, |edge| error(kernel, &ran, edge)));
+        worst.sin = worst.sin.max(errors[0]);
+        worst.cos = worst.cos.max(errors[1]);
     }
     worst
 }
 
-fn interval(term: Term, values: &[Interval], angle: Interval) -> Interval {
-    match term {
-        Term::Input(_) => angle,
-        Term::Constant(value) => Interval::point(value.0),
-        Term::Step(step) => values.get(step).copied().unwrap_or(Interval::ALL),
-    }
-}
-
-/// Returns what each step is, and what it rounds.
+/// Returns what each node is, and what it rounds.
 fn forward(kernel: &Kernel, scalar: ScalarType, angle: Interval) -> Forward {
     let u = scalar.unit_roundoff();
-    let operands = |index: usize, values: &[Interval]| {
-        let step = &kernel.steps[index];
-        [step.left, step.right].map(|term| interval(term, values, angle))
-    };
-    rounding::forward(&kernel.steps, operands, |index, exact| {
-        let eta = match kernel.steps[index].operation {
-            Operation::Add | Operation::Sub => 0.0,
-            Operation::Mul | Operation::Fused | Operation::Div => underflow(scalar),
+    let (mut values, mut own): (Vec<Interval>, Vec<f64>) = (Vec::new(), Vec::new());
+    for node in &kernel.dag.nodes {
+        let (value, rounding) = match node {
+            Node::Input(_) => (angle, 0.0),
+            Node::Constant(value) => (Interval::point(value.0), 0.0),
+            Node::Apply(operation, operands) => {
+                let [x, y] = operands.map(|id| values[id as usize]);
+                let exact = match operation {
+                    Operation::Mul | Operation::Fused if operands[0] == operands[1] => x.square(),
+                    operation => operation.apply(&x, &y),
+                };
+                let eta = match operation {
+                    Operation::Add | Operation::Sub => 0.0,
+                    Operation::Mul | Operation::Fused | Operation::Div => underflow(scalar),
+                };
+                let rounding = ((u * exact.magnitude()).next_up() + eta).next_up();
+                (exact.widened(rounding), rounding)
+            }
         };
-        ((u * exact.magnitude()).next_up() + eta).next_up()
-    })
+        values.push(value);
+        own.push(rounding);
+    }
+    Forward { values, own }
 }
 
 /// Returns Σ |adjoint|·rounding for one result.
-fn error(kernel: &Kernel, ran: &Forward, result: Term, angle: Interval) -> f64 {
-    let Term::Step(top) = result else { return 0.0 };
+fn error(kernel: &Kernel, ran: &Forward, result: Edge) -> f64 {
+    let mut adjoints = Vec::new();
+    kernel.dag.adjoints(result.node, &ran.values, &mut adjoints);
     let mut sum = Interval::ZERO;
-    let operands = |index: usize| {
-        let step = &kernel.steps[index];
-        [step.left, step.right].map(|term| interval(term, &ran.values, angle))
-    };
-    let visit = |index: usize, adjoint: &Interval| {
-        if *adjoint == Interval::ZERO {
-            return false;
+    for (adjoint, own) in adjoints.iter().zip(&ran.own).rev() {
+        // Products of zero are rounded outward, too.
+        if *adjoint == Interval::ZERO || *own == 0.0 {
+            continue;
         }
-        sum = sum + Interval::point(adjoint.magnitude()) * Interval::point(ran.own[index]);
-        true
-    };
-    backward(&kernel.steps, top, operands, visit, |_, _| {});
+        sum = sum + Interval::point(adjoint.magnitude()) * Interval::point(*own);
+    }
     sum.high()
 }

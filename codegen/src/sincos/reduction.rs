@@ -7,13 +7,11 @@
 use dalembert_model::number::{Angle, Rational, Rounded};
 use num_traits::float::FloatCore;
 
+use crate::dag::{Edge, Id, Node};
 use crate::interval::Interval;
-use crate::program::kernel::{ANGLE, Kernel, KernelStep, Term, literal};
+use crate::program::kernel::{Kernel, KernelWriter, Need};
 use crate::program::scalar_type::underflow;
-use crate::program::{Literal, Operand, Operation, ScalarType};
-
-/// Steps that it takes.
-pub(crate) const STEPS: usize = 7;
+use crate::program::{Literal, Operation, ScalarType};
 
 /// What is left of an angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,8 +40,8 @@ fn turn() -> Rational {
     Angle::right_angles(4).radians()
 }
 
-/// Prints the reduction into an empty kernel; the rest is what it returns.
-pub(crate) fn write(kernel: &mut Kernel, scalar: ScalarType) -> Term {
+/// Writes the reduction into an empty kernel; returns the rest.
+pub(crate) fn write(kernel: &mut KernelWriter, scalar: ScalarType) -> Id {
     let round = |x: &Rational| match scalar {
         ScalarType::F64 => f64::nearest_rational(x),
         ScalarType::F32 => f32::nearest_rational(x).into(),
@@ -56,59 +54,91 @@ pub(crate) fn write(kernel: &mut Kernel, scalar: ScalarType) -> Term {
     let (whole, grid) = (turn(), libm::exp2(f64::from(kept - 3)));
     let coarse = libm::floor(f64::nearest_rational(&whole) * grid) / grid;
     let exact = Rational::from_float(coarse).unwrap_or_default();
-    let magic = literal(magic(scalar));
-    let turns = kernel.mul(ANGLE, literal(round(&whole.recip())));
-    let shifted = kernel.push(Operation::Add, turns, magic);
-    let k = kernel.push(Operation::Sub, shifted, magic);
-    let much = kernel.mul(k, literal(coarse));
-    let rest = kernel.push(Operation::Sub, ANGLE, much);
-    let little = kernel.mul(k, literal(round(&(whole - exact))));
-    kernel.push(Operation::Sub, rest, little)
+    with_constants(
+        kernel,
+        [round(&whole.recip()), coarse, round(&(whole - exact))],
+        scalar,
+    )
+}
+
+/// Writes the reduction with ι, A and B.
+fn with_constants(
+    kernel: &mut KernelWriter,
+    [inverse, much, little]: [f64; 3],
+    scalar: ScalarType,
+) -> Id {
+    let (angle, inverse) = (kernel.angle(), kernel.literal(inverse));
+    let turns = kernel.mul(angle, inverse);
+    let magic = kernel.literal(magic(scalar));
+    let shifted = kernel.apply(Operation::Add, [turns, magic]);
+    let k = kernel.apply(Operation::Sub, [shifted, magic]);
+    let much = kernel.literal(much);
+    let much = kernel.mul(k, much);
+    let rest = kernel.apply(Operation::Sub, [angle, much]);
+    let little = kernel.literal(little);
+    let little = kernel.mul(k, little);
+    kernel.apply(Operation::Sub, [rest, little])
 }
 
 /// Returns the reduction that a kernel begins with, as (ι, A, B), and the kernel of
 /// what is left; `None` if it begins with none.
 pub(crate) fn split(kernel: &Kernel, scalar: ScalarType) -> Option<([f64; 3], Kernel)> {
-    use Operand::{Constant, Input, Step as At};
-    use Operation::{Add, Mul, Sub};
-    let [s1, s2, s3, s4, s5, s6, s7, rest @ ..] = kernel.steps.as_slice() else {
-        return None;
+    let dag = &kernel.dag;
+    let literal = |place: usize| match dag.operations().nth(place)?.2 {
+        [_, right] => match dag.node(right) {
+            Node::Constant(Literal(value)) => Some(*value),
+            _ => None,
+        },
     };
-    let parts = |s: &KernelStep| (s.operation, s.left, s.right);
-    let (Mul, Input(_), Constant(Literal(inverse))) = parts(s1) else {
-        return None;
-    };
-    let magic = literal(magic(scalar));
-    let rounds = parts(s2) == (Add, At(0), magic) && parts(s3) == (Sub, At(1), magic);
-    let ((Mul, At(2), Constant(Literal(much))), (Mul, At(2), Constant(Literal(little)))) =
-        (parts(s4), parts(s6))
-    else {
-        return None;
-    };
-    let subtracts = parts(s5) == (Sub, ANGLE, At(3)) && parts(s7) == (Sub, At(4), At(5));
-    if !rounds || !subtracts {
+    // The products with ι, A and B.
+    let constants = [literal(0)?, literal(3)?, literal(5)?];
+    let mut expected = KernelWriter::default();
+    let rest = with_constants(&mut expected, constants, scalar);
+    let expected = expected.finish(Vec::new());
+    if dag.nodes.get(..expected.nodes.len()) != Some(&expected.nodes) {
         return None;
     }
     // Nothing else may read what came before.
-    let last = STEPS - 1;
-    let moved = |term| match term {
-        Input(_) => None,
-        Constant(_) => Some(term),
-        At(step) if step < last => None,
-        At(step) if step == last => Some(ANGLE),
-        At(step) => Some(At(step - STEPS)),
+    let mut left = KernelWriter::default();
+    let mut places: Vec<Id> = Vec::new();
+    let place = |id: Id, places: &[Id], left: &mut KernelWriter| match dag.node(id) {
+        _ if id == rest => Some(left.angle()),
+        Node::Constant(Literal(value)) => Some(left.literal(*value)),
+        Node::Apply(..) if id > rest => places.get((id - rest - 1) as usize).copied(),
+        _ => None,
     };
-    let mut left = Kernel::default();
-    for step in rest {
-        left.push(step.operation, moved(step.left)?, moved(step.right)?);
+    for (node, id) in dag.nodes.iter().zip(0..).skip(expected.nodes.len()) {
+        places.push(match node {
+            Node::Apply(operation, [a, b]) => {
+                let a = place(*a, &places, &mut left)?;
+                let b = place(*b, &places, &mut left)?;
+                left.apply(*operation, [a, b])
+            }
+            _ => place(id, &places, &mut left)?,
+        });
     }
-    for (value, place) in [(kernel.sin, &mut left.sin), (kernel.cos, &mut left.cos)] {
-        if let Some(mut value) = value {
-            value.value = moved(value.value)?;
-            *place = Some(value);
-        }
-    }
-    Some(([inverse, much, little], left))
+    let outputs: Option<Vec<Edge>> = (dag.outputs.iter())
+        .map(|edge| {
+            let node = place(edge.node, &places, &mut left)?;
+            Some(Edge { node, ..*edge })
+        })
+        .collect();
+    let dag = left.finish(outputs?);
+    let need = kernel.need;
+    Some((constants, Kernel { need, dag }))
+}
+
+/// Returns the kernel whose sine is this value, as it stands.
+pub(crate) fn alone(kernel: KernelWriter, node: Id) -> Kernel {
+    let result = Edge {
+        node,
+        negative: false,
+    };
+    let need = Need {
+        sin: true,
+        cos: false,
+    };
+    kernel.kernel(need, [result; 2])
 }
 
 /// Returns what is left of angles in a range; `None` if there are too many turns for
@@ -173,10 +203,9 @@ mod tests {
     use super::*;
 
     fn reduced(scalar: ScalarType) -> Kernel {
-        let mut kernel = Kernel::default();
+        let mut kernel = KernelWriter::default();
         let rest = write(&mut kernel, scalar);
-        kernel.sin = Some(crate::program::kernel::Value::of(rest));
-        kernel
+        alone(kernel, rest)
     }
 
     #[test]
@@ -185,7 +214,7 @@ mod tests {
         for (scalar, reach) in [(ScalarType::F64, 1e6), (ScalarType::F32, 1e3)] {
             let kernel = reduced(scalar);
             let (constants, left) = split(&kernel, scalar).unwrap();
-            assert_eq!(left.sin.map(|v| v.value), Some(ANGLE));
+            assert!(matches!(left.dag.nodes[..], [Node::Input(_)]));
             let rest = rest(constants, scalar, Interval::symmetric(reach)).unwrap();
             let u = scalar.unit_roundoff();
             assert!(
@@ -213,12 +242,13 @@ mod tests {
         let kernel = reduced(ScalarType::F64);
         assert!(split(&kernel, ScalarType::F32).is_none());
         let mut other = kernel.clone();
-        other.steps[4].left = literal(1.0);
+        other.dag.nodes[3] = Node::Constant(Literal(1.0));
         assert!(split(&other, ScalarType::F64).is_none());
         // Who still reads the whole angle has not taken the turns off.
-        let mut angle = kernel.clone();
-        angle.mul(Term::Step(6), ANGLE);
-        assert!(split(&angle, ScalarType::F64).is_none());
+        let mut writer = KernelWriter::default();
+        let (left, angle) = (write(&mut writer, ScalarType::F64), writer.angle());
+        let product = writer.mul(left, angle);
+        assert!(split(&alone(writer, product), ScalarType::F64).is_none());
         let (mut constants, _) = split(&kernel, ScalarType::F64).unwrap();
         let range = Interval::symmetric(100.0);
         assert!(rest(constants, ScalarType::F64, Interval::symmetric(1e17)).is_none());

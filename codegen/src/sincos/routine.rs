@@ -5,42 +5,60 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 use dalembert_sines::text::{Number, Rounded, rest};
 
-use crate::program::kernel::{ANGLE, Kernel, KernelStep, Term, Value, literal};
+use crate::dag::{Edge, Id};
+use crate::program::kernel::{Kernel, KernelWriter, Need};
 use crate::program::{Operation, ScalarType};
 
 /// A number that records the operations on it.
 #[derive(Clone, Copy)]
 struct Recorded<'t> {
     /// The operations so far; none for a literal.
-    tape: Option<&'t RefCell<Vec<KernelStep>>>,
-    term: Term,
+    tape: Option<&'t RefCell<KernelWriter>>,
+    value: Value,
+}
+
+#[derive(Clone, Copy)]
+enum Value {
+    Node(Id),
+    Literal(f64),
 }
 
 /// Records the operations by which sine and cosine follow from an angle, before both trade
 /// places or change their signs.
 pub(crate) fn routine(scalar: ScalarType) -> Kernel {
-    let tape = RefCell::new(Vec::new());
+    let tape = RefCell::new(KernelWriter::default());
+    let angle = tape.borrow_mut().angle();
     let angle = Recorded {
         tape: Some(&tape),
-        term: ANGLE,
+        value: Value::Node(angle),
     };
     let (_, sin, cos) = match scalar {
         ScalarType::F64 => rest::<f64, Rounded, _>(angle),
         ScalarType::F32 => rest::<f32, Rounded, _>(angle),
     };
-    let (sin, cos) = (Value::of(sin.term), Value::of(cos.term));
-    Kernel {
-        steps: tape.take(),
-        sin: Some(sin),
-        cos: Some(cos),
-    }
+    let results = [sin, cos].map(|result| Edge {
+        node: result.node(&mut tape.borrow_mut()),
+        negative: false,
+    });
+    let need = Need {
+        sin: true,
+        cos: true,
+    };
+    tape.take().kernel(need, results)
 }
 
 impl<'t> Recorded<'t> {
     fn literal(value: f64) -> Recorded<'t> {
         Recorded {
             tape: None,
-            term: literal(value),
+            value: Value::Literal(value),
+        }
+    }
+
+    fn node(self, tape: &mut KernelWriter) -> Id {
+        match self.value {
+            Value::Node(id) => id,
+            Value::Literal(value) => tape.literal(value),
         }
     }
 
@@ -49,15 +67,11 @@ impl<'t> Recorded<'t> {
             // The routine has no operation of two literals.
             return Recorded::literal(f64::NAN);
         };
-        let mut steps = tape.borrow_mut();
-        steps.push(KernelStep {
-            operation,
-            left: self.term,
-            right: other.term,
-        });
+        let mut writer = tape.borrow_mut();
+        let operands = [self, other].map(|operand| operand.node(&mut writer));
         Recorded {
             tape: Some(tape),
-            term: Term::Step(steps.len() - 1),
+            value: Value::Node(writer.apply(operation, operands)),
         }
     }
 }

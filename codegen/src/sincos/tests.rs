@@ -1,10 +1,12 @@
 //! Kernels against libm, and their proofs against samples.
 
 use super::choose::{Candidates, Choice};
-use super::forms::Need;
 use super::proof::prove;
+use super::reduction::alone;
 use super::*;
-use crate::program::kernel::{self, Kernel, Term, literal};
+use crate::dag::Node;
+use crate::program::Literal;
+use crate::program::kernel::{Kernel, KernelWriter, Need};
 use crate::random::Random;
 
 const BOTH: Need = Need {
@@ -93,29 +95,21 @@ fn a_changed_literal_shows() {
     for (scalar, low, high, error) in [CASES[1], CASES[3], CASES[7], CASES[9]] {
         let over = range(low, high);
         let honest = cheapest(BOTH, scalar, over, error);
-        for index in 0..honest.kernel.steps.len() {
+        for index in 0..honest.kernel.dag.nodes.len() {
             let mut kernel = honest.kernel.clone();
-            let step = &mut kernel.steps[index];
-            let changed = [&mut step.left, &mut step.right].into_iter().any(|term| {
-                if let Term::Constant(value) = term {
-                    value.0 = scalar.nearest(value.0 * 1.01);
-                    return true;
-                }
-                false
-            });
-            if !changed {
+            let Node::Constant(Literal(value)) = &mut kernel.dag.nodes[index] else {
                 continue;
-            }
+            };
+            *value = scalar.nearest(*value * 1.01);
             let wrong = seen(&kernel, scalar, over);
             match prove(&kernel, scalar, over) {
                 None => {}
                 Some(found) => {
                     assert!(
                         wrong.sin <= found.sin && wrong.cos <= found.cos,
-                        "x{}",
-                        index + 1
+                        "node {index}"
                     );
-                    assert!(found.worst() > honest.errors.worst(), "x{}", index + 1);
+                    assert!(found.worst() > honest.errors.worst(), "node {index}");
                 }
             }
         }
@@ -145,9 +139,8 @@ fn operations_follow_from_error_and_range() {
 fn what_cannot_be_reached_is_said() {
     let robot_like = |error| {
         let trig = Trig {
-            angle: AngleSum::joint(1),
-            sin: true,
-            cos: true,
+            joint: 1,
+            need: BOTH,
         };
         one(&trig, ScalarType::F32, range(-PI, PI), error)
     };
@@ -173,18 +166,15 @@ fn what_cannot_be_reached_is_said() {
 /// The proof looks at no kernel that would take it for ever.
 #[test]
 fn nothing_unbounded_is_proved() {
-    let mut kernel = Kernel::default();
-    let mut term = literal(1.5);
+    let mut kernel = KernelWriter::default();
+    let mut node = kernel.literal(1.5);
     for _ in 0..100 {
-        term = kernel.mul(term, term);
+        node = kernel.mul(node, node);
     }
-    kernel.sin = Some(kernel::Value::of(term));
+    let kernel = alone(kernel, node);
     assert_eq!(prove(&kernel, ScalarType::F64, range(0.0, 1.0)), None);
-    for term in [literal(f64::INFINITY), Term::Step(7)] {
-        let wild = Kernel {
-            sin: Some(kernel::Value::of(term)),
-            ..Kernel::default()
-        };
-        assert_eq!(prove(&wild, ScalarType::F64, range(0.0, 1.0)), None);
-    }
+    let mut wild = KernelWriter::default();
+    let infinite = wild.literal(f64::INFINITY);
+    let wild = alone(wild, infinite);
+    assert_eq!(prove(&wild, ScalarType::F64, range(0.0, 1.0)), None);
 }

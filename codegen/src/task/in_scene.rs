@@ -1,65 +1,24 @@
 //! Scenes and what they ask for, by name.
 
-use std::fmt;
-
-use dalembert_model::read::closest;
 use dalembert_model::scene::{Float, Scene};
 
 use super::request::Request;
 use crate::function::Function;
 use crate::program::ScalarType;
-
-/// There is no scene of this name.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct UnknownScene {
-    /// The name.
-    pub found: String,
-    /// The scene that was probably meant.
-    pub meant: Option<String>,
-    /// The scenes that there are.
-    pub known: Vec<String>,
-}
-
-impl UnknownScene {
-    /// Returns what is wrong.
-    pub fn message(&self) -> String {
-        format!("the robot has no scene `{}`", self.found)
-    }
-
-    /// Returns the likely fix.
-    pub fn help(&self) -> String {
-        match (&self.meant, self.known.as_slice()) {
-            (Some(meant), _) => format!("did you mean `{meant}`?"),
-            (None, []) => format!("its file has none: add a table [scene.{}]", self.found),
-            (None, known) => format!("known scenes: {}", known.join(", ")),
-        }
-    }
-}
-
-impl fmt::Display for UnknownScene {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.message(), self.help())
-    }
-}
-
-impl std::error::Error for UnknownScene {}
+use crate::words::Complaint;
 
 /// Returns the scene of a name.
 ///
 /// # Errors
-/// [`UnknownScene`], with the name that was probably meant.
-pub(crate) fn find<'s>(scenes: &'s [Scene], name: &str) -> Result<&'s Scene, UnknownScene> {
-    scenes
-        .iter()
-        .find(|scene| scene.name == name)
-        .ok_or_else(|| {
-            let known: Vec<&str> = scenes.iter().map(|scene| scene.name.as_str()).collect();
-            UnknownScene {
-                found: name.to_owned(),
-                meant: closest(name, &known).map(str::to_owned),
-                known: known.into_iter().map(str::to_owned).collect(),
-            }
-        })
+/// The name that was probably meant.
+pub(crate) fn find<'s>(scenes: &'s [Scene], name: &str) -> Result<&'s Scene, Complaint> {
+    let found = scenes.iter().find(|scene| scene.name == name);
+    found.ok_or_else(|| {
+        let known: Vec<&str> = scenes.iter().map(|scene| scene.name.as_str()).collect();
+        let message = format!("the robot has no scene `{name}`");
+        let none = format!("its file has none: add a table [scene.{name}]");
+        Complaint::unknown(message, name, &known, &none)
+    })
 }
 
 impl From<Float> for ScalarType {

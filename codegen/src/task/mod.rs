@@ -1,7 +1,7 @@
 //! What is generated, for which robot in which scene: what macro, build script, command and
 //! library fill, and every stage of a generation reads.
 //!
-//! - this file: [`Task`]
+//! - this file: [`Job`]
 //! - `choices`: choices of two words
 //! - [`request`]: what somebody wants of a robot; [`options`]: the table of its options
 //! - [`in_scene`]: a file's scenes by name, and what they ask for
@@ -15,34 +15,34 @@ use dalembert_model::robot::Robot;
 use dalembert_model::scene::Tolerance;
 
 use crate::program::Program;
-use crate::scene::SceneRobot;
+use crate::setup::Setup;
 pub use choices::{Fma, Prefer};
 pub use request::Request;
 
 /// A request for a robot in its scene.
 #[derive(Clone, Copy, Debug)]
-pub struct Task<'a> {
+pub struct Job<'a> {
     /// The robot as its file has it.
     pub robot: &'a Robot,
-    /// The robot in the request's scene, by [`Request::scene_robot`].
-    pub scene_robot: &'a SceneRobot,
+    /// The robot in the request's scene, by [`Request::setup`].
+    pub setup: &'a Setup,
     /// What is wanted.
     pub request: &'a Request,
 }
 
-impl<'a> Task<'a> {
-    /// Returns the task with another request for the same robot in the same scene.
+impl<'a> Job<'a> {
+    /// Returns the job with another request for the same robot in the same scene.
     #[must_use]
-    pub fn with<'b>(&self, request: &'b Request) -> Task<'b>
+    pub fn with<'b>(&self, request: &'b Request) -> Job<'b>
     where
         'a: 'b,
     {
-        Task { request, ..*self }
+        Job { request, ..*self }
     }
 
     /// Returns the tolerance of the scene, if it has one.
     pub fn tolerance(&self) -> Option<&'a Tolerance> {
-        self.scene_robot.scene()?.tolerance.as_ref()
+        self.setup.scene()?.tolerance.as_ref()
     }
 
     /// Returns the program that is emitted for one that was found: with its products fused, where that

@@ -15,7 +15,7 @@ use super::request::Request;
 use crate::function::Function;
 use crate::program::ScalarType;
 use crate::sincos::SinCos;
-use crate::words::{Word, parse};
+use crate::words::{Complaint, Word, parse};
 
 /// An option of a request.
 #[derive(Clone, Copy, Debug)]
@@ -31,7 +31,7 @@ pub struct OptionRow {
     /// `true` if it takes several items.
     pub is_list: bool,
     /// Takes an item.
-    set: fn(&mut Draft, &str) -> Result<(), Wrong>,
+    set: fn(&mut Draft, &str) -> Result<(), Complaint>,
 }
 
 /// The purpose of an option.
@@ -76,9 +76,6 @@ impl fmt::Display for Problem {
 
 impl std::error::Error for Problem {}
 
-/// The mistake in an item, and the likely fix.
-struct Wrong(String, String);
-
 /// The options that were read so far.
 #[derive(Default)]
 struct Draft {
@@ -91,8 +88,8 @@ struct Draft {
 }
 
 /// Returns the value of a word.
-fn word<W: Word>(item: &str) -> Result<W, Wrong> {
-    parse(item).map_err(|error| Wrong(error.message(), error.help()))
+fn word<W: Word>(item: &str) -> Result<W, Complaint> {
+    parse(item)
 }
 
 /// Adds to a list what is not in it.
@@ -101,42 +98,37 @@ fn add<T>(
     item: T,
     is_same: impl Fn(&T, &T) -> bool,
     text: &str,
-) -> Result<(), Wrong> {
+) -> Result<(), Complaint> {
     if list.iter().any(|other| is_same(other, &item)) {
-        return Err(Wrong(format!("`{text}` is given twice"), String::new()));
+        return Err(Complaint::new(format!("`{text}` is given twice"), ""));
     }
     list.push(item);
     Ok(())
 }
 
-fn output(draft: &mut Draft, item: &str) -> Result<(), Wrong> {
+fn output(draft: &mut Draft, item: &str) -> Result<(), Complaint> {
     let outputs = draft.outputs.get_or_insert_default();
     let function = Function::parse(item).map_err(|error| {
         let error = error.among(outputs);
-        Wrong(error.message(), for_bundle(&error))
+        Complaint::new(error.message(), for_bundle(&error))
     })?;
     let name = function.name();
     add(outputs, function, |a, b| a.is_namesake(*b), name)
 }
 
-fn sincos_error(draft: &mut Draft, item: &str) -> Result<(), Wrong> {
+fn sincos_error(draft: &mut Draft, item: &str) -> Result<(), Complaint> {
     let error = item.replace('_', "").parse::<f64>().ok();
     let error = error.filter(|error| *error > 0.0 && *error < 1.0);
-    let wrong = || {
-        Wrong(
-            "expected an error above 0 and below 1".into(),
-            "such as 1e-9".into(),
-        )
-    };
+    let wrong = || Complaint::new("expected an error above 0 and below 1", "such as 1e-9");
     draft.error = Some(error.ok_or_else(wrong)?);
     Ok(())
 }
 
-fn name(draft: &mut Draft, item: &str) -> Result<(), Wrong> {
+fn name(draft: &mut Draft, item: &str) -> Result<(), Complaint> {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
     if !item.starts_with(|c: char| c.is_ascii_alphabetic()) || !item.chars().all(plain) {
         let help = "letters, digits and `_`, a letter first";
-        return Err(Wrong(format!("`{item}` is no name"), help.into()));
+        return Err(Complaint::new(format!("`{item}` is no name"), help));
     }
     draft.request.module = Some(item.to_owned());
     Ok(())
@@ -259,8 +251,8 @@ pub static OPTIONS: [OptionRow; 13] = [
         set: |draft, item| {
             let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
             if !item.chars().all(is_word) {
-                let help = "scene: pick; of the robot file's [scene.pick]".into();
-                return Err(Wrong("expected the name of a scene".into(), help));
+                let help = "scene: pick; of the robot file's [scene.pick]";
+                return Err(Complaint::new("expected the name of a scene", help));
             }
             draft.scene = Some(item.to_owned());
             Ok(())
@@ -302,7 +294,7 @@ impl Request {
         let mut draft = Draft::default();
         draft.request.scalars = scalars.to_vec();
         let mut problems = Vec::new();
-        let mut report = |option: &str, item: &str, Wrong(message, help): Wrong| {
+        let mut report = |option: &str, item: &str, Complaint { message, help }: Complaint| {
             problems.push(Problem {
                 option: option.to_owned(),
                 item: item.to_owned(),
@@ -313,7 +305,7 @@ impl Request {
         for row in &OPTIONS {
             for (index, item) in asked.items(row.name).into_iter().enumerate() {
                 let wrong = match index > 0 && !row.is_list {
-                    true => Err(Wrong("expected one word only".into(), String::new())),
+                    true => Err(Complaint::new("expected one word only", "")),
                     false => (row.set)(&mut draft, item),
                 };
                 if let Err(wrong) = wrong {
@@ -323,15 +315,15 @@ impl Request {
         }
         let scene = draft.scene.as_deref().map(|name| find(scenes, name));
         let scene = scene.transpose().unwrap_or_else(|error| {
-            report("scene", &error.found, Wrong(error.message(), error.help()));
+            report("scene", draft.scene.as_deref().unwrap_or_default(), error);
             None
         });
         match (&mut draft.request.sincos, draft.error) {
             (SinCos::Polynomial { error }, own) => *error = own,
             (_, Some(_)) => {
-                let message = "only polynomials have an error to choose".into();
-                let help = "add `sincos: polynomial`, or leave this out".into();
-                report("sincos_error", "", Wrong(message, help));
+                let message = "only polynomials have an error to choose";
+                let help = "add `sincos: polynomial`, or leave this out";
+                report("sincos_error", "", Complaint::new(message, help));
             }
             (_, None) => {}
         }

@@ -8,9 +8,9 @@ use crate::function::Function;
 use crate::language::Language;
 use crate::plan::Plan;
 use crate::program::{Library, ScalarType};
-use crate::scene::{SceneError, SceneRobot};
 use crate::search::Effort;
 use crate::seeds::{Start, load};
+use crate::setup::{SceneError, Setup};
 use crate::sincos::SinCos;
 use crate::watch::Watch;
 
@@ -117,9 +117,9 @@ impl Request {
     ///
     /// # Errors
     /// The scene is none of this robot.
-    pub fn scene_robot(&self, robot: &Robot) -> Result<SceneRobot, SceneError> {
-        let scene_robot = SceneRobot::of(robot, self.scene.as_ref())?;
-        Ok(load::chosen(scene_robot.taking(&self.parameters)))
+    pub fn setup(&self, robot: &Robot) -> Result<Setup, SceneError> {
+        let setup = Setup::of(robot, self.scene.as_ref())?;
+        Ok(load::chosen(setup.taking(&self.parameters)))
     }
 
     /// Returns the module's name.

@@ -6,10 +6,9 @@ use dalembert_model::equations::Formulation;
 
 use super::rounding::Rounding;
 use crate::dag::Dag;
-use crate::function::Function;
 use crate::program::{Counts, Program};
-use crate::scene::SceneRobot;
 use crate::seeds;
+use crate::setup::Task;
 
 /// An error of this many u is nothing to mend.
 const FLOOR: f64 = 4.0;
@@ -39,8 +38,7 @@ pub struct Refused {
 /// the error of a textbook form.
 #[derive(Clone, Debug)]
 pub(crate) struct AccuracyFilter<'a> {
-    scene_robot: &'a SceneRobot,
-    function: Function,
+    task: Task<'a>,
     reference_formulation: Option<Rounding>,
     /// The chunk of states that refused the last program: it may refuse the next one, too.
     worst_states: Cell<usize>,
@@ -49,8 +47,9 @@ pub(crate) struct AccuracyFilter<'a> {
 impl<'a> AccuracyFilter<'a> {
     /// Measures the textbook form: the link-frame recursion; for h_ikm, which
     /// it gives only by differences, Lagrange–Euler.
-    pub(crate) fn new(scene_robot: &'a SceneRobot, function: Function) -> Self {
-        let n = scene_robot.joints().len();
+    pub(crate) fn new(task: Task<'a>) -> Self {
+        let Task { setup, function } = task;
+        let n = setup.joints().len();
         let mut quantities = function.quantities().iter();
         let formulation = if quantities.any(|quantity| quantity.by_differences()) {
             (n <= MAX_WRITTEN).then_some(Formulation::LagrangeEuler)
@@ -58,22 +57,20 @@ impl<'a> AccuracyFilter<'a> {
             (n <= MAX_MEASURED).then_some(Formulation::NewtonEulerLink)
         };
         let reference_formulation = formulation.map(|formulation| {
-            let textbook = seeds::textbook(scene_robot, function, formulation).graph;
-            estimate(scene_robot, function, &textbook)
+            let textbook = seeds::textbook(task, formulation).graph;
+            estimate(task, &textbook)
         });
         AccuracyFilter {
-            scene_robot,
-            function,
+            task,
             reference_formulation,
             worst_states: Cell::default(),
         }
     }
 
     /// Admits a program whatever it costs.
-    pub(crate) fn lenient(scene_robot: &'a SceneRobot, function: Function) -> Self {
+    pub(crate) fn lenient(task: Task<'a>) -> Self {
         AccuracyFilter {
-            scene_robot,
-            function,
+            task,
             reference_formulation: None,
             worst_states: Cell::default(),
         }
@@ -91,10 +88,10 @@ impl<'a> AccuracyFilter<'a> {
             return 0.0;
         };
         let excess = |own: &Rounding| own.factor(reference_formulation, FLOOR) / WORSE;
-        let program = Program::in_scene(self.scene_robot, self.function, graph);
+        let program = Program::in_scene(self.task, graph);
         let reaches = |own: &Rounding| excess(own) >= bound;
         excess(&Rounding::until(
-            self.scene_robot,
+            self.task.setup,
             &program,
             &self.worst_states,
             reaches,
@@ -103,11 +100,11 @@ impl<'a> AccuracyFilter<'a> {
 
     /// Returns the program's largest normwise error, in units of u.
     pub(crate) fn error(&self, graph: &Dag) -> f64 {
-        estimate(self.scene_robot, self.function, graph).worst()
+        estimate(self.task, graph).worst()
     }
 }
 
-fn estimate(scene_robot: &SceneRobot, function: Function, graph: &Dag) -> Rounding {
-    let program = Program::in_scene(scene_robot, function, graph);
-    Rounding::estimate(scene_robot, &program)
+fn estimate(task: Task<'_>, graph: &Dag) -> Rounding {
+    let program = Program::in_scene(task, graph);
+    Rounding::estimate(task.setup, &program)
 }

@@ -14,7 +14,7 @@ use dalembert_model::number::{Angle, Exact};
 use dalembert_model::scalar::sparse::Sparse;
 use dalembert_model::scalar::{Divide, Scalar};
 
-use super::points::Leaves;
+use crate::dag::Leaves;
 use crate::program::Input;
 
 /// The degree of a polynomial over powers of divisors; infinite beyond a double's range.
@@ -142,9 +142,8 @@ impl Degrees {
 impl Leaves for Degrees {
     type Value = Sparse<Degree>;
 
-    fn input(&self, input: Input) -> Sparse<Degree> {
-        let terms = input.angle().map_or(1, |angle| angle.terms().count());
-        Sparse::Value(Degree::of(terms as f64))
+    fn input(&self, _: Input) -> Sparse<Degree> {
+        Sparse::Value(Degree::of(1.0))
     }
 
     fn constant(&self, constant: &Exact) -> Sparse<Degree> {

@@ -20,14 +20,16 @@
 
 use std::fmt;
 
-use dalembert_model::equations::{Arm, Formulation};
+use dalembert_model::equations::Formulation;
 use dalembert_model::scalar::Divide;
 
 use super::degree::Degrees;
-use super::points::{Leaves, POINTS, Point, Residue, integers, points, written};
+use super::points::{POINTS, Point, Residue, integers, points, written};
+use crate::dag::Leaves;
 use crate::function::{Argument, Function};
 use crate::program::{Input, Program};
-use crate::scene::{Posed, SceneRobot};
+use crate::setup::{Setup, Task};
+use dalembert_model::number::Exact;
 
 /// The most joints for which Lagrange–Euler itself is the reference: its cost
 /// grows with n⁴ to n⁵.
@@ -37,8 +39,8 @@ const WRITTEN_LIMIT: usize = 10;
 const MAX_DEGREE: f64 = (1u64 << 30) as f64;
 
 /// Returns the formulation that is the reference for an arm.
-pub(super) fn reference_formulation(scene_robot: &SceneRobot) -> Formulation {
-    match scene_robot.robot().rows().len() <= WRITTEN_LIMIT {
+pub(super) fn reference_formulation(setup: &Setup) -> Formulation {
+    match setup.robot().rows().len() <= WRITTEN_LIMIT {
         true => Formulation::LagrangeEuler,
         false => Formulation::NewtonEulerLink,
     }
@@ -128,36 +130,32 @@ impl std::error::Error for Disproof {}
 ///
 /// # Errors
 /// The first output that differs, or the reason for which nothing can be proved.
-pub fn prove(scene_robot: &SceneRobot, program: &Program) -> Result<Proof, Disproof> {
+pub fn prove(setup: &Setup, program: &Program) -> Result<Proof, Disproof> {
     // A program reads speeds of the robot's widths, and no other.
-    let of_robot = program.clone().with_speeds(scene_robot.speeds());
-    if program.rows != scene_robot.rows() || program.speeds != of_robot.speeds {
+    let of_robot = program.clone().with_speeds(setup.speeds());
+    if program.rows != setup.rows() || program.speeds != of_robot.speeds {
         return Err(Disproof::Shape);
     }
     let function = program.function;
-    let formulation = reference_formulation(scene_robot);
-    let formula = Formula {
-        scene_robot,
-        function,
-        formulation,
-    };
+    let formulation = reference_formulation(setup);
+    let task = setup.task(function);
     compare(
-        &["program", &written(scene_robot), &format!("{program:?}")],
+        &["program", &written(setup), &format!("{program:?}")],
         |point| {
-            let (results, residuals) = formula.solving(point);
+            let (results, residuals) = solving(task, formulation, point);
             match integers(&residuals) {
                 None => Ok(None),
                 Some(all) if all.iter().all(|residual| !residual.divides()) => Ok(Some(results)),
                 Some(_) => Err(Disproof::Equation),
             }
         },
-        |point| run(Some(scene_robot), program, point),
+        |point| run(Some(setup), program, point),
         |index| differs(program, index),
     )?;
     let degrees = Degrees::default();
     let (own, others) = (
-        run(Some(scene_robot), program, &degrees).ok_or(Disproof::Shape)?,
-        formula.results(&degrees),
+        run(Some(setup), program, &degrees).ok_or(Disproof::Shape)?,
+        task.textbook(formulation, &degrees),
     );
     bounded(degrees.of_differences(&own, &others, program.joints))?;
     Ok(Proof {
@@ -185,44 +183,17 @@ pub fn prove_same(a: &Program, b: &Program) -> Result<(), Disproof> {
     bounded(degrees.of_differences(&a_degrees, &b_degrees, a.joints.max(b.joints)))
 }
 
-/// A function's formula over the whole arm: a locked joint has a constant pair or position, and
-/// rates that are zero.
-struct Formula<'a> {
-    scene_robot: &'a SceneRobot,
-    function: Function,
-    formulation: Formulation,
-}
-
-impl Formula<'_> {
-    /// Returns the results over the scene's rows.
-    fn results<L: Leaves>(&self, leaves: &L) -> Vec<L::Value> {
-        let posed = posed(self.scene_robot, self.function, leaves);
-        posed.results(self.scene_robot, self.function, self.formulation)
-    }
-
-    /// Returns the results over the scene's rows, and the residuals of the equations that the
-    /// results over all joints solve, such as D D⁻¹ − 1; none if they solve none.
-    fn solving<L: Leaves>(&self, leaves: &L) -> (Vec<L::Value>, Vec<L::Value>) {
-        let posed = posed(self.scene_robot, self.function, leaves);
-        let all = posed.all(self.function, self.formulation);
-        let (arm, motion) = (&posed.arm, &posed.motion);
-        let residuals = (self.function).residual(self.formulation, arm, motion, &all);
-        (
-            posed.select(self.scene_robot, self.function, all),
-            residuals,
-        )
-    }
-}
-
-/// Returns the scene's arm and motion as a function takes them.
-pub(super) fn posed<L: Leaves>(
-    scene_robot: &SceneRobot,
-    function: Function,
+/// Evaluates a task's formula: returns the results over the scene's rows, and the residuals of the
+/// equations that the results over all joints solve, such as D D⁻¹ − 1; none if they solve none.
+fn solving<L: Leaves>(
+    task: Task<'_>,
+    by: Formulation,
     leaves: &L,
-) -> Posed<L::Value> {
-    let constant = |constant: &_| leaves.constant(constant);
-    let arm = Arm::from_robot(scene_robot.robot(), &mut { constant });
-    scene_robot.posed(function, arm, |input| leaves.input(input), constant)
+) -> (Vec<L::Value>, Vec<L::Value>) {
+    let posed = task.posed(leaves);
+    let all = posed.all(by);
+    let residuals = (task.function).residual(by, &posed.arm, &posed.motion, &all);
+    (posed.select(all), residuals)
 }
 
 /// Compares values with the expected ones at [`POINTS`] points where both exist; `differs` names
@@ -272,22 +243,24 @@ pub(super) fn bounded(degree: f64) -> Result<(), Disproof> {
 
 /// Returns a program's outputs; `None` if a step reads a later one. Where a robot is given, a load
 /// that the program takes is that of a payload, whose ten numbers are variables of the proof.
-fn run<L: Leaves>(
-    scene_robot: Option<&SceneRobot>,
+pub(super) fn run<L: Leaves>(
+    setup: Option<&Setup>,
     program: &Program,
     leaves: &L,
 ) -> Option<Vec<L::Value>> {
-    let load = match scene_robot {
-        Some(scene_robot) if program.arguments.contains(&Argument::Load) => {
-            Some(scene_robot.load_of(|input| leaves.input(input), |x| leaves.constant(x)))
+    let load = match setup {
+        Some(setup) if program.arguments.contains(&Argument::Load) => {
+            setup.load_of(|input| leaves.input(input), |x| leaves.constant(x))
         }
-        _ => None,
+        _ => Vec::new(),
     };
-    let input = |input: &Input| match (*input, &load) {
-        (Input::Entry(Argument::Load, index), Some(load)) => load.get(index).cloned(),
-        (input, _) => Some(leaves.input(input)),
+    let input = |input: Input| match input {
+        Input::Entry(Argument::Load, index) if index < load.len() => load[index].clone(),
+        input => leaves.input(input),
     };
-    program.evaluate(input, |constant| Some(leaves.constant(constant)))
+    let constant = |constant: &Exact| leaves.constant(constant);
+    let run = || program.graph().run(&(constant, input));
+    program.is_straight().then(run)
 }
 
 impl Program {

@@ -8,7 +8,7 @@
 //! that follow from the statement. Fewer columns would not do, and this needs no such proof: they
 //! were independent modulo a prime, and so they are.
 //!
-//! [`BaseParameters`]: crate::scene::base::BaseParameters
+//! [`BaseParameters`]: crate::setup::base::BaseParameters
 
 use std::collections::BTreeMap;
 
@@ -19,33 +19,29 @@ use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
 
 use super::degree::Degrees;
-use super::exact::{Disproof, bounded, compare, posed, reference_formulation};
-use super::points::{Leaves, Residue, written};
-use crate::function::Function;
-use crate::scene::SceneRobot;
-use crate::scene::base::{BaseParameters, Parameter};
+use super::exact::{Disproof, bounded, compare, reference_formulation};
+use super::points::{Residue, written};
+use crate::dag::Leaves;
+use crate::setup::Task;
+use crate::setup::base::{BaseParameters, Parameter};
 
 /// Proves the base parameters of a robot in its scene that a function is over.
 ///
 /// # Errors
 /// A parameter whose torques they do not give, or too large a chance of a miss.
-pub fn prove_base(
-    scene_robot: &SceneRobot,
-    function: Function,
-    base: &BaseParameters,
-) -> Result<(), Disproof> {
+pub fn prove_base(task: Task<'_>, base: &BaseParameters) -> Result<(), Disproof> {
+    let Task { setup, function } = task;
     let statement = Statement {
-        scene_robot,
-        function,
+        task,
         base,
-        formulation: reference_formulation(scene_robot),
+        formulation: reference_formulation(setup),
     };
     let combinations = statement.combinations().ok_or(Disproof::Unfit)?;
     let parameters = statement.parameters();
-    let length = scene_robot.rows().len() * parameters.len();
+    let length = setup.rows().len() * parameters.len();
     let base = format!("{function} {:?} {:?}", base.columns, base.combinations);
     compare(
-        &["base parameters", &written(scene_robot), &base],
+        &["base parameters", &written(setup), &base],
         |_| Ok(Some(vec![Residue::zero(); length])),
         |point| Some(statement.differences(&combinations, point)),
         |wrong| Disproof::Dependence {
@@ -55,12 +51,11 @@ pub fn prove_base(
     let degrees = Degrees::default();
     let differences = statement.differences(&combinations, &degrees);
     let zeros = vec![Scalar::zero(); length];
-    bounded(degrees.of_differences(&differences, &zeros, scene_robot.joints().len()))
+    bounded(degrees.of_differences(&differences, &zeros, setup.joints().len()))
 }
 
 struct Statement<'a> {
-    scene_robot: &'a SceneRobot,
-    function: Function,
+    task: Task<'a>,
     base: &'a BaseParameters,
     formulation: Formulation,
 }
@@ -68,12 +63,12 @@ struct Statement<'a> {
 impl Statement<'_> {
     /// Returns all parameters of the robot file, in the order of the full columns.
     fn parameters(&self) -> Vec<Parameter> {
-        let rows = 0..self.scene_robot.robot().rows().len();
+        let rows = 0..self.task.setup.robot().rows().len();
         let links = rows.flat_map(|joint| {
             let all = LinkParameter::ALL.into_iter();
             all.map(move |own| Parameter::Link(joint, own))
         });
-        let drives = of_drives::<Exact>(self.scene_robot.robot()).into_iter();
+        let drives = of_drives::<Exact>(self.task.setup.robot()).into_iter();
         let drives = drives.map(|column| match column {
             Column::Viscous(joint) => Parameter::Viscous(joint),
             Column::Armature(joint) | Column::Body { joint, .. } => Parameter::Armature(joint),
@@ -102,8 +97,8 @@ impl Statement<'_> {
         combinations: &[Vec<(usize, &Exact)>],
         leaves: &L,
     ) -> Vec<L::Value> {
-        let (robot, function) = (self.scene_robot.robot(), self.function);
-        let posed = posed(self.scene_robot, function, leaves);
+        let (robot, function) = (self.task.setup.robot(), self.task.function);
+        let posed = self.task.posed(leaves);
         let (arm, motion) = (&posed.arm, &posed.motion);
         let by = |columns: &[Column<L::Value>]| {
             let mut entries = function.evaluate(self.formulation, arm, motion, columns);
@@ -119,7 +114,7 @@ impl Statement<'_> {
         let own: Vec<_> = self.base.columns.iter().map(|c| c.map(constant)).collect();
         let own = by(&own);
         let mut found = Vec::new();
-        for &joint in self.scene_robot.rows() {
+        for &joint in self.task.setup.rows() {
             let row = robot.row_of(joint);
             let mut differences = whole[row].clone();
             for (entry, terms) in own[row].iter().zip(combinations) {

@@ -7,15 +7,14 @@
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::write as write_robot;
-use dalembert_model::scalar::Divide;
 use dalembert_model::scalar::field::ProofField;
 use dalembert_model::scalar::sparse::Sparse;
 use dalembert_model::scene::write as write_scene;
 use hmac_sha256::Hash;
 
-use crate::dag::Points;
+use crate::dag::{Leaves, Points};
 use crate::program::Input;
-use crate::scene::SceneRobot;
+use crate::setup::Setup;
 
 /// The number of points at which a statement is proved.
 pub(super) const POINTS: usize = 4;
@@ -26,16 +25,6 @@ const MAX_DRAWS: usize = 16;
 /// A residue modulo 2⁶¹ − 45. The search has another prime: what it takes for equal by chance, or
 /// because its prime divides a difference, is not equal here.
 pub(super) type Residue = Sparse<ProofField>;
-
-/// The values of inputs and constants that a formula or program is evaluated with.
-pub(super) trait Leaves {
-    /// The scalar.
-    type Value: Divide;
-    /// Returns the value of an input.
-    fn input(&self, input: Input) -> Self::Value;
-    /// Returns the value of a constant.
-    fn constant(&self, constant: &Exact) -> Self::Value;
-}
 
 /// A point: a residue for every input and for every constant angle.
 #[derive(Clone, Copy, Debug)]
@@ -59,13 +48,13 @@ pub(super) fn points(statement: &[&str]) -> impl Iterator<Item = Point> {
 }
 
 /// Writes a robot in its scene: parameters, rows and arguments.
-pub(super) fn written(scene_robot: &SceneRobot) -> String {
+pub(super) fn written(setup: &Setup) -> String {
     format!(
         "{}\n{}\n{:?}\n{:?}",
-        write_robot(scene_robot.robot()),
-        scene_robot.scene().map(write_scene).unwrap_or_default(),
-        scene_robot.rows(),
-        RuntimeParameter::ALL.map(|parameter| scene_robot.has(parameter)),
+        write_robot(setup.robot()),
+        setup.scene().map(write_scene).unwrap_or_default(),
+        setup.rows(),
+        RuntimeParameter::ALL.map(|parameter| setup.has(parameter)),
     )
 }
 

@@ -7,20 +7,19 @@
 //! smoothly on the robot, whereas errors that are observed at some states
 //! depend on how the last digits of its parameters happen to fall.
 
-use std::array::from_fn;
 use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 use dalembert_model::equations::friction::per_speed;
 use dalembert_model::number::{Exact, Rounded};
-use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::{Divide, Scalar};
 use num_traits::Signed;
 
-use super::lanes::{LANES, Lanes};
 use crate::dag::{Dag, Edge, Id, Leaves, Node};
-use crate::program::{AngleSum, Input, Operation, Program, Speed};
-use crate::scene::SceneRobot;
+use crate::program::lanes::{LANES, Lanes};
+use crate::program::{Input, Operation, Program, Speed};
+use crate::setup::Setup;
 use crate::states::JointState;
 
 /// The number of states.
@@ -40,14 +39,14 @@ pub struct Rounding {
 
 impl Rounding {
     /// Estimates the rounding error of a program inside the limits of the scene's robot.
-    pub fn estimate(scene_robot: &SceneRobot, program: &Program) -> Rounding {
-        Rounding::until(scene_robot, program, &Cell::default(), |_| false)
+    pub fn estimate(setup: &Setup, program: &Program) -> Rounding {
+        Rounding::until(setup, program, &Cell::default(), |_| false)
     }
 
     /// Estimates the rounding error until `is_enough` says so of the states so far: more states only
     /// make it larger. It begins with the chunk of states `first`, which is then the last one.
     pub(crate) fn until(
-        scene_robot: &SceneRobot,
+        setup: &Setup,
         program: &Program,
         first: &Cell<usize>,
         is_enough: impl Fn(&Rounding) -> bool,
@@ -58,15 +57,15 @@ impl Rounding {
             .iter()
             .map(|node| is_exact(&graph, node))
             .collect();
-        let states = scene_robot.states(STATES, SEED);
+        let states = setup.states(STATES, SEED);
         let runs = states
             .chunks(LANES)
-            .filter_map(|states| graph.values(&AtStates::new(&graph, &program.speeds, states)));
-        let mut runs: Vec<(usize, Vec<Lanes>)> = runs.enumerate().collect();
+            .map(|states| graph.values(&AtStates::new(&graph, &program.speeds, states)));
+        let mut runs: Vec<(usize, Vec<Lanes<Sticky>>)> = runs.enumerate().collect();
         let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
         let size = |output: &Edge| {
             let values = runs.iter().flat_map(|(_, values)| values[output.index()].0);
-            largest(&mut values.map(f64::abs))
+            largest(&mut values.map(|value| value.0.abs()))
         };
         let sizes: Vec<f64> = graph.outputs.iter().map(size).collect();
         let mut ranges = Vec::new();
@@ -85,17 +84,19 @@ impl Rounding {
             let outputs = graph.outputs.iter();
             let errors =
                 outputs.map(|output| error(&graph, *output, &values, &is_exact, &mut adjoints));
-            let errors: Vec<Lanes> = errors.collect();
+            let errors: Vec<[f64; LANES]> = errors.collect();
             for (quantity, range) in ranges.iter().enumerate() {
                 let (outputs, own) = (&graph.outputs[range.clone()], &errors[range.clone()]);
                 let normwise = largest(&mut (0..LANES).map(|lane| {
-                    let results = outputs.iter().map(|output| values[output.index()].0[lane]);
+                    let results = outputs
+                        .iter()
+                        .map(|output| values[output.index()].0[lane].0);
                     let size = largest(&mut results.map(f64::abs));
-                    ratio(largest(&mut own.iter().map(|error| error.0[lane])), size)
+                    ratio(largest(&mut own.iter().map(|error| error[lane])), size)
                 }));
                 let each = own.iter().zip(&sizes[range.clone()]);
                 let per_output = largest(
-                    &mut each.flat_map(|(error, size)| error.0.map(|error| ratio(error, *size))),
+                    &mut each.flat_map(|(error, size)| error.map(|error| ratio(error, *size))),
                 );
                 let worst = [
                     &mut rounding.normwise[quantity],
@@ -131,38 +132,82 @@ impl Rounding {
     }
 }
 
+/// A number of which what is zero stays zero, whatever it is multiplied by: an error that does not
+/// arrive is none, however large what it would be multiplied with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Sticky(f64);
+
+impl Scalar for Sticky {
+    #[inline]
+    fn zero() -> Self {
+        Sticky(0.0)
+    }
+    #[inline]
+    fn one() -> Self {
+        Sticky(1.0)
+    }
+    #[inline]
+    fn add(&self, other: &Self) -> Self {
+        Sticky(self.0 + other.0)
+    }
+    #[inline]
+    fn sub(&self, other: &Self) -> Self {
+        Sticky(self.0 - other.0)
+    }
+    #[inline]
+    fn mul(&self, other: &Self) -> Self {
+        match self.0 == 0.0 || other.0 == 0.0 {
+            true => Sticky(0.0),
+            false => Sticky(self.0 * other.0),
+        }
+    }
+    #[inline]
+    fn neg(&self) -> Self {
+        Sticky(-self.0)
+    }
+    #[inline]
+    fn half(&self) -> Self {
+        Sticky(0.5 * self.0)
+    }
+    #[inline]
+    fn is_zero(&self) -> bool {
+        self.0 == 0.0
+    }
+}
+
+impl Divide for Sticky {
+    #[inline]
+    fn div(&self, other: &Self) -> Self {
+        match self.0 == 0.0 {
+            true => Sticky(0.0),
+            false => Sticky(self.0 / other.0),
+        }
+    }
+}
+
 /// The inputs of a program at a few states.
-struct AtStates(BTreeMap<Input, Lanes>);
+struct AtStates(BTreeMap<Input, Lanes<Sticky>>);
 
 impl AtStates {
     /// Reads the inputs; lanes beyond the states repeat the last of them.
     fn new(graph: &Dag, speeds: &[Speed], states: &[JointState]) -> AtStates {
         let each = |of: &dyn Fn(&JointState) -> f64| {
-            Lanes(from_fn(|lane| {
-                let state = states.get(lane).or(states.last());
-                state.map_or(f64::NAN, of)
-            }))
+            let values: Vec<Sticky> = states.iter().map(|state| Sticky(of(state))).collect();
+            Lanes::new(&values)
         };
         let speed = |joint: usize, state: &JointState| {
             let own = speeds.iter().find(|own| own.joint == joint)?;
             let (qd, square) = (state.qd.get(joint)?, f64::nearest(&own.square));
             Some(per_speed(qd, &square, |x| libm::sqrt(*x)))
         };
-        let angle = |angle: AngleSum, state: &JointState| {
-            let signed = |(joint, negative): (usize, bool)| match negative {
-                true => -state.q[joint],
-                false => state.q[joint],
-            };
-            angle.terms().map(signed).sum::<f64>()
-        };
         let lanes = |input: Input| match input {
-            Input::Sin(sum) => each(&|state| libm::sin(angle(sum, state))),
-            Input::Cos(sum) => each(&|state| libm::cos(angle(sum, state))),
+            Input::Sin(joint) => each(&|state| libm::sin(state.q[joint])),
+            Input::Cos(joint) => each(&|state| libm::cos(state.q[joint])),
             Input::PerSpeed(joint) => each(&|state| speed(joint, state).unwrap_or(f64::NAN)),
             Input::Entry(argument, joint) => each(&|state| state.entry(argument, joint)),
         };
         let inputs = graph.live().filter_map(|(_, node)| match node {
-            Node::Input(input) => Some((*input, lanes(*input))),
+            Node::Input(input) => Some((*input, lanes(*input)?)),
             _ => None,
         });
         AtStates(inputs.collect())
@@ -170,14 +215,15 @@ impl AtStates {
 }
 
 impl Leaves for AtStates {
-    type Value = Lanes;
+    type Value = Lanes<Sticky>;
 
-    fn constant(&self, constant: &Exact) -> Option<Lanes> {
-        Some(Lanes::all(f64::nearest(constant)))
+    fn constant(&self, constant: &Exact) -> Lanes<Sticky> {
+        Lanes([Sticky(f64::nearest(constant)); LANES])
     }
 
-    fn input(&self, input: &Input) -> Option<Lanes> {
-        self.0.get(input).copied()
+    fn input(&self, input: Input) -> Lanes<Sticky> {
+        let known = self.0.get(&input).copied();
+        known.unwrap_or(Lanes([Sticky(f64::NAN); LANES]))
     }
 }
 
@@ -185,18 +231,19 @@ impl Leaves for AtStates {
 fn error(
     graph: &Dag,
     output: Edge,
-    values: &[Lanes],
+    values: &[Lanes<Sticky>],
     is_exact: &[bool],
-    adjoints: &mut Vec<Lanes>,
-) -> Lanes {
+    adjoints: &mut Vec<Lanes<Sticky>>,
+) -> [f64; LANES] {
     graph.adjoints(output.node, values, adjoints);
-    let mut squares = Lanes::zero();
+    let mut squares = Lanes::<Sticky>::zero();
     for ((adjoint, value), is_exact) in adjoints.iter().zip(values).zip(is_exact) {
         if !is_exact && !adjoint.is_zero() {
-            squares = squares.add(&adjoint.mul(value).square());
+            let error = adjoint.mul(value);
+            squares = squares.add(&error.mul(&error));
         }
     }
-    squares.sqrt()
+    squares.0.map(|square| libm::sqrt(square.0))
 }
 
 /// Returns whether a node loses no digit: a power of two, a product with one, a fused product, an

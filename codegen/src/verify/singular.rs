@@ -9,18 +9,18 @@ use dalembert_model::equations::factor::{Factor, submatrix};
 use dalembert_model::equations::forward::free;
 use dalembert_model::scalar::Divide;
 
-use super::exact::{posed, reference_formulation};
+use super::exact::reference_formulation;
 use super::points::{POINTS, Point, points, written};
-use crate::function::Function;
-use crate::scene::SceneRobot;
+use crate::setup::Task;
 
 /// Returns the joint nearest to the hand that moves no inertia in any state; none if
 /// D has an inverse almost everywhere.
-pub(crate) fn without_inertia(scene_robot: &SceneRobot, function: Function) -> Option<usize> {
+pub(crate) fn without_inertia(task: Task<'_>) -> Option<usize> {
+    let Task { setup, function: _ } = task;
     let mut found = None;
-    let statement = ["inertia", &written(scene_robot)];
+    let statement = ["inertia", &written(setup)];
     // A point without values tells nothing; without any that has them the proof will say so.
-    let pivots = points(&statement).filter_map(|point| zero_pivot(scene_robot, function, &point));
+    let pivots = points(&statement).filter_map(|point| zero_pivot(task, &point));
     for joint in pivots.take(POINTS) {
         found = Some(joint?);
     }
@@ -29,19 +29,15 @@ pub(crate) fn without_inertia(scene_robot: &SceneRobot, function: Function) -> O
 
 /// Returns the joint of the first zero pivot from the hand inward, if there is one; nothing at a
 /// point without values.
-fn zero_pivot(
-    scene_robot: &SceneRobot,
-    function: Function,
-    point: &Point,
-) -> Option<Option<usize>> {
-    let posed = posed(scene_robot, function, point);
+fn zero_pivot(task: Task<'_>, point: &Point) -> Option<Option<usize>> {
+    let posed = task.posed(point);
     let (arm, motion) = (&posed.arm, &posed.motion);
     let free = free(&motion.moves);
-    let d = reference_formulation(scene_robot).gathered_inertia(arm, &arm.at(&motion.q));
+    let d = reference_formulation(task.setup).gathered_inertia(arm, &arm.at(&motion.q));
     let factor = Factor::new(&submatrix(&d, &free));
     for (pivot, row) in factor.pivots().iter().zip(&free).rev() {
         if !pivot.value()?.divides() {
-            return Some(Some(scene_robot.robot().mover_of(*row)));
+            return Some(Some(task.setup.robot().mover_of(*row)));
         }
     }
     Some(None)

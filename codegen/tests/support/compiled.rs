@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use dalembert_codegen::workspace::{Argument, Emitted, Names, Random, State};
+use dalembert_codegen::workspace::{Argument, Emitted, JointState, Names, Random};
 use dalembert_codegen::{Function, Generated, Language, Request, ScalarType, generate};
 use dalembert_model::robot::Robot;
 
@@ -124,7 +124,10 @@ fn main_of(base: &str, generated: &Generated, request: &Request) -> String {
     let calls: String = calls
         .map(|emitted| call(base, generated, emitted, request))
         .collect();
-    let outputs = generated.emitted.iter().map(|own| own.text.outputs.len());
+    let outputs = generated
+        .emitted
+        .iter()
+        .map(|own| own.text.dag.outputs.len());
     let (states, device) = match (request.batch, request.language) {
         (true, Language::Cuda) => (STATES, DEVICE),
         (true, _) => (STATES, ""),
@@ -155,20 +158,11 @@ fn states() -> impl Iterator<Item = Vec<f64>> {
 fn expected(generated: &Generated, state: &[f64]) -> Vec<u64> {
     let mut all = Vec::new();
     for emitted in &generated.emitted {
-        let at = |argument: Argument| {
+        let state = JointState::new(|argument| {
             let start = argument.index() * MOST;
-            &state[start..start + argument.length(emitted.sizes)]
-        };
-        let results: Vec<f64> = match emitted.scalar {
-            ScalarType::F64 => emitted.text.run(State::of(at)),
-            ScalarType::F32 => {
-                let rounded = Argument::ALL
-                    .map(|argument| at(argument).iter().map(|&x| x as f32).collect::<Vec<f32>>());
-                let own = State::of(|a: Argument| &rounded[a.index()][..]);
-                let run = emitted.text.run(own);
-                run.into_iter().map(f64::from).collect()
-            }
-        };
+            state[start..start + argument.length(emitted.sizes)].to_vec()
+        });
+        let results = emitted.text.run_at(&state);
         all.extend(results.into_iter().map(f64::to_bits));
     }
     all

@@ -1,6 +1,7 @@
 //! Robots for the tests of the generator.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
+pub mod case;
 pub mod compiled;
 pub mod draw;
 

@@ -1,6 +1,6 @@
 //! Planted faults, and the memory that code is in.
 
-use dalembert_codegen::workspace::{Literal, Operand, Operation};
+use dalembert_codegen::workspace::{Node, Operation};
 
 use super::*;
 use crate::{Arm, Cache, Load};
@@ -8,7 +8,7 @@ use crate::{Arm, Cache, Load};
 const LAYOUTS: [States; 2] = [States::Apart, States::Adjacent];
 
 /// Compares code with a program that differs from what it was made of.
-fn refused<T: Real>(native: &mut Native, fault: &str, plant: impl FnOnce(&mut Lowered)) {
+fn refused<T: Real>(native: &mut Native, fault: &str, plant: impl FnOnce(&mut Code)) {
     let program = native.program.clone();
     plant(&mut native.program);
     let one = native.check_one::<T>();
@@ -49,22 +49,28 @@ fn every_fault_is_found<T: Real>() {
     for states in LAYOUTS {
         native.prepare(states).unwrap();
     }
-    for index in 0..native.program.steps.len() {
-        let own = native.program.steps[index].operation;
+    let operations: Vec<_> = native.program.dag.operations().collect();
+    for (id, own, operands) in operations {
         for other in [Operation::Add, Operation::Sub, Operation::Mul] {
             if other != own {
-                let fault = format!("{other:?} at step {index}");
-                refused::<T>(&mut native, &fault, |p| p.steps[index].operation = other);
+                let fault = format!("{other:?} at node {id}");
+                let wrong = Node::Apply(other, operands);
+                refused::<T>(&mut native, &fault, |p| p.dag.nodes[id as usize] = wrong);
             }
         }
-        let fault = format!("another operand of step {index}");
-        refused::<T>(&mut native, &fault, |p| {
-            p.steps[index].left = Operand::Constant(Literal(0.3));
-        });
+        // The first operation may have nothing else before it.
+        let others = (0..id).filter(|other| *other != operands[0]);
+        if let Some(other) = others.last() {
+            let fault = format!("another operand of node {id}");
+            let wrong = Node::Apply(own, [other, operands[1]]);
+            refused::<T>(&mut native, &fault, |p| p.dag.nodes[id as usize] = wrong);
+        }
     }
-    for index in 0..native.program.outputs.len() {
+    for index in 0..native.program.dag.outputs.len() {
         let fault = format!("sign of result {index}");
-        refused::<T>(&mut native, &fault, |p| p.outputs[index].negative ^= true);
+        refused::<T>(&mut native, &fault, |p| {
+            p.dag.outputs[index].negative ^= true
+        });
     }
 }
 

@@ -63,8 +63,8 @@ fn other_sines_and_fused_products() {
         ));
         let arm = robot("planar3r", &load);
         let fuses = arm.functions().iter().any(|function| {
-            let steps = &function.native().program().steps;
-            steps.iter().any(|step| step.operation == Operation::Fused)
+            let mut operations = function.native().program().dag.operations();
+            operations.any(|(_, operation, _)| operation == Operation::Fused)
         });
         assert_eq!(fuses, fuses_products);
         compare_all("planar3r", &arm, STATES / 10);

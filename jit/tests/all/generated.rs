@@ -8,7 +8,9 @@ use std::process::{Command, Stdio};
 
 use dalembert_jit::{Arm, Function, Real, Scalar};
 
-use crate::support::{Folder, ROBOTS, all_outputs_in_both, asking, drawn, is_same, robot, state};
+use crate::support::{
+    Folder, ROBOTS, all_outputs_in_both, arguments, asking, drawn, is_same, robot,
+};
 
 /// How many states each function is compared at.
 const STATES: usize = 10_000;
@@ -151,9 +153,8 @@ bytes!(f64);
 
 /// Appends the arguments of the states of a function, after those of others.
 fn put<T: Bytes>(function: &Function, input: &mut Vec<u8>) {
-    let states = drawn::<T>(function.native(), STATES, 7);
-    for at in 0..STATES {
-        let arguments = state(function.native(), &states, at);
+    for state in drawn::<T>(function.native(), STATES, 7) {
+        let arguments = arguments(function.native(), &state);
         arguments
             .iter()
             .flatten()
@@ -164,10 +165,9 @@ fn put<T: Bytes>(function: &Function, input: &mut Vec<u8>) {
 /// Compares results of the program with those of the code in memory.
 fn compare<T: Bytes>(name: &str, function: &Function, output: &mut &[u8]) {
     let native = function.native();
-    let states = drawn::<T>(native, STATES, 7);
-    let mut found = vec![T::default(); native.program().outputs.len()];
-    for at in 0..STATES {
-        let arguments = state(native, &states, at);
+    let mut found = vec![T::default(); native.program().dag.outputs.len()];
+    for state in drawn::<T>(native, STATES, 7) {
+        let arguments = arguments(native, &state);
         let slices: Vec<&[T]> = arguments.iter().map(Vec::as_slice).collect();
         native.call(&slices, &mut found).unwrap();
         for (entry, &found) in found.iter().enumerate() {

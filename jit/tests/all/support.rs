@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::workspace::{Argument, ProgramColumns as Columns, Random};
+use dalembert_codegen::workspace::{Argument, Random, State};
 use dalembert_jit::{Arm, Cache, Load, Native, Output, Place, Real, Rows, RowsMut};
 
 /// The robots of `generated/`.
@@ -95,26 +95,22 @@ fn entry(random: &mut Random, reach: f64) -> f64 {
     }
 }
 
-/// States in columns.
-pub fn drawn<T: Real>(native: &Native, states: usize, seed: u64) -> Columns<T> {
+/// Draws states.
+pub fn drawn<T: Real>(native: &Native, states: usize, seed: u64) -> Vec<State<T>> {
     let mut random = Random::new(seed);
-    let mut columns = Columns {
-        len: states,
-        ..Columns::default()
-    };
+    let mut all: Vec<State<T>> = vec![State::default(); states];
     for &(argument, entries) in &native.signature().arguments {
         let reach = match argument {
             Argument::Position => 7.0,
             other => other.reach(),
         };
-        let mut column = |_| {
-            (0..states)
-                .map(|_| T::literal(entry(&mut random, reach)))
-                .collect()
-        };
-        columns.arguments[argument.index()] = (0..entries).map(&mut column).collect();
+        for _ in 0..entries {
+            for state in &mut all {
+                state[argument.index()].push(T::literal(entry(&mut random, reach)));
+            }
+        }
     }
-    columns
+    all
 }
 
 /// Returns whether bits are equal, or both no number.
@@ -123,40 +119,36 @@ pub fn is_same<T: Real>(left: T, right: T) -> bool {
     left.to_bits() == right.to_bits() || (left.is_nan() && right.is_nan())
 }
 
-/// Returns one state of columns, an array an argument.
-pub fn state<T: Real>(native: &Native, columns: &Columns<T>, at: usize) -> Vec<Vec<T>> {
+/// Returns the arguments of a function at a state.
+pub fn arguments<T: Real>(native: &Native, state: &State<T>) -> Vec<Vec<T>> {
     let arguments = native.signature().arguments.iter();
-    let of = |&(argument, _): &(Argument, usize)| {
-        columns.arguments[argument.index()]
-            .iter()
-            .map(|column| column[at])
-            .collect()
-    };
-    arguments.map(of).collect()
+    arguments
+        .map(|(argument, _)| state[argument.index()].clone())
+        .collect()
 }
 
 /// Returns the code for many states, its arguments and results as columns or as rows.
 pub fn called<T: Real>(
     native: &Native,
-    columns: &Columns<T>,
+    drawn: &[State<T>],
     in_rows: bool,
     threads: usize,
 ) -> Vec<Vec<T>> {
-    let (signature, states) = (native.signature(), columns.len);
+    let (signature, states) = (native.signature(), drawn.len());
     let place = |entries| match in_rows {
         true => Place::rows(entries),
         false => Place::columns(entries, states),
     };
-    let flat = |argument: Argument| -> Vec<T> {
-        let own = &columns.arguments[argument.index()];
+    let flat = |&(argument, entries): &(Argument, usize)| -> Vec<T> {
+        let own = || drawn.iter().map(|state| &state[argument.index()]);
         match in_rows {
-            true => (0..states)
-                .flat_map(|at| own.iter().map(move |column| column[at]))
+            true => own().flatten().copied().collect(),
+            false => (0..entries)
+                .flat_map(|entry| own().map(move |own| own[entry]))
                 .collect(),
-            false => own.iter().flatten().copied().collect(),
         }
     };
-    let data: Vec<Vec<T>> = signature.arguments.iter().map(|&(a, _)| flat(a)).collect();
+    let data: Vec<Vec<T>> = signature.arguments.iter().map(flat).collect();
     let rows = data.iter().zip(&signature.arguments);
     let rows: Vec<Rows<'_, T>> = rows
         .map(|(data, &(_, entries))| Rows {
@@ -196,14 +188,14 @@ pub fn called<T: Real>(
 pub fn compare<T: Real>(name: &str, native: &Native, states: usize) {
     const CHUNK: usize = 999;
     let mut done = 0;
-    let mut results = vec![T::default(); native.program().outputs.len()];
+    let mut results = vec![T::default(); native.program().dag.outputs.len()];
     while done < states {
         let len = CHUNK.min(states - done);
-        let columns = drawn::<T>(native, len, done as u64 + 1);
-        let expected = native.program().run_columns(&columns);
-        let many = [false, true].map(|in_rows| called(native, &columns, in_rows, 1));
+        let drawn = drawn::<T>(native, len, done as u64 + 1);
+        let expected = native.program().run_many(&drawn).unwrap();
+        let many = [false, true].map(|in_rows| called(native, &drawn, in_rows, 1));
         for at in 0..len {
-            let arguments = state(native, &columns, at);
+            let arguments = arguments(native, &drawn[at]);
             let slices: Vec<&[T]> = arguments.iter().map(Vec::as_slice).collect();
             native.call(&slices, &mut results).unwrap();
             for (entry, expected) in expected.iter().enumerate() {

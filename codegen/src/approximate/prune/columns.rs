@@ -2,17 +2,15 @@
 //!
 //! Samples only rank candidates; what is admitted is certified.
 //!
-//! The operations are [`Step`]s, as in every program, and run as in
-//! [`program::columns`](crate::program::columns). Of their own are the edits,
+//! The operations are [`Step`]s, as in every program. Of their own are the edits,
 //! which lie over them: so a candidate is tried by running again what depends
 //! on one node, and nothing else, and is taken back as quickly.
 
 use std::collections::BTreeMap;
 
+use super::side_by_side::Column;
 use crate::edits::{Edit, EditSite};
 use crate::function::Argument;
-use crate::program::columns::Column;
-use crate::program::run::angle_value;
 use crate::program::{Input, Operand, Output, Program, Step};
 use crate::states::JointState;
 use dalembert_model::number::parse::parse_decimal;
@@ -61,12 +59,23 @@ impl Nodes {
         for (index, place) in inputs.values_mut().enumerate() {
             *place = index;
         }
-        let place = |input: &Input| inputs[input];
-        let steps = program.steps.iter();
-        let outputs = program.outputs.iter();
+        let operand = |operand: &Operand| match operand {
+            Operand::Input(input) => Operand::Input(inputs[input]),
+            Operand::Constant(constant) => Operand::Constant(f64::nearest(constant)),
+            Operand::Step(step) => Operand::Step(*step),
+        };
+        let steps = program.steps.iter().map(|step| Step {
+            operation: step.operation,
+            left: operand(&step.left),
+            right: operand(&step.right),
+        });
+        let outputs = program.outputs.iter().map(|output| Output {
+            negative: output.negative,
+            value: operand(&output.value),
+        });
         let mut nodes = Nodes {
-            steps: steps.map(|step| step.map(f64::nearest, place)).collect(),
-            outputs: outputs.map(|out| out.map(f64::nearest, place)).collect(),
+            steps: steps.collect(),
+            outputs: outputs.collect(),
             inputs: inputs.into_keys().collect(),
             samples: 0,
             columns: Vec::new(),
@@ -271,8 +280,8 @@ fn decimal(x: f64) -> Exact {
 
 fn at(input: Input, state: &JointState) -> f64 {
     match input {
-        Input::Sin(sum) => libm::sin(angle_value(sum, &state.q)),
-        Input::Cos(sum) => libm::cos(angle_value(sum, &state.q)),
+        Input::Sin(joint) => libm::sin(state.q[joint]),
+        Input::Cos(joint) => libm::cos(state.q[joint]),
         // What reads it has no bounds and is not pruned.
         Input::PerSpeed(_) => f64::NAN,
         Input::Entry(argument, joint) => state.entry(argument, joint),

@@ -11,7 +11,7 @@
 //!
 //! - `search`: guesses, each certified
 //! - `greedy`: the ranking
-//! - `columns`: programs at many states
+//! - `columns`: programs at many states; `side_by_side`: their operations
 //! - `fit`: constants corrected for what is left out
 //! - `price`: operations that stay
 //! - `spares`: multiples of values that others could be replaced by
@@ -23,6 +23,7 @@ mod greedy;
 mod omissions;
 mod price;
 mod search;
+mod side_by_side;
 mod spares;
 mod tally;
 

@@ -58,7 +58,7 @@ pub(super) fn price(nodes: &Nodes, edits: &[Option<Value>], scratch: &mut Scratc
             && !angles.contains(angle)
         {
             angles.push(*angle);
-            total += SINCOS + angle.additions() as u32;
+            total += SINCOS;
         }
     }
     total

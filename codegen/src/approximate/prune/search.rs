@@ -12,7 +12,6 @@ use crate::bound::{magnitude, sample};
 use crate::dag::{Dag, Folding};
 use crate::edits::{Stage, deviation, difference, has_edits};
 use crate::interval::Interval;
-use crate::program::columns::Columns;
 use crate::program::{Program, ScalarType, has_inertia};
 use crate::random::Random;
 use crate::search::{Effort, search};
@@ -360,8 +359,8 @@ fn within(ratios: &[f64]) -> bool {
 
 /// Returns a program's outputs at states, output after output.
 fn outputs(program: &Program, states: &[JointState]) -> Vec<f64> {
-    let code = program.lower(ScalarType::F64, |_| None);
-    code.run_columns(&Columns::<f64>::of(states)).concat()
+    let code = program.in_doubles();
+    code.run_at_many(states).concat()
 }
 
 /// Returns the last stage's edited program, simplified if asked.

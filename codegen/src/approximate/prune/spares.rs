@@ -81,7 +81,7 @@ mod tests {
     use crate::dag::{Builder, Folding};
     use crate::function::{Argument, Function};
     use crate::interval::Interval;
-    use crate::program::{AngleSum, Input};
+    use crate::program::Input;
     use crate::random::Random;
     use crate::verify::exact::prove_same;
     use dalembert_model::number::Rounded;
@@ -91,7 +91,7 @@ mod tests {
     #[test]
     fn the_nearest_multiple_stands_before_a_sum() {
         let mut builder = Builder::new(Folding::Syntactic);
-        let [sine, cosine] = [Input::Sin, Input::Cos].map(|of| of(AngleSum::joint(0)));
+        let [sine, cosine] = [Input::Sin, Input::Cos].map(|of| of(0));
         let [sine, cosine] = [sine, cosine].map(|input| builder.input(input));
         let numbers = [(3, 1), (1, 8)];
         let [three, eighth] = numbers.map(|(n, d): (i64, i64)| {

@@ -10,13 +10,13 @@ use super::terms::{Model, Terms, nothing};
 use crate::dag::{Builder as GraphBuilder, Dag, Folding};
 use crate::edits::traced;
 use crate::program::Program;
-use crate::scene::{FittedLink, SceneRobot};
 use crate::search::{Effort, cost, search};
 use crate::seeds::{self, regrouped, skeleton, trace_chain, tuned};
+use crate::setup::{FittedLink, Setup};
 
 /// A writer of programs for the models of one function.
 pub(super) struct Builder<'a> {
-    pub scene_robot: &'a SceneRobot,
+    pub setup: &'a Setup,
     pub exact: &'a Program,
     pub terms: &'a Terms,
 }
@@ -32,8 +32,7 @@ impl Builder<'_> {
         let skeleton = skeleton(&fitted);
         let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
         let graph = trace_chain(
-            &fitted,
-            self.exact.function,
+            fitted.task(self.exact.function),
             &chain,
             form,
             Folding::Semantic,
@@ -46,11 +45,11 @@ impl Builder<'_> {
         let fitted = self.fitted(&model.terms, &model.factors);
         let (function, effort) = (self.exact.function, Effort::Quick);
         let forms = self.forms();
-        let tuned = tuned(&fitted, function, &forms, effort, None, &[], None);
-        let seeds = regrouped(&fitted, function, &forms, &tuned);
+        let tuned = tuned(fitted.task(function), &forms, effort, None, &[], None);
+        let seeds = regrouped(fitted.task(function), &forms, &tuned);
         let graphs: Vec<Dag> = seeds.into_iter().map(|seed| seed.graph).collect();
         let found = search(&graphs, &[], &|n| effort.limits(n), &|_| true, &|_, _| true)?;
-        let small = Program::in_scene(&fitted, function, &found.graph);
+        let small = Program::in_scene(fitted.task(function), &found.graph);
         let mut builder = GraphBuilder::new(Folding::Semantic);
         let values = traced(&small, &mut builder);
         let mut outputs = vec![builder.zero(); self.exact.outputs.len()];
@@ -65,15 +64,15 @@ impl Builder<'_> {
     }
 
     /// Returns the chain with these terms, and the rows that are not zero.
-    fn fitted(&self, terms: &[usize], factors: &[f64]) -> SceneRobot {
-        let mut links = nothing(&seeds::skeleton(self.scene_robot));
+    fn fitted(&self, terms: &[usize], factors: &[f64]) -> Setup {
+        let mut links = nothing(&seeds::skeleton(self.setup));
         for (&term, &factor) in terms.iter().zip(factors) {
             let term = &self.terms.all[term];
             add(&mut links[term.link], &term.unit, &short(factor));
         }
         let rows = self.terms.outputs.iter();
         let rows: Vec<usize> = rows.map(|&output| self.exact.rows[output]).collect();
-        self.scene_robot.fitted(links, &rows)
+        self.setup.fitted(links, &rows)
     }
 }
 

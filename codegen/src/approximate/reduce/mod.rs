@@ -27,7 +27,7 @@ use crate::bound::input_box::InputBox;
 use crate::parallel;
 use crate::program::Program;
 use crate::random::Random;
-use crate::scene::SceneRobot;
+use crate::setup::Setup;
 use crate::watch::FunctionWatch;
 use build::Builder;
 use terms::Terms;
@@ -45,7 +45,7 @@ const USES: [f64; 8] = [0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.8, 0.93];
 /// of the allowances to the smallest; none for a function that is not linear in the links'
 /// moments, or where nothing may go.
 pub(super) fn programs(
-    scene_robot: &SceneRobot,
+    setup: &Setup,
     exact: &Program,
     limits: &InputBox,
     allowances: &[f64],
@@ -53,14 +53,14 @@ pub(super) fn programs(
 ) -> Vec<Program> {
     let is_over = || watch.is_some_and(|watch| watch.is_over());
     let positions = motions::positions(limits, POSITIONS, &mut Random::new(SEED));
-    let Some(terms) = Terms::new(scene_robot, exact, limits, allowances, &positions) else {
+    let Some(terms) = Terms::new(setup, exact, limits, allowances, &positions) else {
         return Vec::new();
     };
     if terms.outputs.is_empty() {
         return Vec::new();
     }
     let builder = Builder {
-        scene_robot,
+        setup,
         exact,
         terms: &terms,
     };

@@ -8,10 +8,9 @@ use dalembert_model::scalar::Scalar;
 use crate::approximate::motions::Motions;
 use crate::bound::input_box::InputBox;
 use crate::dag::Folding;
-use crate::program::columns::Columns;
-use crate::program::{Program, ScalarType};
-use crate::scene::{FittedLink, SceneRobot};
+use crate::program::Program;
 use crate::seeds::{skeleton, trace_chain};
+use crate::setup::{FittedLink, Setup};
 use crate::states::JointState;
 
 /// An output that is never more than this part of its allowance is zero.
@@ -53,7 +52,7 @@ impl Terms {
     /// Computes the columns at sampled positions; `None` where results are no linear
     /// function of the links' parameters, one a row.
     pub(super) fn new(
-        scene_robot: &SceneRobot,
+        setup: &Setup,
         exact: &Program,
         limits: &InputBox,
         allowances: &[f64],
@@ -62,7 +61,7 @@ impl Terms {
         let function = exact.function;
         let mut quantities = function.quantities().iter();
         let is_regrouped = quantities.all(|quantity| quantity.is_regrouped());
-        let is_plain = scene_robot.load().is_none() && !scene_robot.takes_any(function);
+        let is_plain = setup.load().is_none() && !setup.takes_any(function);
         if exact.outputs.len() != exact.rows.len() || !is_regrouped || !is_plain {
             return None;
         }
@@ -85,16 +84,16 @@ impl Terms {
                 terms.whole.extend(values.iter().map(|x| x / allowance));
             }
         }
-        let skeleton = skeleton(scene_robot);
+        let skeleton = skeleton(setup);
         for (link, unit, stands_for) in units(&skeleton) {
             let mut links = nothing(&skeleton);
             links[link] = unit.clone();
-            let fitted = scene_robot.fitted(links, &exact.rows);
+            let fitted = setup.fitted(links, &exact.rows);
             let skeleton = crate::seeds::skeleton(&fitted);
             let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
             let form = *function.forms().first()?;
-            let graph = trace_chain(&fitted, function, &chain, form, Folding::Semantic).0;
-            let values = terms.values(&Program::in_scene(&fitted, function, &graph), &states);
+            let graph = trace_chain(fitted.task(function), &chain, form, Folding::Semantic).0;
+            let values = terms.values(&Program::in_scene(fitted.task(function), &graph), &states);
             let outputs = terms.outputs.iter();
             let column = outputs.flat_map(|&output| {
                 let values = values[output].iter();
@@ -113,8 +112,8 @@ impl Terms {
 
     /// Runs a program: for each output, the monomials at each position.
     fn values(&self, program: &Program, states: &[JointState]) -> Vec<Vec<f64>> {
-        let code = program.lower(ScalarType::F64, |_| None);
-        let mut values = code.run_columns(&Columns::<f64>::of(states));
+        let code = program.in_doubles();
+        let mut values = code.run_at_many(states);
         for values in &mut values {
             self.motions.monomials(values);
         }

@@ -6,7 +6,7 @@ use super::{Forms, Monomial, Work};
 use crate::dag::{Dag, Node};
 use crate::function::Argument;
 use crate::interval::Interval;
-use crate::program::{AngleSum, Input, Operation};
+use crate::program::{Input, Operation};
 
 /// Above this much work a product, rates are taken as plain intervals.
 const MAX_PRODUCTS: usize = 400_000;
@@ -39,7 +39,7 @@ impl Forms {
                     let first = forms.coefficients as u32;
                     place(forms.leaf(*input), &mut forms);
                     forms.work.push(Work::Leaf(first, *input));
-                    for joint in position_joints(*input) {
+                    if let Some(joint) = position_joint(*input) {
                         positions[joint] = true;
                     }
                 }
@@ -98,14 +98,13 @@ impl Forms {
     }
 }
 
-fn position_joints(input: Input) -> impl Iterator<Item = usize> {
-    let (angle, slide) = match input {
-        Input::Sin(angle) | Input::Cos(angle) => (Some(angle), None),
-        Input::Entry(Argument::Position, joint) => (None, Some(joint)),
-        _ => (None, None),
-    };
-    let turned = angle.into_iter().flat_map(AngleSum::terms);
-    turned.map(|(joint, _)| joint).chain(slide)
+fn position_joint(input: Input) -> Option<usize> {
+    match input {
+        Input::Sin(joint) | Input::Cos(joint) | Input::Entry(Argument::Position, joint) => {
+            Some(joint)
+        }
+        _ => None,
+    }
 }
 
 /// Returns the product of two monomials: what is kept, and the variables that go into

@@ -145,7 +145,7 @@ mod tests {
     use crate::dag::{Builder, Folding};
     use crate::function::Argument;
     use crate::interval::Interval;
-    use crate::program::{AngleSum, Input};
+    use crate::program::Input;
     use dalembert_model::number::{Exact, Rational};
 
     /// A rate that is always zero: its terms are nothing, not the least double.
@@ -153,7 +153,7 @@ mod tests {
     fn what_never_moves_is_bounded_by_nothing() {
         let mut builder = Builder::new(Folding::Syntactic);
         let rate = builder.input(Input::Entry(Argument::Velocity, 0));
-        let cosine = builder.input(Input::Cos(AngleSum::joint(0)));
+        let cosine = builder.input(Input::Cos(0));
         let load = builder.mul(rate, cosine);
         let graph = builder.finish(vec![load]);
         let mut limits = InputBox {

@@ -19,7 +19,7 @@ use crate::interval::rounding::{self, Forward, binade};
 use crate::program::adjoint::{Leaf, backward};
 use crate::program::fused::underflows;
 use crate::program::scalar_type::underflow;
-use crate::program::{AngleSum, Input, Operand, Operation, Program, ScalarType, Speed, Step};
+use crate::program::{Input, Operand, Operation, Program, ScalarType, Speed, Step};
 use crate::sincos::AngleKernel;
 use crate::sincos::proof::Errors;
 
@@ -46,7 +46,7 @@ pub(super) fn rounding(
 /// And the errors of polynomials for sines, which hold in every sub-box.
 pub(in crate::bound) struct Constants {
     steps: Vec<[Option<(Interval, f64)>; 2]>,
-    sines: Vec<(AngleSum, Errors)>,
+    sines: Vec<(usize, Errors)>,
     /// What 1/√(q̇² + w²) of a joint may be, as it is computed.
     speeds: Vec<(usize, Interval)>,
 }
@@ -64,7 +64,7 @@ impl Constants {
         let steps = program.steps.iter();
         Constants {
             steps: steps.map(|s| [found(&s.left), found(&s.right)]).collect(),
-            sines: sines.iter().map(|sine| (sine.angle, sine.errors)).collect(),
+            sines: sines.iter().map(|sine| (sine.joint, sine.errors)).collect(),
             speeds: program
                 .speeds
                 .iter()
@@ -86,8 +86,8 @@ impl Constants {
 
     /// Returns the proved error of a polynomial for a sine or cosine; `None` for a library's.
     fn sine(&self, input: Input) -> Option<f64> {
-        let angle = input.angle()?;
-        let (_, errors) = self.sines.iter().find(|(known, _)| *known == angle)?;
+        let joint = input.angle()?;
+        let (_, errors) = self.sines.iter().find(|(known, _)| *known == joint)?;
         Some(match input {
             Input::Sin(_) => errors.sin,
             _ => errors.cos,
@@ -173,22 +173,14 @@ pub(super) fn read(
     match operand {
         Operand::Step(index) => (values[*index], 0.0),
         Operand::Constant(constant) => rounded(constant, scalar),
-        Operand::Input(input @ (Input::Sin(angle) | Input::Cos(angle))) => {
+        Operand::Input(input @ (Input::Sin(_) | Input::Cos(_))) => {
             let exact = sub.input(*input);
-            // Each addition that forms the angle rounds; a sine moves no more
-            // than its angle.
-            let additions = angle.additions() as f64;
-            let reach: f64 = angle
-                .terms()
-                .map(|(joint, _)| sub.position[joint].magnitude())
-                .sum();
-            let sum = 1.01 * additions * u * reach;
             let size = exact.magnitude();
             let one_ulp = u * size.min(0.5) * 2.0;
             let error = match constants.sine(*input) {
-                Some(error) => (error + sum).next_up(),
+                Some(error) => error.next_up(),
                 None if size == 0.0 => 0.0,
-                None => (one_ulp + sum).next_up(),
+                None => one_ulp.next_up(),
             };
             (exact.widened(error), error)
         }

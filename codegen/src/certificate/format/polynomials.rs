@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::Ends;
-use crate::program::kernel::{Kernel, KernelStep, Term, Value};
+use crate::dag::{Id, Node};
 use crate::sincos::AngleKernel;
 
 /// One angle's.
@@ -24,33 +24,30 @@ pub(super) struct Polynomials {
 
 impl Polynomials {
     pub(super) fn of(sine: &AngleKernel) -> Polynomials {
-        let Kernel { steps, sin, cos } = &sine.kernel;
-        let line = |step: &KernelStep| {
-            let symbol = step.operation.symbol();
-            format!("{} {symbol} {}", write(step.left), write(step.right))
+        let kernel = &sine.kernel;
+        let numbers = kernel.dag.numbers();
+        let term = |id: Id| match kernel.dag.node(id) {
+            Node::Input(_) => "q".to_owned(),
+            Node::Constant(value) => format!("{:?}", value.0),
+            Node::Apply(..) => format!("x{}", numbers[id as usize].unwrap_or_default()),
         };
-        let result = |value: &Option<Value>| {
-            value.map(|value| {
-                let sign = if value.negative { "~" } else { "" };
-                format!("{sign}{}", write(value.value))
-            })
-        };
+        let steps = kernel.dag.operations();
+        let steps = steps.map(|(_, operation, [left, right])| {
+            format!("{} {} {}", term(left), operation.symbol(), term(right))
+        });
+        let [sin, cos] = kernel.results().map(|result| {
+            let edge = result?;
+            let sign = if edge.negative { "~" } else { "" };
+            Some(format!("{sign}{}", term(edge.node)))
+        });
         Polynomials {
-            angle: sine.angle.to_string(),
+            angle: (sine.joint + 1).to_string(),
             range: [sine.range.low(), sine.range.high()],
             sin: sine.errors.sin,
             cos: sine.errors.cos,
-            steps: steps.iter().map(line).collect(),
-            sine: result(sin),
-            cosine: result(cos),
+            steps: steps.collect(),
+            sine: sin,
+            cosine: cos,
         }
-    }
-}
-
-fn write(term: Term) -> String {
-    match term {
-        Term::Input(_) => "q".into(),
-        Term::Constant(value) => format!("{:?}", value.0),
-        Term::Step(step) => format!("x{}", step + 1),
     }
 }

@@ -8,6 +8,7 @@ use std::fmt::Write;
 use super::vectors;
 use crate::language::Printed;
 use crate::language::c99::largest;
+use crate::language::trig;
 use crate::program::ScalarType;
 
 /// The largest error of a sine or cosine with fused products, in u: the documentation of
@@ -21,8 +22,8 @@ pub(crate) fn columns(printed: &Printed<'_>) -> String {
     let (n, scalar) = (printed.sizes.joints, printed.code.scalar);
     let arguments = printed.arguments.iter().map(|argument| argument.name());
     let arguments: Vec<&str> = arguments.collect();
-    let (count, entries) = (arguments.len(), printed.code.outputs.len());
-    let taken = vectors::taken(printed.code).count();
+    let (count, entries) = (arguments.len(), printed.code.dag.outputs.len());
+    let taken = trig::taken(printed.code).count();
     let sizes = format!("{count}, {n}, {entries}, {taken}");
     let bits = match vectors::fuses_sines(printed.code) {
         false => {

@@ -18,21 +18,13 @@
 use std::fmt::Write;
 
 use crate::function::Argument;
-use crate::language::dialect::Dialect;
+use crate::language::dialect::{Dialect, Lines};
 use crate::language::{Printed, angles, function, sines, speed, trig};
-use crate::program::{Lowered, LoweredTrig, Operation, Step};
-
-/// Returns the angles whose sines are given.
-pub(super) fn taken(code: &Lowered) -> impl Iterator<Item = &LoweredTrig> {
-    code.trig
-        .iter()
-        .filter(|trig| trig::is_together(trig, code))
-}
+use crate::program::{Code, Pair};
 
 /// Returns whether products are fused in the sines that are given, as they are in what reads them.
-pub(super) fn fuses_sines(code: &Lowered) -> bool {
-    let is_fused = |step: &Step<_>| step.operation == Operation::Fused;
-    code.steps.iter().any(is_fused) && taken(code).next().is_some()
+pub(super) fn fuses_sines(code: &Code) -> bool {
+    code.counts().fma > 0 && trig::taken(code).next().is_some()
 }
 
 /// Prints the methods that compute in vectors.
@@ -41,28 +33,27 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>) {
     let code = printed.code;
     let dialect = Dialect::vectors(code.scalar);
     let mut body = String::new();
-    for trig in code
-        .trig
-        .iter()
-        .filter(|trig| !trig::is_together(trig, code))
-    {
-        write_sines(&mut body, trig, dialect);
+    let computed = || {
+        let pairs = code.pairs.iter();
+        pairs.filter(|pair| !trig::is_together(pair, code))
+    };
+    for pair in computed() {
+        write_sines(&mut body, pair, dialect);
     }
     speed::write(&mut body, dialect, code, "dalembert_batch");
     function::write_steps(&mut body, code, dialect);
-    let outputs = code.outputs.iter();
-    let results: Vec<String> = outputs.map(|o| function::result_item(o, dialect)).collect();
+    let results: Vec<String> = Lines::new(dialect, code).results().collect();
     let results = results.join(", ");
     let first = printed.arguments.first().map_or("", |first| first.name());
     let of = match body.contains("of.all(") || results.contains("of.all(") {
         true => format!("        let of = {first}[0];\n"),
         false => String::new(),
     };
-    let is_computed = code.trig.iter().any(|trig| !trig::is_together(trig, code));
+    let is_computed = computed().next().is_some();
     let (count, n, entries) = (
         printed.arguments.len(),
         printed.sizes.joints,
-        code.outputs.len(),
+        code.dag.outputs.len(),
     );
     let arguments = printed.arguments.iter().map(|&argument| {
         let is_read = function::reads_entry(code, argument)
@@ -75,12 +66,7 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>) {
         )
     });
     let arguments: Vec<String> = arguments.collect();
-    let name = |is_taken: bool, letter: char, trig: &LoweredTrig| match is_taken {
-        true => format!("{letter}{}", trig.angle),
-        false => "_".to_owned(),
-    };
-    let sin: Vec<String> = taken(code).map(|trig| name(trig.sin, 's', trig)).collect();
-    let cos: Vec<String> = taken(code).map(|trig| name(trig.cos, 'c', trig)).collect();
+    let [sin, cos] = trig::taken_names(code);
     let _ = writeln!(
         text,
         "\n    #[inline(always)]\n    \
@@ -88,9 +74,9 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>) {
          &[{}]: &[V; {taken}], &[{}]: &[V; {taken}]) -> [V; {entries}] {{",
         code.scalar,
         arguments.join(", "),
-        sin.join(", "),
-        cos.join(", "),
-        taken = sin.len(),
+        sin,
+        cos,
+        taken = trig::taken(code).count(),
     );
     text.push_str(&of);
     for line in body.lines() {
@@ -102,7 +88,7 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>) {
 /// Prints which angles sines are given of.
 fn write_angles(text: &mut String, printed: &Printed<'_>) {
     let (code, n, count) = (printed.code, printed.sizes.joints, printed.arguments.len());
-    let angles: Vec<_> = taken(code).map(|trig| trig.angle).collect();
+    let angles: Vec<_> = trig::taken(code).map(|pair| pair.joint).collect();
     let arguments = printed.arguments.iter().map(|argument| argument.name());
     let is_read = |name: &str| name == "q" && !angles.is_empty();
     let arguments: Vec<String> = arguments
@@ -117,26 +103,21 @@ fn write_angles(text: &mut String, printed: &Printed<'_>) {
         arguments.join(", "),
         angles.len()
     );
-    let angles: Vec<String> = angles.iter().map(|&own| angles::sum(own)).collect();
+    let angles: Vec<String> = angles.iter().map(|&own| angles::operand(own)).collect();
     let _ = writeln!(text, "        [{}]\n    }}", angles.join(", "));
 }
 
 /// Prints the sines of an angle that are computed for themselves.
-fn write_sines(text: &mut String, trig: &LoweredTrig, dialect: Dialect) {
-    if trig.angle.additions() > 0 {
-        let _ = writeln!(
-            text,
-            "    let a{} = {};",
-            trig.angle,
-            angles::sum(trig.angle)
-        );
+fn write_sines(text: &mut String, pair: &Pair, dialect: Dialect) {
+    let (names, angle) = (
+        angles::names(pair.joint, pair.need),
+        angles::operand(pair.joint),
+    );
+    if let Some(kernel) = &pair.kernel {
+        return sines::write(text, &names, &angle, kernel, dialect);
     }
-    let (pair, angle) = (angles::pair(trig), angles::operand(trig.angle));
-    if let Some(kernel) = &trig.kernel {
-        return sines::write(text, &pair, &angle, kernel, dialect);
-    }
-    let called = trig::called(trig);
+    let called = trig::called(pair.need);
     let method = if called == "sincos" { "both" } else { "each" };
     let library = format!("libm::{called}{}", dialect.scalar.math_suffix());
-    let _ = writeln!(text, "    let {pair} = {angle}.{method}({library});");
+    let _ = writeln!(text, "    let {names} = {angle}.{method}({library});");
 }

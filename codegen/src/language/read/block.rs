@@ -1,54 +1,67 @@
 //! The block of an angle's polynomials, and what its lines have in common with all others.
 
 use super::expect;
+use crate::dag::{Edge, Id};
+use crate::language::angles;
 use crate::language::dialect::{Dialect, holes};
-use crate::program::kernel::{ANGLE, Kernel, Term};
-use crate::program::{AngleSum, Literal, LoweredTrig, Operand, Operation, Output, Step};
+use crate::program::kernel::{Kernel, KernelWriter};
+use crate::program::{Literal, Need, Operation, Pair};
 
 /// The open block of an angle's polynomials.
 pub(super) struct Block {
-    pub(super) trig: LoweredTrig,
+    pub(super) joint: usize,
+    pub(super) need: Need,
     /// The name of the angle in its lines.
     argument: String,
-    /// The name of the steps in its lines, before the number.
+    /// The name of the operations in its lines, before the number.
     prefix: String,
-    pub(super) kernel: Kernel,
+    writer: KernelWriter,
+    /// The operations so far.
+    operations: Vec<Id>,
+    /// The results so far, in the order of the kernel's.
+    results: Vec<Edge>,
     /// `true` once the result was read.
     done: bool,
 }
 
 impl Block {
     /// Opens the block of an angle by the names in its lines.
-    pub(super) fn new(trig: LoweredTrig, argument: String, prefix: String) -> Block {
+    pub(super) fn new(joint: usize, need: Need, argument: String, prefix: String) -> Block {
         Block {
-            trig,
+            joint,
+            need,
             argument,
             prefix,
-            kernel: Kernel::default(),
+            writer: KernelWriter::default(),
+            operations: Vec::new(),
+            results: Vec::new(),
             done: false,
         }
     }
 
     /// Returns what was read.
-    pub(super) fn done(self) -> LoweredTrig {
-        LoweredTrig {
-            kernel: Some(self.kernel),
-            ..self.trig
+    pub(super) fn done(self) -> Pair {
+        let kernel = Kernel {
+            need: self.need,
+            dag: self.writer.finish(self.results),
+        };
+        Pair {
+            joint: self.joint,
+            need: self.need,
+            kernel: Some(kernel),
         }
     }
 
-    /// Returns the block that a line opens: `let (s1, c1) = {`. A sum of angles is the one
-    /// that the line before formed.
-    pub(super) fn begin(line: &str, sums: &mut Vec<AngleSum>) -> Option<Block> {
+    /// Returns the block that a line opens: `let (s1, c1) = {`.
+    pub(super) fn begin(line: &str) -> Option<Block> {
         let names = line.strip_prefix("let ")?.strip_suffix(" = {")?;
-        let name = list(names)[0];
-        let angle: AngleSum = name.strip_prefix(['s', 'c'])?.parse().ok()?;
-        let trig = pair(names, angle)?;
-        let argument = match angle.additions() {
-            0 => format!("q[{}]", angle.terms().next()?.0),
-            _ => format!("a{}", sums.pop_if(|sum| *sum == angle)?),
-        };
-        Some(Block::new(trig, argument, "x".to_owned()))
+        let joint = joint_of(list(names)[0].strip_prefix(['s', 'c'])?)?;
+        let mut needs = [(true, true), (true, false), (false, true)]
+            .into_iter()
+            .map(|(sin, cos)| Need { sin, cos });
+        let need = needs.find(|need| names == angles::names(joint, *need))?;
+        let argument = angles::operand(joint);
+        Some(Block::new(joint, need, argument, "x".to_owned()))
     }
 
     /// Takes a line; whether it ends the block.
@@ -60,19 +73,13 @@ impl Block {
         match holes(dialect.declaration, line) {
             Some([name, value]) => self.step(name, value, dialect)?,
             None => {
-                let mut values = list(line).into_iter();
-                let mut next = |taken: bool| match (taken, &mut values) {
-                    (false, _) => Ok(None),
-                    (true, values) => {
-                        let word = values.next().unwrap_or_default();
-                        output(word, |word| self.term(word, dialect)).map(Some)
-                    }
-                };
-                let (sin, cos) = (next(self.trig.sin)?, next(self.trig.cos)?);
-                if let Some(more) = values.next() {
+                let words = list(line);
+                if let Some(more) = words.get(self.need.count()) {
                     return Err(format!("`{more}` is of no name"));
                 }
-                (self.kernel.sin, self.kernel.cos) = (sin, cos);
+                for index in 0..self.need.count() {
+                    self.result(words.get(index).unwrap_or(&""), dialect)?;
+                }
                 self.done = true;
             }
         }
@@ -81,93 +88,78 @@ impl Block {
 
     /// Takes an operation and its name.
     pub(super) fn step(&mut self, name: &str, value: &str, dialect: Dialect) -> Result<(), String> {
-        expect(
-            name,
-            &format!("{}{}", self.prefix, self.kernel.steps.len() + 1),
-        )?;
-        let step = one_operation(value, dialect, |word| self.term(word, dialect))?;
-        if matches!(step.operation, Operation::Div | Operation::Fused) {
+        let number = self.operations.len() + 1;
+        expect(name, &format!("{}{number}", self.prefix))?;
+        let (operation, [left, right]) = one_operation(value, dialect)?;
+        if operation == Operation::Div {
             return Err(format!("`{value}` is no operation of a polynomial"));
         }
-        self.kernel.steps.push(step);
+        let operands = [self.term(left, dialect)?, self.term(right, dialect)?];
+        self.operations.push(self.writer.apply(operation, operands));
         Ok(())
     }
 
-    pub(super) fn term(&self, word: &str, dialect: Dialect) -> Result<Term, String> {
+    /// Takes a result.
+    pub(super) fn result(&mut self, word: &str, dialect: Dialect) -> Result<(), String> {
+        let (negative, word) = sign(word);
+        let node = self.term(word, dialect)?;
+        self.results.push(Edge { node, negative });
+        Ok(())
+    }
+
+    fn term(&mut self, word: &str, dialect: Dialect) -> Result<Id, String> {
         if word == self.argument {
-            return Ok(ANGLE);
+            return Ok(self.writer.angle());
         }
-        if let Some(step) = word.strip_prefix(self.prefix.as_str()) {
-            let step = step.parse::<usize>().ok().and_then(|n| n.checked_sub(1));
-            let step = step.filter(|&step| step < self.kernel.steps.len());
-            return match step {
-                Some(step) => Ok(Term::Step(step)),
-                None => Err(format!("`{word}` is not computed yet")),
-            };
+        if let Some(number) = word.strip_prefix(self.prefix.as_str()) {
+            let number = number.parse::<usize>().ok().and_then(|n| n.checked_sub(1));
+            let known = number.and_then(|number| self.operations.get(number));
+            return known
+                .copied()
+                .ok_or_else(|| format!("`{word}` is not computed yet"));
         }
-        let literal = dialect.read_literal(word).map(Term::Constant);
-        literal.ok_or_else(|| format!("`{word}` is neither the angle, a value nor a literal"))
+        match dialect.read_literal(word) {
+            Some(Literal(value)) => Ok(self.writer.literal(value)),
+            None => Err(format!(
+                "`{word}` is neither the angle, a value nor a literal"
+            )),
+        }
     }
 }
 
 /// Reads two operands and a symbol.
-pub(super) fn one_operation<I>(
+pub(super) fn one_operation(
     value: &str,
     dialect: Dialect,
-    operand: impl Fn(&str) -> Result<Operand<Literal, I>, String>,
-) -> Result<Step<Literal, I>, String> {
-    let (operation, [left, right]) = dialect
-        .read_operation(value)
-        .ok_or_else(|| format!("`{value}` is not one operation"))?;
-    Ok(Step {
-        operation,
-        left: operand(left)?,
-        right: operand(right)?,
-    })
+) -> Result<(Operation, [&str; 2]), String> {
+    let read = dialect.read_operation(value);
+    read.ok_or_else(|| format!("`{value}` is not one operation"))
 }
 
-/// Reads a result: a negative literal is a literal, a negated value is negated.
-pub(super) fn output<I>(
-    word: &str,
-    operand: impl Fn(&str) -> Result<Operand<Literal, I>, String>,
-) -> Result<Output<Literal, I>, String> {
+/// Reads the sign of a result: a negative literal is a literal, a negated value is negated.
+pub(super) fn sign(word: &str) -> (bool, &str) {
     match word.strip_prefix('-') {
-        Some(rest) if !rest.starts_with(|c: char| c.is_ascii_digit()) => Ok(Output {
-            negative: true,
-            value: operand(rest)?,
-        }),
-        _ => Ok(Output::of(operand(word)?)),
+        Some(rest) if !rest.starts_with(|c: char| c.is_ascii_digit()) => (true, rest),
+        _ => (false, word),
     }
 }
 
-pub(super) fn trig(angle: AngleSum, sin: bool, cos: bool) -> LoweredTrig {
-    LoweredTrig {
-        angle,
-        sin,
-        cos,
+/// Returns the joint of a number in a name, which counts from one.
+pub(super) fn joint_of(number: &str) -> Option<usize> {
+    number.parse::<usize>().ok()?.checked_sub(1)
+}
+
+/// Returns an angle whose sines are a library's.
+pub(super) fn by_library(joint: usize, need: Need) -> Pair {
+    Pair {
+        joint,
+        need,
         kernel: None,
     }
 }
 
 /// Returns the entries of `(a, b)`, or `a`.
-pub(super) fn list(words: &str) -> Vec<&str> {
+fn list(words: &str) -> Vec<&str> {
     let inner = words.strip_prefix('(').and_then(|w| w.strip_suffix(')'));
     inner.map_or(vec![words], |inner| inner.split(", ").collect())
-}
-
-/// Returns the sine, the cosine or both, by these names of an angle.
-pub(super) fn pair(names: &str, angle: AngleSum) -> Option<LoweredTrig> {
-    let (sine, cosine) = (format!("s{angle}"), format!("c{angle}"));
-    let all = [(true, true), (true, false), (false, true)];
-    let mut all = all.into_iter().map(|(sin, cos)| trig(angle, sin, cos));
-    all.find(|trig| names == shown(trig, &sine, &cosine))
-}
-
-/// Returns the sine, the cosine or both, as they are written.
-pub(super) fn shown(trig: &LoweredTrig, sine: &str, cosine: &str) -> String {
-    match (trig.sin, trig.cos) {
-        (true, false) => sine.to_owned(),
-        (false, true) => cosine.to_owned(),
-        _ => format!("({sine}, {cosine})"),
-    }
 }

@@ -1,17 +1,17 @@
 //! Reads a function in C99: the lines of the arithmetic as in every language, and how C
 //! writes sines, unread arguments and results.
 
-use super::block::{Block, output, trig};
+use super::block::{Block, by_library, joint_of};
 use super::reader::Reader;
 use super::{TextError, at, expect, index_of, same};
-use crate::language::c99::{FAR, Names, float, head, single, targets};
+use crate::language::c99::{FAR, Names, float, head, kernel_prefix, single, targets};
 use crate::language::called::Called;
 use crate::language::columns::batch;
 use crate::language::dialect::holes;
 use crate::language::{Printed, angles};
-use crate::program::{AngleSum, Library, Lowered};
+use crate::program::{Code, Library, Need};
 
-impl Lowered {
+impl Code {
     /// Reads a function out of the text of a header. Nothing is taken from the code of
     /// `printed`, which says what the function is.
     ///
@@ -22,7 +22,7 @@ impl Lowered {
         printed: &Printed<'_>,
         has_columns: bool,
         names: &Names,
-    ) -> Result<Lowered, TextError> {
+    ) -> Result<Code, TextError> {
         let all: Vec<&str> = text.lines().map(str::trim).collect();
         let heads = [true, false].map(|is_told| head(printed, names, is_told));
         let found = heads
@@ -148,28 +148,21 @@ impl CReader<'_> {
                 "`{line}` gives no sines of angles that stand there"
             ));
         }
-        self.reader.program.library = Library::Together;
+        self.reader.library = Library::Together;
         self.called = Some(called);
         Ok(true)
     }
 
-    /// Reads the angles of the list in the first line of the call: joints, and sums that lines
-    /// before formed.
-    fn listed(&mut self) -> Result<Vec<AngleSum>, String> {
+    /// Reads the joints of the list in the first line of the call.
+    fn listed(&self) -> Result<Vec<usize>, String> {
         let list = self.call.first().and_then(|line| line.split_once(" = {"));
         let list = list.and_then(|(_, list)| list.strip_suffix("};"));
         let words = list.unwrap_or_default().split(", ");
-        let (sums, joints) = (&mut self.reader.sums, self.joints);
-        let angles = words.map(|word| match index_of(word, "q") {
-            Some(joint) if joint < joints => Ok(AngleSum::joint(joint)),
-            _ => {
-                let angle = angle(word, 'a')?;
-                let place = sums.iter().position(|sum| *sum == angle);
-                let place = place.ok_or_else(|| format!("`{word}` is no angle"))?;
-                Ok(sums.remove(place))
-            }
+        let joints = words.map(|word| {
+            let joint = index_of(word, "q").filter(|&joint| joint < self.joints);
+            joint.ok_or_else(|| format!("`{word}` is no angle"))
         });
-        angles.collect()
+        joints.collect()
     }
 
     fn declaration(&mut self, line: &str, declaration: &str) -> Result<(), String> {
@@ -180,10 +173,10 @@ impl CReader<'_> {
                 holes("{} = {}({}, {});", rest).ok_or_else(|| format!("`{line}` is no call"))?;
             expect(called, &function)?;
             expect(far, self.far)?;
-            let angle = angle(name, 'p')?;
-            self.begin(angle, argument)?;
-            self.reader.program.library = Library::Together;
-            self.reader.program.trig.push(trig(angle, false, false));
+            let joint = joint(name, 'p')?;
+            self.begin(joint, argument)?;
+            self.reader.library = Library::Together;
+            self.reader.pairs.push(by_library(joint, Need::default()));
             return Ok(());
         }
         let [name, value] = holes(self.reader.dialect.declaration, line)
@@ -201,20 +194,13 @@ impl CReader<'_> {
     /// Reads an operation of an angle's polynomials.
     fn step(&mut self, name: &str, value: &str) -> Result<(), String> {
         let word = name.split_once('_').map_or("", |(word, _)| word);
-        let angle = angle(word, 'x')?;
-        if self
-            .block
-            .as_ref()
-            .is_none_or(|block| block.trig.angle != angle)
-        {
+        let joint = joint(word, 'x')?;
+        if self.block.as_ref().is_none_or(|block| block.joint != joint) {
             self.close();
-            let argument = angles::operand(angle);
-            self.begin(angle, &argument)?;
-            self.block = Some(Block::new(
-                trig(angle, false, false),
-                argument,
-                format!("x{angle}_"),
-            ));
+            let argument = angles::operand(joint);
+            self.begin(joint, &argument)?;
+            let prefix = kernel_prefix(joint);
+            self.block = Some(Block::new(joint, Need::default(), argument, prefix));
         }
         let dialect = self.reader.dialect;
         match &mut self.block {
@@ -225,87 +211,67 @@ impl CReader<'_> {
 
     /// Reads a sine or cosine: of polynomials, of a call for both, or a call of its own.
     fn sine(&mut self, letter: char, name: &str, value: &str) -> Result<(), String> {
-        let (angle, dialect) = (angle(name, letter)?, self.reader.dialect);
-        let twice = || Err(format!("`{name}` a second time"));
+        let (joint, dialect) = (joint(name, letter)?, self.reader.dialect);
         if let Some(block) = &mut self.block
-            && block.trig.angle == angle
+            && block.joint == joint
         {
-            let read = output(value, |word| block.term(word, dialect))?;
-            let (taken, place) = match letter {
-                's' => (&mut block.trig.sin, &mut block.kernel.sin),
-                _ => (&mut block.trig.cos, &mut block.kernel.cos),
-            };
-            *place = Some(read);
-            return match std::mem::replace(taken, true) {
-                true => twice(),
-                false => Ok(()),
-            };
+            block.result(value, dialect)?;
+            return take(&mut block.need, letter, name);
         }
         self.close();
         let function = if letter == 's' { "sin" } else { "cos" };
-        let last = self.reader.program.trig.last();
-        let is_new = last.is_none_or(|last| last.angle != angle || last.kernel.is_some());
-        match self.reader.program.library {
+        let last = self.reader.pairs.last();
+        let is_new = last.is_none_or(|last| last.joint != joint || last.kernel.is_some());
+        match self.reader.library {
             Library::Together if self.called.is_some() => {
                 let called = self.called.as_ref();
-                let expected = called.and_then(|called| called.value(angle, letter == 's'));
+                let expected = called.and_then(|called| called.value(joint, letter == 's'));
                 let expected = expected.ok_or_else(|| format!("`{value}` is of no call"))?;
                 expect(value, &expected)?;
                 if is_new {
-                    self.once(angle)?;
-                    self.reader.program.trig.push(trig(angle, false, false));
+                    self.once(joint)?;
+                    self.reader.pairs.push(by_library(joint, Need::default()));
                 }
             }
             Library::Together if is_new => return Err(format!("`{value}` is of no call")),
-            Library::Together => expect(value, &format!("p{angle}.{function}"))?,
+            Library::Together => expect(value, &format!("p{}.{function}", joint + 1))?,
             Library::Libm => {
-                let argument = angles::operand(angle);
+                let argument = angles::operand(joint);
                 expect(value, &dialect.call("", function, &argument))?;
                 if is_new {
-                    self.begin(angle, &argument)?;
-                    self.reader.program.trig.push(trig(angle, false, false));
+                    self.begin(joint, &argument)?;
+                    self.reader.pairs.push(by_library(joint, Need::default()));
                 }
             }
         }
-        let Some(last) = self.reader.program.trig.last_mut() else {
-            return twice();
-        };
-        let taken = match letter {
-            's' if last.cos => return Err(format!("`{name}` after its cosine")),
-            's' => &mut last.sin,
-            _ => &mut last.cos,
-        };
-        match std::mem::replace(taken, true) {
-            true => twice(),
-            false => Ok(()),
+        match self.reader.pairs.last_mut() {
+            Some(last) => take(&mut last.need, letter, name),
+            None => Err(format!("`{name}` is of no angle")),
         }
     }
 
-    /// Takes the sum that the line before formed, of an angle that is one.
-    fn begin(&mut self, angle: AngleSum, argument: &str) -> Result<(), String> {
-        expect(argument, &angles::operand(angle))?;
-        if angle.additions() > 0 && self.reader.sums.pop_if(|sum| *sum == angle).is_none() {
-            return Err(format!("`{argument}` is no angle"));
-        }
-        self.once(angle)
+    /// Takes the angle that sines are taken of.
+    fn begin(&self, joint: usize, argument: &str) -> Result<(), String> {
+        expect(argument, &angles::operand(joint))?;
+        self.once(joint)
     }
 
     /// Refuses sines of an angle that has some.
-    fn once(&self, angle: AngleSum) -> Result<(), String> {
-        let mut all = self.reader.program.trig.iter();
-        match all.any(|trig| trig.angle == angle) {
-            true => Err(format!("sines of `{angle}` a second time")),
+    fn once(&self, joint: usize) -> Result<(), String> {
+        let mut all = self.reader.pairs.iter();
+        match all.any(|pair| pair.joint == joint) {
+            true => Err(format!("sines of `q[{joint}]` a second time")),
             false => Ok(()),
         }
     }
 
     fn close(&mut self) {
         if let Some(block) = self.block.take() {
-            self.reader.program.trig.push(block.done());
+            self.reader.pairs.push(block.done());
         }
     }
 
-    fn finish(mut self, items: &[&str], targets: &[String]) -> Result<Lowered, String> {
+    fn finish(mut self, items: &[&str], targets: &[String]) -> Result<Code, String> {
         self.close();
         if self.called.is_none() && !self.call.is_empty() {
             return Err("the call that gives sines is missing".into());
@@ -317,8 +283,21 @@ impl CReader<'_> {
     }
 }
 
-/// Returns the angle of `s1p2`.
-fn angle(word: &str, letter: char) -> Result<AngleSum, String> {
-    let angle = word.strip_prefix(letter).and_then(|word| word.parse().ok());
-    angle.ok_or_else(|| format!("`{word}` is of no angle"))
+/// Notes that a sine or cosine is taken, in this order, and once.
+fn take(need: &mut Need, letter: char, name: &str) -> Result<(), String> {
+    let taken = match letter {
+        's' if need.cos => return Err(format!("`{name}` after its cosine")),
+        's' => &mut need.sin,
+        _ => &mut need.cos,
+    };
+    match std::mem::replace(taken, true) {
+        true => Err(format!("`{name}` a second time")),
+        false => Ok(()),
+    }
+}
+
+/// Returns the joint of `s1`.
+fn joint(word: &str, letter: char) -> Result<usize, String> {
+    let joint = word.strip_prefix(letter).and_then(joint_of);
+    joint.ok_or_else(|| format!("`{word}` is of no angle"))
 }

@@ -20,8 +20,8 @@ use std::fmt;
 use crate::function::Function;
 use crate::language::dialect::Dialect;
 use crate::language::{Printed, columns};
-use crate::program::{Difference, Library, Lowered, Program, ScalarType};
-use crate::sincos::{AngleKernel, lowered};
+use crate::program::{Code, Difference, Library, Program, ScalarType};
+use crate::sincos::AngleKernel;
 use reader::Reader;
 
 /// A text that is not the program that it should be.
@@ -41,16 +41,12 @@ impl fmt::Display for TextError {
 
 impl std::error::Error for TextError {}
 
-impl Lowered {
+impl Code {
     /// Reads the function of this name out of a module's text.
     ///
     /// # Errors
     /// The first line that is not of an emitted function.
-    pub fn parse(
-        module: &str,
-        function: Function,
-        scalar: ScalarType,
-    ) -> Result<Lowered, TextError> {
+    pub fn parse(module: &str, function: Function, scalar: ScalarType) -> Result<Code, TextError> {
         let lines: Vec<&str> = module.lines().map(str::trim).collect();
         let first = head(&lines, function.name())?;
         let mut reader = Reader::new(Dialect::rust(scalar));
@@ -70,8 +66,8 @@ impl Lowered {
         module: &str,
         printed: &Printed<'_>,
         has_columns: bool,
-    ) -> Result<Lowered, TextError> {
-        let read = Lowered::parse(module, printed.function, printed.code.scalar)?;
+    ) -> Result<Code, TextError> {
+        let read = Code::parse(module, printed.function, printed.code.scalar)?;
         if has_columns {
             let lines: Vec<&str> = module.lines().map(str::trim).collect();
             let code = Printed {
@@ -102,7 +98,7 @@ impl Lowered {
         library: Library,
         sines: &[AngleKernel],
     ) -> Result<(), Difference> {
-        match self.difference(&lowered(program, self.scalar, library, sines)) {
+        match self.difference(&program.code(self.scalar, library, sines)) {
             None => Ok(()),
             Some(difference) => Err(difference),
         }

@@ -1,19 +1,23 @@
 //! The statements of an emitted function, line by line.
 
-use super::block::{Block, one_operation, output};
+use super::block::{Block, one_operation, sign};
 use super::wrap::Wrap;
 use super::{expect, index_of};
+use crate::dag::{Edge, Id, Node, Writer};
 use crate::function::Argument;
 use crate::language::dialect::{Dialect, holes};
 use crate::program::text::input_name;
-use crate::program::{AngleSum, Input, Library, Literal, Lowered, Operand, Operation, Speed, Step};
+use crate::program::{Code, Input, Library, Literal, Operation, Pair, Speed};
 
 /// Reads one function.
 pub(super) struct Reader {
     pub(super) dialect: Dialect,
-    pub(super) program: Lowered,
-    /// The sums of angles that lines before formed, and that none has read.
-    pub(super) sums: Vec<AngleSum>,
+    pub(super) library: Library,
+    pub(super) pairs: Vec<Pair>,
+    speeds: Vec<Speed<Literal>>,
+    writer: Writer<Literal, Input>,
+    /// The operations so far; none of a product that a sum took, which has no name.
+    operations: Vec<Option<Id>>,
     /// The block that is open.
     wrap: Wrap,
     /// The polynomials of an angle that are open.
@@ -24,15 +28,11 @@ impl Reader {
     pub(super) fn new(dialect: Dialect) -> Reader {
         Reader {
             dialect,
-            program: Lowered {
-                scalar: dialect.scalar,
-                library: Library::Libm,
-                trig: Vec::new(),
-                speeds: Vec::new(),
-                steps: Vec::new(),
-                outputs: Vec::new(),
-            },
-            sums: Vec::new(),
+            library: Library::Libm,
+            pairs: Vec::new(),
+            speeds: Vec::new(),
+            writer: Writer::default(),
+            operations: Vec::new(),
             wrap: Wrap::default(),
             block: None,
         }
@@ -42,12 +42,12 @@ impl Reader {
     pub(super) fn line(&mut self, line: &str) -> Result<bool, String> {
         if let Some(mut block) = self.block.take() {
             match block.line(line, self.dialect)? {
-                true => self.program.trig.push(block.done()),
+                true => self.pairs.push(block.done()),
                 false => self.block = Some(block),
             }
             return Ok(true);
         }
-        self.block = Block::begin(line, &mut self.sums);
+        self.block = Block::begin(line);
         if self.block.is_some() || self.wrap.line(line)? {
             return Ok(true);
         }
@@ -62,9 +62,6 @@ impl Reader {
 
     /// Takes a value and its name.
     pub(super) fn declaration(&mut self, name: &str, value: &str) -> Result<(), String> {
-        if let Some(angle) = name.strip_prefix('a') {
-            return self.angle_sum(angle, value);
-        }
         if name.starts_with('r') {
             return self.speed(name, value);
         }
@@ -76,15 +73,17 @@ impl Reader {
             return self.sines(name, value);
         }
         self.next(name, 1)?;
-        let step = one_operation(value, self.dialect, |word| self.operand(word))?;
-        self.program.steps.push(step);
+        let (operation, [left, right]) = one_operation(value, self.dialect)?;
+        let operands = [self.operand(left)?, self.operand(right)?];
+        self.operations
+            .push(Some(self.writer.apply(operation, operands)));
         Ok(())
     }
 
     /// Statements are numbered from one: refuses a name that is not that of the step after
     /// those that there are.
     fn next(&self, name: &str, after: usize) -> Result<(), String> {
-        expect(name, &format!("t{}", self.program.steps.len() + after))
+        expect(name, &format!("t{}", self.operations.len() + after))
     }
 
     /// Reads a sum and the product that it takes: two steps.
@@ -95,49 +94,24 @@ impl Reader {
         let negated = addend.strip_prefix('-');
         let not = || format!("`{value}` is not one fused multiply-add");
         // No program subtracts both: its result would be negated instead.
-        let (left, right) = match (factor, negated) {
+        let left = match (factor, negated) {
             (Some(_), Some(_)) => return Err(not()),
-            (Some([factor]), None) => (self.operand(factor)?, self.operand(right)?),
-            (None, _) => (self.operand(left)?, self.operand(right)?),
+            (Some([factor]), None) => factor,
+            (None, _) => left,
         };
-        if matches!(left, Operand::Constant(_)) {
+        let factors = [self.operand(left)?, self.operand(right)?];
+        if matches!(self.writer.node(factors[0]), Node::Constant(_)) {
             return Err(not());
         }
-        let product = Operand::Step(self.program.steps.len());
-        let sum = self.operand(negated.unwrap_or(addend))?;
-        self.program.steps.push(Step {
-            operation: Operation::Fused,
-            left,
-            right,
-        });
-        let (operation, left, right) = match (factor, negated) {
-            (None, None) => (Operation::Add, product, sum),
-            (None, Some(_)) => (Operation::Sub, product, sum),
-            (Some(_), _) => (Operation::Sub, sum, product),
+        let product = self.writer.apply(Operation::Fused, factors);
+        let addend = self.operand(negated.unwrap_or(addend))?;
+        let (operation, operands) = match (factor, negated) {
+            (None, None) => (Operation::Add, [product, addend]),
+            (None, Some(_)) => (Operation::Sub, [product, addend]),
+            (Some(_), _) => (Operation::Sub, [addend, product]),
         };
-        self.program.steps.push(Step {
-            operation,
-            left,
-            right,
-        });
-        Ok(())
-    }
-
-    fn angle_sum(&mut self, name: &str, value: &str) -> Result<(), String> {
-        let mut words = value.split(' ');
-        let not = || format!("`{value}` is no sum of positions");
-        let joint = |word: Option<&str>| word.and_then(|word| index_of(word, "q")).ok_or_else(not);
-        let mut sum = AngleSum::joint(joint(words.next())?);
-        while let Some(sign) = words.next() {
-            let negative = match sign {
-                "+" => false,
-                "-" => true,
-                _ => return Err(not()),
-            };
-            sum = sum.with(joint(words.next())?, negative).ok_or_else(not)?;
-        }
-        expect(name, &sum.to_string())?;
-        self.sums.push(sum);
+        let sum = self.writer.apply(operation, operands);
+        self.operations.extend([None, Some(sum)]);
         Ok(())
     }
 
@@ -155,11 +129,11 @@ impl Reader {
         let square = self.dialect.read_literal(square);
         let (joint, square) = joint.zip(square).ok_or_else(not)?;
         expect(name, &input_name(Input::PerSpeed(joint)))?;
-        let last = self.program.speeds.last();
+        let last = self.speeds.last();
         if last.is_some_and(|last| last.joint >= joint) {
             return Err(format!("`{name}` is not in the order of the joints"));
         }
-        self.program.speeds.push(Speed { joint, square });
+        self.speeds.push(Speed { joint, square });
         Ok(())
     }
 
@@ -174,47 +148,53 @@ impl Reader {
         Some((function, arguments))
     }
 
-    fn operand(&self, word: &str) -> Result<Operand<Literal>, String> {
+    fn operand(&mut self, word: &str) -> Result<Id, String> {
+        if let Some(number) = word.strip_prefix('t').and_then(|n| n.parse::<usize>().ok()) {
+            let before = number.checked_sub(1);
+            let read = before.and_then(|at| self.operations.get(at).copied().flatten());
+            return read.ok_or_else(|| format!("`{word}` is not computed yet"));
+        }
+        let leaf = match (self.input(word), self.dialect.read_literal(word)) {
+            (Some(input), _) => Node::Input(input),
+            (None, Some(literal)) => Node::Constant(literal),
+            (None, None) => return Err(format!("`{word}` is neither a value nor a literal")),
+        };
+        Ok(self.writer.leaf(leaf))
+    }
+
+    /// Returns the input of a name: an entry of an argument, or what was computed before.
+    fn input(&self, word: &str) -> Option<Input> {
         for argument in Argument::ALL {
             if let Some(joint) = index_of(word, argument.name()) {
-                return Ok(Operand::Input(Input::Entry(argument, joint)));
+                return Some(Input::Entry(argument, joint));
             }
         }
-        if let Some(step) = word.strip_prefix('t').and_then(|n| n.parse::<usize>().ok()) {
-            let before = step.checked_sub(1);
-            let read = before.and_then(|at| self.program.steps.get(at));
-            // A product that a sum took has no name.
-            return match read.map(|step| step.operation) {
-                None | Some(Operation::Fused) => Err(format!("`{word}` is not computed yet")),
-                Some(_) => Ok(Operand::Step(step - 1)),
-            };
-        }
-        let speeds = self.program.speeds.iter();
-        let speeds = speeds.map(|own| Input::PerSpeed(own.joint));
-        let sines = self.program.trig.iter().flat_map(|trig| {
-            let sine = trig.sin.then_some(Input::Sin(trig.angle));
-            let cosine = trig.cos.then_some(Input::Cos(trig.angle));
+        let speeds = self.speeds.iter().map(|own| Input::PerSpeed(own.joint));
+        let sines = self.pairs.iter().flat_map(|pair| {
+            let sine = pair.need.sin.then_some(Input::Sin(pair.joint));
+            let cosine = pair.need.cos.then_some(Input::Cos(pair.joint));
             sine.into_iter().chain(cosine)
         });
-        if let Some(input) = speeds.chain(sines).find(|&own| word == input_name(own)) {
-            return Ok(Operand::Input(input));
-        }
-        let literal = self.dialect.read_literal(word).map(Operand::Constant);
-        literal.ok_or_else(|| format!("`{word}` is neither a value nor a literal"))
+        speeds.chain(sines).find(|&own| word == input_name(own))
     }
 
     /// Returns the program with these results.
-    pub(super) fn finish(mut self, items: &[&str]) -> Result<Lowered, String> {
+    pub(super) fn finish(mut self, items: &[&str]) -> Result<Code, String> {
         if !self.wrap.is_closed() || self.block.is_some() {
             return Err("a block does not end".into());
         }
-        if let Some(sum) = self.sums.first() {
-            return Err(format!("nothing reads `a{sum}`"));
-        }
+        let mut outputs = Vec::new();
         for word in items {
-            let output = output(word, |word| self.operand(word))?;
-            self.program.outputs.push(output);
+            let (negative, word) = sign(word);
+            let node = self.operand(word)?;
+            outputs.push(Edge { node, negative });
         }
-        Ok(self.program)
+        Ok(Code {
+            scalar: self.dialect.scalar,
+            library: self.library,
+            pairs: self.pairs,
+            speeds: self.speeds,
+            dag: self.writer.finish(outputs),
+        })
     }
 }

@@ -1,15 +1,16 @@
 //! Sines and cosines: by a call for one angle or for all.
 
-use super::block::{shown, trig};
+use super::block::by_library;
 use super::reader::Reader;
 use super::{expect, index_of};
+use crate::language::angles;
 use crate::language::dialect::holes;
-use crate::program::{AngleSum, Library};
+use crate::program::{Library, Need};
 
 impl Reader {
     /// Takes sines and cosines and their names.
     pub(super) fn sines(&mut self, names: &str, value: &str) -> Result<(), String> {
-        if self.program.library == Library::Together {
+        if self.library == Library::Together {
             return Err("a call after that of all angles together".into());
         }
         let (function, argument) = self
@@ -18,23 +19,20 @@ impl Reader {
         if let Some([angles]) = holes("&[{}]", argument) {
             return self.together(names, function, angles);
         }
-        let angle = self.angle(argument, |sums| sums.pop())?;
+        let joint = joint(argument)?;
         let (sin, cos) = match function {
             "sin" => (true, false),
             "cos" => (false, true),
             "sincos" => (true, true),
             _ => return Err(format!("`{function}` is no sine or cosine")),
         };
-        let trig = trig(angle, sin, cos);
-        expect(
-            names,
-            &shown(&trig, &format!("s{angle}"), &format!("c{angle}")),
-        )?;
-        self.program.trig.push(trig);
+        let need = Need { sin, cos };
+        expect(names, &angles::names(joint, need))?;
+        self.pairs.push(by_library(joint, need));
         Ok(())
     }
 
-    /// Reads one call for all angles: `let ([s1, _], [c1, c1p2]) = …::sincos(&[q[0], a1p2]);`
+    /// Reads one call for all angles: `let ([s1, _], [c1, c2]) = …::sincos(&[q[0], q[1]]);`
     fn together(&mut self, names: &str, function: &str, angles: &str) -> Result<(), String> {
         expect(function, "sincos")?;
         let [sines, cosines] = holes("([{}], [{}])", names)
@@ -45,35 +43,23 @@ impl Reader {
             return Err("as many sines, cosines and angles are expected".into());
         }
         for ((word, sine), cosine) in angles.into_iter().zip(sines).zip(cosines) {
-            let first = |sums: &mut Vec<AngleSum>| (!sums.is_empty()).then(|| sums.remove(0));
-            let angle = self.angle(word, first)?;
+            let joint = joint(word)?;
             let taken = |name: &str, letter: char| match name {
                 "_" => Ok(false),
-                name => expect(name, &format!("{letter}{angle}")).map(|()| true),
+                name => expect(name, &format!("{letter}{}", joint + 1)).map(|()| true),
             };
-            let trig = trig(angle, taken(sine, 's')?, taken(cosine, 'c')?);
-            if !trig.sin && !trig.cos {
+            let (sin, cos) = (taken(sine, 's')?, taken(cosine, 'c')?);
+            if !sin && !cos {
                 return Err(format!("neither sine nor cosine of `{word}` is taken"));
             }
-            self.program.trig.push(trig);
+            self.pairs.push(by_library(joint, Need { sin, cos }));
         }
-        self.program.library = Library::Together;
-        match self.sums.first() {
-            Some(sum) => Err(format!("the sine of `a{sum}` is not called")),
-            None => Ok(()),
-        }
+        self.library = Library::Together;
+        Ok(())
     }
+}
 
-    /// Reads an angle that sines are taken of: a position, or the next of the sums.
-    fn angle(
-        &mut self,
-        word: &str,
-        next: impl Fn(&mut Vec<AngleSum>) -> Option<AngleSum>,
-    ) -> Result<AngleSum, String> {
-        if let Some(joint) = index_of(word, "q") {
-            return Ok(AngleSum::joint(joint));
-        }
-        let sum = next(&mut self.sums).filter(|sum| word == format!("a{sum}"));
-        sum.ok_or_else(|| format!("`{word}` is no angle"))
-    }
+/// Reads the position of a joint, which sines are taken of.
+fn joint(word: &str) -> Result<usize, String> {
+    index_of(word, "q").ok_or_else(|| format!("`{word}` is no angle"))
 }

@@ -8,15 +8,15 @@ use std::fmt::Write;
 
 use dalembert_model::number::Exact;
 
-use super::{AngleSum, Input, Operand, Operation, Output, Program, Step};
+use super::{Input, Operand, Operation, Output, Program, Step};
 use crate::function::Argument;
 pub(crate) use fault::LineFault;
 
 /// Returns the name of an input in emitted code.
 pub(crate) fn input_name(input: Input) -> String {
     match input {
-        Input::Sin(angle) => format!("s{angle}"),
-        Input::Cos(angle) => format!("c{angle}"),
+        Input::Sin(joint) => format!("s{}", joint + 1),
+        Input::Cos(joint) => format!("c{}", joint + 1),
         Input::PerSpeed(joint) => format!("r{}", joint + 1),
         Input::Entry(argument, joint) => format!("{}[{joint}]", argument.name()),
     }
@@ -119,14 +119,12 @@ fn input(word: &str) -> Option<Input> {
             return Some(Input::Entry(argument, entry));
         }
     }
-    let angle = |digits: &str| digits.parse::<AngleSum>().ok();
-    match word.split_at_checked(1)? {
-        ("s", digits) => angle(digits).map(Input::Sin),
-        ("c", digits) => angle(digits).map(Input::Cos),
-        ("r", digits) => {
-            let joint = digits.parse::<usize>().ok()?;
-            joint.checked_sub(1).map(Input::PerSpeed)
-        }
+    let (kind, number) = word.split_at_checked(1)?;
+    let joint = number.parse::<usize>().ok()?.checked_sub(1)?;
+    match kind {
+        "s" => Some(Input::Sin(joint)),
+        "c" => Some(Input::Cos(joint)),
+        "r" => Some(Input::PerSpeed(joint)),
         _ => None,
     }
 }
@@ -134,10 +132,7 @@ fn input(word: &str) -> Option<Input> {
 fn input_fits(input: Input, program: &Program) -> bool {
     let sizes = program.sizes();
     match input {
-        Input::Sin(angle) | Input::Cos(angle) => {
-            angle.terms().all(|(joint, _)| joint < program.joints)
-        }
-        Input::PerSpeed(joint) => joint < program.joints,
+        Input::Sin(joint) | Input::Cos(joint) | Input::PerSpeed(joint) => joint < program.joints,
         Input::Entry(argument, index) => index < argument.length(sizes),
     }
 }

@@ -5,8 +5,7 @@ use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 use hmac_sha256::Hash;
 
-use super::SceneRobot;
-use crate::function::Function;
+use super::Task;
 
 /// The scene that a plan's entry or a claim is about. The hash of a plan is the robot's alone,
 /// so that a scene can be added; an edited scene shows in its own.
@@ -42,14 +41,15 @@ pub struct ParametersKey {
 
 impl ParametersKey {
     /// Returns the key of a function; `None` if it takes no parameters as arguments.
-    pub fn of(scene_robot: &SceneRobot, function: Function) -> Option<ParametersKey> {
+    pub fn of(task: Task<'_>) -> Option<ParametersKey> {
+        let Task { setup, function } = task;
         let all = RuntimeParameter::ALL.into_iter();
-        let taken = all.filter(|&parameter| scene_robot.takes(function, parameter));
+        let taken = all.filter(|&parameter| setup.takes(function, parameter));
         let taken: Vec<RuntimeParameter> = taken.collect();
         if taken.is_empty() {
             return None;
         }
-        let load = scene_robot
+        let load = setup
             .load()
             .filter(|_| taken.contains(&RuntimeParameter::Payload));
         let numbers = load.map_or(&[][..], |load| &load.numbers);

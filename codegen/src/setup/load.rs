@@ -15,7 +15,7 @@ use dalembert_model::number::{Angle, Exact, Rational};
 use dalembert_model::robot::{Placement, Position};
 use dalembert_model::scalar::{Scalar, SinCosPair};
 
-use super::SceneRobot;
+use super::Setup;
 
 /// The numbers of a regrouped chain that a payload changes.
 #[derive(Clone, Debug)]
@@ -31,11 +31,11 @@ pub struct LoadParameters {
 impl LoadParameters {
     /// Creates the load of a chain in a regrouping, which has these numbers.
     pub fn new(
-        scene_robot: &SceneRobot,
+        setup: &Setup,
         numbers: Vec<Exact>,
         regrouping: Regrouping<Exact>,
     ) -> LoadParameters {
-        let unknowns = scene_robot.unknowns();
+        let unknowns = setup.unknowns();
         let rows = numbers.iter().map(|number| unknowns.row(number));
         LoadParameters {
             rows: rows.collect(),
@@ -70,7 +70,7 @@ pub struct Unknowns {
     angles: Vec<Angle>,
 }
 
-impl SceneRobot {
+impl Setup {
     /// Returns the parameters of a payload.
     pub fn unknowns(&self) -> Unknowns {
         let taken = self.constant_angles();

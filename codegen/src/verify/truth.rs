@@ -12,9 +12,11 @@ use dalembert_model::scalar::{Divide, Scalar, SinCosPair};
 use num_traits::Zero;
 use rustc_hash::FxHashMap;
 
+use super::exact;
+use crate::dag::Leaves;
 use crate::function::{Argument, Function};
-use crate::program::{AngleSum, Input};
-use crate::scene::SceneRobot;
+use crate::program::{Input, Program};
+use crate::setup::Setup;
 use crate::states::JointState;
 
 /// 2⁻²⁰⁰: an operation in 256 bits loses at most 2⁻²⁵⁵ of its result. The rest is room for
@@ -24,7 +26,7 @@ const LOST: f64 = 6.3e-61;
 /// A robot, or a robot in a scene.
 #[derive(Clone, Debug)]
 pub struct Reference {
-    scene_robot: SceneRobot,
+    setup: Setup,
     arm: Arm<Known>,
     /// The pairs of angles already computed, by their bits: several functions are run at the
     /// same states.
@@ -42,6 +44,20 @@ pub struct TrueValue {
 }
 
 impl TrueValue {
+    fn new(known: Known) -> TrueValue {
+        TrueValue {
+            value: known.value,
+            lost: known.lost * LOST,
+        }
+    }
+
+    /// Returns how far another true value is from this one; zero where that may be what both are
+    /// off.
+    pub(crate) fn difference(&self, other: &TrueValue) -> f64 {
+        let off = other.value.sub(&self.value).magnitude() - self.lost - other.lost;
+        off.max(0.0)
+    }
+
     /// |x − value| and no less, less what the reference itself may be off;
     /// infinite if `x` is no number.
     pub fn error(&self, x: f64) -> f64 {
@@ -72,44 +88,42 @@ impl TrueValue {
 
 impl Reference {
     /// Creates the reference of a robot in its scene.
-    pub fn new(scene_robot: &SceneRobot) -> Reference {
+    pub fn new(setup: &Setup) -> Reference {
         Reference {
-            arm: Arm::from_robot(scene_robot.robot(), &mut Known::of),
-            scene_robot: scene_robot.clone(),
+            arm: setup.arm(Known::of),
+            setup: setup.clone(),
             pairs: RefCell::default(),
         }
     }
 
     /// Returns the robot in its scene.
-    pub fn scene_robot(&self) -> &SceneRobot {
-        &self.scene_robot
+    pub fn setup(&self) -> &Setup {
+        &self.setup
     }
 
     /// Returns the results of a function over the scene's rows at a state of finite
     /// numbers, flat.
     pub fn run(&self, function: Function, state: &JointState) -> Vec<TrueValue> {
-        let finite = |x: f64| Wide::from_f64(x).unwrap_or_else(Wide::zero);
-        let pairs: Vec<SinCosPair<Wide>> = state.q.iter().map(|&q| self.pair(q)).collect();
-        // A motion reads the angles of single joints only.
-        let joint = |angle: AngleSum| angle.terms().map(|(joint, _)| joint).sum::<usize>();
-        let input = |input| match input {
-            Input::Sin(angle) => Known::rounded(pairs[joint(angle)].sin, 1.0),
-            Input::Cos(angle) => Known::rounded(pairs[joint(angle)].cos, 1.0),
-            Input::PerSpeed(joint) => {
-                let qd = Known::exact(finite(state.entry(Argument::Velocity, joint)));
-                self.scene_robot
-                    .per_speed(joint, &qd, Known::of, Known::sqrt)
-            }
-            Input::Entry(argument, joint) => Known::exact(finite(state.entry(argument, joint))),
-        };
-        let arm = self.arm.clone();
-        let posed = self.scene_robot.posed(function, arm, input, Known::of);
-        let results = posed.results(&self.scene_robot, function, Formulation::NewtonEulerLink);
-        let known = |Known { value, lost, .. }: Known| TrueValue {
-            value,
-            lost: lost * LOST,
-        };
-        results.into_iter().map(known).collect()
+        let task = self.setup.task(function);
+        let posed = task.posed_arm(self.arm.clone(), &self.at(state));
+        let results = posed.results(Formulation::NewtonEulerLink);
+        results.into_iter().map(TrueValue::new).collect()
+    }
+
+    /// Returns the results of a program with its exact constants at a state of finite numbers,
+    /// flat; a load that it takes is that of the state's payload.
+    pub(crate) fn run_program(&self, program: &Program, state: &JointState) -> Vec<TrueValue> {
+        let results = exact::run(Some(&self.setup), program, &self.at(state));
+        let results = results.unwrap_or_default().into_iter();
+        results.map(TrueValue::new).collect()
+    }
+
+    fn at<'r>(&'r self, state: &'r JointState) -> AtState<'r> {
+        AtState {
+            setup: &self.setup,
+            pairs: state.q.iter().map(|&q| self.pair(q)).collect(),
+            state,
+        }
     }
 
     fn pair(&self, q: f64) -> SinCosPair<Wide> {
@@ -125,9 +139,39 @@ impl Reference {
     }
 }
 
-/// A value, and how far it may be off, by Wilkinson's running error analysis as in
-/// [`running`](super::running): what the operands are off, carried through the operation, and
-/// what that rounds itself.
+/// A state, with the sines of its angles.
+struct AtState<'r> {
+    setup: &'r Setup,
+    pairs: Vec<SinCosPair<Wide>>,
+    state: &'r JointState,
+}
+
+impl Leaves for AtState<'_> {
+    type Value = Known;
+
+    fn input(&self, input: Input) -> Known {
+        let finite = |argument, index| {
+            let entry = Wide::from_f64(self.state.entry(argument, index));
+            Known::exact(entry.unwrap_or_else(Wide::zero))
+        };
+        match input {
+            Input::Sin(joint) => Known::rounded(self.pairs[joint].sin, 1.0),
+            Input::Cos(joint) => Known::rounded(self.pairs[joint].cos, 1.0),
+            Input::PerSpeed(joint) => {
+                let qd = finite(Argument::Velocity, joint);
+                self.setup.per_speed(joint, &qd, Known::of, Known::sqrt)
+            }
+            Input::Entry(argument, index) => finite(argument, index),
+        }
+    }
+
+    fn constant(&self, constant: &Exact) -> Known {
+        Known::of(constant)
+    }
+}
+
+/// A value, and how far it may be off, by Wilkinson's running error analysis: what the operands are
+/// off, carried through the operation, and what that rounds itself.
 #[derive(Clone, Debug)]
 struct Known {
     value: Wide,
@@ -246,10 +290,10 @@ mod tests {
         for name in ["planar3r", "stanford", "ur10", "panda"] {
             let text = std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap();
             let robot = read::parse(&text, &Options::default()).unwrap().robot;
-            let scene_robot = SceneRobot::whole(&robot);
-            let reference = Reference::new(&scene_robot);
+            let setup = Setup::whole(&robot);
+            let reference = Reference::new(&setup);
             for function in Function::ALL {
-                for state in scene_robot.states(3, 5) {
+                for state in setup.states(3, 5) {
                     let truth = reference.run(function, &state);
                     let largest = truth.iter().map(TrueValue::magnitude).fold(0.0, f64::max);
                     let lost = truth.iter().map(|x| x.lost).fold(0.0, f64::max);

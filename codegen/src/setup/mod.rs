@@ -1,22 +1,22 @@
 //! A robot in its scene: what that fixes, and what it asks for.
 //!
-//! Every stage works on a [`SceneRobot`]; without a scene it is the whole robot.
+//! Every stage works on a [`Setup`]; without a scene it is the whole robot.
 //! Three things a scene changes, each in its own place:
 //!
-//! - payload and gravity are parameters: the scene's [`robot`](SceneRobot::robot)
+//! - payload and gravity are parameters: the scene's [`robot`](Setup::robot)
 //!   has them, exactly, before anything is traced;
 //! - locked joints and zero rates are inputs that are constants:
-//!   [`SceneRobot::motion`] puts them in the place of the state's;
+//!   [`Setup::motion`] puts them in the place of the state's;
 //! - joints that nobody asks for are results that are left out
-//!   ([`SceneRobot::select`]), and what only they needed is dead.
+//!   ([`Setup::select`]), and what only they needed is dead.
 //!
-//! Gravity and a payload may also be arguments ([`SceneRobot::taking`]): then
-//! [`SceneRobot::posed`] has the arm with them, and [`load`] the parameters that a
+//! Gravity and a payload may also be arguments ([`Setup::taking`]): then
+//! [`Task::posed`] has the arm with them, and [`load`] the parameters that a
 //! payload changes.
 //!
 //! Arguments keep an entry for every joint, so that callers need not repack
 //! their state; entries of locked joints are not read. Results are over the
-//! [`rows`](SceneRobot::rows), in the order of the scene: τ, h and c have an
+//! [`rows`](Setup::rows), in the order of the scene: τ, h and c have an
 //! entry a row, D is rows × rows (symmetric and, unlike rows × n,
 //! invertible), h_ikm rows × rows × rows.
 
@@ -46,14 +46,14 @@ pub(crate) use key::ParametersKey;
 pub use key::{SceneKey, input_hash};
 use load::LoadParameters;
 pub use motion::motion;
-pub(crate) use posed::Posed;
+pub use posed::{Posed, Task};
 
 use crate::function::{Argument, Function, Quantity};
 use crate::program::Input;
 
 /// A robot, whole or in a scene.
 #[derive(Clone, Debug)]
-pub struct SceneRobot {
+pub struct Setup {
     robot: Robot,
     scene: Option<Scene>,
     /// 0 to n − 1.
@@ -109,12 +109,12 @@ impl fmt::Display for SceneError {
 
 impl std::error::Error for SceneError {}
 
-impl SceneRobot {
+impl Setup {
     /// Returns the whole robot.
-    pub fn whole(robot: &Robot) -> SceneRobot {
+    pub fn whole(robot: &Robot) -> Setup {
         let n = robot.joints.len();
         let joints: Vec<usize> = (0..n).collect();
-        SceneRobot {
+        Setup {
             robot: robot.clone(),
             scene: None,
             rows: joints.clone(),
@@ -132,7 +132,7 @@ impl SceneRobot {
     ///
     /// # Errors
     /// What [`Scene::validate`] finds, but for warnings.
-    pub fn new(robot: &Robot, scene: &Scene) -> Result<SceneRobot, SceneError> {
+    pub fn new(robot: &Robot, scene: &Scene) -> Result<Setup, SceneError> {
         let mut findings = scene.validate(robot);
         findings.retain(Finding::is_error);
         if !findings.is_empty() {
@@ -142,7 +142,7 @@ impl SceneRobot {
         let n = robot.joints.len();
         let locks: Vec<_> = (0..n).map(|i| scene.locked(i).map(position)).collect();
         let rows = scene.rows(n);
-        Ok(SceneRobot {
+        Ok(Setup {
             robot: scene.apply(robot),
             scene: Some(scene.clone()),
             joints: (0..n).collect(),
@@ -161,18 +161,15 @@ impl SceneRobot {
     /// Returns a robot in a scene, if there is one.
     ///
     /// # Errors
-    /// As [`SceneRobot::new`].
-    pub fn of(robot: &Robot, scene: Option<&Scene>) -> Result<SceneRobot, SceneError> {
-        scene.map_or_else(
-            || Ok(SceneRobot::whole(robot)),
-            |scene| SceneRobot::new(robot, scene),
-        )
+    /// As [`Setup::new`].
+    pub fn of(robot: &Robot, scene: Option<&Scene>) -> Result<Setup, SceneError> {
+        scene.map_or_else(|| Ok(Setup::whole(robot)), |scene| Setup::new(robot, scene))
     }
 
     /// Returns the robot with these parameters as arguments of its functions.
     #[must_use]
-    pub fn taking(self, parameters: &[RuntimeParameter]) -> SceneRobot {
-        SceneRobot {
+    pub fn taking(self, parameters: &[RuntimeParameter]) -> Setup {
+        Setup {
             parameters: parameters.to_vec(),
             base: no_bases(),
             load: None,
@@ -183,8 +180,8 @@ impl SceneRobot {
     /// Returns the robot with other links in its chain, one a segment, and results over
     /// these joints. The textbook formulations do not know of them.
     #[must_use]
-    pub(crate) fn fitted(&self, links: Vec<FittedLink>, rows: &[usize]) -> SceneRobot {
-        SceneRobot {
+    pub(crate) fn fitted(&self, links: Vec<FittedLink>, rows: &[usize]) -> Setup {
+        Setup {
             fitted: Some(links),
             rows: rows.to_vec(),
             base: no_bases(),
@@ -200,7 +197,7 @@ impl SceneRobot {
     /// Returns the robot with any velocities and accelerations and the torques of all joints
     /// that move, which is all that any function may depend on.
     #[must_use]
-    pub fn in_full_motion(&self) -> SceneRobot {
+    pub fn in_full_motion(&self) -> Setup {
         let mut full = self.clone().taking(&self.parameters);
         full.rows = full.chained.clone();
         if let Some(scene) = &mut full.scene {
@@ -371,8 +368,8 @@ impl SceneRobot {
 
     /// Returns the robot with the numbers of the chain that a payload changes.
     #[must_use]
-    pub fn with_load(self, load: LoadParameters) -> SceneRobot {
-        SceneRobot {
+    pub fn with_load(self, load: LoadParameters) -> Setup {
+        Setup {
             load: Some(load),
             ..self
         }

@@ -32,7 +32,7 @@ use dalembert_model::equations::regressor::{Column, LinkParameter, of_drives, of
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
 
-use super::SceneRobot;
+use super::Setup;
 use crate::function::Quantity;
 use columns::values;
 use elimination::{Reduced, reduced};
@@ -117,17 +117,14 @@ impl fmt::Display for NoBase {
 
 impl BaseParameters {
     /// Returns the base parameters of a robot in its scene, for a quantity over them.
-    pub(super) fn of(
-        scene_robot: &SceneRobot,
-        quantity: Quantity,
-    ) -> Result<BaseParameters, NoBase> {
-        let robot = scene_robot.robot();
-        if scene_robot.has_coulomb() {
+    pub(super) fn of(setup: &Setup, quantity: Quantity) -> Result<BaseParameters, NoBase> {
+        let robot = setup.robot();
+        if setup.has_coulomb() {
             return Err(NoBase::Friction);
         }
         let arm = Arm::from_robot(robot, &mut Exact::clone).fold_base();
         let n = arm.links.len();
-        let skeleton = Skeleton::with_columns(&arm, &scene_robot.merged(), &of_links(n));
+        let skeleton = Skeleton::with_columns(&arm, &setup.merged(), &of_links(n));
         let regrouping = origins::chosen(&skeleton);
         // Without bodies of their own: only the frames matter here.
         let chain = Chain::new(&origins::without_bodies(&skeleton), &regrouping);
@@ -151,8 +148,8 @@ impl BaseParameters {
         candidates.extend(drives.iter().cloned());
 
         let reduced = Reduced::of(
-            reduced(values(scene_robot, quantity, &candidates).ok_or(NoBase::Unfit)?),
-            reduced(values(scene_robot, quantity, &candidates).ok_or(NoBase::Unfit)?),
+            reduced(values(setup, quantity, &candidates).ok_or(NoBase::Unfit)?),
+            reduced(values(setup, quantity, &candidates).ok_or(NoBase::Unfit)?),
         )
         .ok_or(NoBase::Irrational)?;
         let mut base = BaseParameters {

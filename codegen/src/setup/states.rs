@@ -5,7 +5,7 @@ use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::outputs::RuntimeParameter;
 use num_traits::Zero;
 
-use super::SceneRobot;
+use super::Setup;
 use crate::function::Argument;
 use crate::program::Input;
 use crate::random::Random;
@@ -14,7 +14,7 @@ use crate::states::{JointState, seeded};
 /// Distinguishes the seed of the parameters from that of the states, which they must not move.
 const PARAMETERS: u64 = 0x7061_7261;
 
-impl SceneRobot {
+impl Setup {
     /// States inside the limits of the scene's robot, the same on every machine;
     /// with gravity in any direction and a body in the hand where these are
     /// arguments.

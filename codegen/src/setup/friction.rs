@@ -4,10 +4,10 @@ use dalembert_model::equations::friction::per_speed;
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::scalar::Divide;
 
-use super::SceneRobot;
+use super::Setup;
 use crate::program::Speed;
 
-impl SceneRobot {
+impl Setup {
     /// Returns the width of a joint's friction; none of a joint without.
     fn width(&self, joint: usize) -> Option<&Rational> {
         let joint = self.robot().joints.get(joint)?;

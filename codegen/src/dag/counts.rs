@@ -2,14 +2,14 @@
 
 use std::fmt;
 
-use super::{Operation, Step};
+use super::Operation;
 
 /// Operations of straight-line code. Negation and copies are free.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Counts {
     /// Multiplications.
     pub mul: usize,
-    /// Additions, subtractions, doublings, sums of angles.
+    /// Additions, subtractions, doublings.
     pub add: usize,
     /// Products with a sum that takes them, a fused multiply-add each; neither is
     /// among the multiplications and additions.
@@ -28,24 +28,24 @@ pub struct Counts {
 
 impl Counts {
     /// Counts the arithmetic alone, without sines.
-    pub(super) fn of_steps<C, I>(steps: &[Step<C, I>]) -> Counts {
-        let [mul, div, fma] = [Operation::Mul, Operation::Div, Operation::Fused].map(|operation| {
-            let is = |step: &&Step<C, I>| step.operation == operation;
-            steps.iter().filter(is).count()
-        });
-        Counts {
-            mul,
-            // A fused product is a step beside its sum.
-            add: steps.len() - mul - div - 2 * fma,
-            fma,
-            div,
-            ..Counts::default()
+    pub(crate) fn of_operations(operations: impl Iterator<Item = Operation>) -> Counts {
+        let mut counts = Counts::default();
+        for operation in operations {
+            match operation {
+                Operation::Mul => counts.mul += 1,
+                Operation::Add | Operation::Sub => counts.add += 1,
+                Operation::Div => counts.div += 1,
+                Operation::Fused => counts.fma += 1,
+            }
         }
+        // A fused product is an operation with its sum.
+        counts.add -= counts.fma;
+        counts
     }
 
     /// Returns the counts with what so many r = 1/√(q̇² + w²) of Coulomb friction take.
     pub(crate) fn with_speeds(self, speeds: usize) -> Counts {
-        let [mul, add, sqrt, div] = super::speed::OPERATIONS.map(|each| each * speeds);
+        let [mul, add, sqrt, div] = [speeds; 4];
         Counts {
             mul: self.mul + mul,
             add: self.add + add,

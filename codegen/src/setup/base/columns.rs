@@ -11,7 +11,7 @@ use dalembert_model::scalar::sparse::Sparse;
 use crate::dag::Points;
 use crate::function::{Argument, Quantity};
 use crate::program::Input;
-use crate::scene::SceneRobot;
+use crate::setup::Setup;
 
 /// A seed of its own.
 const SEED: u64 = 0x6261_7365;
@@ -19,7 +19,7 @@ const SEED: u64 = 0x6261_7365;
 /// Returns the columns, each over the rows of enough random states for every independent pair to
 /// differ; `None` if a constant has no value.
 pub(super) fn values<const P: u64>(
-    scene_robot: &SceneRobot,
+    setup: &Setup,
     quantity: Quantity,
     columns: &[Column<Exact>],
 ) -> Option<Vec<Vec<Modulo<P>>>> {
@@ -29,15 +29,15 @@ pub(super) fn values<const P: u64>(
         Some(residue) => Sparse::constant(value, residue),
         None => Sparse::Lost,
     };
-    let arm = Arm::from_robot(scene_robot.robot(), &mut { constant });
+    let arm = Arm::from_robot(setup.robot(), &mut { constant });
     let columns: Vec<_> = columns.iter().map(|c| c.map(constant)).collect();
     let mut found: Vec<Vec<Modulo<P>>> = vec![Vec::new(); columns.len()];
-    let states = columns.len() / scene_robot.rows().len().max(1) + 4;
+    let states = columns.len() / setup.rows().len().max(1) + 4;
     for state in 0..states {
         let input = |input: Input| Sparse::Value(points.input_at(input, state));
-        let motion = scene_robot.motion(input, constant);
+        let motion = setup.motion(input, constant);
         let mut arm = arm.clone().at_speeds(&motion.per_speed);
-        if scene_robot.has(RuntimeParameter::Gravity) {
+        if setup.has(RuntimeParameter::Gravity) {
             let entry = |axis| input(Input::Entry(Argument::Gravity, axis));
             arm = arm.with_gravity(&[0, 1, 2].map(entry));
         }
@@ -52,8 +52,8 @@ pub(super) fn values<const P: u64>(
         // Joints that follow are gathered at their leaders.
         gather(&arm.following, &rows, columns.len(), &mut entries);
         let rows: Vec<&[Sparse<Modulo<P>>]> = entries.chunks(columns.len().max(1)).collect();
-        for &joint in scene_robot.rows() {
-            let row = scene_robot.robot().row_of(joint);
+        for &joint in setup.rows() {
+            let row = setup.robot().row_of(joint);
             for (column, entry) in found.iter_mut().zip(rows[row]) {
                 column.push(entry.value()?);
             }

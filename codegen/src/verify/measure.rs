@@ -14,12 +14,12 @@ use dalembert_model::robot::Robot;
 use dalembert_model::scalar::sparse::Sparse;
 
 use super::condition::{condition, scaled_condition};
+use crate::dag::Node;
 use crate::function::{Argument, Function, Quantity, Sizes};
 use crate::program::kernel::Kernel;
 use crate::program::machine::Machine;
-use crate::program::run::angle_value;
-use crate::program::{AngleSum, Input, Literal, Lowered, LoweredTrig, Operand, ScalarType};
-use crate::scene::{Posed, SceneRobot};
+use crate::program::{Code, Input, Literal, Pair, ScalarType};
+use crate::setup::{Posed, Setup};
 use crate::states::JointState;
 
 /// The bound on the normwise error against the runtime, in units of u.
@@ -40,7 +40,7 @@ pub struct Emitted {
     /// The numbers that the lengths of its results follow from.
     pub sizes: Sizes,
     /// Its text.
-    pub text: Lowered,
+    pub text: Code,
 }
 
 /// The worst normwise error of one quantity of one function.
@@ -86,23 +86,23 @@ pub struct Runtime {
     arm: Arm<Sparse<f64>>,
     /// With them.
     whole: Arm<Sparse<f64>>,
-    scene_robot: SceneRobot,
+    setup: Setup,
 }
 
 impl Runtime {
     /// Creates the runtime of a robot; lengths without effect are folded away while exact.
     pub fn new(robot: &Robot) -> Runtime {
-        Runtime::in_scene(SceneRobot::whole(robot))
+        Runtime::in_scene(Setup::whole(robot))
     }
 
     /// Creates the runtime of a robot in a scene: the same recursion over all its joints, with
     /// the scene's constants in place of the state's.
-    pub fn in_scene(scene_robot: SceneRobot) -> Runtime {
-        let whole = Arm::from_robot(scene_robot.robot(), &mut Exact::clone);
+    pub fn in_scene(setup: Setup) -> Runtime {
+        let whole = setup.arm(Exact::clone);
         Runtime {
             arm: whole.clone().fold_base().map(constant),
             whole: whole.map(constant),
-            scene_robot,
+            setup,
         }
     }
 
@@ -120,7 +120,7 @@ impl Runtime {
             true => 1.0,
             false => scaled_condition(&of_inertia).max(1.0),
         };
-        let divisors = posed.divisors(function);
+        let divisors = posed.divisors();
         let quantities = function.quantities().iter().zip(&divisors);
         let factors = quantities.map(|(quantity, divisor)| {
             let own = match divisor.is_empty() {
@@ -136,30 +136,28 @@ impl Runtime {
     }
 
     /// Returns the arm and its motion at a state.
-    fn posed(&self, function: Function, state: &JointState) -> Posed<Sparse<f64>> {
-        // A motion reads the angles of single joints only.
-        let angle = |sum: AngleSum| sum.terms().map(|(joint, _)| state.q[joint]).sum::<f64>();
+    fn posed(&self, function: Function, state: &JointState) -> Posed<'_, Sparse<f64>> {
         let input = |input: Input| {
             Sparse::Value(match input {
                 Input::PerSpeed(joint) => {
                     let qd = state.entry(Argument::Velocity, joint);
                     let sqrt = |x: &f64| libm::sqrt(*x);
-                    self.scene_robot.per_speed(joint, &qd, f64::nearest, sqrt)
+                    self.setup.per_speed(joint, &qd, f64::nearest, sqrt)
                 }
-                Input::Sin(sum) => libm::sincos(angle(sum)).0,
-                Input::Cos(sum) => libm::sincos(angle(sum)).1,
+                Input::Sin(joint) => libm::sincos(state.q[joint]).0,
+                Input::Cos(joint) => libm::sincos(state.q[joint]).1,
                 Input::Entry(argument, joint) => state.entry(argument, joint),
             })
         };
         let arm = self.arm_of(function).clone();
-        self.scene_robot.posed(function, arm, input, constant)
+        self.setup.task(function).posed_arm(arm, &(constant, input))
     }
 
     /// Returns the results of a function at a state, flat.
     pub fn run(&self, function: Function, state: &JointState) -> Vec<f64> {
         let posed = self.posed(function, state);
         let formulation = Formulation::NewtonEulerLink;
-        floats(&posed.results(&self.scene_robot, function, formulation))
+        floats(&posed.results(formulation))
     }
 
     /// Returns the arm that a function is of.
@@ -201,8 +199,9 @@ impl Emitted {
     /// Returns, for each result, whether it was proved to vanish: these are compared with zero,
     /// not with the rounding noise that a runtime leaves there.
     pub fn vanishing(&self) -> impl Iterator<Item = bool> {
-        let outputs = self.text.outputs.iter();
-        outputs.map(|output| output.value == Operand::Constant(Literal(0.0)))
+        let dag = &self.text.dag;
+        let outputs = dag.outputs.iter();
+        outputs.map(|output| *dag.node(output.node) == Node::Constant(Literal(0.0)))
     }
 
     /// Returns the errors against the runtime, a quantity each. Sines are libm's on
@@ -237,18 +236,18 @@ impl Emitted {
         measures
     }
 
-    /// Returns the largest |polynomial − libm's f64| of each angle over the states, in
+    /// Returns the largest |polynomial − libm's f64| of each joint over the states, in
     /// the order of the text; none for angles that are libm's.
-    pub fn sines(&self, states: &[JointState]) -> Vec<(AngleSum, f64)> {
-        let angles = self.text.trig.iter();
-        let own = angles.filter_map(|trig| Some((trig, trig.kernel.as_ref()?)));
-        own.map(|(trig, kernel)| {
+    pub fn sines(&self, states: &[JointState]) -> Vec<(usize, f64)> {
+        let pairs = self.text.pairs.iter();
+        let own = pairs.filter_map(|pair| Some((pair, pair.kernel.as_ref()?)));
+        own.map(|(pair, kernel)| {
             let error = |state: &JointState| match self.scalar {
-                ScalarType::F64 => off::<f64>(trig, kernel, state),
-                ScalarType::F32 => off::<f32>(trig, kernel, state),
+                ScalarType::F64 => off::<f64>(pair, kernel, state),
+                ScalarType::F32 => off::<f32>(pair, kernel, state),
             };
             let worst = states.iter().map(error).fold(0.0, f64::max);
-            (trig.angle, worst)
+            (pair.joint, worst)
         })
         .collect()
     }
@@ -264,9 +263,8 @@ impl Emitted {
 }
 
 /// Returns how far an angle's polynomials are from libm at a state.
-fn off<T: Machine>(trig: &LoweredTrig, kernel: &Kernel, state: &JointState) -> f64 {
-    let q: Vec<T> = state.q.iter().map(|&x| T::literal(x)).collect();
-    let angle = angle_value(trig.angle, &q);
+fn off<T: Machine>(pair: &Pair, kernel: &Kernel, state: &JointState) -> f64 {
+    let angle = T::literal(state.q[pair.joint]);
     let (sin, cos) = kernel.run(angle);
     let (true_sin, true_cos) = libm::sincos(angle.to_f64());
     let off = |taken: bool, a: T, b: f64| match taken {
@@ -275,7 +273,7 @@ fn off<T: Machine>(trig: &LoweredTrig, kernel: &Kernel, state: &JointState) -> f
         true => (a.to_f64() - b).abs(),
         false => 0.0,
     };
-    off(trig.sin, sin, true_sin).max(off(trig.cos, cos, true_cos))
+    off(pair.need.sin, sin, true_sin).max(off(pair.need.cos, cos, true_cos))
 }
 
 /// Actual and expected values, and how many times more than others they may

@@ -9,13 +9,24 @@ use dalembert_model::number::Exact;
 use dalembert_model::outputs::{Motion, RuntimeParameter, Written};
 use dalembert_model::scalar::{Divide, Scalar};
 
-use super::SceneRobot;
+use super::Setup;
+use crate::dag::Leaves;
 use crate::function::{Argument, Function};
 use crate::program::Input;
 
+/// A function of a robot in its scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Task<'a> {
+    /// The robot in its scene.
+    pub setup: &'a Setup,
+    /// The function.
+    pub function: Function,
+}
+
 /// The arm and motion that a formula is evaluated with.
 #[derive(Clone, Debug)]
-pub struct Posed<S> {
+pub struct Posed<'a, S> {
+    task: Task<'a>,
     /// The arm, gravity as the argument says and the payload on the last link,
     /// where the function takes them.
     pub arm: Arm<S>,
@@ -28,40 +39,64 @@ pub struct Posed<S> {
     rows: Vec<usize>,
 }
 
-impl SceneRobot {
-    /// Returns the scene's arm, given in the scalar, and its motion from the values of a
-    /// program's inputs and of constants.
-    pub fn posed<S: Scalar>(
-        &self,
-        function: Function,
-        mut arm: Arm<S>,
-        mut input: impl FnMut(Input) -> S,
-        mut constant: impl FnMut(&Exact) -> S,
-    ) -> Posed<S> {
-        let mut motion = self.motion(&mut input, &mut constant);
+impl<'a> Task<'a> {
+    /// Evaluates the function by a textbook's formula, in the scalar of the leaves, over the whole
+    /// arm: a locked joint has a constant pair or position, and rates that are zero. Returns the
+    /// results over the scene's rows, flat.
+    pub fn textbook<L: Leaves>(&self, by: Formulation, leaves: &L) -> Vec<L::Value> {
+        self.posed(leaves).results(by)
+    }
+
+    /// Returns the scene's arm and its motion as the function takes them.
+    pub fn posed<L: Leaves>(&self, leaves: &L) -> Posed<'a, L::Value> {
+        self.posed_arm(self.setup.arm(|constant| leaves.constant(constant)), leaves)
+    }
+
+    /// Returns the same of the scene's arm in the scalar.
+    pub fn posed_arm<L: Leaves>(&self, mut arm: Arm<L::Value>, leaves: &L) -> Posed<'a, L::Value> {
+        let Task { setup, function } = *self;
+        let (input, constant) = (
+            |input| leaves.input(input),
+            |constant: &Exact| leaves.constant(constant),
+        );
+        let mut motion = setup.motion(input, constant);
         arm = arm.at_speeds(&motion.per_speed);
         let mut rows: Vec<usize> = (0..arm.links.len()).collect();
-        if self.takes(function, RuntimeParameter::Gravity) {
+        if setup.takes(function, RuntimeParameter::Gravity) {
             let entry = |axis| input(Input::Entry(Argument::Gravity, axis));
             arm = arm.with_gravity(&[0, 1, 2].map(entry));
         }
-        if self.takes(function, RuntimeParameter::Payload) || function == Function::Load {
-            if function == Function::Load {
-                motion.loading = Some(self.loading(&mut input, &mut constant));
-            } else {
-                let frame = self.payload_frame(&mut constant);
-                let link = carried(&self.payload(&mut input), frame.as_ref());
-                arm = arm.with_link(link);
-                motion = motion.with_still_link();
-                rows.push(rows.len());
-            }
+        if function == Function::Load {
+            motion.loading = Some(setup.loading(input, constant));
+        } else if setup.takes(function, RuntimeParameter::Payload) {
+            let frame = setup.payload_frame(constant);
+            let link = carried(&setup.payload(input), frame.as_ref());
+            arm = arm.with_link(link);
+            motion = motion.with_still_link();
+            rows.push(rows.len());
         }
         Posed {
+            task: *self,
             arm,
             motion,
-            columns: self.columns(function, constant),
+            columns: setup.columns(function, constant),
             rows,
         }
+    }
+}
+
+impl Setup {
+    /// Returns one of its functions.
+    pub fn task(&self, function: Function) -> Task<'_> {
+        Task {
+            setup: self,
+            function,
+        }
+    }
+
+    /// Returns the scene's arm in a scalar, with all its joints.
+    pub fn arm<S: Scalar>(&self, mut constant: impl FnMut(&Exact) -> S) -> Arm<S> {
+        Arm::from_robot(self.robot(), &mut constant)
     }
 
     /// Returns the numbers of a payload.
@@ -101,14 +136,15 @@ impl SceneRobot {
     }
 }
 
-impl<S: Divide> Posed<S> {
+impl<S: Divide> Posed<'_, S> {
     /// Returns the results over all joints there are.
-    pub fn all(&self, function: Function, formulation: Formulation) -> Vec<S> {
-        function.evaluate(formulation, &self.arm, &self.motion, &self.columns)
+    pub fn all(&self, by: Formulation) -> Vec<S> {
+        let function = self.task.function;
+        function.evaluate(by, &self.arm, &self.motion, &self.columns)
     }
 
-    /// Returns what each quantity of a function inverts beside D.
-    pub fn divisors(&self, function: Function) -> Vec<Vec<S>> {
+    /// Returns what each quantity of the function inverts beside D.
+    pub fn divisors(&self) -> Vec<Vec<S>> {
         let written = Written {
             formulation: Formulation::NewtonEulerLink,
             arm: &self.arm,
@@ -116,24 +152,20 @@ impl<S: Divide> Posed<S> {
             motion: &self.motion,
             columns: &self.columns,
         };
-        let quantities = function.quantities().iter();
+        let quantities = self.task.function.quantities().iter();
         quantities
             .map(|quantity| quantity.divisor(&written))
             .collect()
     }
 
     /// Returns the results over the scene's rows, from those over all.
-    pub fn select(&self, scene_robot: &SceneRobot, function: Function, all: Vec<S>) -> Vec<S> {
-        scene_robot.select(function, &self.rows, &self.arm.following, all)
+    pub fn select(&self, all: Vec<S>) -> Vec<S> {
+        let Task { setup, function } = self.task;
+        setup.select(function, &self.rows, &self.arm.following, all)
     }
 
     /// Returns the results over the scene's rows.
-    pub fn results(
-        &self,
-        scene_robot: &SceneRobot,
-        function: Function,
-        formulation: Formulation,
-    ) -> Vec<S> {
-        self.select(scene_robot, function, self.all(function, formulation))
+    pub fn results(&self, by: Formulation) -> Vec<S> {
+        self.select(self.all(by))
     }
 }

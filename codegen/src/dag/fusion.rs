@@ -1,0 +1,188 @@
+//! Products that are fused with a sum: `a.mul_add(b, c)`, one operation that rounds once.
+//!
+//! A fused product is a node of its own ([`Operation::Fused`]) whose value is not rounded. One sum
+//! or difference reads it, and nothing else, and both are one line of the text. So whatever is
+//! exact, a proof or a derivative, takes it for the product that it is; whatever rounds leaves its
+//! rounding out; and only machines, which cannot hold the exact product, compute the two nodes as
+//! one.
+
+use dalembert_model::number::{Exact, Rounded};
+use dalembert_model::scalar::Scalar;
+
+use super::{Dag, Id, Node, Writer};
+use crate::dag::{Input, Operation};
+
+/// A sum or a difference with the fused product that it takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fusion {
+    /// The factors of the product.
+    pub factors: [Id; 2],
+    /// `true` if the product is subtracted.
+    pub negative: bool,
+    /// What the product is added to.
+    pub addend: Id,
+    /// `true` if the addend is subtracted.
+    pub minus: bool,
+}
+
+impl Fusion {
+    /// Computes the sum in a scalar, from the values of the factors and the addend.
+    #[inline]
+    pub fn apply<S: Scalar>(&self, [left, right]: [&S; 2], addend: &S) -> S {
+        let addend = match self.minus {
+            true => addend.neg(),
+            false => addend.clone(),
+        };
+        match self.negative {
+            true => left.neg().mul_add(right, &addend),
+            false => left.mul_add(right, &addend),
+        }
+    }
+}
+
+impl<C, I> Dag<C, I> {
+    /// Returns the fused product that a node takes, if it is a sum or a difference with one.
+    #[inline]
+    pub fn fusion(&self, id: Id) -> Option<Fusion> {
+        let (is_sum, [left, right]) = match *self.node(id) {
+            Node::Apply(Operation::Add, operands) => (true, operands),
+            Node::Apply(Operation::Sub, operands) => (false, operands),
+            _ => return None,
+        };
+        let factors = |id: Id| match *self.node(id) {
+            Node::Apply(Operation::Fused, factors) => Some(factors),
+            _ => None,
+        };
+        let (factors, addend, is_left) = match (factors(left), factors(right)) {
+            (Some(factors), _) => (factors, right, true),
+            (None, Some(factors)) => (factors, left, false),
+            (None, None) => return None,
+        };
+        Some(Fusion {
+            factors,
+            negative: !is_sum && !is_left,
+            addend,
+            minus: !is_sum && is_left,
+        })
+    }
+
+    /// Returns the number of operations of the longest chain, a product with the sum that takes it
+    /// counted as one.
+    pub fn depth(&self) -> usize {
+        let mut depths: Vec<usize> = Vec::with_capacity(self.nodes.len());
+        for node in &self.nodes {
+            let depth = match node {
+                Node::Constant(_) | Node::Input(_) => 0,
+                Node::Apply(operation, operands) => {
+                    let before = operands.map(|id| depths[id as usize]);
+                    before[0].max(before[1]) + usize::from(*operation != Operation::Fused)
+                }
+            };
+            depths.push(depth);
+        }
+        depths.into_iter().max().unwrap_or(0)
+    }
+}
+
+/// A product that a sum may take.
+struct Candidate {
+    /// The operations of the longest chain that ends in a factor.
+    chain: usize,
+    product: Id,
+    factors: [Id; 2],
+    addend: Id,
+}
+
+impl Dag {
+    /// Returns the code with its products fused: each that a single sum or difference reads, and
+    /// nothing else, one a sum. Of two, the sum takes the one with the longer chain of operations
+    /// behind its factors, since its own step is the one that the chain no longer has, and of equal
+    /// ones the left. The choice at one sum leaves those at others as they are: so there are as few
+    /// operations and as short chains as there can be. A sum with a negative literal takes none,
+    /// whose sign a text could not tell from a difference's, nor is a product of two literals
+    /// taken. A product stands right before its sum. Fused code stays as it is.
+    #[must_use]
+    pub fn fused(&self) -> Dag {
+        let taken = self.taken();
+        let is_taken = |id: Id| taken.contains(&Some(id));
+        let mut writer: Writer<Exact, Input> = Writer::default();
+        let mut places: Vec<Id> = vec![0; self.nodes.len()];
+        let place = |id: Id, places: &[Id], writer: &mut Writer<Exact, Input>| {
+            let node = self.node(id);
+            match node {
+                Node::Apply(..) => places[id as usize],
+                leaf => writer.leaf(leaf.clone()),
+            }
+        };
+        for (id, operation, operands) in self.operations().filter(|own| !is_taken(own.0)) {
+            let mut own = operands;
+            if let Some(product) = taken[id as usize]
+                && let Node::Apply(_, [x, y]) = *self.node(product)
+            {
+                // `mul_add` is a method of the left factor: a literal stands on the right.
+                let factors = if self.is_constant(x) { [y, x] } else { [x, y] };
+                let factors = factors.map(|id| place(id, &places, &mut writer));
+                places[product as usize] = writer.apply(Operation::Fused, factors);
+                if operation == Operation::Add && operands[1] == product {
+                    own.reverse();
+                }
+            }
+            let own = own.map(|id| place(id, &places, &mut writer));
+            places[id as usize] = writer.apply(operation, own);
+        }
+        let outputs = self.outputs.iter().map(|edge| super::Edge {
+            node: place(edge.node, &places, &mut writer),
+            ..*edge
+        });
+        let outputs = outputs.collect();
+        writer.finish(outputs)
+    }
+
+    fn is_constant(&self, id: Id) -> bool {
+        matches!(self.node(id), Node::Constant(_))
+    }
+
+    /// Finds, for each node, the product that is fused into it.
+    fn taken(&self) -> Vec<Option<Id>> {
+        let reads = self.reads();
+        let mut taken = vec![None; self.nodes.len()];
+        // The operations of the longest chain that ends in each node.
+        let mut chain = vec![0usize; self.nodes.len()];
+        for (id, operation, [a, b]) in self.operations() {
+            let longest = |ends: &[Id]| ends.iter().map(|id| chain[*id as usize]).max();
+            let candidate = |product: Id, addend: Id| match *self.node(product) {
+                Node::Apply(Operation::Mul | Operation::Fused, factors)
+                    if reads[product as usize] == 1
+                        && !self.is_negative(addend)
+                        && !factors.iter().all(|&factor| self.is_constant(factor)) =>
+                {
+                    Some(Candidate {
+                        chain: longest(&factors).unwrap_or(0),
+                        product,
+                        factors,
+                        addend,
+                    })
+                }
+                _ => None,
+            };
+            let found = match operation {
+                Operation::Add | Operation::Sub => match (candidate(a, b), candidate(b, a)) {
+                    (Some(left), Some(right)) if right.chain > left.chain => Some(right),
+                    (left, right) => left.or(right),
+                },
+                Operation::Mul | Operation::Fused | Operation::Div => None,
+            };
+            let before = match &found {
+                None => longest(&[a, b]),
+                Some(own) => longest(&[own.factors[0], own.factors[1], own.addend]),
+            };
+            taken[id as usize] = found.map(|own| own.product);
+            chain[id as usize] = 1 + before.unwrap_or(0);
+        }
+        taken
+    }
+
+    fn is_negative(&self, id: Id) -> bool {
+        matches!(self.node(id), Node::Constant(value) if f64::nearest(value) < 0.0)
+    }
+}
