@@ -13,7 +13,6 @@ mod puma560_f32;
 
 /// A joint slides, another turns for ever, and both have Coulomb friction, whose root
 /// stands where the arithmetic does; a struct, a number and a quotient.
-/// Sums of angles beside the joints' own.
 macro_rules! arm {
     ($name:ident, [$($output:tt)*], $($clause:tt)*) => {
         dalembert::dynamics! {

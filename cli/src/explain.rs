@@ -90,7 +90,7 @@ impl Explanation {
         let drawn = setup.states(states, SEED);
         let samples = |scalar| bench.samples(function, scalar, &drawn, &drawn);
         let double = samples(ScalarType::F64);
-        let exact: Arm<Exact> = Arm::from_robot(setup.robot(), &mut Exact::clone);
+        let exact: Arm<Exact> = setup.arm(Exact::clone);
         let arm = exact.map(f64::nearest);
         let sizes = setup.sizes(function);
         let row = |row: &Row| {

@@ -26,10 +26,9 @@ pub struct GenerateArgs {
     /// The language of the code [default: that of the ending of -o, or rust]
     #[arg(long, value_name = "WORD", value_parser = word_parser::<Language>(), help_heading = CODE)]
     language: Option<Language>,
-    /// Search anew and keep the programs in a plan beside the robot file:
-    /// every later run, macro and build script replays them. After a search
-    /// that was ended early, a kept program stays unless that found a cheaper
-    /// one
+    /// Search, on from the programs of the plan beside the robot file if there is one, and keep
+    /// what is found there: every later run, macro and build script replays it. Programs that are
+    /// not cheaper leave the plan as it was
     #[arg(long, conflicts_with = "plan")]
     save_plan: bool,
 }
@@ -55,6 +54,7 @@ pub(crate) fn run(args: &GenerateArgs, context: &Context) -> Outcome {
     let places = Places::new(args, context, &source, &request)?;
     language?;
     let kept = request.plan.take_if(|_| args.save_plan);
+    request.renewed.clone_from(&kept);
     let generated = source.generate(context, &mut request)?;
     let report = report(&source.robot, &request, &generated, Detail::Bounds);
     let mut files = Vec::new();

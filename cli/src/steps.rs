@@ -90,6 +90,7 @@ pub(super) fn exact(
     let anew = Request {
         start: Start::Auto,
         plan: None,
+        renewed: None,
         ..job.request.clone()
     };
     let found = search(&job.with(&anew), function)?;
@@ -198,7 +199,7 @@ impl Steps<'_> {
         let graph = &found.searched.graph;
         let mut last = Program::in_scene(self.job.setup.task(self.function), graph);
         self.program("search", last.clone());
-        if let Some(entry) = replay(self.job, self.function)? {
+        if let Some(entry) = replay(self.job, self.job.request.plan.as_ref(), self.function)? {
             last = entry.program.clone();
             self.program("plan", last.clone());
         }

@@ -147,7 +147,11 @@ impl<'c> Falsifier<'c> {
         let Certificate { scalar, limits, .. } = self.certificate;
         let states: Vec<JointState> = states.iter().map(|s| held(s, *scalar, limits)).collect();
         let exact = self.exact.run_at_many(&states);
-        let emitted = self.emitted.run_at_many(&states);
+        let mut emitted = self.emitted.run_at_many(&states);
+        if emitted.len() != exact.len() {
+            // A text that reads what is not there, or returns too little.
+            emitted = vec![vec![f64::NAN; states.len()]; exact.len()];
+        }
         self.falsification.states += states.len();
         let mut all = Vec::with_capacity(emitted.len());
         for (i, (emitted, exact)) in emitted.iter().zip(&exact).enumerate() {

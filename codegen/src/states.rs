@@ -99,10 +99,10 @@ impl JointState {
 /// missing.
 pub type State<T> = [Vec<T>; Argument::COUNT];
 
-/// The number of states of the floating check unless another is given.
+/// The number of states of a measurement unless another is given.
 pub const STATES: usize = 200;
 
-/// The seed of the floating check.
+/// The seed of a measurement.
 pub const SEED: u64 = 0xa1e3;
 
 /// Distinguishes the seed of the arguments that are no part of a state.

@@ -1,6 +1,5 @@
-//! Bundles: several outputs as one function, which shares their work. What comes
-//! out is proved, read back and measured as any function is; it is the same by
-//! every way in, and costs no more than its parts.
+//! Bundles, several outputs as one function: what they are by name, and that they are the same by
+//! every way in. `values` has their numbers, `counts` what they save, `kept` their plans.
 
 use dalembert_codegen::{Function, Request, ScalarType, generate};
 

@@ -1,5 +1,5 @@
-//! Products that are fused with sums: which they are, that the text is the program
-//! and the program the formula, what rounding costs then, and certificates.
+//! Products that are fused with sums: which they are, that the text is the program, and
+//! certificates of them. `values` and `golden` have their numbers.
 
 use dalembert_codegen::workspace::{Certificate, Code, JointState, Rounding, Setup, keep};
 use dalembert_codegen::{Fma, Function, Generated, Request, ScalarType, generate};

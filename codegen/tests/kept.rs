@@ -46,8 +46,13 @@ fn programs_by_their_request() {
         (
             "frames/planar2r",
             "",
-            "outputs: jacobian@camera:local, jacobian_rate@elbow:world, momentum_observer; scalar: f64",
-            &["\nprogram jacobian@camera:local auto f64 "],
+            "outputs: jacobian@camera:local, jacobian_rate@elbow:world, momentum_observer, \
+             operational_bias@elbow:linear, \
+             task=operational_inertia@camera:linear+consistent_inverse@camera:linear; scalar: f64",
+            &[
+                "\nprogram jacobian@camera:local auto f64 ",
+                "\nprogram task=operational_inertia@camera:linear+",
+            ],
         ),
         (
             "planar2r",
@@ -184,4 +189,33 @@ fn scenes_are_told_apart() {
     let of = |more: &str| Case::new("puma560", &(scene.to_owned() + more), asked);
     assert_eq!(planned(&of(""), &plan), [true]);
     assert_eq!(planned(&of("velocity = \"zero\"\n"), &plan), [false]);
+}
+
+/// Who renews a plan goes on from its programs, and never comes out dearer; from what is not the
+/// function's nobody goes on.
+#[test]
+fn renewed_programs_are_no_dearer() {
+    let file = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../generated/robots/stanford.toml"
+    );
+    let plan = plan_file::beside(std::path::Path::new(file));
+    let plan = plan.unwrap().unwrap();
+    let mut case = Case::new("stanford", "", "outputs: inertia; scalar: f64");
+    let operations = |generated: Generated| generated.functions[0].counts().operations();
+    let (searched, kept) = (operations(case.generated()), operations(case.by(&plan)));
+    assert!(kept < searched, "{kept} {searched}: nothing to renew");
+    case.request.renewed = Some(plan.clone());
+    assert!(operations(case.generated()) <= kept);
+    let mut wrong = plan.clone();
+    for entry in &mut wrong.entries {
+        entry.program.outputs.reverse();
+    }
+    case.request.renewed = Some(wrong);
+    assert_eq!(operations(case.generated()), searched);
+    case.request.renewed = Some(Plan {
+        input: "0".repeat(16),
+        ..plan
+    });
+    assert_eq!(operations(case.generated()), searched);
 }

@@ -1,5 +1,5 @@
-//! An arm of which three joints follow others: one coordinate each with their leaders, in
-//! code, proofs, scenes and languages, against Pinocchio.
+//! An arm of which three joints follow others: one coordinate each with their leaders, in code and
+//! languages, against Pinocchio. `values` has its scenes and arguments, `refused` what it cannot.
 
 use dalembert_codegen::workspace::{
     BOUND, Columns, JointState, Quantity, Reference, Runtime, Setup, TrueValue,

@@ -20,8 +20,9 @@ const BOXED: &str = "\n[scene.near]\ntolerance = { value = 1e-2, relative_to = \
 const COARSE: &str = "\n[scene.coarse]\ntolerance = { value = 1e-3, relative_to = \"range\" }\n\
     box = { acceleration = [1, 1, 1, 1] }\n";
 
-const LINEAR: &[&str] = &["not linear", "leave `coulomb` out", "`full_regressor`"];
-const CERTIFIED: &[&str] = &["give the tolerance to `inverse_dynamics`"];
+const LINEAR: &str = "not linear";
+const OTHERS: [&str; 2] = ["leave `coulomb` out", "`full_regressor`"];
+const CERTIFIED: &str = "give the tolerance to `inverse_dynamics`";
 const PARAMETERS: &[&str] = &["its entries multiply parameters of any size"];
 
 const ROWS: [Row; 22] = [
@@ -67,19 +68,19 @@ const ROWS: [Row; 22] = [
         "planar2r",
         BOXED,
         "outputs: forward_dynamics; scene: near",
-        CERTIFIED,
+        &["`forward_dynamics`", CERTIFIED],
     ),
     (
         "planar2r",
         BOXED,
         "outputs: inertia_inverse; scene: near",
-        CERTIFIED,
+        &["`inertia_inverse`", CERTIFIED],
     ),
     (
         "planar2r",
         BOXED,
         "outputs: passivity; scene: near",
-        CERTIFIED,
+        &["`passivity`", CERTIFIED],
     ),
     (
         "puma560",
@@ -99,8 +100,18 @@ const ROWS: [Row; 22] = [
         "outputs: passivity_regressor; scene: near",
         PARAMETERS,
     ),
-    ("coulomb", "", "outputs: regressor", LINEAR),
-    ("coulomb", "", "outputs: passivity_regressor", LINEAR),
+    (
+        "coulomb",
+        "",
+        "outputs: regressor",
+        &["`regressor`", LINEAR, OTHERS[0], OTHERS[1]],
+    ),
+    (
+        "coulomb",
+        "",
+        "outputs: passivity_regressor",
+        &["`passivity_regressor`", LINEAR, OTHERS[0], OTHERS[1]],
+    ),
     (
         "frames/planar2r",
         "",

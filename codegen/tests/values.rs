@@ -41,12 +41,10 @@ fn six_robots() {
     ) {
         let asked = format!("{FIRST}; fma: on");
         let generated = Case::new(robot, "", &asked).rounds_well(200, robot);
-        assert!(
-            generated
-                .emitted
-                .iter()
-                .all(|own| own.text.counts().fma > 0 || own.text.dag.nodes.len() < 40)
-        );
+        for own in &generated.emitted {
+            let is_torque = own.function == Function::InverseDynamics;
+            assert!(!is_torque || own.text.counts().fma > 0, "{robot}");
+        }
     }
 }
 
@@ -210,6 +208,7 @@ fn placements() {
     assert!(!case.robot().joints[0].beta.is_zero() && case.robot().base.is_some());
     let text = case.rounds_well(50, asked).text();
     assert!(text.contains("After its twist each of these turns about y: joint 1 by 0.00"));
+    // Of D with a payload the range of polynomial sines was once looked for in a box without one.
     check(&[(
         "planar2r",
         "",

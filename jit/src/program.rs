@@ -11,7 +11,7 @@ use dalembert_codegen::workspace::{
 use crate::emit::{Call, Emitter};
 use crate::sines::together;
 
-/// The program reads what it does not have: an argument, a sine or a later step.
+/// The code reads what it does not have: an argument, a sine or a later node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Unreadable;
 

@@ -40,7 +40,7 @@ pub fn within(
         let mut pairs = costs.iter().zip(allowances);
         pairs.all(|(cost, &allowed)| cost.sincos <= allowed)
     };
-    // Sums of angles round as well: with less for the polynomials they fit.
+    // A larger error costs more than in proportion: with half of it they fit.
     if !admitted(&sines) {
         sines = sincos::polynomials(program, scalar, positions, error / 2.0)?;
     }

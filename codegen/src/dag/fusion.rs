@@ -9,8 +9,7 @@
 use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::scalar::Scalar;
 
-use super::{Dag, Id, Node, Writer};
-use crate::dag::{Input, Operation};
+use super::{Dag, Edge, Id, Input, Node, Operation, Writer};
 
 /// A sum or a difference with the fused product that it takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,7 +95,7 @@ struct Candidate {
 impl Dag {
     /// Returns the code with its products fused: each that a single sum or difference reads, and
     /// nothing else, one a sum. Of two, the sum takes the one with the longer chain of operations
-    /// behind its factors, since its own step is the one that the chain no longer has, and of equal
+    /// behind its factors, since its own operation is the one that the chain no longer has, and of equal
     /// ones the left. The choice at one sum leaves those at others as they are: so there are as few
     /// operations and as short chains as there can be. A sum with a negative literal takes none,
     /// whose sign a text could not tell from a difference's, nor is a product of two literals
@@ -130,7 +129,7 @@ impl Dag {
             let own = own.map(|id| place(id, &places, &mut writer));
             places[id as usize] = writer.apply(operation, own);
         }
-        let outputs = self.outputs.iter().map(|edge| super::Edge {
+        let outputs = self.outputs.iter().map(|edge| Edge {
             node: place(edge.node, &places, &mut writer),
             ..*edge
         });

@@ -14,8 +14,8 @@ pub enum Operation {
     Mul,
     /// left / right
     Div,
-    /// left · right, not rounded: the next step, a sum or a difference, takes it
-    /// and rounds once (`fused`).
+    /// left · right, not rounded: the next operation, a sum or a difference, takes it and rounds
+    /// once (`fusion`).
     Fused,
 }
 

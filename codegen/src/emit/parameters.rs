@@ -3,7 +3,6 @@
 
 use std::fmt::Write;
 
-use dalembert_model::equations::Arm;
 use dalembert_model::number::Exact;
 use num_traits::{One, Signed};
 
@@ -113,7 +112,7 @@ fn values(
     scalar: ScalarType,
 ) -> Option<(&'static str, Vec<Literal>)> {
     let ((_, name), base) = over_base(function, setup)?;
-    let arm = Arm::from_robot(setup.robot(), &mut Exact::clone);
+    let arm = setup.arm(Exact::clone);
     let values = base.values(&arm).into_iter();
     let values = values.map(|value| Literal(scalar.round(&value)));
     Some((name, values.collect()))

@@ -47,7 +47,19 @@ fn exact(reference: &Reference, generated: &GeneratedFunction) -> Result<(), Gen
     let states = reference.setup().states(STATES, SEED);
     for state in states.iter().map(JointState::in_finite_single) {
         let truth = reference.run(generated.function, &state);
-        let results = reference.run_program(&generated.program, &state);
+        let Some(results) = reference.run_program(&generated.program, &state) else {
+            return Err(wrong(
+                generated,
+                0,
+                None,
+                f64::INFINITY,
+                "it reads what is not there",
+            ));
+        };
+        if results.len() != truth.len() {
+            let why = format!("it has {} results of {}", results.len(), truth.len());
+            return Err(wrong(generated, results.len(), None, f64::INFINITY, &why));
+        }
         let differences = truth.iter().zip(&results).map(|(a, b)| a.difference(b));
         if let Some((index, error)) = differences.enumerate().find(|(_, error)| *error > 0.0) {
             let why = "in 256 bits both are equal";
@@ -66,14 +78,20 @@ fn tolerated(
     let scalar = emitted.scalar;
     let mut certificates = generated.admitted.iter().flat_map(|all| &all.certificates);
     let Some(claim) = certificates.find(|claim| claim.scalar == scalar) else {
-        return Ok(());
+        let why = "it passed its proof, but has no certificate";
+        let function = generated.function;
+        return Err(GenerateError::Defect(function, Some(scalar), why.into()));
     };
     let mut random = Random::new(SEED);
     for _ in 0..STATES {
         let state = held(&draw(&claim.limits, &mut random), scalar, &claim.limits);
         let truth = reference.run(generated.function, &state);
-        let pairs = emitted.run(&state).into_iter().zip(&truth);
-        let errors = pairs.map(|(result, truth)| truth.error(result));
+        let results = emitted.run(&state);
+        // What was not computed is no number.
+        let results = results.into_iter().chain(std::iter::repeat(f64::NAN));
+        let errors = results
+            .zip(&truth)
+            .map(|(result, truth)| truth.error(result));
         let mut both = errors.zip(claim.errors()).enumerate();
         if let Some((index, (error, bound))) = both.find(|(_, (error, bound))| error > bound) {
             let why = format!("its certificate allows {bound:.3e}");
@@ -124,9 +142,12 @@ mod tests {
             1.into(),
             num_bigint::BigInt::from(10).pow(40),
         ));
-        for index in 0..function.program.steps.len() {
+        let mut planted = 0;
+        for index in 0..2 * function.program.steps.len() {
             let program = function.program.clone();
-            let Operand::Constant(constant) = &mut function.program.steps[index].right else {
+            let step = &mut function.program.steps[index / 2];
+            let operands = [&mut step.left, &mut step.right];
+            let Some(Operand::Constant(constant)) = operands.into_iter().nth(index % 2) else {
                 continue;
             };
             *constant = constant.add(&tiny);
@@ -134,9 +155,17 @@ mod tests {
             assert!(
                 error.contains("it passed its proof"),
                 "t{}: {error}",
-                index + 1
+                index / 2 + 1
             );
             function.program = program;
+            planted += 1;
         }
+        assert!(planted >= 5, "{planted} constants");
+        // Nor does one pass that reads what is not there, or returns too little.
+        let mut other = function.clone();
+        other.program.steps[0].left = Operand::Step(usize::MAX);
+        assert!(exact(&reference, &other).is_err());
+        function.program.outputs.pop();
+        assert!(exact(&reference, &function).is_err());
     }
 }

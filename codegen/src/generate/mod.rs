@@ -297,7 +297,7 @@ fn proved(job: &Job<'_>, function: Function) -> Result<GeneratedFunction, Genera
         let joint = setup.robot().joint_label(joint);
         return Err(GenerateError::Singular { function, joint });
     }
-    let entry = replay(job, function)?;
+    let entry = replay(job, job.request.plan.as_ref(), function)?;
     let (source, passes, program, refused) = match entry {
         Some(entry) => {
             // Widths are the robot's: a plan has none.

@@ -1,7 +1,6 @@
 //! What a scalar cannot hold: constants out of its range, overflow inside the
 //! robot's limits.
 
-use dalembert_model::equations::Arm;
 use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
@@ -24,7 +23,7 @@ pub(super) fn vanishing(setup: &Setup) -> Option<Exact> {
         }
         value.clone()
     };
-    Arm::from_robot(setup.robot(), &mut constant);
+    setup.arm(&mut constant);
     setup.motion(|_| Exact::zero(), constant);
     lost
 }

@@ -6,19 +6,24 @@ use dalembert_model::number::Exact;
 use super::{GenerateError, Job};
 use crate::dag::Dag;
 use crate::function::Function;
-use crate::plan::Entry;
+use crate::plan::{Entry, Plan};
 use crate::program::{Counts, Program, ScalarType};
 use crate::search::{self, Effort, Pass, Searched};
 use crate::seeds::start::{Approach, Problem};
 use crate::seeds::{Limit, Seed, Source, Tuned};
-use crate::setup::{ParametersKey, SceneKey, Task};
+use crate::setup::{ParametersKey, SceneKey, Task, input_hash};
 use crate::verify::accuracy::{AccuracyFilter, Refused};
+use crate::verify::exact::prove;
 use crate::watch::{FunctionWatch, Part};
 
-/// Returns the plan's program, the first requested scalar's that it has.
-pub fn replay<'a>(job: &Job<'a>, function: Function) -> Result<Option<&'a Entry>, GenerateError> {
+/// Returns a plan's program, the first requested scalar's that it has.
+pub fn replay<'a>(
+    job: &Job<'a>,
+    plan: Option<&'a Plan>,
+    function: Function,
+) -> Result<Option<&'a Entry>, GenerateError> {
     let Job { setup, request, .. } = *job;
-    let Some(plan) = &request.plan else {
+    let Some(plan) = plan else {
         return Ok(None);
     };
     // Its definition: nothing was searched for.
@@ -83,19 +88,21 @@ pub struct Found {
     pub refused: Option<Refused>,
 }
 
-/// Searches for the cheapest program.
-///
-/// A thorough search contains the quick one: it is never dearer.
+/// Searches for the cheapest program, and goes on from the one that is renewed, if that is cheaper.
 pub fn search(job: &Job<'_>, function: Function) -> Result<Found, GenerateError> {
-    let task = job.setup.task(function);
-    let search = Search {
-        job: *job,
-        task,
-        judge: match job.is_lenient() {
-            true => AccuracyFilter::lenient(task),
-            false => AccuracyFilter::new(task),
-        },
-    };
+    let found = anew(job, function)?;
+    let watch = job.request.watch.over(function);
+    let search = Search::new(job, function);
+    let renewed = search.renewed(&found, watch);
+    Ok(renewed
+        .filter(|own| own.cost() < found.cost())
+        .unwrap_or(found))
+}
+
+/// Searches without a program to go on from. A thorough search contains the quick one: it is never
+/// dearer.
+fn anew(job: &Job<'_>, function: Function) -> Result<Found, GenerateError> {
+    let search = Search::new(job, function);
     let watch = job.request.watch.over(function);
     // Who wants an end before a function's turn gets the quick search for it.
     if watch.is_over() {
@@ -132,7 +139,50 @@ struct Search<'a> {
     judge: AccuracyFilter<'a>,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    fn new(job: &Job<'a>, function: Function) -> Search<'a> {
+        let task = job.setup.task(function);
+        Search {
+            job: *job,
+            task,
+            judge: match job.is_lenient() {
+                true => AccuracyFilter::lenient(task),
+                false => AccuracyFilter::new(task),
+            },
+        }
+    }
+
+    /// Goes on from the program that is renewed; none if there is none that is proved to be the
+    /// function's and is accurate enough.
+    fn renewed(&self, found: &Found, watch: FunctionWatch<'_>) -> Option<Found> {
+        let Job { setup, request, .. } = self.job;
+        let plan = request.renewed.as_ref()?;
+        if plan.input != input_hash(setup.robot()) {
+            return None;
+        }
+        let entry = replay(&self.job, Some(plan), self.task.function).ok()??;
+        let program = entry.program.clone().with_speeds(setup.speeds());
+        let graph = program.graph();
+        if prove(setup, &program).is_err() || !self.judge.accepts(&graph) {
+            return None;
+        }
+        let again = Approach {
+            tuned: found.tuned.clone(),
+            seeds: vec![Seed {
+                source: entry.source,
+                traced: entry.passes.first()?.counts,
+                graph: graph.clone(),
+            }],
+            helpers: vec![found.searched.graph.clone()],
+        };
+        let mut found = self.from(again, request.effort, true, Some(watch))?;
+        // Of programs that cost the same the plan's own stays.
+        if found.cost() >= search::cost(&graph) {
+            found.searched.graph = graph;
+        }
+        Some(found)
+    }
+
     /// Returns the quick search: without a limit first, since most robots need none.
     /// Where that costs too many digits, again within the limit, also from
     /// where the other one ended.

@@ -1,5 +1,4 @@
-//! What rounding costs straight-line code over intervals: bodies of functions and
-//! polynomials for sines alike.
+//! What rounding costs straight-line code over intervals.
 //!
 //! **Soundness.** Every operation gives (x ∘ y)(1 + δ) + η. Each is widened by
 //! that, so the intervals hold what is computed *and* what is exact. The error of a

@@ -243,10 +243,10 @@ mod tests {
         assert_eq!(line, "let t1 = c1 * 0.5;");
         assert_eq!(holes(rust.declaration, &line), Some(["t1", "c1 * 0.5"]));
         assert_eq!(holes::<2>(rust.declaration, "let t1 = c1 * 0.5"), None);
-        let fused = filled(rust.fused, &["(-t3)", "s2p3", "-t1"]);
-        assert_eq!(fused, "(-t3).mul_add(s2p3, -t1)");
-        assert_eq!(holes(rust.fused, &fused), Some(["(-t3)", "s2p3", "-t1"]));
-        assert_eq!(holes::<3>(rust.fused, "t3.mul_add(s2p3)"), None);
+        let fused = filled(rust.fused, &["(-t3)", "s2", "-t1"]);
+        assert_eq!(fused, "(-t3).mul_add(s2, -t1)");
+        assert_eq!(holes(rust.fused, &fused), Some(["(-t3)", "s2", "-t1"]));
+        assert_eq!(holes::<3>(rust.fused, "t3.mul_add(s2)"), None);
         assert_eq!(rust.read_literal("5"), None);
         assert_eq!(rust.read_literal("0.5x"), None);
     }

@@ -1,5 +1,5 @@
-//! The one backward pass: what a result changes by, for a change of each value
-//! that it is computed from, in any scalar.
+//! The backward pass over steps: what a result changes by, for a change of each value that it is
+//! computed from, in any scalar.
 
 use dalembert_model::scalar::Divide;
 

@@ -164,7 +164,7 @@ impl Code {
 }
 
 impl Code {
-    /// Returns the value of each node of f64 code at a state; none where the state lacks an entry
+    /// Returns the value of each node at a state, in doubles; none where the state lacks an entry
     /// that is read.
     pub(crate) fn values_at(&self, state: &JointState) -> Vec<f64> {
         let inputs = Inputs::new(self, &[state.numbers()]);
@@ -204,19 +204,14 @@ impl<T: Machine> Inputs<T> {
             }
         }
         for pair in &code.pairs {
-            let both = |q: &[T]| Some(pair.run(code.library, *q.get(pair.joint)?));
-            for (input, value) in [
-                (
-                    Input::Sin(pair.joint),
-                    lanes(Argument::Position, &|q| Some(both(q)?.0))?,
-                ),
-                (
-                    Input::Cos(pair.joint),
-                    lanes(Argument::Position, &|q| Some(both(q)?.1))?,
-                ),
-            ] {
-                inputs.insert(input, value);
-            }
+            let both = |state: &State<T>| {
+                let angle = state[Argument::Position.index()].get(pair.joint)?;
+                Some(pair.run(code.library, *angle))
+            };
+            let both = states.iter().map(both).collect::<Option<Vec<_>>>()?;
+            let (sines, cosines): (Vec<T>, Vec<T>) = both.into_iter().unzip();
+            inputs.insert(Input::Sin(pair.joint), Lanes::new(&sines)?);
+            inputs.insert(Input::Cos(pair.joint), Lanes::new(&cosines)?);
         }
         for speed in &code.speeds {
             let value = lanes(Argument::Velocity, &|qd| speed.run(qd))?;

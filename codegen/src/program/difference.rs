@@ -1,11 +1,11 @@
-//! The first difference between two programs over literals.
+//! The first difference between two pieces of code.
 
 use std::fmt;
 
 use super::{Code, Literal};
 use crate::dag::{Dag, Id, Node};
 
-/// The first part in which two programs differ.
+/// The first part in which two pieces of code differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Difference {
     /// The scalars.
@@ -44,23 +44,28 @@ impl fmt::Display for Difference {
 impl std::error::Error for Difference {}
 
 impl Code {
-    /// Returns the first difference between two programs; `None` if they are equal.
+    /// Returns the first difference from other code; none if they compute the same, operation by
+    /// operation, in whatever order their constants and inputs stand.
     pub fn difference(&self, other: &Code) -> Option<Difference> {
         let counts = [self, other].map(|code| code.dag.operations().count());
-        match self == other {
-            true => None,
-            false if self.scalar != other.scalar => Some(Difference::Scalar),
-            false if self.library != other.library => Some(Difference::Library),
-            false if self.pairs != other.pairs => Some(Difference::Sines),
-            false if self.speeds != other.speeds => Some(Difference::Speeds),
-            false if counts[0] != counts[1] => Some(Difference::Operations),
-            false if self.dag.outputs.len() != other.dag.outputs.len() => Some(Difference::Results),
-            false => Some(self.first_difference(other)),
+        let results = [self, other].map(|code| code.dag.outputs.len());
+        let parts = [
+            (self.scalar == other.scalar, Difference::Scalar),
+            (self.library == other.library, Difference::Library),
+            (self.pairs == other.pairs, Difference::Sines),
+            (self.speeds == other.speeds, Difference::Speeds),
+            (counts[0] == counts[1], Difference::Operations),
+            (results[0] == results[1], Difference::Results),
+        ];
+        let differs = parts.iter().find(|(is_equal, _)| !is_equal);
+        match differs {
+            Some((_, difference)) => Some(*difference),
+            None => self.first_difference(other),
         }
     }
 
     /// Compares operations and results one by one: equal operations read equal ones before them.
-    fn first_difference(&self, other: &Code) -> Difference {
+    fn first_difference(&self, other: &Code) -> Option<Difference> {
         let operand = |dag: &Dag<Literal>, numbers: &[Option<usize>], id: Id| match dag.node(id) {
             Node::Apply(..) => Err(numbers[id as usize]),
             leaf => Ok(leaf.clone()),
@@ -73,9 +78,80 @@ impl Code {
             .position(|((_, a, [x, y]), (_, b, [z, w]))| a != b || !same(x, z) || !same(y, w));
         let mut outputs = ours.outputs.iter().zip(&theirs.outputs);
         let result = outputs.position(|(a, b)| a.negative != b.negative || !same(a.node, b.node));
-        match operation {
-            Some(index) => Difference::Operation(index),
-            None => Difference::Result(result.unwrap_or(0)),
+        let operation = operation.map(Difference::Operation);
+        operation.or(result.map(Difference::Result))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dag::{Edge, Input, Operation};
+    use crate::function::Argument;
+    use crate::program::{Library, ScalarType};
+
+    /// −((q̇₁ − 0) − q̈₂).
+    fn code() -> Code {
+        let input = |argument, joint| Node::Input(Input::Entry(argument, joint));
+        let nodes = vec![
+            input(Argument::Velocity, 0),
+            Node::Constant(Literal(0.0)),
+            Node::Apply(Operation::Sub, [0, 1]),
+            input(Argument::Acceleration, 1),
+            Node::Apply(Operation::Sub, [2, 3]),
+        ];
+        let outputs = vec![Edge {
+            negative: true,
+            node: 4,
+        }];
+        Code {
+            scalar: ScalarType::F64,
+            library: Library::Libm,
+            pairs: Vec::new(),
+            speeds: Vec::new(),
+            dag: Dag { nodes, outputs },
         }
+    }
+
+    /// Whatever is changed, it is other code, and said where; but not the order of what is read.
+    #[test]
+    fn other_code_differs() {
+        type Change = (fn(&mut Code), &'static str);
+        let changes: [Change; 8] = [
+            (|c| c.scalar = ScalarType::F32, "the scalars differ"),
+            (
+                |c| c.library = Library::Together,
+                "the libraries of sines differ",
+            ),
+            (
+                |c| c.dag.nodes[1] = Node::Constant(Literal(-0.0)),
+                "operation t1 differs",
+            ),
+            (
+                |c| c.dag.nodes[4] = Node::Apply(Operation::Add, [2, 3]),
+                "operation t2 differs",
+            ),
+            (
+                |c| c.dag.nodes[4] = Node::Apply(Operation::Sub, [3, 2]),
+                "operation t2 differs",
+            ),
+            (
+                |c| c.dag.nodes.push(Node::Apply(Operation::Mul, [4, 4])),
+                "the number of operations differs",
+            ),
+            (|c| c.dag.outputs[0].negative = false, "result 0 differs"),
+            (|c| c.dag.outputs.clear(), "the number of results differs"),
+        ];
+        for (change, words) in changes {
+            let mut other = code();
+            change(&mut other);
+            let found = code().difference(&other).map(|found| found.to_string());
+            assert_eq!(found.as_deref(), Some(words));
+        }
+        let mut other = code();
+        other.dag.nodes.swap(0, 1);
+        other.dag.nodes[2] = Node::Apply(Operation::Sub, [1, 0]);
+        assert!(other != code());
+        assert_eq!(code().difference(&other), None);
     }
 }

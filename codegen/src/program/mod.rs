@@ -174,14 +174,14 @@ impl Program {
 
     /// Returns whether no step and no result reads a step that is not computed yet.
     pub(crate) fn is_straight(&self) -> bool {
-        let before = |count: usize| move |operand: &Operand| !matches!(operand, Operand::Step(read) if *read >= count);
+        let is_before = |operand: &Operand, count: usize| match operand {
+            Operand::Step(read) => *read < count,
+            Operand::Input(_) | Operand::Constant(_) => true,
+        };
         let mut steps = self.steps.iter().enumerate();
-        steps.all(|(index, step)| [&step.left, &step.right].into_iter().all(before(index)))
-            && self
-                .outputs
-                .iter()
-                .map(|output| &output.value)
-                .all(before(self.steps.len()))
+        let mut outputs = self.outputs.iter();
+        steps.all(|(index, step)| is_before(&step.left, index) && is_before(&step.right, index))
+            && outputs.all(|output| is_before(&output.value, self.steps.len()))
     }
 
     /// Returns whether the program divides.

@@ -18,13 +18,18 @@ words! {
 
 /// A program of at most so many operations is a small one.
 const SMALL: usize = 250;
+/// A program of at most so many is searched for from its start more than once where time is not
+/// short: the slopes of a PUMA's torques come out with 1003 to 1008 operations.
+const MEDIUM: usize = 2_000;
 
 /// What a search may do.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
-    /// Rounds at most.
+    /// Walks from the start, by other random numbers each: the best of them counts.
+    pub walks: usize,
+    /// Rounds of a walk at most.
     pub rounds: usize,
-    /// Rounds without a gain before it stops.
+    /// Rounds without a gain before a walk ends.
     pub patience: usize,
     /// The most classes among which all pairs are tried, if the program's own are not more; none are
     /// tried where it is zero.
@@ -40,6 +45,7 @@ pub struct Limits {
 impl Limits {
     /// Those of a single round without rules or annealing: what a program is about worth.
     pub(super) const GLANCE: Limits = Limits {
+        walks: 1,
         rounds: 1,
         patience: 0,
         pairs: 500,
@@ -68,6 +74,10 @@ impl Effort {
             Effort::Thorough => (120, 25, 2_500, 3_000, 300_000),
         };
         Limits {
+            walks: match self {
+                Effort::Thorough if operations <= MEDIUM => 4,
+                _ => 1,
+            },
             rounds,
             patience,
             pairs,

@@ -1,4 +1,5 @@
-//! The search for the fewest operations: discovery and extraction in turns, to a plateau.
+//! The search for the fewest operations: discovery and extraction in turns, to a plateau; where
+//! there is time, from the start again, by other random numbers.
 //!
 //! - this file: [`search`], and one round of it
 //! - [`effort`]: how much a search may do; [`price`]: what it minimises; [`pass`]: what each step
@@ -73,22 +74,32 @@ pub fn search(
     let others: Vec<Dag> = others.map(|dag| dag.rebuild(Folding::Syntactic)).collect();
     let offers: Vec<Printed> = others.iter().map(Printed::new).collect();
     let mut best = start.clone();
-    let (mut random, mut idle) = (Random::new(1), 0);
-    for number in 0..limits.rounds {
-        if idle > limits.patience || !goes_on([number, limits.rounds], &best) {
-            break;
-        }
-        let schedule = limits.schedules[number % 2];
-        let found = round(&best, &offers, &limits, schedule, &mut random);
-        let (before, after) = (cost(&best), cost(&found));
-        let is_taken = after <= before && (!is_strict || accept(&found));
-        idle = if is_taken && after < before {
-            0
-        } else {
-            idle + 1
-        };
-        if is_taken {
-            best = found;
+    let rounds = limits.walks * limits.rounds;
+    'walks: for walk in 0..limits.walks {
+        let mut own = start.clone();
+        let (mut random, mut idle) = (Random::new(1 + walk as u64), 0);
+        for number in 0..limits.rounds {
+            if idle > limits.patience {
+                break;
+            }
+            if !goes_on([walk * limits.rounds + number, rounds], &best) {
+                break 'walks;
+            }
+            let schedule = limits.schedules[number % 2];
+            let found = round(&own, &offers, &limits, schedule, &mut random);
+            let (before, after) = (cost(&own), cost(&found));
+            let is_taken = after <= before && (!is_strict || accept(&found));
+            idle = if is_taken && after < before {
+                0
+            } else {
+                idle + 1
+            };
+            if is_taken {
+                own = found;
+            }
+            if cost(&own) < cost(&best) || walk == 0 {
+                best = own.clone();
+            }
         }
     }
     Some(Searched {

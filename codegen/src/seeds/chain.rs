@@ -96,7 +96,7 @@ fn written(
 
 /// Returns the whole arm in motion.
 fn arm(setup: &Setup, gravity: Option<&Vector<Symbol>>, motion: &Motion<Symbol>) -> Arm<Symbol> {
-    let arm = Arm::from_robot(setup.robot(), &mut |x: &Exact| Symbol::from(x.clone()));
+    let arm = setup.arm(|x: &Exact| Symbol::from(x.clone()));
     let arm = match gravity {
         Some(gravity) => arm.with_gravity(gravity),
         None => arm,
@@ -127,7 +127,7 @@ pub fn skeleton(setup: &Setup) -> Skeleton<Exact> {
 
 /// Returns a vector of base axes in those of frame 0.
 fn in_frame_0(setup: &Setup, vector: &Vector<Symbol>) -> Vector<Symbol> {
-    let arm = Arm::from_robot(setup.robot(), &mut |x: &Exact| Symbol::from(x.clone()));
+    let arm = setup.arm(|x: &Exact| Symbol::from(x.clone()));
     arm.with_gravity(vector).gravity
 }
 
@@ -147,7 +147,7 @@ pub fn skeleton_for(task: Task<'_>) -> Skeleton<Exact> {
 }
 
 fn with_columns(setup: &Setup, columns: &[Column<Exact>]) -> Skeleton<Exact> {
-    let arm = Arm::from_robot(setup.robot(), &mut Exact::clone).fold_base();
+    let arm = setup.arm(Exact::clone).fold_base();
     let mut skeleton = Skeleton::with_columns(&arm, &setup.merged(), columns);
     let fitted = setup.fitted_links().unwrap_or_default();
     for (segment, link) in skeleton.links.iter_mut().zip(fitted) {
@@ -165,7 +165,6 @@ const MAX_SEEDS: usize = 16;
 /// what is dear in one choice of axes may be cheap in another, and the search mixes them. Where
 /// there are too many, the forms are told in the chain's own axes, and the cheapest in others.
 pub(crate) fn regrouped(task: Task<'_>, forms: &[Form], tuned: &Tuned) -> Vec<Seed> {
-    let _function = task.function;
     let mut chain = Chain::new(&skeleton_for(task), &tuned.regrouping);
     let axes = axes(&chain);
     let others = || forms.iter().filter(|form| **form != tuned.form);

@@ -66,7 +66,7 @@ impl fmt::Display for Form {
 
 impl Form {
     /// Returns its kernel; `fit` is of the form's centre and halvings. Without a fit
-    /// every coefficient is one: the kernel has the right number of steps.
+    /// every coefficient is one: the kernel has the right number of operations.
     pub fn kernel(&self, fit: Option<&Fit>, need: Need, scalar: ScalarType) -> Kernel {
         let mut kernel = KernelWriter::default();
         let rest = match self.reduced {

@@ -1,4 +1,4 @@
-//! How far a kernel is from sine and cosine: proved from its steps alone.
+//! How far a kernel is from sine and cosine: proved from its operations alone.
 //!
 //! **Approximation.** With exact arithmetic a kernel is a polynomial whose
 //! coefficients are integers over powers of two. Its difference from Taylor's
@@ -41,8 +41,8 @@ impl Errors {
     }
 }
 
-/// A kernel of more steps, or of a higher degree, is not looked at.
-const MAX_STEPS: usize = 128;
+/// A kernel of more operations, or of a higher degree, is not looked at.
+const MAX_OPERATIONS: usize = 128;
 const MAX_DEGREE: usize = 160;
 const MAX_BITS: u64 = 1 << 18;
 
@@ -55,7 +55,7 @@ const CELLS: usize = 48;
 /// Bounds for every float of the scalar in the range; `None` if the kernel is
 /// nothing that can be bounded.
 pub(crate) fn prove(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Option<Errors> {
-    if kernel.operations() > MAX_STEPS {
+    if kernel.operations() > MAX_OPERATIONS {
         return None;
     }
     if let Some((constants, left)) = reduction::split(kernel, scalar) {

@@ -87,11 +87,6 @@ struct Draft {
     request: Request,
 }
 
-/// Returns the value of a word.
-fn word<W: Word>(item: &str) -> Result<W, Complaint> {
-    parse(item)
-}
-
 /// Adds to a list what is not in it.
 fn add<T>(
     list: &mut Vec<T>,
@@ -153,7 +148,7 @@ pub static OPTIONS: [OptionRow; 13] = [
         is_list: true,
         set: |draft, item| {
             let scalars = draft.scalars.get_or_insert_default();
-            add(scalars, word(item)?, PartialEq::eq, item)
+            add(scalars, parse(item)?, PartialEq::eq, item)
         },
     },
     OptionRow {
@@ -163,7 +158,7 @@ pub static OPTIONS: [OptionRow; 13] = [
               alone, to compare formulations",
         words: crate::Start::known,
         is_list: false,
-        set: |draft, item| word(item).map(|value| draft.request.start = value),
+        set: |draft, item| parse(item).map(|value| draft.request.start = value),
     },
     OptionRow {
         name: "effort",
@@ -173,7 +168,7 @@ pub static OPTIONS: [OptionRow; 13] = [
               --save-plan`, whose plan macros, build scripts and the command replay",
         words: crate::Effort::known,
         is_list: false,
-        set: |draft, item| word(item).map(|value| draft.request.effort = value),
+        set: |draft, item| parse(item).map(|value| draft.request.effort = value),
     },
     OptionRow {
         name: "prefer",
@@ -182,7 +177,7 @@ pub static OPTIONS: [OptionRow; 13] = [
               most four times the textbook form's; `operations`, the cheapest even if it costs digits",
         words: Prefer::known,
         is_list: false,
-        set: |draft, item| word(item).map(|value| draft.request.prefer = value),
+        set: |draft, item| parse(item).map(|value| draft.request.prefer = value),
     },
     OptionRow {
         name: "fma",
@@ -192,7 +187,7 @@ pub static OPTIONS: [OptionRow; 13] = [
               (-C target-cpu=native): any other calls a slow function for each",
         words: Fma::known,
         is_list: false,
-        set: |draft, item| word(item).map(|value| draft.request.fma = value),
+        set: |draft, item| parse(item).map(|value| draft.request.fma = value),
     },
     OptionRow {
         name: "sincos",
@@ -203,7 +198,7 @@ pub static OPTIONS: [OptionRow; 13] = [
               `auto`, polynomials where a scene's tolerance admits them, else libm",
         words: SinCos::known,
         is_list: false,
-        set: |draft, item| word(item).map(|value| draft.request.sincos = value),
+        set: |draft, item| parse(item).map(|value| draft.request.sincos = value),
     },
     OptionRow {
         name: "sincos_error",
@@ -222,7 +217,7 @@ pub static OPTIONS: [OptionRow; 13] = [
               kernel, in CUDA",
         words: bool::known,
         is_list: false,
-        set: |draft, item| word(item).map(|value| draft.request.batch = value),
+        set: |draft, item| parse(item).map(|value| draft.request.batch = value),
     },
     OptionRow {
         name: "parameters",
@@ -235,7 +230,7 @@ pub static OPTIONS: [OptionRow; 13] = [
         set: |draft, item| {
             add(
                 &mut draft.request.parameters,
-                word(item)?,
+                parse(item)?,
                 PartialEq::eq,
                 item,
             )
@@ -265,7 +260,7 @@ pub static OPTIONS: [OptionRow; 13] = [
               is one",
         words: || vec!["on", "off"],
         is_list: false,
-        set: |draft, item| word::<bool>(item).map(|value| draft.has_no_plan = !value),
+        set: |draft, item| parse::<bool>(item).map(|value| draft.has_no_plan = !value),
     },
     OptionRow {
         name: "name",

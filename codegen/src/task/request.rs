@@ -44,6 +44,9 @@ pub struct Request {
     pub language: Language,
     /// Programs to replay instead of searching.
     pub plan: Option<Plan>,
+    /// Programs that a search goes on from: what it finds is no dearer. Those of another robot or
+    /// scene, and those that are not the function's, are left aside.
+    pub renewed: Option<Plan>,
     /// `true` if a plan beside the robot file is not used.
     pub has_no_plan: bool,
     /// Who waits, if anybody does.
@@ -78,6 +81,7 @@ impl Default for Request {
             batch: false,
             language: Language::default(),
             plan: None,
+            renewed: None,
             has_no_plan: false,
             watch: Watch::default(),
             module: None,

@@ -1,8 +1,9 @@
 //! The functions' true values at a state: the generic link-frame recursion
 //! over the robot's own parameters, in 256 bits.
 //!
-//! It shares nothing with what is emitted but the robot and the state: no
-//! graph, no search, no proof, no printer. Its own error is bounded along with it, by `Known`.
+//! They share nothing with what is emitted but the robot and the state: no graph, no search, no
+//! proof, no printer. What a program gives in 256 bits is beside them, to be compared. The error of
+//! either is bounded along with it, by `Known`.
 
 use std::cell::RefCell;
 
@@ -111,11 +112,15 @@ impl Reference {
     }
 
     /// Returns the results of a program with its exact constants at a state of finite numbers,
-    /// flat; a load that it takes is that of the state's payload.
-    pub(crate) fn run_program(&self, program: &Program, state: &JointState) -> Vec<TrueValue> {
-        let results = exact::run(Some(&self.setup), program, &self.at(state));
-        let results = results.unwrap_or_default().into_iter();
-        results.map(TrueValue::new).collect()
+    /// flat, by the rules of the exact proof; a load that it takes is that of the state's payload.
+    /// None if it reads what is not there.
+    pub(crate) fn run_program(
+        &self,
+        program: &Program,
+        state: &JointState,
+    ) -> Option<Vec<TrueValue>> {
+        let results = exact::run(Some(&self.setup), program, &self.at(state))?;
+        Some(results.into_iter().map(TrueValue::new).collect())
     }
 
     fn at<'r>(&'r self, state: &'r JointState) -> AtState<'r> {

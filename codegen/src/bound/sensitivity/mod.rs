@@ -72,7 +72,7 @@ impl BoundEffort {
 pub struct Rounding {
     /// From operations and constants.
     pub arithmetic: f64,
-    /// From sines and cosines, and from adding angles.
+    /// From sines and cosines.
     pub sincos: f64,
 }
 

@@ -109,7 +109,7 @@ pub(crate) fn batch(printed: &Printed<'_>, names: &Names) -> String {
         let call = columns.call(printed, names, is_told);
         format!("    for (s = 0U; s < n; ++s) {{\n{gathered}{when}{call}    }}\n")
     };
-    // Where an angle may be far, once more: of joints that are not, no sum is.
+    // Where an angle may be far, once more.
     let mut again = String::new();
     if is_told {
         let (scalar, joints) = (printed.code.scalar, printed.sizes.joints);

@@ -174,11 +174,9 @@ fn statements(
     Err(at(head)(format!("`{}` does not end", lines[head])))
 }
 
-/// Returns i of `name[i]`.
+/// Returns i of `name[i]`; none of an index that no robot has.
 fn index_of(word: &str, name: &str) -> Option<usize> {
-    word.strip_prefix(name)?
-        .strip_prefix('[')?
-        .strip_suffix(']')?
-        .parse()
-        .ok()
+    let index = word.strip_prefix(name)?.strip_prefix('[')?;
+    let index: u16 = index.strip_suffix(']')?.parse().ok()?;
+    Some(index.into())
 }

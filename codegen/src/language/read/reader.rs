@@ -80,13 +80,13 @@ impl Reader {
         Ok(())
     }
 
-    /// Statements are numbered from one: refuses a name that is not that of the step after
-    /// those that there are.
+    /// Statements are numbered from one: refuses a name that is not that of the operation so many
+    /// after those that there are.
     fn next(&self, name: &str, after: usize) -> Result<(), String> {
         expect(name, &format!("t{}", self.operations.len() + after))
     }
 
-    /// Reads a sum and the product that it takes: two steps.
+    /// Reads a sum and the product that it takes: two operations.
     fn fused(&mut self, name: &str, value: &str, words: [&str; 3]) -> Result<(), String> {
         let [left, right, addend] = words;
         self.next(name, 2)?;

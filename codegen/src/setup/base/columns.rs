@@ -1,8 +1,8 @@
 //! Columns of a regressor modulo a prime, at random states.
 
+use dalembert_model::equations::Formulation;
 use dalembert_model::equations::following::gather;
 use dalembert_model::equations::regressor::Column;
-use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::{RuntimeParameter, Written};
 use dalembert_model::scalar::field::Modulo;
@@ -29,7 +29,7 @@ pub(super) fn values<const P: u64>(
         Some(residue) => Sparse::constant(value, residue),
         None => Sparse::Lost,
     };
-    let arm = Arm::from_robot(setup.robot(), &mut { constant });
+    let arm = setup.arm(constant);
     let columns: Vec<_> = columns.iter().map(|c| c.map(constant)).collect();
     let mut found: Vec<Vec<Modulo<P>>> = vec![Vec::new(); columns.len()];
     let states = columns.len() / setup.rows().len().max(1) + 4;

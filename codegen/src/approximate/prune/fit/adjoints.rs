@@ -1,9 +1,8 @@
 //! What a change of each value does to the outputs.
 //!
-//! The derivatives of an operation are those of
-//! [`adjoint`](crate::program::adjoint); the pass is of its own, since edits
-//! stand in the places of inputs as well as of steps, and since all samples go
-//! through an operation together.
+//! The derivatives of an operation are those of [`Operation`](crate::dag::Operation); the pass is
+//! of its own, since edits stand in the places of inputs as well as of steps, and since all samples
+//! go through an operation together.
 
 use crate::approximate::prune::columns::{Nodes, Value};
 use crate::program::Output;
