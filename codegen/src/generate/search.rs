@@ -57,12 +57,23 @@ pub fn replay<'a>(
     }
 }
 
-/// Searches for a program.
-pub(super) fn found(
-    job: &Job<'_>,
-    function: Function,
-) -> Result<(Source, Vec<Pass>, Program, Option<Refused>), GenerateError> {
-    let found = search(job, function)?;
+/// A program with where it comes from, its counts on the way, and what would be cheaper.
+type Origin = (Source, Vec<Pass>, Program, Option<Refused>);
+
+/// Searches for a program; on from the one that is renewed, which stays unless there is a cheaper
+/// one.
+pub(super) fn found(job: &Job<'_>, function: Function) -> Result<Origin, GenerateError> {
+    let mut found = search(job, function)?;
+    let search = Search::new(job, function);
+    if let Some((entry, program)) = search.renewed() {
+        let again = search.on_from(entry, &program, &found);
+        found = again
+            .filter(|again| again.cost() < found.cost())
+            .unwrap_or(found);
+        if search::cost(&program.graph()) <= found.cost() {
+            return Ok((entry.source, entry.passes.clone(), program, None));
+        }
+    }
     let (seed, searched) = (found.seed(), &found.searched);
     let program = Program::in_scene(job.setup.task(function), &searched.graph);
     let counts = [
@@ -88,20 +99,8 @@ pub struct Found {
     pub refused: Option<Refused>,
 }
 
-/// Searches for the cheapest program, and goes on from the one that is renewed, if that is cheaper.
+/// Searches for the cheapest program. A thorough search contains the quick one: it is never dearer.
 pub fn search(job: &Job<'_>, function: Function) -> Result<Found, GenerateError> {
-    let found = anew(job, function)?;
-    let watch = job.request.watch.over(function);
-    let search = Search::new(job, function);
-    let renewed = search.renewed(&found, watch);
-    Ok(renewed
-        .filter(|own| own.cost() < found.cost())
-        .unwrap_or(found))
-}
-
-/// Searches without a program to go on from. A thorough search contains the quick one: it is never
-/// dearer.
-fn anew(job: &Job<'_>, function: Function) -> Result<Found, GenerateError> {
     let search = Search::new(job, function);
     let watch = job.request.watch.over(function);
     // Who wants an end before a function's turn gets the quick search for it.
@@ -152,35 +151,31 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Goes on from the program that is renewed; none if there is none that is proved to be the
+    /// Returns the program that is renewed; none if there is none that is proved to be the
     /// function's and is accurate enough.
-    fn renewed(&self, found: &Found, watch: FunctionWatch<'_>) -> Option<Found> {
+    fn renewed(&self) -> Option<(&'a Entry, Program)> {
         let Job { setup, request, .. } = self.job;
-        let plan = request.renewed.as_ref()?;
-        if plan.input != input_hash(setup.robot()) {
-            return None;
-        }
+        let plan = request.renewed.as_ref();
+        let plan = plan.filter(|plan| plan.input == input_hash(setup.robot()))?;
         let entry = replay(&self.job, Some(plan), self.task.function).ok()??;
         let program = entry.program.clone().with_speeds(setup.speeds());
-        let graph = program.graph();
-        if prove(setup, &program).is_err() || !self.judge.accepts(&graph) {
-            return None;
-        }
+        let is_right = prove(setup, &program).is_ok() && self.judge.accepts(&program.graph());
+        is_right.then_some((entry, program))
+    }
+
+    /// Searches on from a plan's program, with what was found without it at hand.
+    fn on_from(&self, entry: &Entry, program: &Program, found: &Found) -> Option<Found> {
         let again = Approach {
             tuned: found.tuned.clone(),
             seeds: vec![Seed {
                 source: entry.source,
                 traced: entry.passes.first()?.counts,
-                graph: graph.clone(),
+                graph: program.graph(),
             }],
             helpers: vec![found.searched.graph.clone()],
         };
-        let mut found = self.from(again, request.effort, true, Some(watch))?;
-        // Of programs that cost the same the plan's own stays.
-        if found.cost() >= search::cost(&graph) {
-            found.searched.graph = graph;
-        }
-        Some(found)
+        let watch = self.job.request.watch.over(self.task.function);
+        self.from(again, self.job.request.effort, true, Some(watch))
     }
 
     /// Returns the quick search: without a limit first, since most robots need none.
