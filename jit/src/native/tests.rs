@@ -59,8 +59,8 @@ fn every_fault_is_found<T: Real>() {
             }
         }
         // The first operation may have nothing else before it.
-        let others = (0..id).filter(|other| *other != operands[0]);
-        if let Some(other) = others.last() {
+        let mut others = (0..id).filter(|other| *other != operands[0]);
+        if let Some(other) = others.next_back() {
             let fault = format!("another operand of node {id}");
             let wrong = Node::Apply(own, [other, operands[1]]);
             refused::<T>(&mut native, &fault, |p| p.dag.nodes[id as usize] = wrong);
