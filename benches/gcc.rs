@@ -28,7 +28,7 @@ impl Gcc {
             language: Language::C,
             plan: plan_file::beside(&robot).ok()?,
             fma,
-            ..Request::of(functions)
+            ..Request::new(functions)
         };
         let text = generate(&reading.robot, &request).ok()?.text();
         // In the order of the functions, f64 and then f32.

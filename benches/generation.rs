@@ -35,7 +35,7 @@ fn searches(name: &str) {
         functions: Function::ALL[..6].to_vec(),
         ..Request::default()
     };
-    let torques = Request::of(&[Function::InverseDynamics]);
+    let torques = Request::new(&[Function::InverseDynamics]);
     let toml = file(&format!("generated/robots/{name}.toml"));
     let planned = Request {
         plan: plan_file::beside(&toml).expect("a readable plan"),

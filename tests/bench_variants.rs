@@ -12,7 +12,7 @@ use dalembert_codegen::workspace::{
     BoundEffort, Certificate, InputBox, Library, Printed, Sensitivity, Setup, plan_file, scale,
     trace, within, write_function,
 };
-use dalembert_codegen::{Function, Program, Request, ScalarType, generate};
+use dalembert_codegen::{Function, Request, ScalarType, generate};
 use dalembert_model::equations::Formulation;
 use dalembert_model::read;
 
@@ -28,7 +28,7 @@ fn the_bench_of_sines_is_up_to_date() {
     let request = Request {
         scalars: vec![ScalarType::F64],
         plan: plan_file::beside(&file).unwrap(),
-        ..Request::of(&[Function::InverseDynamics])
+        ..Request::new(&[Function::InverseDynamics])
     };
     let generated = generate(&robot, &request).unwrap();
     let program = &generated.functions[0].program;
@@ -82,7 +82,7 @@ fn the_recursion_in_symbols_is_up_to_date() {
         let setup = Setup::whole(&reading.robot);
         let function = Function::InverseDynamics;
         let traced = trace(setup.task(function), Formulation::NewtonEulerLink);
-        let program = Program::in_scene(setup.task(function), &traced.graph);
+        let program = setup.task(function).program(&traced.graph);
         let code = program.in_doubles();
         let code = write_function(&Printed::of(&program, &code), Library::Libm, &[]);
         text +=

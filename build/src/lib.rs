@@ -254,7 +254,8 @@ impl Generator {
             ))
         })?;
         let shown = self.robot.display().to_string();
-        let file = RobotFile::read(&self.robot).map_err(|error| BuildError(error.messages()))?;
+        let file =
+            RobotFile::read(&self.robot).map_err(|error| BuildError(error.messages().to_vec()))?;
         let made = ask(&file, &self.asked, language, &shown).map_err(|problems| {
             let of = |problem: &dalembert_codegen::Problem| match problem.option.as_str() {
                 "" => format!("{shown}: {}", problem.message),

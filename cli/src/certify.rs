@@ -230,7 +230,7 @@ fn origin(file: &Path, source: &str, robot: &Source) -> Result<Option<String>, F
     let own = &robot.robot;
     // A certificate has the hash of the robot in its scene.
     let scenes = robot.scenes.iter().map(Some).chain([None]);
-    let placed = scenes.filter_map(|scene| Setup::of(own, scene).ok());
+    let placed = scenes.filter_map(|scene| Setup::in_scene(own, scene).ok());
     let mut hashes: Vec<String> = placed.map(|placed| input_hash(placed.robot())).collect();
     let hash = input_hash(own);
     hashes.push(hash.clone());

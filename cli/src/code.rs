@@ -73,7 +73,7 @@ fn operations(generated: &Generated, detail: Detail) -> Table {
         let mut row = cells![function.function.to_string()];
         row.extend(counts(&own));
         row.extend(cells![
-            function.program.graph().depth(),
+            function.program.dag.depth(),
             calls(generated, function.function),
             format!("{}{plan}", function.source.name()),
             format!("proved, p(wrong) < 1e{}", Proof::FAILURE_EXPONENT),

@@ -224,7 +224,7 @@ pub fn compare(
     for (index, given) in states.iter().enumerate() {
         // A state need not have what only some functions read.
         let mut arguments = function.arguments().into_iter();
-        if arguments.any(|argument| given.state.of(argument).len() != argument.length(sizes)) {
+        if arguments.any(|argument| given.state.entries(argument).len() != argument.length(sizes)) {
             continue;
         }
         let results = own.run(&given.state);
@@ -238,7 +238,7 @@ pub fn compare(
                 continue;
             };
             let (entry, error) = worst(&values, known);
-            let error = error / granted.to(returned);
+            let error = error / granted.factor(returned);
             let compared = all.entry(quantity).or_insert_with(|| Compared {
                 function,
                 quantity,

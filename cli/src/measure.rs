@@ -120,7 +120,7 @@ impl Bench {
 
     /// Returns the condition of what a quantity inverts at a state; one where it inverts nothing.
     pub fn condition(&self, function: Function, state: &JointState, quantity: Quantity) -> f64 {
-        self.runtime.granted(function, state).to(quantity)
+        self.runtime.granted(function, state).factor(quantity)
     }
 
     /// Returns the runtime, whose results are those of the equations of motion.
@@ -200,7 +200,7 @@ impl Bench {
                 let runs = states.iter().zip(granted).zip(truths.iter().zip(&found));
                 for ((state, granted), (truth, found)) in runs {
                     worst.overflows |= found[range.clone()].iter().any(|x| !x.is_finite());
-                    let condition = granted.to(quantity);
+                    let condition = granted.factor(quantity);
                     let unit = condition * scalar.unit_roundoff();
                     let [vector, entry] = self.errors(code, range.clone(), truth, found, sizes);
                     let [vector, entry] = [vector, entry].map(|error| part(error, unit));

@@ -99,7 +99,7 @@ pub fn watch(request: &mut Request) -> Session {
         // If no handler can be set, Ctrl-C ends the process as usual.
         let _ = ctrlc::set_handler(move || heard.interrupt());
     }
-    request.watch = Watch::by(seen.clone());
+    request.watch = Watch::new(seen.clone());
     Session(seen)
 }
 

@@ -84,7 +84,7 @@ pub(super) fn exact(
     function: Function,
 ) -> Result<(Vec<Row>, Program), GenerateError> {
     if function.columns() != Columns::None {
-        return Err(GenerateError::Unexplained(function));
+        return Err(unexplained(function));
     }
     // Over all forms, nothing replayed.
     let anew = Request {
@@ -95,7 +95,7 @@ pub(super) fn exact(
     };
     let found = search(&job.with(&anew), function)?;
     let tuned = found.tuned.as_ref();
-    let tuned = tuned.ok_or(GenerateError::Unexplained(function))?;
+    let tuned = tuned.ok_or_else(|| unexplained(function))?;
     let mut steps = Steps {
         job,
         function,
@@ -127,7 +127,7 @@ impl Steps<'_> {
     }
 
     fn graph(&mut self, step: &'static str, graph: &Dag) {
-        let program = Program::in_scene(self.job.setup.task(self.function), graph);
+        let program = self.job.setup.task(self.function).program(graph);
         self.program(step, program);
     }
 
@@ -197,7 +197,7 @@ impl Steps<'_> {
     /// is generated, or what a tolerance is applied to.
     fn searched(&mut self, found: &Found) -> Result<Program, GenerateError> {
         let graph = &found.searched.graph;
-        let mut last = Program::in_scene(self.job.setup.task(self.function), graph);
+        let mut last = self.job.setup.task(self.function).program(graph);
         self.program("search", last.clone());
         if let Some(entry) = replay(self.job, self.job.request.plan.as_ref(), self.function)? {
             last = entry.program.clone();
@@ -237,4 +237,13 @@ pub(super) fn tolerated(admitted: &Admitted) -> Result<Vec<Row>, GenerateError> 
         })
     };
     admitted.certificates.iter().map(row).collect()
+}
+
+/// Refuses a function that regrouping does not reach.
+fn unexplained(function: Function) -> GenerateError {
+    let message = format!(
+        "`{function}` has no steps to explain: none of its results comes from regrouped \
+         parameters; `count` gives its operations"
+    );
+    GenerateError::refused(None, message, "")
 }

@@ -65,13 +65,14 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
         Ok::<[Target; 2], Failure>([csv?, svg?])
     });
     let targets = targets.transpose()?;
-    let setup = Setup::of(&source.robot, request.scene.as_ref()).map_err(GenerateError::Scene)?;
+    let setup =
+        Setup::in_scene(&source.robot, request.scene.as_ref()).map_err(GenerateError::from)?;
     let mut functions = source
         .generate(context, &mut request)?
         .functions
         .into_iter();
     let exact = functions.next().map(|function| function.program);
-    let mut exact = exact.ok_or_else(|| Failure::from(GenerateError::Empty))?;
+    let mut exact = exact.ok_or_else(|| Failure::from(GenerateError::empty()))?;
     let relative_to = relative_to(args, scene.as_ref());
     let climb = |exact: &Program| climb(args, &request, &setup, exact, relative_to, &tolerances);
     let mut points = climb(&exact)?;
@@ -139,8 +140,8 @@ fn exact_request(
     request.scene = scene.as_ref().map(Scene::without_tolerance);
     if let (Some(plan), Some(scene), Some(bare)) = (&mut request.plan, &scene, &request.scene) {
         for entry in &mut plan.entries {
-            if entry.scene == Some(SceneKey::of(scene)) {
-                entry.scene = Some(SceneKey::of(bare));
+            if entry.scene == Some(SceneKey::new(scene)) {
+                entry.scene = Some(SceneKey::new(bare));
                 entry.edited = None;
             }
         }

@@ -61,7 +61,7 @@ pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
         proofs.row(cells![own.function.to_string(), own.proof.to_string()]);
     }
     done.report.table("proofs", "", proofs);
-    let setup = request.setup(robot).map_err(GenerateError::Scene)?;
+    let setup = request.setup(robot).map_err(GenerateError::from)?;
     let states = setup.states(args.states, SEED);
     let claimed = claims(&generated, &mut done)?;
     let bench = Bench::new(setup);

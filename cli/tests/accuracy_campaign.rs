@@ -35,7 +35,7 @@ fn campaign(count: usize, each: usize, longest: usize) -> Worst {
         for _ in 0..each {
             let function = outputs[next % outputs.len()];
             next += 1;
-            let request = Request::of(&[function]);
+            let request = Request::new(&[function]);
             let what = format!("seed {seed}, {n} joints, {function}");
             let generated = match generate(&robot, &request) {
                 Ok(generated) => generated,

@@ -20,7 +20,7 @@ fn request(function: Function, start: &str) -> Request {
     Request {
         scalars: vec![ScalarType::F64],
         start: parse(start).unwrap(),
-        ..Request::of(&[function])
+        ..Request::new(&[function])
     }
 }
 
@@ -58,7 +58,7 @@ fn long_functions_come_in_blocks_and_are_right() {
     let robot = chain(12);
     let function = Function::ManipulatorEquation;
     let generated = generate(&robot, &request(function, "newton_euler")).unwrap();
-    assert!(generated.functions[0].program.steps.len() > 5000);
+    assert!(generated.functions[0].program.counts().operations() > 5000);
     let blocks = |text: &str| text.lines().filter(|l| l.ends_with(") = {")).count();
     assert!(blocks(&generated.text()) >= 6);
     is_within_the_bound(&robot, &generated.emitted[0], 3);
@@ -68,7 +68,7 @@ fn long_functions_come_in_blocks_and_are_right() {
 fn what_would_explode_is_refused_with_its_size() {
     let refused = generate(&chain(60), &request(Function::DynamicCoefficients, "auto"));
     match refused {
-        Err(error @ GenerateError::TooLarge { .. }) => {
+        Err(error @ GenerateError::Refused(..)) => {
             // 60² + 60³ + 60
             assert!(error.to_string().contains("219660 numbers"), "{error}");
         }

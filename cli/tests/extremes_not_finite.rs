@@ -2,7 +2,7 @@
 //! emitted code, at least those in the generic runtime.
 
 use dalembert_cli::measure::Code;
-use dalembert_codegen::workspace::{Input, JointState, Operand, seeded};
+use dalembert_codegen::workspace::{Input, JointState, Node, seeded};
 use dalembert_codegen::{Function, Generated, Program, Request, ScalarType, generate};
 
 use crate::extremes_support::runtime::runtime;
@@ -22,18 +22,16 @@ fn reads(input: Input, place: Entry) -> bool {
 
 /// Returns which outputs of a program depend on an input.
 fn dependent(program: &Program, place: Entry) -> Vec<bool> {
-    let mut steps: Vec<bool> = Vec::new();
-    let of = |operand: &Operand, steps: &[bool]| match operand {
-        Operand::Input(input) => reads(*input, place),
-        Operand::Constant(_) => false,
-        Operand::Step(step) => steps[*step],
-    };
-    for step in &program.steps {
-        let depends = of(&step.left, &steps) || of(&step.right, &steps);
-        steps.push(depends);
+    let mut depends: Vec<bool> = Vec::new();
+    for node in &program.dag.nodes {
+        depends.push(match node {
+            Node::Input(input) => reads(*input, place),
+            Node::Constant(_) => false,
+            Node::Apply(_, operands) => operands.iter().any(|id| depends[*id as usize]),
+        });
     }
-    let outputs = program.outputs.iter();
-    outputs.map(|output| of(&output.value, &steps)).collect()
+    let outputs = program.dag.outputs.iter();
+    outputs.map(|output| depends[output.index()]).collect()
 }
 
 fn with(state: &JointState, place: Entry, value: f64) -> JointState {

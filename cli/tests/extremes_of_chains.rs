@@ -46,7 +46,7 @@ fn emitted(robot: &Robot, scalar: ScalarType) -> Vec<Emitted> {
             true => Start::Auto,
             false => Start::Only(Formulation::NewtonEulerLink),
         },
-        ..Request::of(&functions)
+        ..Request::new(&functions)
     };
     let generated = generate(robot, &request);
     generated.unwrap_or_else(|error| panic!("{error}")).emitted

@@ -27,7 +27,7 @@ fn planted_faults_are_found() {
         let mut wrong = robot.clone();
         let part = Rational::new(1.into(), 100_000_000_000_000u64.into());
         change(&mut wrong, part);
-        let request = Request::of(&[Function::InverseDynamics]);
+        let request = Request::new(&[Function::InverseDynamics]);
         let generated = generate(&wrong, &request).unwrap();
         let bench = Bench::new(Setup::whole(&robot));
         let states = seeded(&robot, STATES, 1);
@@ -48,7 +48,7 @@ fn planted_faults_are_found() {
 #[test]
 fn no_number_fails_inside_the_limits() {
     let robot = support::robot("planar2r");
-    let generated = generate(&robot, &Request::of(&[Function::Gravity])).unwrap();
+    let generated = generate(&robot, &Request::new(&[Function::Gravity])).unwrap();
     let mut broken = generated.emitted[0].clone();
     let output = broken.text.dag.outputs[0];
     broken.text.dag.nodes[output.index()] = Node::Constant(Literal(f64::NAN));

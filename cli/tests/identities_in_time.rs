@@ -16,7 +16,7 @@ use crate::robots::robot;
 fn coefficients(robot: &Robot) -> Emitted {
     let request = Request {
         scalars: vec![ScalarType::F64],
-        ..Request::of(&[Function::DynamicCoefficients])
+        ..Request::new(&[Function::DynamicCoefficients])
     };
     generate(robot, &request).unwrap().emitted.remove(0)
 }

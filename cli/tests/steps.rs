@@ -11,7 +11,7 @@ use dalembert_model::scene::Scale;
 use crate::robots as support;
 
 fn of(name: &str, function: Function) -> Explanation {
-    let mut all = explain(&support::robot(name), &Request::of(&[function])).unwrap();
+    let mut all = explain(&support::robot(name), &Request::new(&[function])).unwrap();
     all.remove(0)
 }
 
@@ -48,7 +48,7 @@ fn a_scene_is_explained() {
     let reading = support::reading_with("planar3r", scene);
     let request = Request::default().in_scene(&reading.scenes[0]);
     let explained = explain(&reading.robot, &request).unwrap().remove(0);
-    let setup = Setup::of(&reading.robot, Some(&reading.scenes[0])).unwrap();
+    let setup = Setup::in_scene(&reading.robot, Some(&reading.scenes[0])).unwrap();
     let (last, exact) = explained.rows.split_last().unwrap();
     assert_eq!(last.step, "tolerance");
     for row in exact {

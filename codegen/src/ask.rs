@@ -63,7 +63,7 @@ impl Problem {
     /// Says why nothing was generated, of the option and the item that it is about.
     fn of(error: &GenerateError, request: &Request) -> Problem {
         let (option, item) = match (error, error.function()) {
-            (GenerateError::Parameter(_), _) => {
+            (GenerateError::Parameter(..), _) => {
                 let first = request.parameters.first();
                 (
                     "parameters",

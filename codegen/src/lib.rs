@@ -20,7 +20,6 @@
 //! - `setup`: the robot in its scene: locked joints, results asked for
 //! - `trace`: the equations as a graph
 //! - `seeds`: the formulations to start from, tuned to the robot
-//! - `schedule`: from a graph to straight-line code
 //! - `edits`: programs with less work in them, and how far they are off
 //! - `sincos`: sine and cosine by polynomials with proved errors
 //! - `language`: flat Rust, printed and read back
@@ -63,7 +62,6 @@ mod plan;
 mod program;
 mod random;
 mod robot_file;
-mod schedule;
 mod search;
 mod seeds;
 mod setup;

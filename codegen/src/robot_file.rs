@@ -5,12 +5,12 @@ use std::fs::{self, File};
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
-use dalembert_model::read::{self, Diagnostic, Diagnostics, Options, closest};
+use dalembert_model::read::{self, Diagnostic, Options, closest};
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 
 use crate::function::Function;
-use crate::plan::{self, Plan, PlanFileError};
+use crate::plan::{self, Plan};
 
 /// A robot file that was read.
 #[derive(Clone, Debug)]
@@ -33,7 +33,7 @@ impl RobotFile {
     /// Reads the file at a path; messages call it by the path.
     ///
     /// # Errors
-    /// [`RobotFileError`], with everything that is wrong with the file.
+    /// Everything that is wrong with the file.
     pub fn read(path: &Path) -> Result<RobotFile, RobotFileError> {
         Self::read_as(path, &path.display().to_string())
     }
@@ -44,7 +44,8 @@ impl RobotFile {
     /// As [`RobotFile::read`].
     pub fn read_as(path: &Path, shown: &str) -> Result<RobotFile, RobotFileError> {
         let bytes = bytes(path).map_err(|error| RobotFileError::of_system(path, shown, &error))?;
-        let plan = plan::file::beside(path).map_err(RobotFileError::Plan)?;
+        let plan = plan::file::beside(path);
+        let plan = plan.map_err(|why| RobotFileError::new(why.to_string()))?;
         let file = Self::parse_bytes(&bytes, shown)?;
         Ok(RobotFile { plan, ..file })
     }
@@ -52,7 +53,7 @@ impl RobotFile {
     /// Reads the text of a robot file, which has no plan; messages call it by this name.
     ///
     /// # Errors
-    /// [`RobotFileError::Wrong`], with every error of the text.
+    /// Every error of the text.
     pub fn parse(text: &str, shown: &str) -> Result<RobotFile, RobotFileError> {
         Self::parse_bytes(text.as_bytes(), shown)
     }
@@ -68,11 +69,15 @@ impl RobotFile {
                 source,
                 plan: None,
             }),
-            Err(diagnostics) => Err(RobotFileError::Wrong {
-                shown: shown.to_owned(),
-                source,
-                diagnostics,
-            }),
+            Err(diagnostics) => {
+                let render = |diagnostic: &Diagnostic| {
+                    let text = diagnostic.render(shown, &source);
+                    // Whoever shows it says that it is an error.
+                    text.trim_end().trim_start_matches("error: ").to_owned()
+                };
+                let messages = diagnostics.0.iter().map(render).collect();
+                Err(RobotFileError { messages })
+            }
         }
     }
 }
@@ -87,84 +92,42 @@ fn bytes(path: &Path) -> std::io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Why there is no robot.
+/// Why there is no robot: every error by itself, those of the text with their line. Never empty.
 #[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum RobotFileError {
-    /// There is no such file.
-    Missing {
-        /// The path as messages show it.
-        shown: String,
-        /// The file there that was probably meant.
-        meant: Option<String>,
-    },
-    /// It cannot be read.
-    Unreadable {
-        /// The path as messages show it.
-        shown: String,
-        /// The message of the system.
-        error: String,
-    },
-    /// The plan beside it cannot be read.
-    Plan(PlanFileError),
-    /// It is not a robot.
-    Wrong {
-        /// The path as messages show it.
-        shown: String,
-        /// The text.
-        source: String,
-        /// The fault.
-        diagnostics: Diagnostics,
-    },
+pub struct RobotFileError {
+    messages: Vec<String>,
 }
 
 impl RobotFileError {
     /// Returns what the system says of a path, in the words that every way in has for it;
     /// messages call it by a shorter name.
     pub fn of_system(path: &Path, shown: &str, error: &std::io::Error) -> RobotFileError {
-        match error.kind() {
-            ErrorKind::NotFound => missing(path, shown),
-            _ => RobotFileError::Unreadable {
-                shown: shown.to_owned(),
-                error: error.to_string(),
-            },
+        RobotFileError::new(match error.kind() {
+            ErrorKind::NotFound => {
+                let help = meant(path, shown).map(|meant| format!("did you mean `{meant}`?"));
+                let help = help.map_or_else(String::new, |help| format!("\n  = help: {help}"));
+                format!("there is no file `{shown}`{help}")
+            }
+            _ => format!("cannot read `{shown}`: {error}"),
+        })
+    }
+
+    fn new(message: String) -> RobotFileError {
+        RobotFileError {
+            messages: vec![message],
         }
     }
 
-    /// Returns every error by itself; those of the text with their line. Never empty.
-    pub fn messages(&self) -> Vec<String> {
-        match self {
-            RobotFileError::Missing { shown, meant } => {
-                let help = match meant {
-                    Some(meant) => format!("\n  = help: did you mean `{meant}`?"),
-                    None => String::new(),
-                };
-                vec![format!("there is no file `{shown}`{help}")]
-            }
-            RobotFileError::Plan(error) => vec![error.to_string()],
-            RobotFileError::Unreadable { shown, error } => {
-                vec![format!("cannot read `{shown}`: {error}")]
-            }
-            RobotFileError::Wrong {
-                shown,
-                source,
-                diagnostics,
-            } => {
-                let render = |diagnostic: &Diagnostic| {
-                    let text = diagnostic.render(shown, source);
-                    // Whoever shows it says that it is an error.
-                    text.trim_end().trim_start_matches("error: ").to_owned()
-                };
-                diagnostics.0.iter().map(render).collect()
-            }
-        }
+    /// Returns the errors.
+    pub fn messages(&self) -> &[String] {
+        &self.messages
     }
 }
 
 /// All messages, each marked as an error, an empty line between two.
 impl fmt::Display for RobotFileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, message) in self.messages().iter().enumerate() {
+        for (index, message) in self.messages.iter().enumerate() {
             let gap = if index > 0 { "\n\n" } else { "" };
             write!(f, "{gap}error: {message}")?;
         }
@@ -174,7 +137,8 @@ impl fmt::Display for RobotFileError {
 
 impl std::error::Error for RobotFileError {}
 
-fn missing(path: &Path, shown: &str) -> RobotFileError {
+/// Returns the file that was probably meant.
+fn meant(path: &Path, shown: &str) -> Option<String> {
     let parent = path.parent().filter(|p| !p.as_os_str().is_empty());
     let folder = parent.unwrap_or(Path::new("."));
     let mut names: Vec<String> = fs::read_dir(folder)
@@ -187,12 +151,8 @@ fn missing(path: &Path, shown: &str) -> RobotFileError {
     names.sort();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let meant = closest(&name, &names).map(|meant| match shown.strip_suffix(&*name) {
+    closest(&name, &names).map(|meant| match shown.strip_suffix(&*name) {
         Some(start) => format!("{start}{meant}"),
         None => meant.to_owned(),
-    });
-    RobotFileError::Missing {
-        shown: shown.to_owned(),
-        meant,
-    }
+    })
 }

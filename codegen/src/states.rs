@@ -40,13 +40,13 @@ impl JointState {
     pub fn new(mut entries: impl FnMut(Argument) -> Vec<f64>) -> JointState {
         let mut state = JointState::default();
         for argument in Argument::ALL {
-            *state.of_mut(argument) = entries(argument);
+            *state.entries_mut(argument) = entries(argument);
         }
         state
     }
 
     /// Returns the entries of an argument.
-    pub fn of(&self, argument: Argument) -> &[f64] {
+    pub fn entries(&self, argument: Argument) -> &[f64] {
         match argument {
             Argument::Position => &self.q,
             Argument::Velocity => &self.qd,
@@ -65,19 +65,21 @@ impl JointState {
 
     /// Returns whether all entries are finite.
     pub fn is_finite(&self) -> bool {
-        let mut entries = Argument::ALL.iter().flat_map(|&argument| self.of(argument));
+        let mut entries = Argument::ALL
+            .iter()
+            .flat_map(|&argument| self.entries(argument));
         entries.all(|x| x.is_finite())
     }
 
     /// Returns an entry of an argument; NaN where the state has none, which
     /// reaches whatever reads it.
     pub fn entry(&self, argument: Argument, index: usize) -> f64 {
-        let entry = self.of(argument).get(index);
+        let entry = self.entries(argument).get(index);
         entry.copied().unwrap_or(f64::NAN)
     }
 
     /// Returns the entries of an argument, mutably.
-    pub fn of_mut(&mut self, argument: Argument) -> &mut Vec<f64> {
+    pub fn entries_mut(&mut self, argument: Argument) -> &mut Vec<f64> {
         match argument {
             Argument::Position => &mut self.q,
             Argument::Velocity => &mut self.qd,
@@ -125,7 +127,7 @@ pub fn seeded(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
             for ranges in &ranges {
                 for &argument in arguments {
                     let entry = draw(ranges[argument.index()]);
-                    state.of_mut(argument).push(entry);
+                    state.entries_mut(argument).push(entry);
                 }
             }
         }
@@ -136,7 +138,7 @@ pub fn seeded(robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
         for state in &mut states {
             let length = argument.length(Sizes::whole(ranges.len()));
             let entries = (0..length).map(|_| low + (high - low) * random.unit());
-            *state.of_mut(argument) = entries.collect();
+            *state.entries_mut(argument) = entries.collect();
         }
     }
     states
@@ -160,7 +162,7 @@ impl JointState {
             if argument == Argument::Load {
                 continue;
             }
-            let entries = state.of_mut(argument).iter_mut();
+            let entries = state.entries_mut(argument).iter_mut();
             entries.for_each(|x| *x = change(*x));
         }
         state

@@ -74,7 +74,7 @@ pub struct Watch(Option<Arc<dyn Observer>>);
 
 impl Watch {
     /// Makes a watch with an observer.
-    pub fn by(observer: Arc<dyn Observer>) -> Watch {
+    pub fn new(observer: Arc<dyn Observer>) -> Watch {
         Watch(Some(observer))
     }
 

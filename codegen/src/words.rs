@@ -123,6 +123,11 @@ impl fmt::Display for Complaint {
 
 impl std::error::Error for Complaint {}
 
+/// Complains of a text whose fix is in the complaint itself.
+pub(crate) fn complaint(message: impl Into<String>) -> Complaint {
+    Complaint::new(message, "")
+}
+
 /// Returns the value of a word.
 ///
 /// # Errors

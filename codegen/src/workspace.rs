@@ -40,7 +40,7 @@ pub use crate::language::{
 pub use crate::parallel::each;
 pub use crate::plan::{Edited, Entry, file as plan_file};
 pub use crate::program::{
-    Code, Difference, Input, Library, Literal, Need, Operand, Operation, Output, Pair, Step, Trig,
+    Code, Input, Library, Literal, Need, Operand, Operation, Output, Pair, Step, Steps, Trig,
     kernel::{Angle, Kernel},
     machine::Machine,
 };

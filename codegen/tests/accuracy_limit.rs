@@ -1,24 +1,21 @@
 //! The limit on rounding errors: what it refuses, what is taken instead, and
 //! that a robot's last digits do not decide.
 
-use crate::support::{arm_file, dose, read_robot};
 use dalembert_codegen::workspace::{Rounding, Runtime, Setup, seeded};
-use dalembert_codegen::{Function, GeneratedFunction, Prefer, Request, ScalarType, generate};
+use dalembert_codegen::{Function, GeneratedFunction, ScalarType};
 
-/// Returns τ by a quick search.
-fn torques(source: &str, prefer: Prefer) -> GeneratedFunction {
-    found(source, Function::InverseDynamics, prefer)
-}
+use crate::support::{Case, dose, largest, source};
+
+const TORQUES: &str = "inverse_dynamics";
 
 /// Returns a function by a quick search.
-fn found(source: &str, function: Function, prefer: Prefer) -> GeneratedFunction {
-    let request = Request {
-        scalars: vec![ScalarType::F64],
-        prefer,
-        ..Request::of(&[function])
-    };
-    let mut generated = generate(&read_robot(source), &request).unwrap();
-    generated.functions.pop().unwrap()
+fn found(source: &str, output: &str, prefer: &str) -> GeneratedFunction {
+    let asked = format!("outputs: {output}; scalar: f64; prefer: {prefer}");
+    Case::read(source, &asked).generated().functions.remove(0)
+}
+
+fn operations(own: &GeneratedFunction) -> usize {
+    own.counts().operations()
 }
 
 /// Returns the file with every mass multiplied.
@@ -33,8 +30,8 @@ fn heavier(source: &str, factor: f64) -> String {
 /// An arm whose cheapest program is just about as inaccurate as is allowed.
 #[test]
 fn neighbours_cost_about_the_same() {
-    let file = arm_file("gen3");
-    let own = torques(&file, Prefer::Accuracy).counts().operations();
+    let file = source("gen3", "");
+    let own = operations(&found(&file, TORQUES, "accuracy"));
     let neighbours = [
         file.replace("9.81", "9.80665"),
         heavier(&file, 1.01),
@@ -45,7 +42,7 @@ fn neighbours_cost_about_the_same() {
     ];
     for neighbour in dose(&neighbours, 2) {
         assert_ne!(*neighbour, file);
-        let other = torques(neighbour, Prefer::Accuracy).counts().operations();
+        let other = operations(&found(neighbour, TORQUES, "accuracy"));
         assert!(own.abs_diff(other) * 50 <= own, "{own} and {other}");
     }
 }
@@ -54,14 +51,14 @@ fn neighbours_cost_about_the_same() {
 /// and what it costs is said.
 #[test]
 fn what_the_limit_costs_is_little_and_said() {
-    let file = arm_file("gen3").replace("d = -0.0016", "d = -0.0003501");
-    let taken = torques(&file, Prefer::Accuracy);
-    let cheapest = torques(&file, Prefer::Operations);
+    let file = source("gen3", "").replace("d = -0.0016", "d = -0.0003501");
+    let taken = found(&file, TORQUES, "accuracy");
+    let cheapest = found(&file, TORQUES, "operations");
     let refused = taken.refused.unwrap();
     assert_eq!(cheapest.refused, None);
-    assert_eq!(cheapest.counts().operations(), refused.counts.operations());
+    assert_eq!(operations(&cheapest), refused.counts.operations());
     assert!(refused.error > 4.0 * refused.taken, "{refused:?}");
-    let (few, more) = (cheapest.counts().operations(), taken.counts().operations());
+    let (few, more) = (operations(&cheapest), operations(&taken));
     assert!(few < more && (more - few) * 50 <= few, "{few} and {more}");
 }
 
@@ -70,13 +67,9 @@ fn what_the_limit_costs_is_little_and_said() {
 /// is said of it.
 #[test]
 fn what_is_cheaper_and_more_exact_is_taken() {
-    let file = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../gallery/robots/j2s7s300.toml"
-    );
-    let file = std::fs::read_to_string(file).unwrap();
-    let [taken, cheapest] = [Prefer::Accuracy, Prefer::Operations]
-        .map(|prefer| found(&file, Function::Inertia, prefer));
+    let file = source("j2s7s300", "");
+    let [taken, cheapest] =
+        ["accuracy", "operations"].map(|prefer| found(&file, "inertia", prefer));
     assert_eq!(taken.counts(), cheapest.counts());
     assert_eq!(taken.refused, None);
 }
@@ -85,18 +78,13 @@ fn what_is_cheaper_and_more_exact_is_taken() {
 #[test]
 fn the_estimate_is_what_is_observed() {
     for name in ["gen3", "scara", "gantry", "rprpr", "general6r"] {
-        let robot = read_robot(&arm_file(name));
-        let request = Request {
-            scalars: vec![ScalarType::F32],
-            ..Request::of(&[Function::InverseDynamics])
-        };
-        let generated = generate(&robot, &request).unwrap();
+        let case = Case::in_scene(name, "", "inverse_dynamics; scalar: f32");
+        let (robot, generated) = (case.robot(), case.generated());
         let program = &generated.functions[0].program;
-        let estimate = Rounding::estimate(&Setup::whole(&robot), program).worst();
-        let runtime = Runtime::in_scene(Setup::whole(&robot));
-        let largest = |values: &[f64]| values.iter().fold(0.0, |max: f64, x| max.max(x.abs()));
+        let estimate = Rounding::estimate(&Setup::whole(robot), program).worst();
+        let runtime = Runtime::in_scene(Setup::whole(robot));
         let mut observed = 0.0f64;
-        for state in seeded(&robot, 300, 7) {
+        for state in seeded(robot, 300, 7) {
             let state = state.in_scalar(ScalarType::F32);
             let truth = runtime.run(Function::InverseDynamics, &state);
             let found = generated.emitted[0].run(&state);

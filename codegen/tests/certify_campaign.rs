@@ -45,14 +45,14 @@ fn campaign(name: &str, tolerance: f64, scalars: &[ScalarType], guesses: usize) 
     let request = Request {
         scalars: vec![ScalarType::F64],
         scene: bare.clone(),
-        ..Request::of(&[Function::InverseDynamics])
+        ..Request::new(&[Function::InverseDynamics])
     };
     let exact = generate(&reading.robot, &request)
         .unwrap()
         .functions
         .remove(0)
         .program;
-    let setup = Setup::of(&reading.robot, bare.as_ref()).unwrap();
+    let setup = Setup::in_scene(&reading.robot, bare.as_ref()).unwrap();
     let frame = ErrorBudget::new(&setup, &exact, Scale::Range).unwrap();
     let settings = PruneSettings {
         samples: 24,

@@ -17,7 +17,7 @@ fn an_energy_is_within_the_tolerance() {
     let mut planar = support::reading_with("planar2r", scene);
     let request = Request {
         scene: Some(planar.scenes.remove(0)),
-        ..Request::of(&[Function::KineticEnergy])
+        ..Request::new(&[Function::KineticEnergy])
     };
     let generated = generate(&planar.robot, &request).unwrap();
     let admitted = generated.functions[0].admitted.as_ref().unwrap();

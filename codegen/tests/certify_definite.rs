@@ -31,7 +31,7 @@ fn certificate(
     program: &Program,
     limits: &InputBox,
 ) -> Certificate {
-    let ones = vec![1.0; program.outputs.len()];
+    let ones = vec![1.0; program.dag.outputs.len()];
     Certificate::make(robot, stages, program, ScalarType::F64, limits, &ones)
 }
 
@@ -106,7 +106,7 @@ fn a_plan_keeps_the_least_eigenvalue() {
             scalar: claim.scalar,
             source: found.source,
             passes: found.passes,
-            scene: request.scene.as_ref().map(SceneKey::of),
+            scene: request.scene.as_ref().map(SceneKey::new),
             parameters: None,
             program: admitted.stages[0].program.clone(),
             edited: Some(Edited {
@@ -148,7 +148,7 @@ fn a_singular_d_gets_no_certificate() {
     let robot = support::robot("planar3r");
     let (program, limits) = inertia(&robot);
     let mut found = 0;
-    for step in 0..program.steps.len() {
+    for step in 0..program.counts().operations() {
         let stage = Stage {
             program: program.clone(),
             edits: vec![Edit::zero(EditSite::Step(step))],

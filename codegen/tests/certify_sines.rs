@@ -155,7 +155,7 @@ fn a_joint_without_limits_turns_on() {
     let (robot, scene) = (reading.robot, reading.scenes.pop().unwrap());
     let request = Request {
         scene: Some(scene.clone()),
-        ..Request::of(&[Function::Gravity])
+        ..Request::new(&[Function::Gravity])
     };
     let generated = generate(&robot, &request).unwrap();
     for scalar in [ScalarType::F64, ScalarType::F32] {

@@ -1,24 +1,12 @@
-//! Products that are fused with sums: which they are, that the text is the program, and
-//! certificates of them. `values` and `golden` have their numbers.
+//! Products that are fused with sums: which they are, how they are rounded, and certificates of
+//! them; certificates of sines that are taken together. `values` and `golden` have their numbers,
+//! `text` lines that say something else.
 
-use dalembert_codegen::workspace::{Certificate, Code, JointState, Rounding, Setup, keep};
-use dalembert_codegen::{Fma, Function, Generated, Request, ScalarType, generate};
-use dalembert_model::read::Reading;
-use dalembert_model::robot::Robot;
+use dalembert_codegen::workspace::{Certificate, Code, JointState, Library, Rounding, Setup, keep};
+use dalembert_codegen::{Function, Generated, ScalarType};
 
 use crate::shown::shown;
-use crate::support;
-
-fn generated(robot: &Robot, request: &Request) -> Generated {
-    generate(robot, request).unwrap_or_else(|error| panic!("{error}"))
-}
-
-fn fused(request: &Request) -> Request {
-    Request {
-        fma: Fma::On,
-        ..request.clone()
-    }
-}
+use crate::support::{self, Case};
 
 /// Every sum with a product that nobody else reads takes one: so many operations
 /// less, and the estimate of their roundings is no larger. Without the option
@@ -26,11 +14,9 @@ fn fused(request: &Request) -> Request {
 #[test]
 fn a_fused_product_saves_an_operation_and_a_rounding() {
     for name in ["stanford", "puma560", "panda"] {
-        let robot = support::robot(name);
-        let plain = support::one(&robot, Function::InverseDynamics)
-            .functions
-            .remove(0);
-        let setup = Setup::whole(&robot);
+        let case = Case::in_scene(name, "", "inverse_dynamics");
+        let plain = case.generated().functions.remove(0);
+        let setup = Setup::whole(case.robot());
         let program = plain.program.fused();
         let (before, after) = (plain.counts(), program.counts());
         assert_eq!(before.fma, 0);
@@ -41,11 +27,8 @@ fn a_fused_product_saves_an_operation_and_a_rounding() {
         let [before, after] =
             [&plain.program, &program].map(|program| Rounding::estimate(&setup, program));
         assert!(after.worst() < before.worst(), "{name}");
-        let pairs = after.per_output.iter().zip(&before.per_output);
-        assert!(
-            pairs.clone().all(|(after, before)| after <= before),
-            "{name}"
-        );
+        let mut pairs = after.per_output.iter().zip(&before.per_output);
+        assert!(pairs.all(|(after, before)| after <= before), "{name}");
     }
 }
 
@@ -63,46 +46,34 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
     [t7, -t6]
 }
 ";
-    let read = |scalar: ScalarType| {
-        let text = match scalar {
-            ScalarType::F64 => TEXT.to_owned(),
-            ScalarType::F32 => TEXT
-                .replace("f64", "f32")
-                .replace("libm::sincos", "libm::sincosf"),
-        };
-        Code::parse(&text, Function::Gravity, scalar).unwrap()
-    };
-    let text = read(ScalarType::F64);
+    let single = TEXT.replace("f64", "f32").replace("sincos", "sincosf");
+    let read = |text: &str, scalar| Code::parse(text, Function::Gravity, scalar).unwrap();
+    let (text, single) = (read(TEXT, ScalarType::F64), read(&single, ScalarType::F32));
     assert_eq!(text.counts().to_string(), "1 mul, 0 add, 3 fma, 1 sincos");
-    let once = |q: f64| {
-        let (s1, c1) = libm::sincos(q);
-        let t2 = s1.mul_add(0.1, c1);
-        let t4 = (-t2).mul_add(c1, s1);
-        let t6 = t4.mul_add(0.3, -0.7);
-        [t6 * t4, -t6]
-    };
-    let single = |q: f32| {
-        let (s1, c1) = libm::sincosf(q);
-        let t2 = s1.mul_add(0.1, c1);
-        let t4 = (-t2).mul_add(c1, s1);
-        let t6 = t4.mul_add(0.3, -0.7);
-        [t6 * t4, -t6]
-    };
-    let states: Vec<JointState> = (0..200)
-        .map(|k| JointState {
-            q: vec![f64::from(k as f32 * 0.03 - 3.0), 0.0],
-            ..JointState::default()
-        })
-        .collect();
+    /// Rounds the same lines.
+    macro_rules! once {
+        ($sines:expr) => {{
+            let (s1, c1) = $sines;
+            let t2 = s1.mul_add(0.1, c1);
+            let t4 = (-t2).mul_add(c1, s1);
+            let t6 = t4.mul_add(0.3, -0.7);
+            [t6 * t4, -t6]
+        }};
+    }
+    let states = (0..200).map(|k| JointState {
+        q: vec![f64::from(k as f32 * 0.03 - 3.0), 0.0],
+        ..JointState::default()
+    });
+    let states: Vec<JointState> = states.collect();
     let columns = text.run_at_many(&states);
     let mut twice = 0;
     for (k, state) in states.iter().enumerate() {
         let q = state.q[0];
-        let own = text.run_at(state);
-        assert_eq!(own, once(q));
-        assert_eq!([columns[0][k], columns[1][k]], once(q));
-        let found = read(ScalarType::F32).run_at(state);
-        assert_eq!(found, single(q as f32).map(f64::from));
+        let expected = once!(libm::sincos(q));
+        assert_eq!(text.run_at(state), expected);
+        assert_eq!([columns[0][k], columns[1][k]], expected);
+        let expected = once!(libm::sincosf(q as f32)).map(f64::from);
+        assert_eq!(single.run_at(state), expected);
         let (s1, c1) = libm::sincos(q);
         twice += usize::from(s1.mul_add(0.1, c1) != s1 * 0.1 + c1);
     }
@@ -110,104 +81,31 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
     assert!(twice > 5, "{twice}");
 }
 
-/// What a slip of the printer could look like is not read as the program, or at all.
-#[test]
-fn every_slip_is_noticed() {
-    let robot = support::robot("puma560");
-    let request = Request {
-        functions: vec![Function::InverseDynamics],
-        scalars: vec![ScalarType::F64],
-        ..fused(&Request::default())
-    };
-    let generated = generated(&robot, &request);
-    let (text, program) = (&generated.text(), &generated.functions[0].program);
-    let is_program = |text: &str| {
-        let read = Code::parse(text, Function::InverseDynamics, ScalarType::F64);
-        read.is_ok_and(|read| read.matches(program, request.library(), &[]).is_ok())
-    };
-    assert!(is_program(text));
-    let mut tried = 0;
-    for line in text.lines().filter(|line| line.contains(".mul_add(")) {
-        let (name, value) = line.split_once(" = ").unwrap();
-        let (left, rest) = value.split_once(".mul_add(").unwrap();
-        let (right, addend) = rest.strip_suffix(");").unwrap().split_once(", ").unwrap();
-        let minus = addend.strip_prefix('-');
-        let bare = left.trim_start_matches("(-").trim_end_matches(')');
-        let slips = [
-            format!("{name} = {left}.mul_add({addend}, {right});"),
-            format!("{name} = {bare} * {right};"),
-            match minus {
-                Some(addend) => format!("{name} = {left}.mul_add({right}, {addend});"),
-                None => format!("{name} = {left}.mul_add({right}, -{addend});"),
-            },
-            match left == bare {
-                true => format!("{name} = (-{left}).mul_add({right}, {addend});"),
-                false => format!("{name} = {bare}.mul_add({right}, {addend});"),
-            },
-            format!("{name} = {left}.mul_add({right}, {addend}) + 0.0;"),
-        ];
-        for slip in slips {
-            assert!(
-                !is_program(&text.replacen(line, &slip, 1)),
-                "{line} -> {slip}"
-            );
-            tried += 1;
-        }
-    }
-    assert!(tried > 200, "{tried}");
-    // Nor is it the text without the option, or the other way round.
-    let plain = Request {
-        fma: Fma::Off,
-        ..request.clone()
-    };
-    let plain = self::generated(&robot, &plain);
-    assert!(!is_program(&plain.text()) && !plain.text().contains("mul_add"));
-    assert_eq!(
-        generated.functions[0].found.as_ref(),
-        Some(&plain.functions[0].program)
-    );
-}
-
-/// A function that is cut into blocks has no cut between a product and its sum.
+/// A function that is cut into blocks has no cut between a product and its sum: it is read back
+/// where it is generated.
 #[test]
 fn no_cut_between_a_product_and_its_sum() {
-    let robot = support::robot("panda");
-    let request = Request {
-        functions: vec![Function::DynamicCoefficients],
-        ..fused(&Request::default())
-    };
-    // It is read back where it is generated.
-    let generated = generated(&robot, &request);
-    assert!(generated.text().contains("let (t") && generated.text().contains(".mul_add("));
+    let case = Case::in_scene("panda", "", "dynamic_coefficients; fma: on");
+    let text = case.generated().text();
+    assert!(text.contains("let (t") && text.contains(".mul_add("));
 }
 
-const SCENE: &str = "\n[scene.hold]\noutputs = [\"gravity\"]\n\
-     tolerance = { value = 1e-2, relative_to = \"range\" }\n";
-
-fn certificates(request: &Request, robot: &Robot) -> Vec<Certificate> {
-    let mut functions = generated(robot, request).functions;
-    functions.remove(0).admitted.unwrap().certificates
+/// Returns the certificates of the first function.
+fn certificates(generated: &Generated) -> &[Certificate] {
+    let admitted = generated.functions[0].admitted.as_ref();
+    &admitted.unwrap().certificates
 }
 
-fn held() -> (Reading, Request) {
-    let reading = support::reading_with("puma560", SCENE);
-    let scene = reading.scenes.iter().find(|scene| scene.name == "hold");
-    let request = Request::default().in_scene(scene.unwrap());
-    (reading, request)
-}
-
-/// A certificate's bounds of rounding are those of one rounding: no larger, and smaller
-/// somewhere. A plan keeps the program with
-/// every product rounded.
+/// A certificate's bounds of rounding are those of one rounding: no larger, and smaller somewhere. A
+/// plan keeps the program with every product rounded.
 #[test]
 fn certificates_bound_one_rounding() {
-    let (reading, request) = held();
-    let robot = &reading.robot;
-    let plain = certificates(&request, robot);
-    let found = generated(robot, &fused(&request));
-    let certificates = &found.functions[0].admitted.as_ref().unwrap().certificates;
-    assert_eq!(certificates.len(), plain.len());
-    for (certificate, plain) in certificates.iter().zip(&plain) {
+    let scene = "\n[scene.hold]\ntolerance = { value = 1e-2, relative_to = \"range\" }\n";
+    let asked = "outputs: gravity; scene: hold; scalar: f64, f32; fma: ";
+    let [off, on] = ["off", "on"].map(|fma| Case::new("puma560", scene, &format!("{asked}{fma}")));
+    let (plain, found) = (off.generated(), on.generated());
+    assert_eq!(certificates(&found).len(), certificates(&plain).len());
+    for (certificate, plain) in certificates(&found).iter().zip(certificates(&plain)) {
         assert!(certificate.emitted.fuses() && certificate.text.contains(".mul_add("));
         assert_eq!(certificate.emitted, plain.emitted.fused());
         assert_eq!(certificate.emitted, found.functions[0].program);
@@ -217,10 +115,27 @@ fn certificates_bound_one_rounding() {
             smaller += usize::from(own.rounding < other.rounding);
         }
         assert!(smaller > 0);
-        shown(&support::source("puma560", SCENE), certificate);
+        shown(&support::source("puma560", scene), certificate);
     }
-    let kept =
-        |request: &Request, found: &Generated| keep(robot, request, found, None).plan.write();
-    let off = generated(robot, &request);
-    assert_eq!(kept(&fused(&request), &found), kept(&request, &off));
+    let kept = |case: &Case, own: &Generated| keep(case.robot(), &case.request, own, None).plan;
+    assert_eq!(kept(&on, &found).write(), kept(&off, &plain).write());
+}
+
+/// Functions that call for all their angles at once have the same bounds; a certificate says whose
+/// sines it is about, and the file of one is not that of the other.
+#[test]
+fn certificates_name_the_library() {
+    let scene = "\n[scene.slow]\noutputs = [\"gravity\"]\n\
+                 tolerance = { value = 1e-9, relative_to = \"range\" }\nscalar = \"f64\"\n";
+    let generated = Case::new("planar2r", scene, "scene: slow; sincos: together").generated();
+    assert!(generated.text().contains("dalembert_sines::sincos(&["));
+    let certificate = &certificates(&generated)[0];
+    assert_eq!(certificate.library, Library::Together);
+    shown(&support::source("planar2r", scene), certificate);
+    let json = certificate.to_json();
+    assert!(json.contains("dalembert-sines") && !json.contains("libm's, within"));
+
+    let alone = certificate.calling(Library::Libm);
+    assert!(alone.to_json().contains("libm's, within"));
+    assert_eq!(alone.bounds, certificate.bounds);
 }

@@ -3,14 +3,12 @@
 //! code; what divides may err by the condition of what it divides by.
 
 use std::collections::HashMap;
-use std::path::Path;
 
 use dalembert_codegen::workspace::{Quantity, Runtime, Sizes};
 use dalembert_codegen::{Function, Generated};
 use serde_json::Value;
 
-use crate::support::case::Case;
-use crate::support::{given, numbers};
+use crate::support::{self, Case, given, largest, numbers};
 
 const ROBOTS: [&str; 6] = [
     "planar2r", "planar3r", "stanford", "puma560", "ur10", "panda",
@@ -22,10 +20,12 @@ const FILES: f64 = 1e-12;
 /// Values below this in SI units are what rounding leaves of zero.
 const LEAST: f64 = 1e-3;
 
-fn states(file: &str) -> Vec<Value> {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
-    let mut json: Value = serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap();
-    serde_json::from_value(json["states"].take()).unwrap()
+/// Returns the states of a file, which has so many.
+fn states(file: &str, count: usize) -> Vec<Value> {
+    let states = support::json(file)["states"].take();
+    let states: Vec<Value> = serde_json::from_value(states).unwrap();
+    assert_eq!(states.len(), count);
+    states
 }
 
 /// Returns the function and the quantity of a key of a file.
@@ -48,31 +48,23 @@ fn asked(key: &str) -> Option<(Function, Quantity)> {
 /// Returns the largest difference as a part of the largest number of the file.
 fn off(found: &[f64], known: &[f64]) -> f64 {
     assert_eq!(found.len(), known.len());
-    let size = known.iter().fold(LEAST, |most, x| most.max(x.abs()));
     let differences = found.iter().zip(known).map(|(a, b)| (a - b).abs());
     let worst = differences.fold(0.0, |most: f64, x| if x.is_nan() { x } else { most.max(x) });
-    worst / size
+    worst / largest(known).max(LEAST)
 }
 
-/// Compares every value of a file with the runtime, and with code by these options where it is
-/// chosen by its place in the file, which has so many; returns how many code gave of each state.
-fn compare(
-    name: &str,
-    states: &[Value],
-    options: &str,
-    values: usize,
-    is_coded: impl Fn(usize) -> bool,
-) -> usize {
+/// Compares every value of states with the runtime, and with code by these options one in `every`,
+/// from a place among them; returns how many values there are, and how many code gave.
+fn compare(name: &str, states: &[Value], options: &str, every: usize, from: usize) -> [usize; 2] {
     let plain = Case::new(name, "", "outputs: gravity");
     let runtime = Runtime::new(plain.robot());
     let sizes = Sizes::whole(plain.robot().joints.len());
     let mut codes: HashMap<String, Generated> = HashMap::new();
     let keys = states[0].as_object().unwrap().keys();
     let asked: Vec<_> = keys.filter_map(|key| Some((key, asked(key)?))).collect();
-    assert_eq!(asked.len(), values, "{name}");
-    let mut compared = 0;
+    let mut compared = [asked.len(), 0];
     for (index, (key, (function, quantity))) in asked.into_iter().enumerate() {
-        let code = is_coded(index).then(|| {
+        let code = (index % every == from % every).then(|| {
             let text = format!("outputs: {}; scalar: f64; {options}", function.text());
             &*codes
                 .entry(text.clone())
@@ -84,7 +76,7 @@ fn compare(
         for json in states {
             let state = given(json);
             let known = numbers(&json[key.as_str()]);
-            let most = FILES * runtime.granted(function, &state).to(quantity);
+            let most = FILES * runtime.granted(function, &state).factor(quantity);
             let error = off(&runtime.run(function, &state)[range.clone()], &known);
             assert!(error <= most, "{name} {key} by the formulas: {error:e}");
             if let Some(code) = code {
@@ -92,45 +84,50 @@ fn compare(
                 assert!(error <= most, "{name} {key}: {error:e}");
             }
         }
-        compared += usize::from(code.is_some());
+        compared[1] += usize::from(code.is_some());
     }
     compared
 }
 
-/// Each sixth value of a robot's by code where tests are not optimised, other ones of each robot.
+/// Values at frames, a sixth of a robot's by code where tests are not optimised, other ones of each
+/// robot.
 #[test]
 fn outputs_at_frames() {
     let every = if cfg!(debug_assertions) { 6 } else { 1 };
     for (number, name) in ROBOTS.into_iter().enumerate() {
-        let states = states(&format!("tests/data/frames/{name}.json"));
-        let frames = format!("frames/{name}");
-        let is_coded = |index| index % every == number % every;
-        let compared = compare(&frames, &states, "", 76, is_coded);
-        assert_eq!(states.len(), 5);
-        assert!(compared >= 76 / every, "{name}: {compared}");
+        let states = states(&format!("tests/data/frames/{name}.json"), 5);
+        let [all, coded] = compare(&format!("frames/{name}"), &states, "", every, number);
+        assert!(all == 76 && coded >= 76 / every, "{name}: {coded} of {all}");
     }
 }
 
-/// The large arms by their formulas alone where tests are not optimised.
+/// Second derivatives; torques, D, h and c with fused products. The large arms by their formulas
+/// alone where tests are not optimised.
 #[test]
-fn second_derivatives() {
-    for (number, name) in ROBOTS.into_iter().enumerate() {
-        let states = states(&format!("tests/data/second_derivatives/{name}.json"));
-        let is_coded = !cfg!(debug_assertions) || number < 3;
-        let compared = compare(name, &states, "", 8, |_| is_coded);
-        assert_eq!(states.len(), 5);
-        assert_eq!(compared, if is_coded { 8 } else { 0 }, "{name}");
+fn whole_robots() {
+    for (folder, count, options, values) in [
+        ("tests/data/second_derivatives", 5, "", 8),
+        ("../model/tests/data/golden", 60, "fma: on", 4),
+    ] {
+        for (number, name) in ROBOTS.into_iter().enumerate() {
+            let states = states(&format!("{folder}/{name}.json"), count);
+            let is_large = cfg!(debug_assertions) && number >= 3;
+            let (every, from, coded) = match is_large {
+                true => (values + 1, values, 0),
+                false => (1, 0, values),
+            };
+            let compared = compare(name, &states, options, every, from);
+            assert_eq!(compared, [values, coded], "{name}");
+        }
     }
 }
 
-/// Torques, D, h and c with fused products.
+/// An arm of which three joints follow others; every second value by code where tests are not
+/// optimised. `values` has all of its outputs.
 #[test]
-fn fused_products() {
-    for (number, name) in ROBOTS.into_iter().enumerate() {
-        let states = states(&format!("../model/tests/data/golden/{name}.json"));
-        let is_coded = !cfg!(debug_assertions) || number < 3;
-        let compared = compare(name, &states, "fma: on", 4, |_| is_coded);
-        assert_eq!(states.len(), 60);
-        assert_eq!(compared, if is_coded { 4 } else { 0 }, "{name}");
-    }
+fn followers() {
+    let states = states("../import/tests/data/wafer.golden.json", 5);
+    let every = if cfg!(debug_assertions) { 2 } else { 1 };
+    let [all, coded] = compare("wafer", &states, "", every, 0);
+    assert!(all == 23 && coded >= 23 / every, "{coded} of {all}");
 }

@@ -4,25 +4,21 @@
 use dalembert_codegen::workspace::{keep, plan_file};
 use dalembert_codegen::{Generated, Plan};
 
-use crate::support::case::Case;
+use crate::support::{self, Case, rows};
 
-/// Generates a request, and returns its code and the text of its plan, which is read again and
-/// gives the same code.
+/// Generates a request, and returns the text of its plan, which is read again and gives the same
+/// code.
 #[track_caller]
-fn kept(case: &Case) -> (Generated, String) {
+fn kept(case: &Case) -> String {
     let first = case.generated();
     let text = keep(case.robot(), &case.request, &first, None).plan.write();
     let read = Plan::parse(&text).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(read.write(), text);
     let again = case.by(&read);
-    assert!(
-        again
-            .functions
-            .iter()
-            .all(|own| own.planned || own.function.name() == "load")
-    );
+    let mut functions = again.functions.iter();
+    assert!(functions.all(|own| own.planned || own.function.name() == "load"));
     assert_eq!(again.text(), first.text());
-    (first, text)
+    text
 }
 
 /// Returns which functions of a request are of a plan.
@@ -31,52 +27,32 @@ fn planned(case: &Case, plan: &Plan) -> Vec<bool> {
     functions.iter().map(|own| own.planned).collect()
 }
 
-const HELD: &str =
-    "\n[scene.held]\njoints = [2, 1]\nlock = { 3 = \"pi/2\" }\nvelocity = \"zero\"\n";
+/// Refuses the text of a plan with these words.
+#[track_caller]
+fn refused(text: &str, said: &str) {
+    let error = Plan::parse(text).unwrap_err().to_string();
+    assert!(error.contains(said), "{error}");
+}
+
+/// A robot file, the lines of a scene, what is asked, and words of the plan's text.
+const ROWS: &str = r#"
+FRAMES := jacobian@camera:local, jacobian_rate@elbow:world, momentum_observer, operational_bias@elbow:linear, task=operational_inertia@camera:linear+consistent_inverse@camera:linear
+coulomb  | | inverse_dynamics | r1 … r2
+planar2r | | gravity, servo=inverse_dynamics+jacobian; scalar: f64 | program servo=inverse_dynamics+jacobian auto f64
+planar2r | | gravity, jacobian; parameters: payload, gravity | parameters payload,gravity
+planar3r | joints = [2, 1]; lock = { 3 = "pi/2" }; velocity = "zero" | inverse_dynamics | program inverse_dynamics
+frames/planar2r | | FRAMES; scalar: f64 | program jacobian@camera:local auto f64 … program task=operational_inertia@camera:linear+
+"#;
 
 #[test]
 fn programs_by_their_request() {
-    for (file, more, asked, lines) in [
-        (
-            "coulomb",
-            "",
-            "outputs: inverse_dynamics",
-            &["r1", "r2"][..],
-        ),
-        (
-            "frames/planar2r",
-            "",
-            "outputs: jacobian@camera:local, jacobian_rate@elbow:world, momentum_observer, \
-             operational_bias@elbow:linear, \
-             task=operational_inertia@camera:linear+consistent_inverse@camera:linear; scalar: f64",
-            &[
-                "\nprogram jacobian@camera:local auto f64 ",
-                "\nprogram task=operational_inertia@camera:linear+",
-            ],
-        ),
-        (
-            "planar2r",
-            "",
-            "outputs: gravity, servo=inverse_dynamics+jacobian; scalar: f64",
-            &["\nprogram servo=inverse_dynamics+jacobian auto f64 "],
-        ),
-        (
-            "planar2r",
-            "",
-            "outputs: gravity, jacobian; parameters: payload, gravity",
-            &["\nparameters payload,gravity "],
-        ),
-        (
-            "planar3r",
-            HELD,
-            "outputs: inverse_dynamics; scene: held",
-            &[],
-        ),
-    ] {
-        let (_, text) = kept(&Case::new(file, more, asked));
-        let is_word = |line: &str| text.split_whitespace().any(|word| word == line);
-        let has = |line: &&str| is_word(line) || line.contains(' ') && text.contains(line);
-        assert!(lines.iter().all(has), "{text}");
+    for [file, scene, asked, words] in rows(ROWS) {
+        let text = kept(&Case::in_scene(&file, &scene, &asked));
+        let is_said = |words: &str| match words.contains(' ') {
+            true => text.contains(&format!("\n{words}")),
+            false => text.split_whitespace().any(|word| word == words),
+        };
+        assert!(words.split(" … ").all(is_said), "{text}");
     }
 }
 
@@ -84,28 +60,21 @@ fn programs_by_their_request() {
 /// for one with other parameters or another load.
 #[test]
 fn arguments_are_told_apart() {
-    let case = |asked: &str| Case::new("planar2r", "", asked);
-    let plain = case("outputs: gravity, jacobian");
+    let case = |asked: &str| Case::in_scene("planar2r", "", asked);
+    let plain = case("gravity, jacobian");
     let plan = keep(plain.robot(), &plain.request, &plain.generated(), None).plan;
-    let both = case("outputs: gravity, jacobian; parameters: payload, gravity");
-    assert_eq!(
-        planned(&both, &plan),
-        [false, false, true],
-        "load, gravity, jacobian"
-    );
+    let both = case("gravity, jacobian; parameters: payload, gravity");
+    let found = planned(&both, &plan);
+    assert_eq!(found, [false, false, true], "load, gravity, jacobian");
     let generated = both.by(&plan);
     let all = keep(both.robot(), &both.request, &generated, Some(plan.clone())).plan;
-    assert_eq!(
-        all.entries.len(),
-        plan.entries.len() + 2,
-        "gravity, a scalar each"
-    );
-    let gravity = |parameters: &str| case(&format!("outputs: gravity; parameters: {parameters}"));
-    let last = |case: &Case, plan: &Plan| planned(case, plan).pop();
-    assert_eq!(last(&gravity("payload, gravity"), &all), Some(true));
-    assert_eq!(last(&case("outputs: gravity"), &all), Some(true));
-    assert_eq!(last(&gravity("payload"), &all), Some(false));
-    assert_eq!(last(&gravity("gravity"), &all), Some(false));
+    let more = all.entries.len() - plan.entries.len();
+    assert_eq!(more, 2, "gravity, a scalar each");
+    let last = |asked: &str, plan: &Plan| planned(&case(asked), plan).pop().unwrap();
+    let arguments = "gravity; parameters: payload, gravity";
+    assert!(last(arguments, &all) && last("gravity", &all));
+    assert!(!last("gravity; parameters: payload", &all));
+    assert!(!last("gravity; parameters: gravity", &all));
     // Numbers of another load: searched for anew, not refused.
     let text = all.write();
     let mut lines = text.lines();
@@ -113,7 +82,7 @@ fn arguments_are_told_apart() {
     let (rest, _) = line.rsplit_once(' ').unwrap();
     let other = text.replace(line, &format!("{rest} 0123456789abcdef"));
     let other = Plan::parse(&other).unwrap();
-    assert_eq!(last(&gravity("payload, gravity"), &other), Some(false));
+    assert!(!last(arguments, &other));
     for (words, said) in [
         ("payload,gravity", "expected `payload`"),
         ("payload,wind 4 0", "expected `payload`"),
@@ -122,9 +91,7 @@ fn arguments_are_told_apart() {
         ("payload 99999999999 0", "expected `payload`"),
         ("payload 4 0\nparameters gravity 0 0", "once"),
     ] {
-        let error = Plan::parse(&text.replace(line, &format!("parameters {words}")));
-        let error = error.unwrap_err().to_string();
-        assert!(error.contains(said), "{words}: {error}");
+        refused(&text.replace(line, &format!("parameters {words}")), said);
     }
 }
 
@@ -133,74 +100,57 @@ fn arguments_are_told_apart() {
 #[test]
 fn bundles_are_what_is_in_them() {
     let asked = "outputs: servo=inverse_dynamics+jacobian; scalar: f64";
-    let (_, text) = kept(&Case::new("planar2r", "", asked));
+    let text = kept(&Case::new("planar2r", "", asked));
     let plan = Plan::parse(&text).unwrap();
-    let other = Case::new(
-        "planar2r",
-        "",
-        "outputs: servo=gravity+jacobian; scalar: f64",
-    );
+    let mut other = Case::in_scene("planar2r", "", "servo=gravity+jacobian; scalar: f64");
     assert_eq!(planned(&other, &plan), [false]);
     let wrong = text.replace("program servo=inverse_dynamics+", "program servo=gravity+");
-    let mut wrongly = other;
-    wrongly.request.plan = Some(Plan::parse(&wrong).unwrap());
-    assert!(
-        wrongly.refusal().contains("differs from the formula"),
-        "{}",
-        wrongly.refusal()
-    );
+    other.request.plan = Some(Plan::parse(&wrong).unwrap());
+    let said = other.refusal();
+    assert!(said.contains("differs from the formula"), "{said}");
     for (name, said) in [
         ("servo=inverse_dynamics", "two parts"),
         ("gravity=jacobian+inertia", "is an output by itself"),
         ("servo=jacobian+inertja", "`inertja` is no function"),
     ] {
-        let error = Plan::parse(&text.replace("servo=inverse_dynamics+jacobian", name));
-        let error = error.unwrap_err().to_string();
-        assert!(error.contains(said), "{error}");
+        refused(&text.replace("servo=inverse_dynamics+jacobian", name), said);
     }
+}
+
+/// Returns the plan beside a robot file.
+fn beside(name: &str) -> Plan {
+    let file = support::path(&format!("../generated/robots/{name}.toml"));
+    plan_file::beside(&file).unwrap().unwrap()
 }
 
 /// A scene's program is not the whole robot's, nor that of the scene as it is now. A box changes no
 /// equation: the plan of the whole robot serves; standing still does.
 #[test]
 fn scenes_are_told_apart() {
-    let asked = "outputs: inverse_dynamics; scene: held; scalar: f64";
-    let (_, text) = kept(&Case::new("planar3r", HELD, asked));
+    let asked = "inverse_dynamics; scalar: f64";
+    let held = "joints = [2, 1]; lock = { 3 = \"pi/2\" }; velocity = \"zero\"";
+    let text = kept(&Case::in_scene("planar3r", held, asked));
     let plan = Plan::parse(&text).unwrap();
-    let whole = Case::new("planar3r", HELD, "outputs: inverse_dynamics; scalar: f64");
+    let whole = Case::in_scene("planar3r", "", asked);
     assert_eq!(whole.by(&plan).functions[0].program.rows, [0, 1, 2]);
-    let mut stale = Case::new("planar3r", &HELD.replace("pi/2", "pi/3"), asked);
+    let mut stale = Case::in_scene("planar3r", &held.replace("pi/2", "pi/3"), asked);
     stale.request.plan = Some(plan);
-    assert!(
-        stale.refusal().contains("the scene `held`"),
-        "{}",
-        stale.refusal()
-    );
+    let said = stale.refusal();
+    assert!(said.contains("the scene `test`"), "{said}");
 
-    let file = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../generated/robots/puma560.toml"
-    );
-    let plan = plan_file::beside(std::path::Path::new(file))
-        .unwrap()
-        .unwrap();
-    let scene = "\n[scene.slow]\nbox = { velocity = [1, 1, 1, 1, 1, 1] }\n";
-    let asked = "outputs: inverse_dynamics; scene: slow; scalar: f64";
-    let of = |more: &str| Case::new("puma560", &(scene.to_owned() + more), asked);
-    assert_eq!(planned(&of(""), &plan), [true]);
-    assert_eq!(planned(&of("velocity = \"zero\"\n"), &plan), [false]);
+    let plan = beside("puma560");
+    let slow = "box = { velocity = [1, 1, 1, 1, 1, 1] }";
+    for (lines, is_planned) in [("", true), ("; velocity = \"zero\"", false)] {
+        let case = Case::in_scene("puma560", &format!("{slow}{lines}"), asked);
+        assert_eq!(planned(&case, &plan), [is_planned]);
+    }
 }
 
 /// Who renews a plan goes on from its programs, and never comes out dearer; from what is not the
 /// function's nobody goes on.
 #[test]
 fn renewed_programs_are_no_dearer() {
-    let file = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../generated/robots/stanford.toml"
-    );
-    let plan = plan_file::beside(std::path::Path::new(file));
-    let plan = plan.unwrap().unwrap();
+    let plan = beside("stanford");
     let mut case = Case::new("stanford", "", "outputs: inertia; scalar: f64");
     let operations = |generated: Generated| generated.functions[0].counts().operations();
     let (searched, kept) = (operations(case.generated()), operations(case.by(&plan)));
@@ -212,13 +162,11 @@ fn renewed_programs_are_no_dearer() {
     assert!(is_cheaper || again == plan, "no byte changes for nothing");
     let mut wrong = plan.clone();
     for entry in &mut wrong.entries {
-        entry.program.outputs.reverse();
+        entry.program.dag.outputs.reverse();
     }
-    case.request.renewed = Some(wrong);
-    assert_eq!(operations(case.generated()), searched);
-    case.request.renewed = Some(Plan {
-        input: "0".repeat(16),
-        ..plan
-    });
-    assert_eq!(operations(case.generated()), searched);
+    let input = "0".repeat(16);
+    for other in [wrong, Plan { input, ..plan }] {
+        case.request.renewed = Some(other);
+        assert_eq!(operations(case.generated()), searched);
+    }
 }

@@ -1,203 +1,118 @@
 //! What cannot be had is refused by name, with what to do.
 
-use crate::support;
-use crate::support::case::Case;
+use dalembert_codegen::{Function, Language, Request, generate};
+use dalembert_model::scene::Scene;
 
-/// A robot file, more tables of it, what is asked, and words of what is said.
-type Row = (
-    &'static str,
-    &'static str,
-    &'static str,
-    &'static [&'static str],
-);
+use crate::support::{self, Case, rows};
 
-const MOON: &str = "\n[scene.moon]\ngravity = [0, -2, 0]\n";
-const ROUGH: &str = "\n[scene.rough]\ntolerance = { value = 1e-3, relative_to = \"range\" }\n\
-    box = { position = [[-1, 1], [-1, 1]], velocity = [1, 1], acceleration = [1, 1] }\n";
-const NEAR: &str = "\n[scene.near]\ntolerance = { value = 1e-2, relative_to = \"range\" }\n";
-const BOXED: &str = "\n[scene.near]\ntolerance = { value = 1e-2, relative_to = \"range\" }\n\
-    box = { velocity = [1, 1], acceleration = [1, 1] }\n";
-const COARSE: &str = "\n[scene.coarse]\ntolerance = { value = 1e-3, relative_to = \"range\" }\n\
-    box = { acceleration = [1, 1, 1, 1] }\n";
+/// A robot file, the lines of a scene, what is asked, and words of what is said.
+const ROWS: &str = r#"
+ROUGH := tolerance = { value = 1e-3, relative_to = "range" }; box = { position = [[-1, 1], [-1, 1]], velocity = [1, 1], acceleration = [1, 1] }
+NEAR := tolerance = { value = 1e-2, relative_to = "range" }
+RUBBED := NEAR; box = { position = [[-1, 1], [-1, 1], [-1, 1]], velocity = [1, 1, 1], acceleration = [1, 1, 1] }
+COARSE := NEAR; box = { acceleration = [1, 1, 1, 1] }
+planar2r | | reaction_wrenches; parameters: payload | `reaction_wrenches` depends on parameters of the payload that have no effect on joint torques
+planar2r | | inverse_dynamics; parameters: payload; formulation: lagrange_euler | the formulation `lagrange_euler` has no regrouped parameters
+planar2r | | inverse_dynamics; parameters: payload; batch: on | batches in Rust take arguments with an entry a joint, and payload is none
+planar2r | gravity = [0, -2, 0] | gravity; parameters: gravity | the scene `test` says what gravity is
+planar2r | ROUGH | inverse_dynamics; parameters: payload | no box bounds its argument `load`
+planar2r | ROUGH | inverse_dynamics; parameters: gravity | no box bounds its argument `g`
+planar2r | ROUGH | forward_dynamics | `forward_dynamics` … give the tolerance to `inverse_dynamics`
+planar2r | ROUGH | inertia_inverse | `inertia_inverse` … give the tolerance to `inverse_dynamics`
+planar2r | ROUGH | passivity | `passivity` … give the tolerance to `inverse_dynamics`
+puma560 | NEAR | regressor | its entries multiply parameters of any size
+puma560 | NEAR | full_regressor | its entries multiply parameters of any size
+puma560 | NEAR | passivity_regressor | its entries multiply parameters of any size
+coulomb | | regressor | `regressor` … not linear … leave `coulomb` out … `full_regressor`
+coulomb | | passivity_regressor | `passivity_regressor` … not linear … leave `coulomb` out … `full_regressor`
+coulomb | RUBBED | inverse_dynamics | `inverse_dynamics` … Coulomb friction … no certified bound … leave `coulomb` out
+frames/planar2r | | jacobian@camra | `jacobian@camra`: the robot has no frame `camra`: did you mean `camera`?
+frames/planar2r | | see=gravity+jacobian@q | `see=gravity+jacobian@q`: the robot has no frame `q`: it has `hand`, `camera`, `elbow`
+planar2r | | jacobian@camera:local | the robot has no frame `camera`: it has `hand`; others are [[frame]] tables of its file
+wafer | | link_poses | `link_poses`
+wafer | | reaction_wrenches | `reaction_wrenches`
+wafer | | full_regressor | `full_regressor`
+wafer | | inverse_dynamics_second_derivatives | `inverse_dynamics_second_derivatives`
+wafer | COARSE | inverse_dynamics | joints of the robot follow others (`mimic`)
+planar2r | WEIGHTLESS | forward_dynamics | joint 3 (tip) moves no inertia
+planar2r | WEIGHTLESS | inertia_inverse | joint 3 (tip) moves no inertia
+planar2r | WEIGHTLESS | forward_dynamics_derivatives | joint 3 (tip) moves no inertia
+planar2r | WEIGHTLESS | forward_dynamics_second_derivatives | joint 3 (tip) moves no inertia
+planar2r | | servo = gravty + jacobian | unknown output `gravty` … did you mean `gravity`?
+planar2r | | servo = gravity + gravity | `gravity` is in it twice … leave one of them out
+planar2r | | servo = inertia + manipulator_equation | both return D
+planar2r | | servo = gravity | two parts at least … ask for `gravity` by itself
+planar2r | | servo = gravity + | expected an output
+planar2r | | gravity + jacobian | `gravity+jacobian` has no name … write NAME = gravity+jacobian
+planar2r | | Servo = gravity + jacobian | no name of a function … small letters
+planar2r | | gravity = inertia + jacobian | is an output by itself
+planar2r | | a = gravity + jacobian, a = inertia + jacobian | is given twice
+planar2r | | a = gravty + jacobian, b = inertja + gravity | `gravty` … `inertja`
+planar2r | | servo=gravity+inertia, servo_any=gravity+inertia; batch: on; sincos: together; language: c | `planar2r_servo_any`
+planar2r | | gravity; name: an_arm_with_a_very_long_name; language: c | `c`: … at most 31
+planar2r | | gravity; name: an_arm_with_a_very_long_name; language: cuda | `cuda`: … at most 31
+"#;
 
-const LINEAR: &str = "not linear";
-const OTHERS: [&str; 2] = ["leave `coulomb` out", "`full_regressor`"];
-const CERTIFIED: &str = "give the tolerance to `inverse_dynamics`";
-const PARAMETERS: &[&str] = &["its entries multiply parameters of any size"];
+/// One joint more, of a link that weighs nothing.
+const WEIGHTLESS: &str = "[[joint]]; kind = \"revolute\"; name = \"tip\"; a = 0.3; mass = 0; \
+    com = [0, 0, 0]; inertia = [0, 0, 0, 0, 0, 0]; [scene.held]; lock = { 3 = 0 }";
 
-const ROWS: [Row; 22] = [
-    (
-        "planar2r",
-        "",
-        "outputs: reaction_wrenches; parameters: payload",
-        &[
-            "`reaction_wrenches` depends on parameters of the payload that have no effect on joint torques",
-        ],
-    ),
-    (
-        "planar2r",
-        "",
-        "outputs: inverse_dynamics; parameters: payload; formulation: lagrange_euler",
-        &["the formulation `lagrange_euler` has no regrouped parameters"],
-    ),
-    (
-        "planar2r",
-        "",
-        "outputs: inverse_dynamics; parameters: payload; batch: on",
-        &["batches in Rust take arguments with an entry a joint, and payload is none"],
-    ),
-    (
-        "planar2r",
-        MOON,
-        "outputs: gravity; parameters: gravity; scene: moon",
-        &["the scene `moon` says what gravity is"],
-    ),
-    (
-        "planar2r",
-        ROUGH,
-        "outputs: inverse_dynamics; parameters: payload; scene: rough",
-        &["no box bounds its argument `load`"],
-    ),
-    (
-        "planar2r",
-        ROUGH,
-        "outputs: inverse_dynamics; parameters: gravity; scene: rough",
-        &["no box bounds its argument `g`"],
-    ),
-    (
-        "planar2r",
-        BOXED,
-        "outputs: forward_dynamics; scene: near",
-        &["`forward_dynamics`", CERTIFIED],
-    ),
-    (
-        "planar2r",
-        BOXED,
-        "outputs: inertia_inverse; scene: near",
-        &["`inertia_inverse`", CERTIFIED],
-    ),
-    (
-        "planar2r",
-        BOXED,
-        "outputs: passivity; scene: near",
-        &["`passivity`", CERTIFIED],
-    ),
-    (
-        "puma560",
-        NEAR,
-        "outputs: regressor; scene: near",
-        PARAMETERS,
-    ),
-    (
-        "puma560",
-        NEAR,
-        "outputs: full_regressor; scene: near",
-        PARAMETERS,
-    ),
-    (
-        "puma560",
-        NEAR,
-        "outputs: passivity_regressor; scene: near",
-        PARAMETERS,
-    ),
-    (
-        "coulomb",
-        "",
-        "outputs: regressor",
-        &["`regressor`", LINEAR, OTHERS[0], OTHERS[1]],
-    ),
-    (
-        "coulomb",
-        "",
-        "outputs: passivity_regressor",
-        &["`passivity_regressor`", LINEAR, OTHERS[0], OTHERS[1]],
-    ),
-    (
-        "frames/planar2r",
-        "",
-        "outputs: jacobian@camra",
-        &["`jacobian@camra`: the robot has no frame `camra`: did you mean `camera`?"],
-    ),
-    (
-        "frames/planar2r",
-        "",
-        "outputs: see=gravity+jacobian@q",
-        &["`see=gravity+jacobian@q`: the robot has no frame `q`: it has `hand`, `camera`, `elbow`"],
-    ),
-    (
-        "planar2r",
-        "",
-        "outputs: jacobian@camera:local",
-        &[
-            "the robot has no frame `camera`: it has `hand`; others are [[frame]] tables of its file",
-        ],
-    ),
-    ("wafer", "", "outputs: link_poses", &["`link_poses` "]),
-    (
-        "wafer",
-        "",
-        "outputs: reaction_wrenches",
-        &["`reaction_wrenches` "],
-    ),
-    (
-        "wafer",
-        "",
-        "outputs: full_regressor",
-        &["`full_regressor` "],
-    ),
-    (
-        "wafer",
-        "",
-        "outputs: inverse_dynamics_second_derivatives",
-        &["`inverse_dynamics_second_derivatives` "],
-    ),
-    (
-        "wafer",
-        COARSE,
-        "outputs: inverse_dynamics; scene: coarse",
-        &["joints of the robot follow others (`mimic`)"],
-    ),
-];
-
+/// All that is wrong is said at once.
 #[test]
 fn by_name() {
-    for (file, more, asked, words) in ROWS {
-        let said = Case::new(file, more, asked).refusal();
-        assert!(
-            words.iter().all(|word| said.contains(word)),
-            "{asked}: {said}"
-        );
+    for [file, scene, asked, words] in rows(ROWS) {
+        let scene = scene.replace("WEIGHTLESS", WEIGHTLESS);
+        let said = Case::refused(&file, &scene, &asked);
+        let mut words = words.split(" … ");
+        assert!(words.all(|word| said.contains(word)), "{asked}: {said}");
     }
 }
 
-/// An arm whose last joint moves no inertia has no inverse of D; held, it needs none. Torques that
-/// it takes are another matter.
+/// What no option and no file can ask for, but a request can: a name that is none, one for two
+/// functions, and a scene of another robot.
+#[test]
+fn requests_that_nobody_read() {
+    let robot = support::robot("planar2r");
+    let said = |request: &Request| generate(&robot, request).unwrap_err().to_string();
+    for language in [Language::C, Language::Cuda] {
+        let module = Some("a-b".to_owned());
+        let said = said(&Request {
+            language,
+            module,
+            ..Request::default()
+        });
+        let name = format!("`{}`: ", language.name());
+        assert!(said.starts_with(&name) && said.contains("`a-b`"), "{said}");
+    }
+    let both = ["servo_2=gravity+inertia", "servo2=jacobian+inertia"];
+    let bundles = both.map(|text| Function::parse(text).unwrap());
+    let twice = said(&Request::new(&bundles));
+    assert!(twice.contains(&both.join("` and `")), "{twice}");
+    let scene = Scene {
+        name: "test".into(),
+        joints: Some(vec![0, 4]),
+        ..Scene::default()
+    };
+    let said = said(&Request {
+        scene: Some(scene),
+        ..Request::default()
+    });
+    assert!(said.contains("there is no joint 5"), "{said}");
+}
+
+/// An arm whose last joint moves no inertia has no inverse of D, as the table says; held, it needs
+/// none. Torques that it takes are another matter.
 #[test]
 fn an_arm_that_moves_no_inertia_by_its_joint() {
-    let source = support::source("planar3r", "");
-    let (first, last) = source.split_at(source.rfind("\nmass").unwrap());
-    let lines = last.lines().map(|line| match line.split_once(" = ") {
-        Some(("mass", _)) => "mass = 0".to_owned(),
-        Some(("inertia", _)) => "inertia = [0, 0, 0, 0, 0, 0]".to_owned(),
-        _ => line.to_owned(),
-    });
-    let lines: Vec<String> = lines.collect();
-    let source = first.to_owned() + &lines.join("\n") + "\n[scene.held]\nlock = { 3 = 0 }\n";
-    for output in [
-        "forward_dynamics",
-        "inertia_inverse",
-        "forward_dynamics_derivatives",
-        "forward_dynamics_second_derivatives",
+    for asked in [
+        "inverse_dynamics",
+        "forward_dynamics; scene: held",
+        "inertia_inverse; scene: held",
+        "forward_dynamics_derivatives; scene: held",
+        "forward_dynamics_second_derivatives; scene: held",
     ] {
-        let case = Case::of(&source, &format!("outputs: {output}"));
-        let (said, joint) = (case.refusal(), case.robot().joint_label(2));
-        assert!(
-            said.contains(&joint) && said.contains("moves no inertia"),
-            "{said}"
-        );
-        Case::of(&source, &format!("outputs: {output}; scene: held")).generated();
+        let _ = Case::in_scene("planar2r", WEIGHTLESS, asked).generated();
     }
-    Case::of(&source, "outputs: inverse_dynamics").generated();
 }
 
 /// What a scalar cannot hold inside the robot's limits is said.
@@ -206,17 +121,11 @@ fn overflow_is_flagged_for_the_scalar_that_it_threatens() {
     let source = support::source("puma560", "");
     let is_flagged = |velocity: &str, scalar: &str| {
         let to = format!("velocity = {velocity}");
-        let source = source
-            .replace("velocity = 2", &to)
-            .replace("velocity = 5", &to);
-        let case = Case::of(
-            &source,
-            &format!("outputs: inverse_dynamics; scalar: {scalar}"),
-        );
-        case.generated()
-            .warnings
-            .iter()
-            .any(|said| said.contains("may overflow"))
+        let source = source.replace("velocity = 2", &to);
+        let source = source.replace("velocity = 5", &to);
+        let asked = format!("outputs: inverse_dynamics; scalar: {scalar}");
+        let warnings = Case::read(&source, &asked).generated().warnings;
+        warnings.iter().any(|said| said.contains("may overflow"))
     };
     assert!(is_flagged("1e20", "f32"));
     assert!(!is_flagged("1e20", "f64") && !is_flagged("2", "f32"));

@@ -2,8 +2,8 @@
 //! back, and as near to libm's as was proved.
 
 use dalembert_codegen::workspace::{
-    AngleKernel, BOUND, Candidates, Code, ErrorByCause, Input, Interval, Library, Need, Operand,
-    Output, Printed, Runtime, Setup, Trig, seeded, write_function,
+    AngleKernel, BOUND, Candidates, Code, Dag, Edge, ErrorByCause, Input, Interval, Library, Node,
+    Printed, Runtime, Setup, seeded, write_function,
 };
 use dalembert_codegen::{
     Function, GenerateError, Generated, Program, Request, ScalarType, SinCos, generate,
@@ -19,7 +19,7 @@ const FUNCTION: Function = Function::InverseDynamics;
 fn with(robot: &Robot, error: f64) -> Result<Generated, GenerateError> {
     let request = Request {
         sincos: SinCos::Polynomial { error: Some(error) },
-        ..Request::of(&[FUNCTION])
+        ..Request::new(&[FUNCTION])
     };
     generate(robot, &request)
 }
@@ -66,20 +66,21 @@ fn polynomials_are_printed_counted_read_back_and_near() {
 /// Returns the sine and cosine of one angle, as far as they are wanted: a function of two
 /// results.
 fn pair(sin: bool, cos: bool) -> Program {
-    let (sine, cosine) = (Input::Sin(0), Input::Cos(0));
-    let outputs = match (sin, cos) {
-        (true, false) => [sine, sine],
-        (false, true) => [cosine, cosine],
-        _ => [sine, cosine],
+    let wanted = match (sin, cos) {
+        (true, false) => vec![Input::Sin(0)],
+        (false, true) => vec![Input::Cos(0)],
+        _ => vec![Input::Sin(0), Input::Cos(0)],
     };
+    let edge = |node| Edge {
+        node,
+        negative: false,
+    };
+    let last = wanted.len() as u32 - 1;
     Program {
-        trig: vec![Trig {
-            joint: 0,
-            need: Need { sin, cos },
-        }],
-        outputs: outputs
-            .map(|input| Output::of(Operand::Input(input)))
-            .to_vec(),
+        dag: Dag {
+            nodes: wanted.into_iter().map(Node::Input).collect(),
+            outputs: vec![edge(0), edge(last)],
+        },
         ..Program::empty(Function::Gravity, 2)
     }
 }
@@ -104,11 +105,11 @@ fn kernels_of_narrow_ranges_are_read_back() {
             let range = Interval::new(centre - half, centre + half).unwrap();
             for (sin, cos) in [(true, true), (true, false), (false, true)] {
                 let program = pair(sin, cos);
-                let candidates = Candidates::new(program.trig[0].need, scalar, range);
+                let candidates = Candidates::new(program.trig()[0].need, scalar, range);
                 for (most, enough) in [(f64::INFINITY, 0.0), (1.0, 1e-2)] {
                     for choice in candidates.front(most, enough) {
                         let sines = [AngleKernel {
-                            joint: program.trig[0].joint,
+                            joint: program.trig()[0].joint,
                             range,
                             form: choice.form.to_string(),
                             kernel: choice.kernel,
@@ -208,7 +209,7 @@ fn whole_turns_are_taken_off_where_limits_are_missing() {
     let request = Request {
         scalars: vec![ScalarType::F64],
         sincos: SinCos::Polynomial { error: Some(1e-9) },
-        ..Request::of(&[FUNCTION])
+        ..Request::new(&[FUNCTION])
     };
     let generated = generate(&robot, &request).unwrap();
     assert!(generated.text().contains("less whole turns"));
@@ -251,7 +252,7 @@ fn sines_too_rough_for_the_inertia_matrix_are_refused() {
     let inertia = |error: f64| {
         let request = Request {
             sincos: SinCos::Polynomial { error: Some(error) },
-            ..Request::of(&[Function::Inertia])
+            ..Request::new(&[Function::Inertia])
         };
         generate(&robot, &request)
     };

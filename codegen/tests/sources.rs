@@ -1,15 +1,16 @@
 //! Counts what each source of the search earns: operations that its absence costs, over the six
 //! robots of `generated`, the arms of the gallery and twenty that nobody chose.
 
-use std::path::Path;
+use std::fs;
 
-use crate::support::draw::robots;
 use dalembert_codegen::workspace::{
     Dag, Folding, Job, Limits, Schedule, cost, search, search_graphs,
 };
 use dalembert_codegen::{Effort, Function, Request};
-use dalembert_model::read::{self, Options};
 use dalembert_model::robot::Robot;
+
+use crate::support::draw::robots;
+use crate::support::{path, read_robot};
 
 /// Torques by whole recursions, matrices by composite bodies, poses by no regrouping, and what has
 /// most in common.
@@ -22,21 +23,13 @@ const FUNCTIONS: [Function; 5] = [
 ];
 
 fn all() -> Vec<Robot> {
-    let mut robots: Vec<Robot> = robots(20, 0x5eed).map(|(_, robot, _)| robot).collect();
-    for folder in ["generated/robots", "gallery/robots"] {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("..")
-            .join(folder);
-        for file in std::fs::read_dir(folder).unwrap() {
-            let path = file.unwrap().path();
-            if path.extension().is_some_and(|ending| ending == "toml") {
-                let source = std::fs::read_to_string(path).unwrap();
-                let read = read::parse(&source, &Options::default());
-                robots.push(read.unwrap_or_else(|why| panic!("{why}")).robot);
-            }
-        }
-    }
-    robots
+    let drawn = robots(20, 0x5eed).map(|(_, robot, _)| robot);
+    let folders = ["../generated/robots", "../gallery/robots"].into_iter();
+    let files = folders.flat_map(|folder| fs::read_dir(path(folder)).unwrap());
+    let files = files.map(|file| file.unwrap().path());
+    let files = files.filter(|file| file.extension().is_some_and(|ending| ending == "toml"));
+    let read = files.map(|file| read_robot(&fs::read_to_string(file).unwrap()));
+    drawn.chain(read).collect()
 }
 
 /// A source that is left out, and the limits that leave it out.
@@ -73,7 +66,7 @@ fn every_source_earns() {
         .iter()
         .flat_map(|robot| FUNCTIONS.map(|function| (robot, function)));
     let seeds = |(robot, function): (&Robot, Function)| -> Vec<Dag> {
-        let request = Request::of(&[function]);
+        let request = Request::new(&[function]);
         let setup = request.setup(robot).unwrap();
         let job = Job {
             robot,
@@ -88,19 +81,16 @@ fn every_source_earns() {
     println!("all sources: {whole} operations");
     let earns = |name: &str, without: usize| {
         let lost = without as f64 - whole as f64;
-        println!(
-            "without {name}: {lost:+}, {:+.2} %",
-            100.0 * lost / whole as f64
-        );
+        let part = 100.0 * lost / whole as f64;
+        println!("without {name}: {lost:+}, {part:+.2} %");
         assert!(lost > 0.0, "{name}");
     };
     for (name, alter) in SOURCES {
         earns(name, operations(&cases, alter));
     }
     let cheapest = |seeds: &Vec<Dag>| {
-        let own = seeds
-            .iter()
-            .min_by_key(|dag| cost(&dag.rebuild(Folding::Semantic)));
+        let own = seeds.iter();
+        let own = own.min_by_key(|dag| cost(&dag.rebuild(Folding::Semantic)));
         vec![own.unwrap().clone()]
     };
     let alone: Vec<Vec<Dag>> = cases.iter().map(cheapest).collect();

@@ -130,7 +130,7 @@ impl Entry {
     /// Nothing can be generated for the robot.
     pub fn row(&self) -> Result<String, String> {
         let (arm, robot) = (&self.arm, &self.robot);
-        let mut request = Request::of(&[InverseDynamics, Gravity, Inertia]);
+        let mut request = Request::new(&[InverseDynamics, Gravity, Inertia]);
         request.scalars = vec![ScalarType::F64];
         let generated = generate(robot, &request).map_err(|why| format!("{}: {why}", arm.name))?;
         let mut row = format!("| [{}](#{}) |", arm.title, arm.name);

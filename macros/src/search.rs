@@ -24,7 +24,7 @@ pub(crate) fn texts(
         Ok(file) => file,
         Err(error) => {
             for message in error.messages() {
-                errors.say(&invocation.robot, &message, "");
+                errors.say(&invocation.robot, message, "");
             }
             return Default::default();
         }

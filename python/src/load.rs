@@ -77,7 +77,7 @@ pub fn load(
 ) -> PyResult<Arm> {
     let waiting = Arc::new(Waiting::default());
     let mut load = wanted(&Options(options))?;
-    load.watch = Watch::by(waiting.clone());
+    load.watch = Watch::new(waiting.clone());
     let is_thorough = load.asked.get("effort") == Some("thorough");
     let (sender, receiver) = channel();
     // Shared with the closure that waits while other threads of Python run.

@@ -118,6 +118,6 @@ pub fn drawn_like(robot: &Robot, state: &JointState) -> Vec<JointState> {
         let draw = |(kind, _): &(JointKind, f64)| most(*kind) * (2.0 * random.unit() - 1.0);
         pairs.iter().map(draw).collect()
     };
-    let mut drawn = || JointState::new(|argument| within(state.of(argument)));
+    let mut drawn = || JointState::new(|argument| within(state.entries(argument)));
     (0..1000).map(|_| drawn()).collect()
 }

@@ -32,7 +32,7 @@ fn run<T: Float>(
     widen: impl Fn(T) -> f64,
 ) -> Vec<f64> {
     let vector = |argument: &Argument| {
-        let values = state.of(*argument);
+        let values = state.entries(*argument);
         DVector::from_iterator(values.len(), values.iter().map(|x| narrow(*x)))
     };
     let at = JointVectors::new(Argument::JOINTS.each_ref().map(vector));

@@ -11,7 +11,7 @@ use std::rc::Rc;
 use dalembert_model::scene::{Scale, Tolerance};
 
 use crate::approximate::admitted::{Admitted, Claim, within};
-use crate::approximate::error::{NoPolynomials, ToleranceError, Unbounded};
+use crate::approximate::error::{ToleranceError, Unbounded};
 use crate::approximate::prune::{PruneSettings, Pruned};
 use crate::approximate::regrouping;
 use crate::approximate::sines;
@@ -29,6 +29,7 @@ use crate::edits::Stage;
 use crate::program::{Library, Program, ScalarType, has_inertia};
 use crate::setup::Setup;
 use crate::watch::{FunctionWatch, Part};
+use crate::words::{Complaint, complaint};
 
 /// What errors of a function are bounded in and relative to.
 #[derive(Clone, Debug)]
@@ -345,11 +346,11 @@ impl<'a> ErrorBudget<'a> {
         certificate: &Certificate,
         tolerances: &[f64],
         bound_effort: BoundEffort,
-    ) -> Result<Certificate, NoPolynomials> {
+    ) -> Result<Certificate, Complaint> {
         let Certificate {
             emitted, scalar, ..
         } = certificate;
-        if emitted.trig.is_empty() {
+        if emitted.trig().is_empty() {
             return Ok(certificate.clone());
         }
         // The values that rounding is bounded with change a little.
@@ -365,14 +366,15 @@ impl<'a> ErrorBudget<'a> {
         for part in [1.0, 0.1, 0.01] {
             let allowances: Vec<f64> = allowances.iter().map(|allowed| allowed * part).collect();
             let sines = sines::within(emitted, *scalar, &positions, &allowances, &sensitivity);
-            let sines = sines.map_err(NoPolynomials::TooAccurate)?;
+            let sines = sines.map_err(|why| complaint(why.to_string()))?;
             let found = certificate.with_sines(self.setup, &sines, &sensitivity);
-            within(&found, tolerances).map_err(NoPolynomials::Above)?;
+            within(&found, tolerances).map_err(|why| complaint(why.to_string()))?;
             if found.lambda_min.is_some() || !has_inertia(emitted) {
                 return Ok(found);
             }
         }
-        Err(NoPolynomials::Indefinite)
+        let why = "with their errors D cannot be shown to be positive definite";
+        Err(complaint(why))
     }
 
     /// Returns a variant of which another program is emitted that is the same function: its

@@ -8,7 +8,6 @@ use crate::bound::ranges::Finding;
 use crate::bound::scale;
 use crate::function::{Argument, Columns, Function};
 use crate::program::{Program, ScalarType};
-use crate::sincos::TooAccurate;
 use crate::split::ErrorByCause;
 
 /// Why no variant meets a tolerance.
@@ -171,28 +170,3 @@ fn wider(scalar: ScalarType) -> &'static str {
 }
 
 impl std::error::Error for ToleranceError {}
-
-/// Why a variant gets no polynomials for its sines.
-#[derive(Clone, Debug, PartialEq)]
-pub enum NoPolynomials {
-    /// None is as exact as what is left of the tolerance.
-    TooAccurate(TooAccurate),
-    /// Their errors with those of the rest are too much.
-    Above(ToleranceError),
-    /// D with their errors cannot be shown to be positive definite.
-    Indefinite,
-}
-
-impl fmt::Display for NoPolynomials {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            NoPolynomials::TooAccurate(why) => why.fmt(f),
-            NoPolynomials::Above(why) => why.fmt(f),
-            NoPolynomials::Indefinite => {
-                f.write_str("with their errors D cannot be shown to be positive definite")
-            }
-        }
-    }
-}
-
-impl std::error::Error for NoPolynomials {}

@@ -94,7 +94,7 @@ fn uniform(
             cos: UNIT,
         },
     };
-    let sines: Sines = program.trig.iter().map(unit).collect();
+    let sines: Sines = program.trig().iter().map(unit).collect();
     let costs = sensitivity.rounding(scalar, &sines);
     let pairs = costs.iter().zip(allowances);
     let admitted = pairs.filter(|(cost, _)| cost.sincos > 0.0);
@@ -114,10 +114,11 @@ fn groups(
         let range = sincos::range_of(trig.joint, positions);
         (range, trig.need)
     };
+    let all = program.trig();
     let mut groups: Vec<(Vec<usize>, Vec<Choice>)> = Vec::new();
-    for (index, trig) in program.trig.iter().enumerate() {
+    for (index, trig) in all.iter().enumerate() {
         let same = |(members, _): &&mut (Vec<usize>, Vec<Choice>)| {
-            let first = members.first().and_then(|&first| program.trig.get(first));
+            let first = members.first().and_then(|&first| all.get(first));
             first.is_some_and(|first| key(first) == key(trig))
         };
         match groups.iter_mut().find(same) {

@@ -67,7 +67,7 @@ impl Starts<'_> {
 
     /// Returns what is left of each start, of the best ones with other samples as well.
     fn started(&self, starts: &[Option<&Program>]) -> Vec<Pruned> {
-        let steps = self.exact.steps.len();
+        let steps = self.exact.dag.operations().count();
         let mut found = Vec::new();
         let edited = self.edited(starts.iter().copied(), 0);
         let mut ranked: Vec<_> = edited

@@ -145,7 +145,7 @@ fn shown(
     let entry = |i: usize, j: usize| first + i * n + j;
     for i in 0..n {
         for j in 0..i {
-            if program.outputs[entry(i, j)] != program.outputs[entry(j, i)] {
+            if program.dag.outputs[entry(i, j)] != program.dag.outputs[entry(j, i)] {
                 let (row, column) = (program.rows[i], program.rows[j]);
                 return Err(Indefinite::Asymmetric { row, column });
             }

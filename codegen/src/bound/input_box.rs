@@ -199,17 +199,7 @@ mod tests {
             );
             parse(&source, &Options::default()).unwrap().robot
         };
-        let program = |function: Function| Program {
-            function,
-            joints: 1,
-            rows: vec![0],
-            arguments: function.arguments().to_vec(),
-            load: 0,
-            trig: Vec::new(),
-            speeds: Vec::new(),
-            steps: Vec::new(),
-            outputs: Vec::new(),
-        };
+        let program = |function| Program::empty(function, 1);
         let still = of("velocity = 0, acceleration = 0, torque = 0");
         let at_rest = InputBox::of(&still).unwrap();
         assert_eq!(at_rest.velocity, [Interval::ZERO]);

@@ -6,7 +6,8 @@
 use crate::bound::input_box::InputBox;
 use crate::bound::sensitivity::{Constants, forward};
 use crate::bound::subdivide::sub_boxes;
-use crate::program::{Operand, Program, ScalarType};
+use crate::dag::Node;
+use crate::program::{Program, ScalarType};
 use crate::sincos::AngleKernel;
 
 /// Sub-boxes of the range table of a certificate.
@@ -81,12 +82,14 @@ pub fn ranges(
     limits: &InputBox,
     boxes: usize,
 ) -> Ranges {
-    let mut magnitudes = vec![0.0f64; program.steps.len()];
+    let dag = &program.dag;
+    let operations: Vec<_> = dag.operations().collect();
+    let mut magnitudes = vec![0.0f64; operations.len()];
     let constants = Constants::of(program, scalar, sines);
     for sub in sub_boxes(program, limits, boxes) {
-        let run = forward(program, scalar, &constants, &sub);
-        for (most, value) in magnitudes.iter_mut().zip(&run.values) {
-            *most = most.max(value.magnitude());
+        let run = forward(&constants, &sub);
+        for (most, (id, ..)) in magnitudes.iter_mut().zip(&operations) {
+            *most = most.max(run.values[*id as usize].magnitude());
         }
     }
     let largest = match scalar {
@@ -94,13 +97,13 @@ pub fn ranges(
         ScalarType::F32 => f64::from(f32::MAX),
     };
     let mut findings = Vec::new();
-    for (step, (work, &magnitude)) in program.steps.iter().zip(&magnitudes).enumerate() {
+    for (step, ((.., operands), &magnitude)) in operations.iter().zip(&magnitudes).enumerate() {
         if magnitude > largest {
             findings.push(Finding::Overflow { step, magnitude });
         }
-        for operand in [&work.left, &work.right] {
+        for operand in operands {
             use dalembert_model::scalar::Scalar;
-            let Operand::Constant(constant) = operand else {
+            let Node::Constant(constant) = dag.node(*operand) else {
                 continue;
             };
             let rounded = scalar.round(constant);

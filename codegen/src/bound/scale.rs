@@ -118,7 +118,7 @@ pub fn range(program: &Program, limits: &InputBox) -> Vec<f64> {
     let exact = program.in_doubles();
     let granted = rounding(program, ScalarType::F64, &[], limits, 64);
     let mut random = Random::new(0x7a46e);
-    let mut most = vec![0.0f64; program.outputs.len()];
+    let mut most = vec![0.0f64; program.dag.outputs.len()];
     for output in 0..most.len() {
         let mut size = |state: &JointState| exact.run_at(state)[output].abs();
         for _ in 0..12 {

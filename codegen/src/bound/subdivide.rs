@@ -6,7 +6,7 @@ use crate::program::Program;
 /// Returns equal sub-boxes, at most `boxes`: the angles that a program reads are halved joint
 /// after joint.
 pub(super) fn sub_boxes(program: &Program, limits: &InputBox, boxes: usize) -> Vec<InputBox> {
-    let joints: Vec<usize> = program.trig.iter().map(|trig| trig.joint).collect();
+    let joints: Vec<usize> = program.trig().iter().map(|trig| trig.joint).collect();
     let mut all = vec![limits.clone()];
     let mut turn = 0;
     while !joints.is_empty() && all.len() * 2 <= boxes {

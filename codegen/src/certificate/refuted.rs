@@ -4,8 +4,8 @@ use std::fmt;
 
 use super::work::TooMuch;
 use crate::bound::definite::Indefinite;
-use crate::edits::BadEdit;
 use crate::split::ErrorByCause;
+use crate::words::Complaint;
 
 /// Why a program may not read an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,7 +63,7 @@ pub enum Refuted {
         why: WrongInput,
     },
     /// Edits cannot be applied.
-    Edits(usize, BadEdit),
+    Edits(usize, Complaint),
     /// A stage's edited program is not what follows.
     Step(usize),
     /// A claim is smaller than what can be shown.

@@ -20,7 +20,7 @@ pub(super) fn check(certificate: &Certificate, setup: &Setup) -> Result<(), Refu
     let Certificate {
         emitted, limits, ..
     } = certificate;
-    let (n, outputs) = (setup.joints().len(), emitted.outputs.len());
+    let (n, outputs) = (setup.joints(), emitted.dag.outputs.len());
     let lists = [&limits.position, &limits.velocity, &limits.acceleration];
     let fits = !certificate.stages.is_empty()
         && lists.iter().all(|list| list.len() == n)
@@ -34,7 +34,12 @@ pub(super) fn check(certificate: &Certificate, setup: &Setup) -> Result<(), Refu
         let name = format!("the program of stage {}", index + 1);
         checker.program(&name, &stage.program)?;
         for edit in &stage.edits {
-            checker.operand(&name, &edit.value, stage.program.steps.len())?;
+            match &edit.value {
+                Operand::Constant(_) => {}
+                Operand::Step(step) if *step < stage.program.dag.operations().count() => {}
+                Operand::Step(_) => return Err(Refuted::Shape),
+                Operand::Input(input) => checker.input(&name, *input)?,
+            }
             if let EditSite::Input(input) = edit.place {
                 checker.input(&name, input)?;
             }
@@ -54,10 +59,7 @@ impl Checker<'_> {
         let rows = self.setup.rows();
         let signature = [
             ("function", program.function == function),
-            (
-                "number of joints",
-                program.joints == self.setup.joints().len(),
-            ),
+            ("number of joints", program.joints == self.setup.joints()),
             ("list of rows", program.rows == rows),
             (
                 "list of arguments",
@@ -65,36 +67,18 @@ impl Checker<'_> {
             ),
             (
                 "number of results",
-                program.outputs.len() == function.outputs(self.setup.sizes(function)),
+                program.dag.outputs.len() == function.outputs(self.setup.sizes(function)),
             ),
         ];
         if let Some((what, _)) = signature.into_iter().find(|(_, same)| !same) {
             let program = name.to_owned();
             return Err(Refuted::Signature { program, what });
         }
-        for (index, step) in program.steps.iter().enumerate() {
-            self.operand(name, &step.left, index)?;
-            self.operand(name, &step.right, index)?;
+        if !program.dag.is_straight() {
+            return Err(Refuted::Shape);
         }
-        for output in &program.outputs {
-            self.operand(name, &output.value, program.steps.len())?;
-        }
-        let mut collected = program.clone();
-        collected.collect_trig();
-        match collected.trig == program.trig {
-            true => Ok(()),
-            false => Err(Refuted::Shape),
-        }
-    }
-
-    /// Checks an operand of a step, or a result, that may read the steps before it.
-    fn operand(&self, program: &str, operand: &Operand, before: usize) -> Result<(), Refuted> {
-        match operand {
-            Operand::Constant(_) => Ok(()),
-            Operand::Step(step) if *step < before => Ok(()),
-            Operand::Step(_) => Err(Refuted::Shape),
-            Operand::Input(input) => self.input(program, *input),
-        }
+        let mut inputs = program.dag.inputs();
+        inputs.try_for_each(|input| self.input(name, *input))
     }
 
     fn input(&self, program: &str, input: Input) -> Result<(), Refuted> {

@@ -137,7 +137,7 @@ impl Subject<'_> {
         Certificate {
             robot: self.setup.robot().name.clone(),
             input: input_hash(self.setup.robot()),
-            scene: self.setup.scene().map(SceneKey::of),
+            scene: self.setup.scene().map(SceneKey::new),
             scalar,
             limits: self.limits.clone(),
             scales: self.scales.to_vec(),

@@ -11,7 +11,7 @@ use dalembert_model::number::{Exact, Extent};
 
 use super::Certificate;
 use crate::edits::{Edit, EditSite, Stage};
-use crate::program::{Operand, Operation, Program};
+use crate::program::{Operand, Operation, Steps};
 use std::collections::BTreeMap;
 
 /// The most programs of a variant that are edited one after another.
@@ -93,22 +93,23 @@ fn limit(place: &str, what: &'static str, found: u64, most: u64) -> Result<(), T
 
 fn program(place: &str, stage: &Stage) -> Result<(), TooMuch> {
     let Stage { program, edits } = stage;
-    within(place, "steps", program.steps.len(), MAX_STEPS)?;
+    let steps = program.dag.steps();
+    within(place, "steps", steps.steps.len(), MAX_STEPS)?;
     within(place, "edits", edits.len(), MAX_EDITS)?;
-    within(place, "angles", program.trig.len(), MAX_ANGLES)?;
+    within(place, "angles", program.trig().len(), MAX_ANGLES)?;
     let mut cost = 0u64;
-    for constant in constants(program, edits) {
+    for constant in constants(&steps, edits) {
         let extent = constant.extent();
         admit(place, &extent)?;
         cost = cost.saturating_add(work(&extent));
     }
     limit(place, "units of work for its constants", cost, MAX_COST)?;
     let edits = edits.iter().map(|edit| (edit.place, edit)).collect();
-    Sizes::default().steps(place, program, &BTreeMap::new())?;
-    Sizes::default().steps(place, program, &edits)
+    Sizes::default().steps(place, &steps, &BTreeMap::new())?;
+    Sizes::default().steps(place, &steps, &edits)
 }
 
-fn constants<'a>(program: &'a Program, edits: &'a [Edit]) -> impl Iterator<Item = &'a Exact> {
+fn constants<'a>(program: &'a Steps, edits: &'a [Edit]) -> impl Iterator<Item = &'a Exact> {
     let steps = program
         .steps
         .iter()
@@ -148,7 +149,7 @@ impl Sizes {
     fn steps(
         &mut self,
         place: &str,
-        program: &Program,
+        program: &Steps,
         edits: &BTreeMap<EditSite, &Edit>,
     ) -> Result<(), TooMuch> {
         for (index, step) in program.steps.iter().enumerate() {

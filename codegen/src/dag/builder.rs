@@ -37,10 +37,7 @@ impl Builder {
     /// Creates an empty graph.
     pub(crate) fn new(folding: Folding) -> Builder {
         Builder {
-            dag: Dag {
-                nodes: Vec::new(),
-                outputs: Vec::new(),
-            },
+            dag: Dag::default(),
             prints: Vec::new(),
             folding,
             known: FxHashMap::default(),
@@ -334,5 +331,13 @@ impl Builder {
             edges.push(edge);
         }
         edges
+    }
+
+    /// Returns the results of a graph.
+    pub(crate) fn results(&mut self, dag: &Dag) -> Vec<Edge> {
+        let edges = self.copy(dag);
+        let outputs = dag.outputs.iter();
+        let outputs = outputs.map(|edge| edges[edge.index()].negated_if(edge.negative));
+        outputs.collect()
     }
 }

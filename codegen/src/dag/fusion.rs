@@ -65,6 +65,15 @@ impl<C, I> Dag<C, I> {
         })
     }
 
+    /// Returns whether a node's rounding can lose what is below the least normal number: that of a
+    /// product, a quotient, and a sum with a fused product. A sum of two floats cannot.
+    pub(crate) fn underflows(&self, id: Id) -> bool {
+        match self.node(id) {
+            Node::Apply(Operation::Mul | Operation::Div, _) => true,
+            _ => self.fusion(id).is_some(),
+        }
+    }
+
     /// Returns the number of operations of the longest chain, a product with the sum that takes it
     /// counted as one.
     pub fn depth(&self) -> usize {

@@ -73,6 +73,15 @@ pub struct Dag<C = Exact, I = Input> {
     pub outputs: Vec<Edge>,
 }
 
+impl<C, I> Default for Dag<C, I> {
+    fn default() -> Self {
+        Dag {
+            nodes: Vec::new(),
+            outputs: Vec::new(),
+        }
+    }
+}
+
 /// The values of constants and inputs in a scalar: at a state, at a point of a field, as symbols.
 /// What a state lacks is no number.
 pub trait Leaves<C = Exact, I = Input> {
@@ -189,6 +198,24 @@ impl<C, I> Dag<C, I> {
         }
     }
 
+    /// Lists the inputs, each once if the graph has it once.
+    pub fn inputs(&self) -> impl Iterator<Item = &I> {
+        self.nodes.iter().filter_map(|node| match node {
+            Node::Input(input) => Some(input),
+            _ => None,
+        })
+    }
+
+    /// Returns whether every operation comes after its operands, and whatever is a result is there.
+    pub fn is_straight(&self) -> bool {
+        let mut nodes = self.nodes.iter().zip(0..);
+        let count = self.nodes.len();
+        nodes.all(|(node, id)| {
+            node.operands()
+                .is_none_or(|own| own.iter().all(|o| *o < id))
+        }) && self.outputs.iter().all(|edge| edge.index() < count)
+    }
+
     /// Counts how often each node is read, by outputs too, where the outputs need it.
     pub fn reads(&self) -> Vec<u32> {
         let mut reads = vec![0; self.nodes.len()];
@@ -255,10 +282,7 @@ impl Dag {
     #[must_use]
     pub fn rebuild(&self, folding: Folding) -> Dag {
         let mut builder = Builder::new(folding);
-        let edges = builder.copy(self);
-        let outputs = self.outputs.iter();
-        let outputs = outputs.map(|edge| edges[edge.index()].negated_if(edge.negative));
-        let outputs = outputs.collect();
+        let outputs = builder.results(self);
         builder.finish(outputs)
     }
 }

@@ -16,22 +16,19 @@ use std::collections::BTreeMap;
 
 use super::{Edit, EditSite, Stage};
 use crate::dag::{Builder, Dag, Edge, Folding};
-use crate::program::{Operand, Operation, Program};
+use crate::program::{Operand, Operation, Program, Steps};
 
 impl Stage {
     /// Returns the edited program's graph, folded; what nothing reads is gone.
     pub fn edited(&self, folding: Folding) -> Dag {
-        let mut run = Run::new(self, folding);
+        let mut run = Run::new(self, Builder::new(folding));
         run.steps();
-        let outputs: Vec<Edge> = self
-            .program
-            .outputs
-            .iter()
-            .map(|output| {
-                let value = run.after(&output.value);
-                value.negated_if(output.negative)
-            })
-            .collect();
+        let outputs = std::mem::take(&mut run.program.outputs);
+        let outputs = outputs.iter().map(|output| {
+            let value = run.after(&output.value);
+            value.negated_if(output.negative)
+        });
+        let outputs = outputs.collect();
         run.builder.finish(outputs)
     }
 
@@ -45,31 +42,11 @@ impl Stage {
 /// they stand. Written out as polynomials, what they have in common cancels.
 pub(crate) fn deviation(exact: &Program, edited: &Program) -> Dag {
     let mut builder = Builder::new(Folding::Syntactic);
-    let before = traced(exact, &mut builder);
-    let after = traced(edited, &mut builder);
+    let before = builder.results(&exact.dag);
+    let after = builder.results(&edited.dag);
     let pairs = after.iter().zip(&before);
     let sums: Vec<Edge> = pairs.map(|(a, b)| builder.sub(*a, *b)).collect();
     builder.finish(sums)
-}
-
-/// Returns the outputs of a program as values of a builder.
-pub(crate) fn traced(program: &Program, builder: &mut Builder) -> Vec<Edge> {
-    let mut steps: Vec<Edge> = Vec::with_capacity(program.steps.len());
-    let read = |operand: &Operand, steps: &[Edge], builder: &mut Builder| match operand {
-        Operand::Input(input) => builder.input(*input),
-        Operand::Constant(constant) => builder.constant(constant),
-        Operand::Step(index) => steps[*index],
-    };
-    for step in &program.steps {
-        let left = read(&step.left, &steps, builder);
-        let right = read(&step.right, &steps, builder);
-        steps.push(builder.apply(step.operation, left, right));
-    }
-    let outputs = program.outputs.iter().map(|output| {
-        let value = read(&output.value, &steps, builder);
-        value.negated_if(output.negative)
-    });
-    outputs.collect()
 }
 
 /// Returns the errors of all stages together: edited − exact, output by output. Each
@@ -78,17 +55,14 @@ pub fn difference(stages: &[Stage]) -> Dag {
     let mut builder = Builder::new(Folding::Syntactic);
     let mut sums: Vec<Edge> = Vec::new();
     for stage in stages {
-        let mut run = Run::with(stage, builder);
+        let mut run = Run::new(stage, builder);
         run.steps();
-        let deltas: Vec<Edge> = stage
-            .program
-            .outputs
-            .iter()
-            .map(|output| {
-                let delta = run.delta(&output.value);
-                delta.negated_if(output.negative)
-            })
-            .collect();
+        let outputs = std::mem::take(&mut run.program.outputs);
+        let deltas = outputs.iter().map(|output| {
+            let delta = run.delta(&output.value);
+            delta.negated_if(output.negative)
+        });
+        let deltas: Vec<Edge> = deltas.collect();
         builder = run.builder;
         sums = if sums.is_empty() {
             deltas
@@ -102,7 +76,7 @@ pub fn difference(stages: &[Stage]) -> Dag {
 
 /// A stage's values before (x) and after (x') its edits, and Δx.
 struct Run<'a> {
-    stage: &'a Stage,
+    program: Steps,
     /// The edit of each place; its first, if a place has several.
     edits: BTreeMap<EditSite, &'a Edit>,
     builder: Builder,
@@ -112,14 +86,10 @@ struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    fn new(stage: &'a Stage, folding: Folding) -> Self {
-        Run::with(stage, Builder::new(folding))
-    }
-
-    fn with(stage: &'a Stage, builder: Builder) -> Self {
+    fn new(stage: &'a Stage, builder: Builder) -> Self {
         let edits = stage.edits.iter().rev();
         Run {
-            stage,
+            program: stage.program.dag.steps(),
             edits: edits.map(|edit| (edit.place, edit)).collect(),
             builder,
             exact: Vec::new(),
@@ -187,7 +157,8 @@ impl<'a> Run<'a> {
     }
 
     fn steps(&mut self) {
-        for (index, step) in self.stage.program.steps.iter().enumerate() {
+        let steps = std::mem::take(&mut self.program.steps);
+        for (index, step) in steps.iter().enumerate() {
             let [a, a_after, da] = self.operand(&step.left, EditSite::Left(index));
             let [b, b_after, db] = self.operand(&step.right, EditSite::Right(index));
             let exact = self.builder.apply(step.operation, a, b);

@@ -7,6 +7,7 @@ use dalembert_model::scalar::Scalar;
 
 use crate::function::Function;
 use crate::program::{Input, Operand, Program};
+use crate::words::{Complaint, complaint};
 
 /// What an edit replaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -40,25 +41,6 @@ pub struct Stage {
     /// Its edits, at most one a place.
     pub edits: Vec<Edit>,
 }
-
-/// Why edits cannot be applied.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct BadEdit {
-    /// The index of the edit.
-    pub index: usize,
-}
-
-impl std::fmt::Display for BadEdit {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(
-            f,
-            "edit {} replaces a value twice, or by one that is not computed before it",
-            self.index + 1
-        )
-    }
-}
-
-impl std::error::Error for BadEdit {}
 
 impl Edit {
     /// Returns a constant in place of a value.
@@ -96,7 +78,8 @@ impl Stage {
     ///
     /// # Errors
     /// The first edit that cannot be applied.
-    pub fn check(&self) -> Result<(), BadEdit> {
+    pub fn check(&self) -> Result<(), Complaint> {
+        let steps = self.program.dag.operations().count();
         let mut places = BTreeSet::new();
         for (index, edit) in self.edits.iter().enumerate() {
             let early = match (&edit.value, edit.place) {
@@ -109,14 +92,15 @@ impl Stage {
                 ) => *value < at,
             };
             let known = match edit.place {
-                EditSite::Step(step) | EditSite::Left(step) | EditSite::Right(step) => {
-                    step < self.program.steps.len()
-                }
+                EditSite::Step(step) | EditSite::Left(step) | EditSite::Right(step) => step < steps,
                 EditSite::Input(_) => true,
             };
             let twice = !places.insert(edit.place);
             if !early || !known || twice {
-                return Err(BadEdit { index });
+                return Err(complaint(format!(
+                    "edit {} replaces a value twice, or by one that is not computed before it",
+                    index + 1
+                )));
             }
         }
         Ok(())

@@ -8,8 +8,7 @@ mod difference;
 mod edit;
 pub(crate) mod text;
 
+pub(crate) use difference::deviation;
 pub use difference::difference;
-pub(crate) use difference::{deviation, traced};
-pub(crate) use edit::BadEdit;
 pub(crate) use edit::has_edits;
 pub use edit::{Edit, EditSite, Stage};

@@ -43,7 +43,7 @@ pub(super) fn types(setup: &Setup, scalar: ScalarType) -> String {
 
 /// Returns where the frame that payloads are given in is.
 fn payload_frame(setup: &Setup) -> String {
-    let n = setup.joints().len();
+    let n = setup.joints();
     match setup.robot().payload_frame.as_ref() {
         None => format!("that of joint {n} in the table"),
         Some(frame) => format!(

@@ -119,9 +119,9 @@ fn wrong(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dag::{Id, Node};
     use crate::function::Function;
     use crate::generate::generate;
-    use crate::program::Operand;
     use crate::task::Request;
     use dalembert_model::number::{Exact, Rational};
     use dalembert_model::read::{self, Options};
@@ -133,7 +133,7 @@ mod tests {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
         let text = std::fs::read_to_string(folder.join("planar2r.toml")).unwrap();
         let robot = read::parse(&text, &Options::default()).unwrap().robot;
-        let request = Request::of(&[Function::InverseDynamics]);
+        let request = Request::new(&[Function::InverseDynamics]);
         let generated = generate(&robot, &request).unwrap();
         let reference = Reference::new(&Setup::whole(&robot));
         let mut function = generated.functions[0].clone();
@@ -143,29 +143,23 @@ mod tests {
             num_bigint::BigInt::from(10).pow(40),
         ));
         let mut planted = 0;
-        for index in 0..2 * function.program.steps.len() {
+        for index in 0..function.program.dag.nodes.len() {
             let program = function.program.clone();
-            let step = &mut function.program.steps[index / 2];
-            let operands = [&mut step.left, &mut step.right];
-            let Some(Operand::Constant(constant)) = operands.into_iter().nth(index % 2) else {
+            let Node::Constant(constant) = &mut function.program.dag.nodes[index] else {
                 continue;
             };
             *constant = constant.add(&tiny);
             let error = exact(&reference, &function).unwrap_err().to_string();
-            assert!(
-                error.contains("it passed its proof"),
-                "t{}: {error}",
-                index / 2 + 1
-            );
+            assert!(error.contains("it passed its proof"), "{index}: {error}");
             function.program = program;
             planted += 1;
         }
         assert!(planted >= 5, "{planted} constants");
         // Nor does one pass that reads what is not there, or returns too little.
         let mut other = function.clone();
-        other.program.steps[0].left = Operand::Step(usize::MAX);
+        other.program.dag.outputs[0].node = Id::MAX;
         assert!(exact(&reference, &other).is_err());
-        function.program.outputs.pop();
+        function.program.dag.outputs.pop();
         assert!(exact(&reference, &function).is_err());
     }
 }

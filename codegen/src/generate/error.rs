@@ -2,28 +2,21 @@
 
 use std::fmt;
 
-use super::parameters::ParameterError;
-use super::reason::NoSines;
 use crate::approximate::error::ToleranceError;
 use crate::certificate::Refuted;
-use crate::function::{Argument, Function};
-use crate::generate::language::Lacks;
-use crate::language::Language;
+use crate::function::Function;
 use crate::program::ScalarType;
-use crate::setup::SceneError;
-use crate::setup::base::NoBase;
 use crate::verify::exact::Disproof;
+use crate::words::Complaint;
 
 /// Why nothing was generated.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum GenerateError {
-    /// The request names no function or no scalar.
-    Empty,
-    /// These are not the same, and would have one name or one struct.
-    Namesakes(Function, Function),
-    /// There is nothing to explain of a function that regrouping does not reach.
-    Unexplained(Function),
+    /// What was asked for cannot be had, of a function if it is about one.
+    Refused(Option<Function>, Complaint),
+    /// A parameter cannot be an argument, of a function if it is about one.
+    Parameter(Option<Function>, Complaint),
     /// The plan is for another robot, or for this one before an edit.
     StalePlan {
         /// The robot that the plan names.
@@ -35,19 +28,6 @@ pub enum GenerateError {
         /// The scene.
         scene: String,
     },
-    /// The robot has no frame of this name.
-    Frame {
-        /// Which function is at it.
-        function: Function,
-        /// The name.
-        frame: &'static str,
-        /// The likely fix.
-        fix: String,
-    },
-    /// It has something of each link, and joints of the robot follow others.
-    Follows(Function),
-    /// The scene is none of this robot.
-    Scene(SceneError),
     /// A constant is beyond the scalar's range, or rounds to zero.
     Constant {
         /// The function that needs it.
@@ -58,14 +38,7 @@ pub enum GenerateError {
         value: String,
     },
     /// No polynomial gives a sine as exactly as was wanted.
-    SinCos(Function, NoSines),
-    /// A function would be too large to compile.
-    TooLarge {
-        /// Which function.
-        function: Function,
-        /// How many numbers it returns.
-        outputs: usize,
-    },
+    SinCos(Function, Complaint),
     /// D has no inverse in any state.
     Singular {
         /// Which function needs one.
@@ -76,19 +49,12 @@ pub enum GenerateError {
     /// The program is not the formula: a defect of this library, a plan's
     /// program of something else, or parameters that cannot be proved with.
     Disproved(Function, Disproof),
-    /// The program is not the formula, because the search took a constant for
-    /// zero that is none.
-    Vanishing(Function, String),
     /// A defect of this library, in the scalar where there is one: the printed text is not the
     /// program, what was left out within a tolerance is not what the edits say, or code that was
     /// proved is wrong at a state where it was run, by which somebody may have aimed at a proof.
     Defect(Function, Option<ScalarType>, String),
     /// The base parameters cannot be written down.
-    Base(Function, NoBase),
-    /// A parameter cannot be an argument.
-    Parameter(ParameterError),
-    /// The language has no such thing, or no such name.
-    Language(Language, Lacks),
+    Base(Function, Complaint),
     /// No variant meets the scene's tolerance.
     Tolerance(Function, ToleranceError),
     /// The plan's variant is none of the plan's program.
@@ -96,73 +62,51 @@ pub enum GenerateError {
 }
 
 impl GenerateError {
+    /// Refuses what cannot be had, with the likely fix.
+    pub fn refused(
+        function: impl Into<Option<Function>>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> GenerateError {
+        GenerateError::Refused(function.into(), Complaint::new(message, help))
+    }
+
+    /// Refuses a request for nothing.
+    pub fn empty() -> GenerateError {
+        let help = "name an output and a scalar";
+        GenerateError::refused(None, "nothing to generate", help)
+    }
+
     /// Returns the function that it is about, if it is about one.
     pub fn function(&self) -> Option<Function> {
         match self {
-            GenerateError::Empty
-            | GenerateError::Unexplained(_)
-            | GenerateError::StalePlan { .. }
-            | GenerateError::StaleScene { .. }
-            | GenerateError::Language(..)
-            | GenerateError::Scene(_) => None,
-            GenerateError::Parameter(why) => why.function(),
+            GenerateError::StalePlan { .. } | GenerateError::StaleScene { .. } => None,
+            GenerateError::Refused(function, _) | GenerateError::Parameter(function, _) => {
+                *function
+            }
             GenerateError::Constant { function, .. }
-            | GenerateError::Frame { function, .. }
             | GenerateError::Singular { function, .. }
-            | GenerateError::TooLarge { function, .. }
             | GenerateError::Base(function, _)
-            | GenerateError::Follows(function)
             | GenerateError::Defect(function, ..)
             | GenerateError::SinCos(function, _)
             | GenerateError::Disproved(function, _)
             | GenerateError::Tolerance(function, _)
-            | GenerateError::Variant(function, _)
-            | GenerateError::Namesakes(_, function)
-            | GenerateError::Vanishing(function, _) => Some(*function),
+            | GenerateError::Variant(function, _) => Some(*function),
         }
+    }
+}
+
+/// Refuses what is about no function.
+impl From<Complaint> for GenerateError {
+    fn from(complaint: Complaint) -> GenerateError {
+        GenerateError::Refused(None, complaint)
     }
 }
 
 impl fmt::Display for GenerateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            GenerateError::Empty => f.write_str("nothing to generate: name an output and a scalar"),
-            GenerateError::Namesakes(one, other) => write!(
-                f,
-                "`{}` and `{}` would have one name or one struct in a module: call one of them \
-                 otherwise",
-                one.text(),
-                other.text()
-            ),
-            GenerateError::Frame {
-                function,
-                frame,
-                fix,
-            } => write!(
-                f,
-                "`{}`: the robot has no frame `{frame}`: {fix}",
-                function.text()
-            ),
-            GenerateError::Follows(function)
-                if function.arguments().contains(&Argument::Multiplier) =>
-            {
-                write!(
-                    f,
-                    "`{function}` is not there where joints follow others (`mimic`): first \
-                     derivatives are"
-                )
-            }
-            GenerateError::Follows(function) => write!(
-                f,
-                "`{function}` has entries of each link, and where joints follow others (`mimic`) \
-                 there are more links than coordinates: ask for `forward_kinematics@FRAME` of \
-                 frames on links, or `regressor` in place of `full_regressor`"
-            ),
-            GenerateError::Unexplained(function) => write!(
-                f,
-                "`{function}` has no steps to explain: none of its results comes from regrouped \
-                 parameters; `count` gives its operations"
-            ),
+            GenerateError::Refused(_, why) | GenerateError::Parameter(_, why) => why.fmt(f),
             GenerateError::StalePlan { robot } => write!(
                 f,
                 "the plan beside the robot file no longer fits `{robot}`: a parameter, a limit or a \
@@ -175,7 +119,6 @@ impl fmt::Display for GenerateError {
                  not; make its program anew with `dalembert generate ROBOT --scene {scene} \
                  --save-plan` and the effort that it was made with, or delete the plan"
             ),
-            GenerateError::Scene(error) => error.fmt(f),
             GenerateError::Constant {
                 function,
                 scalar,
@@ -189,12 +132,6 @@ impl fmt::Display for GenerateError {
                     ScalarType::F64 => "",
                 }
             ),
-            GenerateError::SinCos(function, why) => write!(f, "`{function}`: {why}"),
-            GenerateError::TooLarge { function, outputs } => write!(
-                f,
-                "`{function}` would return {outputs} numbers: ask for `inverse_dynamics`, \
-                 `inertia`, `coriolis` or `gravity` instead"
-            ),
             GenerateError::Singular { function, joint } => write!(
                 f,
                 "`{function}`: D is singular in every state, since {joint} moves no inertia while \
@@ -202,11 +139,6 @@ impl fmt::Display for GenerateError {
                  an `armature`, or lock it in a scene"
             ),
             GenerateError::Disproved(function, disproof) => write!(f, "`{function}`: {disproof}"),
-            GenerateError::Vanishing(function, value) => write!(
-                f,
-                "`{function}`: the constant {value} is divisible by 2^61 - 1 or 2^61 - 45, modulo \
-                 which search and proof tell values apart: change its last digit"
-            ),
             GenerateError::Defect(function, scalar, why) => {
                 let scalar = scalar.map_or(String::new(), |scalar| format!(" in {scalar}"));
                 write!(
@@ -214,9 +146,9 @@ impl fmt::Display for GenerateError {
                     "`{function}`{scalar}: {why}; please report this defect of dalembert"
                 )
             }
-            GenerateError::Base(function, why) => write!(f, "`{function}`: {why}"),
-            GenerateError::Parameter(why) => why.fmt(f),
-            GenerateError::Language(language, why) => write!(f, "`{}`: {why}", language.name()),
+            GenerateError::SinCos(function, why) | GenerateError::Base(function, why) => {
+                write!(f, "`{function}`: {why}")
+            }
             GenerateError::Tolerance(function, why) => write!(f, "`{function}`: {why}"),
             GenerateError::Variant(function, why) => {
                 write!(

@@ -9,7 +9,7 @@ use crate::function::Function;
 /// Refuses a function at a frame that a robot does not have.
 ///
 /// # Errors
-/// [`GenerateError::Frame`], with the likely fix.
+/// The name, with the likely fix.
 pub(super) fn check(robot: &Robot, function: Function) -> Result<(), GenerateError> {
     let names: Vec<&str> = robot
         .frames
@@ -25,9 +25,6 @@ pub(super) fn check(robot: &Robot, function: Function) -> Result<(), GenerateErr
         (None, []) => format!("it has `{HAND}`; others are [[frame]] tables of its file"),
         (None, names) => format!("it has `{HAND}`, `{}`", names.join("`, `")),
     };
-    Err(GenerateError::Frame {
-        function,
-        frame,
-        fix,
-    })
+    let message = format!("`{}`: the robot has no frame `{frame}`", function.text());
+    Err(GenerateError::refused(function, message, fix))
 }

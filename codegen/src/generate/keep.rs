@@ -59,7 +59,7 @@ fn entry(request: &Request, function: &GeneratedFunction, scalar: ScalarType) ->
         scalar,
         source: function.source,
         passes: function.passes.clone(),
-        scene: request.scene.as_ref().map(SceneKey::of),
+        scene: request.scene.as_ref().map(SceneKey::new),
         parameters: function.parameters.clone(),
         program: exact(function).clone(),
         edited: function.admitted.as_ref().and_then(|admitted| {
@@ -101,6 +101,7 @@ mod tests {
     use dalembert_model::read;
 
     use super::*;
+    use crate::dag::Node;
     use crate::generate::generate;
 
     const PENDULUM: &str = "name = \"pendulum\"\nconvention = \"standard\"\ngravity = [0, -9.81, 0]\n\
@@ -113,12 +114,13 @@ mod tests {
     fn an_early_end_takes_nothing_better_away() {
         let robot = read::parse(PENDULUM, &read::Options::default());
         let robot = robot.unwrap().robot;
-        let request = Request::of(&[Function::Gravity]);
+        let request = Request::new(&[Function::Gravity]);
         let good = generate(&robot, &request).unwrap();
         // The same function with a step that nobody needs.
         let mut dear = good.clone();
-        let step = dear.functions[0].program.steps[0].clone();
-        dear.functions[0].program.steps.push(step);
+        let dag = &mut dear.functions[0].program.dag;
+        let (_, operation, operands) = dag.operations().next().unwrap();
+        dag.nodes.push(Node::Apply(operation, operands));
         let prices = |kept, found: &_| {
             let Kept { plan, own } = keep(&robot, &request, found, kept);
             let prices = plan

@@ -9,7 +9,7 @@
 //! - [`parameters`]: which parameters can be arguments; `frames`: which frames there are
 //! - [`language`]: what a language lacks
 //! - `range`: what a scalar cannot hold
-//! - [`error`]: why nothing was generated; [`reason`]: what it says of that
+//! - [`error`]: why nothing was generated
 
 mod anew;
 mod contradiction;
@@ -20,7 +20,6 @@ pub(crate) mod keep;
 pub(crate) mod language;
 pub(crate) mod parameters;
 mod range;
-pub(crate) mod reason;
 #[doc(hidden)]
 pub(crate) mod search;
 #[doc(hidden)]
@@ -36,7 +35,7 @@ use crate::bound::input_box::InputBox;
 use crate::emit::GeneratedFunction;
 use crate::emit::header;
 use crate::emit::module;
-use crate::function::{Columns, Function};
+use crate::function::{Argument, Columns, Function};
 use crate::language::c99::Names;
 use crate::language::{Language, Printed};
 use crate::parallel;
@@ -50,10 +49,10 @@ use crate::verify::exact::prove;
 use crate::verify::measure::Emitted;
 use crate::verify::parameters::prove_base;
 use crate::verify::singular::without_inertia;
+use crate::words::Complaint;
 pub use anew::generate_anew;
 pub use error::GenerateError;
 use range::{check_constants, vanishing, warn_of_overflow};
-pub(crate) use reason::NoSines;
 use search::{found, replay};
 
 use tolerate::tolerate;
@@ -132,7 +131,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     let asked = request;
     let request = &*language::with_short_name(robot, asked);
     check(robot, request)?;
-    let setup = &request.setup(robot).map_err(GenerateError::Scene)?;
+    let setup = &request.setup(robot)?;
     let job = &Job {
         robot,
         setup,
@@ -145,7 +144,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
             return Err(GenerateError::Tolerance(function, why));
         }
     }
-    parameters::check(job).map_err(GenerateError::Parameter)?;
+    parameters::check(job)?;
     let (mut functions, scalars) = functions(job)?;
     let ended = request.effort == Effort::Thorough && request.watch.is_over();
     if ended {
@@ -200,23 +199,28 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
 /// Refuses what cannot be, before anything is searched for, or a limit is asked for in vain.
 fn check(robot: &Robot, request: &Request) -> Result<(), GenerateError> {
     if request.functions.is_empty() || request.scalars.is_empty() {
-        return Err(GenerateError::Empty);
+        return Err(GenerateError::empty());
     }
     let functions = Function::in_order(&request.functions);
     for (index, &function) in functions.iter().enumerate() {
         let mut others = functions[..index].iter();
         if let Some(&other) = others.find(|other| function.is_namesake(**other)) {
-            return Err(GenerateError::Namesakes(other, function));
+            let message = format!(
+                "`{}` and `{}` would have one name or one struct in a module",
+                other.text(),
+                function.text()
+            );
+            let help = "call one of them otherwise";
+            return Err(GenerateError::refused(function, message, help));
         }
     }
     for &function in &functions {
         frames::check(robot, function)?;
         if !robot.followers.is_empty() && !function.takes_followers() {
-            return Err(GenerateError::Follows(function));
+            return Err(follows(function));
         }
     }
-    language::check(robot, request, &functions)
-        .map_err(|why| GenerateError::Language(request.language, why))?;
+    language::check(robot, request, &functions)?;
     if let Some(plan) = &request.plan
         && plan.input != input_hash(robot)
     {
@@ -235,6 +239,26 @@ fn check(robot: &Robot, request: &Request) -> Result<(), GenerateError> {
         }
         None => Ok(()),
     }
+}
+
+/// Refuses what has something of each link, of a robot whose joints follow others.
+fn follows(function: Function) -> GenerateError {
+    let takes_slopes = function.arguments().contains(&Argument::Multiplier);
+    let (message, help) = match takes_slopes {
+        true => (
+            format!("`{function}` is not there where joints follow others (`mimic`)"),
+            "first derivatives are",
+        ),
+        false => (
+            format!(
+                "`{function}` has entries of each link, and where joints follow others (`mimic`) \
+                 there are more links than coordinates"
+            ),
+            "ask for `forward_kinematics@FRAME` of frames on links, or `regressor` in place of \
+             `full_regressor`",
+        ),
+    };
+    GenerateError::refused(function, message, help)
 }
 
 type Found = (Vec<GeneratedFunction>, Vec<ScalarType>);
@@ -282,10 +306,12 @@ fn proved(job: &Job<'_>, function: Function) -> Result<GeneratedFunction, Genera
         Columns::Links | Columns::None => None,
     };
     let base = base.transpose();
-    let base = base.map_err(|why| GenerateError::Base(function, why))?;
+    let base = base.map_err(|why| GenerateError::Base(function, why.clone()))?;
     let outputs = function.outputs(setup.sizes(function));
     if outputs > MAX_OUTPUTS {
-        return Err(GenerateError::TooLarge { function, outputs });
+        let message = format!("`{function}` would return {outputs} numbers");
+        let help = "ask for `inverse_dynamics`, `inertia`, `coriolis` or `gravity` instead";
+        return Err(GenerateError::refused(function, message, help));
     }
     if let Some(base) = base {
         prove_base(setup.task(function), base)
@@ -316,13 +342,19 @@ fn proved(job: &Job<'_>, function: Function) -> Result<GeneratedFunction, Genera
         false => (finished, Some(program)),
     };
     let proof = prove(setup, &program).map_err(|disproof| match vanishing(setup) {
-        Some(value) => GenerateError::Vanishing(function, value.to_string()),
+        Some(value) => {
+            let message = format!(
+                "`{function}`: the constant {value} is divisible by 2^61 - 1 or 2^61 - 45, modulo \
+                 which search and proof tell values apart"
+            );
+            GenerateError::refused(function, message, "change its last digit")
+        }
         None => GenerateError::Disproved(function, disproof),
     })?;
     Ok(GeneratedFunction {
         function,
         source,
-        parameters: ParametersKey::of(setup.task(function)),
+        parameters: ParametersKey::find(setup.task(function)),
         planned: entry.is_some(),
         sines: Vec::new(),
         program,
@@ -352,9 +384,14 @@ fn sines(
     let all = scalars.iter().map(|&scalar| {
         let positions = sincos::positions(setup.robot(), scalar);
         let sines = sincos::polynomials(&generated.program, scalar, &positions, error);
-        let sines = sines.map_err(|why| fail(NoSines::TooAccurate(Box::new(why))))?;
+        let sines = sines.map_err(|why| fail(Complaint::new(why.to_string(), "")))?;
         if spoil_inertia(setup, &generated.program, scalar, &sines) {
-            return Err(fail(NoSines::Indefinite { error }));
+            let message = format!(
+                "with sines that err by up to {error:e}, D cannot be shown to be positive definite \
+                 any more"
+            );
+            let help = "give a smaller error for them";
+            return Err(fail(Complaint::new(message, help)));
         }
         Ok((scalar, sines))
     });

@@ -9,9 +9,9 @@ use dalembert_model::scalar::field::{Field, ProofField};
 use super::GenerateError;
 use crate::bound::input_box::InputBox;
 use crate::bound::ranges::{Finding, ranges};
-use crate::dag::Points;
+use crate::dag::{Node, Points};
 use crate::function::Argument;
-use crate::program::{Operand, Program, ScalarType};
+use crate::program::{Program, ScalarType};
 use crate::setup::Setup;
 
 /// Returns a parameter that the search or the proof cannot tell from zero.
@@ -35,10 +35,8 @@ pub(super) fn check_constants(
     scalar: ScalarType,
     warnings: &mut Vec<String>,
 ) -> Result<(), GenerateError> {
-    let operands = program.steps.iter().flat_map(|s| [&s.left, &s.right]);
-    let outputs = program.outputs.iter().map(|output| &output.value);
-    for operand in operands.chain(outputs) {
-        let Operand::Constant(constant) = operand else {
+    for node in &program.dag.nodes {
+        let Node::Constant(constant) = node else {
             continue;
         };
         let rounded = scalar.round(constant);

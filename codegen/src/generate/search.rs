@@ -31,7 +31,7 @@ pub fn replay<'a>(
         return Ok(None);
     }
     let scene = setup.scene();
-    let parameters = ParametersKey::of(setup.task(function));
+    let parameters = ParametersKey::find(setup.task(function));
     let find = |scene| {
         let mut scalars = request.scalars.iter();
         let found = |&scalar: &ScalarType| {
@@ -48,7 +48,7 @@ pub fn replay<'a>(
     }
     match (found, scene) {
         // A program of the scene as it was is a program of another scene.
-        (Some(entry), Some(scene)) if entry.scene != Some(SceneKey::of(scene)) => {
+        (Some(entry), Some(scene)) if entry.scene != Some(SceneKey::new(scene)) => {
             Err(GenerateError::StaleScene {
                 scene: scene.name.clone(),
             })
@@ -70,12 +70,12 @@ pub(super) fn found(job: &Job<'_>, function: Function) -> Result<Origin, Generat
         found = again
             .filter(|again| again.cost() < found.cost())
             .unwrap_or(found);
-        if search::cost(&program.graph()) <= found.cost() {
+        if search::cost(&program.dag) <= found.cost() {
             return Ok((entry.source, entry.passes.clone(), program, None));
         }
     }
     let (seed, searched) = (found.seed(), &found.searched);
-    let program = Program::in_scene(job.setup.task(function), &searched.graph);
+    let program = job.setup.task(function).program(&searched.graph);
     let counts = [
         seed.traced,
         seed.graph.counts(),
@@ -159,7 +159,7 @@ impl<'a> Search<'a> {
         let plan = plan.filter(|plan| plan.input == input_hash(setup.robot()))?;
         let entry = replay(&self.job, Some(plan), self.task.function).ok()??;
         let program = entry.program.clone().with_speeds(setup.speeds());
-        let is_right = prove(setup, &program).is_ok() && self.judge.accepts(&program.graph());
+        let is_right = prove(setup, &program).is_ok() && self.judge.accepts(&program.dag);
         is_right.then_some((entry, program))
     }
 
@@ -170,12 +170,12 @@ impl<'a> Search<'a> {
             seeds: vec![Seed {
                 source: entry.source,
                 traced: entry.passes.first()?.counts,
-                graph: program.graph(),
+                graph: program.dag.clone(),
             }],
             helpers: vec![found.searched.graph.clone()],
         };
         let watch = self.job.request.watch.over(self.task.function);
-        self.from(again, self.job.request.effort, true, Some(watch))
+        self.search_from(again, self.job.request.effort, true, Some(watch))
     }
 
     /// Returns the quick search: without a limit first, since most robots need none.
@@ -191,7 +191,7 @@ impl<'a> Search<'a> {
             seeds: free.seeds.clone(),
             helpers: Vec::new(),
         };
-        let mut found = self.from(again, Effort::Quick, true, watch);
+        let mut found = self.search_from(again, Effort::Quick, true, watch);
         let is_near = |found: &Found| {
             let most = free.cost() + free.cost() / NEAR;
             found.cost() <= most && self.judge.accepts(&found.searched.graph)
@@ -204,7 +204,7 @@ impl<'a> Search<'a> {
             let both = found.into_iter().chain([other]);
             found = both.min_by_key(order);
         }
-        let mut found = found.ok_or(GenerateError::Empty)?;
+        let mut found = found.ok_or_else(GenerateError::empty)?;
         let graph = &free.searched.graph;
         let error = self.judge.error(graph);
         // The limit holds for every result: what breaks it for one may be cheaper and have a
@@ -246,15 +246,15 @@ impl<'a> Search<'a> {
         });
         let found = approaches
             .into_iter()
-            .filter_map(|approach| self.from(approach, effort, limited, watch));
+            .filter_map(|approach| self.search_from(approach, effort, limited, watch));
         // The first of the cheapest, of those that are accurate enough if there are such.
         let refused = |found: &Found| limited && !self.judge.accepts(&found.searched.graph);
         found
             .min_by_key(|found| (refused(found), found.cost()))
-            .ok_or(GenerateError::Empty)
+            .ok_or_else(GenerateError::empty)
     }
 
-    fn from(
+    fn search_from(
         &self,
         approach: Approach,
         effort: Effort,

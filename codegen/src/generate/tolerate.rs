@@ -8,18 +8,19 @@ use dalembert_model::scene::Tolerance;
 
 use crate::approximate::admitted::{Admitted, Claim};
 use crate::approximate::choose::ErrorBudget;
-use crate::approximate::error::{NoPolynomials, ToleranceError};
+use crate::approximate::error::ToleranceError;
 use crate::approximate::prune::PruneSettings;
 use crate::bound::sensitivity::BoundEffort;
 use crate::bound::work::Meter;
 use crate::certificate::Certificate;
-use crate::generate::{GenerateError, GeneratedFunction, Job, NoSines, Request};
+use crate::generate::{GenerateError, GeneratedFunction, Job, Request};
 use crate::plan::Edited;
 use crate::program::{Program, ScalarType};
 use crate::search::Effort;
 use crate::seeds::Start;
 use crate::setup::SceneKey;
 use crate::sincos::SinCos;
+use crate::words::Complaint;
 
 /// Replaces the programs, if the scene has a tolerance. Returns the scalars to
 /// emit.
@@ -65,7 +66,8 @@ pub fn admitted(
     if matches!(request.sincos, SinCos::Polynomial { error: Some(_) })
         && let Some(program) = programs.first()
     {
-        let why = NoSines::Decided;
+        let message = "a scene's tolerance decides how exact its sines are";
+        let why = Complaint::new(message, "give no error for them");
         return Err(GenerateError::SinCos(program.function, why));
     }
     let mut budgets = Vec::new();
@@ -91,7 +93,7 @@ pub fn admitted(
             Err(error) => return Err(error),
         }
     }
-    Err(GenerateError::Empty)
+    Err(GenerateError::empty())
 }
 
 /// Returns what a tolerance admits of every function in these scalars. Whether it admits
@@ -189,7 +191,7 @@ fn chosen(
     let with = |certificate: &Certificate| {
         budget.with_polynomials(certificate, &tolerances, BoundEffort::QUICK)
     };
-    let all = |admitted: &Admitted| -> Result<Vec<Certificate>, NoPolynomials> {
+    let all = |admitted: &Admitted| -> Result<Vec<Certificate>, Complaint> {
         admitted.certificates.iter().map(with).collect()
     };
     let mut admitted = match request.sincos {
@@ -209,7 +211,10 @@ fn chosen(
                 let exact = budget.unedited(scalars, bound_effort);
                 all(&exact).map(|certificates| (exact, certificates))
             });
-            let fail = |why| GenerateError::SinCos(function, NoSines::Tolerance(Box::new(why)));
+            let fail = |why| {
+                let message = format!("no polynomials for its sines within the tolerance: {why}");
+                GenerateError::SinCos(function, Complaint::new(message, ""))
+            };
             let (admitted, certificates) = found.map_err(fail)?;
             Admitted {
                 certificates,
@@ -267,7 +272,7 @@ fn kept(
     let (Some(plan), Some(scene)) = (&request.plan, job.setup.scene()) else {
         return Ok(None);
     };
-    let scene_key = Some(SceneKey::of(scene));
+    let scene_key = Some(SceneKey::new(scene));
     let find = |&scalar: &ScalarType| {
         let entry = plan.find(function, request.start, scalar, Some(scene), None)?;
         (entry.scene == scene_key && entry.program == *budget.exact)

@@ -2,41 +2,47 @@
 //!
 //! **Soundness.** Every operation gives (x ∘ y)(1 + δ) + η. Each is widened by
 //! that, so the intervals hold what is computed *and* what is exact. The error of a
-//! result is exactly Σ own error of a step · adjoint of the step, with adjoints
+//! result is exactly Σ own error of a node · adjoint of the node, with adjoints
 //! that mix computed and exact operands; both are in the intervals here, so the
 //! sum bounds the whole error, not only its first order.
 
 use super::Interval;
-use crate::program::{Operation, Step};
+use crate::dag::{Dag, Id, Node, Operation};
 
-/// Intervals that hold what is exact and what is computed, and each step's own
+/// Intervals that hold what is exact and what is computed, and each node's own
 /// rounding.
 pub(crate) struct Forward {
-    /// Step by step.
+    /// Node by node.
     pub values: Vec<Interval>,
-    /// How far the two can be apart at the step itself.
+    /// How far the two can be apart at the node itself.
     pub own: Vec<f64>,
 }
 
-/// Runs steps with every operation widened by its `rounding`, from what its exact
-/// result may be. `operands`: what a step reads, from the values before it.
-pub(crate) fn forward<C: PartialEq, I: PartialEq>(
-    steps: &[Step<C, I>],
-    operands: impl Fn(usize, &[Interval]) -> [Interval; 2],
-    rounding: impl Fn(usize, Interval) -> f64,
+/// Runs code with every operation widened by its `rounding`, from what its exact
+/// result may be. `leaf` gives what a constant or an input is, and what it is off.
+pub(crate) fn forward<C, I>(
+    dag: &Dag<C, I>,
+    leaf: impl Fn(Id, &Node<C, I>) -> (Interval, f64),
+    rounding: impl Fn(Id, Operation, Interval) -> f64,
 ) -> Forward {
-    let mut values: Vec<Interval> = Vec::with_capacity(steps.len());
-    let mut own = Vec::with_capacity(steps.len());
-    for (index, step) in steps.iter().enumerate() {
-        let [x, y] = operands(index, &values);
-        let exact = match step.operation {
-            // Both are the same number.
-            Operation::Mul | Operation::Fused if step.left == step.right => x.square(),
-            operation => operation.apply(&x, &y),
+    let mut values: Vec<Interval> = Vec::with_capacity(dag.nodes.len());
+    let mut own = Vec::with_capacity(dag.nodes.len());
+    for (node, id) in dag.nodes.iter().zip(0..) {
+        let (value, error) = match node {
+            Node::Constant(_) | Node::Input(_) => leaf(id, node),
+            Node::Apply(operation, operands) => {
+                let [x, y] = operands.map(|id| values[id as usize]);
+                let exact = match operation {
+                    // Both are the same number.
+                    Operation::Mul | Operation::Fused if operands[0] == operands[1] => x.square(),
+                    operation => operation.apply(&x, &y),
+                };
+                let rounding = rounding(id, *operation, exact);
+                (exact.widened(rounding), rounding)
+            }
         };
-        let rounding = rounding(index, exact);
-        values.push(exact.widened(rounding));
-        own.push(rounding);
+        values.push(value);
+        own.push(error);
     }
     Forward { values, own }
 }

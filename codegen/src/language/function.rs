@@ -165,12 +165,12 @@ pub(crate) fn result_type(function: Function, sizes: Sizes, scalar: ScalarType) 
 /// Returns whether the code depends on an argument.
 pub(super) fn reads(code: &Code, argument: Argument) -> bool {
     let is = |input: &Input| input.argument() == argument;
-    (argument == Argument::Position && !code.pairs.is_empty()) || code.inputs().any(is)
+    (argument == Argument::Position && !code.pairs.is_empty()) || code.dag.inputs().any(is)
 }
 
 /// Returns whether an entry of the argument is read; a sine is none.
 pub(super) fn reads_entry(code: &Code, argument: Argument) -> bool {
-    code.inputs().any(|input| match input {
+    code.dag.inputs().any(|input| match input {
         Input::Entry(read, _) => *read == argument,
         Input::PerSpeed(_) => argument == Argument::Velocity,
         Input::Sin(_) | Input::Cos(_) => false,

@@ -1,13 +1,12 @@
 //! The plan beside a robot file.
 
-use std::fmt;
 use std::fs::{self, File};
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use super::Plan;
-use super::error::PlanError;
 use super::parse::MAX_BYTES;
+use crate::words::{Complaint, complaint};
 
 /// Returns where a robot file's plan is: `puma560.plan` beside `puma560.toml`.
 pub fn path(robot_file: &Path) -> PathBuf {
@@ -32,63 +31,26 @@ pub fn announce(robot_file: &Path) -> std::io::Result<()> {
 ///
 /// # Errors
 /// What is wrong with the file, or with a line of it.
-pub fn beside(robot_file: &Path) -> Result<Option<Plan>, PlanFileError> {
+pub fn beside(robot_file: &Path) -> Result<Option<Plan>, Complaint> {
     let path = path(robot_file);
-    let fail = |fault| PlanFileError {
-        path: path.clone(),
-        fault,
-    };
+    let shown = path.display();
     // Opening a pipe would wait for somebody who writes into it.
     if fs::metadata(&path).is_ok_and(|found| !found.is_file()) {
-        return Err(fail(FileFault::NoFile));
+        return Err(complaint(format!(
+            "cannot read `{shown}`: a plan is a file"
+        )));
     }
     let mut bytes = Vec::new();
     let read =
         File::open(&path).and_then(|file| file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes));
     match read {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
-        Err(error) => return Err(fail(FileFault::Unreadable(error.to_string()))),
+        Err(error) => return Err(complaint(format!("cannot read `{shown}`: {error}"))),
         Ok(_) => {}
     }
-    let text = String::from_utf8(bytes).map_err(|_| fail(FileFault::Encoding))?;
-    Plan::parse(&text)
-        .map(Some)
-        .map_err(|error| fail(FileFault::Wrong(error)))
+    let text =
+        String::from_utf8(bytes).map_err(|_| complaint(format!("`{shown}` is not UTF-8")))?;
+    let plan = Plan::parse(&text);
+    let plan = plan.map_err(|error| complaint(format!("{shown}:{}: {}", error.line, error.why)))?;
+    Ok(Some(plan))
 }
-
-/// Why the plan beside a robot file cannot be read.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PlanFileError {
-    /// Where the plan is.
-    pub path: PathBuf,
-    /// What is wrong with it.
-    pub fault: FileFault,
-}
-
-/// What is wrong with a plan's file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum FileFault {
-    /// It is a folder, a device or a pipe.
-    NoFile,
-    /// It cannot be read: what the system says.
-    Unreadable(String),
-    /// It is no UTF-8 text.
-    Encoding,
-    /// Its text is no plan.
-    Wrong(PlanError),
-}
-
-impl fmt::Display for PlanFileError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let shown = self.path.display();
-        match &self.fault {
-            FileFault::NoFile => write!(f, "cannot read `{shown}`: a plan is a file"),
-            FileFault::Unreadable(error) => write!(f, "cannot read `{shown}`: {error}"),
-            FileFault::Encoding => write!(f, "`{shown}` is not UTF-8"),
-            FileFault::Wrong(error) => write!(f, "{shown}:{}: {}", error.line, error.fault),
-        }
-    }
-}
-
-impl std::error::Error for PlanFileError {}

@@ -7,18 +7,15 @@
 //!
 //! - this file: [`Plan`]: its entries and how one is found
 //! - [`mod@file`]: where it is kept
-//! - [`error`]: why one cannot be read
 //! - [`parse`], [`write`](Plan::write): the text; `variant` reads what a
 //!   tolerance left of a program
 
-pub(crate) mod error;
 pub mod file;
 pub(crate) mod parse;
 mod variant;
 pub(crate) mod write;
 
-pub use error::PlanError;
-pub(crate) use file::PlanFileError;
+use std::fmt;
 
 use crate::edits;
 use crate::function::Function;
@@ -27,8 +24,26 @@ use crate::search::Pass;
 use crate::seeds::{Source, Start};
 use crate::setup::{ParametersKey, SceneKey};
 use crate::split::ErrorByCause;
+use crate::words::Complaint;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::scene::Scene;
+
+/// What is wrong with a plan's text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlanError {
+    /// One-based line.
+    pub line: usize,
+    /// What is wrong and what was expected.
+    pub why: Complaint,
+}
+
+impl fmt::Display for PlanError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "line {}: {}", self.line, self.why)
+    }
+}
+
+impl std::error::Error for PlanError {}
 
 /// The programs kept for a robot.
 #[derive(Clone, Debug, PartialEq)]

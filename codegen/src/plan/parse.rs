@@ -4,16 +4,15 @@
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 
-use super::error::{PlanError, PlanFault};
 use super::variant::Variant;
-use super::{Entry, Plan};
+use super::{Entry, Plan, PlanError};
 use crate::function::{BundleError, Function};
 use crate::program::text::{read_results, read_step};
-use crate::program::{Counts, Program, ScalarType};
+use crate::program::{Counts, Program, ScalarType, Steps};
 use crate::search::Pass;
 use crate::seeds::{Source, Start};
 use crate::setup::{ParametersKey, SceneKey};
-use crate::words::Word;
+use crate::words::{Complaint, Word, complaint};
 
 /// The longest plan that is read.
 pub(crate) const MAX_BYTES: usize = 64 << 20;
@@ -25,19 +24,17 @@ impl Plan {
     /// The first line that is not as [`Plan::write`] writes it.
     pub fn parse(text: &str) -> Result<Plan, PlanError> {
         if text.len() > MAX_BYTES {
-            let fault = PlanFault::TooLong(MAX_BYTES);
-            return Err(PlanError { line: 1, fault });
+            let why = complaint(format!("the plan is longer than {MAX_BYTES} bytes"));
+            return Err(PlanError { line: 1, why });
         }
         let mut reader = Reader::default();
         for (index, line) in text.lines().enumerate() {
             let read = reader.line(line.trim());
             let line = index + 1;
-            read.map_err(|fault| PlanError { line, fault })?;
+            read.map_err(|why| PlanError { line, why })?;
         }
         let end = text.lines().count().max(1);
-        reader
-            .finish()
-            .map_err(|fault| PlanError { line: end, fault })
+        reader.finish().map_err(|why| PlanError { line: end, why })
     }
 }
 
@@ -49,12 +46,14 @@ struct Reader {
     entries: Vec<Entry>,
     /// The program that is being read: not returned yet.
     open: Option<Entry>,
+    /// Its steps so far.
+    steps: Steps,
     /// What is being read of the last entry's variant.
     variant: Option<Variant>,
 }
 
 impl Reader {
-    fn line(&mut self, line: &str) -> Result<(), PlanFault> {
+    fn line(&mut self, line: &str) -> Result<(), Complaint> {
         if line.is_empty() || line.starts_with('#') && !line.contains(' ') {
             return Ok(());
         }
@@ -72,59 +71,69 @@ impl Reader {
             return Ok(());
         }
         if let ("edited", None, Some(entry)) = (words[0], &self.open, self.entries.last()) {
-            self.variant = Some(Variant::of(entry));
+            self.variant = Some(Variant::new(entry));
             return Ok(());
         }
+        let is_late = !self.steps.steps.is_empty();
         match (words[0], &mut self.open) {
             ("plan", None) => {
                 if words[1..] != ["1"] {
-                    return Err(PlanFault::Version);
+                    return Err(complaint("this version reads plans of version 1"));
                 }
                 self.versioned = true;
             }
-            _ if !self.versioned => return Err(PlanFault::NoPlan),
+            _ if !self.versioned => return Err(complaint("expected `plan 1`")),
             ("robot", None) => self.robot = words.get(1).map(|&w| w.to_owned()),
             ("input", None) => self.input = words.get(1).map(|&w| w.to_owned()),
             ("program", None) => self.open = Some(program(&words[1..])?),
-            ("scene", Some(entry)) => scene(&words[1..], entry)?,
-            ("parameters", Some(entry)) => parameters(&words[1..], entry)?,
+            ("scene", Some(entry)) => scene(&words[1..], entry, is_late)?,
+            ("parameters", Some(entry)) => parameters(&words[1..], entry, is_late)?,
             ("stage", Some(entry)) => entry.passes.push(pass(&words[1..])?),
             ("return", Some(entry)) => {
-                read_results(&words[1..], &mut entry.program)?;
+                read_results(
+                    &words[1..],
+                    std::mem::take(&mut self.steps),
+                    &mut entry.program,
+                )?;
                 self.entries.extend(self.open.take());
             }
             (_, Some(entry)) => {
-                let step = read_step(&words, &entry.program)?;
-                entry.program.steps.push(step);
+                let step = read_step(&words, &entry.program, self.steps.steps.len())?;
+                self.steps.steps.push(step);
             }
-            (word, None) => return Err(PlanFault::NoProgram(word.to_owned())),
+            (word, None) => return Err(complaint(format!("expected `program`, found `{word}`"))),
         }
         Ok(())
     }
 
-    fn finish(self) -> Result<Plan, PlanFault> {
+    fn finish(self) -> Result<Plan, Complaint> {
         if self.open.is_some() {
-            return Err(PlanFault::Unreturned);
+            return Err(complaint("the last program has no `return`"));
         }
         if self.variant.is_some() {
-            return Err(PlanFault::Unbounded);
+            return Err(complaint(
+                "the last variant has not a `bound` for every result",
+            ));
         }
         Ok(Plan {
-            robot: self.robot.ok_or(PlanFault::Missing("robot"))?,
-            input: self.input.ok_or(PlanFault::Missing("input"))?,
+            robot: self
+                .robot
+                .ok_or_else(|| complaint("there is no line `robot`"))?,
+            input: self
+                .input
+                .ok_or_else(|| complaint("there is no line `input`"))?,
             entries: self.entries,
         })
     }
 }
 
-fn program(words: &[&str]) -> Result<Entry, PlanFault> {
+fn program(words: &[&str]) -> Result<Entry, Complaint> {
     let &[function, start, scalar, source, joints] = words else {
-        return Err(PlanFault::Head);
+        return Err(complaint(
+            "expected a function, formulation, scalar, source and n",
+        ));
     };
-    let unknown = |what, word: &str| {
-        let word = word.to_owned();
-        PlanFault::Unknown { what, word }
-    };
+    let unknown = |what, word: &str| complaint(format!("`{word}` is no {what}"));
     let joints = joints
         .parse()
         .ok()
@@ -132,7 +141,8 @@ fn program(words: &[&str]) -> Result<Entry, PlanFault> {
         .ok_or_else(|| unknown("number of joints", joints))?;
     let function = Function::parse(function).map_err(|error| match error {
         BundleError::Unknown(name) => unknown("function", &name),
-        error => PlanFault::Bundle(error),
+        // A plan is written by the command: nobody has to be told the fix.
+        error => complaint(error.message()),
     })?;
     Ok(Entry {
         scene: None,
@@ -148,13 +158,15 @@ fn program(words: &[&str]) -> Result<Entry, PlanFault> {
 }
 
 /// Reads `scene NAME HASH ROWS ARGUMENTS`: what a scene leaves of the program.
-fn scene(words: &[&str], entry: &mut Entry) -> Result<(), PlanFault> {
+fn scene(words: &[&str], entry: &mut Entry, is_late: bool) -> Result<(), Complaint> {
     let &[name, hash, rows, arguments] = words else {
-        return Err(PlanFault::Scene);
+        return Err(complaint(
+            "expected a scene's name, hash, rows and arguments",
+        ));
     };
     let program = &mut entry.program;
-    if !program.steps.is_empty() {
-        return Err(PlanFault::LateScene);
+    if is_late {
+        return Err(complaint("the scene comes before the steps"));
     }
     let row = |word: &str| {
         let number = word.parse::<usize>().ok()?.checked_sub(1)?;
@@ -163,7 +175,7 @@ fn scene(words: &[&str], entry: &mut Entry) -> Result<(), PlanFault> {
     let rows: Option<Vec<usize>> = rows.split(',').map(row).collect();
     program.rows = rows
         .filter(|rows| rows.len() <= program.joints)
-        .ok_or(PlanFault::Rows)?;
+        .ok_or_else(|| complaint("expected joints such as `1,2,3`"))?;
     program
         .arguments
         .retain(|a| arguments.split(',').any(|word| word == a.name()));
@@ -176,26 +188,32 @@ fn scene(words: &[&str], entry: &mut Entry) -> Result<(), PlanFault> {
 
 /// Reads `parameters NAMES LOAD HASH`: which parameters of the robot are arguments, and how many
 /// numbers the load has.
-fn parameters(words: &[&str], entry: &mut Entry) -> Result<(), PlanFault> {
+fn parameters(words: &[&str], entry: &mut Entry, is_late: bool) -> Result<(), Complaint> {
     let &[names, load, hash] = words else {
-        return Err(PlanFault::Parameters);
+        return Err(complaint(
+            "expected `payload`, `gravity` or both, the load's length and its hash",
+        ));
     };
     let program = &mut entry.program;
-    if !program.steps.is_empty() || entry.parameters.is_some() {
-        return Err(PlanFault::LateParameters);
+    if is_late || entry.parameters.is_some() {
+        return Err(complaint("the parameters come once, before the steps"));
     }
     let all = RuntimeParameter::ALL.into_iter();
     let taken: Vec<RuntimeParameter> = all
         .filter(|parameter| names.split(',').any(|word| word == parameter.name()))
         .collect();
     if taken.len() != names.split(',').count() {
-        return Err(PlanFault::Parameters);
+        return Err(complaint(
+            "expected `payload`, `gravity` or both, the load's length and its hash",
+        ));
     }
     program.load = load
         .parse()
         .ok()
         .filter(|&load| load <= MAX_LOAD)
-        .ok_or(PlanFault::Parameters)?;
+        .ok_or_else(|| {
+            complaint("expected `payload`, `gravity` or both, the load's length and its hash")
+        })?;
     let arguments = taken.iter().map(|parameter| parameter.argument());
     program.arguments.extend(arguments);
     program.arguments.sort();
@@ -210,16 +228,18 @@ fn parameters(words: &[&str], entry: &mut Entry) -> Result<(), PlanFault> {
 /// A load has no more numbers: ten of each link, and differences of two of them.
 const MAX_LOAD: usize = 100 * Robot::MAX_JOINTS;
 
-fn pass(words: &[&str]) -> Result<Pass, PlanFault> {
-    let (name, counts) = words.split_first().ok_or(PlanFault::Stage)?;
+fn pass(words: &[&str]) -> Result<Pass, Complaint> {
+    let (name, counts) = words
+        .split_first()
+        .ok_or_else(|| complaint("expected a stage and four counts"))?;
     let counts: Vec<usize> = counts.iter().filter_map(|word| word.parse().ok()).collect();
     let &[mul, add, div, sincos] = counts.as_slice() else {
-        return Err(PlanFault::Stage);
+        return Err(complaint("expected a stage and four counts"));
     };
     let name = Pass::NAMES
         .into_iter()
         .find(|known| known == name)
-        .ok_or_else(|| PlanFault::NoStage((*name).to_owned()))?;
+        .ok_or_else(|| complaint(format!("`{name}` is no stage")))?;
     Ok(Pass {
         name,
         counts: Counts {

@@ -2,19 +2,21 @@
 //! its edits and, after `next`, what they gave; then the bounds, before them
 //! that of D's least eigenvalue where D was edited.
 
-use super::error::PlanFault;
 use super::{Edited, Entry};
 use crate::edits::text::read_edit;
 use crate::edits::{Edit, Stage, has_edits};
 use crate::program::text::{read_results, read_step, without_quotient};
-use crate::program::{Program, has_inertia};
+use crate::program::{Program, Steps, has_inertia};
 use crate::split::ErrorByCause;
+use crate::words::{Complaint, complaint};
 
 /// A variant that is being read.
 pub(super) struct Variant {
     stages: Vec<Stage>,
-    /// The last program, whole unless it is being read.
+    /// The last program that is whole.
     program: Program,
+    /// The steps of the next one, so far.
+    steps: Steps,
     edits: Vec<Edit>,
     is_open: bool,
     bounds: Vec<ErrorByCause>,
@@ -23,10 +25,11 @@ pub(super) struct Variant {
 
 impl Variant {
     /// Makes the variant of an entry's program.
-    pub(super) fn of(entry: &Entry) -> Variant {
+    pub(super) fn new(entry: &Entry) -> Variant {
         Variant {
             stages: Vec::new(),
             program: entry.program.clone(),
+            steps: Steps::default(),
             edits: Vec::new(),
             is_open: false,
             bounds: Vec::new(),
@@ -40,45 +43,48 @@ impl Variant {
     }
 
     /// Reads a line; the variant is whole with the last of its bounds.
-    pub(super) fn line(&mut self, line: &str, words: &[&str]) -> Result<Option<Edited>, PlanFault> {
+    pub(super) fn line(&mut self, line: &str, words: &[&str]) -> Result<Option<Edited>, Complaint> {
         match (words[0], self.is_open) {
             ("edit", false) => {
                 let edit = line.split_once(' ').map_or("", |(_, edit)| edit);
                 self.edits.push(read_edit(edit, &self.program)?);
             }
             ("next", false) => {
-                let empty = Program {
-                    trig: Vec::new(),
-                    steps: Vec::new(),
-                    outputs: Vec::new(),
-                    ..self.program.clone()
-                };
                 self.stages.push(Stage {
-                    program: std::mem::replace(&mut self.program, empty),
+                    program: self.program.clone(),
                     edits: std::mem::take(&mut self.edits),
                 });
                 self.is_open = true;
             }
             ("return", true) => {
-                read_results(&words[1..], &mut self.program)?;
+                read_results(
+                    &words[1..],
+                    std::mem::take(&mut self.steps),
+                    &mut self.program,
+                )?;
                 self.is_open = false;
             }
             (_, true) => {
-                let step = without_quotient(read_step(words, &self.program)?)?;
-                self.program.steps.push(step);
+                let step =
+                    without_quotient(read_step(words, &self.program, self.steps.steps.len())?)?;
+                self.steps.steps.push(step);
             }
             ("eigenvalue", false) if self.edits.is_empty() && self.bounds.is_empty() => {
                 if !self.has_edited_inertia() {
-                    return Err(PlanFault::NeedlessEigenvalue);
+                    return Err(complaint(
+                        "no `eigenvalue` is needed: D is no output, or as it was",
+                    ));
                 }
                 self.lambda_min = Some(eigenvalue(&words[1..])?);
             }
             ("bound", false) if self.edits.is_empty() => {
                 if self.has_edited_inertia() && self.lambda_min.is_none() {
-                    return Err(PlanFault::NoEigenvalue);
+                    return Err(complaint(
+                        "expected `eigenvalue`: D is an output and was edited",
+                    ));
                 }
                 self.bounds.push(bound(&words[1..])?);
-                if self.bounds.len() == self.program.outputs.len() {
+                if self.bounds.len() == self.program.dag.outputs.len() {
                     return Ok(Some(Edited {
                         stages: std::mem::take(&mut self.stages),
                         program: self.program.clone(),
@@ -87,13 +93,17 @@ impl Variant {
                     }));
                 }
             }
-            (word, false) => return Err(PlanFault::NoVariant(word.to_owned())),
+            (word, false) => {
+                return Err(complaint(format!(
+                    "expected `edit`, `next`, `eigenvalue` or `bound`, found `{word}`"
+                )));
+            }
         }
         Ok(None)
     }
 }
 
-fn bound(words: &[&str]) -> Result<ErrorByCause, PlanFault> {
+fn bound(words: &[&str]) -> Result<ErrorByCause, Complaint> {
     match numbers(words)[..] {
         [model, sincos, rounding] if model >= 0.0 && sincos >= 0.0 && rounding >= 0.0 => {
             Ok(ErrorByCause {
@@ -102,14 +112,14 @@ fn bound(words: &[&str]) -> Result<ErrorByCause, PlanFault> {
                 rounding,
             })
         }
-        _ => Err(PlanFault::Bound),
+        _ => Err(complaint("expected three numbers of zero or more")),
     }
 }
 
-fn eigenvalue(words: &[&str]) -> Result<f64, PlanFault> {
+fn eigenvalue(words: &[&str]) -> Result<f64, Complaint> {
     match numbers(words)[..] {
         [least] if least > 0.0 && least.is_finite() => Ok(least),
-        _ => Err(PlanFault::Eigenvalue),
+        _ => Err(complaint("expected one number above zero")),
     }
 }
 

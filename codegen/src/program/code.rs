@@ -8,7 +8,7 @@ use super::kernel::{Kernel, Need};
 use super::lanes::{LANES, Lanes};
 use super::machine::Machine;
 use super::{Counts, Input, Library, Literal, Program, ScalarType, Speed};
-use crate::dag::{Dag, Leaves, Node};
+use crate::dag::{Dag, Leaves};
 use crate::function::Argument;
 use crate::states::{JointState, State};
 
@@ -50,7 +50,7 @@ impl Code {
         kernel: impl Fn(usize) -> Option<Kernel>,
     ) -> Code {
         let literal = |value: &Exact| Literal(scalar.round(value));
-        let pairs = program.trig.iter().map(|trig| Pair {
+        let pairs = program.trig().into_iter().map(|trig| Pair {
             joint: trig.joint,
             need: trig.need,
             kernel: kernel(trig.joint),
@@ -64,7 +64,7 @@ impl Code {
             library: Library::Libm,
             pairs: pairs.collect(),
             speeds: speeds.collect(),
-            dag: program.graph().map(literal, |input| *input),
+            dag: program.dag.map(literal, |input| *input),
         };
         code.calling(library)
     }
@@ -106,15 +106,6 @@ impl Code {
             ..Counts::of_operations(self.dag.operations().map(|(_, operation, _)| operation))
         };
         own.with_speeds(self.speeds.len())
-    }
-
-    /// Lists the inputs that the arithmetic reads.
-    pub(crate) fn inputs(&self) -> impl Iterator<Item = &Input> {
-        let nodes = self.dag.nodes.iter();
-        nodes.filter_map(|node| match node {
-            Node::Input(input) => Some(input),
-            _ => None,
-        })
     }
 
     /// Runs the code bit for bit at a state; none if the state lacks an entry that is read.
@@ -197,7 +188,7 @@ impl<T: Machine> Inputs<T> {
             Lanes::new(&values.collect::<Option<Vec<T>>>()?)
         };
         let mut inputs = BTreeMap::new();
-        for &input in code.inputs() {
+        for &input in code.dag.inputs() {
             if let Input::Entry(argument, index) = input {
                 let entries = lanes(argument, &|entries| entries.get(index).copied())?;
                 inputs.insert(input, entries);

@@ -1,71 +1,38 @@
 //! The first difference between two pieces of code.
 
-use std::fmt;
-
 use super::{Code, Literal};
 use crate::dag::{Dag, Id, Node};
-
-/// The first part in which two pieces of code differ.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Difference {
-    /// The scalars.
-    Scalar,
-    /// Who computes the sines that are called.
-    Library,
-    /// The sines and cosines.
-    Sines,
-    /// The speeds that are read.
-    Speeds,
-    /// The number of operations.
-    Operations,
-    /// The number of results.
-    Results,
-    /// An operation, from zero.
-    Operation(usize),
-    /// A result, from zero.
-    Result(usize),
-}
-
-impl fmt::Display for Difference {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Difference::Scalar => f.write_str("the scalars differ"),
-            Difference::Library => f.write_str("the libraries of sines differ"),
-            Difference::Sines => f.write_str("the sines and cosines differ"),
-            Difference::Speeds => f.write_str("what is read of speeds differs"),
-            Difference::Operations => f.write_str("the number of operations differs"),
-            Difference::Results => f.write_str("the number of results differs"),
-            Difference::Operation(index) => write!(f, "operation t{} differs", index + 1),
-            Difference::Result(index) => write!(f, "result {index} differs"),
-        }
-    }
-}
-
-impl std::error::Error for Difference {}
+use crate::words::{Complaint, complaint};
 
 impl Code {
     /// Returns the first difference from other code; none if they compute the same, operation by
     /// operation, in whatever order their constants and inputs stand.
-    pub fn difference(&self, other: &Code) -> Option<Difference> {
+    pub fn difference(&self, other: &Code) -> Option<Complaint> {
         let counts = [self, other].map(|code| code.dag.operations().count());
         let results = [self, other].map(|code| code.dag.outputs.len());
         let parts = [
-            (self.scalar == other.scalar, Difference::Scalar),
-            (self.library == other.library, Difference::Library),
-            (self.pairs == other.pairs, Difference::Sines),
-            (self.speeds == other.speeds, Difference::Speeds),
-            (counts[0] == counts[1], Difference::Operations),
-            (results[0] == results[1], Difference::Results),
+            (self.scalar == other.scalar, "the scalars differ"),
+            (
+                self.library == other.library,
+                "the libraries of sines differ",
+            ),
+            (self.pairs == other.pairs, "the sines and cosines differ"),
+            (
+                self.speeds == other.speeds,
+                "what is read of speeds differs",
+            ),
+            (counts[0] == counts[1], "the number of operations differs"),
+            (results[0] == results[1], "the number of results differs"),
         ];
         let differs = parts.iter().find(|(is_equal, _)| !is_equal);
-        match differs {
-            Some((_, difference)) => Some(*difference),
-            None => self.first_difference(other),
-        }
+        let differs = differs.map(|(_, what)| (*what).to_owned());
+        differs
+            .or_else(|| self.first_difference(other))
+            .map(complaint)
     }
 
     /// Compares operations and results one by one: equal operations read equal ones before them.
-    fn first_difference(&self, other: &Code) -> Option<Difference> {
+    fn first_difference(&self, other: &Code) -> Option<String> {
         let operand = |dag: &Dag<Literal>, numbers: &[Option<usize>], id: Id| match dag.node(id) {
             Node::Apply(..) => Err(numbers[id as usize]),
             leaf => Ok(leaf.clone()),
@@ -78,8 +45,8 @@ impl Code {
             .position(|((_, a, [x, y]), (_, b, [z, w]))| a != b || !same(x, z) || !same(y, w));
         let mut outputs = ours.outputs.iter().zip(&theirs.outputs);
         let result = outputs.position(|(a, b)| a.negative != b.negative || !same(a.node, b.node));
-        let operation = operation.map(Difference::Operation);
-        operation.or(result.map(Difference::Result))
+        let operation = operation.map(|index| format!("operation t{} differs", index + 1));
+        operation.or(result.map(|index| format!("result {index} differs")))
     }
 }
 

@@ -10,7 +10,7 @@ impl JointState {
     /// Returns the state's entries as a machine's numbers, each rounded.
     pub fn numbers<T: Machine>(&self) -> State<T> {
         Argument::ALL.map(|argument| {
-            let entries = self.of(argument).iter();
+            let entries = self.entries(argument).iter();
             entries.map(|&x| T::literal(x)).collect()
         })
     }

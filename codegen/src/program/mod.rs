@@ -6,15 +6,11 @@
 //! - [`code`]: the same over literals: each constant rounded once, sines by a
 //!   library or by the polynomials of a [`kernel`]; `difference`: where two differ
 //! - [`library`]: who computes the sines that are called
-//! - [`fused`]: products that are fused with a sum
-//! - [`adjoint`]: backwards in any scalar: what a result changes by
-//! - [`text`]: operands and steps as plans and certificates write them
+//! - [`steps`]: a program as a list of steps; [`text`]: as plans and certificates write it
 //! - [`machine`]: floats that run as emitted code does; [`lanes`]: several side by side
 
-pub(crate) mod adjoint;
 pub(crate) mod code;
 mod difference;
-pub(crate) mod fused;
 pub(crate) mod kernel;
 pub(crate) mod lanes;
 pub(crate) mod library;
@@ -22,21 +18,24 @@ mod literal;
 pub(crate) mod machine;
 pub(crate) mod scalar_type;
 pub(crate) mod speed;
+pub(crate) mod steps;
 pub(crate) mod text;
 
 use std::collections::BTreeMap;
 
 use dalembert_model::number::Exact;
+use dalembert_model::scalar::Scalar;
 
 pub use crate::dag::{Counts, Input, Operation};
+use crate::dag::{Dag, Edge, Id, Node};
 use crate::function::{Argument, Columns, Function, Sizes};
 pub use code::{Code, Pair};
-pub use difference::Difference;
 pub use kernel::Need;
 pub use library::Library;
 pub use literal::Literal;
 pub use scalar_type::ScalarType;
 pub(crate) use speed::Speed;
+pub use steps::{Operand, Output, Step, Steps};
 
 /// Straight-line code with exact constants: what is proved and emitted.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,14 +50,11 @@ pub struct Program {
     pub arguments: Vec<Argument>,
     /// The number of entries of the load; zero where the load is neither argument nor result.
     pub load: usize,
-    /// The joints whose sine or cosine it needs, ascending.
-    pub trig: Vec<Trig>,
     /// The joints of which r = 1/√(q̇² + w²) is read, ascending.
     pub speeds: Vec<Speed>,
-    /// The arithmetic, operands before users.
-    pub steps: Vec<Step>,
-    /// The results in the order of the function's quantities.
-    pub outputs: Vec<Output>,
+    /// The arithmetic in the order of the code, each leaf before the first operation that reads it,
+    /// and the results in the order of the function's quantities.
+    pub dag: Dag,
 }
 
 /// One sine/cosine evaluation.
@@ -70,90 +66,97 @@ pub struct Trig {
     pub need: Need,
 }
 
-/// One operation over constants C and inputs I.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step<C = Exact, I = Input> {
-    /// The arithmetic operation.
-    pub operation: Operation,
-    /// Left operand.
-    pub left: Operand<C, I>,
-    /// Right operand.
-    pub right: Operand<C, I>,
-}
-
-/// An operand of a step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Operand<C = Exact, I = Input> {
-    /// An input.
-    Input(I),
-    /// A constant: exact, or the literal that it was rounded to.
-    Constant(C),
-    /// The result of an earlier step.
-    Step(usize),
-}
-
-/// A result, negated or not: negation is free.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Output<C = Exact, I = Input> {
-    /// `true` if the result is negated.
-    pub negative: bool,
-    /// The value.
-    pub value: Operand<C, I>,
-}
-
-impl<C: Clone, I: Clone> Operand<C, I> {
-    /// Returns the operand where steps have moved to these places.
-    pub(crate) fn moved(&self, place: &[usize]) -> Self {
-        match self {
-            Operand::Step(step) => Operand::Step(place.get(*step).copied().unwrap_or(usize::MAX)),
-            other => other.clone(),
-        }
-    }
-}
-
-impl<C, I> Output<C, I> {
-    /// Returns a value as it is.
-    pub fn of(value: Operand<C, I>) -> Output<C, I> {
-        Output {
-            negative: false,
-            value,
-        }
-    }
-}
-
 impl Program {
-    /// Lists the sines and cosines that steps and outputs read.
-    pub(crate) fn collect_trig(&mut self) {
-        let mut trig: BTreeMap<usize, Trig> = BTreeMap::new();
-        let operands = self.steps.iter().flat_map(|step| [&step.left, &step.right]);
-        for operand in operands.chain(self.outputs.iter().map(|output| &output.value)) {
-            if let Operand::Input(input) = operand {
-                note_trig(&mut trig, *input);
+    /// Creates the program of a graph of a function of a whole robot.
+    pub fn new(function: Function, joints: usize, graph: &Dag) -> Program {
+        Program::empty(function, joints).with_graph(graph)
+    }
+
+    /// Creates what a function of a whole robot begins with: no operation, no result.
+    pub fn empty(function: Function, joints: usize) -> Program {
+        Program {
+            function,
+            joints,
+            rows: (0..joints).collect(),
+            arguments: function.arguments(),
+            load: 0,
+            speeds: Vec::new(),
+            dag: Dag::default(),
+        }
+    }
+
+    /// Returns the same function with the same arguments and results, by another
+    /// graph in the order in which code is printed.
+    #[must_use]
+    pub fn with_graph(&self, graph: &Dag) -> Program {
+        self.with_code(graph.scheduled())
+    }
+
+    /// Returns the same function with the same arguments and results, by another graph whose
+    /// operations are in this order. A constant that is a result has its own sign.
+    #[must_use]
+    pub(crate) fn with_code(&self, mut graph: Dag) -> Program {
+        for edge in &mut graph.outputs {
+            if let (true, Node::Constant(constant)) = (edge.negative, &graph.nodes[edge.index()]) {
+                let constant = Node::Constant(constant.neg());
+                *edge = Edge {
+                    negative: false,
+                    node: graph.nodes.len() as Id,
+                };
+                graph.nodes.push(constant);
             }
         }
-        self.trig = trig.into_values().collect();
+        let program = Program {
+            rows: self.rows.clone(),
+            arguments: self.arguments.clone(),
+            dag: graph.map(Exact::clone, |input| *input),
+            speeds: Vec::new(),
+            ..*self
+        };
+        program.with_speeds(self.speeds.clone())
+    }
+
+    /// Returns the program with its products fused.
+    #[must_use]
+    pub fn fused(&self) -> Program {
+        self.with_code(self.dag.fused())
     }
 
     /// Returns the program with these speeds, as far as it reads them.
     #[must_use]
     pub(crate) fn with_speeds(self, mut speeds: Vec<Speed>) -> Program {
-        let read = speed::read(&self.steps, &self.outputs);
-        speeds.retain(|own| read.contains(&own.joint));
+        let read = |joint| {
+            self.dag
+                .inputs()
+                .any(|input| *input == Input::PerSpeed(joint))
+        };
+        speeds.retain(|own| read(own.joint));
         Program { speeds, ..self }
+    }
+
+    /// Lists the sines and cosines that it reads, joints ascending.
+    pub fn trig(&self) -> Vec<Trig> {
+        let mut needs: BTreeMap<usize, Need> = BTreeMap::new();
+        for input in self.dag.inputs() {
+            match *input {
+                Input::Sin(joint) => needs.entry(joint).or_default().sin = true,
+                Input::Cos(joint) => needs.entry(joint).or_default().cos = true,
+                Input::PerSpeed(_) | Input::Entry(..) => {}
+            }
+        }
+        let needs = needs.into_iter();
+        needs.map(|(joint, need)| Trig { joint, need }).collect()
     }
 
     /// Counts the operations.
     pub fn counts(&self) -> Counts {
-        let steps = Counts::of_operations(self.steps.iter().map(|step| step.operation));
         let own = Counts {
-            sincos: self.trig.len(),
-            ..steps
+            sincos: self.trig().len(),
+            ..Counts::of_operations(self.dag.operations().map(|(_, operation, _)| operation))
         };
         own.with_speeds(self.speeds.len())
     }
-}
 
-impl Program {
     /// Returns the numbers that the lengths of results follow from; the number of base
     /// parameters is derived from the number of results.
     pub fn sizes(&self) -> Sizes {
@@ -167,27 +170,23 @@ impl Program {
         if let Columns::Base(_) = self.function.columns() {
             // What a bundle returns beside its regressor is of known lengths.
             let others = self.function.outputs(sizes);
-            sizes.base = self.outputs.len().saturating_sub(others) / rows.max(1);
+            sizes.base = self.dag.outputs.len().saturating_sub(others) / rows.max(1);
         }
         sizes
     }
 
-    /// Returns whether no step and no result reads a step that is not computed yet.
-    pub(crate) fn is_straight(&self) -> bool {
-        let is_before = |operand: &Operand, count: usize| match operand {
-            Operand::Step(read) => *read < count,
-            Operand::Input(_) | Operand::Constant(_) => true,
-        };
-        let mut steps = self.steps.iter().enumerate();
-        let mut outputs = self.outputs.iter();
-        steps.all(|(index, step)| is_before(&step.left, index) && is_before(&step.right, index))
-            && outputs.all(|output| is_before(&output.value, self.steps.len()))
-    }
-
     /// Returns whether the program divides.
     pub fn divides(&self) -> bool {
-        let mut steps = self.steps.iter();
-        steps.any(|step| step.operation == Operation::Div)
+        self.has(Operation::Div)
+    }
+
+    /// Returns whether the program has fused products.
+    pub fn fuses(&self) -> bool {
+        self.has(Operation::Fused)
+    }
+
+    fn has(&self, operation: Operation) -> bool {
+        self.dag.operations().any(|(_, own, _)| own == operation)
     }
 }
 
@@ -195,17 +194,4 @@ impl Program {
 pub(crate) fn has_inertia(program: &Program) -> bool {
     let mut quantities = program.function.quantities().iter();
     quantities.any(|quantity| quantity.is_definite())
-}
-
-fn note_trig(trig: &mut BTreeMap<usize, Trig>, input: Input) {
-    if let Some(joint) = input.angle() {
-        let entry = trig.entry(joint).or_insert(Trig {
-            joint,
-            need: Need::default(),
-        });
-        match input {
-            Input::Sin(_) => entry.need.sin = true,
-            _ => entry.need.cos = true,
-        }
-    }
 }

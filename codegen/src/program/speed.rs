@@ -1,13 +1,11 @@
 //! The reciprocal speed of a joint, r = 1/√(q̇² + w²), which code reads beside the velocity: it
 //! smooths Coulomb friction over a width w.
 
-use std::collections::BTreeSet;
-
 use dalembert_model::equations::friction::per_speed;
 use dalembert_model::number::Exact;
 
+use super::Literal;
 use super::machine::Machine;
-use super::{Input, Literal, Operand, Output, Step};
 
 /// A joint whose r may be read. The code squares the velocity, adds the square of
 /// the width, takes the root and divides one by it.
@@ -26,15 +24,4 @@ impl Speed<Literal> {
         let qd = qd.get(self.joint)?;
         Some(per_speed(qd, &T::literal(self.square.0), |x| x.root()))
     }
-}
-
-/// Returns the joints whose r is read, ascending.
-pub(crate) fn read<C>(steps: &[Step<C>], outputs: &[Output<C>]) -> BTreeSet<usize> {
-    let operands = steps.iter().flat_map(|step| [&step.left, &step.right]);
-    let operands = operands.chain(outputs.iter().map(|output| &output.value));
-    let joint = |operand: &Operand<C>| match operand {
-        Operand::Input(Input::PerSpeed(joint)) => Some(*joint),
-        _ => None,
-    };
-    operands.filter_map(joint).collect()
 }

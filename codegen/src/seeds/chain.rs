@@ -29,7 +29,7 @@ pub fn trace_chain(
 ) -> (Dag, Counts) {
     let Task { setup, function } = task;
     let builder = Rc::new(RefCell::new(Builder::new(folding)));
-    let mut numbers = Numbers::of(task, &builder);
+    let mut numbers = Numbers::new(task, &builder);
     let mut chain = chain.map(|constant| numbers.symbol(constant));
     let mut gravity = None;
     if setup.takes(function, RuntimeParameter::Gravity) {

@@ -33,7 +33,7 @@ pub(crate) fn chosen(setup: Setup) -> Setup {
     let (graph, _) = trace_chain(full.task(function), &chain, best.form, Folding::Semantic);
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
     // As the trace meets them.
-    let mut numbers = Numbers::of(full.task(function), &builder);
+    let mut numbers = Numbers::new(full.task(function), &builder);
     chain.map(|number| numbers.symbol(number));
     let met = numbers.met();
     let is_read = |index: usize| {

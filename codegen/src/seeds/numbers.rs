@@ -25,7 +25,7 @@ pub(super) struct Numbers<'a> {
 }
 
 impl<'a> Numbers<'a> {
-    pub(super) fn of(task: Task<'a>, builder: &'a Rc<RefCell<Builder>>) -> Numbers<'a> {
+    pub(super) fn new(task: Task<'a>, builder: &'a Rc<RefCell<Builder>>) -> Numbers<'a> {
         let Task { setup, function } = task;
         let is_loaded = setup.takes(function, RuntimeParameter::Payload);
         Numbers {

@@ -166,11 +166,9 @@ impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
         }
         for unit in units {
             if let Some(per_unit) = quotient(&Exact::one(), &unit) {
-                self.attempt(Regrouping {
-                    unit,
-                    per_unit,
-                    ..self.best.regrouping.clone()
-                });
+                let mut regrouping = self.best.regrouping.clone();
+                (regrouping.unit, regrouping.per_unit) = (unit, per_unit);
+                self.attempt(regrouping);
             }
         }
     }
@@ -223,15 +221,19 @@ fn alternatives(
         JointKind::Prismatic => prismatic(&chain, now, i),
     };
     let [less, more] = chain.freedoms()[i];
-    links.extend(
-        (less..=more)
-            .filter(|&axes| axes != now.axes)
-            .map(|axes| LinkRegrouping {
-                axes,
-                ..now.clone()
-            }),
-    );
+    let axes = (less..=more).filter(|&axes| axes != now.axes);
+    links.extend(axes.map(|axes| with(now, |link| link.axes = axes)));
     links
+}
+
+/// Returns a link's regrouping with a change.
+fn with(
+    now: &LinkRegrouping<Exact>,
+    change: impl FnOnce(&mut LinkRegrouping<Exact>),
+) -> LinkRegrouping<Exact> {
+    let mut link = now.clone();
+    change(&mut link);
+    link
 }
 
 fn is_large(chain: &Chain<Exact>) -> bool {
@@ -297,32 +299,17 @@ fn revolute(
     if let Some(next) = chain.links.get(i + 1) {
         origins.push(now.origin[2].add(&next.offset[2]));
     }
-    let mut candidates = Vec::new();
-    for choice in masses {
-        candidates.push(LinkRegrouping {
-            mass: choice,
-            ..now.clone()
-        });
-    }
-    for choice in firsts {
-        candidates.push(LinkRegrouping {
-            first: choice,
-            ..now.clone()
-        });
-    }
-    for choice in seconds {
-        candidates.push(LinkRegrouping {
-            second: choice,
-            ..now.clone()
-        });
-    }
-    for z in origins {
-        candidates.push(LinkRegrouping {
-            origin: [Exact::zero(), Exact::zero(), z],
-            ..now.clone()
-        });
-    }
-    candidates
+    let masses = masses.into_iter();
+    let masses = masses.map(|x| with(now, |link| link.mass = x));
+    let firsts = firsts.into_iter();
+    let firsts = firsts.map(|x| with(now, |link| link.first = x));
+    let seconds = seconds.into_iter();
+    let seconds = seconds.map(|x| with(now, |link| link.second = x));
+    let origins = origins.into_iter();
+    let origins =
+        origins.map(|z| with(now, |link| link.origin = [Exact::zero(), Exact::zero(), z]));
+    let candidates = masses.chain(firsts).chain(seconds).chain(origins);
+    candidates.collect()
 }
 
 fn prismatic(
@@ -350,35 +337,21 @@ fn prismatic(
     if let Ok(centre) = <Vector<Exact>>::try_from(centre) {
         origins.push(shifted(&centre));
     }
-    let mut candidates = Vec::new();
-    for origin in origins {
-        candidates.push(LinkRegrouping {
-            origin,
-            ..now.clone()
-        });
-    }
-    for keep_seconds in [false, true] {
-        candidates.push(LinkRegrouping {
-            keep_seconds,
-            ..now.clone()
-        });
-    }
-    candidates
+    let origins = origins.into_iter();
+    let origins = origins.map(|origin| with(now, |link| link.origin = origin));
+    let kept = [false, true].map(|kept| with(now, |link| link.keep_seconds = kept));
+    origins.chain(kept).collect()
 }
 
 /// Returns the entries of a body that cost operations in every regrouping.
 fn costly(body: &Body<Exact>) -> Vec<Exact> {
     let second = &body.second;
-    vec![
-        body.first[0].clone(),
-        body.first[1].clone(),
-        second.xx.clone(),
-        second.yy.clone(),
-        second.xy.clone(),
-        second.yz.clone(),
-        second.xz.clone(),
-        second.xx.sub(&second.yy),
-    ]
+    let [x, y, _] = &body.first;
+    let all = [
+        x, y, &second.xx, &second.yy, &second.xy, &second.yz, &second.xz,
+    ];
+    let difference = second.xx.sub(&second.yy);
+    all.into_iter().cloned().chain([difference]).collect()
 }
 
 /// Returns a unit mass, first or second moment on the axis.

@@ -16,12 +16,12 @@ impl Setup {
 
     /// Returns the joints with Coulomb friction, and the squares of their widths.
     pub fn speeds(&self) -> Vec<Speed> {
-        let of = |&joint: &usize| {
+        let speed = |joint| {
             let width = self.width(joint)?;
             let square = Exact::from(width * width);
             Some(Speed { joint, square })
         };
-        self.joints().iter().filter_map(of).collect()
+        (0..self.joints()).filter_map(speed).collect()
     }
 
     /// Returns whether a joint has Coulomb friction.

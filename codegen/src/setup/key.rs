@@ -19,7 +19,7 @@ pub struct SceneKey {
 
 impl SceneKey {
     /// Returns the key of a scene.
-    pub fn of(scene: &Scene) -> SceneKey {
+    pub fn new(scene: &Scene) -> SceneKey {
         SceneKey {
             name: scene.name.clone(),
             hash: scene.short_hash(),
@@ -41,7 +41,7 @@ pub struct ParametersKey {
 
 impl ParametersKey {
     /// Returns the key of a function; `None` if it takes no parameters as arguments.
-    pub fn of(task: Task<'_>) -> Option<ParametersKey> {
+    pub fn find(task: Task<'_>) -> Option<ParametersKey> {
         let Task { setup, function } = task;
         let all = RuntimeParameter::ALL.into_iter();
         let taken = all.filter(|&parameter| setup.takes(function, parameter));

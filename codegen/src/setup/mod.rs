@@ -25,10 +25,9 @@ mod friction;
 mod key;
 pub(crate) mod load;
 mod motion;
-mod posed;
 mod states;
+mod task;
 
-use std::fmt;
 use std::sync::OnceLock;
 
 use dalembert_model::equations::JointPosition;
@@ -41,23 +40,22 @@ use dalembert_model::robot::{Finding, Position, Robot};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scene::Scene;
 
-use base::{BaseParameters, NoBase};
+use base::BaseParameters;
 pub(crate) use key::ParametersKey;
 pub use key::{SceneKey, input_hash};
 use load::LoadParameters;
 pub use motion::motion;
-pub use posed::{Posed, Task};
+pub use task::{Posed, Task};
 
 use crate::function::{Argument, Function, Quantity};
 use crate::program::Input;
+use crate::words::{Complaint, complaint};
 
 /// A robot, whole or in a scene.
 #[derive(Clone, Debug)]
 pub struct Setup {
     robot: Robot,
     scene: Option<Scene>,
-    /// 0 to n − 1.
-    joints: Vec<usize>,
     rows: Vec<usize>,
     chained: Vec<usize>,
     /// An entry a joint.
@@ -85,41 +83,17 @@ pub(crate) struct FittedLink {
 }
 
 /// The base parameters, an entry a quantity: there where one is over them.
-type Bases = [OnceLock<Result<BaseParameters, NoBase>>; Quantity::ALL.len()];
-
-/// Why a robot is not to be had in a scene.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SceneError {
-    /// The scene's name.
-    pub scene: String,
-    /// The errors; never empty.
-    pub findings: Vec<Finding>,
-}
-
-impl fmt::Display for SceneError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "scene `{}`: ", self.scene)?;
-        for (index, finding) in self.findings.iter().enumerate() {
-            let gap = if index > 0 { "; " } else { "" };
-            write!(f, "{gap}{finding}")?;
-        }
-        Ok(())
-    }
-}
-
-impl std::error::Error for SceneError {}
+type Bases = [OnceLock<Result<BaseParameters, Complaint>>; Quantity::ALL.len()];
 
 impl Setup {
     /// Returns the whole robot.
     pub fn whole(robot: &Robot) -> Setup {
         let n = robot.joints.len();
-        let joints: Vec<usize> = (0..n).collect();
         Setup {
             robot: robot.clone(),
             scene: None,
-            rows: joints.clone(),
-            chained: joints.clone(),
-            joints,
+            rows: (0..n).collect(),
+            chained: (0..n).collect(),
             locks: vec![None; n],
             parameters: Vec::new(),
             base: no_bases(),
@@ -132,12 +106,13 @@ impl Setup {
     ///
     /// # Errors
     /// What [`Scene::validate`] finds, but for warnings.
-    pub fn new(robot: &Robot, scene: &Scene) -> Result<Setup, SceneError> {
+    pub fn new(robot: &Robot, scene: &Scene) -> Result<Setup, Complaint> {
         let mut findings = scene.validate(robot);
         findings.retain(Finding::is_error);
         if !findings.is_empty() {
-            let scene = scene.name.clone();
-            return Err(SceneError { scene, findings });
+            let findings: Vec<String> = findings.iter().map(Finding::to_string).collect();
+            let message = format!("scene `{}`: {}", scene.name, findings.join("; "));
+            return Err(complaint(message));
         }
         let n = robot.joints.len();
         let locks: Vec<_> = (0..n).map(|i| scene.locked(i).map(position)).collect();
@@ -145,7 +120,6 @@ impl Setup {
         Ok(Setup {
             robot: scene.apply(robot),
             scene: Some(scene.clone()),
-            joints: (0..n).collect(),
             chained: (0..n)
                 .filter(|i| locks[*i].is_none() || rows.contains(i))
                 .collect(),
@@ -162,7 +136,7 @@ impl Setup {
     ///
     /// # Errors
     /// As [`Setup::new`].
-    pub fn of(robot: &Robot, scene: Option<&Scene>) -> Result<Setup, SceneError> {
+    pub fn in_scene(robot: &Robot, scene: Option<&Scene>) -> Result<Setup, Complaint> {
         scene.map_or_else(|| Ok(Setup::whole(robot)), |scene| Setup::new(robot, scene))
     }
 
@@ -240,12 +214,13 @@ impl Setup {
             still || scene.gravity.is_some() || scene.payload.is_some()
         };
         let same = !self.scene.as_ref().is_some_and(changes);
-        same && self.rows == self.joints && self.locks.iter().all(Option::is_none)
+        same && self.rows.iter().copied().eq(0..self.joints())
+            && self.locks.iter().all(Option::is_none)
     }
 
-    /// Returns all joints, zero-based.
-    pub fn joints(&self) -> &[usize] {
-        &self.joints
+    /// Returns n, the number of joints.
+    pub fn joints(&self) -> usize {
+        self.robot.joints.len()
     }
 
     /// Returns the joints that results are over, zero-based, in their order.
@@ -339,8 +314,8 @@ impl Setup {
             }
         }
         if self.has_zero(Argument::Velocity) {
-            let rest = self.joints.iter();
-            let rest = rest.map(|&joint| self.per_speed_at_rest(joint).map(|x| constant(&x)));
+            let rest = 0..self.joints();
+            let rest = rest.map(|joint| self.per_speed_at_rest(joint).map(|x| constant(&x)));
             motion.per_speed = rest.collect();
         }
         for argument in Argument::ALL {
@@ -359,11 +334,11 @@ impl Setup {
     ///
     /// # Errors
     /// Why there are none that could be written down.
-    pub fn base(&self, quantity: Quantity) -> Result<&BaseParameters, NoBase> {
+    pub fn base(&self, quantity: Quantity) -> Result<&BaseParameters, &Complaint> {
         // Nothing at a frame is over base parameters.
         let place = quantity.index().unwrap_or_default();
-        let found = self.base[place].get_or_init(|| BaseParameters::of(self, quantity));
-        found.as_ref().map_err(|why| *why)
+        let found = self.base[place].get_or_init(|| BaseParameters::find(self, quantity));
+        found.as_ref()
     }
 
     /// Returns the robot with the numbers of the chain that a payload changes.
@@ -416,7 +391,7 @@ impl Setup {
         let load = is_loaded.then(|| self.load()).flatten();
         Sizes {
             rows: self.rows.len(),
-            joints: self.joints.len(),
+            joints: self.joints(),
             base: base.map_or(0, |base| base.columns.len()),
             load: load.map_or(0, |load| load.rows.len()),
         }

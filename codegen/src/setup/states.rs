@@ -36,6 +36,19 @@ impl Setup {
         states
     }
 
+    /// Returns an input at a state, in doubles.
+    pub(crate) fn input_at(&self, input: Input, state: &JointState) -> f64 {
+        match input {
+            Input::Sin(joint) => libm::sin(state.q[joint]),
+            Input::Cos(joint) => libm::cos(state.q[joint]),
+            Input::PerSpeed(joint) => {
+                let qd = state.entry(Argument::Velocity, joint);
+                self.per_speed(joint, &qd, f64::nearest, |x| libm::sqrt(*x))
+            }
+            Input::Entry(argument, index) => state.entry(argument, index),
+        }
+    }
+
     /// Returns the load that a payload is, each number rounded once.
     pub fn load_at(&self, payload: &[f64]) -> Vec<f64> {
         let entry = |input| match input {

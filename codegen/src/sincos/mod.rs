@@ -196,7 +196,7 @@ pub(crate) fn polynomials(
     error: f64,
 ) -> Result<Sines, TooAccurate> {
     let mut sines: Sines = Vec::new();
-    for trig in &program.trig {
+    for trig in &program.trig() {
         let range = range_of(trig.joint, positions);
         // Joints with the same limits share the search.
         let known = sines.iter().find(|known| {

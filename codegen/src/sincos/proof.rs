@@ -20,10 +20,10 @@ use super::reduction;
 use super::series::{FARTHEST, Taylor, Wave};
 use crate::dag::{Edge, Node};
 use crate::interval::Interval;
-use crate::interval::rounding::Forward;
-use crate::program::kernel::Kernel;
+use crate::interval::rounding::{Forward, forward};
+use crate::program::kernel::{Angle, Kernel};
 use crate::program::scalar_type::underflow;
-use crate::program::{Operation, ScalarType};
+use crate::program::{Literal, Operation, ScalarType};
 
 /// Proved bounds of |computed − true|; zero for what is not computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -183,7 +183,7 @@ fn rounding(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
             end(cell + 1)
         };
         let cell = Interval::new(end(cell), high).unwrap_or(range);
-        let ran = forward(kernel, scalar, cell);
+        let ran = ranges(kernel, scalar, cell);
         let errors = kernel
             .results()
             .map(|edge| edge.map_or(0.0, |edge| error(kernel, &ran, edge)));
@@ -194,31 +194,19 @@ fn rounding(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
 }
 
 /// Returns what each node is, and what it rounds.
-fn forward(kernel: &Kernel, scalar: ScalarType, angle: Interval) -> Forward {
+fn ranges(kernel: &Kernel, scalar: ScalarType, angle: Interval) -> Forward {
     let u = scalar.unit_roundoff();
-    let (mut values, mut own): (Vec<Interval>, Vec<f64>) = (Vec::new(), Vec::new());
-    for node in &kernel.dag.nodes {
-        let (value, rounding) = match node {
-            Node::Input(_) => (angle, 0.0),
-            Node::Constant(value) => (Interval::point(value.0), 0.0),
-            Node::Apply(operation, operands) => {
-                let [x, y] = operands.map(|id| values[id as usize]);
-                let exact = match operation {
-                    Operation::Mul | Operation::Fused if operands[0] == operands[1] => x.square(),
-                    operation => operation.apply(&x, &y),
-                };
-                let eta = match operation {
-                    Operation::Add | Operation::Sub => 0.0,
-                    Operation::Mul | Operation::Fused | Operation::Div => underflow(scalar),
-                };
-                let rounding = ((u * exact.magnitude()).next_up() + eta).next_up();
-                (exact.widened(rounding), rounding)
-            }
+    let leaf = |_, node: &Node<Literal, Angle>| match node {
+        Node::Constant(value) => (Interval::point(value.0), 0.0),
+        _ => (angle, 0.0),
+    };
+    forward(&kernel.dag, leaf, |_, operation, exact| {
+        let eta = match operation {
+            Operation::Add | Operation::Sub => 0.0,
+            Operation::Mul | Operation::Fused | Operation::Div => underflow(scalar),
         };
-        values.push(value);
-        own.push(rounding);
-    }
-    Forward { values, own }
+        ((u * exact.magnitude()).next_up() + eta).next_up()
+    })
 }
 
 /// Returns Σ |adjoint|·rounding for one result.

@@ -10,9 +10,10 @@ use crate::plan::Plan;
 use crate::program::{Library, ScalarType};
 use crate::search::Effort;
 use crate::seeds::{Start, load};
-use crate::setup::{SceneError, Setup};
+use crate::setup::Setup;
 use crate::sincos::SinCos;
 use crate::watch::Watch;
+use crate::words::Complaint;
 
 use super::choices::{Fma, Prefer};
 
@@ -95,7 +96,7 @@ impl Default for Request {
 
 impl Request {
     /// Asks for these functions, and for the rest as nobody says otherwise.
-    pub fn of(functions: &[Function]) -> Request {
+    pub fn new(functions: &[Function]) -> Request {
         Request {
             functions: functions.to_vec(),
             ..Request::default()
@@ -121,8 +122,8 @@ impl Request {
     ///
     /// # Errors
     /// The scene is none of this robot.
-    pub fn setup(&self, robot: &Robot) -> Result<Setup, SceneError> {
-        let setup = Setup::of(robot, self.scene.as_ref())?;
+    pub fn setup(&self, robot: &Robot) -> Result<Setup, Complaint> {
+        let setup = Setup::in_scene(robot, self.scene.as_ref())?;
         Ok(load::chosen(setup.taking(&self.parameters)))
     }
 

@@ -6,7 +6,7 @@ use dalembert_model::equations::Formulation;
 
 use super::rounding::Rounding;
 use crate::dag::Dag;
-use crate::program::{Counts, Program};
+use crate::program::Counts;
 use crate::seeds;
 use crate::setup::Task;
 
@@ -49,7 +49,7 @@ impl<'a> AccuracyFilter<'a> {
     /// it gives only by differences, Lagrange–Euler.
     pub(crate) fn new(task: Task<'a>) -> Self {
         let Task { setup, function } = task;
-        let n = setup.joints().len();
+        let n = setup.joints();
         let mut quantities = function.quantities().iter();
         let formulation = if quantities.any(|quantity| quantity.by_differences()) {
             (n <= MAX_WRITTEN).then_some(Formulation::LagrangeEuler)
@@ -88,7 +88,7 @@ impl<'a> AccuracyFilter<'a> {
             return 0.0;
         };
         let excess = |own: &Rounding| own.factor(reference_formulation, FLOOR) / WORSE;
-        let program = Program::in_scene(self.task, graph);
+        let program = self.task.program(graph);
         let reaches = |own: &Rounding| excess(own) >= bound;
         excess(&Rounding::until(
             self.task.setup,
@@ -105,6 +105,6 @@ impl<'a> AccuracyFilter<'a> {
 }
 
 fn estimate(task: Task<'_>, graph: &Dag) -> Rounding {
-    let program = Program::in_scene(task, graph);
+    let program = task.program(graph);
     Rounding::estimate(task.setup, &program)
 }

@@ -26,7 +26,7 @@ pub(super) struct Degree {
 }
 
 impl Degree {
-    fn of(top: f64) -> Degree {
+    fn new(top: f64) -> Degree {
         Degree {
             top,
             under: Vec::new(),
@@ -62,7 +62,7 @@ impl Scalar for Degree {
     }
     fn add(&self, other: &Self) -> Self {
         if self.under.is_empty() && other.under.is_empty() {
-            return Degree::of(self.top.max(other.top));
+            return Degree::new(self.top.max(other.top));
         }
         let (mut a, mut b, mut under) = (self.top, other.top, Vec::new());
         for (divisor, in_a, in_b) in self.powers(other) {
@@ -143,7 +143,7 @@ impl Leaves for Degrees {
     type Value = Sparse<Degree>;
 
     fn input(&self, _: Input) -> Sparse<Degree> {
-        Sparse::Value(Degree::of(1.0))
+        Sparse::Value(Degree::new(1.0))
     }
 
     fn constant(&self, constant: &Exact) -> Sparse<Degree> {
@@ -153,11 +153,11 @@ impl Leaves for Degrees {
                 known.push(angle.clone());
             }
             SinCosPair {
-                sin: Degree::of(1.0),
-                cos: Degree::of(1.0),
+                sin: Degree::new(1.0),
+                cos: Degree::new(1.0),
             }
         };
-        let degree = constant.map(&mut |_| Some(Degree::of(0.0)), pair);
+        let degree = constant.map(&mut |_| Some(Degree::new(0.0)), pair);
         Sparse::constant(constant, degree.unwrap_or_default())
     }
 }
@@ -169,7 +169,7 @@ mod tests {
     /// x/y + z/y has one y, x/y + z/w both; a divisor that is divided by again goes back up.
     #[test]
     fn a_divisor_counts_once() {
-        let [x, y, z, w] = [1.0; 4].map(Degree::of);
+        let [x, y, z, w] = [1.0; 4].map(Degree::new);
         let inverse = Degree::one().div(&y);
         assert_eq!(x.mul(&inverse).add(&z.mul(&inverse)).top, 1.0);
         assert_eq!(x.mul(&inverse).add(&z.div(&w)).top, 2.0);
@@ -183,7 +183,7 @@ mod tests {
     /// Whatever grows beyond counting has an infinite degree.
     #[test]
     fn powers_without_end_are_infinite() {
-        let mut power = Degree::one().div(&Degree::of(1.0));
+        let mut power = Degree::one().div(&Degree::new(1.0));
         for _ in 0..1100 {
             power = power.mul(&power);
         }

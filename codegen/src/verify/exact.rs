@@ -259,8 +259,8 @@ pub(super) fn run<L: Leaves>(
         input => leaves.input(input),
     };
     let constant = |constant: &Exact| leaves.constant(constant);
-    let run = || program.graph().run(&(constant, input));
-    program.is_straight().then(run)
+    let run = || program.dag.run(&(constant, input));
+    program.dag.is_straight().then(run)
 }
 
 impl Program {

@@ -15,7 +15,7 @@ use dalembert_model::scalar::sparse::Sparse;
 
 use super::condition::{condition, scaled_condition};
 use crate::dag::Node;
-use crate::function::{Argument, Function, Quantity, Sizes};
+use crate::function::{Function, Quantity, Sizes};
 use crate::program::kernel::Kernel;
 use crate::program::machine::Machine;
 use crate::program::{Code, Input, Literal, Pair, ScalarType};
@@ -73,7 +73,7 @@ pub struct Granted(Vec<(Quantity, f64)>);
 
 impl Granted {
     /// Returns the condition of a quantity: what else is in a function inverts nothing.
-    pub fn to(&self, quantity: Quantity) -> f64 {
+    pub fn factor(&self, quantity: Quantity) -> f64 {
         let own = self.0.iter().find(|(own, _)| *own == quantity);
         own.map_or(1.0, |(_, factor)| *factor)
     }
@@ -137,18 +137,7 @@ impl Runtime {
 
     /// Returns the arm and its motion at a state.
     fn posed(&self, function: Function, state: &JointState) -> Posed<'_, Sparse<f64>> {
-        let input = |input: Input| {
-            Sparse::Value(match input {
-                Input::PerSpeed(joint) => {
-                    let qd = state.entry(Argument::Velocity, joint);
-                    let sqrt = |x: &f64| libm::sqrt(*x);
-                    self.setup.per_speed(joint, &qd, f64::nearest, sqrt)
-                }
-                Input::Sin(joint) => libm::sincos(state.q[joint]).0,
-                Input::Cos(joint) => libm::sincos(state.q[joint]).1,
-                Input::Entry(argument, joint) => state.entry(argument, joint),
-            })
-        };
+        let input = |input: Input| Sparse::Value(self.setup.input_at(input, state));
         let arm = self.arm_of(function).clone();
         self.setup.task(function).posed_arm(arm, &(constant, input))
     }
@@ -228,7 +217,7 @@ impl Emitted {
             start = range.end;
             let part = |values: &'_ [f64]| values[range.clone()].to_vec();
             let cases = cases.iter();
-            let cases = cases.map(|(a, b, granted)| (part(a), part(b), granted.to(quantity)));
+            let cases = cases.map(|(a, b, granted)| (part(a), part(b), granted.factor(quantity)));
             let cases: Vec<Case> = cases.collect();
             let least = LEAST_PART * cases.iter().map(|(_, b, _)| largest(b)).fold(0.0, f64::max);
             measures.push(self.measure(quantity, worst(&cases, least)));

@@ -13,7 +13,6 @@
 use std::collections::BTreeMap;
 
 use dalembert_model::equations::Formulation;
-use dalembert_model::equations::following::gather;
 use dalembert_model::equations::regressor::{Column, LinkParameter, of_drives, of_links};
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
@@ -22,6 +21,7 @@ use super::degree::Degrees;
 use super::exact::{Disproof, bounded, compare, reference_formulation};
 use super::points::{Residue, written};
 use crate::dag::Leaves;
+use crate::function::{Columns, Quantity};
 use crate::setup::Task;
 use crate::setup::base::{BaseParameters, Parameter};
 
@@ -31,8 +31,12 @@ use crate::setup::base::{BaseParameters, Parameter};
 /// A parameter whose torques they do not give, or too large a chance of a miss.
 pub fn prove_base(task: Task<'_>, base: &BaseParameters) -> Result<(), Disproof> {
     let Task { setup, function } = task;
+    let Columns::Base(quantity) = function.columns() else {
+        return Err(Disproof::Shape);
+    };
     let statement = Statement {
         task,
+        quantity,
         base,
         formulation: reference_formulation(setup),
     };
@@ -51,11 +55,12 @@ pub fn prove_base(task: Task<'_>, base: &BaseParameters) -> Result<(), Disproof>
     let degrees = Degrees::default();
     let differences = statement.differences(&combinations, &degrees);
     let zeros = vec![Scalar::zero(); length];
-    bounded(degrees.of_differences(&differences, &zeros, setup.joints().len()))
+    bounded(degrees.of_differences(&differences, &zeros, setup.joints()))
 }
 
 struct Statement<'a> {
     task: Task<'a>,
+    quantity: Quantity,
     base: &'a BaseParameters,
     formulation: Formulation,
 }
@@ -97,27 +102,17 @@ impl Statement<'_> {
         combinations: &[Vec<(usize, &Exact)>],
         leaves: &L,
     ) -> Vec<L::Value> {
-        let (robot, function) = (self.task.setup.robot(), self.task.function);
+        let robot = self.task.setup.robot();
         let posed = self.task.posed(leaves);
-        let (arm, motion) = (&posed.arm, &posed.motion);
-        let by = |columns: &[Column<L::Value>]| {
-            let mut entries = function.evaluate(self.formulation, arm, motion, columns);
-            let rows: Vec<usize> = (0..arm.links.len()).collect();
-            gather(&arm.following, &rows, columns.len(), &mut entries);
-            let rows = entries.chunks(columns.len().max(1));
-            rows.map(<[L::Value]>::to_vec).collect::<Vec<_>>()
-        };
+        let constant = |x: &Exact| leaves.constant(x);
         let mut all = of_links(robot.rows().len());
         all.extend(of_drives(robot));
-        let whole = by(&all);
-        let constant = |x: &Exact| leaves.constant(x);
         let own: Vec<_> = self.base.columns.iter().map(|c| c.map(constant)).collect();
-        let own = by(&own);
+        let [whole, own] =
+            [all, own].map(|columns| posed.regressor(self.formulation, self.quantity, &columns));
         let mut found = Vec::new();
-        for &joint in self.task.setup.rows() {
-            let row = robot.row_of(joint);
-            let mut differences = whole[row].clone();
-            for (entry, terms) in own[row].iter().zip(combinations) {
+        for (mut differences, own) in whole.into_iter().zip(own) {
+            for (entry, terms) in own.iter().zip(combinations) {
                 for (place, factor) in terms {
                     let part = entry.mul(&constant(factor));
                     differences[*place] = differences[*place].sub(&part);

@@ -11,14 +11,13 @@ use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use dalembert_model::equations::friction::per_speed;
 use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::scalar::{Divide, Scalar};
 use num_traits::Signed;
 
 use crate::dag::{Dag, Edge, Id, Leaves, Node};
 use crate::program::lanes::{LANES, Lanes};
-use crate::program::{Input, Operation, Program, Speed};
+use crate::program::{Input, Operation, Program};
 use crate::setup::Setup;
 use crate::states::JointState;
 
@@ -51,16 +50,16 @@ impl Rounding {
         first: &Cell<usize>,
         is_enough: impl Fn(&Rounding) -> bool,
     ) -> Rounding {
-        let graph = program.graph();
+        let graph = &program.dag;
         let is_exact: Vec<bool> = graph
             .nodes
             .iter()
-            .map(|node| is_exact(&graph, node))
+            .map(|node| is_exact(graph, node))
             .collect();
         let states = setup.states(STATES, SEED);
         let runs = states
             .chunks(LANES)
-            .map(|states| graph.values(&AtStates::new(&graph, &program.speeds, states)));
+            .map(|states| graph.values(&AtStates::new(setup, graph, states)));
         let mut runs: Vec<(usize, Vec<Lanes<Sticky>>)> = runs.enumerate().collect();
         let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
         let size = |output: &Edge| {
@@ -83,7 +82,7 @@ impl Rounding {
         for (index, values) in runs {
             let outputs = graph.outputs.iter();
             let errors =
-                outputs.map(|output| error(&graph, *output, &values, &is_exact, &mut adjoints));
+                outputs.map(|output| error(graph, *output, &values, &is_exact, &mut adjoints));
             let errors: Vec<[f64; LANES]> = errors.collect();
             for (quantity, range) in ranges.iter().enumerate() {
                 let (outputs, own) = (&graph.outputs[range.clone()], &errors[range.clone()]);
@@ -190,27 +189,19 @@ struct AtStates(BTreeMap<Input, Lanes<Sticky>>);
 
 impl AtStates {
     /// Reads the inputs; lanes beyond the states repeat the last of them.
-    fn new(graph: &Dag, speeds: &[Speed], states: &[JointState]) -> AtStates {
-        let each = |of: &dyn Fn(&JointState) -> f64| {
-            let values: Vec<Sticky> = states.iter().map(|state| Sticky(of(state))).collect();
-            Lanes::new(&values)
+    fn new(setup: &Setup, graph: &Dag, states: &[JointState]) -> AtStates {
+        let lanes = |input: Input| {
+            let values = states
+                .iter()
+                .map(|state| Sticky(setup.input_at(input, state)));
+            Lanes::new(&values.collect::<Vec<_>>())
         };
-        let speed = |joint: usize, state: &JointState| {
-            let own = speeds.iter().find(|own| own.joint == joint)?;
-            let (qd, square) = (state.qd.get(joint)?, f64::nearest(&own.square));
-            Some(per_speed(qd, &square, |x| libm::sqrt(*x)))
-        };
-        let lanes = |input: Input| match input {
-            Input::Sin(joint) => each(&|state| libm::sin(state.q[joint])),
-            Input::Cos(joint) => each(&|state| libm::cos(state.q[joint])),
-            Input::PerSpeed(joint) => each(&|state| speed(joint, state).unwrap_or(f64::NAN)),
-            Input::Entry(argument, joint) => each(&|state| state.entry(argument, joint)),
-        };
-        let inputs = graph.live().filter_map(|(_, node)| match node {
-            Node::Input(input) => Some((*input, lanes(*input)?)),
-            _ => None,
-        });
-        AtStates(inputs.collect())
+        let inputs = graph.inputs();
+        AtStates(
+            inputs
+                .filter_map(|input| Some((*input, lanes(*input)?)))
+                .collect(),
+        )
     }
 }
 

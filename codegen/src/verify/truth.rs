@@ -91,7 +91,7 @@ impl Reference {
     /// Creates the reference of a robot in its scene.
     pub fn new(setup: &Setup) -> Reference {
         Reference {
-            arm: setup.arm(Known::of),
+            arm: setup.arm(Known::constant),
             setup: setup.clone(),
             pairs: RefCell::default(),
         }
@@ -106,7 +106,7 @@ impl Reference {
     /// numbers, flat.
     pub fn run(&self, function: Function, state: &JointState) -> Vec<TrueValue> {
         let task = self.setup.task(function);
-        let posed = task.posed_arm(self.arm.clone(), &self.at(state));
+        let posed = task.posed_arm(self.arm.clone(), &self.leaves(state));
         let results = posed.results(Formulation::NewtonEulerLink);
         results.into_iter().map(TrueValue::new).collect()
     }
@@ -119,11 +119,11 @@ impl Reference {
         program: &Program,
         state: &JointState,
     ) -> Option<Vec<TrueValue>> {
-        let results = exact::run(Some(&self.setup), program, &self.at(state))?;
+        let results = exact::run(Some(&self.setup), program, &self.leaves(state))?;
         Some(results.into_iter().map(TrueValue::new).collect())
     }
 
-    fn at<'r>(&'r self, state: &'r JointState) -> AtState<'r> {
+    fn leaves<'r>(&'r self, state: &'r JointState) -> AtState<'r> {
         AtState {
             setup: &self.setup,
             pairs: state.q.iter().map(|&q| self.pair(q)).collect(),
@@ -164,14 +164,15 @@ impl Leaves for AtState<'_> {
             Input::Cos(joint) => Known::rounded(self.pairs[joint].cos, 1.0),
             Input::PerSpeed(joint) => {
                 let qd = finite(Argument::Velocity, joint);
-                self.setup.per_speed(joint, &qd, Known::of, Known::sqrt)
+                self.setup
+                    .per_speed(joint, &qd, Known::constant, Known::sqrt)
             }
             Input::Entry(argument, index) => finite(argument, index),
         }
     }
 
     fn constant(&self, constant: &Exact) -> Known {
-        Known::of(constant)
+        Known::constant(constant)
     }
 }
 
@@ -206,7 +207,7 @@ impl Known {
         }
     }
 
-    fn of(constant: &Exact) -> Known {
+    fn constant(constant: &Exact) -> Known {
         let rational = &mut |x: &Rational| Some(Known::rounded(Wide::from_rational(x), 0.0));
         // Sines and cosines, within 2⁻²⁵⁵.
         let value = constant.map(rational, &mut |angle| {
@@ -227,8 +228,8 @@ impl Known {
     }
 }
 
-/// Returns 0·∞: what is exactly zero is off by nothing, whatever it is multiplied by.
-fn part(size: f64, lost: f64) -> f64 {
+/// Multiplies a size by an error: what is exactly zero is off by nothing, whatever the other is.
+fn times(size: f64, lost: f64) -> f64 {
     match size == 0.0 || lost == 0.0 {
         true => 0.0,
         false => size * lost,
@@ -249,9 +250,9 @@ impl Scalar for Known {
         Known::rounded(self.value.sub(&other.value), self.lost + other.lost)
     }
     fn mul(&self, other: &Self) -> Self {
-        let carried = part(self.size, other.lost)
-            + part(other.size, self.lost)
-            + part(self.lost, other.lost) * LOST;
+        let carried = times(self.size, other.lost)
+            + times(other.size, self.lost)
+            + times(self.lost, other.lost) * LOST;
         Known::rounded(self.value.mul(&other.value), carried)
     }
     fn neg(&self) -> Self {
@@ -276,7 +277,7 @@ impl Divide for Known {
         let value = self.value.div(&other.value);
         let divisor = other.size.next_down();
         let carried = match other.lost * LOST < 0.4 * divisor {
-            true => 2.0 * (self.lost + part(value.magnitude(), other.lost)) / divisor,
+            true => 2.0 * (self.lost + times(value.magnitude(), other.lost)) / divisor,
             false => f64::INFINITY,
         };
         Known::rounded(value, carried)
@@ -318,8 +319,8 @@ mod tests {
     /// The bound holds of what is exact, and grows with what cancels.
     #[test]
     fn what_cancels_is_known_less_well() {
-        let part = |n: Rational| Known::of(&Exact::from(n.recip()));
-        let (third, tiny) = (part(int(3)), part(int(7).pow(60)));
+        let known = |n: Rational| Known::constant(&Exact::from(n.recip()));
+        let (third, tiny) = (known(int(3)), known(int(7).pow(60)));
         let rest = third.add(&tiny).sub(&third);
         let off = rest.value.sub(&tiny.value).magnitude();
         assert!(off > 0.0 && off <= rest.lost * LOST && rest.lost < 2.0);

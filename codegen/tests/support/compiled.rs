@@ -1,13 +1,13 @@
 //! Headers in C and CUDA, compiled and run beside the proved programs.
 
-use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use dalembert_codegen::workspace::{Argument, Emitted, JointState, Names, Random};
-use dalembert_codegen::{Function, Generated, Language, Request, ScalarType, generate};
-use dalembert_model::robot::Robot;
+use dalembert_codegen::{Function, Generated, Language, ScalarType};
+
+use super::Case;
 
 /// The most entries of an argument here.
 const MOST: usize = 16;
@@ -19,7 +19,15 @@ const AT_ONCE: usize = 200 * STATES;
 /// What a CUDA compiler for the device knows, for a processor: no qualifiers, and threads
 /// that take turns.
 const DEVICE: &str = "#define __host__\n#define __device__\n#define __global__\n\
-    static struct { unsigned x; } gridDim = {2}, blockDim = {2}, blockIdx, threadIdx;\n";
+    static struct { unsigned x; } gridDim = {2}, blockDim = {2}, blockIdx, threadIdx;\n\
+    #define THREADS for (blockIdx.x = 0; blockIdx.x < gridDim.x; ++blockIdx.x) \
+    for (threadIdx.x = 0; threadIdx.x < blockDim.x; ++threadIdx.x)\n";
+
+/// Takes an argument of `STATES` states from `in`, and puts a result of as many into `out`.
+const MACROS: &str = "#define IN(real, name, length, from) real name[(length) * STATES]; \
+    for (i = 0; i < (length) * STATES; ++i) name[i] = (real)in[i % STATES][(from) + i / STATES];\n\
+    #define PUT(name, length) for (i = 0; i < (length) * STATES; ++i) \
+    out[i % STATES][at[i % STATES]++] = (double)name[i];\n";
 
 /// Returns those of these programs that are there.
 pub fn there(names: &[&'static str]) -> Vec<&'static str> {
@@ -37,110 +45,90 @@ pub fn there(names: &[&'static str]) -> Vec<&'static str> {
     found
 }
 
+/// Returns a folder of this name, which is there.
 pub fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("compiled_{name}"));
     fs::create_dir_all(&folder).unwrap();
     folder
 }
 
+/// Runs a program in a folder, which must succeed, and returns what it says.
+pub fn run<'a>(program: &str, flags: impl IntoIterator<Item = &'a str>, folder: &Path) -> String {
+    let mut command = Command::new(program);
+    command.args(flags).current_dir(folder);
+    let output = command.output().unwrap();
+    let said = [output.stderr, output.stdout].concat();
+    let said = String::from_utf8_lossy(&said).into_owned();
+    assert!(output.status.success(), "{command:?}:\n{said}");
+    said
+}
+
 /// Returns a call of a function on `STATES` states or one; what it gives is put aside.
-fn call(base: &str, generated: &Generated, emitted: &Emitted, request: &Request) -> String {
-    let function = emitted.function;
+fn call(case: &Case, generated: &Generated, emitted: &Emitted) -> String {
+    let (function, batch) = (emitted.function, case.request.batch);
     let float = match emitted.scalar {
         ScalarType::F64 => "double",
         ScalarType::F32 => "float",
     };
-    let batch = request.batch;
-    let states = if batch { STATES } else { 1 };
-    let suffix = if batch { "_batch" } else { "" };
-    let names = Names::new(base, request.language, emitted.scalar);
-    let name = names.of(&format!("{function}{suffix}"));
-    let mut of = generated.functions.iter();
-    let of = of.find(|of| of.function == function).unwrap();
-    let mut body = "    {\n".to_owned();
-    let mut passed = Vec::new();
+    let base = case.request.module_name(case.robot());
+    let names = Names::new(&base, case.request.language, emitted.scalar);
+    let name = names.of(&format!("{function}{}", if batch { "_batch" } else { "" }));
+    let mut own = generated.functions.iter();
+    let own = own.find(|own| own.function == function).unwrap();
+    let (mut body, mut results, mut passed) = (String::new(), String::new(), Vec::new());
     if batch {
-        passed.push(format!("{STATES}U"));
+        passed.push("STATES".to_owned());
     }
-    for argument in &of.program.arguments {
-        let (offset, length) = (argument.index() * MOST, argument.length(emitted.sizes));
+    for argument in &own.program.arguments {
+        let (from, length) = (argument.index() * MOST, argument.length(emitted.sizes));
         assert!(length <= MOST);
-        let own = argument.name();
-        let _ = writeln!(
-            body,
-            "        {float} {own}[{0}]; for (i = 0; i < {0}; ++i) {own}[i] = ({float})in[i % {states}][{offset} + i / {states}];",
-            length * states
-        );
-        passed.push(own.to_owned());
+        body += &format!("IN({float}, {}, {length}, {from})\n", argument.name());
+        passed.push(argument.name().to_owned());
     }
     let quantities = function.quantities();
-    let is_bundle = matches!(function, Function::Bundle(_));
+    let is_bundle = !batch && matches!(function, Function::Bundle(_));
     let is_number = function.structure().is_none() && quantities[0].shape().0.is_empty();
-    let mut results = Vec::new();
-    match batch {
-        false if is_number => results.push((format!("out{function}"), 1)),
-        false if is_bundle => {
-            let _ = writeln!(body, "        {name}_t result;");
-            passed.push("&result".to_owned());
-            let fields = quantities.iter();
-            let fields = fields.map(|q| (format!("result.{}", q.field()), q.len(emitted.sizes)));
-            results.extend(fields);
+    let is_returned = !batch && is_number;
+    if is_bundle {
+        body += &format!("{name}_t result;\n");
+        passed.push("&result".to_owned());
+    }
+    for (index, quantity) in quantities.iter().enumerate() {
+        let length = quantity.len(emitted.sizes);
+        let mut out = format!("out{index}");
+        match is_bundle {
+            true => out = format!("result.{}", quantity.field()),
+            false => body += &format!("{float} {out}[{length} * STATES];\n"),
         }
-        _ => {
-            for (index, quantity) in quantities.iter().enumerate() {
-                let (out, length) = (format!("out{index}"), quantity.len(emitted.sizes));
-                let _ = writeln!(body, "        {float} {out}[{}];", length * states);
-                passed.push(out.clone());
-                results.push((out, length));
-            }
+        results += &format!("PUT({out}, {length})\n");
+        if !is_bundle && !is_returned {
+            passed.push(out);
         }
     }
-    let mut call = format!("{name}({})", passed.join(", "));
-    if !batch && is_number {
-        let _ = writeln!(body, "        {float} {}[1];", results[0].0);
-        call = format!("{}[0] = {call}", results[0].0);
-    }
-    if batch && request.language == Language::Cuda {
-        call = format!(
-            "for (blockIdx.x = 0; blockIdx.x < gridDim.x; ++blockIdx.x)\n            \
-             for (threadIdx.x = 0; threadIdx.x < blockDim.x; ++threadIdx.x)\n                {call}"
-        );
-    }
-    let _ = writeln!(body, "        {call};");
-    for (out, length) in results {
-        let _ = writeln!(
-            body,
-            "        for (i = 0; i < {0}; ++i) put(i % {states}, (double){out}[i]);",
-            length * states
-        );
-    }
-    body + "    }\n"
+    let is_kernel = batch && case.request.language == Language::Cuda;
+    let threads = if is_kernel { "THREADS " } else { "" };
+    let returned = if is_returned { "out0[0] = " } else { "" };
+    let passed = passed.join(", ");
+    format!("{{\n{body}{threads}{returned}{name}({passed});\n{results}}}\n")
 }
 
 /// Returns a program that reads states and writes what every function of a header gives, all in
 /// doubles, state by state.
-fn main_of(base: &str, generated: &Generated, request: &Request) -> String {
-    let calls = generated.emitted.iter();
-    let calls: String = calls
-        .map(|emitted| call(base, generated, emitted, request))
-        .collect();
-    let outputs = generated
-        .emitted
-        .iter()
-        .map(|own| own.text.dag.outputs.len());
-    let (states, device) = match (request.batch, request.language) {
-        (true, Language::Cuda) => (STATES, DEVICE),
-        (true, _) => (STATES, ""),
-        (_, Language::Cuda) => (1, DEVICE),
-        _ => (1, ""),
+fn main_of(case: &Case, generated: &Generated) -> String {
+    let all = &generated.emitted;
+    let calls: String = all.iter().map(|own| call(case, generated, own)).collect();
+    let outputs = all.iter().map(|own| own.text.dag.outputs.len());
+    let states = if case.request.batch { STATES } else { 1 };
+    let device = match case.request.language {
+        Language::Cuda => DEVICE,
+        Language::C | Language::Rust => "",
     };
     format!(
-        "#include <stdio.h>\n{device}#include \"arm.h\"\n\
-         static double in[{states}][{0}], out[{states}][{1}]; static int at[{states}];\n\
-         static void put(int s, double x) {{ out[s][at[s]++] = x; }}\n\
+        "#include <stdio.h>\n#define STATES {states}\n{MACROS}{device}#include \"arm.h\"\n\
+         static double in[STATES][{0}], out[STATES][{1}]; static int at[STATES];\n\
          int main(void) {{\n    int i;\n    \
          while (fread(in, sizeof in, 1, stdin) == 1) {{\n    \
-         for (i = 0; i < {states}; ++i) at[i] = 0;\n{calls}    \
+         for (i = 0; i < STATES; ++i) at[i] = 0;\n{calls}    \
          fwrite(out, sizeof out, 1, stdout);\n    }}\n    return 0;\n}}\n",
         Argument::COUNT * MOST,
         outputs.sum::<usize>()
@@ -168,53 +156,32 @@ fn expected(generated: &Generated, state: &[f64]) -> Vec<u64> {
     all
 }
 
-/// Compiles the program in a folder by every compiler that is there with each of these flags,
-/// and returns how, with where it is.
-fn compiled(folder: &Path, language: Language, flags: &[&[&str]]) -> Vec<(String, PathBuf)> {
-    let as_language = match language {
+/// Compiles and runs it on so many states, and compares bits with the proved programs. `what`
+/// names a folder; the program there is made by every compiler that is there with each of these
+/// flags.
+pub fn same_bits(what: &str, case: &Case, count: usize, flags: &[&str]) {
+    let (generated, language) = (case.generated(), case.request.language);
+    let batch = if case.request.batch {
+        "batch"
+    } else {
+        "single"
+    };
+    let folder = folder(&format!("{what}_{}_{batch}", language.name()));
+    fs::write(folder.join("arm.h"), generated.text()).unwrap();
+    fs::write(folder.join("main.c"), main_of(case, &generated)).unwrap();
+    let dialect = match language {
         Language::Cuda => "-xc++",
         Language::C | Language::Rust => "-xc",
     };
-    let compilers = there(&["gcc", "clang"]).into_iter();
-    let ways = compilers.flat_map(|compiler| flags.iter().map(move |flags| (compiler, *flags)));
-    let compile = |(index, (compiler, flags)): (usize, (&str, &[&str]))| {
-        let (how, program) = (
-            format!("{compiler} {flags:?}"),
-            folder.join(format!("run{index}")),
-        );
-        let output = Command::new(compiler)
-            .args(flags)
-            .args(["-o".as_ref(), program.as_os_str(), as_language.as_ref()])
-            .arg(folder.join("main.c"))
-            .args(["-xnone", "-lm"])
-            .output()
-            .unwrap();
-        let said = String::from_utf8_lossy(&output.stderr);
-        assert!(
-            output.status.success(),
-            "{} by {how}: {said}",
-            folder.display()
-        );
-        (how, program)
-    };
-    ways.enumerate().map(compile).collect()
-}
-
-/// Compiles and runs it on so many states, and compares bits with the proved programs. `what`
-/// names a folder.
-pub fn same_bits(what: &str, robot: &Robot, request: &Request, count: usize, flags: &[&[&str]]) {
-    let generated = generate(robot, request).unwrap_or_else(|error| panic!("{what}: {error}"));
-    let language = request.language;
-    let what = format!(
-        "{what}_{}_{}",
-        language.name(),
-        if request.batch { "batch" } else { "single" }
-    );
-    let folder = folder(&what);
-    let main = main_of(&request.module_name(robot), &generated, request);
-    fs::write(folder.join("arm.h"), generated.text()).unwrap();
-    fs::write(folder.join("main.c"), main).unwrap();
-    let programs = compiled(&folder, language, flags);
+    let mut programs = Vec::new();
+    for compiler in there(&["gcc", "clang"]) {
+        for flags in flags {
+            let program = format!("run{}", programs.len());
+            let ends = ["-o", &program, dialect, "main.c", "-xnone", "-lm"];
+            run(compiler, flags.split(' ').chain(ends), &folder);
+            programs.push((format!("{compiler} {flags}"), folder.join(program)));
+        }
+    }
     let mut states = states();
     for start in (0..count).step_by(AT_ONCE) {
         let states: Vec<Vec<f64>> = states.by_ref().take(AT_ONCE.min(count - start)).collect();
@@ -223,10 +190,8 @@ pub fn same_bits(what: &str, robot: &Robot, request: &Request, count: usize, fla
         let expected = states.iter().flat_map(|state| expected(&generated, state));
         let expected: Vec<u64> = expected.collect();
         for (how, program) in &programs {
-            let run = Command::new(program)
-                .stdin(fs::File::open(folder.join("states")).unwrap())
-                .output()
-                .unwrap();
+            let states = fs::File::open(folder.join("states")).unwrap();
+            let run = Command::new(program).stdin(states).output().unwrap();
             let found = run.stdout.chunks_exact(8);
             let found = found.map(|bytes| u64::from_ne_bytes(bytes.try_into().unwrap()));
             let found: Vec<u64> = found.collect();

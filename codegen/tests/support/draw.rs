@@ -18,43 +18,39 @@ impl Draw {
         Rational::new(value.into(), 1000.into())
     }
 
+    /// Returns what is drawn, or once in so many times nothing.
+    fn unless<T: Default>(&mut self, one_in: usize, drawn: impl Fn(&mut Draw) -> T) -> T {
+        match self.chance(one_in) {
+            true => T::default(),
+            false => drawn(self),
+        }
+    }
+
     /// Returns a length; now and then none.
     pub fn length(&mut self) -> Rational {
-        if self.chance(4) {
-            Rational::default()
-        } else {
-            self.milli(-600, 600)
-        }
+        self.unless(4, |draw| draw.milli(-600, 600))
     }
 
     /// Returns a right angle as often as not; else a fraction of π, or radians.
     pub fn angle(&mut self) -> Angle {
-        let turns =
-            |over: i64, under: i64| Angle::PiTimes(Rational::new(over.into(), under.into()));
         let over = self.0.below(9) as i64 - 4;
+        let turns = |under: i64| Angle::PiTimes(Rational::new(over.into(), under.into()));
         match self.0.below(8) {
-            0..4 => turns(over, 2),
-            4 => turns(over, 3),
-            5 => turns(over, 5),
+            0..4 => turns(2),
+            4 => turns(3),
+            5 => turns(5),
             _ => Angle::Radians(self.milli(-3000, 3000)),
         }
     }
 
     pub fn joint(&mut self) -> Joint {
+        let kinds = [JointKind::Revolute, JointKind::Prismatic];
         Joint {
-            kind: if self.chance(3) {
-                JointKind::Prismatic
-            } else {
-                JointKind::Revolute
-            },
+            kind: kinds[usize::from(self.chance(3))],
             alpha: self.angle(),
             a: self.length(),
             d: self.length(),
-            theta: if self.chance(2) {
-                Angle::default()
-            } else {
-                self.angle()
-            },
+            theta: self.unless(2, Draw::angle),
             mass: self.milli(500, 9000),
             com: [self.length(), self.length(), self.length()],
             // Diagonally dominant and within the triangle inequality: a body.
@@ -66,29 +62,17 @@ impl Draw {
                 yz: self.milli(-60, 60),
                 xz: self.milli(-60, 60),
             },
-            viscous: if self.chance(2) {
-                Rational::default()
-            } else {
-                self.milli(0, 900)
-            },
-            armature: if self.chance(2) {
-                Rational::default()
-            } else {
-                self.milli(0, 900)
-            },
+            viscous: self.unless(2, |draw| draw.milli(0, 900)),
+            armature: self.unless(2, |draw| draw.milli(0, 900)),
             ..Joint::default()
         }
     }
 
     pub fn robot(&mut self, n: usize) -> Robot {
-        let convention = if self.chance(2) {
-            Convention::Standard
-        } else {
-            Convention::Modified
-        };
+        let conventions = [Convention::Modified, Convention::Standard];
         Robot {
             name: "random".to_owned(),
-            convention,
+            convention: conventions[usize::from(self.chance(2))],
             gravity: [
                 self.milli(-3000, 3000),
                 self.milli(-3000, 3000),

@@ -1,52 +1,92 @@
-//! Robots for the tests of the generator.
-#![allow(dead_code, reason = "each test file uses its own part")]
+//! Robot files, and what is asked of them in the words of the macro: a row of a table of tests.
+#![allow(
+    dead_code,
+    reason = "the tests of the command use what draws and reads robots"
+)]
 
-pub mod case;
 pub mod compiled;
 pub mod draw;
 
-use std::fmt::Debug;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use dalembert_codegen::workspace::{BOUND, Emitted, JointState, Runtime};
-use dalembert_codegen::{Function, Generated, Request, ScalarType, Start, generate};
+use dalembert_codegen::workspace::{
+    BOUND, Emitted, Granted, JointState, LEAST_PART, Runtime, parse,
+};
+use dalembert_codegen::{
+    Function, Generated, Language, Plan, Request, ScalarType, Start, generate,
+};
 use dalembert_model::read::{self, Reading};
 use dalembert_model::robot::Robot;
 use serde_json::Value;
 
-/// Returns a checked-in robot.
+/// Where robot files are.
+const FOLDERS: [&str; 4] = [
+    "../generated/robots",
+    "tests/data",
+    "../model/tests/data",
+    "../gallery/robots",
+];
+
+/// Returns the path of a file of the workspace from the folder of the crate.
+pub fn path(file: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
+}
+
+/// Returns the text of a robot file, with more at its end, such as scenes; `frames/NAME` is a robot
+/// with the frames of the file that it is compared with.
+pub fn source(name: &str, more: &str) -> String {
+    if let Some(name) = name.strip_prefix("frames/") {
+        return with_frames(name) + more;
+    }
+    let mut files = FOLDERS
+        .map(|folder| path(&format!("{folder}/{name}.toml")))
+        .into_iter();
+    let file = files.find(|file| file.exists());
+    let file = file.unwrap_or_else(|| panic!("there is no {name}.toml"));
+    std::fs::read_to_string(file).unwrap() + more
+}
+
+/// Reads the text of a robot file.
+pub fn read(source: &str) -> Reading {
+    read::parse(source, &read::Options::default()).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+/// Reads the text of a robot file without its scenes.
+pub fn read_robot(source: &str) -> Robot {
+    read(source).robot
+}
+
+/// Returns a robot by the name of its file.
 pub fn robot(name: &str) -> Robot {
     reading(name).robot
 }
 
-/// Returns a checked-in robot with its scenes.
+/// Returns a robot with its scenes.
 pub fn reading(name: &str) -> Reading {
     reading_with(name, "")
 }
 
-/// Returns a checked-in robot with more in its file, such as scenes.
+/// Returns a robot with more in its file.
 pub fn reading_with(name: &str, more: &str) -> Reading {
-    let source = source(name, more);
-    read::parse(&source, &read::Options::default()).unwrap_or_else(|errors| panic!("{errors}"))
+    read(&source(name, more))
 }
 
-/// Returns the text of a checked-in robot, and more.
-pub fn source(name: &str, more: &str) -> String {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
-    std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap() + more
+/// Returns a file of values that others gave.
+pub fn json(file: &str) -> Value {
+    serde_json::from_str(&std::fs::read_to_string(path(file)).unwrap()).unwrap()
 }
 
-/// Returns the file of an arm that the tests have besides the checked-in robots.
-pub fn arm_file(name: &str) -> String {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
-    std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap()
-}
-
-/// Returns a robot from the text of its file.
-pub fn read_robot(source: &str) -> Robot {
-    read::parse(source, &read::Options::default())
-        .unwrap_or_else(|errors| panic!("{errors}"))
-        .robot
+/// Returns the file of a robot with the frames of the file of values at them.
+fn with_frames(name: &str) -> String {
+    let table = |frame: &Value| {
+        let lines = ["name", "link", "xyz", "rpy"].map(|key| format!("{key} = {}\n", frame[key]));
+        format!("\n[[frame]]\n{}", lines.concat())
+    };
+    let json = json(&format!("tests/data/frames/{name}.json"));
+    let tables = json["frames"].as_array().unwrap().iter().map(table);
+    let source = source(name, "");
+    let (rows, _) = source.split_once("\n[scene").unwrap_or((&source, ""));
+    rows.to_owned() + &tables.collect::<String>()
 }
 
 /// Returns the numbers of lists in lists.
@@ -65,10 +105,26 @@ pub fn given(json: &Value) -> JointState {
     })
 }
 
-/// Returns one function in both scalars.
-pub fn one(robot: &Robot, function: Function) -> Generated {
-    let request = Request::of(&[function]);
-    generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
+/// Returns the largest magnitude.
+pub fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, x| most.max(x.abs()))
+}
+
+/// Splits a table of text: a row a line, `|` between its cells. A line `NAME := words` says what a
+/// name stands for in the rows below.
+pub fn rows<const N: usize>(table: &str) -> Vec<[String; N]> {
+    let (mut names, mut rows) = (Vec::new(), Vec::new());
+    for line in table.lines().filter(|line| !line.is_empty()) {
+        if let Some(named) = line.split_once(" := ") {
+            names.push(named);
+            continue;
+        }
+        let named = |row: String, (name, words): &(&str, &str)| row.replace(name, words);
+        let row = names.iter().rev().fold(line.to_owned(), named);
+        let cells: Vec<String> = row.split('|').map(|cell| cell.trim().to_owned()).collect();
+        rows.push(cells.try_into().unwrap_or_else(|_| panic!("{row}")));
+    }
+    rows
 }
 
 /// Returns one function in f64 from one formulation.
@@ -76,35 +132,168 @@ pub fn from(robot: &Robot, function: Function, start: Start) -> Generated {
     let request = Request {
         scalars: vec![ScalarType::F64],
         start,
-        ..Request::of(&[function])
+        ..Request::new(&[function])
     };
     generate(robot, &request).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Returns the names of all outputs.
+pub fn every_output() -> String {
+    Function::ALL.map(|function| function.name()).join(", ")
+}
+
+/// Returns the text of a robot file with a scene that has these lines, which `;` parts, and outputs
+/// with options in it; or with another table, if the lines begin with one.
+pub fn in_scene(name: &str, lines: &str, asked: &str) -> (String, String) {
+    let (scene, head) = match lines {
+        "" => ("", ""),
+        table if table.starts_with("[[") => ("", "\n"),
+        _ => ("scene: test; ", "\n[scene.test]\n"),
+    };
+    let more = format!("{head}{}\n", lines.replace("; ", "\n"));
+    (source(name, &more), format!("{scene}outputs: {asked}"))
+}
+
+/// A robot with its scenes, and a request.
+pub struct Case {
+    pub reading: Reading,
+    pub request: Request,
+}
+
+impl Case {
+    /// Reads a robot file by its name, with more at its end, and what is asked.
+    pub fn new(name: &str, more: &str, asked: &str) -> Case {
+        Case::read(&source(name, more), asked)
+    }
+
+    /// Reads the text of a robot file, and what is asked.
+    pub fn read(source: &str, asked: &str) -> Case {
+        Case::parse(source, asked).unwrap_or_else(|problems| panic!("{asked}: {problems}"))
+    }
+
+    /// Reads a robot file by its name, and outputs with options, in a scene with these lines, which
+    /// `;` parts; in none if there are none.
+    pub fn in_scene(name: &str, lines: &str, asked: &str) -> Case {
+        let (source, asked) = in_scene(name, lines, asked);
+        Case::read(&source, &asked)
+    }
+
+    /// Returns what is said of outputs that cannot be had so.
+    pub fn refused(name: &str, lines: &str, asked: &str) -> String {
+        let (source, asked) = in_scene(name, lines, asked);
+        Case::parse(&source, &asked).map_or_else(|said| said, |case| case.refusal())
+    }
+
+    /// Reads the text of a robot file, and what is asked, in Rust unless it ends in `; language: c`
+    /// or another; or returns what is said of what is asked.
+    fn parse(source: &str, asked: &str) -> Result<Case, String> {
+        let reading = read(source);
+        let (asked, language) = asked.split_once("; language: ").unwrap_or((asked, "rust"));
+        let words = asked.parse();
+        let words = words.unwrap_or_else(|error| panic!("{asked}: {error:?}"));
+        let request = Request::parse(&words, &ScalarType::ALL, &[], &reading.scenes);
+        let mut request = request.map_err(|problems| {
+            let said = problems.iter().map(|problem| format!("{problem}\n"));
+            said.collect::<String>()
+        })?;
+        request.language = parse::<Language>(language).unwrap();
+        Ok(Case { reading, request })
+    }
+
+    pub fn robot(&self) -> &Robot {
+        &self.reading.robot
+    }
+
+    /// Generates what is asked.
+    pub fn generated(&self) -> Generated {
+        generate(self.robot(), &self.request).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// Generates what is asked by a plan.
+    pub fn by(&self, plan: &Plan) -> Generated {
+        let mut request = self.request.clone();
+        request.plan = Some(plan.clone());
+        generate(self.robot(), &request).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// Returns what is said of what cannot be had.
+    pub fn refusal(&self) -> String {
+        match generate(self.robot(), &self.request) {
+            Ok(_) => panic!("generated"),
+            Err(error) => error.to_string(),
+        }
+    }
+
+    /// Returns the runtime of the robot in its scene, and states of it. Where there is Coulomb
+    /// friction it has its full force at some, is within its width at others, and at rest.
+    pub fn runtime(&self, count: usize, seed: u64) -> (Runtime, Vec<JointState>) {
+        let setup = self.request.setup(self.robot()).unwrap();
+        let mut states = setup.states(count, seed);
+        let is_rubbed = self.robot().joints.iter().any(|joint| joint.has_coulomb());
+        let factors: &[f64] = if is_rubbed {
+            &[1.0, 1e-2, 1e-4, 0.0]
+        } else {
+            &[1.0]
+        };
+        for (state, factor) in states.iter_mut().zip(factors.iter().cycle()) {
+            state.qd.iter_mut().for_each(|qd| *qd *= factor);
+        }
+        (Runtime::in_scene(setup), states)
+    }
+
+    /// Holds the code, which was proved and read back, in its scalars against the runtime of the
+    /// robot in its scene at so many states.
+    #[track_caller]
+    pub fn rounds_well(&self, count: usize, what: &str) -> Generated {
+        let (generated, (runtime, states)) = (self.generated(), self.runtime(count, 11));
+        rounds_well(&generated, &runtime, &states, what);
+        generated
+    }
 }
 
 /// Holds each quantity of these against the runtime; of what errs more it says of what it is.
 /// Something errs, or nothing was run.
 #[track_caller]
-pub fn rounds_well<'e>(
-    emitted: impl IntoIterator<Item = &'e Emitted>,
-    runtime: &Runtime,
-    states: &[JointState],
-    what: impl Debug,
-) {
-    for own in emitted {
+pub fn rounds_well(own: &Generated, runtime: &Runtime, states: &[JointState], what: &str) {
+    assert!(!own.emitted.is_empty(), "{what}");
+    for own in &own.emitted {
         let measures = own.against_runtime(runtime, states);
-        assert_eq!(measures.len(), own.function.quantities().len(), "{what:?}");
+        assert_eq!(measures.len(), own.function.quantities().len(), "{what}");
         for measure in &measures {
             let error = measure.in_units();
-            assert!(error <= BOUND, "{what:?}: {error} u, {measure:?}");
+            assert!(error <= BOUND, "{what}: {error} u, {measure:?}");
         }
         let is_exact = own.function != Function::InverseDynamics || states.len() < 20;
-        assert!(is_exact || measures[0].error > 0.0, "{what:?}: exact");
+        assert!(is_exact || measures[0].error > 0.0, "{what}: exact");
     }
 }
 
-/// Returns each scalar by itself.
-pub fn each_scalar() -> [Vec<ScalarType>; 2] {
-    ScalarType::ALL.map(|scalar| vec![scalar])
+/// What code gives at a state, what is expected, and what is granted to the quantities.
+pub type Compared = (Vec<f64>, Vec<f64>, Granted);
+
+/// Holds each quantity of these against what is expected, by the rule of every function: 100 u of a
+/// vector's largest entry, or of a sixteenth of the largest met.
+#[track_caller]
+pub fn hold(emitted: &Emitted, compared: &[Compared]) {
+    let mut start = 0;
+    for &quantity in emitted.function.quantities() {
+        let range = start..start + quantity.len(emitted.sizes);
+        start = range.end;
+        let sizes = compared.iter().map(|(_, b, _)| largest(&b[range.clone()]));
+        let least = LEAST_PART * sizes.fold(0.0, f64::max);
+        for (found, expected, granted) in compared {
+            let (found, expected) = (&found[range.clone()], &expected[range.clone()]);
+            let unit = emitted.scalar.unit_roundoff() * granted.factor(quantity);
+            let most = BOUND * unit * largest(expected).max(least);
+            assert!(is_close(found, expected, most), "{quantity:?}: {found:?}");
+        }
+    }
+}
+
+/// Returns whether numbers are within so much of others.
+pub fn is_close(found: &[f64], expected: &[f64], most: f64) -> bool {
+    let mut pairs = found.iter().zip(expected);
+    found.len() == expected.len() && pairs.all(|(a, b)| (a - b).abs() <= most)
 }
 
 /// Returns all of these where the tests are optimised, so many of the first where they are

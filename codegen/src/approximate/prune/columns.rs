@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use super::side_by_side::Column;
 use crate::edits::{Edit, EditSite};
 use crate::function::Argument;
-use crate::program::{Input, Operand, Output, Program, Step};
+use crate::program::{Input, Operand, Output, Program, Step, Steps};
 use crate::states::JointState;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::number::{Exact, Rational, Rounded};
@@ -49,33 +49,16 @@ pub(super) struct Nodes {
 
 impl Nodes {
     pub(super) fn new(program: &Program, states: &[JointState]) -> Nodes {
-        let mut inputs: BTreeMap<Input, usize> = BTreeMap::new();
-        let operands = program.steps.iter().flat_map(|s| [&s.left, &s.right]);
-        for operand in operands.chain(program.outputs.iter().map(|o| &o.value)) {
-            if let Operand::Input(input) = operand {
-                inputs.insert(*input, 0);
-            }
-        }
+        let mut inputs: BTreeMap<Input, usize> =
+            program.dag.inputs().map(|own| (*own, 0)).collect();
         for (index, place) in inputs.values_mut().enumerate() {
             *place = index;
         }
-        let operand = |operand: &Operand| match operand {
-            Operand::Input(input) => Operand::Input(inputs[input]),
-            Operand::Constant(constant) => Operand::Constant(f64::nearest(constant)),
-            Operand::Step(step) => Operand::Step(*step),
-        };
-        let steps = program.steps.iter().map(|step| Step {
-            operation: step.operation,
-            left: operand(&step.left),
-            right: operand(&step.right),
-        });
-        let outputs = program.outputs.iter().map(|output| Output {
-            negative: output.negative,
-            value: operand(&output.value),
-        });
+        let Steps { steps, outputs } =
+            Steps::new(&program.dag, f64::nearest, |input| inputs[input]);
         let mut nodes = Nodes {
-            steps: steps.collect(),
-            outputs: outputs.collect(),
+            steps,
+            outputs,
             inputs: inputs.into_keys().collect(),
             samples: 0,
             columns: Vec::new(),

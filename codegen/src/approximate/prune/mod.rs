@@ -276,11 +276,11 @@ pub(crate) fn watched(
     watch: Option<FunctionWatch<'_>>,
 ) -> Pruned {
     let is_direct = start.is_some_and(|start| prove_same(start, program).is_err());
-    let tally = Tally::new(settings, program.steps.len(), watch);
+    let tally = Tally::new(settings, program.dag.operations().count(), watch);
     let nothing = Pruned {
         stages: Vec::new(),
         program: program.clone(),
-        errors: vec![0.0; program.outputs.len()],
+        errors: vec![0.0; program.dag.outputs.len()],
     };
     let mut best = match start {
         None => nothing.clone(),
@@ -317,7 +317,7 @@ pub(crate) fn watched(
             settings,
             motions: &motions,
             tally: &tally,
-            guesses: settings.guesses(stage, program.steps.len()),
+            guesses: settings.guesses(stage, program.dag.operations().count()),
             retries: settings.retries(stage),
             is_direct,
         };
@@ -410,7 +410,7 @@ pub(crate) fn appraise(
         allowances,
         settings,
         motions: &motions,
-        tally: &Tally::new(settings, program.steps.len(), None),
+        tally: &Tally::new(settings, program.dag.operations().count(), None),
         guesses: 1,
         retries: 0,
         is_direct: false,

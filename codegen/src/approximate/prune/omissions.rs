@@ -5,7 +5,7 @@ use dalembert_model::number::{Exact, Rounded};
 use crate::dag::Folding;
 use crate::edits::{Edit, EditSite, Stage};
 use crate::program::text::input_name;
-use crate::program::{Counts, Operand, Operation, Program};
+use crate::program::{Counts, Operand, Operation, Steps};
 
 /// One edit, and what it saves.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,13 +29,14 @@ pub struct Omission {
 pub fn omissions(stages: &[Stage]) -> Vec<Omission> {
     let mut omissions = Vec::new();
     for (index, stage) in stages.iter().enumerate() {
+        let steps = stage.program.dag.steps();
         let paid = stage.program(Folding::Syntactic).counts();
         for edit in stage.edits.iter().filter(|edit| !edit.corrects()) {
             let back = without(stage, edit);
             omissions.push(Omission {
                 stage: index,
                 edit: edit.clone(),
-                words: words(&stage.program, edit),
+                words: words(&steps, edit),
                 operations: back.operations().saturating_sub(paid.operations()),
                 sincos: back.sincos.saturating_sub(paid.sincos),
             });
@@ -57,7 +58,7 @@ fn without(stage: &Stage, edit: &Edit) -> Counts {
 /// Operations deeper than this below the one that is replaced are not shown.
 const DEPTH: usize = 2;
 
-fn words(program: &Program, edit: &Edit) -> String {
+fn words(program: &Steps, edit: &Edit) -> String {
     let place = match edit.place {
         EditSite::Input(input) => input_name(input),
         EditSite::Step(step) | EditSite::Left(step) | EditSite::Right(step) => {
@@ -81,7 +82,7 @@ enum Strength {
 }
 
 /// Returns an operand in terms of inputs, `…` for what is too deep.
-fn expression(program: &Program, operand: &Operand, depth: usize) -> (String, Strength) {
+fn expression(program: &Steps, operand: &Operand, depth: usize) -> (String, Strength) {
     let step = match operand {
         Operand::Input(input) => return (input_name(*input), Strength::Atom),
         Operand::Constant(constant) => return (roughly(constant), Strength::Atom),

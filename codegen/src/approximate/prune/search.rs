@@ -151,7 +151,7 @@ impl Search<'_> {
             }
             let (pruned, ratios) = self.certify(&original, &state, &mut greedy);
             self.adversaries(&pruned.stages, positions, random);
-            let (steps, outputs) = (self.full.steps.len(), self.allowances.len());
+            let (steps, outputs) = (self.full.dag.operations().count(), self.allowances.len());
             let old = (positions.len()).saturating_sub(self.settings.positions(steps, outputs));
             positions.drain(self.settings.samples..self.settings.samples + old);
             let cheaper = best
@@ -234,7 +234,7 @@ impl Search<'_> {
     }
 
     fn hurries(&self) -> bool {
-        self.settings.hurries(self.full.steps.len())
+        self.settings.hurries(self.full.dag.operations().count())
     }
 
     fn greedy<'t>(

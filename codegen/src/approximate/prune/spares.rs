@@ -8,7 +8,7 @@
 use super::columns::{Nodes, short};
 use super::fit::{dot, sized};
 use crate::approximate::motions::Motions;
-use crate::program::{Operand, Operation, Output, Program, Step};
+use crate::program::{Operand, Operation, Output, Program, Step, Steps};
 use crate::states::JointState;
 use dalembert_model::number::{Exact, Rational};
 
@@ -25,9 +25,10 @@ pub(super) fn spared(program: &Program, motions: &Motions, states: &[JointState]
     let columns = columns.chunks_exact(nodes.samples);
     let directions: Vec<_> = columns.map(|column| sized(column, motions)).collect();
     let inputs = nodes.inputs.len();
-    let mut places: Vec<usize> = Vec::with_capacity(program.steps.len());
+    let exact = program.dag.steps();
+    let mut places: Vec<usize> = Vec::with_capacity(exact.steps.len());
     let mut steps: Vec<Step> = Vec::new();
-    for (index, step) in program.steps.iter().enumerate() {
+    for (index, step) in exact.steps.iter().enumerate() {
         let is_multiple = step.operation == Operation::Mul
             && [&step.left, &step.right]
                 .iter()
@@ -62,13 +63,13 @@ pub(super) fn spared(program: &Program, motions: &Motions, states: &[JointState]
             right: step.right.moved(&places),
         });
     }
-    let outputs = program.outputs.iter().map(|output| Output {
+    let outputs = exact.outputs.iter().map(|output| Output {
         negative: output.negative,
         value: output.value.moved(&places),
     });
+    let outputs = outputs.collect();
     Program {
-        outputs: outputs.collect(),
-        steps,
+        dag: Steps { steps, outputs }.dag(),
         ..program.clone()
     }
 }
@@ -79,7 +80,7 @@ mod tests {
     use crate::approximate::motions::positions;
     use crate::bound::input_box::InputBox;
     use crate::dag::{Builder, Folding};
-    use crate::function::{Argument, Function};
+    use crate::function::Function;
     use crate::interval::Interval;
     use crate::program::Input;
     use crate::random::Random;
@@ -101,18 +102,7 @@ mod tests {
         let large = builder.mul(three, cosine);
         let small = builder.mul(eighth, sine);
         let sum = builder.add(large, small);
-        let program = Program {
-            function: Function::Gravity,
-            joints: 1,
-            rows: vec![0],
-            arguments: vec![Argument::Position],
-            load: 0,
-            trig: Vec::new(),
-            speeds: Vec::new(),
-            steps: Vec::new(),
-            outputs: Vec::new(),
-        }
-        .with_graph(&builder.finish(vec![sum]));
+        let program = Program::new(Function::Gravity, 1, &builder.finish(vec![sum]));
         let limits = InputBox {
             position: vec![Interval::symmetric(3.0)],
             velocity: vec![Interval::ZERO],
@@ -122,9 +112,10 @@ mod tests {
         let states = motions.states(&positions(&limits, 40, &mut Random::new(1)));
         let spared = spared(&program, &motions, &states);
         assert!(prove_same(&program, &spared).is_ok());
-        let last = spared.steps.len() - 1;
-        assert_eq!(spared.steps[last].operation, Operation::Add);
-        let factors = spared.steps[last - MOST..last].iter().map(|step| {
+        let steps = spared.dag.steps().steps;
+        let last = steps.len() - 1;
+        assert_eq!(steps[last].operation, Operation::Add);
+        let factors = steps[last - MOST..last].iter().map(|step| {
             assert_eq!(step.operation, Operation::Mul);
             match &step.left {
                 Operand::Constant(factor) => f64::nearest(factor),

@@ -8,7 +8,6 @@ use dalembert_model::scalar::Scalar;
 
 use super::terms::{Model, Terms, nothing};
 use crate::dag::{Builder as GraphBuilder, Dag, Folding};
-use crate::edits::traced;
 use crate::program::Program;
 use crate::search::{Effort, cost, search};
 use crate::seeds::{self, regrouped, skeleton, trace_chain, tuned};
@@ -49,10 +48,10 @@ impl Builder<'_> {
         let seeds = regrouped(fitted.task(function), &forms, &tuned);
         let graphs: Vec<Dag> = seeds.into_iter().map(|seed| seed.graph).collect();
         let found = search(&graphs, &[], &|n| effort.limits(n), &|_| true, &|_, _| true)?;
-        let small = Program::in_scene(fitted.task(function), &found.graph);
+        let small = fitted.task(function).program(&found.graph);
         let mut builder = GraphBuilder::new(Folding::Semantic);
-        let values = traced(&small, &mut builder);
-        let mut outputs = vec![builder.zero(); self.exact.outputs.len()];
+        let values = builder.results(&small.dag);
+        let mut outputs = vec![builder.zero(); self.exact.dag.outputs.len()];
         for (&output, value) in self.terms.outputs.iter().zip(values) {
             outputs[output] = value;
         }

@@ -62,7 +62,7 @@ impl Terms {
         let mut quantities = function.quantities().iter();
         let is_regrouped = quantities.all(|quantity| quantity.is_regrouped());
         let is_plain = setup.load().is_none() && !setup.takes_any(function);
-        if exact.outputs.len() != exact.rows.len() || !is_regrouped || !is_plain {
+        if exact.dag.outputs.len() != exact.rows.len() || !is_regrouped || !is_plain {
             return None;
         }
         let motions = Motions::new(exact, limits);
@@ -93,7 +93,7 @@ impl Terms {
             let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
             let form = *function.forms().first()?;
             let graph = trace_chain(fitted.task(function), &chain, form, Folding::Semantic).0;
-            let values = terms.values(&Program::in_scene(fitted.task(function), &graph), &states);
+            let values = terms.values(&fitted.task(function).program(&graph), &states);
             let outputs = terms.outputs.iter();
             let column = outputs.flat_map(|&output| {
                 let values = values[output].iter();

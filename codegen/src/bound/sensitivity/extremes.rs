@@ -1,4 +1,4 @@
-//! The largest value and the largest adjoints of every step over a box.
+//! The largest value and the largest adjoints of every operation over a box.
 //!
 //! Each is a trigonometric polynomial of its own and bounded as such: what
 //! cancels is gone, which intervals would not see.
@@ -7,8 +7,8 @@ use super::gradient::Gradient;
 use crate::bound::expand::visit;
 use crate::bound::grid::{self, Aim, GridEffort};
 use crate::bound::input_box::InputBox;
-use crate::dag::Edge;
-use crate::program::{Input, Program};
+use crate::dag::{Edge, Id};
+use crate::program::Program;
 
 /// How close a bound is to come to a value that is taken: sums of products of
 /// two of them are what counts.
@@ -22,22 +22,14 @@ const FEWEST: usize = 64;
 /// Places to climb from.
 const STARTS: usize = 2;
 
-/// Bounds of magnitudes over a box.
+/// Bounds of magnitudes over a box, node by node.
 #[derive(Clone, Debug)]
 pub(super) struct Extremes {
-    /// Bounds of each step's value.
+    /// Bounds of each operation's value.
     pub values: Vec<f64>,
-    /// Bounds of the derivatives of each output.
-    pub adjoints: Vec<Adjoints>,
-}
-
-/// Bounds of one output's derivatives.
-#[derive(Clone, Debug)]
-pub(super) struct Adjoints {
-    /// With respect to each step; zero where it does not depend on it.
-    pub steps: Vec<f64>,
-    /// With respect to each sine and cosine that it depends on.
-    pub sines: Vec<(Input, f64)>,
+    /// Bounds of the derivatives of each output with respect to each operation, sine and cosine;
+    /// zero where it does not depend on it.
+    pub adjoints: Vec<Vec<f64>>,
 }
 
 impl Extremes {
@@ -61,21 +53,16 @@ impl Extremes {
             });
         })?;
         let most: Vec<f64> = most.into_iter().collect::<Option<_>>()?;
-        let of = |edge: &Edge| most[edge.index()];
-        let adjoints = gradient.adjoints.iter().map(|adjoints| {
-            let mut steps = vec![0.0; program.steps.len()];
-            for (step, edge) in &adjoints.steps {
-                steps[*step] = of(edge);
+        let of = |own: &[(Id, Edge)]| {
+            let mut all = vec![0.0; program.dag.nodes.len()];
+            for (id, edge) in own {
+                all[*id as usize] = most[edge.index()];
             }
-            let sines = adjoints.sines.iter();
-            Adjoints {
-                steps,
-                sines: sines.map(|(input, edge)| (*input, of(edge))).collect(),
-            }
-        });
+            all
+        };
         Some(Extremes {
-            values: gradient.values.iter().map(of).collect(),
-            adjoints: adjoints.collect(),
+            values: of(&gradient.values),
+            adjoints: gradient.adjoints.iter().map(|own| of(own)).collect(),
         })
     }
 }

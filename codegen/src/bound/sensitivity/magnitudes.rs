@@ -15,97 +15,81 @@
 //! Sums here have no negative terms: a few thousand roundings are made up for
 //! by a factor.
 
+use super::Rounding;
 use super::extremes::Extremes;
-use super::intervals::{Constants, is_exact, read};
-use super::{Rounding, note};
+use super::intervals::Constants;
 use crate::bound::input_box::InputBox;
-use crate::interval::Interval;
-use crate::interval::rounding::binade;
-use crate::program::fused::underflows;
-use crate::program::scalar_type::underflow;
-use crate::program::{Operand, Operation, Program, ScalarType};
+use crate::dag::{Node, Operation};
 
 /// For the roundings of this bound itself.
 const ROUNDINGS: f64 = 1.0 + 1e-10;
 
-/// V and E of an operand.
+/// V and E of a node, and r.
 #[derive(Clone, Copy)]
 struct Known {
     value: f64,
     error: f64,
+    own: f64,
 }
 
 /// Bounds over the box of the extremes, one an output.
 pub(super) fn rounding(
-    program: &Program,
-    scalar: ScalarType,
-    constants: &Constants,
+    constants: &Constants<'_>,
     limits: &InputBox,
     extremes: &Extremes,
 ) -> Vec<Rounding> {
-    let u = scalar.unit_roundoff();
-    let mut errors: Vec<f64> = Vec::with_capacity(program.steps.len());
-    let mut own = Vec::with_capacity(program.steps.len());
-    let known = |operand: &Operand, literal: Option<(Interval, f64)>, errors: &[f64]| {
-        let (interval, error) = match (operand, literal) {
-            (Operand::Step(index), _) => {
-                return Known {
-                    value: extremes.values[*index],
-                    error: errors[*index],
-                };
-            }
-            (_, Some(literal)) => literal,
-            (other, None) => read(other, &[], scalar, constants, limits),
+    let dag = &constants.program.dag;
+    let mut known: Vec<Known> = Vec::with_capacity(dag.nodes.len());
+    for (node, id) in dag.nodes.iter().zip(0..) {
+        let Node::Apply(operation, operands) = node else {
+            let (range, error) = constants.leaf(id, node, limits);
+            let value = range.magnitude();
+            known.push(Known {
+                value,
+                error,
+                own: error,
+            });
+            continue;
         };
-        Known {
-            value: interval.magnitude(),
-            error,
-        }
-    };
-    for (index, (step, [left, right])) in program.steps.iter().zip(constants.steps()).enumerate() {
-        let x = known(&step.left, *left, &errors);
-        let y = known(&step.right, *right, &errors);
-        let moved = match step.operation {
+        let [x, y] = operands.map(|id| known[id as usize]);
+        let moved = match operation {
             Operation::Add | Operation::Sub => x.error + y.error,
             Operation::Mul | Operation::Fused => {
                 x.value * y.error + y.value * x.error + x.error * y.error
             }
             Operation::Div => f64::INFINITY,
         };
-        let eta = match underflows(&program.steps, index) {
-            true => underflow(scalar),
-            false => 0.0,
-        };
-        let rounding = match is_exact(step, &constants.steps()[index]) {
-            true => eta,
-            false => u * binade((extremes.values[index] + moved) * ROUNDINGS) + eta,
-        };
-        errors.push((moved + rounding) * ROUNDINGS);
-        own.push(rounding * ROUNDINGS);
+        let value = extremes.values[id as usize];
+        let own = constants.rounding(id, (value + moved) * ROUNDINGS);
+        known.push(Known {
+            value,
+            error: (moved + own) * ROUNDINGS,
+            own: own * ROUNDINGS,
+        });
     }
-    let mut bounds = Vec::with_capacity(program.outputs.len());
-    for (output, adjoints) in program.outputs.iter().zip(&extremes.adjoints) {
+    let mut bounds = Vec::with_capacity(dag.outputs.len());
+    for (output, adjoints) in dag.outputs.iter().zip(&extremes.adjoints) {
         let mut bound = Rounding::default();
-        let mut off = vec![0.0; program.steps.len()];
-        // What the adjoints of sines can be off.
-        let mut inputs = vec![0.0; adjoints.sines.len()];
-        if let Operand::Constant(_) = output.value {
-            let error = known(&output.value, None, &errors).error;
-            note(&mut bound, &output.value, error);
+        let mut off = vec![0.0; dag.nodes.len()];
+        if let (node @ Node::Constant(_), index) = (dag.node(output.node), output.index()) {
+            bound.note(node, known[index].own);
         }
-        for index in (0..program.steps.len()).rev() {
-            let (exact, off_here) = (adjoints.steps[index], off[index]);
+        for (index, node) in dag.nodes.iter().enumerate().rev() {
+            let (exact, off_here) = (adjoints[index], off[index]);
             let mixed = exact + off_here;
             if mixed == 0.0 {
                 continue;
             }
-            bound.arithmetic += mixed * own[index];
-            let step = &program.steps[index];
-            let [left, right] = constants.steps()[index];
-            let x = known(&step.left, left, &errors);
-            let y = known(&step.right, right, &errors);
+            let own = known[index].own;
+            if own != 0.0 {
+                bound.note(node, mixed * own);
+            }
+            let Node::Apply(operation, operands) = node else {
+                continue;
+            };
+            let [x, y] = operands.map(|id| known[id as usize]);
             // What a constant's error counts with, and what is off.
-            let (parts, offs) = match step.operation {
+            let (parts, offs) = match operation {
                 Operation::Add | Operation::Sub => ([mixed; 2], [off_here; 2]),
                 Operation::Mul | Operation::Fused => (
                     [mixed * y.value, mixed * (x.value + x.error)],
@@ -113,25 +97,13 @@ pub(super) fn rounding(
                 ),
                 Operation::Div => ([f64::INFINITY; 2], [f64::INFINITY; 2]),
             };
-            for ((operand, of), (part, off_there)) in [(&step.left, x), (&step.right, y)]
-                .into_iter()
-                .zip(parts.into_iter().zip(offs))
-            {
-                match operand {
-                    Operand::Step(before) => off[*before] += off_there,
-                    Operand::Constant(_) => bound.arithmetic += part * of.error,
-                    Operand::Input(input) => {
-                        let sines = adjoints.sines.iter().position(|(known, _)| known == input);
-                        if let Some(sine) = sines {
-                            inputs[sine] += off_there;
-                        }
-                    }
+            for (id, (part, off_there)) in operands.iter().zip(parts.into_iter().zip(offs)) {
+                match dag.node(*id) {
+                    // Of a constant's adjoint no bound is at hand: use by use.
+                    own @ Node::Constant(_) => bound.note(own, part * known[*id as usize].own),
+                    _ => off[*id as usize] += off_there,
                 }
             }
-        }
-        for ((input, exact), off) in adjoints.sines.iter().zip(inputs) {
-            let (_, error) = read(&Operand::Input(*input), &[], scalar, constants, limits);
-            bound.sincos += (exact + off) * error;
         }
         bound.arithmetic *= ROUNDINGS;
         bound.sincos *= ROUNDINGS;

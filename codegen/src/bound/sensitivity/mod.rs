@@ -32,7 +32,8 @@ mod magnitudes;
 use crate::bound::distinct::Distinct;
 use crate::bound::input_box::InputBox;
 use crate::bound::magnitude::BoxEffort;
-use crate::program::{Operand, Program, ScalarType};
+use crate::dag::Node;
+use crate::program::{Program, ScalarType};
 use crate::sincos::AngleKernel;
 use extremes::Extremes;
 pub(super) use intervals::{Constants, forward};
@@ -84,6 +85,14 @@ impl Rounding {
         }
     }
 
+    /// Adds what a node errs.
+    fn note(&mut self, node: &Node, error: f64) {
+        match node {
+            Node::Input(_) => self.sincos += error,
+            Node::Constant(_) | Node::Apply(..) => self.arithmetic += error,
+        }
+    }
+
     fn min(self, other: Rounding) -> Rounding {
         Rounding {
             arithmetic: self.arithmetic.min(other.arithmetic),
@@ -101,8 +110,7 @@ pub fn rounding(
     limits: &InputBox,
     boxes: usize,
 ) -> Vec<Rounding> {
-    let constants = Constants::of(program, scalar, sines);
-    intervals::rounding(program, scalar, &constants, limits, boxes)
+    intervals::rounding(&Constants::of(program, scalar, sines), limits, boxes)
 }
 
 /// What every bound of a program's rounding over a box needs, whatever the
@@ -121,15 +129,14 @@ pub struct Sensitivity {
 impl Sensitivity {
     /// Makes it of a program over a box.
     pub fn of(program: &Program, limits: &InputBox, bound_effort: BoundEffort) -> Sensitivity {
-        let steps = program.outputs.iter().map(|output| match &output.value {
-            Operand::Step(index) => Some(*index),
-            _ => None,
+        let outputs = program.dag.outputs.iter();
+        let operations = outputs.map(|output| match program.dag.node(output.node) {
+            Node::Apply(..) => Some(output.node),
+            Node::Constant(_) | Node::Input(_) => None,
         });
-        let distinct = Distinct::by(steps);
-        let once = Program {
-            outputs: distinct.pick(&program.outputs),
-            ..program.clone()
-        };
+        let distinct = Distinct::by(operations);
+        let mut once = program.clone();
+        once.dag.outputs = distinct.pick(&program.dag.outputs);
         Sensitivity {
             extremes: Extremes::of(&once, limits, bound_effort.points),
             of: program.clone(),
@@ -149,22 +156,14 @@ impl Sensitivity {
     /// claimed; the sines of other angles are a library's, within one ulp.
     pub fn rounding(&self, scalar: ScalarType, sines: &[AngleKernel]) -> Vec<Rounding> {
         let constants = Constants::of(&self.program, scalar, sines);
-        let (program, limits) = (&self.program, &self.limits);
-        let boxes = self.bound_effort.boxes;
-        let coarse = intervals::rounding(program, scalar, &constants, limits, boxes);
+        let (limits, boxes) = (&self.limits, self.bound_effort.boxes);
+        let coarse = intervals::rounding(&constants, limits, boxes);
         let Some(extremes) = &self.extremes else {
             return self.distinct.scatter(&coarse);
         };
-        let fine = magnitudes::rounding(program, scalar, &constants, limits, extremes);
+        let fine = magnitudes::rounding(&constants, limits, extremes);
         let pairs = coarse.into_iter().zip(fine);
         let least: Vec<Rounding> = pairs.map(|(a, b)| a.min(b)).collect();
         self.distinct.scatter(&least)
-    }
-}
-
-fn note(bound: &mut Rounding, operand: &Operand, error: f64) {
-    match operand {
-        Operand::Input(_) => bound.sincos += error,
-        _ => bound.arithmetic += error,
     }
 }

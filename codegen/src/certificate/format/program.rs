@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use crate::edits::Stage;
 use crate::edits::text::write_edit;
-use crate::program::text::write_operand;
-use crate::program::{Output, Program, Step};
+use crate::program::text::{write_output, write_step};
+use crate::program::{Program, Steps};
 
 /// A program: an operation a line, and what is returned.
 #[derive(Serialize)]
@@ -23,17 +23,10 @@ pub(super) struct StageListing {
 
 impl Listing {
     pub(super) fn of(program: &Program) -> Listing {
-        let line = |step: &Step| {
-            let (left, right) = (write_operand(&step.left), write_operand(&step.right));
-            format!("{left} {} {right}", step.operation.symbol())
-        };
-        let result = |output: &Output| {
-            let sign = if output.negative { "~" } else { "" };
-            format!("{sign}{}", write_operand(&output.value))
-        };
+        let Steps { steps, outputs } = program.dag.steps();
         Listing {
-            steps: program.steps.iter().map(line).collect(),
-            results: program.outputs.iter().map(result).collect(),
+            steps: steps.iter().map(write_step).collect(),
+            results: outputs.iter().map(write_output).collect(),
         }
     }
 }

@@ -20,8 +20,9 @@ use std::fmt;
 use crate::function::Function;
 use crate::language::dialect::Dialect;
 use crate::language::{Printed, columns};
-use crate::program::{Code, Difference, Library, Program, ScalarType};
+use crate::program::{Code, Library, Program, ScalarType};
 use crate::sincos::AngleKernel;
+use crate::words::Complaint;
 use reader::Reader;
 
 /// A text that is not the program that it should be.
@@ -97,7 +98,7 @@ impl Code {
         program: &Program,
         library: Library,
         sines: &[AngleKernel],
-    ) -> Result<(), Difference> {
+    ) -> Result<(), Complaint> {
         match self.difference(&program.code(self.scalar, library, sines)) {
             None => Ok(()),
             Some(difference) => Err(difference),

@@ -121,7 +121,11 @@ impl Reader {
             || format!("`{value}` is not one over the root of a velocity's square and a width's");
         let call = value.strip_prefix(&self.dialect.literal(Literal(1.0)));
         let call = call.and_then(|call| call.strip_prefix(" / "));
-        let (function, sum) = call.and_then(|call| self.called(call)).ok_or_else(not)?;
+        let called = |call| {
+            let mut libraries = Library::ALL.into_iter();
+            libraries.find_map(|library| self.called(library, call))
+        };
+        let (function, sum) = call.and_then(called).ok_or_else(not)?;
         let words = sum.rsplit_once(" + ");
         let (product, square) = words.ok_or_else(not)?;
         let [left, right] = holes(self.dialect.product, product).ok_or_else(not)?;
@@ -138,11 +142,22 @@ impl Reader {
     }
 
     /// Returns the name of a library's function, without its scalar, and what it is called with.
-    pub(super) fn called<'t>(&self, value: &'t str) -> Option<(&'t str, &'t str)> {
+    /// Before the library may stand whoever re-exports it.
+    pub(super) fn called<'t>(
+        &self,
+        library: Library,
+        value: &'t str,
+    ) -> Option<(&'t str, &'t str)> {
         let (path, arguments) = value.strip_suffix(')')?.split_once('(')?;
         let function = match self.dialect.separator {
             "" => path,
-            separator => path.rsplit_once(separator)?.1,
+            separator => {
+                let (path, function) = path.rsplit_once(separator)?;
+                let mut names = path.rsplit(separator);
+                let is_name = |name: &str| name.chars().all(|c| c.is_alphanumeric() || c == '_');
+                let is_own = names.next() == Some(library.path()) && names.all(is_name);
+                is_own.then_some(function)?
+            }
         };
         let function = function.strip_suffix(self.dialect.scalar.math_suffix())?;
         Some((function, arguments))

@@ -13,12 +13,14 @@ impl Reader {
         if self.library == Library::Together {
             return Err("a call after that of all angles together".into());
         }
-        let (function, argument) = self
-            .called(value)
-            .ok_or_else(|| format!("`{value}` is no sine or cosine of this scalar"))?;
-        if let Some([angles]) = holes("&[{}]", argument) {
+        if let Some((function, argument)) = self.called(Library::Together, value)
+            && let Some([angles]) = holes("&[{}]", argument)
+        {
             return self.together(names, function, angles);
         }
+        let (function, argument) = self
+            .called(Library::Libm, value)
+            .ok_or_else(|| format!("`{value}` is no sine or cosine of this scalar"))?;
         let joint = joint(argument)?;
         let (sin, cos) = match function {
             "sin" => (true, false),

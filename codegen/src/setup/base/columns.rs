@@ -1,15 +1,13 @@
 //! Columns of a regressor modulo a prime, at random states.
 
 use dalembert_model::equations::Formulation;
-use dalembert_model::equations::following::gather;
 use dalembert_model::equations::regressor::Column;
 use dalembert_model::number::Exact;
-use dalembert_model::outputs::{RuntimeParameter, Written};
 use dalembert_model::scalar::field::Modulo;
 use dalembert_model::scalar::sparse::Sparse;
 
 use crate::dag::Points;
-use crate::function::{Argument, Quantity};
+use crate::function::{Columns, Function, Quantity};
 use crate::program::Input;
 use crate::setup::Setup;
 
@@ -29,32 +27,17 @@ pub(super) fn values<const P: u64>(
         Some(residue) => Sparse::constant(value, residue),
         None => Sparse::Lost,
     };
+    let is_over = |function: &Function| function.columns() == Columns::Base(quantity);
+    let task = setup.task(Function::ALL.into_iter().find(is_over)?);
     let arm = setup.arm(constant);
     let columns: Vec<_> = columns.iter().map(|c| c.map(constant)).collect();
     let mut found: Vec<Vec<Modulo<P>>> = vec![Vec::new(); columns.len()];
     let states = columns.len() / setup.rows().len().max(1) + 4;
     for state in 0..states {
         let input = |input: Input| Sparse::Value(points.input_at(input, state));
-        let motion = setup.motion(input, constant);
-        let mut arm = arm.clone().at_speeds(&motion.per_speed);
-        if setup.has(RuntimeParameter::Gravity) {
-            let entry = |axis| input(Input::Entry(Argument::Gravity, axis));
-            arm = arm.with_gravity(&[0, 1, 2].map(entry));
-        }
-        let mut entries = quantity.written(&Written {
-            formulation: Formulation::NewtonEulerLink,
-            arm: &arm,
-            at: &arm.at(&motion.q),
-            motion: &motion,
-            columns: &columns,
-        });
-        let rows: Vec<usize> = (0..arm.links.len()).collect();
-        // Joints that follow are gathered at their leaders.
-        gather(&arm.following, &rows, columns.len(), &mut entries);
-        let rows: Vec<&[Sparse<Modulo<P>>]> = entries.chunks(columns.len().max(1)).collect();
-        for &joint in setup.rows() {
-            let row = setup.robot().row_of(joint);
-            for (column, entry) in found.iter_mut().zip(rows[row]) {
+        let posed = task.posed_over(arm.clone(), &(constant, input), Vec::new());
+        for row in posed.regressor(Formulation::NewtonEulerLink, quantity, &columns) {
+            for (column, entry) in found.iter_mut().zip(row) {
                 column.push(entry.value()?);
             }
         }

@@ -15,7 +15,7 @@ pub(super) struct Reduced<T> {
 
 impl Reduced<Rational> {
     /// Returns the combinations in fractions that both primes confirm; none if there are none.
-    pub(super) fn of(
+    pub(super) fn confirmed(
         first: Reduced<Field>,
         second: Reduced<SecondField>,
     ) -> Option<Reduced<Rational>> {

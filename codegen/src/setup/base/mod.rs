@@ -34,6 +34,7 @@ use dalembert_model::scalar::Scalar;
 
 use super::Setup;
 use crate::function::Quantity;
+use crate::words::Complaint;
 use columns::values;
 use elimination::{Reduced, reduced};
 use moments::{MAX_TERMS, Moment, kept, parts};
@@ -68,59 +69,38 @@ pub struct BaseParameters {
     pub combinations: Vec<Vec<(Parameter, Exact)>>,
 }
 
-/// Why there are none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NoBase {
-    /// A coefficient has too many sines and cosines of constant angles.
-    Large {
-        /// The joint whose link it is of.
-        joint: usize,
-    },
-    /// A column depends on others by a coefficient that is no short fraction.
-    Irrational,
-    /// A constant has no value modulo the prime.
-    Unfit,
-    /// Coulomb friction is not linear in its parameters.
-    Friction,
+/// The way out where there are none.
+const FULL: &str = "ask for `full_regressor`, over all parameters of all links";
+
+/// Complains of a coefficient that has too many sines and cosines of constant angles.
+fn large(joint: usize) -> Complaint {
+    let message = format!(
+        "the base parameters that the link of joint {} is part of have more than {MAX_TERMS} products \
+         of sines and cosines of the table's angles",
+        joint + 1
+    );
+    none(message, "give angles that are multiples of pi/2 as such")
 }
 
-impl fmt::Display for NoBase {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let full = "ask for `full_regressor`, over all parameters of all links";
-        match self {
-            NoBase::Large { joint } => write!(
-                f,
-                "the base parameters that the link of joint {} is part of have more than \
-                 {MAX_TERMS} products of sines and cosines of the table's angles: give angles \
-                 that are multiples of pi/2 as such, or {full}",
-                joint + 1
-            ),
-            NoBase::Irrational => write!(
-                f,
-                "one base parameter depends on the others by a number that is no short fraction, \
-                 as odd angles between slides and the first axis give: {full}"
-            ),
-            NoBase::Friction => write!(
-                f,
-                "torques with Coulomb friction are not linear in its parameters, and no column has \
-                 them: leave `coulomb` out of the robot file and add the friction to the torques \
-                 yourself, or {full}, which is of links alone"
-            ),
-            NoBase::Unfit => write!(
-                f,
-                "a parameter is divisible by 2^61 - 1 or 2^61 - 229, modulo which columns are compared: \
-                 change its last digit, or {full}"
-            ),
-        }
-    }
+fn none(message: impl Into<String>, help: &str) -> Complaint {
+    let gap = if help.is_empty() { "" } else { ", or " };
+    Complaint::new(message, format!("{help}{gap}{FULL}"))
 }
 
 impl BaseParameters {
     /// Returns the base parameters of a robot in its scene, for a quantity over them.
-    pub(super) fn of(setup: &Setup, quantity: Quantity) -> Result<BaseParameters, NoBase> {
+    pub(super) fn find(setup: &Setup, quantity: Quantity) -> Result<BaseParameters, Complaint> {
         let robot = setup.robot();
         if setup.has_coulomb() {
-            return Err(NoBase::Friction);
+            let message = "torques with Coulomb friction are not linear in its parameters, and no column \
+                           has them";
+            let help = "leave `coulomb` out of the robot file and add the friction to the torques \
+                        yourself";
+            let why = none(message, help);
+            return Err(Complaint::new(
+                why.message,
+                why.help + ", which is of links alone",
+            ));
         }
         let arm = Arm::from_robot(robot, &mut Exact::clone).fold_base();
         let n = arm.links.len();
@@ -147,11 +127,21 @@ impl BaseParameters {
         let drives: Vec<Column<Exact>> = of_drives(robot);
         candidates.extend(drives.iter().cloned());
 
-        let reduced = Reduced::of(
-            reduced(values(setup, quantity, &candidates).ok_or(NoBase::Unfit)?),
-            reduced(values(setup, quantity, &candidates).ok_or(NoBase::Unfit)?),
+        let unfit = || {
+            let message = "a parameter is divisible by 2^61 - 1 or 2^61 - 229, modulo which columns \
+                           are compared";
+            none(message, "change its last digit")
+        };
+        let irrational = || {
+            let message = "one base parameter depends on the others by a number that is no short \
+                           fraction, as odd angles between slides and the first axis give";
+            none(message, "")
+        };
+        let reduced = Reduced::confirmed(
+            reduced(values(setup, quantity, &candidates).ok_or_else(unfit)?),
+            reduced(values(setup, quantity, &candidates).ok_or_else(unfit)?),
         )
-        .ok_or(NoBase::Irrational)?;
+        .ok_or_else(irrational)?;
         let mut base = BaseParameters {
             columns: reduced
                 .pivots
@@ -174,10 +164,10 @@ impl BaseParameters {
                 };
                 let joint = probe.column / LinkParameter::COUNT;
                 let own = LinkParameter::ALL[probe.column % LinkParameter::COUNT];
-                let parts = parts(&chain, link, body).ok_or(NoBase::Large { joint })?;
+                let parts = parts(&chain, link, body).ok_or_else(|| large(joint))?;
                 let mut sums = vec![Exact::zero(); base.columns.len()];
                 for ((place, moment), over) in places.iter().zip(&over) {
-                    let part = moment.of(&parts[*place]);
+                    let part = moment.read(&parts[*place]);
                     for (pivot, factor) in over.iter().filter(|_| !part.is_zero()) {
                         sums[*pivot] = sums[*pivot].add(&part.mul(factor));
                     }

@@ -40,7 +40,8 @@ impl Moment {
         body
     }
 
-    pub(super) fn of(self, body: &Body<Exact>) -> &Exact {
+    /// Returns what a body has of it.
+    pub(super) fn read(self, body: &Body<Exact>) -> &Exact {
         match self {
             Moment::Mass => &body.mass,
             Moment::First(axis) => &body.first[axis],

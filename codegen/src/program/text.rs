@@ -1,16 +1,14 @@
 //! Operands and steps as plans and certificates write them: inputs as emitted
 //! code names them, `t1` for the first step, `#` before a constant, `~` before
-//! a negated result. `fault` says why a line is none of these.
-
-mod fault;
+//! a negated result.
 
 use std::fmt::Write;
 
 use dalembert_model::number::Exact;
 
-use super::{Input, Operand, Operation, Output, Program, Step};
+use super::{Input, Operand, Operation, Output, Program, Step, Steps};
 use crate::function::Argument;
-pub(crate) use fault::LineFault;
+use crate::words::{Complaint, complaint};
 
 /// Returns the name of an input in emitted code.
 pub(crate) fn input_name(input: Input) -> String {
@@ -33,48 +31,69 @@ pub(crate) fn write_operand(operand: &Operand) -> String {
 
 /// Writes the steps, a line each, and the line of the results.
 pub(crate) fn write_steps(text: &mut String, program: &Program) {
-    for step in &program.steps {
-        let (left, right) = (write_operand(&step.left), write_operand(&step.right));
-        let _ = writeln!(text, "{left} {} {right}", step.operation.symbol());
+    let Steps { steps, outputs } = program.dag.steps();
+    for step in &steps {
+        let _ = writeln!(text, "{}", write_step(step));
     }
     text.push_str("return");
-    for output in &program.outputs {
-        let sign = if output.negative { "~" } else { "" };
-        let _ = write!(text, " {sign}{}", write_operand(&output.value));
+    for output in &outputs {
+        let _ = write!(text, " {}", write_output(output));
     }
     text.push('\n');
 }
 
-/// Reads the results that end a program.
-pub(crate) fn read_results(words: &[&str], program: &mut Program) -> Result<(), LineFault> {
+/// Returns a step as text.
+pub(crate) fn write_step(step: &Step) -> String {
+    let (left, right) = (write_operand(&step.left), write_operand(&step.right));
+    format!("{left} {} {right}", step.operation.symbol())
+}
+
+/// Returns a result as text.
+pub(crate) fn write_output(output: &Output) -> String {
+    let sign = if output.negative { "~" } else { "" };
+    format!("{sign}{}", write_operand(&output.value))
+}
+
+/// Reads the results that end a program of these steps.
+pub(crate) fn read_results(
+    words: &[&str],
+    mut steps: Steps,
+    program: &mut Program,
+) -> Result<(), Complaint> {
     for word in words {
         let (negative, word) = match word.strip_prefix('~') {
             Some(rest) => (true, rest),
             None => (false, *word),
         };
-        let value = read_operand(word, program)?;
-        program.outputs.push(Output { negative, value });
+        let value = read_operand(word, program, steps.steps.len())?;
+        steps.outputs.push(Output { negative, value });
     }
+    program.dag = steps.dag();
     let expected = program.function.outputs(program.sizes());
-    if program.outputs.len() != expected {
-        let found = program.outputs.len();
-        return Err(LineFault::Results { expected, found });
+    let found = steps.outputs.len();
+    match found == expected {
+        true => Ok(()),
+        false => Err(complaint(format!(
+            "expected {expected} results, found {found}"
+        ))),
     }
-    program.collect_trig();
-    Ok(())
 }
 
-/// Returns a step from its words.
-pub(crate) fn read_step(words: &[&str], program: &Program) -> Result<Step, LineFault> {
+/// Returns a program's next step, after so many, from its words.
+pub(crate) fn read_step(
+    words: &[&str],
+    program: &Program,
+    count: usize,
+) -> Result<Step, Complaint> {
     let &[left, symbol, right] = words else {
-        return Err(LineFault::Step);
+        return Err(complaint("expected an operation such as `t1 + s2`"));
     };
-    let operation =
-        Operation::from_symbol(symbol).ok_or_else(|| LineFault::Operation((*symbol).to_owned()))?;
+    let operation = Operation::from_symbol(symbol)
+        .ok_or_else(|| complaint(format!("`{symbol}` is no operation")))?;
     Ok(Step {
         operation,
-        left: read_operand(left, program)?,
-        right: read_operand(right, program)?,
+        left: read_operand(left, program, count)?,
+        right: read_operand(right, program, count)?,
     })
 }
 
@@ -82,31 +101,39 @@ pub(crate) fn read_step(words: &[&str], program: &Program) -> Result<Step, LineF
 ///
 /// # Errors
 /// Nothing is certified of a program that divides.
-pub(crate) fn without_quotient(step: Step) -> Result<Step, LineFault> {
+pub(crate) fn without_quotient(step: Step) -> Result<Step, Complaint> {
     match step.operation {
-        Operation::Div => Err(LineFault::Quotient),
+        Operation::Div => Err(complaint("a quotient, of which no bound is known")),
         _ => Ok(step),
     }
 }
 
-/// Returns an operand of a program's next step.
-pub(crate) fn read_operand(word: &str, program: &Program) -> Result<Operand, LineFault> {
+/// Returns an operand of a program's next step, after so many.
+pub(crate) fn read_operand(
+    word: &str,
+    program: &Program,
+    count: usize,
+) -> Result<Operand, Complaint> {
     if let Some(constant) = word.strip_prefix('#') {
         return constant
             .parse::<Exact>()
             .map(Operand::Constant)
-            .map_err(LineFault::Constant);
+            .map_err(|error| complaint(error.to_string()));
     }
     if let Some(index) = word.strip_prefix('t').and_then(|n| n.parse::<usize>().ok()) {
         return match index {
-            1.. if index <= program.steps.len() => Ok(Operand::Step(index - 1)),
-            _ => Err(LineFault::Later(word.to_owned())),
+            1.. if index <= count => Ok(Operand::Step(index - 1)),
+            _ => Err(complaint(format!("`{word}` is not computed yet"))),
         };
     }
     input(word)
         .filter(|input| input_fits(*input, program))
         .map(Operand::Input)
-        .ok_or_else(|| LineFault::Operand(word.to_owned()))
+        .ok_or_else(|| {
+            complaint(format!(
+                "`{word}` is neither an input, a step nor a constant"
+            ))
+        })
 }
 
 fn input(word: &str) -> Option<Input> {

@@ -1,18 +1,19 @@
-//! An arm and its motion as a function takes them, in the scalar of
-//! a computation.
+//! A function of a robot in its scene: its formula in any scalar, with the arm and the motion that
+//! it takes, and its program.
 
+use dalembert_model::equations::following::gather;
 use dalembert_model::equations::load::{Loading, carried};
 use dalembert_model::equations::matrix::Columns;
 use dalembert_model::equations::regressor::Column;
-use dalembert_model::equations::{Arm, Formulation, exact_pose};
+use dalembert_model::equations::{Arm, DhVariables, Formulation, exact_pose};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::{Motion, RuntimeParameter, Written};
 use dalembert_model::scalar::{Divide, Scalar};
 
 use super::Setup;
-use crate::dag::Leaves;
-use crate::function::{Argument, Function};
-use crate::program::Input;
+use crate::dag::{Dag, Leaves};
+use crate::function::{Argument, Function, Quantity};
+use crate::program::{Input, Program};
 
 /// A function of a robot in its scene.
 #[derive(Clone, Copy, Debug)]
@@ -40,6 +41,19 @@ pub struct Posed<'a, S> {
 }
 
 impl<'a> Task<'a> {
+    /// Creates the program of a graph of the function.
+    pub fn program(&self, graph: &Dag) -> Program {
+        let Task { setup, function } = *self;
+        let empty = Program {
+            rows: setup.rows().to_vec(),
+            arguments: setup.arguments(function),
+            load: setup.sizes(function).load,
+            speeds: setup.speeds(),
+            ..Program::empty(function, setup.joints())
+        };
+        empty.with_graph(graph)
+    }
+
     /// Evaluates the function by a textbook's formula, in the scalar of the leaves, over the whole
     /// arm: a locked joint has a constant pair or position, and rates that are zero. Returns the
     /// results over the scene's rows, flat.
@@ -53,7 +67,19 @@ impl<'a> Task<'a> {
     }
 
     /// Returns the same of the scene's arm in the scalar.
-    pub fn posed_arm<L: Leaves>(&self, mut arm: Arm<L::Value>, leaves: &L) -> Posed<'a, L::Value> {
+    pub fn posed_arm<L: Leaves>(&self, arm: Arm<L::Value>, leaves: &L) -> Posed<'a, L::Value> {
+        let constant = |constant: &Exact| leaves.constant(constant);
+        let columns = self.setup.columns(self.function, constant);
+        self.posed_over(arm, leaves, columns)
+    }
+
+    /// Returns the same, a regressor being over these columns.
+    pub(super) fn posed_over<L: Leaves>(
+        &self,
+        mut arm: Arm<L::Value>,
+        leaves: &L,
+        columns: Vec<Column<L::Value>>,
+    ) -> Posed<'a, L::Value> {
         let Task { setup, function } = *self;
         let (input, constant) = (
             |input| leaves.input(input),
@@ -79,7 +105,7 @@ impl<'a> Task<'a> {
             task: *self,
             arm,
             motion,
-            columns: setup.columns(function, constant),
+            columns,
             rows,
         }
     }
@@ -137,6 +163,42 @@ impl Setup {
 }
 
 impl<S: Divide> Posed<'_, S> {
+    fn written<'p>(
+        &'p self,
+        formulation: Formulation,
+        at: &'p [DhVariables<S>],
+        columns: &'p [Column<S>],
+    ) -> Written<'p, S> {
+        Written {
+            formulation,
+            arm: &self.arm,
+            at,
+            motion: &self.motion,
+            columns,
+        }
+    }
+
+    /// Returns the scene's rows of a regressor over these columns; what joints that follow have is
+    /// gathered at their leaders.
+    pub(crate) fn regressor(
+        &self,
+        by: Formulation,
+        quantity: Quantity,
+        columns: &[Column<S>],
+    ) -> Vec<Vec<S>> {
+        let at = self.arm.at(&self.motion.q);
+        let mut entries = quantity.written(&self.written(by, &at, columns));
+        let rows: Vec<usize> = (0..self.arm.links.len()).collect();
+        gather(&self.arm.following, &rows, columns.len(), &mut entries);
+        let rows: Vec<&[S]> = entries.chunks(columns.len().max(1)).collect();
+        let setup = self.task.setup;
+        let own = setup
+            .rows()
+            .iter()
+            .map(|&joint| setup.robot().row_of(joint));
+        own.map(|row| rows[row].to_vec()).collect()
+    }
+
     /// Returns the results over all joints there are.
     pub fn all(&self, by: Formulation) -> Vec<S> {
         let function = self.task.function;
@@ -145,13 +207,8 @@ impl<S: Divide> Posed<'_, S> {
 
     /// Returns what each quantity of the function inverts beside D.
     pub fn divisors(&self) -> Vec<Vec<S>> {
-        let written = Written {
-            formulation: Formulation::NewtonEulerLink,
-            arm: &self.arm,
-            at: &self.arm.at(&self.motion.q),
-            motion: &self.motion,
-            columns: &self.columns,
-        };
+        let at = self.arm.at(&self.motion.q);
+        let written = self.written(Formulation::NewtonEulerLink, &at, &self.columns);
         let quantities = self.task.function.quantities().iter();
         quantities
             .map(|quantity| quantity.divisor(&written))

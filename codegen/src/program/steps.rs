@@ -1,0 +1,131 @@
+//! Straight-line code as a list of steps whose operands are inputs, constants or steps: for what
+//! edits single uses of values, and as plans and certificates write it.
+
+use std::hash::Hash;
+
+use dalembert_model::number::Exact;
+
+use super::{Input, Operation};
+use crate::dag::{Dag, Edge, Id, Node, Writer};
+
+/// The steps of a graph, operands before users, and its results.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Steps<C = Exact, I = Input> {
+    /// The operations, in order.
+    pub steps: Vec<Step<C, I>>,
+    /// The results.
+    pub outputs: Vec<Output<C, I>>,
+}
+
+/// One operation over constants C and inputs I.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step<C = Exact, I = Input> {
+    /// The arithmetic operation.
+    pub operation: Operation,
+    /// Left operand.
+    pub left: Operand<C, I>,
+    /// Right operand.
+    pub right: Operand<C, I>,
+}
+
+/// An operand of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Operand<C = Exact, I = Input> {
+    /// An input.
+    Input(I),
+    /// A constant.
+    Constant(C),
+    /// The result of an earlier step.
+    Step(usize),
+}
+
+/// A result, negated or not: negation is free.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Output<C = Exact, I = Input> {
+    /// `true` if the result is negated.
+    pub negative: bool,
+    /// The value.
+    pub value: Operand<C, I>,
+}
+
+impl<C, I> Default for Steps<C, I> {
+    fn default() -> Self {
+        Steps {
+            steps: Vec::new(),
+            outputs: Vec::new(),
+        }
+    }
+}
+
+impl<C: Clone, I: Clone> Steps<C, I> {
+    /// Lists the operations of a graph.
+    pub fn new<D, J>(
+        dag: &Dag<D, J>,
+        constant: impl Fn(&D) -> C,
+        input: impl Fn(&J) -> I,
+    ) -> Steps<C, I> {
+        let numbers = dag.numbers();
+        let operand = |id: Id| match dag.node(id) {
+            Node::Constant(own) => Operand::Constant(constant(own)),
+            Node::Input(own) => Operand::Input(input(own)),
+            // An operation has a number, from one.
+            Node::Apply(..) => Operand::Step(numbers[id as usize].unwrap_or(1) - 1),
+        };
+        let steps = dag.operations().map(|(_, operation, [left, right])| Step {
+            operation,
+            left: operand(left),
+            right: operand(right),
+        });
+        let outputs = dag.outputs.iter().map(|edge| Output {
+            negative: edge.negative,
+            value: operand(edge.node),
+        });
+        Steps {
+            steps: steps.collect(),
+            outputs: outputs.collect(),
+        }
+    }
+
+    /// Returns the graph of the steps, each leaf before the first of them that reads it.
+    pub fn dag(&self) -> Dag<C, I>
+    where
+        C: Eq + Hash,
+        I: Eq + Hash,
+    {
+        let mut writer = Writer::default();
+        let mut places: Vec<Id> = Vec::with_capacity(self.steps.len());
+        let place =
+            |operand: &Operand<C, I>, places: &[Id], writer: &mut Writer<C, I>| match operand {
+                Operand::Step(step) => places[*step],
+                Operand::Constant(constant) => writer.leaf(Node::Constant(constant.clone())),
+                Operand::Input(input) => writer.leaf(Node::Input(input.clone())),
+            };
+        for step in &self.steps {
+            let operands = [&step.left, &step.right].map(|own| place(own, &places, &mut writer));
+            places.push(writer.apply(step.operation, operands));
+        }
+        let outputs = self.outputs.iter().map(|output| Edge {
+            node: place(&output.value, &places, &mut writer),
+            negative: output.negative,
+        });
+        let outputs = outputs.collect();
+        writer.finish(outputs)
+    }
+}
+
+impl Dag {
+    /// Lists the operations.
+    pub fn steps(&self) -> Steps {
+        Steps::new(self, Exact::clone, |input| *input)
+    }
+}
+
+impl<C: Clone, I: Clone> Operand<C, I> {
+    /// Returns the operand where steps have moved to these places.
+    pub(crate) fn moved(&self, place: &[usize]) -> Self {
+        match self {
+            Operand::Step(step) => Operand::Step(place.get(*step).copied().unwrap_or(usize::MAX)),
+            other => other.clone(),
+        }
+    }
+}

@@ -1,0 +1,283 @@
+//! Robots and robot files that nobody chose: any number of joints, both kinds, both conventions, full
+//! inertias, tilted gravity, odd angles, friction, and numbers of any size.
+//!
+//! What is generated for them is proved (or `generate` fails), and the emitted text stays within the
+//! floating bound; a file gives an error or proved code, never a panic; and what was proved is never
+//! said to be contradicted. The reader's own fuzzing, of arbitrary bytes, is in the model's tests.
+
+use dalembert_codegen::workspace::{Random, seeded};
+use dalembert_codegen::{Function, GenerateError, Request, ScalarType, Start, generate};
+use dalembert_model::read::{Options, parse};
+use dalembert_model::robot::write;
+
+use crate::scene_exact::check;
+use crate::support::draw::{Draw, robots};
+use crate::support::{self, Case};
+
+/// Returns a function whose code stays small enough for a test.
+fn function(n: usize, draw: &mut Draw) -> Function {
+    let few = match n {
+        0..=3 => 6,
+        4..=5 => 5,
+        _ => 4,
+    };
+    Function::ALL[draw.0.below(few)]
+}
+
+#[test]
+fn proved_and_accurate() {
+    let many = if cfg!(debug_assertions) { 12 } else { 24 };
+    for (seed, robot, mut draw) in robots(many, 0x5eed) {
+        let n = robot.joints.len();
+        let function = function(n, &mut draw);
+        let what = format!("seed {seed}, {n} joints, {function}");
+        let case = Case::read(&write(&robot), &format!("outputs: {function}"));
+        assert_eq!(case.rounds_well(50, &what).emitted.len(), 2, "{what}");
+    }
+}
+
+/// With Coulomb friction, what reads it is proved of each, and h, which must not.
+#[test]
+fn friction_is_proved_and_accurate() {
+    let asked = "outputs: inverse_dynamics, passivity, forward_dynamics, coriolis";
+    let mut draw = Draw(Random::new(0x636f_756c));
+    for _ in 0..if cfg!(debug_assertions) { 4 } else { 40 } {
+        let mut robot = draw.robot(3);
+        for joint in &mut robot.joints {
+            if !draw.chance(3) {
+                joint.coulomb = draw.milli(1, 20_000);
+                joint.coulomb_width = draw.milli(1, 100);
+            }
+        }
+        let text = write(&robot);
+        Case::read(&text, asked).rounds_well(40, &text);
+    }
+}
+
+/// Each formulation alone leads to a program that is proved.
+#[test]
+fn every_start_leads_to_the_same_function() {
+    let small = robots(16, 0xa9ee).filter(|(_, robot, _)| robot.joints.len() <= 3);
+    for (seed, robot, mut draw) in small {
+        let function = function(robot.joints.len(), &mut draw);
+        for start in Start::all() {
+            let request = Request {
+                start,
+                ..Request::new(&[function])
+            };
+            if let Err(error) = generate(&robot, &request) {
+                panic!("seed {seed}, {function} from {}: {error}", start.name());
+            }
+        }
+    }
+}
+
+/// Without velocities the scene's code is the whole robot's.
+#[test]
+fn a_scene_at_rest_is_the_full_model() {
+    let still = "\n[scene.test]\nvelocity = \"zero\"\n";
+    let asked = "outputs: inverse_dynamics, inertia, gravity; scene: test; scalar: f64";
+    let small = robots(10, 4_000).filter(|(_, robot, _)| robot.joints.len() <= 5);
+    for (_, robot, _) in small {
+        check(&Case::read(&(write(&robot) + still), asked));
+    }
+}
+
+/// Returns a dose for every day; `FUZZ_TIMES` multiplies it.
+fn dose(runs: usize) -> usize {
+    let times = std::env::var("FUZZ_TIMES").ok();
+    let times: Option<usize> = times.and_then(|times| times.parse().ok());
+    runs * times.unwrap_or(1)
+}
+
+/// Numbers in a robot file, the usual ones first.
+const NUMBERS: &str = "0 1 -1 0.5 0.1 2.25 1e-3 1e3 1e-9 1e9 1e300 1e-300 1e38 \"1/3\" \"22/7\" \
+    0.30000000000000004 123456789.123456789 -0.0 1e40 4.9e-324 \"2305843009213693951/2\" \
+    \"1/2305843009213693951\"";
+
+/// Angles in a robot file, the usual ones first.
+const ANGLES: &str = "0 \"pi/2\" \"-pi/2\" \"pi\" \"pi/3\" \"2*pi/5\" \"90deg\" \"30deg\" \
+    1.5707963267948966 1.5708 0.3 6283185.307179586 -1e-9 \"1e6*pi\"";
+
+/// Returns one of these words: mostly of the usual ones, or nothing would be accepted.
+fn pick<'a>(random: &mut Random, words: &'a str, usual: usize) -> &'a str {
+    let all: Vec<&str> = words.split(' ').collect();
+    let among = if random.below(8) > 0 {
+        usual
+    } else {
+        all.len()
+    };
+    all[random.below(among)]
+}
+
+/// Returns a file that is close enough to right that many are accepted.
+fn file(random: &mut Random) -> String {
+    let convention = ["standard", "modified"][random.below(2)];
+    let mut text = format!("name = \"fuzzed\"\nconvention = \"{convention}\"\n");
+    let gravity = [(); 3].map(|()| pick(random, NUMBERS, 8)).join(", ");
+    text += &format!("gravity = [{gravity}]\n");
+    for _ in 0..1 + random.below(3) {
+        let revolute = random.below(3) > 0;
+        let (kind, key, constants, offsets) = match revolute {
+            true => ("revolute", "d", NUMBERS, ANGLES),
+            false => ("prismatic", "theta", ANGLES, NUMBERS),
+        };
+        let picked = [(ANGLES, 7), (NUMBERS, 7), (constants, 7), (offsets, 7)];
+        let [alpha, a, constant, offset] = picked.map(|(words, usual)| pick(random, words, usual));
+        let mass = ["1", "0.5", "1e9", "1e-9", "17.4"][random.below(5)];
+        let com = [(); 3].map(|()| pick(random, NUMBERS, 6)).join(", ");
+        let tensor = [
+            "[0, 0, 0, 0, 0, 0]",
+            "[1, 1, 1, 0, 0, 0]",
+            "[0.3, 0.4, 0.5, 0.01, -0.02, 0.03]",
+            "[1e-9, 1e-9, 1e-9, 0, 0, 0]",
+        ][random.below(4)];
+        text += &format!(
+            "[[joint]]\nkind = \"{kind}\"\nalpha = {alpha}\na = {a}\n{key} = {constant}\n\
+             offset = {offset}\nmass = {mass}\ncom = [{com}]\ninertia = {tensor}\n"
+        );
+        if random.below(3) == 0 {
+            text += &format!("viscous = {}\n", pick(random, NUMBERS, 2));
+        }
+    }
+    text
+}
+
+#[test]
+fn accepted_files_give_proved_code() {
+    let mut random = Random::new(31);
+    let (mut accepted, mut proved) = (0, 0);
+    let runs = dose(60);
+    for _ in 0..runs {
+        let source = file(&mut random);
+        let Ok(reading) = parse(&source, &Options::default()) else {
+            continue;
+        };
+        accepted += 1;
+        let robot = reading.robot;
+        assert_eq!(support::read_robot(&write(&robot)), robot, "{source}");
+        let functions = [Function::InverseDynamics, Function::Inertia];
+        let request = Request {
+            scalars: vec![ScalarType::ALL[random.below(2)]],
+            ..Request::new(&[functions[random.below(2)]])
+        };
+        // Generated means proved and read back; all else is an error that
+        // says why, such as a constant beyond f32.
+        match generate(&robot, &request) {
+            Ok(generated) => {
+                proved += 1;
+                for state in seeded(&robot, 2, 5) {
+                    for emitted in &generated.emitted {
+                        let _ = emitted.run(&state);
+                    }
+                }
+            }
+            Err(error) => assert!(!error.to_string().is_empty()),
+        }
+    }
+    println!("{runs} files, {accepted} accepted, {proved} proved");
+    assert!(
+        2 * proved > runs / 2,
+        "{accepted} accepted, {proved} proved"
+    );
+}
+
+/// Warnings that extreme numbers deserve, and that are no news here.
+const ALLOW: &str = "allow = [\"impossible_inertia\", \"unusual_gravity\", \"large_length\", \
+                     \"large_mass\", \"large_angle\", \"large_limit\", \"large_velocity\"]\n";
+
+/// Returns a number whose size is a random power of ten up to `span` either way.
+fn number(random: &mut Random, span: f64) -> f64 {
+    let sign = if random.below(3) == 0 { -1.0 } else { 1.0 };
+    let digits = sign * (1.0 + 9.0 * random.unit());
+    let power = span * (2.0 * random.unit() - 1.0);
+    format!("{digits:.3}e{}", power.round()).parse().unwrap()
+}
+
+/// Returns an arm whose lengths, masses, rates and gravity each are ordinary or extreme: errors and
+/// bounds that are measured where its code is run overflow and underflow as the code does.
+fn arm(seed: usize) -> String {
+    let mut random = Random::new(seed as u64);
+    let sizes = [3.0, 9.0, 30.0, 60.0, 100.0, 140.0];
+    let size = sizes[random.below(sizes.len())];
+    let mut span = || if random.below(2) == 0 { size } else { 1.0 };
+    let [length, mass, rate, gravity] = [span(), span(), span(), span()];
+    let convention = ["standard", "modified"][random.below(2)];
+    let [x, z] = [(); 2].map(|()| number(&mut random, gravity));
+    let mut text = format!(
+        "name = \"extreme\"\nconvention = \"{convention}\"\ngravity = [{x:e}, 0, {z:e}]\n{ALLOW}"
+    );
+    for _ in 0..1 + random.below(3) {
+        let slides = random.below(3) == 0;
+        let (kind, other, other_span, reach_span) = match slides {
+            true => ("prismatic", "theta", 0.5, length),
+            false => ("revolute", "d", length, 2.0),
+        };
+        let twist = ["0", "\"pi/2\"", "0.3"][random.below(3)];
+        let mut draw = |span: f64| number(&mut random, span);
+        let moment = draw(mass).abs();
+        let (a, other_value, own_mass) = (draw(length), draw(other_span), draw(mass).abs());
+        let [x, y, z] = [(); 3].map(|()| draw(length));
+        let reach = draw(reach_span).abs();
+        let [speed, change, torque] = [rate, rate, mass].map(|span| draw(span).abs());
+        text += &format!(
+            "[[joint]]\nkind = \"{kind}\"\nalpha = {twist}\na = {a:e}\n{other} = {other_value:e}\n\
+             mass = {own_mass:e}\ncom = [{x:e}, {y:e}, {z:e}]\n\
+             inertia = [{moment:e}, {moment:e}, {moment:e}, 0, 0, 0]\n\
+             limits = {{ position = [-{reach:e}, {reach:e}], velocity = {speed:e}, \
+             acceleration = {change:e}, torque = {torque:e} }}\n"
+        );
+    }
+    text
+}
+
+/// So many extreme arms; fewer of them where nothing is optimised.
+const ARMS: usize = if cfg!(debug_assertions) { 12 } else { 40 };
+
+const OUTPUTS: &str = "inverse_dynamics gravity inertia coriolis forward_dynamics kinetic_energy \
+    jacobian regressor";
+
+/// Asserts of so many arms that no defect is reported that there is not, refused or not; of the first
+/// so many outputs in turn. Returns how many were generated.
+fn never_contradicted(arms: usize, scene: &str, outputs: usize, options: &str) -> usize {
+    let names: Vec<&str> = OUTPUTS.split(' ').collect();
+    let mut done = 0;
+    for seed in 0..arms {
+        let asked = format!("outputs: {}; {options}", names[seed % outputs]);
+        let case = Case::read(&(arm(seed) + scene), &asked);
+        match generate(case.robot(), &case.request) {
+            Ok(_) => done += 1,
+            Err(error @ (GenerateError::Defect(..) | GenerateError::Disproved(..))) => {
+                panic!("seed {seed}: {error}\n{}", arm(seed))
+            }
+            Err(_) => {}
+        }
+    }
+    done
+}
+
+#[test]
+fn exact_programs_are_not_contradicted() {
+    let done = ["scalar: f64", "scalar: f32"].map(|own| never_contradicted(ARMS, "", 8, own));
+    assert!(done.iter().sum::<usize>() > ARMS / 2, "{done:?}");
+}
+
+/// Certificates, too: E is a bound wherever there is one.
+#[test]
+fn certificates_are_not_contradicted() {
+    let scene = "[scene.t]\ntolerance = { value = 1e-2, relative_to = \"range\" }\n";
+    let done = never_contradicted(ARMS / 2, scene, 4, "scene: t");
+    assert!(done > ARMS / 8, "{done}");
+}
+
+/// A rate beyond f32: the state that is tried has the largest number in its place,
+/// so an entry that hands it on is one.
+#[test]
+fn limits_beyond_f32_leave_states_finite() {
+    let arm = "name = \"fast\"\nconvention = \"standard\"\ngravity = [0, -9.81, 0]\n\
+               allow = [\"large_velocity\"]\n[[joint]]\nkind = \"prismatic\"\nmass = 1\n\
+               com = [0, 0, 0]\ninertia = [1, 1, 1, 0, 0, 0]\n\
+               limits = { position = [-1, 1], velocity = 1e100, acceleration = 1e120, torque = 1 }\n";
+    let generated = Case::read(arm, "outputs: regressor").generated();
+    assert!(!generated.functions.is_empty());
+}
