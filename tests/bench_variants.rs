@@ -42,7 +42,7 @@ fn the_bench_of_sines_is_up_to_date() {
     let allowances: Vec<f64> = pairs
         .map(|(scale, bound)| scale * (TOLERANCE - 2.0 * bound.rounding))
         .collect();
-    let sensitivity = Sensitivity::of(program, &limits, fineness);
+    let sensitivity = Sensitivity::new(program, &limits, fineness);
     let sines = within(program, scalar, &limits.position, &allowances, &sensitivity).unwrap();
     let certificate = libm.with_sines(&Setup::whole(&robot), &sines, &sensitivity);
     for bound in &certificate.bounds {

@@ -40,7 +40,7 @@ pub fn ask(
         request.plan = file.plan.clone();
     }
     let generated = generate_anew(&file.robot, &request, shown);
-    let generated = generated.map_err(|error| vec![Problem::of(&error, &request)])?;
+    let generated = generated.map_err(|error| vec![Problem::from_error(&error, &request)])?;
     let notes = file.notes.iter();
     let notes = notes.filter(|note| note.severity == Severity::Warning);
     let mut warnings: Vec<String> = notes
@@ -61,7 +61,7 @@ pub fn ask(
 
 impl Problem {
     /// Says why nothing was generated, of the option and the item that it is about.
-    fn of(error: &GenerateError, request: &Request) -> Problem {
+    fn from_error(error: &GenerateError, request: &Request) -> Problem {
         let (option, item) = match (error, error.function()) {
             (GenerateError::Parameter(..), _) => {
                 let first = request.parameters.first();

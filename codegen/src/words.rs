@@ -85,7 +85,7 @@ impl Word for bool {
     }
 }
 
-/// What is wrong with a word that a user wrote, and the likely fix.
+/// What is wrong with what was given, a word, a line or a file, and the likely fix.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Complaint {
     /// What is wrong.
@@ -123,7 +123,7 @@ impl fmt::Display for Complaint {
 
 impl std::error::Error for Complaint {}
 
-/// Complains of a text whose fix is in the complaint itself.
+/// Makes a complaint without a fix of its own.
 pub(crate) fn complaint(message: impl Into<String>) -> Complaint {
     Complaint::new(message, "")
 }

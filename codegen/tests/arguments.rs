@@ -43,8 +43,8 @@ fn run(generated: &Generated, emitted: &Emitted, state: &JointState) -> Vec<f64>
 }
 
 /// Compares emitted code with the runtime of the robot in its scene, and with that of the robot
-/// with all that in its file, a payload of nothing too, by the rule of every function: 100 u of a vector's largest entry, or
-/// of a sixteenth of the largest met.
+/// whose file has the payload, one of nothing too, and the gravity. The rule is that of every
+/// function: 100 u of a vector's largest entry, or of a sixteenth of the largest met.
 #[track_caller]
 fn check(case: &Case, count: usize) {
     let generated = case.rounds_well(count, &case.robot().name);

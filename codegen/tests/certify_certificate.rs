@@ -275,7 +275,7 @@ fn edits_and_programs_read_back() {
     for stage in &case.pruned.stages {
         for edit in &stage.edits {
             let line = write_edit(edit);
-            let read = read_edit(&line, &stage.program);
+            let read = read_edit(&line, &stage.program, stage.program.counts().operations());
             assert_eq!(read.as_ref(), Ok(edit), "{line}");
         }
         assert_eq!(prove_same(&stage.program, &stage.program), Ok(()));

@@ -45,7 +45,7 @@ fn planar() -> Case {
 impl Case {
     fn sines(&self, scalar: ScalarType, tolerance: f64) -> Sines {
         let allowances: Vec<f64> = self.scales.iter().map(|t| t * tolerance).collect();
-        let sensitivity = Sensitivity::of(&self.program, &self.limits, BoundEffort::QUICK);
+        let sensitivity = Sensitivity::new(&self.program, &self.limits, BoundEffort::QUICK);
         within(
             &self.program,
             scalar,
@@ -59,7 +59,7 @@ impl Case {
     fn certificate(&self, scalar: ScalarType, sines: &Sines) -> Certificate {
         let (robot, program) = (&self.robot, &self.program);
         let libm = Certificate::make(robot, &[], program, scalar, &self.limits, &self.scales);
-        let sensitivity = Sensitivity::of(program, &self.limits, BoundEffort::CERTIFY);
+        let sensitivity = Sensitivity::new(program, &self.limits, BoundEffort::CERTIFY);
         libm.with_sines(&Setup::whole(robot), sines, &sensitivity)
     }
 

@@ -32,6 +32,18 @@ fn a_fused_product_saves_an_operation_and_a_rounding() {
     }
 }
 
+/// The option gives the fused program, and keeps what it was fused from; the text without it is
+/// another.
+#[test]
+fn the_option_gives_the_fused_program() {
+    let case = |fma: &str| Case::in_scene("stanford", "", &format!("inverse_dynamics; fma: {fma}"));
+    let [plain, fused] = ["off", "on"].map(|fma| case(fma).generated());
+    let [before, after] = [&plain, &fused].map(|generated| &generated.functions[0]);
+    assert_eq!(after.program, before.program.fused());
+    assert_eq!(after.found.as_ref(), Some(&before.program));
+    assert!(!plain.text().contains("mul_add") && fused.text().contains("mul_add"));
+}
+
 /// A line is one rounding, that of `mul_add`; many states at once have the bits of
 /// each; both scalars.
 #[test]

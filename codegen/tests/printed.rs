@@ -23,7 +23,7 @@ coulomb | | inverse_dynamics; sincos: libm; scalar: f64 | let r1 = 1.0 / libm::s
 coulomb | | inverse_dynamics; sincos: libm; scalar: f32; batch: on | let r2 = 1.0 / libm::sqrtf(qd[1] * qd[1] + 1.1111111e-5); … ¬let r2 = 1.0 / libm::
 coulomb | | inverse_dynamics; sincos: together; scalar: f64; batch: on | let r1 = 1.0 / dalembert_sines::sqrt(qd[0] * qd[0] + 0.0001); … ¬let r1 = 1.0 / dalembert_sines::
 coulomb | | inverse_dynamics; sincos: together; scalar: f32 | let r2 = 1.0 / dalembert_sines::sqrtf(qd[1] * qd[1] + 1.1111111e-5); … ¬let r2 = 1.0 /
-coulomb | lock = { waist = 0.4 }; joints = ["slide", "wrist"] | inverse_dynamics, inverse_dynamics_derivatives | let r2 = … ¬let r1 =
+coulomb | lock = { waist = 0.4 }; joints = ["slide", "wrist"] | inverse_dynamics, inverse_dynamics_derivatives | ¬let r1 = … let r2 =
 coulomb | velocity = "zero" | inverse_dynamics, inverse_dynamics_derivatives | ¬sqrt
 coulomb | | full_regressor | Armature and friction, viscous and Coulomb, have none.
 payload_frame | | inverse_dynamics; parameters: payload | in that of joint 3 in the table at xyz (0.1, -0.05, -0.2) m, rpy (pi/2, 0, 0)

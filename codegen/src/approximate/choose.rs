@@ -107,7 +107,7 @@ impl<'a> ErrorBudget<'a> {
             .position(|s| s.is_of(program, &self.limits, bound_effort));
         let found = match found {
             Some(index) => known.remove(index),
-            None => Rc::new(Sensitivity::of(program, &self.limits, bound_effort)),
+            None => Rc::new(Sensitivity::new(program, &self.limits, bound_effort)),
         };
         known.truncate(KEPT - 1);
         known.insert(0, found.clone());

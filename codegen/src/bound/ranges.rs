@@ -85,7 +85,7 @@ pub fn ranges(
     let dag = &program.dag;
     let operations: Vec<_> = dag.operations().collect();
     let mut magnitudes = vec![0.0f64; operations.len()];
-    let constants = Constants::of(program, scalar, sines);
+    let constants = Constants::new(program, scalar, sines);
     for sub in sub_boxes(program, limits, boxes) {
         let run = forward(&constants, &sub);
         for (most, (id, ..)) in magnitudes.iter_mut().zip(&operations) {

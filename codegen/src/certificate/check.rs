@@ -11,6 +11,11 @@ impl Certificate {
     /// Checks that the programs are of this robot and scene, and that the edits lead from
     /// each to the next. What a certificate claims of them, `dalembert-checker` checks.
     pub(crate) fn check_programs(&self, setup: &Setup) -> Result<(), Refuted> {
+        let programs = self.stages.iter().map(|stage| &stage.program);
+        let mut programs = programs.chain([&self.emitted]);
+        if !programs.all(|program| program.dag.is_straight()) {
+            return Err(Refuted::Shape);
+        }
         work::check(self).map_err(Refuted::Work)?;
         shape::check(self, setup)?;
         self.check_edits()

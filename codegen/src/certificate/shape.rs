@@ -33,10 +33,11 @@ pub(super) fn check(certificate: &Certificate, setup: &Setup) -> Result<(), Refu
     for (index, stage) in certificate.stages.iter().enumerate() {
         let name = format!("the program of stage {}", index + 1);
         checker.program(&name, &stage.program)?;
+        let count = stage.program.dag.operations().count();
         for edit in &stage.edits {
             match &edit.value {
                 Operand::Constant(_) => {}
-                Operand::Step(step) if *step < stage.program.dag.operations().count() => {}
+                Operand::Step(step) if *step < count => {}
                 Operand::Step(_) => return Err(Refuted::Shape),
                 Operand::Input(input) => checker.input(&name, *input)?,
             }
@@ -73,9 +74,6 @@ impl Checker<'_> {
         if let Some((what, _)) = signature.into_iter().find(|(_, same)| !same) {
             let program = name.to_owned();
             return Err(Refuted::Signature { program, what });
-        }
-        if !program.dag.is_straight() {
-            return Err(Refuted::Shape);
         }
         let mut inputs = program.dag.inputs();
         inputs.try_for_each(|input| self.input(name, *input))

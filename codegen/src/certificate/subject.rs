@@ -119,7 +119,7 @@ impl Subject<'_> {
 
     /// Returns what bounds of the emitted program's rounding need.
     pub(crate) fn sensitivity(&self, bound_effort: BoundEffort) -> Sensitivity {
-        Sensitivity::of(self.emitted, self.limits, bound_effort)
+        Sensitivity::new(self.emitted, self.limits, bound_effort)
     }
 
     /// Returns a lower bound of the least eigenvalue of S D S, if D is an output and

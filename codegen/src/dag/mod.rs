@@ -206,7 +206,7 @@ impl<C, I> Dag<C, I> {
         })
     }
 
-    /// Returns whether every operation comes after its operands, and whatever is a result is there.
+    /// Returns whether every operation comes after its operands, and every output is a node.
     pub fn is_straight(&self) -> bool {
         let mut nodes = self.nodes.iter().zip(0..);
         let count = self.nodes.len();

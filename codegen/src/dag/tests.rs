@@ -1,13 +1,17 @@
-//! What builders fold, as tables of patterns.
+//! What builders fold, as tables of patterns; derivatives backwards and forwards.
 
 use std::collections::HashMap;
 
 use dalembert_model::number::{Exact, Rational};
+use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::dual::Dual;
+use dalembert_model::scalar::field::Field;
 
 use super::pattern::{InBuilder, Pattern, is_constant};
-use super::{Builder, Edge, Folding};
+use super::{Builder, Dag, Edge, Folding, Id, Node, Operation};
 use crate::dag::Input;
 use crate::function::Argument;
+use crate::random::Random;
 
 /// Every builder folds these.
 pub(crate) const BY_SHAPE: &[(&str, &str)] = &[
@@ -84,4 +88,53 @@ fn left_sides_become_right_sides() {
         let [from, to] = sides(row, Folding::Syntactic);
         assert_ne!(from, to, "{row:?}");
     }
+}
+
+/// Returns a graph of three inputs, two constants and operations on whatever stands before them.
+fn drawn(random: &mut Random) -> Dag<u64, usize> {
+    let mut nodes: Vec<Node<u64, usize>> = (0..3).map(Node::Input).collect();
+    nodes.extend([2, 3].map(|c| Node::Constant(c + random.bits() % 1000)));
+    for _ in 0..2 + random.below(12) {
+        let operation = Operation::ALL[random.below(5)];
+        let operands = [(); 2].map(|()| random.below(nodes.len()) as Id);
+        nodes.push(Node::Apply(operation, operands));
+    }
+    let outputs = Vec::new();
+    Dag { nodes, outputs }
+}
+
+/// The backward pass and forward ones (duals) give the same derivatives of every node, in a field,
+/// where equal is equal: all operations, values that are read twice, leaves.
+#[test]
+fn the_backward_pass_agrees_with_duals() {
+    let (mut random, mut compared) = (Random::new(0xadd), 0);
+    for _ in 0..200 {
+        let dag = drawn(&mut random);
+        let inputs = [(); 3].map(|()| Field::new(random.bits() >> 8));
+        let constant = |c: &u64| Field::new(*c);
+        let values = dag.values(&(constant, |input: usize| inputs[input]));
+        // Where a divisor is zero there is no derivative.
+        let mut divisors = dag.operations().filter(|own| own.1 == Operation::Div);
+        if divisors.any(|(_, _, [_, by])| values[by as usize] == Field::zero()) {
+            continue;
+        }
+        for moving in 0..3 {
+            let input = |input: usize| Dual {
+                value: inputs[input],
+                rate: match input == moving {
+                    true => Field::one(),
+                    false => Field::zero(),
+                },
+            };
+            let forward = dag.values(&(|c: &u64| Dual::constant(Field::new(*c)), input));
+            let mut adjoints = Vec::new();
+            for (top, node) in forward.iter().enumerate() {
+                dag.adjoints(top as Id, &values, &mut adjoints);
+                let slope = adjoints.get(moving).copied().unwrap_or_else(Field::zero);
+                assert_eq!(slope, node.rate, "node {top} of {dag:?}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 3000, "{compared}");
 }

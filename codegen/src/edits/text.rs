@@ -17,15 +17,14 @@ pub fn write_edit(edit: &Edit) -> String {
     format!("{place} = {sign}{}", write_operand(&edit.value))
 }
 
-/// Reads an edit of a program.
+/// Reads an edit of a program of `count` steps.
 ///
 /// # Errors
 /// What is wrong with the text.
-pub fn read_edit(text: &str, program: &Program) -> Result<Edit, Complaint> {
+pub fn read_edit(text: &str, program: &Program, count: usize) -> Result<Edit, Complaint> {
     let (place, value) = text
         .split_once(" = ")
         .ok_or_else(|| complaint(format!("`{text}` is no edit")))?;
-    let count = program.dag.operations().count();
     let read = |word| read_operand(word, program, count);
     let (step, side) = place.split_once('.').unwrap_or((place, ""));
     let place = match (read(step)?, side) {

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::approximate::error::ToleranceError;
 use crate::certificate::Refuted;
-use crate::function::Function;
+use crate::function::{Argument, Function};
 use crate::program::ScalarType;
 use crate::verify::exact::Disproof;
 use crate::words::Complaint;
@@ -75,6 +75,26 @@ impl GenerateError {
     pub fn empty() -> GenerateError {
         let help = "name an output and a scalar";
         GenerateError::refused(None, "nothing to generate", help)
+    }
+
+    /// Refuses what has something of each link, of a robot whose joints follow others.
+    pub(super) fn follows(function: Function) -> GenerateError {
+        let takes_slopes = function.arguments().contains(&Argument::Multiplier);
+        let (message, help) = match takes_slopes {
+            true => (
+                format!("`{function}` is not there where joints follow others (`mimic`)"),
+                "first derivatives are",
+            ),
+            false => (
+                format!(
+                    "`{function}` has entries of each link, and where joints follow others (`mimic`) \
+                     there are more links than coordinates"
+                ),
+                "ask for `forward_kinematics@FRAME` of frames on links, or `regressor` in place of \
+                 `full_regressor`",
+            ),
+        };
+        GenerateError::refused(function, message, help)
     }
 
     /// Returns the function that it is about, if it is about one.

@@ -35,7 +35,7 @@ use crate::bound::input_box::InputBox;
 use crate::emit::GeneratedFunction;
 use crate::emit::header;
 use crate::emit::module;
-use crate::function::{Argument, Columns, Function};
+use crate::function::{Columns, Function};
 use crate::language::c99::Names;
 use crate::language::{Language, Printed};
 use crate::parallel;
@@ -217,7 +217,7 @@ fn check(robot: &Robot, request: &Request) -> Result<(), GenerateError> {
     for &function in &functions {
         frames::check(robot, function)?;
         if !robot.followers.is_empty() && !function.takes_followers() {
-            return Err(follows(function));
+            return Err(GenerateError::follows(function));
         }
     }
     language::check(robot, request, &functions)?;
@@ -239,26 +239,6 @@ fn check(robot: &Robot, request: &Request) -> Result<(), GenerateError> {
         }
         None => Ok(()),
     }
-}
-
-/// Refuses what has something of each link, of a robot whose joints follow others.
-fn follows(function: Function) -> GenerateError {
-    let takes_slopes = function.arguments().contains(&Argument::Multiplier);
-    let (message, help) = match takes_slopes {
-        true => (
-            format!("`{function}` is not there where joints follow others (`mimic`)"),
-            "first derivatives are",
-        ),
-        false => (
-            format!(
-                "`{function}` has entries of each link, and where joints follow others (`mimic`) \
-                 there are more links than coordinates"
-            ),
-            "ask for `forward_kinematics@FRAME` of frames on links, or `regressor` in place of \
-             `full_regressor`",
-        ),
-    };
-    GenerateError::refused(function, message, help)
 }
 
 type Found = (Vec<GeneratedFunction>, Vec<ScalarType>);

@@ -14,6 +14,10 @@ use crate::seeds::{Source, Start};
 use crate::setup::{ParametersKey, SceneKey};
 use crate::words::{Complaint, Word, complaint};
 
+/// What the lines of parameters and of stages are.
+const PARAMETERS: &str = "expected `payload`, `gravity` or both, the load's length and its hash";
+const STAGE: &str = "expected a stage and four counts";
+
 /// The longest plan that is read.
 pub(crate) const MAX_BYTES: usize = 64 << 20;
 
@@ -190,9 +194,7 @@ fn scene(words: &[&str], entry: &mut Entry, is_late: bool) -> Result<(), Complai
 /// numbers the load has.
 fn parameters(words: &[&str], entry: &mut Entry, is_late: bool) -> Result<(), Complaint> {
     let &[names, load, hash] = words else {
-        return Err(complaint(
-            "expected `payload`, `gravity` or both, the load's length and its hash",
-        ));
+        return Err(complaint(PARAMETERS));
     };
     let program = &mut entry.program;
     if is_late || entry.parameters.is_some() {
@@ -203,17 +205,13 @@ fn parameters(words: &[&str], entry: &mut Entry, is_late: bool) -> Result<(), Co
         .filter(|parameter| names.split(',').any(|word| word == parameter.name()))
         .collect();
     if taken.len() != names.split(',').count() {
-        return Err(complaint(
-            "expected `payload`, `gravity` or both, the load's length and its hash",
-        ));
+        return Err(complaint(PARAMETERS));
     }
     program.load = load
         .parse()
         .ok()
         .filter(|&load| load <= MAX_LOAD)
-        .ok_or_else(|| {
-            complaint("expected `payload`, `gravity` or both, the load's length and its hash")
-        })?;
+        .ok_or_else(|| complaint(PARAMETERS))?;
     let arguments = taken.iter().map(|parameter| parameter.argument());
     program.arguments.extend(arguments);
     program.arguments.sort();
@@ -229,12 +227,10 @@ fn parameters(words: &[&str], entry: &mut Entry, is_late: bool) -> Result<(), Co
 const MAX_LOAD: usize = 100 * Robot::MAX_JOINTS;
 
 fn pass(words: &[&str]) -> Result<Pass, Complaint> {
-    let (name, counts) = words
-        .split_first()
-        .ok_or_else(|| complaint("expected a stage and four counts"))?;
+    let (name, counts) = words.split_first().ok_or_else(|| complaint(STAGE))?;
     let counts: Vec<usize> = counts.iter().filter_map(|word| word.parse().ok()).collect();
     let &[mul, add, div, sincos] = counts.as_slice() else {
-        return Err(complaint("expected a stage and four counts"));
+        return Err(complaint(STAGE));
     };
     let name = Pass::NAMES
         .into_iter()

@@ -13,8 +13,9 @@ use crate::words::{Complaint, complaint};
 /// A variant that is being read.
 pub(super) struct Variant {
     stages: Vec<Stage>,
-    /// The last program that is whole.
+    /// The last program that is whole, and the number of its steps.
     program: Program,
+    count: usize,
     /// The steps of the next one, so far.
     steps: Steps,
     edits: Vec<Edit>,
@@ -29,6 +30,7 @@ impl Variant {
         Variant {
             stages: Vec::new(),
             program: entry.program.clone(),
+            count: entry.program.dag.operations().count(),
             steps: Steps::default(),
             edits: Vec::new(),
             is_open: false,
@@ -47,7 +49,7 @@ impl Variant {
         match (words[0], self.is_open) {
             ("edit", false) => {
                 let edit = line.split_once(' ').map_or("", |(_, edit)| edit);
-                self.edits.push(read_edit(edit, &self.program)?);
+                self.edits.push(read_edit(edit, &self.program, self.count)?);
             }
             ("next", false) => {
                 self.stages.push(Stage {
@@ -57,11 +59,9 @@ impl Variant {
                 self.is_open = true;
             }
             ("return", true) => {
-                read_results(
-                    &words[1..],
-                    std::mem::take(&mut self.steps),
-                    &mut self.program,
-                )?;
+                let steps = std::mem::take(&mut self.steps);
+                self.count = steps.steps.len();
+                read_results(&words[1..], steps, &mut self.program)?;
                 self.is_open = false;
             }
             (_, true) => {

@@ -58,7 +58,7 @@ impl<C, I> Default for Steps<C, I> {
 }
 
 impl<C: Clone, I: Clone> Steps<C, I> {
-    /// Lists the operations of a graph.
+    /// Lists the operations of a graph whose operands come before their users.
     pub fn new<D, J>(
         dag: &Dag<D, J>,
         constant: impl Fn(&D) -> C,
@@ -87,6 +87,9 @@ impl<C: Clone, I: Clone> Steps<C, I> {
     }
 
     /// Returns the graph of the steps, each leaf before the first of them that reads it.
+    ///
+    /// # Panics
+    /// If a step or a result reads a step that is not before it.
     pub fn dag(&self) -> Dag<C, I>
     where
         C: Eq + Hash,

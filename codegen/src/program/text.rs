@@ -79,7 +79,7 @@ pub(crate) fn read_results(
     }
 }
 
-/// Returns a program's next step, after so many, from its words.
+/// Parses a program's next step; `count` steps stand before it.
 pub(crate) fn read_step(
     words: &[&str],
     program: &Program,
@@ -108,7 +108,7 @@ pub(crate) fn without_quotient(step: Step) -> Result<Step, Complaint> {
     }
 }
 
-/// Returns an operand of a program's next step, after so many.
+/// Parses an operand of a program's next step; `count` steps stand before it.
 pub(crate) fn read_operand(
     word: &str,
     program: &Program,

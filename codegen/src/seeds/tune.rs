@@ -222,12 +222,12 @@ fn alternatives(
     };
     let [less, more] = chain.freedoms()[i];
     let axes = (less..=more).filter(|&axes| axes != now.axes);
-    links.extend(axes.map(|axes| with(now, |link| link.axes = axes)));
+    links.extend(axes.map(|axes| changed(now, |link| link.axes = axes)));
     links
 }
 
 /// Returns a link's regrouping with a change.
-fn with(
+fn changed(
     now: &LinkRegrouping<Exact>,
     change: impl FnOnce(&mut LinkRegrouping<Exact>),
 ) -> LinkRegrouping<Exact> {
@@ -300,14 +300,14 @@ fn revolute(
         origins.push(now.origin[2].add(&next.offset[2]));
     }
     let masses = masses.into_iter();
-    let masses = masses.map(|x| with(now, |link| link.mass = x));
+    let masses = masses.map(|x| changed(now, |link| link.mass = x));
     let firsts = firsts.into_iter();
-    let firsts = firsts.map(|x| with(now, |link| link.first = x));
+    let firsts = firsts.map(|x| changed(now, |link| link.first = x));
     let seconds = seconds.into_iter();
-    let seconds = seconds.map(|x| with(now, |link| link.second = x));
+    let seconds = seconds.map(|x| changed(now, |link| link.second = x));
     let origins = origins.into_iter();
     let origins =
-        origins.map(|z| with(now, |link| link.origin = [Exact::zero(), Exact::zero(), z]));
+        origins.map(|z| changed(now, |link| link.origin = [Exact::zero(), Exact::zero(), z]));
     let candidates = masses.chain(firsts).chain(seconds).chain(origins);
     candidates.collect()
 }
@@ -338,8 +338,8 @@ fn prismatic(
         origins.push(shifted(&centre));
     }
     let origins = origins.into_iter();
-    let origins = origins.map(|origin| with(now, |link| link.origin = origin));
-    let kept = [false, true].map(|kept| with(now, |link| link.keep_seconds = kept));
+    let origins = origins.map(|origin| changed(now, |link| link.origin = origin));
+    let kept = [false, true].map(|kept| changed(now, |link| link.keep_seconds = kept));
     origins.chain(kept).collect()
 }
 

@@ -66,14 +66,15 @@ impl<'a> Task<'a> {
         self.posed_arm(self.setup.arm(|constant| leaves.constant(constant)), leaves)
     }
 
-    /// Returns the same of the scene's arm in the scalar.
+    /// Returns the arm and its motion as the function takes them, from the scene's arm in the scalar.
     pub fn posed_arm<L: Leaves>(&self, arm: Arm<L::Value>, leaves: &L) -> Posed<'a, L::Value> {
         let constant = |constant: &Exact| leaves.constant(constant);
         let columns = self.setup.columns(self.function, constant);
         self.posed_over(arm, leaves, columns)
     }
 
-    /// Returns the same, a regressor being over these columns.
+    /// Returns the arm and its motion as the function takes them, with these columns for a
+    /// regressor.
     pub(super) fn posed_over<L: Leaves>(
         &self,
         mut arm: Arm<L::Value>,

@@ -35,8 +35,8 @@ pub(super) struct Extremes {
 impl Extremes {
     /// Bounds the values and adjoints of a program over a box, each with at most `points` points
     /// of a grid; with none, no angle is looked at. `None` if the polynomials are too large.
-    pub(super) fn of(program: &Program, limits: &InputBox, points: usize) -> Option<Extremes> {
-        let gradient = Gradient::of(program);
+    pub(super) fn new(program: &Program, limits: &InputBox, points: usize) -> Option<Extremes> {
+        let gradient = Gradient::new(program);
         let graph = &gradient.graph;
         let sliding = grid::sliding(graph, limits.joints());
         let each = points.min(FULL * points / graph.outputs.len().max(1));
@@ -53,7 +53,7 @@ impl Extremes {
             });
         })?;
         let most: Vec<f64> = most.into_iter().collect::<Option<_>>()?;
-        let of = |own: &[(Id, Edge)]| {
+        let by_node = |own: &[(Id, Edge)]| {
             let mut all = vec![0.0; program.dag.nodes.len()];
             for (id, edge) in own {
                 all[*id as usize] = most[edge.index()];
@@ -61,8 +61,8 @@ impl Extremes {
             all
         };
         Some(Extremes {
-            values: of(&gradient.values),
-            adjoints: gradient.adjoints.iter().map(|own| of(own)).collect(),
+            values: by_node(&gradient.values),
+            adjoints: gradient.adjoints.iter().map(|own| by_node(own)).collect(),
         })
     }
 }

@@ -21,7 +21,8 @@ pub(super) struct Gradient {
 }
 
 impl Gradient {
-    pub(super) fn of(program: &Program) -> Gradient {
+    /// Differentiates every output of a program.
+    pub(super) fn new(program: &Program) -> Gradient {
         let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
         let dag = &program.dag;
         let constant = |constant: &Exact| Symbol::from(constant.clone());

@@ -53,7 +53,8 @@ pub(in crate::bound) struct Constants<'p> {
 }
 
 impl<'p> Constants<'p> {
-    pub(in crate::bound) fn of(
+    /// Rounds a program's constants.
+    pub(in crate::bound) fn new(
         program: &'p Program,
         scalar: ScalarType,
         sines: &[AngleKernel],

@@ -85,7 +85,7 @@ impl Rounding {
         }
     }
 
-    /// Adds what a node errs.
+    /// Adds a node's error to its cause: sines, or arithmetic.
     fn note(&mut self, node: &Node, error: f64) {
         match node {
             Node::Input(_) => self.sincos += error,
@@ -110,7 +110,7 @@ pub fn rounding(
     limits: &InputBox,
     boxes: usize,
 ) -> Vec<Rounding> {
-    intervals::rounding(&Constants::of(program, scalar, sines), limits, boxes)
+    intervals::rounding(&Constants::new(program, scalar, sines), limits, boxes)
 }
 
 /// What every bound of a program's rounding over a box needs, whatever the
@@ -127,8 +127,8 @@ pub struct Sensitivity {
 }
 
 impl Sensitivity {
-    /// Makes it of a program over a box.
-    pub fn of(program: &Program, limits: &InputBox, bound_effort: BoundEffort) -> Sensitivity {
+    /// Bounds the values and adjoints of a program over a box.
+    pub fn new(program: &Program, limits: &InputBox, bound_effort: BoundEffort) -> Sensitivity {
         let outputs = program.dag.outputs.iter();
         let operations = outputs.map(|output| match program.dag.node(output.node) {
             Node::Apply(..) => Some(output.node),
@@ -138,7 +138,7 @@ impl Sensitivity {
         let mut once = program.clone();
         once.dag.outputs = distinct.pick(&program.dag.outputs);
         Sensitivity {
-            extremes: Extremes::of(&once, limits, bound_effort.points),
+            extremes: Extremes::new(&once, limits, bound_effort.points),
             of: program.clone(),
             program: once,
             distinct,
@@ -155,7 +155,7 @@ impl Sensitivity {
     /// Bounds each output's rounding, with polynomials for sines, whose errors are as they are
     /// claimed; the sines of other angles are a library's, within one ulp.
     pub fn rounding(&self, scalar: ScalarType, sines: &[AngleKernel]) -> Vec<Rounding> {
-        let constants = Constants::of(&self.program, scalar, sines);
+        let constants = Constants::new(&self.program, scalar, sines);
         let (limits, boxes) = (&self.limits, self.bound_effort.boxes);
         let coarse = intervals::rounding(&constants, limits, boxes);
         let Some(extremes) = &self.extremes else {

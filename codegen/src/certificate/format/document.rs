@@ -94,8 +94,8 @@ impl Document {
             total: part(|s| s.total()),
             polynomials: certificate.sines.iter().map(Polynomials::of).collect(),
             lambda_min: certificate.lambda_min,
-            stages: certificate.stages.iter().map(StageListing::of).collect(),
-            emitted: Listing::of(emitted),
+            stages: certificate.stages.iter().map(StageListing::new).collect(),
+            emitted: Listing::new(emitted),
             text_hash: text_hash(&certificate.text),
             text: certificate.text.clone(),
         }

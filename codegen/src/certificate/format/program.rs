@@ -22,7 +22,7 @@ pub(super) struct StageListing {
 }
 
 impl Listing {
-    pub(super) fn of(program: &Program) -> Listing {
+    pub(super) fn new(program: &Program) -> Listing {
         let Steps { steps, outputs } = program.dag.steps();
         Listing {
             steps: steps.iter().map(write_step).collect(),
@@ -32,9 +32,9 @@ impl Listing {
 }
 
 impl StageListing {
-    pub(super) fn of(stage: &Stage) -> StageListing {
+    pub(super) fn new(stage: &Stage) -> StageListing {
         StageListing {
-            program: Listing::of(&stage.program),
+            program: Listing::new(&stage.program),
             edits: stage.edits.iter().map(write_edit).collect(),
         }
     }

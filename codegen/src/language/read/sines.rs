@@ -20,7 +20,7 @@ impl Reader {
         }
         let (function, argument) = self
             .called(Library::Libm, value)
-            .ok_or_else(|| format!("`{value}` is no sine or cosine of this scalar"))?;
+            .ok_or_else(|| format!("`{value}` is no sine or cosine of this library and scalar"))?;
         let joint = joint(argument)?;
         let (sin, cos) = match function {
             "sin" => (true, false),

@@ -69,7 +69,7 @@ pub struct BaseParameters {
     pub combinations: Vec<Vec<(Parameter, Exact)>>,
 }
 
-/// The way out where there are none.
+/// The way out where there are no base parameters.
 const FULL: &str = "ask for `full_regressor`, over all parameters of all links";
 
 /// Complains of a coefficient that has too many sines and cosines of constant angles.
@@ -79,10 +79,11 @@ fn large(joint: usize) -> Complaint {
          of sines and cosines of the table's angles",
         joint + 1
     );
-    none(message, "give angles that are multiples of pi/2 as such")
+    no_base(message, "give angles that are multiples of pi/2 as such")
 }
 
-fn none(message: impl Into<String>, help: &str) -> Complaint {
+/// Complains that there are no base parameters; the way out is the fix, or the full regressor.
+fn no_base(message: impl Into<String>, help: &str) -> Complaint {
     let gap = if help.is_empty() { "" } else { ", or " };
     Complaint::new(message, format!("{help}{gap}{FULL}"))
 }
@@ -96,11 +97,8 @@ impl BaseParameters {
                            has them";
             let help = "leave `coulomb` out of the robot file and add the friction to the torques \
                         yourself";
-            let why = none(message, help);
-            return Err(Complaint::new(
-                why.message,
-                why.help + ", which is of links alone",
-            ));
+            let help = format!("{help}, or {FULL}, which is of links alone");
+            return Err(Complaint::new(message, help));
         }
         let arm = Arm::from_robot(robot, &mut Exact::clone).fold_base();
         let n = arm.links.len();
@@ -130,12 +128,12 @@ impl BaseParameters {
         let unfit = || {
             let message = "a parameter is divisible by 2^61 - 1 or 2^61 - 229, modulo which columns \
                            are compared";
-            none(message, "change its last digit")
+            no_base(message, "change its last digit")
         };
         let irrational = || {
             let message = "one base parameter depends on the others by a number that is no short \
                            fraction, as odd angles between slides and the first axis give";
-            none(message, "")
+            no_base(message, "")
         };
         let reduced = Reduced::confirmed(
             reduced(values(setup, quantity, &candidates).ok_or_else(unfit)?),
