@@ -85,7 +85,7 @@ impl Word for bool {
     }
 }
 
-/// What is wrong with what was given, a word, a line or a file, and the likely fix.
+/// A mistake in a word, a line or a file, and the likely fix.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Complaint {
     /// What is wrong.

@@ -13,7 +13,7 @@ use crate::words::Complaint;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum GenerateError {
-    /// What was asked for cannot be had, of a function if it is about one.
+    /// The request cannot be met; the function that it is about, if it is about one.
     Refused(Option<Function>, Complaint),
     /// A parameter cannot be an argument, of a function if it is about one.
     Parameter(Option<Function>, Complaint),

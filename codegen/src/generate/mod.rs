@@ -49,7 +49,7 @@ use crate::verify::exact::prove;
 use crate::verify::measure::Emitted;
 use crate::verify::parameters::prove_base;
 use crate::verify::singular::without_inertia;
-use crate::words::Complaint;
+use crate::words::{Complaint, complaint};
 pub use anew::generate_anew;
 pub use error::GenerateError;
 use range::{check_constants, vanishing, warn_of_overflow};
@@ -364,7 +364,7 @@ fn sines(
     let all = scalars.iter().map(|&scalar| {
         let positions = sincos::positions(setup.robot(), scalar);
         let sines = sincos::polynomials(&generated.program, scalar, &positions, error);
-        let sines = sines.map_err(|why| fail(Complaint::new(why.to_string(), "")))?;
+        let sines = sines.map_err(|why| fail(complaint(why.to_string())))?;
         if spoil_inertia(setup, &generated.program, scalar, &sines) {
             let message = format!(
                 "with sines that err by up to {error:e}, D cannot be shown to be positive definite \

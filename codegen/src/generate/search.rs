@@ -63,8 +63,8 @@ type Origin = (Source, Vec<Pass>, Program, Option<Refused>);
 /// Searches for a program; on from the one that is renewed, which stays unless there is a cheaper
 /// one.
 pub(super) fn found(job: &Job<'_>, function: Function) -> Result<Origin, GenerateError> {
-    let mut found = search(job, function)?;
     let search = Search::new(job, function);
+    let mut found = search.cheapest()?;
     if let Some((entry, program)) = search.renewed() {
         let again = search.on_from(entry, &program, &found);
         found = again
@@ -101,32 +101,7 @@ pub struct Found {
 
 /// Searches for the cheapest program. A thorough search contains the quick one: it is never dearer.
 pub fn search(job: &Job<'_>, function: Function) -> Result<Found, GenerateError> {
-    let search = Search::new(job, function);
-    let watch = job.request.watch.over(function);
-    // Who wants an end before a function's turn gets the quick search for it.
-    if watch.is_over() {
-        return search.quick(None);
-    }
-    let tell = |part, best| watch.step(part, [0, 1], best);
-    tell(Part::Formulations, None);
-    // Nobody ends the quick search inside a thorough one: that is at least as good.
-    let is_quick = job.request.effort == Effort::Quick;
-    let quick = search.quick(is_quick.then_some(watch))?;
-    if is_quick || watch.is_over() {
-        tell(Part::Proof, Some(quick.searched.graph.counts()));
-        return Ok(quick);
-    }
-    tell(Part::Formulations, Some(quick.searched.graph.counts()));
-    let mut found = search.run(Effort::Thorough, true, &[], Some(watch))?;
-    if found.cost() > quick.cost() {
-        found = quick;
-    } else {
-        found.refused = quick
-            .refused
-            .and_then(|refused| search.refused(refused.counts, refused.error, &found));
-    }
-    tell(Part::Proof, Some(found.searched.graph.counts()));
-    Ok(found)
+    Search::new(job, function).cheapest()
 }
 
 /// What costs one part in so many more than the cheapest is as good.
@@ -149,6 +124,35 @@ impl<'a> Search<'a> {
                 false => AccuracyFilter::new(task),
             },
         }
+    }
+
+    fn cheapest(&self) -> Result<Found, GenerateError> {
+        let request = self.job.request;
+        let watch = request.watch.over(self.task.function);
+        // Who wants an end before a function's turn gets the quick search for it.
+        if watch.is_over() {
+            return self.quick(None);
+        }
+        let tell = |part, best| watch.step(part, [0, 1], best);
+        tell(Part::Formulations, None);
+        // Nobody ends the quick search inside a thorough one: that is at least as good.
+        let is_quick = request.effort == Effort::Quick;
+        let quick = self.quick(is_quick.then_some(watch))?;
+        if is_quick || watch.is_over() {
+            tell(Part::Proof, Some(quick.searched.graph.counts()));
+            return Ok(quick);
+        }
+        tell(Part::Formulations, Some(quick.searched.graph.counts()));
+        let mut found = self.run(Effort::Thorough, true, &[], Some(watch))?;
+        if found.cost() > quick.cost() {
+            found = quick;
+        } else {
+            found.refused = quick
+                .refused
+                .and_then(|refused| self.refused(refused.counts, refused.error, &found));
+        }
+        tell(Part::Proof, Some(found.searched.graph.counts()));
+        Ok(found)
     }
 
     /// Returns the program that is renewed; none if there is none that is proved to be the

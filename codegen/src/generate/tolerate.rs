@@ -20,7 +20,7 @@ use crate::search::Effort;
 use crate::seeds::Start;
 use crate::setup::SceneKey;
 use crate::sincos::SinCos;
-use crate::words::Complaint;
+use crate::words::{Complaint, complaint};
 
 /// Replaces the programs, if the scene has a tolerance. Returns the scalars to
 /// emit.
@@ -213,7 +213,7 @@ fn chosen(
             });
             let fail = |why| {
                 let message = format!("no polynomials for its sines within the tolerance: {why}");
-                GenerateError::SinCos(function, Complaint::new(message, ""))
+                GenerateError::SinCos(function, complaint(message))
             };
             let (admitted, certificates) = found.map_err(fail)?;
             Admitted {

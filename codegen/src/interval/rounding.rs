@@ -14,7 +14,7 @@ use crate::dag::{Dag, Id, Node, Operation};
 pub(crate) struct Forward {
     /// Node by node.
     pub values: Vec<Interval>,
-    /// How far the two can be apart at the node itself.
+    /// The distance between the two that a node itself may add.
     pub own: Vec<f64>,
 }
 

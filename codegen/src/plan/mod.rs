@@ -28,12 +28,12 @@ use crate::words::Complaint;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::scene::Scene;
 
-/// What is wrong with a plan's text.
+/// A mistake in a plan's text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlanError {
     /// One-based line.
     pub line: usize,
-    /// What is wrong and what was expected.
+    /// The mistake, and the expected words.
     pub why: Complaint,
 }
 

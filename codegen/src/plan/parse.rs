@@ -14,7 +14,7 @@ use crate::seeds::{Source, Start};
 use crate::setup::{ParametersKey, SceneKey};
 use crate::words::{Complaint, Word, complaint};
 
-/// What the lines of parameters and of stages are.
+/// The complaints about lines of parameters and of stages.
 const PARAMETERS: &str = "expected `payload`, `gravity` or both, the load's length and its hash";
 const STAGE: &str = "expected a stage and four counts";
 

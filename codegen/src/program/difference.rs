@@ -1,7 +1,6 @@
 //! The first difference between two pieces of code.
 
-use super::{Code, Literal};
-use crate::dag::{Dag, Id, Node};
+use super::{Code, Steps};
 use crate::words::{Complaint, complaint};
 
 impl Code {
@@ -33,18 +32,12 @@ impl Code {
 
     /// Compares operations and results one by one: equal operations read equal ones before them.
     fn first_difference(&self, other: &Code) -> Option<String> {
-        let operand = |dag: &Dag<Literal>, numbers: &[Option<usize>], id: Id| match dag.node(id) {
-            Node::Apply(..) => Err(numbers[id as usize]),
-            leaf => Ok(leaf.clone()),
-        };
-        let [ours, theirs] = [&self.dag, &other.dag];
-        let numbers = [ours.numbers(), theirs.numbers()];
-        let same = |a: Id, b: Id| operand(ours, &numbers[0], a) == operand(theirs, &numbers[1], b);
-        let mut operations = ours.operations().zip(theirs.operations());
-        let operation = operations
-            .position(|((_, a, [x, y]), (_, b, [z, w]))| a != b || !same(x, z) || !same(y, w));
+        let [ours, theirs] = [&self.dag, &other.dag]
+            .map(|dag| Steps::new(dag, |constant| *constant, |input| *input));
+        let mut steps = ours.steps.iter().zip(&theirs.steps);
+        let operation = steps.position(|(a, b)| a != b);
         let mut outputs = ours.outputs.iter().zip(&theirs.outputs);
-        let result = outputs.position(|(a, b)| a.negative != b.negative || !same(a.node, b.node));
+        let result = outputs.position(|(a, b)| a != b);
         let operation = operation.map(|index| format!("operation t{} differs", index + 1));
         operation.or(result.map(|index| format!("result {index} differs")))
     }
@@ -53,9 +46,9 @@ impl Code {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dag::{Edge, Input, Operation};
+    use crate::dag::{Dag, Edge, Input, Node, Operation};
     use crate::function::Argument;
-    use crate::program::{Library, ScalarType};
+    use crate::program::{Library, Literal, ScalarType};
 
     /// −((q̇₁ − 0) − q̈₂).
     fn code() -> Code {

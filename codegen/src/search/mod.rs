@@ -96,9 +96,10 @@ pub fn search(
             };
             if is_taken {
                 own = found;
-            }
-            if cost(&own) < cost(&best) || walk == 0 {
-                best = own.clone();
+                // Of equal programs a later one stays in the first walk.
+                if walk == 0 || after < cost(&best) {
+                    best = own.clone();
+                }
             }
         }
     }

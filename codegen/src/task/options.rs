@@ -15,7 +15,7 @@ use super::request::Request;
 use crate::function::Function;
 use crate::program::ScalarType;
 use crate::sincos::SinCos;
-use crate::words::{Complaint, Word, parse};
+use crate::words::{Complaint, Word, complaint, parse};
 
 /// An option of a request.
 #[derive(Clone, Copy, Debug)]
@@ -95,7 +95,7 @@ fn add<T>(
     text: &str,
 ) -> Result<(), Complaint> {
     if list.iter().any(|other| is_same(other, &item)) {
-        return Err(Complaint::new(format!("`{text}` is given twice"), ""));
+        return Err(complaint(format!("`{text}` is given twice")));
     }
     list.push(item);
     Ok(())
@@ -300,7 +300,7 @@ impl Request {
         for row in &OPTIONS {
             for (index, item) in asked.items(row.name).into_iter().enumerate() {
                 let wrong = match index > 0 && !row.is_list {
-                    true => Err(Complaint::new("expected one word only", "")),
+                    true => Err(complaint("expected one word only")),
                     false => (row.set)(&mut draft, item),
                 };
                 if let Err(wrong) = wrong {

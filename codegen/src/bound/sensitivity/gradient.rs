@@ -14,9 +14,10 @@ use crate::program::{Input, Program};
 /// of the output with respect to them: all of them its outputs.
 pub(super) struct Gradient {
     pub graph: Dag,
-    /// Of each operation, in the graph.
+    /// The value of each operation, in the graph.
     pub values: Vec<(Id, Edge)>,
-    /// Of each output: with respect to each operation, sine and cosine that it depends on.
+    /// The derivatives of each output, with respect to each operation, sine and cosine that it
+    /// depends on.
     pub adjoints: Vec<Vec<(Id, Edge)>>,
 }
 

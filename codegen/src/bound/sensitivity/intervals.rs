@@ -45,7 +45,7 @@ pub(super) fn rounding(
 pub(in crate::bound) struct Constants<'p> {
     pub program: &'p Program,
     pub scalar: ScalarType,
-    /// Of each node, if it is a constant.
+    /// The range and the error of each node that is a constant.
     nodes: Vec<Option<(Interval, f64)>>,
     sines: Vec<(usize, Errors)>,
     /// What 1/√(q̇² + w²) of a joint may be, as it is computed.

@@ -40,7 +40,7 @@ impl Moment {
         body
     }
 
-    /// Returns what a body has of it.
+    /// Returns the moment of a body.
     pub(super) fn read(self, body: &Body<Exact>) -> &Exact {
         match self {
             Moment::Mass => &body.mass,
