@@ -17,7 +17,7 @@ fn smooth() -> String {
     lines.map(|line| format!("{line}\n")).collect()
 }
 
-/// Returns what the code of a function in f64 gives at a state.
+/// Runs the code of a function in f64 at a state.
 fn run(generated: &Generated, name: &str, state: &JointState) -> Vec<f64> {
     let mut emitted = generated.emitted.iter();
     let own = emitted.find(|own| own.function.name() == name && own.scalar == ScalarType::F64);
@@ -70,7 +70,7 @@ fn scenes_drop_what_does_not_move() {
     }
 }
 
-/// What has no friction in it is certified, and inside all limits nothing overflows.
+/// A function without friction in it is certified, and inside all limits nothing overflows.
 #[test]
 fn what_has_no_friction_is_as_ever() {
     let limits = "limits = { position = [-1, 1], velocity = 2, acceleration = 9, torque = 90 }";

@@ -97,7 +97,7 @@ fn long_functions_are_in_blocks() {
     }
 }
 
-/// What begins a branch or a loop in some language.
+/// Words that begin a branch or a loop in some language.
 const BRANCHES: [&str; 10] = [
     "if", "else", "match", "switch", "while", "for", "loop", "do", "goto", "break",
 ];

@@ -68,7 +68,7 @@ fn by_name() {
     }
 }
 
-/// What no option and no file can ask for, but a request can: a name that is none, one for two
+/// Requests that no option and no file can make: a name that is none, one for two
 /// functions, and a scene of another robot.
 #[test]
 fn requests_that_nobody_read() {

@@ -197,7 +197,7 @@ fn the_same_program_in_columns() {
     }
 }
 
-/// What is in a line, and what it is changed to.
+/// Words of a line, and the words in their place.
 type Change = (&'static str, &'static str);
 
 /// Robot files, what is asked, of which the first function is read, and every how manieth line

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::Operation;
+use super::{Dag, Operation};
 
 /// Operations of straight-line code. Negation and copies are free.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -59,6 +59,13 @@ impl Counts {
     /// polynomials.
     pub fn operations(&self) -> usize {
         self.mul + self.add + self.fma + self.div
+    }
+}
+
+impl<C, I> Dag<C, I> {
+    /// Counts the operations, needed or not, without sines.
+    pub(crate) fn arithmetic(&self) -> Counts {
+        Counts::of_operations(self.operations().map(|(_, operation, _)| operation))
     }
 }
 

@@ -103,7 +103,7 @@ impl Code {
             sincos: self.pairs.len(),
             trig_mul,
             trig_add,
-            ..Counts::of_operations(self.dag.operations().map(|(_, operation, _)| operation))
+            ..self.dag.arithmetic()
         };
         own.with_speeds(self.speeds.len())
     }

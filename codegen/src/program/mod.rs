@@ -85,15 +85,15 @@ impl Program {
         }
     }
 
-    /// Returns the same function with the same arguments and results, by another
-    /// graph in the order in which code is printed.
+    /// Returns the program of another graph with the same arguments and results, in the order in
+    /// which code is printed.
     #[must_use]
     pub fn with_graph(&self, graph: &Dag) -> Program {
         self.with_code(graph.scheduled())
     }
 
-    /// Returns the same function with the same arguments and results, by another graph whose
-    /// operations are in this order. A constant that is a result has its own sign.
+    /// Returns the program of another graph with the same arguments and results, its operations in
+    /// their order. A constant that is a result has its own sign.
     #[must_use]
     pub(crate) fn with_code(&self, mut graph: Dag) -> Program {
         for edge in &mut graph.outputs {
@@ -124,14 +124,20 @@ impl Program {
 
     /// Returns the program with these speeds, as far as it reads them.
     #[must_use]
-    pub(crate) fn with_speeds(self, mut speeds: Vec<Speed>) -> Program {
+    pub(crate) fn with_speeds(self, speeds: Vec<Speed>) -> Program {
+        let speeds = self.read(speeds);
+        Program { speeds, ..self }
+    }
+
+    /// Returns those of the speeds that the program reads.
+    pub(crate) fn read(&self, mut speeds: Vec<Speed>) -> Vec<Speed> {
         let read = |joint| {
             self.dag
                 .inputs()
                 .any(|input| *input == Input::PerSpeed(joint))
         };
         speeds.retain(|own| read(own.joint));
-        Program { speeds, ..self }
+        speeds
     }
 
     /// Lists the sines and cosines that it reads, joints ascending.
@@ -152,7 +158,7 @@ impl Program {
     pub fn counts(&self) -> Counts {
         let own = Counts {
             sincos: self.trig().len(),
-            ..Counts::of_operations(self.dag.operations().map(|(_, operation, _)| operation))
+            ..self.dag.arithmetic()
         };
         own.with_speeds(self.speeds.len())
     }

@@ -132,8 +132,7 @@ impl std::error::Error for Disproof {}
 /// The first output that differs, or the reason for which nothing can be proved.
 pub fn prove(setup: &Setup, program: &Program) -> Result<Proof, Disproof> {
     // A program reads speeds of the robot's widths, and no other.
-    let of_robot = program.clone().with_speeds(setup.speeds());
-    if program.rows != setup.rows() || program.speeds != of_robot.speeds {
+    if program.rows != setup.rows() || program.speeds != program.read(setup.speeds()) {
         return Err(Disproof::Shape);
     }
     let function = program.function;

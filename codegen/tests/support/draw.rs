@@ -18,7 +18,7 @@ impl Draw {
         Rational::new(value.into(), 1000.into())
     }
 
-    /// Returns what is drawn, or once in so many times nothing.
+    /// Returns a drawn value, or once in so many times the default one.
     fn unless<T: Default>(&mut self, one_in: usize, drawn: impl Fn(&mut Draw) -> T) -> T {
         match self.chance(one_in) {
             true => T::default(),

@@ -178,7 +178,7 @@ impl Case {
         Case::read(&source, &asked)
     }
 
-    /// Returns what is said of outputs that cannot be had so.
+    /// Returns the refusal of outputs with options in a scene.
     pub fn refused(name: &str, lines: &str, asked: &str) -> String {
         let (source, asked) = in_scene(name, lines, asked);
         Case::parse(&source, &asked).map_or_else(|said| said, |case| case.refusal())
@@ -216,7 +216,7 @@ impl Case {
         generate(self.robot(), &request).unwrap_or_else(|error| panic!("{error}"))
     }
 
-    /// Returns what is said of what cannot be had.
+    /// Returns the refusal of the request.
     pub fn refusal(&self) -> String {
         match generate(self.robot(), &self.request) {
             Ok(_) => panic!("generated"),
@@ -268,7 +268,7 @@ pub fn rounds_well(own: &Generated, runtime: &Runtime, states: &[JointState], wh
     }
 }
 
-/// What code gives at a state, what is expected, and what is granted to the quantities.
+/// Results of code at a state, the expected ones, and what is granted to the quantities.
 pub type Compared = (Vec<f64>, Vec<f64>, Granted);
 
 /// Holds each quantity of these against what is expected, by the rule of every function: 100 u of a
