@@ -113,7 +113,7 @@ fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Gene
         let drawn = own.states(states, SEED);
         let bench = Bench::new(own);
         let rows = generated.emitted.iter().map(|emitted| {
-            let worst = bench.measure(&Code::of(emitted), &drawn, &drawn);
+            let worst = bench.measure(&Code::emitted(emitted), &drawn, &drawn);
             let [vector, entry] = largest(&worst).map(Cell::units);
             let function = emitted.function.to_string();
             cells![function, emitted.scalar.name(), vector, entry]

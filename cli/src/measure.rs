@@ -41,7 +41,7 @@ pub struct Code<'a> {
 impl Code<'_> {
     /// Takes an emitted function, with the sines of libm in the place of polynomials: how far these
     /// are from sines is measured apart.
-    pub fn of(emitted: &Emitted) -> Code<'static> {
+    pub fn emitted(emitted: &Emitted) -> Code<'static> {
         let own = emitted.with_libm();
         Code {
             function: own.function,
@@ -203,7 +203,7 @@ impl Bench {
                     let condition = granted.factor(quantity);
                     let unit = condition * scalar.unit_roundoff();
                     let [vector, entry] = self.errors(code, range.clone(), truth, found, sizes);
-                    let [vector, entry] = [vector, entry].map(|error| part(error, unit));
+                    let [vector, entry] = [vector, entry].map(|error| relative(error, unit));
                     worst.entry = worst.entry.max(entry);
                     if vector > worst.vector {
                         worst.vector = vector;
@@ -241,15 +241,15 @@ impl Bench {
                 true => sizes[i],
                 false => largest,
             };
-            entry = entry.max(part(off, own));
+            entry = entry.max(relative(off, own));
             (error, size) = (error.max(off), size.max(truth[i].size()));
         }
-        [part(error, size), entry]
+        [relative(error, size), entry]
     }
 }
 
 /// Returns error / size: zero of nothing, infinite of what is no number.
-fn part(error: f64, size: f64) -> f64 {
+fn relative(error: f64, size: f64) -> f64 {
     match error / size {
         _ if error == 0.0 => 0.0,
         part if part.is_nan() => f64::INFINITY,

@@ -46,7 +46,7 @@ fn campaign(count: usize, each: usize, longest: usize) -> Worst {
             };
             for emitted in &generated.emitted {
                 let scalar = emitted.scalar;
-                for found in bench.measure(&Code::of(emitted), &states, &states) {
+                for found in bench.measure(&Code::emitted(emitted), &states, &states) {
                     let (quantity, error) = (found.quantity, found.vector);
                     assert!(
                         error <= VECTOR,

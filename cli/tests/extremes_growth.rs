@@ -28,7 +28,7 @@ fn is_within_the_bound(robot: &Robot, emitted: &Emitted, states: usize) {
     let bench = Bench::new(Setup::whole(robot));
     for state in seeded(robot, states, 1) {
         for found in bench.measure(
-            &Code::of(emitted),
+            &Code::emitted(emitted),
             slice::from_ref(&state),
             slice::from_ref(&state),
         ) {

@@ -88,7 +88,7 @@ fn categories_meet_their_criteria(scalar: ScalarType, range: Range<usize>) {
         for own in emitted {
             let codes = [
                 ("runtime", runtime(robot, own.function, scalar)),
-                ("emitted", Code::of(own)),
+                ("emitted", Code::emitted(own)),
             ];
             for (subject, code) in codes {
                 // The error of a vector is relative to its size at this state.

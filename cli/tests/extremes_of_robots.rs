@@ -31,7 +31,7 @@ fn planted_faults_are_found() {
         let generated = generate(&wrong, &request).unwrap();
         let bench = Bench::new(Setup::whole(&robot));
         let states = seeded(&robot, STATES, 1);
-        let found = bench.measure(&Code::of(&generated.emitted[0]), &states, &states);
+        let found = bench.measure(&Code::emitted(&generated.emitted[0]), &states, &states);
         assert_eq!(found.len(), 1, "{joint}");
         found[0].vector
     };

@@ -12,7 +12,7 @@ pub use crate::bound::{
     definite::{Indefinite, least_eigenvalue},
     input_box::InputBox,
     magnitude::{BoxEffort, magnitudes},
-    ranges::{Finding, ranges},
+    ranges::{Overflow, overflows},
     sample::{climb, draw},
     sensitivity::{BoundEffort, Sensitivity, rounding},
 };

@@ -98,7 +98,7 @@ pub fn inside<'e>(
     states: &[JointState],
 ) -> Vec<Row> {
     functions
-        .flat_map(|emitted| bench.measure(&Code::of(emitted), states, states))
+        .flat_map(|emitted| bench.measure(&Code::emitted(emitted), states, states))
         .map(|worst| Row::new(INSIDE, Held::Vector, Ok(worst)))
         .collect()
 }
@@ -118,7 +118,7 @@ fn rows(
         match made {
             Ok(generated) => {
                 for emitted in &generated.emitted {
-                    let worst = bench.measure(&Code::of(emitted), states, scales);
+                    let worst = bench.measure(&Code::emitted(emitted), states, scales);
                     rows.extend(
                         worst
                             .into_iter()

@@ -1,7 +1,7 @@
 //! What a tolerance admitted, with its certificates.
 
 use super::error::ToleranceError;
-use crate::bound::ranges::{Finding, RANGE_BOXES, ranges};
+use crate::bound::ranges::{RANGE_BOXES, overflows};
 use crate::certificate::Certificate;
 use crate::edits::{Stage, has_edits};
 use crate::program::{Program, ScalarType, has_inertia};
@@ -99,14 +99,11 @@ fn in_range(certificate: &Certificate) -> Result<(), ToleranceError> {
         limits,
         ..
     } = certificate;
-    let mut findings = ranges(emitted, *scalar, sines, limits, RANGE_BOXES)
-        .findings
-        .into_iter();
-    match findings.find(|finding| matches!(finding, Finding::Overflow { .. })) {
+    match overflows(emitted, *scalar, sines, limits, RANGE_BOXES).first() {
         None => Ok(()),
-        Some(finding) => Err(ToleranceError::Overflow {
+        Some(&first) => Err(ToleranceError::Overflow {
             scalar: *scalar,
-            finding,
+            first,
         }),
     }
 }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::bound::definite::Indefinite;
 use crate::bound::input_box::MissingLimit;
-use crate::bound::ranges::Finding;
+use crate::bound::ranges::Overflow;
 use crate::bound::scale;
 use crate::function::{Argument, Columns, Function};
 use crate::program::{Program, ScalarType};
@@ -26,7 +26,7 @@ pub enum ToleranceError {
         /// In which scalar.
         scalar: ScalarType,
         /// The first step that may.
-        finding: Finding,
+        first: Overflow,
     },
     /// It would take more work than may be done.
     Work {
@@ -121,9 +121,9 @@ impl fmt::Display for ToleranceError {
             ToleranceError::Function(why) => why.fmt(f),
             ToleranceError::Missing(missing) => missing.fmt(f),
             ToleranceError::Scale(why) => why.fmt(f),
-            ToleranceError::Overflow { scalar, finding } => write!(
+            ToleranceError::Overflow { scalar, first } => write!(
                 f,
-                "inside the box {finding} in {scalar}, and no error is certified of what overflows: \
+                "inside the box {first} in {scalar}, and no error is certified of what overflows: \
                  bound the box, choose other units{}",
                 wider(*scalar)
             ),

@@ -11,7 +11,7 @@ use crate::dag::{Counts, Input, Operation};
 /// grow without end.
 const MAX_TERMS: usize = 1_000;
 
-/// How much a builder recognises.
+/// The equalities that a builder recognises.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Folding {
     /// Zeros, ones, constants, signs and syntactically equal nodes.

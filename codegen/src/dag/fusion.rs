@@ -18,7 +18,7 @@ pub struct Fusion {
     pub factors: [Id; 2],
     /// `true` if the product is subtracted.
     pub negative: bool,
-    /// What the product is added to.
+    /// The other operand of the addition.
     pub addend: Id,
     /// `true` if the addend is subtracted.
     pub minus: bool,

@@ -83,7 +83,7 @@ impl<C, I> Default for Dag<C, I> {
 }
 
 /// The values of constants and inputs in a scalar: at a state, at a point of a field, as symbols.
-/// What a state lacks is no number.
+/// An input that a state lacks is not a number.
 pub trait Leaves<C = Exact, I = Input> {
     /// The scalar.
     type Value: Divide;

@@ -20,7 +20,7 @@ pub(crate) enum Pattern {
     Operation(&'static str, Vec<Pattern>),
 }
 
-/// What patterns are evaluated over.
+/// The values that patterns are evaluated over.
 pub(crate) trait Algebra {
     /// A value.
     type Value: Clone;

@@ -17,7 +17,7 @@ use dalembert_model::scalar::field::{Field, Modulo};
 
 use crate::dag::{Input, Operation};
 
-/// How many points a fingerprint has.
+/// The points of a fingerprint.
 pub(crate) const POINTS: usize = 3;
 
 /// The values of one node at every point.

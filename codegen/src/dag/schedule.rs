@@ -85,8 +85,8 @@ mod tests {
         }
     }
 
-    /// What two outputs share is computed once, what none needs not at all, a difference keeps its
-    /// order, and a constant stands on the right.
+    /// A product that two outputs share is computed once, one that none needs is left out, a
+    /// difference keeps its order, and a constant stands on the right.
     #[test]
     fn shared_once_and_dead_never() {
         let dag = graph(&["(+ (* ?a ?b) ?c)", "(- ?c (* ?a ?b))", "(* 3 ?a)"]).scheduled();

@@ -1,4 +1,4 @@
-//! What builders fold, as tables of patterns; derivatives backwards and forwards.
+//! The folds of builders, as tables of patterns; derivatives backwards and forwards.
 
 use std::collections::HashMap;
 

@@ -8,7 +8,7 @@ use dalembert_model::scalar::field::{Field, ProofField};
 
 use super::GenerateError;
 use crate::bound::input_box::InputBox;
-use crate::bound::ranges::{Finding, ranges};
+use crate::bound::ranges::overflows;
 use crate::dag::{Node, Points};
 use crate::function::Argument;
 use crate::program::{Program, ScalarType};
@@ -78,15 +78,12 @@ pub(super) fn warn_of_overflow(
     let Ok(limits) = InputBox::of(robot) else {
         return;
     };
-    let findings = ranges(program, scalar, &[], &limits, 1).findings;
-    let mut overflows = findings
-        .iter()
-        .filter(|finding| matches!(finding, Finding::Overflow { .. }));
-    if let Some(first) = overflows.next() {
+    let overflows = overflows(program, scalar, &[], &limits, 1);
+    if let Some(first) = overflows.first() {
         warnings.push(format!(
             "`{}` in {scalar}, inside the robot's limits: {first}; {} more like it",
             program.function,
-            overflows.count()
+            overflows.len() - 1
         ));
     }
 }

@@ -33,7 +33,7 @@ pub struct Code {
 pub struct Pair {
     /// The joint.
     pub joint: usize,
-    /// Which of them the code reads.
+    /// The ones that the code reads.
     pub need: Need,
     /// The polynomials, unless a library is called.
     pub kernel: Option<Kernel>,

@@ -1,7 +1,7 @@
 //! Straight-line code in one angle that gives its sine and cosine.
 //!
 //! A kernel is what is printed, read back, run and proved, with literals as they stand in the text.
-//! Which kind of polynomial it is does not matter to any of these.
+//! Its kind of polynomial does not matter to any of these.
 
 use super::machine::Machine;
 use super::{Literal, Operation};
@@ -11,12 +11,12 @@ use crate::dag::{Dag, Edge, Id, Leaves, Node, Writer};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Angle;
 
-/// Whether sine and cosine are wanted.
+/// The functions of an angle that are wanted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Need {
-    /// Whether the sine is wanted.
+    /// `true` if the sine is wanted.
     pub sin: bool,
-    /// Whether the cosine is wanted.
+    /// `true` if the cosine is wanted.
     pub cos: bool,
 }
 
@@ -26,7 +26,7 @@ impl Need {
         usize::from(self.sin) + usize::from(self.cos)
     }
 
-    /// Returns what is of the sine and of the cosine, from the list of what is wanted.
+    /// Returns the sine's item and the cosine's, from a list with the wanted ones alone.
     pub fn each<T>(self, wanted: impl IntoIterator<Item = T>) -> [Option<T>; 2] {
         let mut wanted = wanted.into_iter();
         [self.sin, self.cos].map(|is_wanted| if is_wanted { wanted.next() } else { None })

@@ -62,7 +62,7 @@ pub struct Program {
 pub struct Trig {
     /// The joint.
     pub joint: usize,
-    /// Which of them is needed.
+    /// The ones that are read.
     pub need: Need,
 }
 

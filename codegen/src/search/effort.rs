@@ -1,4 +1,4 @@
-//! How much a search may do: counted in rounds, pairs and moves, never in time, so that the result
+//! The limits of a search: counted in rounds, pairs and moves, never in time, so that the result
 //! is the same on every machine.
 
 use super::extract::Schedule;
@@ -22,7 +22,7 @@ const SMALL: usize = 250;
 /// short: the slopes of a PUMA's torques come out with 1003 to 1008 operations.
 const MEDIUM: usize = 2_000;
 
-/// What a search may do.
+/// The limits of a search.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     /// Walks from the start, by other random numbers each: the best of them counts.
@@ -36,7 +36,7 @@ pub struct Limits {
     pub pairs: usize,
     /// The most classes among which two-operation substitutes are tried.
     pub substitutes: usize,
-    /// How often rules are applied in a round.
+    /// The applications of the rules in a round.
     pub rules: usize,
     /// Annealing of rounds, in turns.
     pub schedules: [Schedule; 2],

@@ -59,7 +59,7 @@ impl ENode {
     }
 }
 
-/// What is known of each e-node and of each print.
+/// The class and the fingerprint of each e-node.
 #[derive(Clone, Default)]
 pub(super) struct Prints {
     prints: Vec<Fingerprint>,

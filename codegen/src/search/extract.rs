@@ -13,7 +13,7 @@ use super::price;
 use crate::dag::Node;
 use crate::random::Random;
 
-/// How long to anneal, and between which temperatures, in additions.
+/// The moves of an annealing and its temperatures, in additions.
 #[derive(Clone, Copy, Debug)]
 pub struct Schedule {
     moves: usize,
@@ -63,7 +63,7 @@ pub(super) struct Extraction<'a> {
     outputs: Vec<u32>,
     /// The chosen way of each class, an index into `steps`.
     chosen: Vec<u32>,
-    /// How often each class is read by chosen ways of live classes.
+    /// The readers of each class among chosen ways of live classes.
     uses: Vec<u32>,
     /// Live classes with a choice, in no order, and the place of each.
     live: Vec<u32>,
@@ -303,7 +303,7 @@ impl<'a> Extraction<'a> {
             if rise > 0.0 && random.unit() >= libm::exp(-rise / temperature) {
                 self.switch(id, now);
             } else if self.cost < best.0 || (self.cost == best.0 && step % 64 == 0) {
-                // Of equal programs now and then a later one: the next round starts from there.
+                // Now and then an equal program replaces the best: the next round starts from there.
                 best.0 = self.cost;
                 best.1.clone_from(&self.chosen);
             }

@@ -36,7 +36,7 @@ const MAX_OWN: usize = 1_500;
 /// The e-nodes, for each one that was there, at which rules stop.
 const GROWTH: usize = 20;
 
-/// What a search found.
+/// The result of a search.
 #[derive(Clone, Debug)]
 pub struct Searched {
     /// The cheapest program.
@@ -96,7 +96,7 @@ pub fn search(
             };
             if is_taken {
                 own = found;
-                // Of equal programs a later one stays in the first walk.
+                // Between equal programs the first walk keeps the later one.
                 if walk == 0 || after < cost(&best) {
                     best = own.clone();
                 }

@@ -1,10 +1,10 @@
-//! What each step of a search left.
+//! The counts after each step of a search.
 
 use std::fmt;
 
 use crate::program::Counts;
 
-/// What one step left.
+/// The counts after one step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pass {
     /// The step.

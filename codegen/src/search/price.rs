@@ -1,9 +1,9 @@
-//! What the search minimises: operations, in hundredths of an addition.
+//! The price that the search minimises: operations, in hundredths of an addition.
 
 use crate::dag::Dag;
 use crate::program::{Counts, Operation};
 
-/// Of equal sums the one with fewer multiplications is cheaper; a division costs as much as five
+/// Between equal sums the one with fewer multiplications is cheaper; a division costs as much as five
 /// operations, sine and cosine of an angle as much as twenty.
 const MUL: u64 = 101;
 const ADD: u64 = 100;

@@ -62,7 +62,7 @@ fn a_class_takes_no_way_through_itself_and_none_twice() {
     assert_eq!(classes.bound(), size + 1, "the sum alone is new");
 }
 
-/// What a combination of ways gives, by fingerprint, is what the formulas give.
+/// By fingerprint, every combination of ways gives the values of the formulas.
 #[test]
 fn every_choice_of_ways_gives_the_same_values() {
     let dag = graph(&[
@@ -226,7 +226,7 @@ fn classes(outputs: &[&str], others: &[&str]) -> (Classes, Choice) {
     (classes, choice)
 }
 
-/// Returns what the outputs cost by a choice; none where it goes in a circle.
+/// Returns the cost of the outputs by a choice; none where it goes in a circle.
 fn cost_of(classes: &Classes, choice: &Choice) -> Option<u64> {
     fn visit(classes: &Classes, choice: &Choice, id: Class, state: &mut [u8]) -> Option<u64> {
         let place = usize::from(id);
@@ -306,9 +306,9 @@ fn a_way_in_a_circle_is_never_taken() {
     assert_eq!(extraction.cost, least);
 }
 
-/// What the order says of a way is what a search of everything below says.
+/// The order says of a way the same as a search of everything below.
 #[test]
-fn says_what_a_search_of_everything_says() {
+fn order_agrees_with_a_search_of_everything() {
     const CLASSES: usize = 40;
     // Class 0 is what leaves read.
     let reaches = |chosen: &[[u32; 2]], from: u32, class: u32| {

@@ -104,7 +104,7 @@ fn arm(setup: &Setup, gravity: Option<&Vector<Symbol>>, motion: &Motion<Symbol>)
     arm.at_speeds(&motion.per_speed)
 }
 
-/// Returns what the recursion in link axes is given.
+/// Returns the arguments of the recursion in link axes.
 fn textbook<'a>(
     arm: &'a Arm<Symbol>,
     at: &'a [DhVariables<Symbol>],
@@ -120,7 +120,7 @@ fn textbook<'a>(
     }
 }
 
-/// Returns what moves, with exact parameters, the base folded.
+/// Returns the moving links, with exact parameters, the base folded.
 pub fn skeleton(setup: &Setup) -> Skeleton<Exact> {
     with_columns(setup, &[])
 }
@@ -183,7 +183,7 @@ pub(crate) fn regrouped(task: Task<'_>, forms: &[Form], tuned: &Tuned) -> Vec<Se
             link.axes = *axes;
         }
         let (graph, traced) = trace_chain(task, &chain, form, Folding::Syntactic);
-        // Of an arm with few links several forms are one.
+        // An arm with few links has several forms that are one.
         if seeds.iter().all(|seed| seed.graph != graph) {
             seeds.push(Seed {
                 source: Source::Regrouped,

@@ -17,7 +17,7 @@ use crate::watch::{FunctionWatch, Part};
 /// The starts of longer chains are compared without a round of the search.
 const MAX_TRIED: usize = 3;
 
-/// How far a program is above the error that is allowed: at most one where it
+/// The error of a program over the error that is allowed: at most one where it
 /// is admitted. At or above the bound, which is the second argument, it need not be exact.
 pub(crate) type Limit<'a> = &'a dyn Fn(&Dag, f64) -> f64;
 
@@ -31,7 +31,7 @@ fn price(graph: &Dag, limit: Option<Limit<'_>>, below: u64) -> u64 {
     let Some(limit) = limit.filter(|_| cost < below) else {
         return cost;
     };
-    // What is refused loses to all that is admitted, and to what is refused for less.
+    // A refused one loses to all that are admitted, and to those refused for less.
     let bound = match below.checked_sub(REFUSED) {
         None => 1.0,
         Some(refused) => (refused as f64 / 1e6).max(1.0),
@@ -64,7 +64,7 @@ pub(crate) fn tuned(
         })
     };
     let merged = |chain: &Chain<Exact>, form| merged(task, chain, form);
-    // What the search makes of a regrouping is not what the regrouping costs at first.
+    // The cheapest regrouping before a search need not be the cheapest after it.
     let quick = |chain: &Chain<Exact>, form: Form, below: u64| match is_over() {
         true => u64::MAX,
         false => price(&glance(&merged(chain, form)), limit, below),

@@ -32,14 +32,14 @@ pub(crate) use dalembert_model::equations::chain::Form;
 /// Longer chains are tuned by the price before the search alone.
 const MAX_QUICK_LINKS: usize = 10;
 
-/// Where a graph comes from.
+/// The formula behind a graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Source {
     /// A formulation as the textbook has it.
     Textbook(Formulation),
     /// The chain formulas with regrouped parameters.
     Regrouped,
-    /// What a load is by its definition.
+    /// The definition of a load.
     Definition,
 }
 

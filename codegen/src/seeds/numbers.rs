@@ -20,7 +20,7 @@ pub(super) struct Numbers<'a> {
     builder: &'a Rc<RefCell<Builder>>,
     unknowns: Option<Unknowns>,
     chosen: Option<&'a LoadParameters>,
-    /// Where none are chosen yet: all, in the order in which they are met.
+    /// All numbers, in the order in which they are met, as long as none are chosen.
     met: Vec<Exact>,
 }
 
@@ -47,7 +47,7 @@ impl<'a> Numbers<'a> {
             return Symbol::from(number.clone());
         }
         let found = match self.chosen {
-            // What no torque depends on may be anything.
+            // A number that no torque depends on may have any value.
             Some(chosen) => chosen.place(number),
             None => Some(self.meet(number)),
         };

@@ -1,4 +1,4 @@
-//! What a function's search starts from, by the formulation that was asked for.
+//! The starts of a function's search, by the formulation that was asked for.
 
 use dalembert_model::equations::Formulation;
 use dalembert_model::equations::chain::Regrouping;
@@ -21,7 +21,7 @@ pub(super) const TEXTBOOK: [Formulation; 3] = [
     Formulation::NewtonEulerLink,
 ];
 
-/// Which formulation a function starts from.
+/// The formulation that a function starts from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Start {
@@ -77,7 +77,7 @@ impl Word for Start {
     }
 }
 
-/// What one search starts from.
+/// One start of a search.
 pub(crate) struct Approach {
     /// The regrouping that was chosen, if one was.
     pub tuned: Option<Tuned>,
@@ -102,14 +102,14 @@ impl Approach {
 pub(crate) struct Problem<'a> {
     pub task: Task<'a>,
     pub effort: Effort,
-    /// What a program may be off, if there is a limit.
+    /// The error that a program may have, if there is a limit.
     pub limit: Option<Limit<'a>>,
     /// Regroupings to start from, besides those that every robot has.
     pub from: &'a [Regrouping<Exact>],
     pub watch: Option<FunctionWatch<'a>>,
 }
 
-/// Returns what the chain formulas do not give: from the recursion or Lagrange–Euler, whichever
+/// Starts functions that the chain formulas lack: from the recursion or Lagrange–Euler, whichever
 /// is cheaper, and from forms that turn fewer axes or see levers in the joints' axes, each with
 /// Lagrange–Euler's values and those of products of axes at hand. These are small, and what is
 /// dearer by itself often ends lower: all are searched from.

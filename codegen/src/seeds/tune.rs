@@ -24,7 +24,7 @@ const MAX_TERMS: usize = 100;
 /// proportion to their number, and so does the number of prices.
 const MAX_TUNED: usize = 16;
 
-/// What the descent found.
+/// The result of a descent.
 #[derive(Clone, Debug)]
 pub struct Tuned {
     /// The regrouping.
@@ -206,7 +206,7 @@ pub(crate) fn neighbours(
     found
 }
 
-/// Returns what a link may keep, where its origin may lie and how its frame may turn.
+/// Returns the regroupings in which link i keeps other moments, or its frame lies or turns otherwise.
 fn alternatives(
     arm: &Skeleton<Exact>,
     regrouping: &Regrouping<Exact>,
@@ -272,7 +272,7 @@ fn revolute(
         body.second.yy.neg(),
     ];
     if i > 0 {
-        // What is kept does not arrive at the parent.
+        // Moments that a link keeps do not arrive at the parent.
         let parent = &chain.links[i - 1].body;
         for (kept, list, effect) in [
             (&now.mass, &mut masses, unit_body(1, 0, 0)),

@@ -70,8 +70,8 @@ pub struct Setup {
     fitted: Option<Vec<FittedLink>>,
 }
 
-/// What a joint of the chain moves where it is not the robot's link, but one that a
-/// search chose: it need not be physical.
+/// A body that a joint of the chain moves in place of the robot's link: a search chose it, and
+/// it need not be physical.
 #[derive(Clone, Debug)]
 pub(crate) struct FittedLink {
     /// About the origin and in the axes of the joint's segment.
@@ -105,7 +105,7 @@ impl Setup {
     /// Returns a robot in a scene.
     ///
     /// # Errors
-    /// What [`Scene::validate`] finds, but for warnings.
+    /// Returns the findings of [`Scene::validate`], but for warnings.
     pub fn new(robot: &Robot, scene: &Scene) -> Result<Setup, Complaint> {
         let mut findings = scene.validate(robot);
         findings.retain(Finding::is_error);

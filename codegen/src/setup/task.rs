@@ -206,7 +206,7 @@ impl<S: Divide> Posed<'_, S> {
         function.evaluate(by, &self.arm, &self.motion, &self.columns)
     }
 
-    /// Returns what each quantity of the function inverts beside D.
+    /// Returns the matrix that each quantity of the function inverts beside D.
     pub fn divisors(&self) -> Vec<Vec<S>> {
         let at = self.arm.at(&self.motion.q);
         let written = self.written(Formulation::NewtonEulerLink, &at, &self.columns);

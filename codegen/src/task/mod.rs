@@ -1,5 +1,5 @@
-//! What is generated, for which robot in which scene: what macro, build script, command and
-//! library fill, and every stage of a generation reads.
+//! Requests: the functions, the robot and the scene that macro, build script, command and library
+//! fill in, and that every stage of a generation reads.
 //!
 //! - this file: [`Job`]
 //! - `choices`: choices of two words
@@ -26,7 +26,7 @@ pub struct Job<'a> {
     pub robot: &'a Robot,
     /// The robot in the request's scene, by [`Request::setup`].
     pub setup: &'a Setup,
-    /// What is wanted.
+    /// The functions and their options.
     pub request: &'a Request,
 }
 

@@ -1,4 +1,4 @@
-//! What rounding costs: the emitted text, run bit for bit, against the generic
+//! The measured rounding error: the emitted text, run bit for bit, against the generic
 //! runtime in f64.
 //!
 //! The error of a quantity is normwise, max_i |error_i| / max_i |reference_i|,
@@ -251,7 +251,7 @@ impl Emitted {
     }
 }
 
-/// Returns how far an angle's polynomials are from libm at a state.
+/// Returns the distance of an angle's polynomials from libm at a state.
 fn off<T: Machine>(pair: &Pair, kernel: &Kernel, state: &JointState) -> f64 {
     let angle = T::literal(state.q[pair.joint]);
     let (sin, cos) = kernel.run(angle);

@@ -1,4 +1,4 @@
-//! What rounding costs a program: an estimate that no single digit decides.
+//! The rounding error of a program: an estimate that no single digit decides.
 //!
 //! Every rounded operation and every rounded constant is an independent error
 //! of at most u of its value; its effect on an output is the derivative of the

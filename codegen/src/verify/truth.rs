@@ -52,8 +52,7 @@ impl TrueValue {
         }
     }
 
-    /// Returns how far another true value is from this one; zero where that may be what both are
-    /// off.
+    /// Returns the distance to another true value; zero where the errors of both may explain it.
     pub(crate) fn difference(&self, other: &TrueValue) -> f64 {
         let off = other.value.sub(&self.value).magnitude() - self.lost - other.lost;
         off.max(0.0)

@@ -2,15 +2,15 @@
 //! parameters, and of what the drives have, that give every torque asked for, be it
 //! that of inverse dynamics or another that is linear in them.
 //!
-//! What can move from a link to the one before without any torque noticing is
-//! known in closed form ([`dalembert_model::equations::chain::regrouping`]). From
+//! The closed form ([`dalembert_model::equations::chain::regrouping`]) tells which moments
+//! can move from a link to the one before without a change of any torque. From
 //! the hand inward, all of it moved, every unit of a link's parameter becomes an
 //! exact combination of what links keep: of a link that turns two first moments
 //! and five second moments, of one that slides its mass and first moments.
 //!
-//! What an arm and a scene leave unfelt beyond that (axes that are parallel or
-//! vertical, rates that are zero, joints that nobody asks for) shows as columns
-//! that vanish or depend on others. They are found by elimination modulo
+//! An arm and a scene may leave more unfelt (axes that are parallel or vertical,
+//! rates that are zero, joints that nobody asks for). It shows as columns that
+//! vanish or depend on others. They are found by elimination modulo
 //! two primes at random states: columns that are independent there are
 //! independent. That the others depend on them as they seem to is only a finding;
 //! [`crate::verify::parameters`] proves it.
@@ -148,7 +148,7 @@ impl BaseParameters {
                 .collect(),
             combinations: vec![Vec::new(); reduced.pivots.len()],
         };
-        // What each candidate is over the base columns.
+        // Each candidate as a combination of the base columns.
         let mut over: Vec<Vec<(usize, Exact)>> = Vec::with_capacity(candidates.len());
         for coefficients in &reduced.coefficients {
             let exact = coefficients.iter();
