@@ -49,7 +49,7 @@ ur10      | | inverse_dynamics; parameters: payload | 31 320
 panda     | | inverse_dynamics; parameters: payload | 42 523
 planar3r  | | inverse_dynamics; parameters: gravity | 50
 puma560   | | inverse_dynamics; parameters: gravity | 284
-stanford  | | inverse_dynamics; parameters: gravity | 225
+stanford  | | inverse_dynamics; parameters: gravity | 227
 ur10      | | inverse_dynamics; parameters: gravity | 286
 panda     | | inverse_dynamics; parameters: gravity | 547
 puma560   | | inverse_dynamics, dynamic_coefficients; formulation: lagrange_euler | 2699 2199
@@ -65,7 +65,7 @@ fn derivatives_poses_and_matrices() {
     check(
         "
 planar2r | | forward_dynamics, inverse_dynamics_derivatives, inertia_inverse | 25 27 10
-planar3r | | forward_dynamics, inverse_dynamics_derivatives, inertia_inverse | 75 71 39
+planar3r | | forward_dynamics, inverse_dynamics_derivatives, inertia_inverse | 77 71 39
 stanford | | forward_dynamics, inverse_dynamics_derivatives, inertia_inverse | 879 360 234
 puma560  | | forward_dynamics, inverse_dynamics_derivatives, inertia_inverse | 1070 400 255
 panda    | | forward_dynamics, inverse_dynamics_derivatives | 2495 912

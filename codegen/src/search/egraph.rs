@@ -198,13 +198,14 @@ impl Classes {
         })
     }
 
-    /// Returns where a pattern matches.
+    /// Returns where each pattern matches. All are sought at once: egg puts every class in order
+    /// before it can be searched.
     pub(super) fn matches<'p>(
         &mut self,
-        pattern: &'p Pattern<ENode>,
-    ) -> Vec<SearchMatches<'p, ENode>> {
+        patterns: impl Iterator<Item = &'p Pattern<ENode>>,
+    ) -> Vec<Vec<SearchMatches<'p, ENode>>> {
         self.egraph.rebuild();
-        pattern.search(&self.egraph)
+        patterns.map(|own| own.search(&self.egraph)).collect()
     }
 
     /// Adds a leaf with its fingerprint.

@@ -74,10 +74,8 @@ pub(super) fn saturate(classes: &mut Classes, iterations: usize, growth: usize) 
     let most = growth * classes.bound();
     for _ in 0..iterations {
         let size = classes.bound();
-        let matches = READ
-            .iter()
-            .map(|(left, outer, inner)| (classes.matches(left), outer, inner));
-        for (found, outer, inner) in matches.collect::<Vec<_>>() {
+        let matches = classes.matches(READ.iter().map(|(left, ..)| left));
+        for (found, (_, outer, inner)) in matches.into_iter().zip(READ.iter()) {
             for (class, bound) in found
                 .iter()
                 .flat_map(|f| f.substs.iter().map(|s| (f.eclass, s)))
