@@ -18,6 +18,8 @@ words! {
 
 /// A program of at most so many operations is a small one.
 const SMALL: usize = 250;
+/// A program of at most so many is searched for twice by a quick search.
+const TINY: usize = 170;
 /// A program of at most so many is searched for from its start more than once where time is not
 /// short: the slopes of a PUMA's torques come out with 1003 to 1008 operations.
 const MEDIUM: usize = 2_000;
@@ -66,17 +68,17 @@ impl Effort {
 
     /// Returns the limits for a program of so many operations. A small one gets many short rounds
     /// of a quick search: a SCARA's torques need some without any gain to come from 71 to 62, and a
-    /// long round finds no more in them. It is searched for twice: the second walk brings the slopes
-    /// of these torques from 96 to 86.
+    /// long round finds no more in them; the second walk of a tiny one brings the slopes of these
+    /// torques from 96 to 82.
     pub fn limits(self, operations: usize) -> Limits {
         let (rounds, patience, pairs, substitutes, moves) = match self {
-            Effort::Quick if operations <= SMALL => (30, 8, 700, 700, 10_000),
+            Effort::Quick if operations <= SMALL => (30, 8, 600, 700, 10_000),
             Effort::Quick => (8, 2, 500, 700, 40_000),
             Effort::Thorough => (120, 25, 2_500, 3_000, 300_000),
         };
         Limits {
             walks: match self {
-                Effort::Quick if operations <= SMALL => 2,
+                Effort::Quick if operations <= TINY => 2,
                 Effort::Thorough if operations <= MEDIUM => 4,
                 _ => 1,
             },

@@ -232,6 +232,12 @@ impl Classes {
 
     /// Adds a way; returns its class with the sign of the result.
     pub(super) fn add(&mut self, way: Way) -> Signed {
+        let print = self.way_print(way);
+        self.add_printed(way, &print, self.find(&print))
+    }
+
+    /// Adds a way with its print, and the class that is known by this.
+    fn add_printed(&mut self, way: Way, print: &Fingerprint, known: Signed) -> Signed {
         if let (Some(Node::Constant(a)), Some(Node::Constant(b))) =
             (self.leaf(way.1[0]), self.leaf(way.1[1]))
             && let Some(constant) = way.0.exactly(a, b)
@@ -239,10 +245,8 @@ impl Classes {
             let leaf = Node::Constant(constant);
             return self.add_leaf(&leaf, &leaf.leaf_print());
         }
-        let print = self.way_print(way);
-        let known = self.find(&print);
         match known {
-            _ if print == Fingerprint::zero() => None,
+            _ if *print == Fingerprint::zero() => None,
             // A leaf needs no way, and no value of its own helps.
             Some((class, _)) if way.1.contains(&class) || self.leaf(class).is_some() => known,
             _ => Some((self.egraph.add(ENode::from_way(way)), print.canonical().1)),
@@ -251,10 +255,10 @@ impl Classes {
 
     /// Adds a way if it computes a class that is known; this one, if one is given.
     pub(super) fn offer(&mut self, way: Way, class: Option<Class>) {
-        if let Some((found, _)) = self.find(&self.way_print(way))
-            && class.is_none_or(|class| class == found)
-        {
-            self.add(way);
+        let print = self.way_print(way);
+        let known = self.find(&print);
+        if known.is_some_and(|(found, _)| class.is_none_or(|class| class == found)) {
+            self.add_printed(way, &print, known);
         }
     }
 
