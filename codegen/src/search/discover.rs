@@ -63,6 +63,7 @@ fn keyed(classes: &Classes, pool: &[Class]) -> Vec<(Class, Field)> {
 
 /// Tries every pair of the pool for every class.
 pub(super) fn pairs(classes: &mut Classes, pool: &[Class]) {
+    // A finer one than others: whatever passes costs a print and a look-up.
     let mut known = Sieve::new(8 * classes.ids().len());
     for &id in classes.ids() {
         known.note(key(classes.print(id).0[0]));
