@@ -56,6 +56,18 @@ fn at_the_hand() -> Options {
     }
 }
 
+/// Returns the options of the hand with a change.
+fn with(change: impl FnOnce(&mut Options)) -> Options {
+    let mut options = at_the_hand();
+    change(&mut options);
+    options
+}
+
+/// Returns the options of the hand with a joint locked.
+fn locked(joint: &str, at: &str) -> Options {
+    with(|o| o.lock = vec![(joint.into(), at.into())])
+}
+
 /// Returns all that hangs on the chain is held there.
 fn others(at: &str) -> Options {
     Options {
@@ -68,47 +80,45 @@ fn taken(source: &str, options: &Options) -> Imported {
     import(source, options).unwrap_or_else(|errors| panic!("{}", errors.render("arm.urdf", source)))
 }
 
+/// Returns the lines of the notes with their messages.
+fn notes(imported: &Imported) -> Vec<(usize, &str)> {
+    let notes = imported.notes.iter();
+    notes.map(|note| (note.line, &*note.message)).collect()
+}
+
+/// Checks that a text has all of these in it.
+#[track_caller]
+fn has(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "{part} is missing:\n{text}");
+    }
+}
+
 #[test]
 fn the_file_says_what_the_urdf_says() {
     let imported = taken(ARM, &at_the_hand());
-    for line in [
-        "# From link world to link hand of a URDF, by `dalembert import`.",
-        "#   line 10: joint turn, rpy: 1.5708 is taken for pi/2",
-        "name = \"test_arm\"",
-        "tool = { xyz = [0.1, 0, 0], rpy = [0, 0, 0] }",
-        "placement = { xyz = [0.1, 0, 0.7], rpy = [\"pi/2\", 0, 0] }",
-        "viscous = 0.5",
-        "armature = 0.2",
-        "limits = { position = [-1, 2], velocity = 3, torque = 50 }",
-        "limits = { position = [0, 0.4], velocity = 1 }",
-    ] {
-        assert!(
-            imported.text.contains(&format!("{line}\n")),
-            "{line}\n{}",
-            imported.text
-        );
-    }
-    let notes = imported.notes.iter();
-    let notes: Vec<_> = notes
-        .map(|note| (note.line, note.message.as_str()))
-        .collect();
-    let expected = [
-        (
-            12,
-            "the Coulomb friction of joint `turn`, 0.25, is left out",
-        ),
-        (20, "the limit of torque of joint `reach` is 0"),
-        (
-            37,
-            "rotors are the joints' armatures: `turn` 2e-5 kg·m² × 100² = 0.2",
-        ),
+    let lines = [
+        "# From link world to link hand of a URDF, by `dalembert import`.\n",
+        "#   line 10: joint turn, rpy: 1.5708 is taken for pi/2\n",
+        "name = \"test_arm\"\n",
+        "tool = { xyz = [0.1, 0, 0], rpy = [0, 0, 0] }\n",
+        "placement = { xyz = [0.1, 0, 0.7], rpy = [\"pi/2\", 0, 0] }\n",
+        "viscous = 0.5\n",
+        "armature = 0.2\n",
+        "limits = { position = [-1, 2], velocity = 3, torque = 50 }\n",
+        "limits = { position = [0, 0.4], velocity = 1 }\n",
     ];
-    assert_eq!(notes, expected);
-    let help = imported.notes[0].help.as_deref().unwrap_or_default();
-    assert!(
-        help.contains("`coulomb = 0.25` and `coulomb_width = 0.01`, the speed in rad/s"),
-        "{help}"
+    has(&imported.text, &lines);
+    let friction = "the Coulomb friction of joint `turn`, 0.25, is left out";
+    let rotor = "rotors are the joints' armatures: `turn` 2e-5 kg·m² × 100² = 0.2";
+    let torque = "the limit of torque of joint `reach` is 0";
+    assert_eq!(
+        notes(&imported),
+        [(12, friction), (20, torque), (37, rotor)]
     );
+    let help = imported.notes[0].help.as_deref().unwrap_or_default();
+    let way = "`coulomb = 0.25` and `coulomb_width = 0.01`, the speed in rad/s";
+    has(help, &[way]);
 }
 
 /// What is so of several joints is said once, where it is first.
@@ -118,124 +128,76 @@ fn one_note_for_one_fact() {
         "effort=\"0\" velocity=\"1\"/>\n  </joint>\n  <link name=\"lower\">",
         "effort=\"0\" velocity=\"0\"/>\n  <dynamics friction=\"3\"/></joint>\n  <link name=\"lower\">",
     );
-    let notes = taken(&slow, &at_the_hand()).notes;
-    let notes: Vec<_> = notes
-        .iter()
-        .map(|note| (note.line, note.message.as_str()))
-        .collect();
-    let expected = [
-        (
-            11,
-            "the limits of torque of the joints `turn` (0), `reach` (0) are zero or less",
-        ),
-        (
-            12,
-            "the Coulomb friction of the joints `turn` (0.25), `reach` (3) is left out",
-        ),
-        (20, "the limit of velocity of joint `reach` is 0"),
-        (
-            37,
-            "rotors are the joints' armatures: `turn` 2e-5 kg·m² × 100² = 0.2",
-        ),
-    ];
-    assert_eq!(notes, expected);
-    let weightless = ARM
-        .replace("<inertial>", "<!--")
-        .replace("</inertial>", "-->");
-    let notes = taken(&weightless, &at_the_hand()).notes;
-    let massless: Vec<&str> = notes
-        .iter()
-        .map(|note| note.message.as_str())
-        .filter(|message| message.contains("no mass"))
-        .collect();
+    let torques = "the limits of torque of the joints `turn` (0), `reach` (0) are zero or less";
+    let frictions = "the Coulomb friction of the joints `turn` (0.25), `reach` (3) is left out";
+    let rate = "the limit of velocity of joint `reach` is 0";
+    let rotor = "rotors are the joints' armatures: `turn` 2e-5 kg·m² × 100² = 0.2";
+    let expected = [(11, torques), (12, frictions), (20, rate), (37, rotor)];
+    assert_eq!(notes(&taken(&slow, &at_the_hand())), expected);
+    let weightless = ARM.replace("<inertial>", "<!--");
+    let weightless = weightless.replace("</inertial>", "-->");
+    let imported = taken(&weightless, &at_the_hand());
+    let mut massless = notes(&imported);
+    massless.retain(|(_, message)| message.contains("no mass"));
     let expected = "the links `upper`, `lower`, and what is fixed to them, have no mass";
-    assert_eq!(massless, [expected]);
+    assert_eq!(massless.len(), 1);
+    assert_eq!(massless[0].1, expected);
 }
 
 /// A locked finger weighs what it weighs, where it is.
 #[test]
 fn what_is_locked_moves_with_the_link() {
-    let lock = Options {
-        tip: Some("hand".into()),
-        lock: vec![("finger".into(), "0.05".into())],
-        ..Options::default()
+    let lock = |joint: &str| {
+        let mut lock = locked(joint, "0.05");
+        (lock.snap, lock.without) = (false, Vec::new());
+        taken(ARM, &lock)
     };
-    let joint = taken(ARM, &lock).robot.joints[1].clone();
     let ratio = |n: i64, d: i64| dalembert_model::number::Rational::new(n.into(), d.into());
-    assert_eq!(joint.mass, ratio(11, 10));
+    let (by_name, by_number) = (lock("finger"), lock("3"));
+    assert_eq!(by_name.robot.joints[1].mass, ratio(11, 10));
+    assert_eq!(by_name.text, by_number.text);
     // (0.1 kg at (0.1, 0.05)) / 1.1 kg, to 20 digits.
-    let file = taken(ARM, &lock).text;
-    let by_number = Options {
-        lock: vec![("3".into(), "0.05".into())],
-        ..lock.clone()
-    };
-    assert_eq!(taken(ARM, &by_number).text, file);
-    assert!(
-        file.contains("com = [0.0090909090909090909091, 0.00454545454545454545455, 0]"),
-        "{file}"
-    );
+    let com = "com = [0.0090909090909090909091, 0.00454545454545454545455, 0]";
+    has(&by_name.text, &[com]);
     let without = taken(ARM, &at_the_hand()).robot.joints[1].clone();
     assert_eq!(without.mass, ratio(1, 1));
     // A joint of the chain that is locked is part of the link before.
-    let short = Options {
-        lock: vec![
-            ("finger".into(), "0".into()),
-            ("turn".into(), "90deg".into()),
-        ],
-        tip: Some("hand".into()),
-        ..Options::default()
-    };
+    let mut short = locked("turn", "90deg");
+    short.lock.push(("finger".into(), "0".into()));
+    short.without.clear();
     assert_eq!(taken(ARM, &short).robot.joints.len(), 1);
 }
 
 /// Held where its limits let it be, listed, and as if it had been locked there.
 #[test]
 fn what_hangs_on_the_chain_is_held() {
-    let source = ARM.replacen(
-        "<limit effort=\"1\"",
-        "<limit lower=\"0.01\" upper=\"0.04\" effort=\"1\"",
-        1,
-    );
-    let tip = Some("hand".to_owned());
-    let lock = vec![("finger".into(), "0.01".into())];
-    let locked = taken(
-        &source,
-        &Options {
-            lock,
-            tip: tip.clone(),
-            ..Options::default()
-        },
-    );
-    let held = taken(&source, &Options { tip, ..others("0") });
-    assert_eq!(held.robot, locked.robot);
-    assert!(
-        held.text.contains("\n# Held: finger = 0.01\n"),
-        "{}",
-        held.text
-    );
-    let said =
-        |note: &Diagnostic| note.message == "what hangs on the chain is held: `finger` at 0.01";
-    assert!(held.notes.iter().any(said), "{:?}", held.notes);
+    let limits = "<limit lower=\"0.01\" upper=\"0.04\" effort=\"1\"";
+    let source = ARM.replacen("<limit effort=\"1\"", limits, 1);
+    let at = |joint: &str, at: &str| Options {
+        tip: Some("hand".into()),
+        lock: vec![(joint.into(), at.into())],
+        ..Options::default()
+    };
+    let own = taken(&source, &at("finger", "0.01"));
+    let held = taken(&source, &at("*", "0"));
+    assert_eq!(held.robot, own.robot);
+    has(&held.text, &["\n# Held: finger = 0.01\n"]);
+    let said = "what hangs on the chain is held: `finger` at 0.01";
+    assert!(notes(&held).iter().any(|note| note.1 == said));
 }
 
 /// What is called as another joint's number is called otherwise in the robot file.
 #[test]
 fn numbers_are_no_names() {
-    let source = ARM
-        .replace("name=\"turn\"", "name=\"2\"")
-        .replace("name=\"reach\"", "name=\"1\"");
-    let names = |source: &str| {
-        let joints = taken(source, &at_the_hand()).robot.joints;
-        joints
-            .into_iter()
-            .flat_map(|joint| joint.name)
-            .collect::<Vec<_>>()
-    };
-    assert_eq!(names(&source), ["joint_2", "joint_1"]);
-    let own = ARM
-        .replace("name=\"turn\"", "name=\"1\"")
-        .replace("name=\"reach\"", "name=\"2\"");
-    assert_eq!(names(&own), ["1", "2"]);
+    for (turn, reach, names) in [("2", "1", ["joint_2", "joint_1"]), ("1", "2", ["1", "2"])] {
+        let source = ARM.replace("name=\"turn\"", &format!("name=\"{turn}\""));
+        let source = source.replace("name=\"reach\"", &format!("name=\"{reach}\""));
+        let joints = taken(&source, &at_the_hand()).robot.joints.into_iter();
+        assert_eq!(
+            joints.flat_map(|joint| joint.name).collect::<Vec<_>>(),
+            names
+        );
+    }
 }
 
 /// The robot file of every digit has nothing to say of its digits.
@@ -243,11 +205,7 @@ fn numbers_are_no_names() {
 fn exact_digits_are_no_warning() {
     for digits in ["1.5708", "1.5707963267948966", "-3.14159265358979"] {
         let source = ARM.replace("1.5708", digits);
-        let options = Options {
-            exact: true,
-            ..at_the_hand()
-        };
-        let text = taken(&source, &options).text;
+        let text = taken(&source, &with(|o| o.exact = true)).text;
         let reading = read::parse(&text, &read::Options::default()).unwrap();
         assert_eq!(reading.notes, [], "{text}");
     }
@@ -257,48 +215,27 @@ fn exact_digits_are_no_warning() {
 #[test]
 fn chains_begin_behind_floating_joints() {
     let floats = ARM.replacen("type=\"fixed\"", "type=\"floating\"", 1);
-    let imported = taken(&floats, &at_the_hand());
-    assert!(
-        imported.text.starts_with("# From link foot to link hand"),
-        "{}",
-        imported.text
-    );
+    let text = taken(&floats, &at_the_hand()).text;
+    assert!(text.starts_with("# From link foot to link hand"), "{text}");
 }
 
 /// At a limit, and next to one by digits that were meant to be it.
 #[test]
 fn limits_are_where_a_joint_can_be() {
-    let source = ARM.replace(
-        "lower=\"-1\" upper=\"2\"",
-        "lower=\"-1.5707\" upper=\"1.57079\"",
-    );
+    let limits = "lower=\"-1.5707\" upper=\"1.57079\"";
+    let source = ARM.replace("lower=\"-1\" upper=\"2\"", limits);
     for at in ["pi/2", "1.5708", "90deg", "-1.5707", "0"] {
-        let options = Options {
-            lock: vec![("turn".into(), at.into())],
-            ..at_the_hand()
-        };
-        assert_eq!(taken(&source, &options).robot.joints.len(), 1, "{at}");
+        let imported = taken(&source, &locked("turn", at));
+        assert_eq!(imported.robot.joints.len(), 1, "{at}");
     }
-    let beyond = Options {
-        lock: vec![("turn".into(), "-pi/2".into())],
-        ..at_the_hand()
-    };
-    let text = refused(&source, &beyond);
-    assert!(text.contains("limits are -1.5707 to 1.57079"), "{text}");
+    let text = refused(&source, &locked("turn", "-pi/2"));
+    has(&text, &["limits are -1.5707 to 1.57079"]);
 }
 
 #[test]
 fn refusals_name_the_joint_and_the_way_out() {
     let hand = at_the_hand();
-    let open = Options {
-        without: Vec::new(),
-        ..hand.clone()
-    };
-    let with = |option: fn(&mut Options)| {
-        let mut options = at_the_hand();
-        option(&mut options);
-        options
-    };
+    let open = with(|o| o.without.clear());
     let mimic = ARM.replacen(
         "<limit lower=\"-1\"",
         "<mimic joint=\"reach\"/><limit lower=\"-1\"",
@@ -314,15 +251,15 @@ fn refusals_name_the_joint_and_the_way_out() {
         (ARM.into(), with(|o| o.tip = Some("hnad".into())), &["--tip: there is no link `hnad`", "did you mean `hand`?"]),
         (ARM.into(), with(|o| o.base = Some("hand".into())), &["no joint moves between link `hand` and link `hand`"]),
         (ARM.into(), with(|o| { o.base = Some("thumb".into()); o.without.clear(); }), &["link `hand` does not hang on link `thumb`"]),
-        (ARM.into(), with(|o| o.lock = vec![("fingr".into(), "0".into())]), &["--lock: there is no joint `fingr`", "did you mean `finger`?"]),
-        (ARM.into(), with(|o| o.lock = vec![("0".into(), "0".into())]), &["--lock: there is no joint `0`", "those that move are 1 to 3, from the root outwards"]),
-        (ARM.into(), with(|o| o.lock = vec![("4".into(), "0".into())]), &["--lock: there is no joint `4`"]),
-        (ARM.into(), with(|o| o.lock = vec![("finger".into(), "90deg".into())]), &["--lock finger: `90deg` is not"]),
-        (ARM.into(), with(|o| o.lock = vec![("turn".into(), "90".into())]), &["arm.urdf:11:19", "--lock turn=90: the joint's limits are -1 to 2", "degrees are written as 90deg"]),
-        (ARM.into(), with(|o| o.lock = vec![("turn".into(), "-90deg".into())]), &["--lock turn=-90deg: the joint's limits are -1 to 2", "lock it where it can be"]),
-        (ARM.into(), with(|o| o.lock = vec![("reach".into(), "0.41".into())]), &["arm.urdf:20:19", "--lock reach=0.41: the joint's limits are 0 to 0.4"]),
+        (ARM.into(), locked("fingr", "0"), &["--lock: there is no joint `fingr`", "did you mean `finger`?"]),
+        (ARM.into(), locked("0", "0"), &["--lock: there is no joint `0`", "those that move are 1 to 3, from the root outwards"]),
+        (ARM.into(), locked("4", "0"), &["--lock: there is no joint `4`"]),
+        (ARM.into(), locked("finger", "90deg"), &["--lock finger: `90deg` is not"]),
+        (ARM.into(), locked("turn", "90"), &["arm.urdf:11:19", "--lock turn=90: the joint's limits are -1 to 2", "degrees are written as 90deg"]),
+        (ARM.into(), locked("turn", "-90deg"), &["--lock turn=-90deg: the joint's limits are -1 to 2", "lock it where it can be"]),
+        (ARM.into(), locked("reach", "0.41"), &["arm.urdf:20:19", "--lock reach=0.41: the joint's limits are 0 to 0.4"]),
         (ARM.replacen("<limit effort=\"1\"", "<limit lower=\"0.01\" upper=\"0.04\" effort=\"1\"", 1), open.clone(), &["add --lock finger=0.01, or"]),
-        (ARM.into(), with(|o| o.lock = vec![("stand".into(), "0".into())]), &["a fixed joint has no position"]),
+        (ARM.into(), locked("stand", "0"), &["a fixed joint has no position"]),
         (ARM.into(), with(|o| o.without = vec!["finger".into()]), &["--without: there is no link `finger`", "`finger` is a joint; its link is `thumb`"]),
         (ARM.into(), with(|o| o.without = vec!["lower".into()]), &["--without lower: the chain passes through it"]),
         (ARM.replace("<mass value=\"2\"/>", ""), hand.clone(), &["arm.urdf:15:5", "the inertial of link `upper` has no <mass>"]),
@@ -353,10 +290,7 @@ fn refusals_name_the_joint_and_the_way_out() {
         (ARM.into(), with(|o| { o.lock = vec![("*".into(), "much".into())]; o.without.clear(); }), &["--lock finger: `much` is not"]),
     ];
     for (source, options, parts) in cases {
-        let text = refused(&source, &options);
-        for part in parts {
-            assert!(text.contains(part), "{part} is missing:\n{text}");
-        }
+        has(&refused(&source, &options), parts);
     }
 }
 
@@ -383,103 +317,70 @@ fn all_at_once() {
 #[test]
 fn doubtful_inertials_are_named() {
     let flat = ARM.replace("izz=\"0.04\"", "izz=\"0.4\"");
-    let warned = |source: &str| {
-        let notes = taken(source, &at_the_hand()).notes;
-        let warnings = notes
-            .into_iter()
-            .filter(|note| note.severity == Severity::Warning);
-        warnings
-            .map(|note| (note.line, note.message))
-            .collect::<Vec<_>>()
-    };
-    let [(line, message)] = &warned(&flat)[..] else {
-        panic!("one warning")
-    };
-    assert_eq!(*line, 16);
-    assert!(
-        message.contains("link `upper`: no body has this inertia"),
-        "{message}"
-    );
     let start = ARM.find("<link name=\"upper\">").unwrap();
     let end = start + ARM[start..].find("</link>").unwrap();
     let bare = format!("{}<link name=\"upper\">{}", &ARM[..start], &ARM[end..]);
-    let [(line, message)] = &warned(&bare)[..] else {
-        panic!("one warning")
-    };
-    assert_eq!(
-        (
-            *line,
-            message.contains("link `upper`, and what is fixed to it, has no mass")
-        ),
-        (14, true)
-    );
-    assert_eq!(warned(ARM), []);
+    let impossible = "link `upper`: no body has this inertia";
+    let missing = "link `upper`, and what is fixed to it, has no mass";
+    let cases = [
+        (&flat, Some((16, impossible))),
+        (&bare, Some((14, missing))),
+    ];
+    for (source, expected) in cases.into_iter().chain([(&ARM.to_owned(), None)]) {
+        let imported = taken(source, &at_the_hand());
+        let warnings = imported.notes.iter();
+        let warnings = warnings.filter(|note| note.severity == Severity::Warning);
+        let found: Vec<&Diagnostic> = warnings.collect();
+        assert_eq!(found.len(), usize::from(expected.is_some()), "{found:?}");
+        for (own, (line, message)) in found.iter().zip(expected) {
+            assert_eq!(own.line, line);
+            has(&own.message, &[message]);
+        }
+    }
 }
 
 /// Gravity is against the base's z: where the base is not the root, that is said.
 #[test]
 fn a_base_that_is_not_the_root_is_said() {
-    let options = Options {
-        base: Some("foot".into()),
-        ..at_the_hand()
-    };
-    let imported = taken(ARM, &options);
-    let said = |note: &Diagnostic| {
-        note.line == 7 && note.message == "link `foot` is the base, and not the root"
-    };
-    assert!(imported.notes.iter().any(said));
-    assert!(
-        imported
-            .text
-            .contains("placement = { xyz = [0.1, 0, 0.2], rpy = [\"pi/2\", 0, 0] }")
-    );
+    let imported = taken(ARM, &with(|o| o.base = Some("foot".into())));
+    let said = (7, "link `foot` is the base, and not the root");
+    assert!(notes(&imported).contains(&said));
+    let placement = "placement = { xyz = [0.1, 0, 0.2], rpy = [\"pi/2\", 0, 0] }";
+    has(&imported.text, &[placement]);
 }
 
 /// Chains that end in several places, and a chain that has one end.
 #[test]
 fn the_end_is_asked_for_where_there_are_several() {
-    let text = refused(&source("panda"), &Options::default());
-    assert!(text.contains("2 links may be where the arm ends"), "{text}");
-    assert!(
-        text.contains(
-            "choose the end by --tip: panda_hand, panda_hand_tcp; --lock-others 0 holds the fingers"
-        ),
-        "{text}"
-    );
-    // One finger is no chain's end either, and where nothing hangs there is one end.
-    for (name, end) in [("z1", "gripperStator"), ("so101", "gripper_link")] {
-        let imported = taken(&source(name), &others("0"));
-        let said = format!("the chain ends at link `{end}`");
-        assert!(
-            imported.notes.iter().any(|note| note.message == said),
-            "{name}: {:?}",
-            imported.notes
-        );
-    }
+    let panda = source("panda");
+    let ends =
+        "choose the end by --tip: panda_hand, panda_hand_tcp; --lock-others 0 holds the fingers";
+    let text = refused(&panda, &Options::default());
+    has(&text, &["2 links may be where the arm ends", ends]);
     // Mimic joints beside the chain say whom they follow.
     let tcp = Options {
         tip: Some("panda_hand_tcp".into()),
         ..Options::default()
     };
-    let text = refused(&source("panda"), &tcp);
-    assert!(
-        text.contains("joint `panda_finger_joint2` is prismatic, mimics `panda_finger_joint1`"),
-        "{text}"
-    );
-    assert!(text.contains("--lock panda_finger_joint1=0"), "{text}");
-    let imported = taken(
-        ARM,
-        &Options {
-            without: vec!["thumb".into()],
-            ..Options::default()
-        },
-    );
-    assert!(
-        imported
-            .notes
-            .iter()
-            .any(|note| note.message == "the chain ends at link `hand`")
-    );
+    let finger = "joint `panda_finger_joint2` is prismatic, mimics `panda_finger_joint1`";
+    let text = refused(&panda, &tcp);
+    has(&text, &[finger, "--lock panda_finger_joint1=0"]);
+    // One finger is no chain's end either, and where nothing hangs there is one end.
+    let thumb = Options {
+        without: vec!["thumb".into()],
+        ..Options::default()
+    };
+    let (z1, so101) = (source("z1"), source("so101"));
+    for (source, options, end) in [
+        (&*z1, others("0"), "gripperStator"),
+        (&so101, others("0"), "gripper_link"),
+        (ARM, thumb, "hand"),
+    ] {
+        let imported = taken(source, &options);
+        let said = format!("the chain ends at link `{end}`");
+        let notes = notes(&imported);
+        assert!(notes.iter().any(|note| note.1 == said), "{notes:?}");
+    }
 }
 
 /// Two chains of as many joints: of arms on a torso that moves, one is held; of two frames at
@@ -502,26 +403,21 @@ fn one_of_several_chains_holds_the_others() {
         ["continuous", "torso", "left"],
         ["continuous", "torso", "right"],
     ]);
-    let text = refused(&arms, &Options::default());
     let help = "choose the end by --tip: left, right; --lock-others 0 holds all else that hangs on the chain";
-    assert!(text.contains("2 chains have 2 joints"), "{text}");
-    assert!(text.contains(help), "{text}");
+    let text = refused(&arms, &Options::default());
+    has(&text, &["2 chains have 2 joints", help]);
     let options = Options {
         tip: Some("right".into()),
         ..others("0")
     };
-    assert!(taken(&arms, &options).text.contains("\"j_right\""));
-
+    has(&taken(&arms, &options).text, &["\"j_right\""]);
     let frames = robot(&[
         ["continuous", "base", "arm"],
         ["fixed", "arm", "front"],
         ["fixed", "arm", "back"],
     ]);
     let text = refused(&frames, &Options::default());
-    assert!(
-        text.contains("choose the end by --tip: front, back\n"),
-        "{text}"
-    );
+    has(&text, &["choose the end by --tip: front, back\n"]);
 }
 
 /// The reduction is that beside the rotor's own name, in whatever order they stand, and every
@@ -529,21 +425,15 @@ fn one_of_several_chains_holds_the_others() {
 #[test]
 fn a_rotor_has_its_own_reduction() {
     let own = "<mechanicalReduction>100</mechanicalReduction><motorInertia>2e-5</motorInertia>";
+    assert!(ARM.contains(own));
     let armature = |actuator: &str| {
-        assert!(ARM.contains(own));
         let source = ARM.replacen(own, actuator, 1);
         let source = source.replacen("<robot ", "<robot xmlns:drake=\"http://drake.mit.edu\" ", 1);
-        let imported = import(&source, &at_the_hand()).unwrap();
-        let line = imported
-            .text
-            .lines()
-            .find_map(|line| line.strip_prefix("armature = "));
-        let notes: Vec<String> = imported
-            .notes
-            .iter()
-            .map(|note| note.message.clone())
-            .collect();
-        (line.map(str::to_owned), notes.join("\n"))
+        let imported = taken(&source, &at_the_hand());
+        let mut lines = imported.text.lines();
+        let line = lines.find_map(|line| line.strip_prefix("armature = "));
+        let notes: String = notes(&imported).iter().map(|note| note.1).collect();
+        (line.map(str::to_owned), notes)
     };
     for (actuator, expected) in [
         (own, Some("2e-5 kg·m² × 100² = 0.2")),
@@ -575,49 +465,30 @@ fn a_rotor_has_its_own_reduction() {
 #[test]
 fn torques_are_not_moved_unasked() {
     let with_snap = |angle: &str, snap: bool| {
-        let options = Options {
-            snap,
-            ..at_the_hand()
-        };
-        import(&ARM.replace("1.5708", angle), &options).unwrap()
+        let source = ARM.replace("1.5708", angle);
+        taken(&source, &with(|o| o.snap = snap))
     };
     // Off by 3.7e-6 rad, and by 2.1e-12.
-    let (kept, taken) = (with_snap("1.5708", false), with_snap("1.5708", true));
-    assert!(kept.text.contains("rpy = [1.5708, 0, 0]"), "{}", kept.text);
+    let (kept, moved) = (with_snap("1.5708", false), with_snap("1.5708", true));
+    let near = with_snap("1.570796326797", false);
+    has(&kept.text, &["rpy = [1.5708, 0, 0]"]);
     // Of digits that stay, the reader of robot files has nothing to say.
     let again = read::parse(&kept.text, &read::Options::default()).unwrap();
-    assert_eq!(again.notes.len(), 0, "{:?}", again.notes);
-    assert!(
-        taken.text.contains("rpy = [\"pi/2\", 0, 0]"),
-        "{}",
-        taken.text
-    );
-    let mut notes = kept.notes.iter();
-    assert!(notes.any(|note| note.message.contains("rounded numbers stay as they are")));
-    assert!(taken.change.unwrap().relative() > 1e-6);
-    let near = with_snap("1.570796326797", false);
-    assert!(
-        near.text.contains("rpy = [\"pi/2\", 0, 0]"),
-        "{}",
-        near.text
-    );
+    assert_eq!(again.notes, []);
+    let stay = "rounded numbers stay as they are";
+    assert!(notes(&kept).iter().any(|note| note.1.contains(stay)));
+    has(&moved.text, &["rpy = [\"pi/2\", 0, 0]"]);
+    assert!(moved.change.unwrap().relative() > 1e-6);
+    has(&near.text, &["rpy = [\"pi/2\", 0, 0]"]);
     assert!(near.change.unwrap().relative() < 1e-6);
 }
 
 /// Every joint has the limit of acceleration that is asked for, and the robot its name.
 #[test]
 fn limits_of_acceleration_and_names_are_options() {
-    let options = Options {
-        acceleration: Some(dalembert_model::number::Rational::from_integer(12.into())),
-        name: Some("other".into()),
-        ..at_the_hand()
-    };
-    let imported = import(ARM, &options).unwrap();
-    assert_eq!(
-        imported.text.matches("acceleration = 12 }").count(),
-        2,
-        "{}",
-        imported.text
-    );
-    assert_eq!(imported.robot.name, "other");
+    let twelve = dalembert_model::number::Rational::from_integer(12.into());
+    let options = with(|o| (o.acceleration, o.name) = (Some(twelve), Some("other".into())));
+    let imported = taken(ARM, &options);
+    let limits = imported.text.matches("acceleration = 12 }").count();
+    assert_eq!((limits, &*imported.robot.name), (2, "other"));
 }
