@@ -15,8 +15,9 @@
 //! 6. `values`, again: what rounding costs, by one pass over the text
 //! 7. `sample`: the text run at some states, which must not contradict the bounds;
 //!    `witness`: states at which T is reached
-//! 8. `tried`: functions that divide, by their equation at states that `hash` draws, without a bound
-//! 9. `verdict`, `exact`: the parts in order, of a certificate and of a whole file
+//! 8. `tried`: functions that divide, by their equation at states that SHA-256 draws, without a bound
+//! 9. `identity`: an exact program equals the equations of motion, modulo primes that SHA-256 draws
+//! 10. `verdict`, `exact`: the parts in order, of a certificate and of a whole file
 //!
 //! What is believed: that every operation is rounded to nearest and none is contracted,
 //! that the library's sines are within one ulp, this crate, the compiler, and the parsers
@@ -31,7 +32,7 @@ pub mod dynamics;
 pub mod exact;
 mod fault;
 pub mod file;
-pub mod hash;
+pub mod identity;
 pub mod interval;
 pub mod kinematics;
 mod levels;

@@ -5,18 +5,22 @@ use std::fs;
 
 use crate::support::file;
 
-/// The most lines of all of it.
-const MOST: usize = 5500;
+/// The most lines of all of it, as long as `identity` stands beside what it replaces.
+const MOST: usize = 7350;
 
 /// The README names every file with its lines, rounded up to ten.
 #[test]
 fn trusted_lines_are_named_and_counted() {
     let mut counted = BTreeMap::new();
     let folder = format!("{}/src", env!("CARGO_MANIFEST_DIR"));
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
-        counted.insert(name, fs::read_to_string(&path).unwrap().lines().count());
+    for (folder, before) in [(folder.clone(), ""), (folder + "/identity", "identity/")] {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            let name = path.file_stem().unwrap().to_str().unwrap();
+            if let Ok(text) = fs::read_to_string(&path) {
+                counted.insert(format!("{before}{name}"), text.lines().count());
+            }
+        }
     }
     let readme = file("checker/README.md");
     let named: BTreeMap<String, usize> = readme
@@ -43,5 +47,6 @@ fn dependencies_are_named() {
     let own = own.split("\n[").next().unwrap().lines();
     let names = own.filter_map(|line| line.split(['.', ' ']).next());
     let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
-    assert_eq!(names, ["serde", "serde_json", "toml"]);
+    let known = "hmac-sha256 num-bigint num-rational num-traits serde serde_json toml";
+    assert_eq!(names.join(" "), known);
 }

@@ -16,6 +16,7 @@ mod counts;
 mod disproved;
 mod fused;
 mod golden;
+mod identity;
 mod kept;
 mod libm_ulps;
 mod printed;

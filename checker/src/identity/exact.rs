@@ -1,0 +1,322 @@
+//! Exact constants: sums of products of a fraction and of sines and cosines of constant angles, as
+//! in `-73/500+169/1000*cos(3/10)`; their residues, and the float that is nearest.
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+
+use num_bigint::BigInt;
+use num_rational::BigRational as Rational;
+use num_traits::{One, Pow, Signed, ToPrimitive, Zero};
+
+use super::number::{Draws, Number};
+
+/// The longest number that is read.
+const MOST_DIGITS: usize = 1 << 12;
+/// Bits behind the point where sines are rounded.
+const BITS: u32 = 320;
+
+/// An angle: a multiple of π, or a number of radians.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Angle {
+    /// A multiple of π.
+    Pi(Rational),
+    /// Radians.
+    Radians(Rational),
+}
+
+/// Reads a decimal, or a fraction of two.
+pub fn number(text: &str) -> Option<Rational> {
+    if text.len() > MOST_DIGITS {
+        return None;
+    }
+    if let Some((over, under)) = text.split_once('/') {
+        let under = number(under).filter(|under| under.is_positive())?;
+        return Some(number(over)? / under);
+    }
+    let (digits, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+    let (whole, behind) = digits.split_once('.').unwrap_or((digits, ""));
+    let plain = format!("{whole}{behind}").replace('_', "");
+    let is_digit = |c: char| c.is_ascii_digit();
+    let bare = plain.strip_prefix(['-', '+']).unwrap_or(&plain);
+    (!bare.is_empty() && bare.chars().all(is_digit)).then_some(())?;
+    let places = exponent.parse::<i64>().ok()? - behind.len() as i64;
+    (places.abs() < 1000).then_some(())?;
+    let ten = Rational::from_integer(10.into());
+    Some(Rational::from_integer(plain.parse().ok()?) * Pow::pow(ten, places as i32))
+}
+
+impl Angle {
+    /// Reads `0.3`, `"pi/2"`, `"-3*pi/4"`, `"90deg"`, or `1*pi/5` of a program. A decimal within 4
+    /// ulp of a quarter turn, up to a whole one, is that.
+    pub fn read(text: &str) -> Option<Angle> {
+        let text = text.trim();
+        if let Some(degrees) = text.strip_suffix("deg") {
+            return Some(Angle::Pi(
+                number(degrees.trim())? / Rational::from_integer(180.into()),
+            ));
+        }
+        if let Some((factor, under)) = text.split_once("pi") {
+            let factor = match factor.trim() {
+                "" | "+" => Rational::one(),
+                "-" => -Rational::one(),
+                factor => number(factor.strip_suffix('*')?.trim())?,
+            };
+            let under = match under.trim() {
+                "" => Rational::one(),
+                under => number(under.strip_prefix('/')?.trim())?,
+            };
+            return (!under.is_zero()).then(|| Angle::Pi(factor / under));
+        }
+        let radians = number(text)?;
+        let value = radians.to_f64()?;
+        let quarters = (value / std::f64::consts::FRAC_PI_2).round();
+        let turn = quarters * std::f64::consts::FRAC_PI_2;
+        let is_turn =
+            (turn - value).abs() <= (4.0 * (turn.abs().next_up() - turn.abs())).min(2e-15);
+        Some(
+            match radians.is_zero() || is_turn && (1.0..=4.0).contains(&quarters.abs()) {
+                true => Angle::Pi(Rational::new((quarters as i64).into(), 2.into())),
+                false => Angle::Radians(radians),
+            },
+        )
+    }
+
+    /// Returns sine and cosine, by those of an angle up to an eighth of a turn or of positive
+    /// radians, so that angles share theirs.
+    fn pair(&self, drawn: impl FnOnce(&Angle) -> [Number; 2]) -> [Number; 2] {
+        let half = Rational::new(1.into(), 2.into());
+        let (quarters, [sin, cos]) = match self {
+            Angle::Radians(radians) if radians.is_negative() => {
+                let [sin, cos] = drawn(&Angle::Radians(-radians));
+                (0, [-sin, cos])
+            }
+            Angle::Radians(_) => (0, drawn(self)),
+            Angle::Pi(multiple) => {
+                let halves = multiple / &half;
+                let whole = halves.floor().to_integer();
+                let quarters: BigInt = (&whole % 4 + 4) % 4;
+                let quarters = quarters.to_u8().unwrap_or(0);
+                let rest = &halves - Rational::from_integer(whole);
+                let pair = if rest.is_zero() {
+                    [0.into(), 1.into()]
+                } else if rest > half || rest == half && quarters % 2 == 1 {
+                    let [sin, cos] = drawn(&Angle::Pi((Rational::one() - rest) * &half));
+                    [cos, sin]
+                } else {
+                    drawn(&Angle::Pi(rest * &half))
+                };
+                (quarters, pair)
+            }
+        };
+        match quarters {
+            0 => [sin, cos],
+            1 => [cos, -sin],
+            2 => [-sin, -cos],
+            _ => [-cos, sin],
+        }
+    }
+
+    /// Returns sine and cosine to 2⁻³⁰⁰; none of angles beyond 8 rad, whose series loses more bits.
+    fn rounded(&self) -> Option<[Rational; 2]> {
+        let one = BigInt::one() << BITS;
+        let scaled = |x: &Rational| (x * Rational::from_integer(one.clone())).to_integer();
+        let arc = |under: u32| {
+            // arctan 1/n
+            let (mut power, mut sum, mut k) = (&one / under, BigInt::zero(), 1u32);
+            while !power.is_zero() {
+                let part = &power / k;
+                sum = if k % 4 == 1 { sum + part } else { sum - part };
+                (power, k) = (power / (under * under), k + 2);
+            }
+            sum
+        };
+        let radians = match self {
+            Angle::Radians(x) => scaled(x),
+            Angle::Pi(x) => (scaled(x) * (16 * arc(5) - 4 * arc(239))) >> BITS,
+        };
+        if radians.abs() > BigInt::from(8) << BITS {
+            return None;
+        }
+        let (mut sums, mut term, mut k) = ([BigInt::zero(), BigInt::zero()], one.clone(), 0u32);
+        while !term.is_zero() {
+            let sum = &mut sums[1 - k as usize % 2];
+            *sum = if k % 4 < 2 {
+                &*sum + &term
+            } else {
+                &*sum - &term
+            };
+            k += 1;
+            // Towards zero, so that it ends.
+            term = &term * &radians / (&one * k);
+        }
+        Some(sums.map(|sum| Rational::new(sum, one.clone())))
+    }
+}
+
+/// A fraction, times powers of the sine and the cosine of angles.
+type Term = (Rational, Vec<(Angle, [u32; 2])>);
+
+/// A constant of a program: a sum of terms.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Exact(Vec<Term>);
+
+impl Exact {
+    /// Reads a constant as programs write it; none of other text.
+    pub fn read(text: &str) -> Option<Exact> {
+        let term = |text: &str| {
+            // The first factor is a fraction; `1*pi/5` stands in brackets.
+            let (factor, mut rest) = text.split_at(
+                text.find("*sin(")
+                    .into_iter()
+                    .chain(text.find("*cos("))
+                    .min()
+                    .unwrap_or(text.len()),
+            );
+            let mut powers = Vec::new();
+            while let Some(part) = rest.strip_prefix('*') {
+                let (name, behind) = part.split_once('(')?;
+                let (angle, behind) = behind.split_once(')')?;
+                let end = behind.find('*').unwrap_or(behind.len());
+                let power = match behind[..end].strip_prefix('^') {
+                    Some(power) => power.parse().ok().filter(|power| *power <= 1024)?,
+                    None => 1u32,
+                };
+                let both = [("sin", [power, 0]), ("cos", [0, power])];
+                let both = both.into_iter().find(|(own, _)| *own == name)?.1;
+                powers.push((Angle::read(angle)?, both));
+                rest = &behind[end..];
+            }
+            rest.is_empty().then_some((number(factor)?, powers))
+        };
+        (text.len() < 1 << 16).then_some(())?;
+        Some(Exact(text.split('+').map(term).collect::<Option<_>>()?))
+    }
+
+    /// Returns a constant without angles as text.
+    pub fn text(&self) -> Option<String> {
+        match self.0.as_slice() {
+            [(factor, powers)] if powers.is_empty() => Some(factor.to_string()),
+            _ => None,
+        }
+    }
+
+    /// Returns whether a literal is the float nearest to it; of two as near, the even one.
+    pub fn is_nearest(&self, literal: f64, is_single: bool) -> bool {
+        // Printed code has no zero with a sign.
+        if literal == 0.0 && literal.is_sign_negative() {
+            return false;
+        }
+        let mut sum = Rational::zero();
+        let mut slack = Rational::zero();
+        for (factor, powers) in &self.0 {
+            let mut product = factor.clone();
+            for (angle, powers) in powers {
+                let Some(pair) = angle.rounded() else {
+                    return false;
+                };
+                for (value, power) in pair.iter().zip(powers) {
+                    (0..*power).for_each(|_| product = (&product * value).reduced());
+                }
+            }
+            if !powers.is_empty() {
+                slack += factor.abs();
+            }
+            sum += product;
+        }
+        // 1100 factors, each off by 2⁻³⁰⁰.
+        slack *= Rational::new(1.into(), BigInt::one() << 280);
+        let float = |x: f64| Rational::from_float(x);
+        let (below, above, is_even) = match is_single {
+            true => {
+                let own = literal as f32;
+                if f64::from(own) != literal {
+                    return false;
+                }
+                (
+                    own.next_down().into(),
+                    own.next_up().into(),
+                    own.to_bits().is_multiple_of(2),
+                )
+            }
+            false => (
+                literal.next_down(),
+                literal.next_up(),
+                literal.to_bits().is_multiple_of(2),
+            ),
+        };
+        let (Some(own), Some(below), Some(above)) = (float(literal), float(below), float(above))
+        else {
+            return false;
+        };
+        let twice = |x: &Rational| x + x;
+        let low = twice(&(&sum - &slack)) - (&own + below);
+        let high = (own + above) - twice(&(sum + &slack));
+        let is_tie = is_even && slack.is_zero();
+        let fits = |room: Rational| room.is_positive() || is_tie && room.is_zero();
+        fits(low) && fits(high)
+    }
+}
+
+/// A point of a prime field: the residues of numbers, and of sines and cosines of angles.
+pub struct Point {
+    /// The prime of its field.
+    pub prime: u64,
+    draws: RefCell<Draws>,
+    angles: RefCell<HashMap<Angle, [Number; 2]>>,
+}
+
+impl Point {
+    /// Returns the point of a statement.
+    pub fn new(statement: &[&str]) -> Point {
+        let mut draws = Draws::new(statement);
+        let prime = draws.prime();
+        Point {
+            prime,
+            draws: draws.into(),
+            angles: RefCell::default(),
+        }
+    }
+
+    /// Returns a residue that was not drawn before.
+    pub fn residue(&self) -> Number {
+        self.draws.borrow_mut().residue(self.prime)
+    }
+
+    /// Returns a sine and a cosine that were not drawn before.
+    pub fn pair(&self) -> [Number; 2] {
+        self.draws.borrow_mut().pair(self.prime)
+    }
+
+    /// Returns the residue of a fraction.
+    pub fn number(&self, value: &Rational) -> Number {
+        let prime = BigInt::from(self.prime);
+        let part = |x: &BigInt| {
+            let value = ((x % &prime + &prime) % &prime).to_u64().unwrap_or(0);
+            Number::new(value, self.prime)
+        };
+        part(value.numer()) / part(value.denom())
+    }
+
+    /// Returns sine and cosine of a constant angle: a point of the circle, drawn once.
+    pub fn angle(&self, angle: &Angle) -> [Number; 2] {
+        let drawn = |key: &Angle| {
+            let mut angles = self.angles.borrow_mut();
+            *angles.entry(key.clone()).or_insert_with(|| self.pair())
+        };
+        angle.pair(drawn)
+    }
+
+    /// Returns the residue of a constant.
+    pub fn constant(&self, constant: &Exact) -> Number {
+        let term = |(factor, powers): &Term| {
+            let mut product = self.number(factor);
+            for (angle, powers) in powers {
+                for (own, power) in self.angle(angle).into_iter().zip(powers) {
+                    product = (0..*power).fold(product, |all, _| all * own);
+                }
+            }
+            product
+        };
+        constant.0.iter().map(term).fold(0.into(), |a, b| a + b)
+    }
+}

@@ -1,0 +1,246 @@
+//! Residues modulo a prime that a hash draws, each with two slopes and what both have together: so
+//! every derivative is that of the equations themselves.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use hmac_sha256::Hash;
+
+/// A residue r + r₁ε + r₂δ + r₃εδ with ε² = δ² = 0. Without a prime it is a whole number that every
+/// field has; a result of a division by zero is lost.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Number {
+    prime: u64,
+    parts: [u64; 4],
+}
+
+const LOST: u64 = u64::MAX;
+
+impl Number {
+    /// Creates a residue.
+    pub fn new(value: u64, prime: u64) -> Number {
+        Number {
+            prime,
+            parts: [value % prime, 0, 0, 0],
+        }
+    }
+
+    /// Returns the number with a slope of one in direction 1 or 2.
+    pub fn moving(mut self, by: Number, direction: usize) -> Number {
+        let prime = self.prime.max(by.prime);
+        self = self
+            + Number {
+                prime,
+                parts: [0; 4],
+            };
+        self.parts[direction] = by.entry(0, prime);
+        self
+    }
+
+    /// Returns r, r₁, r₂ or r₃ modulo a prime.
+    fn entry(self, part: usize, prime: u64) -> u64 {
+        match self.prime {
+            0 if prime > 0 => (self.parts[part] as i64).rem_euclid(prime as i64) as u64,
+            _ => self.parts[part],
+        }
+    }
+
+    /// Returns the residue modulo a prime; none of a number that is lost.
+    pub fn value(self, prime: u64) -> Option<u64> {
+        (self.prime != LOST).then(|| self.entry(0, prime))
+    }
+
+    /// Returns whether the number is not zero.
+    pub fn is_nonzero(self) -> bool {
+        self.parts[0] != 0
+    }
+
+    /// Returns a slope, or the mixed one, as a number.
+    pub fn slope(self, part: usize) -> Number {
+        Number {
+            parts: [self.parts[part], 0, 0, 0],
+            ..self
+        }
+    }
+
+    /// Combines the parts of two numbers.
+    fn with(self, other: Number, combine: impl Fn(u64, [u64; 4], [u64; 4]) -> [u64; 4]) -> Number {
+        let prime = self.prime.max(other.prime);
+        let parts = |own: Number| [0, 1, 2, 3].map(|part| own.entry(part, prime));
+        Number {
+            prime,
+            parts: combine(prime, parts(self), parts(other)),
+        }
+    }
+
+    fn power(self, mut exponent: u64) -> Number {
+        let (mut square, mut power) = (self, Number::from(1));
+        while exponent > 0 {
+            if exponent & 1 == 1 {
+                power = power * square;
+            }
+            square = square * square;
+            exponent >>= 1;
+        }
+        power
+    }
+}
+
+impl From<i64> for Number {
+    fn from(whole: i64) -> Number {
+        Number {
+            prime: 0,
+            parts: [whole as u64, 0, 0, 0],
+        }
+    }
+}
+
+fn times(prime: u64, a: u64, b: u64) -> u64 {
+    match prime {
+        0 => a.wrapping_mul(b),
+        _ => (u128::from(a) * u128::from(b) % u128::from(prime)) as u64,
+    }
+}
+
+fn plus(prime: u64, a: u64, b: u64) -> u64 {
+    let sum = a.wrapping_add(b);
+    if prime > 0 && sum >= prime {
+        sum - prime
+    } else {
+        sum
+    }
+}
+
+impl Add for Number {
+    type Output = Number;
+    fn add(self, other: Number) -> Number {
+        self.with(other, |p, a, b| [0, 1, 2, 3].map(|k| plus(p, a[k], b[k])))
+    }
+}
+
+impl Neg for Number {
+    type Output = Number;
+    fn neg(self) -> Number {
+        let opposite = |x: u64| match (self.prime, x) {
+            (0, x) => x.wrapping_neg(),
+            (_, 0) => 0,
+            (prime, x) => prime - x,
+        };
+        Number {
+            parts: self.parts.map(opposite),
+            ..self
+        }
+    }
+}
+
+impl Sub for Number {
+    type Output = Number;
+    fn sub(self, other: Number) -> Number {
+        self + -other
+    }
+}
+
+impl Mul for Number {
+    type Output = Number;
+    fn mul(self, other: Number) -> Number {
+        self.with(other, |p, a, b| {
+            if a[1] | a[2] | a[3] | b[1] | b[2] | b[3] == 0 {
+                return [times(p, a[0], b[0]), 0, 0, 0];
+            }
+            let sum = |pairs: &[(usize, usize)]| {
+                let products = pairs.iter().map(|&(i, k)| times(p, a[i], b[k]));
+                products.fold(0, |all, own| plus(p, all, own))
+            };
+            [
+                times(p, a[0], b[0]),
+                sum(&[(0, 1), (1, 0)]),
+                sum(&[(0, 2), (2, 0)]),
+                sum(&[(0, 3), (1, 2), (2, 1), (3, 0)]),
+            ]
+        })
+    }
+}
+
+impl Div for Number {
+    type Output = Number;
+    fn div(self, other: Number) -> Number {
+        let prime = self.prime.max(other.prime);
+        let own = other.entry(0, prime);
+        if prime == 0 || prime == LOST || own == 0 {
+            return Number {
+                prime: LOST,
+                parts: [0; 4],
+            };
+        }
+        // 1/(x + e) is y (2 − (x + e) y), twice, with y = 1/x: squares of slopes vanish.
+        let mut inverse = Number::new(own, prime).power(prime - 2);
+        for _ in 0..2 {
+            inverse = inverse * (Number::from(2) - other * inverse);
+        }
+        self * inverse
+    }
+}
+
+/// Numbers that follow from a statement: whoever changes a digit of it gets others.
+pub struct Draws {
+    seed: [u8; 32],
+    count: u64,
+}
+
+impl Draws {
+    /// Returns the numbers of a statement, given as texts.
+    pub fn new(statement: &[&str]) -> Draws {
+        let mut hash = Hash::new();
+        for text in statement {
+            hash.update((text.len() as u64).to_le_bytes());
+            hash.update(text.as_bytes());
+        }
+        Draws {
+            seed: hash.finalize(),
+            count: 0,
+        }
+    }
+
+    /// Returns the next number of 64 bits.
+    fn next(&mut self) -> u64 {
+        self.count += 1;
+        let hash = Hash::hash(&[self.seed.as_slice(), &self.count.to_le_bytes()].concat());
+        let bytes = hash.iter().take(8);
+        bytes.fold(0, |number, byte| number << 8 | u64::from(*byte))
+    }
+
+    /// Returns the next prime of 62 bits.
+    pub fn prime(&mut self) -> u64 {
+        loop {
+            let number = self.next() >> 2 | 1 << 61 | 1;
+            if is_prime(number) {
+                return number;
+            }
+        }
+    }
+
+    /// Returns the next residue.
+    pub fn residue(&mut self, prime: u64) -> Number {
+        Number::new(self.next(), prime)
+    }
+
+    /// Returns the next point of the circle, sine and cosine: (2t, 1 − t²)/(1 + t²).
+    pub fn pair(&mut self, prime: u64) -> [Number; 2] {
+        let (t, one) = (self.residue(prime), Number::from(1));
+        [(t + t) / (one + t * t), (one - t * t) / (one + t * t)]
+    }
+}
+
+/// Returns whether an odd number is prime, by Miller and Rabin; these bases suffice below 2⁶⁴.
+fn is_prime(number: u64) -> bool {
+    let twos = (number - 1).trailing_zeros();
+    let bases = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
+    bases.into_iter().all(|base| {
+        let mut power = Number::new(base, number).power((number - 1) >> twos);
+        let mut passes = [1, number - 1].contains(&power.parts[0]);
+        for _ in 1..twos {
+            power = power * power;
+            passes |= power.parts[0] == number - 1;
+        }
+        passes
+    })
+}

@@ -1,0 +1,147 @@
+//! Straight-line code, over exact constants or over literals; its residues and its degree.
+
+use std::cell::RefCell;
+
+use super::exact::{Exact, Point};
+use super::number::Number;
+use super::outputs::State;
+
+/// A signed sum of joints' angles: joints, each with whether it is subtracted.
+pub type Angle = Vec<(usize, bool)>;
+
+/// An operand of an operation.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Operand<C> {
+    /// The result of an operation before it.
+    Step(usize),
+    /// A constant.
+    Constant(C),
+    /// An entry of an argument.
+    Entry(usize, usize),
+    /// The sine, or else the cosine, of an angle.
+    Sine(Angle, bool),
+}
+
+/// One operation: `+`, `-`, `*` or `/`.
+pub type Step<C> = (char, [Operand<C>; 2]);
+
+/// A function; results may be negated.
+#[derive(Clone, Debug)]
+pub struct Program<C> {
+    /// The operations, in order.
+    pub steps: Vec<Step<C>>,
+    /// The results, each with whether it is negated.
+    pub outputs: Vec<(bool, Operand<C>)>,
+}
+
+impl<C> Default for Program<C> {
+    fn default() -> Self {
+        Program {
+            steps: Vec::new(),
+            outputs: Vec::new(),
+        }
+    }
+}
+
+impl<C> Program<C> {
+    /// Evaluates it, given the values of operands other than steps; none if one of them has none.
+    pub fn run<V: Clone>(
+        &self,
+        leaf: impl Fn(&Operand<C>) -> Option<V>,
+        apply: impl Fn(char, V, V) -> V,
+    ) -> Option<Vec<(bool, V)>> {
+        let mut values: Vec<V> = Vec::with_capacity(self.steps.len());
+        let read = |values: &[V], own: &Operand<C>| match own {
+            Operand::Step(step) => values.get(*step).cloned(),
+            own => leaf(own),
+        };
+        for (operation, [left, right]) in &self.steps {
+            let value = apply(*operation, read(&values, left)?, read(&values, right)?);
+            values.push(value);
+        }
+        self.outputs
+            .iter()
+            .map(|(negative, own)| Some((*negative, read(&values, own)?)))
+            .collect()
+    }
+}
+
+impl Program<Exact> {
+    /// Returns its results at a point.
+    pub fn residues(&self, point: &Point, state: &State) -> Option<Vec<Number>> {
+        let leaf = |own: &Operand<Exact>| match own {
+            Operand::Constant(constant) => Some(point.constant(constant)),
+            Operand::Entry(argument, index) => state.given[*argument].get(*index).copied(),
+            Operand::Sine(angle, is_sine) => {
+                let mut pair = [Number::from(0), Number::from(1)];
+                for &(joint, negative) in angle {
+                    let [sin, cos] = *state.pairs.get(joint)?;
+                    let sin = if negative { -sin } else { sin };
+                    pair = [pair[0] * cos + pair[1] * sin, pair[1] * cos - pair[0] * sin];
+                }
+                Some(pair[usize::from(!is_sine)])
+            }
+            Operand::Step(_) => None,
+        };
+        let all = self.run(leaf, |operation, a, b| match operation {
+            '+' => a + b,
+            '-' => a - b,
+            '*' => a * b,
+            _ => a / b,
+        })?;
+        Some(
+            all.into_iter()
+                .map(|(negative, own)| if negative { -own } else { own })
+                .collect(),
+        )
+    }
+
+    /// Returns at least the degrees of numerator and denominator of its results, in inputs and
+    /// sines; infinite beyond a double's range.
+    ///
+    /// A value is a polynomial in these and in 1/d of each divisor d, which is one in those before
+    /// it: a list of degrees. Multiplied by each divisor as often as it occurs, the last first, it
+    /// has none.
+    pub fn degree(&self) -> f64 {
+        let divisors = RefCell::new(Vec::<Vec<f64>>::new());
+        let zip = |a: Vec<f64>, b: Vec<f64>, pick: fn(f64, f64) -> f64| {
+            let at = |list: &[f64], k: usize| list.get(k).copied().unwrap_or(0.0);
+            let both = (0..a.len().max(b.len())).map(|k| pick(at(&a, k), at(&b, k)));
+            both.collect::<Vec<f64>>()
+        };
+        let leaf = |own: &Operand<Exact>| match own {
+            Operand::Constant(_) => Some(vec![0.0]),
+            Operand::Sine(angle, _) => Some(vec![angle.len() as f64]),
+            _ => Some(vec![1.0]),
+        };
+        let all = self.run(leaf, |operation, a, b| match operation {
+            '+' | '-' => zip(a, b, f64::max),
+            '/' => {
+                let mut known = divisors.borrow_mut();
+                known.push(b);
+                let mut inverse = vec![0.0; known.len()];
+                inverse.push(1.0);
+                zip(a, inverse, |a, b| a + b)
+            }
+            _ => zip(a, b, |a, b| a + b),
+        });
+        let divisors = divisors.into_inner();
+        let largest = |(_, mut own): (bool, Vec<f64>)| {
+            let mut under = 0.0;
+            for (index, divisor) in divisors.iter().enumerate().rev() {
+                let times = own.get(index + 1).copied().unwrap_or(0.0);
+                own = zip(own, divisor.iter().map(|x| x * times).collect(), |a, b| {
+                    a + b
+                });
+                under += times * divisor[0];
+            }
+            own[0].max(under)
+        };
+        // No number counts as too large.
+        let larger = |most: f64, own: f64| if own <= most { most } else { own };
+        all.unwrap_or_default()
+            .into_iter()
+            .map(largest)
+            .fold(0.0, larger)
+    }
+}

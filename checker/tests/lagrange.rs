@@ -1,0 +1,59 @@
+//! The recursion of the identity against Lagrange's equation, d/dt ∂L/∂q̇ − ∂L/∂q + b∘q̇, with true
+//! slopes of D and U in the field.
+
+use dalembert_checker::identity::arm::Arm;
+use dalembert_checker::identity::exact::Point;
+use dalembert_checker::identity::number::Number;
+use dalembert_checker::identity::outputs::{State, argument, functions, result};
+use dalembert_checker::identity::robot;
+
+use crate::support::file;
+
+const ROBOTS: [&str; 5] = [
+    "generated/robots/puma560.toml",
+    "generated/robots/panda.toml",
+    "checker/tests/data/hand.toml",
+    "checker/tests/data/tilted.toml",
+    "codegen/tests/data/general6r.toml",
+];
+
+/// Returns the first result of a function.
+fn value(arm: &Arm, state: &State, name: &str) -> Vec<Number> {
+    let function = functions().into_iter().find(|own| own.name == name);
+    result(arm, state, &function.unwrap().fields[0]).unwrap()
+}
+
+/// Σ D_ik q̈_k + Σ (∂D_ik/∂q_m − ½ ∂D_km/∂q_i) q̇_k q̇_m + ∂U/∂q_i + b_i q̇_i.
+#[test]
+fn torques_are_those_of_lagranges_equation() {
+    for name in ROBOTS {
+        let source = robot::read(&file(name)).unwrap();
+        let point = Point::new(&[name]);
+        let arm = Arm::read(&source, &point).unwrap();
+        let n = arm.joints.len();
+        let state = State::draw(&point, n);
+        let [qd, qdd] = ["qd", "qdd"].map(|own| &state.given[argument(own).unwrap()]);
+        let d = value(&arm, &state, "inertia");
+        let slopes: Vec<(Vec<Number>, Number)> = (0..n)
+            .map(|joint| {
+                let moved = state.moving(0, joint, 1);
+                let d = value(&arm, &moved, "inertia").into_iter();
+                let u = value(&arm, &moved, "potential_energy")[0];
+                (d.map(|entry| entry.slope(1)).collect(), u.slope(1))
+            })
+            .collect();
+        let torques = value(&arm, &state, "inverse_dynamics");
+        for (i, torque) in torques.into_iter().enumerate() {
+            let mut expected = slopes[i].1 + arm.joints[i].viscous * qd[i];
+            for k in 0..n {
+                expected = expected + d[i * n + k] * qdd[k];
+                for m in 0..n {
+                    let slope = slopes[m].0[i * n + k] - arm.half * slopes[i].0[k * n + m];
+                    expected = expected + slope * qd[k] * qd[m];
+                }
+            }
+            let [own, expected] = [torque, expected].map(|own| own.value(point.prime));
+            assert!(own.is_some() && own == expected, "{name} {i}");
+        }
+    }
+}

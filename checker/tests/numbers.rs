@@ -1,0 +1,103 @@
+//! Numbers of the identity: the nearest float, slopes, angles, and draws from a statement.
+
+use std::f64::consts::FRAC_1_SQRT_2;
+
+use dalembert_checker::identity::exact::{Angle, Exact, Point};
+use dalembert_checker::identity::number::{Draws, Number};
+
+/// A constant, the literal that is nearest to it, and whether that is of f32.
+#[test]
+fn the_nearest_float_is_told_from_its_neighbours() {
+    let cases = [
+        ("1/3", 1.0 / 3.0, false),
+        ("1/3", f64::from(1.0f32 / 3.0), true),
+        ("1*sin(1*pi/4)", FRAC_1_SQRT_2, false),
+        ("1*cos(1*pi/4)^2", 0.5, false),
+        ("-2*sin(1*pi/4)*cos(1*pi/4)", -1.0, false),
+        ("7/10+-3/10*cos(1/3)", 0.416_512_916_105_578_7, false),
+        // Half-way between two floats the even one is nearest.
+        ("9007199254740993/9007199254740992", 1.0, false),
+        ("16777217/16777216", 1.0, true),
+        ("1e-300", 1e-300, false),
+    ];
+    for (text, literal, is_single) in cases {
+        let own = Exact::read(text).unwrap();
+        assert!(own.is_nearest(literal, is_single), "{text}");
+        let next: [f64; 2] = match is_single {
+            true => [(literal as f32).next_up(), (literal as f32).next_down()].map(f64::from),
+            false => [literal.next_up(), literal.next_down()],
+        };
+        let others = next.into_iter().chain([-literal, f64::NAN, f64::INFINITY]);
+        for other in others {
+            assert!(!own.is_nearest(other, is_single), "{text} {other:e}");
+        }
+    }
+    let third = Exact::read("1/3").unwrap();
+    assert!(!third.is_nearest(1.0 / 3.0, true));
+    let zero = Exact::read("0").unwrap();
+    assert!(zero.is_nearest(0.0, false) && !zero.is_nearest(-0.0, false));
+    // The series of a large angle has lost its digits.
+    let far = Exact::read("1*sin(100)").unwrap();
+    assert!(!far.is_nearest(100f64.sin(), false));
+}
+
+#[test]
+fn what_is_no_constant_is_not_read() {
+    let long = "1".repeat(5000);
+    for text in [
+        "",
+        "x",
+        "1e",
+        "1/0",
+        "1/-2",
+        "1*tan(1)",
+        "1*sin(1",
+        "1*sin(1)^2000",
+        &long,
+    ] {
+        assert!(Exact::read(text).is_none(), "{text}");
+    }
+}
+
+/// What robot files write in several ways is one angle, and others are independent of it.
+#[test]
+fn equal_angles_have_equal_sines() {
+    let point = Point::new(&["angles"]);
+    let pair = |text: &str| {
+        point
+            .angle(&Angle::read(text).unwrap())
+            .map(|x| x.value(point.prime))
+    };
+    let [sine, cosine] = pair("pi/5");
+    for equal in ["36deg", "1*pi/5", "-9*pi/5", "11*pi/5"] {
+        assert_eq!(pair(equal), [sine, cosine], "{equal}");
+    }
+    assert_eq!(pair("3*pi/10"), [cosine, sine]);
+    assert_eq!(pair("1.5707963267948966"), [Some(1), Some(0)]);
+    assert_eq!(pair("90deg"), [Some(1), Some(0)]);
+    assert_ne!(pair("0.3"), pair("0.30000000000000001"));
+    assert_ne!(pair("0.3")[0], pair("-0.3")[0]);
+    assert_eq!(pair("0.3")[1], pair("-0.3")[1]);
+}
+
+/// x/y · y is x with both slopes and the mixed one, and another statement has another prime.
+#[test]
+fn quotients_have_slopes() {
+    let mut draws = Draws::new(&["quotients"]);
+    let prime = draws.prime();
+    assert!(prime >> 61 == 1);
+    assert_ne!(prime, Draws::new(&["quotients "]).prime());
+    assert_ne!(prime, Draws::new(&["quo", "tients"]).prime());
+    let mut number = || {
+        let [value, first, second] = [(); 3].map(|()| draws.residue(prime));
+        value.moving(first, 1).moving(second, 2)
+    };
+    let [x, y] = [number(), number()];
+    let again = x / y * y;
+    for part in 1..4 {
+        assert_eq!(again.slope(part).value(prime), x.slope(part).value(prime));
+    }
+    assert_eq!(again.value(prime), x.value(prime));
+    let zero = Number::new(prime, prime);
+    assert_eq!((x / zero * y).value(prime), None);
+}
