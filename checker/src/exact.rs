@@ -6,6 +6,7 @@ use crate::c99;
 use crate::certificate::Claim;
 use crate::fault::Fault;
 use crate::file::{self, Found};
+use crate::identity::number::first_bits;
 use crate::interval::UNIT;
 use crate::number::Work;
 use crate::quantity::Function;
@@ -170,9 +171,7 @@ fn distance(found: &Found, setting: &Setting, robot: &str) -> Result<Distance, F
     if claim.function()?.is_tried() {
         distance.tried = tried::STATES;
         let hash = hmac_sha256::Hash::hash([&found.text, robot].concat().as_bytes());
-        let seed = hash[..8].iter();
-        let seed = seed.fold(0, |seed, &byte| seed << 8 | u64::from(byte));
-        for own in tried::worst(&claim, setting, seed).map_err(in_file)? {
+        for own in tried::worst(&claim, setting, first_bits(&hash)).map_err(in_file)? {
             let off = if own.off == 0.0 {
                 0.0
             } else {

@@ -6,6 +6,7 @@ mod exact;
 mod forgeries;
 mod golden;
 mod headers;
+mod identity;
 mod intervals;
 mod lagrange;
 mod lines;

@@ -53,13 +53,14 @@ fn what_is_no_constant_is_not_read() {
         "1*tan(1)",
         "1*sin(1",
         "1*sin(1)^2000",
+        "1*sin(1)^600*cos(1)^600",
         &long,
     ] {
         assert!(Exact::read(text).is_none(), "{text}");
     }
 }
 
-/// What robot files write in several ways is one angle, and others are independent of it.
+/// An angle that robot files write in several ways has one pair, and other angles have others.
 #[test]
 fn equal_angles_have_equal_sines() {
     let point = Point::new(&["angles"]);

@@ -135,10 +135,11 @@ fn every_function_equals_the_checkers_equations() {
 /// Another sign, operand or order, and a constant that is off by 1e-17.
 #[test]
 fn every_mutant_of_a_program_is_refused() {
+    let most = if cfg!(debug_assertions) { 5 } else { 40 };
     let mut count = 0;
     for own in all("planar2r") {
         let steps = own.program.steps.len();
-        for index in (0..steps).step_by(steps / dose(&[(); 40], 5).len() + 1) {
+        for index in (0..steps).step_by(steps / most + 1) {
             for kind in 0..4 {
                 let Some(mutant) = mutant(&own.program, index, kind) else {
                     continue;

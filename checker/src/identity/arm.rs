@@ -7,53 +7,55 @@
 
 use std::array::from_fn;
 
+use num_traits::Zero;
+
 use super::exact::{Angle, Point, number};
 use super::number::Number;
 use super::robot::{File, Placement, Row};
 
-pub type Vector = [Number; 3];
+pub(super) type Vector = [Number; 3];
 
-pub fn sum(a: Vector, b: Vector) -> Vector {
+pub(super) fn sum(a: Vector, b: Vector) -> Vector {
     from_fn(|i| a[i] + b[i])
 }
 
-pub fn scaled(x: Number, a: Vector) -> Vector {
+fn scaled(x: Number, a: Vector) -> Vector {
     a.map(|a| x * a)
 }
 
-pub fn opposite(a: Vector) -> Vector {
+fn opposite(a: Vector) -> Vector {
     a.map(|a| -a)
 }
 
-pub fn dot(a: Vector, b: Vector) -> Number {
+pub(super) fn dot(a: Vector, b: Vector) -> Number {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-pub fn cross(a: Vector, b: Vector) -> Vector {
+pub(super) fn cross(a: Vector, b: Vector) -> Vector {
     let [i, k] = [[1, 2, 0], [2, 0, 1]];
     from_fn(|axis| a[i[axis]] * b[k[axis]] - a[k[axis]] * b[i[axis]])
 }
 
 /// A motion (ω, v), or a wrench (n, f).
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Screw(pub Vector, pub Vector);
+pub(super) struct Screw(pub(super) Vector, pub(super) Vector);
 
 impl Screw {
-    pub fn plus(self, other: Screw) -> Screw {
+    fn plus(self, other: Screw) -> Screw {
         Screw(sum(self.0, other.0), sum(self.1, other.1))
     }
 
-    pub fn times(self, x: Number) -> Screw {
+    fn times(self, x: Number) -> Screw {
         Screw(scaled(x, self.0), scaled(x, self.1))
     }
 
     /// Returns the power of a wrench in this motion.
-    pub fn power(self, wrench: Screw) -> Number {
+    pub(super) fn power(self, wrench: Screw) -> Number {
         dot(self.0, wrench.0) + dot(self.1, wrench.1)
     }
 
     /// Returns the rate of a motion that this one carries along.
-    pub fn across(self, other: Screw) -> Screw {
+    fn across(self, other: Screw) -> Screw {
         let linear = sum(cross(self.0, other.1), cross(self.1, other.0));
         Screw(cross(self.0, other.0), linear)
     }
@@ -67,13 +69,13 @@ impl Screw {
 
 /// A turn R, by its columns, and a shift p: r ↦ R r + p.
 #[derive(Clone, Copy, Debug)]
-pub struct Pose {
+pub(super) struct Pose {
     axes: [Vector; 3],
-    pub origin: Vector,
+    pub(super) origin: Vector,
 }
 
 impl Pose {
-    pub fn shift(origin: Vector) -> Pose {
+    fn shift(origin: Vector) -> Pose {
         let axes = from_fn(|k| from_fn(|i| i64::from(i == k).into()));
         Pose { axes, origin }
     }
@@ -91,11 +93,11 @@ impl Pose {
         from_fn(|i| self.axes[0][i] * v[0] + self.axes[1][i] * v[1] + self.axes[2][i] * v[2])
     }
 
-    pub fn apply(&self, point: Vector) -> Vector {
+    pub(super) fn apply(&self, point: Vector) -> Vector {
         sum(self.rotate(point), self.origin)
     }
 
-    pub fn then(&self, next: &Pose) -> Pose {
+    pub(super) fn then(&self, next: &Pose) -> Pose {
         let axes = next.axes.map(|axis| self.rotate(axis));
         let origin = self.apply(next.origin);
         Pose { axes, origin }
@@ -107,13 +109,13 @@ impl Pose {
     }
 
     /// Returns [R | p], row by row.
-    pub fn rows(&self) -> Vec<Number> {
+    pub(super) fn rows(&self) -> Vec<Number> {
         let [x, y, z] = self.axes;
         let row = |i: usize| [x[i], y[i], z[i], self.origin[i]];
         (0..3).flat_map(row).collect()
     }
 
-    /// Returns how what a joint moves is moved, by a sine and a cosine or by a length.
+    /// Returns the motion of a joint, by a sine and a cosine or by a length.
     fn moved(axis: Screw, turns: bool, [sin, cos]: [Number; 2], slide: Number) -> Pose {
         if !turns {
             return Pose::shift(scaled(slide, axis.1));
@@ -133,15 +135,15 @@ impl Pose {
 
 /// Mass, first moment and the tensor of inertia about the origin.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Body {
-    pub mass: Number,
-    pub first: Vector,
-    pub tensor: [Vector; 3],
+pub(super) struct Body {
+    pub(super) mass: Number,
+    pub(super) first: Vector,
+    pub(super) tensor: [Vector; 3],
 }
 
 impl Body {
     /// Returns a body of m, m x, m y, m z, xx, yy, zz, xy, yz and xz.
-    pub fn new([mass, x, y, z, xx, yy, zz, xy, yz, xz]: [Number; 10]) -> Body {
+    pub(super) fn new([mass, x, y, z, xx, yy, zz, xy, yz, xz]: [Number; 10]) -> Body {
         let tensor = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
         let first = [x, y, z];
         Body {
@@ -160,7 +162,7 @@ impl Body {
     }
 
     /// Returns the body moved by a pose.
-    pub fn moved(&self, pose: &Pose) -> Body {
+    pub(super) fn moved(&self, pose: &Pose) -> Body {
         let (p, turned) = (pose.origin, pose.rotate(self.first));
         // R I Rᵀ, then Steiner from the old origin to the new one.
         let half = self.tensor.map(|row| pose.rotate(row));
@@ -192,44 +194,48 @@ pub struct Joint {
     turns: bool,
     axis: Screw,
     /// The origin of the frame whose z the axis is, and whether the joint moves it.
-    pub origin: (Vector, bool),
-    /// The link's frame of the table, and the one that is shown of it.
-    pub link: Pose,
-    pub shown: Pose,
-    pub body: Body,
+    pub(super) origin: (Vector, bool),
+    /// The link's frame of the table.
+    pub(super) link: Pose,
+    /// The link's frame in `link_poses`.
+    pub(super) shown: Pose,
+    /// The link's mass.
+    pub(super) body: Body,
     /// The body about its centre of mass, and where that is.
-    pub given: (Body, Pose),
+    pub(super) given: (Body, Pose),
+    /// Viscous friction, N·m·s/rad or N·s/m.
     pub viscous: Number,
+    /// The inertia of the drive as the joint feels it, kg·m² or kg.
     pub armature: Number,
 }
 
 /// An arm at q = 0.
 #[derive(Clone, Debug)]
 pub struct Arm {
+    /// The joints, from the base outward.
     pub joints: Vec<Joint>,
-    pub gravity: Vector,
-    pub hand: Pose,
+    /// The acceleration of gravity, m/s².
+    pub(super) gravity: Vector,
+    /// The hand.
+    pub(super) hand: Pose,
     /// One half, in this field.
     pub half: Number,
 }
 
 impl Point {
-    fn value(&self, text: &str) -> Result<Number, String> {
-        let value = number(text).ok_or_else(|| format!("`{text}` is no number"))?;
-        Ok(self.number(&value))
-    }
-
     /// Returns numbers, of which missing ones are zero.
     fn list<const K: usize>(&self, list: [Option<&String>; K]) -> Result<[Number; K], String> {
         let mut all = [Number::default(); K];
         for (one, text) in all.iter_mut().zip(list) {
-            *one = text.map_or(Ok(0.into()), |text| self.value(text))?;
+            if let Some(text) = text {
+                *one = self.number(&number(text).ok_or_else(|| format!("`{text}` is no number"))?);
+            }
         }
         Ok(all)
     }
 
     fn turn(&self, axis: usize, text: Option<&String>) -> Result<Pose, String> {
-        let text = text.map_or("0", |text| text);
+        let text = text.map_or("0", String::as_str);
         let angle = Angle::read(text).ok_or_else(|| format!("`{text}` is no angle"))?;
         Ok(Pose::turn(axis, self.angle(&angle)))
     }
@@ -271,15 +277,54 @@ fn entries<const K: usize>(list: Option<&[String; K]>) -> [Option<&String>; K] {
     from_fn(|k| list.map(|list| &list[k]))
 }
 
+impl Row {
+    /// Refuses a joint that the equations do not have, or with a key that they would not read.
+    fn check(&self, convention: Option<&str>) -> Result<(), &'static str> {
+        let is_zero = |text: &Option<String>| {
+            let value = text.as_ref().map(|text| number(text));
+            value.is_none_or(|value| value.is_some_and(|value| value.is_zero()))
+        };
+        let turns = self.kind == "revolute";
+        let variable = if turns { &self.theta } else { &self.d };
+        let turned = [&self.alpha, &self.beta, &self.theta].map(is_zero);
+        let shifted = [&self.a, &self.d, &self.offset].map(is_zero);
+        let has_row = [turned, shifted].concat().contains(&false);
+        let is_placed = self.placement.is_some();
+        let is_bare = self.com.is_none() || self.inertia.is_none();
+        let has_mass = !is_zero(&Some(self.mass.clone()));
+        Err(if !turns && self.kind != "prismatic" {
+            "expected `kind` revolute or prismatic"
+        } else if self.mimic.is_some() {
+            "`mimic` is not compared yet"
+        } else if !is_zero(&self.coulomb) {
+            "`coulomb` is not compared yet"
+        } else if !is_zero(variable) {
+            "`theta` of a revolute joint and `d` of a prismatic one must be 0"
+        } else if convention != Some("standard") && !is_zero(&self.beta) {
+            "`beta` is of standard rows alone"
+        } else if is_placed && has_row {
+            "a placement beside a row of the table"
+        } else if is_placed != self.axis.is_some() {
+            "expected `placement` and `axis`, or neither"
+        } else if is_bare && has_mass {
+            "expected `com` and `inertia` beside a mass"
+        } else {
+            return Ok(());
+        })
+    }
+}
+
 impl Arm {
     /// Returns the arm of a robot file at a point of a field.
     ///
     /// # Errors
-    /// The first text that is no number, or no angle.
+    /// The first text that is no number, or no angle, and a joint that the equations do not have.
     pub fn read(file: &File, point: &Point) -> Result<Arm, String> {
         let mut frame = point.placement(file.base.as_ref())?;
         let mut joints = Vec::new();
-        for row in &file.joint {
+        for (index, row) in file.joint.iter().enumerate() {
+            let in_joint = |why: &str| format!("joint {}: {why}", index + 1);
+            row.check(file.convention.as_deref()).map_err(in_joint)?;
             let [before, behind] = point.ways(row, file.convention.as_deref())?;
             let at = frame.then(&before);
             frame = at.then(&behind);
@@ -287,6 +332,9 @@ impl Arm {
                 Some(axis) => point.list(entries(Some(axis)))?,
                 None => [0.into(), 0.into(), 1.into()],
             };
+            if dot(along, along).value(point.prime) != Some(1) {
+                return Err(in_joint("`axis` is no unit vector in the digits given"));
+            }
             let turns = row.kind == "revolute";
             let [mass] = point.list([Some(&row.mass)])?;
             let [xx, yy, zz, xy, yz, xz] = point.list(entries(row.inertia.as_ref()))?;
@@ -323,7 +371,7 @@ impl Arm {
     }
 
     /// Returns the arm with other bodies.
-    pub fn with(&self, body: impl Fn(usize, &Joint) -> Body) -> Arm {
+    pub(super) fn with(&self, body: impl Fn(usize, &Joint) -> Body) -> Arm {
         let mut arm = self.clone();
         for (k, own) in arm.joints.iter_mut().enumerate() {
             own.body = body(k, own);
@@ -332,7 +380,7 @@ impl Arm {
     }
 
     /// Returns the arm at the sines and cosines, or the lengths, of its joints.
-    pub fn at(&self, pairs: &[[Number; 2]], slides: &[Number]) -> Placed {
+    pub(super) fn at(&self, pairs: &[[Number; 2]], slides: &[Number]) -> Placed {
         let mut placed = Placed::default();
         let mut pose = Pose::shift(Vector::default());
         for ((joint, pair), slide) in self.joints.iter().zip(pairs).zip(slides) {
@@ -348,29 +396,37 @@ impl Arm {
 
 /// An arm at a state: each joint's axis, what its link has moved by, and its link's mass.
 #[derive(Clone, Debug, Default)]
-pub struct Placed {
-    pub axes: Vec<Screw>,
-    pub before: Vec<Pose>,
-    pub poses: Vec<Pose>,
-    pub bodies: Vec<Body>,
+pub(super) struct Placed {
+    pub(super) axes: Vec<Screw>,
+    pub(super) before: Vec<Pose>,
+    pub(super) poses: Vec<Pose>,
+    pub(super) bodies: Vec<Body>,
 }
 
 impl Placed {
-    /// Returns the wrench that each joint passes on, by the equations of Newton and Euler.
-    pub fn wrenches(&self, qd: &[Number], qdd: &[Number], gravity: Vector) -> Vec<Screw> {
-        // A base that is accelerated upward feels what one in gravity does.
-        let (mut v, mut a) = (
-            Screw::default(),
-            Screw(Vector::default(), opposite(gravity)),
-        );
-        let mut wrenches = Vec::new();
-        let rates = qd.iter().zip(qdd);
-        for ((axis, body), (qd, qdd)) in self.axes.iter().zip(&self.bodies).zip(rates) {
+    /// Returns the velocity and the acceleration of each link, from that of the base.
+    pub(super) fn motions(&self, qd: &[Number], qdd: &[Number], base: Vector) -> Vec<[Screw; 2]> {
+        let (mut v, mut a) = (Screw::default(), Screw(Vector::default(), base));
+        let rates = self.axes.iter().zip(qd).zip(qdd);
+        let motions = rates.map(|((axis, qd), qdd)| {
             let own = axis.times(*qd);
             a = a.plus(axis.times(*qdd)).plus(v.across(own));
             v = v.plus(own);
-            wrenches.push(body.momentum(a).plus(v.across_momentum(body.momentum(v))));
-        }
+            [v, a]
+        });
+        motions.collect()
+    }
+
+    /// Returns the wrench that each joint passes on, by the equations of Newton and Euler.
+    pub(super) fn wrenches(&self, qd: &[Number], qdd: &[Number], gravity: Vector) -> Vec<Screw> {
+        // A base that is accelerated upward feels what one in gravity does.
+        let motions = self.motions(qd, qdd, opposite(gravity));
+        let links = self.bodies.iter().zip(motions);
+        let wrenches = links.map(|(body, [v, a])| {
+            let turned = v.across_momentum(body.momentum(v));
+            body.momentum(a).plus(turned)
+        });
+        let mut wrenches: Vec<Screw> = wrenches.collect();
         let mut all = Screw::default();
         for wrench in wrenches.iter_mut().rev() {
             all = all.plus(*wrench);
@@ -381,7 +437,7 @@ impl Placed {
 
     /// Returns D without armature: D_ik is the power in motion i of the momentum that motion k
     /// gives all links from the further one on.
-    pub fn inertia(&self) -> Vec<Vec<Number>> {
+    pub(super) fn inertia(&self) -> Vec<Vec<Number>> {
         let n = self.axes.len();
         let (mut d, mut all) = (vec![vec![Number::default(); n]; n], Body::default());
         for k in (0..n).rev() {

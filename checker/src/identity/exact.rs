@@ -12,6 +12,8 @@ use super::number::{Draws, Number};
 
 /// The longest number that is read.
 const MOST_DIGITS: usize = 1 << 12;
+/// The most sines and cosines of a product.
+const MOST_FACTORS: u32 = 1 << 10;
 /// Bits behind the point where sines are rounded.
 const BITS: u32 = 320;
 
@@ -165,28 +167,25 @@ impl Exact {
     pub fn read(text: &str) -> Option<Exact> {
         let term = |text: &str| {
             // The first factor is a fraction; `1*pi/5` stands in brackets.
-            let (factor, mut rest) = text.split_at(
-                text.find("*sin(")
-                    .into_iter()
-                    .chain(text.find("*cos("))
-                    .min()
-                    .unwrap_or(text.len()),
-            );
-            let mut powers = Vec::new();
+            let angles = ["*sin(", "*cos("].map(|name| text.find(name));
+            let end = angles.into_iter().flatten().min().unwrap_or(text.len());
+            let (factor, mut rest) = text.split_at(end);
+            let (mut powers, mut total) = (Vec::new(), 0);
             while let Some(part) = rest.strip_prefix('*') {
                 let (name, behind) = part.split_once('(')?;
                 let (angle, behind) = behind.split_once(')')?;
                 let end = behind.find('*').unwrap_or(behind.len());
                 let power = match behind[..end].strip_prefix('^') {
-                    Some(power) => power.parse().ok().filter(|power| *power <= 1024)?,
+                    Some(power) => power.parse().ok().filter(|power| *power <= MOST_FACTORS)?,
                     None => 1u32,
                 };
+                total += power;
                 let both = [("sin", [power, 0]), ("cos", [0, power])];
                 let both = both.into_iter().find(|(own, _)| *own == name)?.1;
                 powers.push((Angle::read(angle)?, both));
                 rest = &behind[end..];
             }
-            rest.is_empty().then_some((number(factor)?, powers))
+            (rest.is_empty() && total <= MOST_FACTORS).then_some((number(factor)?, powers))
         };
         (text.len() < 1 << 16).then_some(())?;
         Some(Exact(text.split('+').map(term).collect::<Option<_>>()?))
@@ -200,7 +199,7 @@ impl Exact {
         }
     }
 
-    /// Returns whether a literal is the float nearest to it; of two as near, the even one.
+    /// Compares a literal with the nearest float; between two as near, the even one counts.
     pub fn is_nearest(&self, literal: f64, is_single: bool) -> bool {
         // Printed code has no zero with a sign.
         if literal == 0.0 && literal.is_sign_negative() {
@@ -223,26 +222,20 @@ impl Exact {
             }
             sum += product;
         }
-        // 1100 factors, each off by 2⁻³⁰⁰.
+        // 1024 factors at most, each off by 2⁻³⁰⁰.
         slack *= Rational::new(1.into(), BigInt::one() << 280);
         let float = |x: f64| Rational::from_float(x);
-        let (below, above, is_even) = match is_single {
-            true => {
-                let own = literal as f32;
-                if f64::from(own) != literal {
-                    return false;
-                }
-                (
-                    own.next_down().into(),
-                    own.next_up().into(),
-                    own.to_bits().is_multiple_of(2),
-                )
-            }
-            false => (
-                literal.next_down(),
-                literal.next_up(),
-                literal.to_bits().is_multiple_of(2),
+        let own = literal as f32;
+        if is_single && f64::from(own) != literal {
+            return false;
+        }
+        let (below, above, bits): (f64, f64, u64) = match is_single {
+            true => (
+                own.next_down().into(),
+                own.next_up().into(),
+                own.to_bits().into(),
             ),
+            false => (literal.next_down(), literal.next_up(), literal.to_bits()),
         };
         let (Some(own), Some(below), Some(above)) = (float(literal), float(below), float(above))
         else {
@@ -251,7 +244,7 @@ impl Exact {
         let twice = |x: &Rational| x + x;
         let low = twice(&(&sum - &slack)) - (&own + below);
         let high = (own + above) - twice(&(sum + &slack));
-        let is_tie = is_even && slack.is_zero();
+        let is_tie = bits.is_multiple_of(2) && slack.is_zero();
         let fits = |room: Rational| room.is_positive() || is_tie && room.is_zero();
         fits(low) && fits(high)
     }
@@ -266,9 +259,14 @@ pub struct Point {
 }
 
 impl Point {
-    /// Returns the point of a statement.
+    /// Returns the first point of a statement.
     pub fn new(statement: &[&str]) -> Point {
-        let mut draws = Draws::new(statement);
+        Point::draw(&mut Draws::new(statement))
+    }
+
+    /// Draws a point, with draws of its own.
+    pub fn draw(draws: &mut Draws) -> Point {
+        let mut draws = draws.split();
         let prime = draws.prime();
         Point {
             prime,

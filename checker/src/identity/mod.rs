@@ -23,7 +23,7 @@ pub mod robot;
 
 use self::arm::Arm;
 use self::exact::{Exact, Point};
-use self::number::Number;
+use self::number::{Draws, Number};
 use self::outputs::{Function, State, result};
 use self::program::Program;
 use self::robot::File;
@@ -56,21 +56,21 @@ pub fn check(
     if !(degree <= MOST_DEGREE) {
         return Err("the degree is too large for a few points to decide".into());
     }
-    for index in 0..POINTS {
-        let point = Point::new(&[statement, &[function.name, &index.to_string()]].concat());
+    let mut draws = Draws::new(&[statement, &[function.name]].concat());
+    for _ in 0..POINTS {
+        let point = Point::draw(&mut draws);
         let arm = Arm::read(file, &point)?;
-        let n = arm.joints.len();
-        let state = State::draw(&point, n);
+        let state = State::draw(&point, arm.joints.len());
         let found = program.residues(&point, &state);
         let mut found = found.ok_or("the program reads what is not there")?;
         let fields = function.fields.iter();
         let expected = fields.map(|field| result(&arm, &state, field));
-        let expected = expected
-            .collect::<Option<Vec<_>>>()
-            .ok_or("no such result")?;
-        let expected = expected.concat();
+        let expected = expected.collect::<Option<Vec<_>>>();
+        let expected = expected.ok_or("no such result")?.concat();
         if !base.is_empty() {
-            found = spread(&found, base, &point, [n, expected.len() / n]);
+            let rows = arm.joints.len().max(1);
+            let spread = spread(&found, base, &point, [rows, expected.len() / rows]);
+            found = spread.ok_or("the base parameters do not fit the results")?;
         }
         let is_other = |(own, other): (&Number, &Number)| {
             let own = own.value(point.prime);
@@ -86,22 +86,23 @@ pub fn check(
     Ok(())
 }
 
-/// Returns the columns of all parameters, from those of base parameters, over n rows.
+/// Returns the columns of all parameters, from those of base parameters, over n rows; none if there
+/// are no such columns.
 fn spread(
     found: &[Number],
     base: &[Combination],
     point: &Point,
     [n, length]: [usize; 2],
-) -> Vec<Number> {
+) -> Option<Vec<Number>> {
     let mut all = vec![Number::new(0, point.prime); n * length];
     for (k, combination) in base.iter().enumerate() {
         for (column, factor) in combination {
             let factor = point.constant(factor);
-            for i in 0..n {
-                let place = &mut all[i * length + column];
-                *place = *place + found[i * base.len() + k] * factor;
+            for (i, row) in all.chunks_mut(length).enumerate() {
+                let place = row.get_mut(*column)?;
+                *place = *place + *found.get(i * base.len() + k)? * factor;
             }
         }
     }
-    all
+    (found.len() == n * base.len()).then_some(all)
 }

@@ -26,13 +26,8 @@ impl Number {
 
     /// Returns the number with a slope of one in direction 1 or 2.
     pub fn moving(mut self, by: Number, direction: usize) -> Number {
-        let prime = self.prime.max(by.prime);
-        self = self
-            + Number {
-                prime,
-                parts: [0; 4],
-            };
-        self.parts[direction] = by.entry(0, prime);
+        self = self.with(by, |_, own, _| own);
+        self.parts[direction] = by.entry(0, self.prime);
         self
     }
 
@@ -49,7 +44,7 @@ impl Number {
         (self.prime != LOST).then(|| self.entry(0, prime))
     }
 
-    /// Returns whether the number is not zero.
+    /// Returns true for any number but zero.
     pub fn is_nonzero(self) -> bool {
         self.parts[0] != 0
     }
@@ -180,6 +175,11 @@ impl Div for Number {
     }
 }
 
+/// Returns the first 64 bits of a hash.
+pub(crate) fn first_bits(hash: &[u8; 32]) -> u64 {
+    u64::from_be_bytes(std::array::from_fn(|k| hash[k]))
+}
+
 /// Numbers that follow from a statement: whoever changes a digit of it gets others.
 pub struct Draws {
     seed: [u8; 32],
@@ -200,12 +200,20 @@ impl Draws {
         }
     }
 
+    /// Returns draws that are independent of all others of these.
+    pub fn split(&mut self) -> Draws {
+        let seed = self.next_hash();
+        Draws { seed, count: 0 }
+    }
+
+    fn next_hash(&mut self) -> [u8; 32] {
+        self.count += 1;
+        Hash::hash(&[self.seed.as_slice(), &self.count.to_le_bytes()].concat())
+    }
+
     /// Returns the next number of 64 bits.
     fn next(&mut self) -> u64 {
-        self.count += 1;
-        let hash = Hash::hash(&[self.seed.as_slice(), &self.count.to_le_bytes()].concat());
-        let bytes = hash.iter().take(8);
-        bytes.fold(0, |number, byte| number << 8 | u64::from(*byte))
+        first_bits(&self.next_hash())
     }
 
     /// Returns the next prime of 62 bits.
@@ -230,7 +238,7 @@ impl Draws {
     }
 }
 
-/// Returns whether an odd number is prime, by Miller and Rabin; these bases suffice below 2⁶⁴.
+/// Tests an odd number for being prime, by Miller and Rabin; these bases suffice below 2⁶⁴.
 fn is_prime(number: u64) -> bool {
     let twos = (number - 1).trailing_zeros();
     let bases = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];

@@ -2,7 +2,7 @@
 //! Newton and Euler in base axes. Slopes are those of the numbers, so that no derivative is written
 //! out.
 
-use super::arm::{Arm, Body, Placed, Pose, Screw, Vector, cross, dot, sum};
+use super::arm::{Arm, Body, Joint, Placed, Pose, Screw, Vector, cross, dot, sum};
 use super::exact::Point;
 use super::number::Number;
 
@@ -199,25 +199,22 @@ impl<'a> At<'a> {
         let wrenches = self.placed.wrenches(qd, qdd, gravity);
         let torques = self.placed.axes.iter().zip(wrenches);
         let torques = torques.map(|(axis, wrench)| axis.power(wrench)).collect();
-        plus(
-            torques,
-            self.arm
-                .joints
-                .iter()
-                .zip(qdd)
-                .map(|(own, x)| own.armature * *x),
-        )
+        self.with_drives(torques, |own| own.armature, qdd)
     }
 
     fn with_friction(&self, loads: Vec<Number>, rates: &[Number]) -> Vec<Number> {
-        plus(
-            loads,
-            self.arm
-                .joints
-                .iter()
-                .zip(rates)
-                .map(|(own, x)| own.viscous * *x),
-        )
+        self.with_drives(loads, |own| own.viscous, rates)
+    }
+
+    /// Adds a number of each joint times its rate.
+    fn with_drives(
+        &self,
+        loads: Vec<Number>,
+        number: fn(&Joint) -> Number,
+        rates: &[Number],
+    ) -> Vec<Number> {
+        let joints = self.arm.joints.iter().zip(rates);
+        plus(loads, joints.map(|(own, rate)| number(own) * *rate))
     }
 
     fn torques(&self, qdd: &[Number]) -> Vec<Number> {
@@ -250,10 +247,8 @@ impl<'a> At<'a> {
 
     /// Returns the columns of C(q̇).
     fn columns_of_coriolis(&self) -> Matrix {
-        let units = units(self.count()).into_iter();
-        units
-            .map(|unit| self.across(self.given("qd"), &unit))
-            .collect()
+        let column = |unit: Vec<Number>| self.across(self.given("qd"), &unit);
+        units(self.count()).into_iter().map(column).collect()
     }
 
     /// Returns Cᵀq̇.
@@ -280,11 +275,10 @@ impl<'a> At<'a> {
 
     /// Returns J̇q̇: the acceleration of the hand without q̈.
     fn rate(&self) -> Vec<Number> {
-        let (mut v, mut a) = (Screw::default(), Screw::default());
-        for (axis, qd) in self.placed.axes.iter().zip(self.given("qd")) {
-            let own = axis.times(*qd);
-            (a, v) = (a.plus(v.across(own)), v.plus(own));
-        }
+        let motions = self
+            .placed
+            .motions(self.given("qd"), &self.zeros(), Vector::default());
+        let [v, a] = motions.last().copied().unwrap_or_default();
         let point = self.hand().origin;
         let velocity = sum(v.1, cross(v.0, point));
         let linear = sum(sum(a.1, cross(a.0, point)), cross(v.0, velocity));
@@ -327,7 +321,7 @@ impl<'a> At<'a> {
         }
         let column = |place: usize| {
             let one = |k: usize| Number::from(i64::from(k == place % 10));
-            let unit = Body::new([0, 1, 2, 3, 4, 5, 6, 7, 8, 9].map(one));
+            let unit = Body::new(std::array::from_fn(one));
             let mut arm = bare.clone();
             let joint = &mut arm.joints[place / 10];
             joint.body = unit.moved(&joint.link);
@@ -364,10 +358,10 @@ impl<'a> At<'a> {
     }
 
     /// Returns the arm with the tensors of its links alone, or with their masses alone.
-    fn half_of_links(&self, turns: bool) -> Arm {
+    fn with_tensors_or_masses(&self, has_tensors: bool) -> Arm {
         self.arm.with(|_, own| {
             let (mut body, centre) = own.given;
-            match turns {
+            match has_tensors {
                 true => body.mass = 0.into(),
                 false => body.tensor = Default::default(),
             }
@@ -383,16 +377,14 @@ impl<'a> At<'a> {
             "c" => self.gravity(),
             "d" => self.inertia().concat(),
             "h" => self.coriolis(qd),
-            "d_rot" => At::new(&self.half_of_links(true), self.state)
-                .placed
-                .inertia()
-                .concat(),
-            "d_tran" => At::new(&self.half_of_links(false), self.state)
-                .placed
-                .inertia()
-                .concat(),
-            "h_rot" => At::new(&self.half_of_links(true), self.state).coriolis(qd),
-            "h_tran" => At::new(&self.half_of_links(false), self.state).coriolis(qd),
+            "d_rot" | "d_tran" | "h_rot" | "h_tran" => {
+                let arm = self.with_tensors_or_masses(is.ends_with("rot"));
+                let own = At::new(&arm, self.state);
+                match is.starts_with('d') {
+                    true => own.placed.inertia().concat(),
+                    false => own.coriolis(qd),
+                }
+            }
             "symbols" => {
                 let units = units(n);
                 let column = |at: usize| self.across(&units[at / n], &units[at % n]);

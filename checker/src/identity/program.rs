@@ -34,15 +34,6 @@ pub struct Program<C> {
     pub outputs: Vec<(bool, Operand<C>)>,
 }
 
-impl<C> Default for Program<C> {
-    fn default() -> Self {
-        Program {
-            steps: Vec::new(),
-            outputs: Vec::new(),
-        }
-    }
-}
-
 impl<C> Program<C> {
     /// Evaluates it, given the values of operands other than steps; none if one of them has none.
     pub fn run<V: Clone>(
@@ -71,7 +62,7 @@ impl Program<Exact> {
     pub fn residues(&self, point: &Point, state: &State) -> Option<Vec<Number>> {
         let leaf = |own: &Operand<Exact>| match own {
             Operand::Constant(constant) => Some(point.constant(constant)),
-            Operand::Entry(argument, index) => state.given[*argument].get(*index).copied(),
+            Operand::Entry(argument, index) => state.given.get(*argument)?.get(*index).copied(),
             Operand::Sine(angle, is_sine) => {
                 let mut pair = [Number::from(0), Number::from(1)];
                 for &(joint, negative) in angle {
@@ -116,32 +107,31 @@ impl Program<Exact> {
         };
         let all = self.run(leaf, |operation, a, b| match operation {
             '+' | '-' => zip(a, b, f64::max),
-            '/' => {
+            '*' => zip(a, b, |a, b| a + b),
+            _ => {
                 let mut known = divisors.borrow_mut();
                 known.push(b);
                 let mut inverse = vec![0.0; known.len()];
                 inverse.push(1.0);
                 zip(a, inverse, |a, b| a + b)
             }
-            _ => zip(a, b, |a, b| a + b),
         });
         let divisors = divisors.into_inner();
         let largest = |(_, mut own): (bool, Vec<f64>)| {
             let mut under = 0.0;
             for (index, divisor) in divisors.iter().enumerate().rev() {
                 let times = own.get(index + 1).copied().unwrap_or(0.0);
-                own = zip(own, divisor.iter().map(|x| x * times).collect(), |a, b| {
-                    a + b
-                });
-                under += times * divisor[0];
+                // Beyond a double's range nothing times infinity is nothing, too.
+                let product = |x: &f64| match *x == 0.0 || times == 0.0 {
+                    true => 0.0,
+                    false => x * times,
+                };
+                under += product(&divisor[0]);
+                own = zip(own, divisor.iter().map(product).collect(), |a, b| a + b);
             }
             own[0].max(under)
         };
-        // No number counts as too large.
-        let larger = |most: f64, own: f64| if own <= most { most } else { own };
-        all.unwrap_or_default()
-            .into_iter()
-            .map(largest)
-            .fold(0.0, larger)
+        let all = all.unwrap_or_default().into_iter();
+        all.map(largest).fold(0.0, f64::max)
     }
 }

@@ -6,18 +6,22 @@ use serde::de::IgnoredAny;
 use serde_json::Value;
 use toml::de::{DeTable, DeValue};
 
+/// A robot file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-#[allow(dead_code, reason = "what is `IgnoredAny` may be there")]
+#[allow(
+    dead_code,
+    reason = "keys that the equations do not read are known all the same"
+)]
 pub struct File {
-    pub convention: Option<String>,
-    pub gravity: [String; 3],
-    pub joint: Vec<Row>,
-    pub base: Option<Placement>,
-    pub payload_frame: Option<Placement>,
-    pub tool: Option<Placement>,
+    pub(super) convention: Option<String>,
+    pub(super) gravity: [String; 3],
+    pub(super) joint: Vec<Row>,
+    pub(super) base: Option<Placement>,
+    pub(super) payload_frame: Option<Placement>,
+    pub(super) tool: Option<Placement>,
     #[serde(default)]
-    pub frame: Vec<Frame>,
+    pub(super) frame: Vec<Frame>,
     name: IgnoredAny,
     scene: Option<IgnoredAny>,
     allow: Option<IgnoredAny>,
@@ -26,69 +30,65 @@ pub struct File {
 
 #[derive(Clone, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Placement {
-    pub xyz: Option<[String; 3]>,
-    pub rpy: Option<[String; 3]>,
+pub(super) struct Placement {
+    pub(super) xyz: Option<[String; 3]>,
+    pub(super) rpy: Option<[String; 3]>,
 }
 
 /// A frame that is fixed to a link.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Frame {
-    pub name: String,
-    pub link: String,
+#[allow(
+    dead_code,
+    reason = "keys that the equations do not read are known all the same"
+)]
+pub(super) struct Frame {
+    pub(super) name: String,
+    pub(super) link: String,
     #[serde(default)]
-    pub xyz: Option<[String; 3]>,
+    pub(super) xyz: Option<[String; 3]>,
     #[serde(default)]
-    pub rpy: Option<[String; 3]>,
+    pub(super) rpy: Option<[String; 3]>,
 }
 
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Row {
-    pub name: Option<String>,
-    pub kind: String,
-    pub placement: Option<Placement>,
-    pub axis: Option<[String; 3]>,
-    pub beta: Option<String>,
-    pub alpha: Option<String>,
-    pub a: Option<String>,
-    pub d: Option<String>,
-    pub theta: Option<String>,
-    pub offset: Option<String>,
-    pub mass: String,
-    pub com: Option<[String; 3]>,
-    pub inertia: Option<[String; 6]>,
-    pub viscous: Option<String>,
-    pub coulomb: Option<String>,
-    pub coulomb_width: Option<String>,
-    pub armature: Option<String>,
-    pub frame: Option<Placement>,
-    pub mimic: Option<Mimic>,
-    pub limits: Limits,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Mimic {
-    pub joint: String,
-    pub multiplier: Option<String>,
-    pub offset: Option<String>,
+pub(super) struct Row {
+    pub(super) name: Option<String>,
+    pub(super) kind: String,
+    pub(super) placement: Option<Placement>,
+    pub(super) axis: Option<[String; 3]>,
+    pub(super) beta: Option<String>,
+    pub(super) alpha: Option<String>,
+    pub(super) a: Option<String>,
+    pub(super) d: Option<String>,
+    pub(super) theta: Option<String>,
+    pub(super) offset: Option<String>,
+    pub(super) mass: String,
+    pub(super) com: Option<[String; 3]>,
+    pub(super) inertia: Option<[String; 6]>,
+    pub(super) viscous: Option<String>,
+    pub(super) coulomb: Option<String>,
+    pub(super) coulomb_width: Option<String>,
+    pub(super) armature: Option<String>,
+    pub(super) frame: Option<Placement>,
+    pub(super) mimic: Option<IgnoredAny>,
+    pub(super) limits: Limits,
 }
 
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Limits {
-    pub position: Option<[String; 2]>,
-    pub velocity: Option<String>,
-    pub acceleration: Option<String>,
-    pub torque: Option<String>,
+pub(super) struct Limits {
+    pub(super) position: Option<[String; 2]>,
+    pub(super) velocity: Option<String>,
+    pub(super) acceleration: Option<String>,
+    pub(super) torque: Option<String>,
 }
 
 /// Reads a robot file.
 ///
 /// # Errors
-/// What is no TOML, or has a key that is not known, with the reader's words.
+/// A text that is no TOML, or a key that is not known, with the words of the reader.
 pub fn read(source: &str) -> Result<File, String> {
     if source.len() > 1 << 18 {
         return Err("a robot file of more than 256 KiB".into());

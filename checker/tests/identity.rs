@@ -1,0 +1,130 @@
+//! Robots, programs and base parameters that the identity refuses: none of them is compared as
+//! another one, and none of them panics.
+
+use dalembert_checker::identity::arm::Arm;
+use dalembert_checker::identity::exact::{Exact, Point};
+use dalembert_checker::identity::outputs::{argument, functions};
+use dalembert_checker::identity::program::{Operand, Program};
+use dalembert_checker::identity::{check, robot};
+
+use crate::support::file;
+
+const ROBOT: &str = "generated/robots/planar2r.toml";
+
+/// Words of the robot file, those in their place, and the refusal.
+const ROBOTS: [[&str; 3]; 9] = [
+    ["\"revolute\"", "\"continuous\"", "joint 1: expected `kind`"],
+    [
+        "a = 1",
+        "a = 1\ncoulomb = 0.3",
+        "joint 1: `coulomb` is not compared yet",
+    ],
+    [
+        "a = 1",
+        "a = 1\nmimic = { joint = \"elbow\" }",
+        "joint 1: `mimic` is not compared yet",
+    ],
+    [
+        "a = 1",
+        "a = 1\ntheta = 0.1",
+        "joint 1: `theta` of a revolute joint",
+    ],
+    [
+        "a = 1",
+        "a = 1\naxis = [0, 0, 1]",
+        "joint 1: expected `placement` and `axis`",
+    ],
+    [
+        "a = 1",
+        "a = 1\nplacement = {}\naxis = [0, 0, 1]",
+        "joint 1: a placement beside a row",
+    ],
+    [
+        "convention = \"standard\"",
+        "",
+        "expected `convention` and rows, or placements",
+    ],
+    [
+        "com = ",
+        "frame = {}\n# ",
+        "joint 1: expected `com` and `inertia`",
+    ],
+    ["a = 1", "a = 1\nlength = 1", "unknown field `length`"],
+];
+
+#[test]
+fn joints_that_the_equations_lack_are_refused() {
+    let source = file(ROBOT);
+    let read = |source: &str| {
+        let file = robot::read(source)?;
+        Arm::read(&file, &Point::new(&[source])).map(|_| ())
+    };
+    assert_eq!(read(&source), Ok(()));
+    for [what, by, words] in ROBOTS {
+        assert!(source.contains(what), "{what}");
+        let why = read(&source.replacen(what, by, 1)).expect_err(by);
+        assert!(why.contains(words), "{by}: {why}");
+    }
+    let modified = source.replace("\"standard\"", "\"modified\"");
+    let tilted = modified.replacen("a = 1", "a = 1\nbeta = 0.1", 1);
+    let why = read(&tilted).unwrap_err();
+    assert!(why.contains("`beta` is of standard rows alone"), "{why}");
+    let placed = file("model/tests/data/puma560_placed.toml");
+    let why = read(&placed.replacen("axis = [0, 0, 1]", "axis = [0, 0, 2]", 1)).unwrap_err();
+    assert!(why.contains("joint 1: `axis` is no unit vector"), "{why}");
+    assert_eq!(read(&placed), Ok(()));
+}
+
+fn exact(text: &str) -> Operand<Exact> {
+    Operand::Constant(Exact::read(text).unwrap())
+}
+
+/// A program that reads an argument or a step that is not there, or has too few results.
+#[test]
+fn programs_that_do_not_fit_are_refused() {
+    let file = robot::read(&file(ROBOT)).unwrap();
+    let outputs = |operand: Operand<Exact>| vec![(false, operand); 2];
+    let refused = |name: &str, outputs, base: &[_]| {
+        let function = functions().into_iter().find(|own| own.name == name);
+        let steps = Vec::new();
+        let program = Program { steps, outputs };
+        check(&file, &["no program"], &function.unwrap(), &program, base).unwrap_err()
+    };
+    let missing = "the program reads what is not there";
+    for operand in [
+        Operand::Entry(99, 0),
+        Operand::Entry(0, 2),
+        Operand::Step(0),
+        Operand::Sine(vec![(2, false)], true),
+    ] {
+        assert_eq!(refused("gravity", outputs(operand), &[]), missing);
+    }
+    assert_eq!(refused("gravity", Vec::new(), &[]), "0 results, not 2");
+    let unfit = "the base parameters do not fit the results";
+    let one = || Exact::read("1").unwrap();
+    for base in [vec![vec![(500, one())]], vec![vec![(0, one())]; 2]] {
+        assert_eq!(refused("regressor", outputs(exact("1")), &base), unfit);
+    }
+}
+
+/// A divisor whose degree is beyond a double hides no degree of a result that it does not divide.
+#[test]
+fn no_degree_hides_behind_another() {
+    let rate = Operand::Entry(argument("qd").unwrap(), 0);
+    let mut steps = vec![('*', [rate.clone(), rate.clone()])];
+    for step in 0..1100 {
+        steps.push(('*', [Operand::Step(step), Operand::Step(step)]));
+    }
+    steps.push(('/', [exact("1"), Operand::Step(1100)]));
+    // A degree of 2⁴⁰, and one of one.
+    let mut outputs = vec![(false, Operand::Step(39)), (false, rate)];
+    let degree = |outputs: &[_]| {
+        let (steps, outputs) = (steps.clone(), outputs.to_vec());
+        Program { steps, outputs }.degree()
+    };
+    assert_eq!(degree(&outputs), 2f64.powi(40));
+    outputs.reverse();
+    assert_eq!(degree(&outputs), 2f64.powi(40));
+    outputs.push((false, Operand::Step(1101)));
+    assert_eq!(degree(&outputs), f64::INFINITY);
+}
