@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use crate::support::refused;
+use crate::support::{has, refused};
 use dalembert_import::{Options, Text, import, import_text};
 
 /// Two joints, a finger beside them, and a place for what each case adds.
@@ -149,12 +149,10 @@ fn refusals_name_the_element_and_the_way_out() {
     for [change, words] in lines.as_chunks::<2>().0 {
         let (what, by) = change.split_once(" =>").unwrap();
         let text = refused(&with(what, by.trim_start()), &at_the_hand());
-        for part in words.split(" | ") {
-            assert!(text.contains(part), "{part} is missing:\n{text}");
-        }
+        has(&text, &words.split(" | ").collect::<Vec<_>>());
     }
     let part = refused("<mujocoinclude/>", &at_the_hand());
-    assert!(part.contains("this is a part of an MJCF"), "{part}");
+    has(&part, &["this is a part of an MJCF"]);
     // At once, each at its place.
     let several = with("mass=\"2\"", "mass=\"two\"").replace("quat=\"1 0 0 0\"", "quat=\"1 0 0\"");
     let text = refused(&several, &at_the_hand());

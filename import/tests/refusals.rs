@@ -1,7 +1,7 @@
 //! What is refused, by name, with the line of the URDF and what to do about it;
 //! and what is said of what is taken.
 
-use crate::support::{refused, source};
+use crate::support::{has, refused, source};
 use dalembert_import::{Imported, Options, import};
 use dalembert_model::read::{self, Diagnostic, Severity};
 
@@ -84,14 +84,6 @@ fn taken(source: &str, options: &Options) -> Imported {
 fn notes(imported: &Imported) -> Vec<(usize, &str)> {
     let notes = imported.notes.iter();
     notes.map(|note| (note.line, &*note.message)).collect()
-}
-
-/// Checks that a text has all of these in it.
-#[track_caller]
-fn has(text: &str, parts: &[&str]) {
-    for part in parts {
-        assert!(text.contains(part), "{part} is missing:\n{text}");
-    }
 }
 
 #[test]

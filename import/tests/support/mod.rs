@@ -36,6 +36,14 @@ pub fn json(name: &str) -> Value {
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
+/// Checks that a text has all of these in it.
+#[track_caller]
+pub fn has(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "{part} is missing:\n{text}");
+    }
+}
+
 /// Returns the chain of the golden values, every other joint that moves locked at 0.
 pub fn snapped(name: &str) -> Options {
     let json = json(name);
