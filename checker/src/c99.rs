@@ -6,10 +6,9 @@
 //! struct, if it has one.
 
 use crate::fault::Fault;
-use crate::file::{Found, Lines, between, fault, is_letter, item, whole};
-use crate::program::{Node, Source};
-use crate::quantity::{ARGUMENTS, FUNCTIONS, entries};
-use crate::text::Parser;
+use crate::file::{Found, Lines, between, fault, is_letter, item};
+use crate::quantity::FUNCTIONS;
+use crate::read::Symbols;
 use crate::together;
 
 /// How a header begins.
@@ -188,209 +187,32 @@ fn code(source: &str) -> Result<Vec<(usize, &str)>, (usize, &str)> {
     Ok(all)
 }
 
-impl<'t> Parser<'t> {
-    /// Reads a function of a header: its struct, itself, and those that call it. Of any number of
-    /// states entry i of state s is at `i * n + s`; what is told that no angle is far is called once
-    /// more where one may be.
-    pub(crate) fn c_function(&mut self, text: &str) -> Option<()> {
-        let (float, f, suffix, most) = match self.scalar {
-            "f32" => ("float", "f", "F", 100.0),
-            _ => ("double", "", "", 8192.0),
-        };
-        self.suffix = suffix;
-        let header = text.split_once("_RESTRICT ")?.0.rsplit('[').next()?;
-        let is_told = text.contains("(const int far, ");
-        let is_struct = text.starts_with("typedef ");
-        let (fields, joints) = (self.function.fields.clone(), self.joints);
-        let is_number = !is_struct && fields.iter().all(|(_, own)| own.shape(1).is_empty());
-        let array =
-            |kind: &str, name: &str, length| format!("{kind} {name}[{header}_RESTRICT {length}]");
-        let place = |index: usize| match index {
-            0 => "s".to_owned(),
-            1 => "n + s".to_owned(),
-            _ => format!("({index}U * n) + s"),
-        };
-        let mut columns = "const size_t n".to_owned();
-        let (mut state, mut stored) = (String::new(), String::new());
-        let (mut parameters, mut targets) = (Vec::new(), Vec::new());
-        for name in ARGUMENTS {
-            let length = entries(name, joints);
-            let parameter = array(&format!("const {float}"), name, length);
-            if text.contains(&parameter) {
-                self.argument(name)?;
-                let each = (0..length).map(|index| format!("{name}[{}]", place(index)));
-                let each = each.collect::<Vec<String>>().join(", ");
-                state += &format!("const {float} {name}_s[{length}] = {{{each}}};\n");
-                columns += &format!(", const {float} *{header}_RESTRICT {name}");
-                parameters.push((parameter, name));
-            }
-        }
-        self.expect(if is_struct { "typedef struct {" } else { "" })?;
-        let kind = if is_number { float } else { "void" };
-        let back = if is_number { "return " } else { "" };
-        for &(field, own) in &fields {
-            let length = own.length(self.rows);
-            columns += &format!(", {float} *{header}_RESTRICT {field}");
-            if is_struct {
-                self.expect(&format!("{float} {field}[{length}];"))?;
-            } else if !is_number {
-                state += &format!("{float} {field}_s[{length}];\n");
-                parameters.push((array(float, field, length), field));
-            }
-            let [to, from] = ["", "_s"].map(|end| match is_struct {
-                true => format!("result{end}->{field}"),
-                false => format!("{field}{end}"),
-            });
-            for index in 0..length {
-                targets.push(format!("{to}[{index}] = "));
-                stored += &format!("{field}[{}] = {from}[{index}];\n", place(index));
-            }
-        }
-        if is_struct {
-            let kind = between(self.next()?, "} ", ";")?;
-            state += &format!("{kind} result_s[1];\n");
-            parameters.push((array(kind, "result", 1), "result"));
-        }
-        let mut to = String::new();
-        if is_number {
-            (to, stored) = (format!("{}[s] = ", fields.first()?.0), String::new());
-            targets = vec![back.to_owned()];
-        }
-        let (list, passed): (Vec<String>, Vec<&str>) = parameters.into_iter().unzip();
-        let list = list.join(", ");
-        let far = if is_told { "const int far, " } else { "" };
-        let own = self.named(kind, &format!("{far}{list}"))?;
-        self.expect(&format!("{{\n{header}_UNFUSED"))?;
-        let mut line = self.c_statements(float, is_told)?;
-        for target in targets {
-            self.output(line.strip_prefix(target.as_str())?.strip_suffix(';')?)?;
-            line = self.next()?;
-        }
-        (line == "}").then_some(())?;
-        let mut single = own;
-        if is_told {
-            single = self.named(kind, &list)?;
-            self.expect(&format!("{{\n{back}{own}(1, {});\n}}", passed.join(", ")))?;
-        }
-        if self.is_done() {
-            return Some(());
-        }
-        let passed = passed.join("_s, ");
-        let each = |when: &str, call: &str| {
-            format!(
-                "for (s = 0U; s < n; ++s) {{\n{state}{when}{to}{call}{passed}_s);\n{stored}}}\n"
-            )
-        };
-        let mut body = each("", &format!("{own}({}", if is_told { "0, " } else { "" }));
-        if is_told {
-            let most = most / joints.next_power_of_two() as f64;
-            let near = |joint| format!("(fabs{f}(q_s[{joint}]) <= {most:?}{suffix})");
-            let near = (0..joints).map(near).collect::<Vec<String>>().join(" && ");
-            let when = format!("if ({near}) {{\ncontinue;\n}}\n");
-            body += &each(&when, &format!("{single}("));
-        }
-        self.expect(LOOP)?;
-        self.named("void", &columns)?;
-        self.expect(&format!("{{\nsize_t s;\n{header}_SIMD\n{body}}}"))?;
-        self.is_done().then_some(())
+/// Returns the names of a function of a header, by the heads that stand in its text.
+pub(crate) fn symbols(text: &str, is_single: bool) -> Symbols {
+    let mut symbols = Symbols::default();
+    let restrict = text.split_once("_RESTRICT ");
+    if let Some((before, _)) = restrict {
+        symbols.macros = before.rsplit('[').next().unwrap_or_default().to_owned();
     }
-
-    /// Reads a line that begins a function with these parameters, and returns its name.
-    fn named(&mut self, kind: &str, list: &str) -> Option<&'t str> {
-        let before = format!("static inline {kind} ");
-        between(self.next()?, &before, &format!("({list})"))
-    }
-
-    /// Reads all statements; returns the line behind them.
-    fn c_statements(&mut self, float: &str, is_told: bool) -> Option<&'t str> {
-        loop {
-            let line = self.next()?;
-            let bare = line.strip_prefix("const ");
-            if let Some((own, call)) = bare.and_then(|bare| bare.split_once("_sincos_t ")) {
-                self.close()?;
-                let (name, angle) = call.strip_suffix(");")?.split_once(" = ")?;
-                let angle = angle.strip_prefix(own)?.strip_prefix("_sincos(far, ")?;
-                let angle = Ok(self.operand(angle)?);
-                self.give([".sin", ".cos"].map(|end| name.to_owned() + end), angle);
-                (is_told && own.ends_with("_f32") == (float == "float")).then_some(())?;
-            } else if let Some(rest) = bare.unwrap_or(line).strip_prefix(float) {
-                let rest = between(rest, " ", ";")?;
-                match rest.split_once(" = ").filter(|_| bare.is_some()) {
-                    Some((name, value)) => self.c_statement(name, value)?,
-                    None => self.called(rest, float)?,
-                }
-            } else if !between(line, "(void)", ";").is_some_and(|name| ARGUMENTS.contains(&name)) {
-                self.close()?;
-                return Some(line);
-            }
+    for line in text.lines() {
+        if let Some((before, list)) = line
+            .strip_prefix("static inline ")
+            .and_then(|head| head.split_once('('))
+        {
+            let name = before.rsplit(' ').next().unwrap_or_default().to_owned();
+            let place = match list {
+                _ if list.starts_with("const int far, ") => &mut symbols.any,
+                _ if list.starts_with("const size_t n, ") => &mut symbols.batch,
+                _ => &mut symbols.single,
+            };
+            *place = name;
         }
     }
-
-    /// Reads the lines of a call that gives sines, after the room for them: its angles are in a list, or in q.
-    fn called(&mut self, sines: &str, float: &str) -> Option<()> {
-        self.close()?;
-        let count = whole(between(sines, "sines[", "]")?)?;
-        (self.next()? == format!("{float} cosines[{count}];")).then_some(())?;
-        let call = self.next()?.strip_suffix(", sines, cosines);")?;
-        let (own, given) = call.split_once(&format!("_sines_{count}("))?;
-        let mut angles: Vec<Result<usize, usize>> = self.angles.iter().copied().map(Ok).collect();
-        if given != "angles" {
-            let first = whole(between(given, "&q[", "]")?)?;
-            let is_there = angles.is_empty() && self.arguments.contains_key("q");
-            (is_there && first + count <= self.joints).then_some(())?;
-            angles = (first..first + count).map(Err).collect();
-        }
-        let is_own = own.ends_with("_f32") == (float == "float") && angles.len() == count;
-        for (place, angle) in angles.into_iter().enumerate() {
-            let names = ["sines", "cosines"].map(|array| format!("{array}[{place}]"));
-            self.give(names, angle);
-        }
-        is_own.then_some(())
-    }
-
-    /// Gives sine and cosine of an angle names, which C lets nothing else have.
-    fn give(&mut self, [sine, cosine]: [String; 2], angle: Result<usize, usize>) {
-        self.sines
-            .extend([(sine, (angle, true)), (cosine, (angle, false))]);
-    }
-
-    /// Reads a value and its name. Those of an angle's polynomials follow one another, `x1_1` and so
-    /// on, and then its sine and cosine.
-    fn c_statement(&mut self, name: &'t str, value: &'t str) -> Option<()> {
-        if self.is_inside && name.starts_with(['s', 'c']) && !value.contains(['(', ' ']) {
-            let value = self.operand(value)?;
-            self.results.push((name, value));
-            return Some(());
-        }
-        let angle = name.strip_prefix('x').and_then(|_| name.split_once('_'));
-        let angle = angle.map(|(angle, _)| angle);
-        if angle != self.block || !self.results.is_empty() {
-            self.close()?;
-            if angle.is_some() {
-                self.open();
-            }
-            self.block = angle;
-        }
-        if let Some(list) = between(value, "{", "}") {
-            let words = list.split(", ").map(|word| self.operand(word));
-            self.angles = words.collect::<Option<_>>()?;
-            return (name == format!("angles[{}]", self.angles.len())).then_some(());
-        }
-        if let Some(&(angle, is_sine)) = self.sines.get(value) {
-            let angle = angle.or_else(|joint| self.push(Node::Input(0, joint)).ok_or(()));
-            return self.name(name, Node::Sine(angle.ok()?, is_sine, Source::Library));
-        }
-        let Some((call, list)) = value.strip_suffix(')').and_then(|v| v.split_once('(')) else {
-            return self.statement(name, value);
-        };
-        let suffix = if self.scalar == "f32" { "f" } else { "" };
-        let values = list.split(", ").map(|word| self.operand(word));
-        let values: Vec<usize> = values.collect::<Option<_>>()?;
-        let node = match (call.strip_suffix(suffix)?, values.as_slice()) {
-            (call @ ("sin" | "cos"), &[angle]) => Node::Sine(angle, call == "sin", Source::Library),
-            ("fma", &[a, b, c]) => Node::Fused(a, b, c),
-            _ => return None,
-        };
-        self.name(name, node)
-    }
+    let structure = text.strip_prefix("typedef struct {");
+    let structure = structure.and_then(|rest| rest.split_once("\n} ")?.1.split_once(';'));
+    symbols.structure = structure.map(|(name, _)| name.to_owned());
+    let base = symbols.macros.to_ascii_lowercase();
+    let own = symbols.single.get(..base.len()).unwrap_or_default();
+    symbols.prefix = format!("{own}{}", if is_single { "_f32" } else { "" });
+    symbols
 }

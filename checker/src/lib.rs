@@ -25,35 +25,66 @@
 #![forbid(unsafe_code)]
 #![allow(clippy::neg_cmp_op_on_partial_ord)] // So that NaN counts as too large.
 
+#[cfg(feature = "certify")]
 mod aside;
+#[cfg(feature = "certify")]
 mod c99;
+#[cfg(feature = "certify")]
 mod certificate;
+#[cfg(feature = "certify")]
 pub mod dynamics;
+#[cfg(feature = "certify")]
 pub mod exact;
+#[cfg(feature = "certify")]
 mod fault;
+#[cfg(feature = "certify")]
 pub mod file;
 pub mod identity;
+#[cfg(feature = "certify")]
 pub mod interval;
+#[cfg(feature = "certify")]
 pub mod kinematics;
+#[cfg(feature = "certify")]
 mod levels;
+#[cfg(feature = "certify")]
 pub mod literal;
+#[cfg(feature = "certify")]
 mod maximum;
+#[cfg(feature = "certify")]
 pub mod number;
+#[cfg(feature = "certify")]
 pub mod polynomial;
+#[cfg(feature = "certify")]
 pub mod program;
+#[cfg(feature = "certify")]
 pub mod quantity;
+pub mod read;
+#[cfg(feature = "certify")]
 mod ring;
+#[cfg(feature = "certify")]
 pub mod robot;
+#[cfg(feature = "certify")]
 mod sample;
+#[cfg(feature = "certify")]
 pub mod scene;
+#[cfg(feature = "certify")]
 mod sines;
+#[cfg(feature = "certify")]
 pub mod text;
+#[cfg(feature = "certify")]
 mod together;
+#[cfg(feature = "certify")]
 mod tried;
+#[cfg(feature = "certify")]
 mod values;
+#[cfg(feature = "certify")]
 mod verdict;
+#[cfg(feature = "certify")]
 mod witness;
 
+#[cfg(feature = "certify")]
 pub use certificate::{Claim, read};
+#[cfg(feature = "certify")]
 pub use fault::Fault;
+#[cfg(feature = "certify")]
 pub use verdict::{Found, Output, Verdict, audit, measure};

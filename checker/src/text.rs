@@ -1,391 +1,203 @@
-//! The text of a function, read into straight-line code, a line at a time. The grammar is
-//! what the generator prints; what is not in it is refused with its line, however harmless.
-//!
-//! ```text
-//! #[must_use]
-//! pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> [f64; 2] {
-//!     let (s1, c1) = libm::sincos(q[0]);
-//!     let t1 = qd[0] * 0.5;
-//!     [-t1, 0.0]
-//! }
-//! ```
+//! The text of a claim's function, as values of straight-line code.
 
 use std::collections::HashMap;
-use std::fmt::Debug;
-use std::str::FromStr;
 
+use crate::c99;
 use crate::certificate::Claim;
 use crate::fault::Fault;
-use crate::file::{between, structure};
+use crate::file::structure;
+use crate::identity::program::Operand;
 use crate::interval::FARTHEST;
 use crate::program::{Node, Program, Source};
-use crate::quantity::{ARGUMENTS, Function, entries};
+use crate::quantity::{ARGUMENTS, entries};
+use crate::read::{self, Argument, Head, Text, TextError};
 use crate::scene::Setting;
 
 /// The most values of a function.
 const MOST_NODES: usize = 20_000;
 
-/// A function that is being read.
-#[derive(Default)]
-pub(crate) struct Parser<'t> {
-    name: &'t str,
-    pub(crate) function: Function,
-    pub(crate) scalar: &'t str,
-    pub(crate) joints: usize,
-    pub(crate) rows: usize,
-    lines: Vec<&'t str>,
-    /// How many lines are read.
-    line: usize,
-    pub(crate) program: Program,
-    names: HashMap<&'t str, usize>,
-    /// Which arguments the head names.
-    pub(crate) arguments: HashMap<&'t str, usize>,
-    /// Whether a block is read, and how it spells its angle, once it has.
-    pub(crate) is_inside: bool,
-    /// `true` while a part of a long function is read.
-    is_part: bool,
-    angle: Option<&'t str>,
-    /// What is around the block that is read, and what it results in: names and values.
-    outside: (HashMap<&'t str, usize>, Vec<Node>),
-    pub(crate) results: Vec<(&'t str, usize)>,
-    /// In a header, the list of angles; and what stands for the sine, or else the cosine, of a value
-    /// or a joint.
-    pub(crate) angles: Vec<usize>,
-    pub(crate) sines: HashMap<String, (Result<usize, usize>, bool)>,
-    /// The angle in the names of a block of a header.
-    pub(crate) block: Option<&'t str>,
-    /// What literals end with.
-    pub(crate) suffix: &'static str,
-}
-
 /// Reads the function of a claim about an arm.
 ///
 /// # Errors
-/// The first thing that is not of the grammar or not of this claim, with its line; a sine of
-/// something else than a signed sum of joint positions, or of an angle that is far.
+/// The first thing that is not of the grammar or not of this claim, with its line; a sine of an
+/// angle that is far.
 pub fn read(claim: &Claim, setting: &Setting) -> Result<Program, Fault> {
-    let (text, joints) = (&claim.text, setting.joints.len());
-    let mut parser = Parser {
+    let function = claim.function()?;
+    let (text, joints, rows) = (&claim.text, setting.joints.len(), claim.rows.len());
+    let is_c = text.contains("static inline ");
+    let fields = function.fields.iter();
+    let structure = (function.fields.len() > 1).then(|| structure(&claim.function));
+    // Which arguments there are, the head says: they have to be in their order.
+    let named = |name: &str| match is_c {
+        true => [" double ", " float "]
+            .iter()
+            .any(|kind| text.contains(&format!("const{kind}{name}["))),
+        false => {
+            let head = text.split(") ->").next().unwrap_or("");
+            [
+                format!("({name}: "),
+                format!(" {name}: "),
+                format!("_{name}: "),
+            ]
+            .iter()
+            .any(|word| head.contains(word))
+        }
+    };
+    let arguments = ARGUMENTS.iter().enumerate().filter(|(_, name)| named(name));
+    let head = Head {
         name: &claim.function,
-        function: claim.function()?,
-        scalar: &claim.scalar,
+        is_single: claim.scalar == "f32",
+        arguments: arguments
+            .map(|(place, &name)| Argument {
+                place,
+                name,
+                length: entries(name, joints),
+            })
+            .collect(),
+        fields: fields.map(|(name, own)| (*name, own.shape(rows))).collect(),
+        structure: structure.as_deref(),
         joints,
-        rows: claim.rows.len(),
-        lines: text.split('\n').collect(),
-        ..Parser::default()
     };
-    let read = match text.contains("static inline ") {
-        true => parser.c_function(text),
-        false => parser.rust_function(),
+    let read = match is_c {
+        true => {
+            let text = Text::c(text).map_err(fault)?;
+            let symbols = c99::symbols(&claim.text, head.is_single);
+            text.c_function(&head, &symbols, !symbols.batch.is_empty())
+        }
+        false => Text::rust(text).and_then(|text| text.rust_function(&head, false)),
     };
-    if read.is_some() {
-        return near(claim, &parser.program, setting).map(|()| parser.program);
+    let (read, is_all) = read.map_err(fault)?;
+    let is_allowed = function.is_tried() || read.program.steps.iter().all(|step| step.0 != '/');
+    if !is_all || !is_allowed || !read.speeds.is_empty() {
+        return Err(Fault::Text(1, "more than the claim's function".into()));
     }
-    let line = parser.lines.get(parser.line.saturating_sub(1));
-    let line = line.unwrap_or(&"").trim();
-    let why = format!("not of the grammar or the claim: `{line}`");
-    Err(Fault::Text(parser.line.max(1), why))
+    let program = nodes(&read);
+    let is_small = program.nodes.len() <= MOST_NODES;
+    let why = "a function of more than 20000 values";
+    let small = is_small
+        .then_some(())
+        .ok_or_else(|| Fault::Text(1, why.into()));
+    small.and_then(|()| near(claim, &read)).map(|()| program)
 }
 
-/// Refuses a sine of something that is no angle, or of one where the checker's own sine is none.
-fn near(claim: &Claim, program: &Program, setting: &Setting) -> Result<(), Fault> {
-    let angles = program.angles(|joint| setting.joints[joint].turns);
-    let far = |&(joint, _): &(usize, bool)| {
-        let range = claim.position.get(joint).into_iter().flatten();
+/// Returns a fault of a text.
+pub(crate) fn fault(own: TextError) -> Fault {
+    Fault::Text(own.line, format!("not of the grammar: {}", own.reason))
+}
+
+/// Refuses a sine of an angle where the checker's own sine is none.
+fn near(claim: &Claim, read: &read::Function) -> Result<(), Fault> {
+    let far = |own: &read::Sines| {
+        let range = claim.position.get(own.joint).into_iter().flatten();
         range.fold(0.0, |most: f64, end| most.max(end.abs()))
     };
-    for node in &program.nodes {
-        let &Node::Sine(angle, ..) = node else {
-            continue;
-        };
-        let angle = angles[angle].as_ref();
-        let angle = angle.ok_or(Fault::certificate("a sine of something that is no angle"))?;
-        let why = "the sine of an angle beyond 1000 rad";
-        Fault::unless(angle.iter().map(far).sum::<f64>() < FARTHEST, why)?;
-    }
-    Ok(())
+    let most = read.sines.iter().map(far).fold(0.0, f64::max);
+    Fault::unless(most < FARTHEST, "the sine of an angle beyond 1000 rad")
 }
 
-impl<'t> Parser<'t> {
-    pub(crate) fn next(&mut self) -> Option<&'t str> {
-        let left = self.lines.get(self.line..)?;
-        self.line += 1 + left.iter().position(|line| !line.is_empty())?;
-        let line = self.lines[self.line - 1];
-        let is_plain = line.bytes().all(|byte| (b' '..=b'~').contains(&byte));
-        is_plain.then(|| line.trim_matches(' '))
-    }
-
-    fn rust_function(&mut self) -> Option<()> {
-        let (scalar, fields) = (self.scalar, self.function.fields.clone());
-        let (joints, rows) = (self.joints, self.rows);
-        let mut line = self.next()?;
-        if line == "#[must_use]" {
-            line = self.next()?;
+/// Returns what was read as a list of values.
+fn nodes(read: &read::Function) -> Program {
+    let mut program = Program::default();
+    let mut sines: HashMap<(usize, bool), usize> = HashMap::new();
+    for own in &read.sines {
+        let angle = program.push(Node::Input(0, own.joint));
+        let mut results = Vec::new();
+        if let read::Source::Polynomial(polynomial) = &own.source {
+            let mut block = Program::default();
+            let angle = block.push(Node::Constant(0.0));
+            let values = block.take(&polynomial.steps, &|operand| match operand {
+                Operand::Entry(..) => Some(angle),
+                _ => None,
+            });
+            for (negative, operand) in &polynomial.outputs {
+                let value = match operand {
+                    Operand::Entry(..) => angle,
+                    own => block.operand(own, &values, &|_| None),
+                };
+                results.push(match negative {
+                    true => block.push(Node::Neg(value)),
+                    false => value,
+                });
+            }
+            program.blocks.push(block.nodes);
         }
-        let array = |shape: Vec<usize>| {
-            let lengths = shape.iter().rev();
-            lengths.fold(scalar.to_owned(), |t, length| format!("[{t}; {length}]"))
+        let block = program.blocks.len().saturating_sub(1);
+        let mut results = results.into_iter();
+        for (is_sine, _) in [true, false].into_iter().zip(own.needs).filter(|own| own.1) {
+            let source = results
+                .next()
+                .map_or(Source::Library, |value| Source::Block(block, value));
+            let value = program.push(Node::Sine(angle, is_sine, source));
+            sines.insert((own.joint, is_sine), value);
+        }
+    }
+    let leaf = |operand: &Operand<f64>| match operand {
+        Operand::Sine(angle, is_sine) => sines.get(&(angle.first()?.0, *is_sine)).copied(),
+        _ => None,
+    };
+    let values = program.take(&read.program.steps, &leaf);
+    for (negative, operand) in &read.program.outputs {
+        let value = program.operand(operand, &values, &leaf);
+        let value = match negative {
+            true => program.push(Node::Neg(value)),
+            false => value,
         };
-        let is_struct = fields.len() > 1;
-        let returned = match is_struct {
-            true => structure(self.name),
-            false => array(fields.first()?.1.shape(rows)),
-        };
-        let head = format!("pub fn {}(", self.name);
-        let list = between(line, &head, &format!(") -> {returned} {{"))?;
-        for part in list.split(", ") {
-            let (argument, kind) = part.split_once(": ")?;
-            let length = entries(argument, joints);
-            (kind == format!("&[{scalar}; {length}]")).then_some(())?;
-            self.argument(argument)?;
-        }
-        line = self.statements()?;
-        match is_struct {
-            false => self.array(line, &fields.first()?.1.shape(rows), "")?,
-            true => {
-                (line.strip_suffix(" {")? == returned).then_some(())?;
-                for (field, quantity) in fields {
-                    let line = self.next()?.strip_prefix(field)?.strip_prefix(": ")?;
-                    self.array(line, &quantity.shape(rows), ",")?;
+        program.outputs.push(value);
+    }
+    program
+}
+
+/// What stands for an operand that is not of a list of values.
+type Leaf<'l> = dyn Fn(&Operand<f64>) -> Option<usize> + 'l;
+
+impl Program {
+    fn push(&mut self, node: Node) -> usize {
+        self.nodes.push(node);
+        self.nodes.len() - 1
+    }
+
+    /// Adds steps; returns the value of each.
+    fn take(&mut self, steps: &[(char, [Operand<f64>; 2])], leaf: &Leaf) -> Vec<usize> {
+        let mut values: Vec<usize> = Vec::with_capacity(steps.len());
+        // Of a product that is not rounded, what its sum is of.
+        let mut factors: Option<[usize; 2]> = None;
+        for (operation, operands) in steps {
+            let [left, right] = operands
+                .each_ref()
+                .map(|own| self.operand(own, &values, leaf));
+            let node = match (factors.take(), operation) {
+                (None, '×') => {
+                    factors = Some([left, right]);
+                    values.push(usize::MAX);
+                    continue;
                 }
-                (self.next()? == "}").then_some(())?;
-            }
-        }
-        (self.next()? == "}" && self.is_done()).then_some(())
-    }
-
-    /// Reads lines that have to be these.
-    pub(crate) fn expect(&mut self, lines: &str) -> Option<()> {
-        let mut lines = lines.lines();
-        lines.all(|line| self.next() == Some(line)).then_some(())
-    }
-
-    /// Returns whether no text is left.
-    pub(crate) fn is_done(&self) -> bool {
-        self.lines[self.line..].iter().all(|line| line.is_empty())
-    }
-
-    /// Adds an argument of the head.
-    pub(crate) fn argument(&mut self, argument: &'t str) -> Option<()> {
-        let known = argument.strip_prefix('_').unwrap_or(argument);
-        let place = ARGUMENTS.iter().position(|word| *word == known)?;
-        let is_next = self.arguments.values().all(|&before| before < place);
-        self.arguments.insert(argument, place);
-        is_next.then_some(())
-    }
-
-    /// Adds a result.
-    pub(crate) fn output(&mut self, word: &'t str) -> Option<()> {
-        let value = self.operand(word)?;
-        self.program.outputs.push(value);
-        Some(())
-    }
-
-    /// Adds the entries of an array that begins in a line and ends before some text.
-    fn array(&mut self, line: &'t str, shape: &[usize], end: &str) -> Option<()> {
-        match shape {
-            [] => self.output(line.strip_suffix(end)?)?,
-            &[length] => {
-                let list = between(line.strip_suffix(end)?, "[", "]")?;
-                list.split(", ").try_for_each(|word| self.output(word))?;
-                (list.split(", ").count() == length).then_some(())?;
-            }
-            [length, inner @ ..] => {
-                (line == "[").then_some(())?;
-                for _ in 0..*length {
-                    let line = self.next()?;
-                    self.array(line, inner, ",")?;
+                (Some([a, b]), '+') => Node::Fused(a, b, right),
+                (Some([a, b]), _) if left == usize::MAX => {
+                    let addend = self.push(Node::Neg(right));
+                    Node::Fused(a, b, addend)
                 }
-                (self.next()?.strip_suffix(end)? == "]").then_some(())?;
-            }
-        }
-        Some(())
-    }
-
-    /// Reads all statements; returns the line behind them.
-    fn statements(&mut self) -> Option<&'t str> {
-        let mut line = self.next()?;
-        while let Some((names, value)) = line.strip_prefix("let ").and_then(|s| s.split_once(" = "))
-        {
-            match value.strip_suffix(';') {
-                None if value == "{" && names.ends_with(",)") => self.long(names)?,
-                None if value == "{" && !self.is_inside => self.block(names)?,
-                value => self.statement(names, value?)?,
-            }
-            line = self.next()?;
-        }
-        Some(line)
-    }
-
-    pub(crate) fn statement(&mut self, names: &'t str, value: &'t str) -> Option<()> {
-        let words: Vec<&str> = value.split(' ').collect();
-        if let &[left, operation, right] = words.as_slice()
-            && !value.contains("::")
-        {
-            let (left, right) = (self.operand(left)?, self.operand(right)?);
-            let node = match operation {
-                "+" => Node::Add(left, right),
-                "-" => Node::Sub(left, right),
-                "*" => Node::Mul(left, right),
-                "/" if self.function.is_tried() && !self.is_inside => Node::Div(left, right),
-                _ => return None,
+                (Some([a, b]), _) => {
+                    let factor = self.push(Node::Neg(a));
+                    Node::Fused(factor, b, left)
+                }
+                (None, '+') => Node::Add(left, right),
+                (None, '-') => Node::Sub(left, right),
+                (None, '*') => Node::Mul(left, right),
+                (None, _) => Node::Div(left, right),
             };
-            return self.name(names, node);
+            let value = self.push(node);
+            values.push(value);
         }
-        if let Some((left, rest)) = value.split_once(".mul_add(") {
-            let left = between(left, "(", ")").unwrap_or(left);
-            let (right, addend) = rest.strip_suffix(')')?.split_once(", ")?;
-            let [left, right] = [self.operand(left)?, self.operand(right)?];
-            let addend = self.operand(addend)?;
-            return self.name(names, Node::Fused(left, right, addend));
-        }
-        let (call, angles) = value.strip_suffix(')')?.split_once('(')?;
-        let suffix = if self.scalar == "f32" { "f" } else { "" };
-        let call = call.strip_suffix(suffix)?;
-        // Of one angle, or the lists of all.
-        let lists = between(names, "([", "])");
-        let (sines, cosines, angles) = match (call, lists, pair(names)) {
-            ("dalembert_sines::sincos", Some(lists), _) => {
-                let (sines, cosines) = lists.split_once("], [")?;
-                (sines, cosines, between(angles, "&[", "]")?)
-            }
-            ("libm::sincos", None, Some([sin, cos])) => (sin, cos, angles),
-            ("libm::sin", None, None) => (names, "_", angles),
-            ("libm::cos", None, None) => ("_", names, angles),
-            _ => return None,
-        };
-        let [sines, cosines, angles] = [sines, cosines, angles].map(|list| list.split(", "));
-        let mut both = [sines, cosines];
-        for word in angles {
-            let angle = self.operand(word)?;
-            for (names, is_sine) in both.iter_mut().zip([true, false]) {
-                let name = names.next()?;
-                if name != "_" {
-                    self.name(name, Node::Sine(angle, is_sine, Source::Library))?;
-                }
-            }
-        }
-        both.iter_mut()
-            .all(|names| names.next().is_none())
-            .then_some(())
+        values
     }
 
-    pub(crate) fn push(&mut self, node: Node) -> Option<usize> {
-        self.program.nodes.push(node);
-        let count = self.program.nodes.len();
-        (count <= MOST_NODES && !(self.is_inside && matches!(node, Node::Sine(..))))
-            .then(|| count - 1)
-    }
-
-    /// Adds a value of a new name: a letter for its kind, then joints or its number.
-    pub(crate) fn name(&mut self, name: &'t str, node: Node) -> Option<()> {
-        let behind = name.strip_prefix(['a', 'c', 's', 't', 'x'])?;
-        let is_plain = behind.starts_with(|c: char| c.is_ascii_digit() || c == 'm')
-            && behind
-                .chars()
-                .all(|c| c.is_ascii_digit() || ['p', 'm', '_'].contains(&c));
-        let value = self.push(node)?;
-        (is_plain && self.names.insert(name, value).is_none()).then_some(())
-    }
-
-    pub(crate) fn operand(&mut self, word: &'t str) -> Option<usize> {
-        if let Some(word) = word.strip_prefix('-') {
-            let value = self.unsigned(word)?;
-            return self.push(Node::Neg(value));
+    fn operand(&mut self, operand: &Operand<f64>, values: &[usize], leaf: &Leaf) -> usize {
+        match (leaf(operand), operand) {
+            (Some(value), _) => value,
+            (None, Operand::Step(step)) => values.get(*step).copied().unwrap_or(usize::MAX),
+            (None, Operand::Constant(constant)) => self.push(Node::Constant(*constant)),
+            (None, Operand::Entry(argument, index)) => self.push(Node::Input(*argument, *index)),
+            (None, _) => self.push(Node::Constant(f64::NAN)),
         }
-        self.unsigned(word)
     }
-
-    /// Reads a name, a literal, or an entry of an argument; what a block reads beside its own
-    /// is its angle, always the same.
-    fn unsigned(&mut self, word: &'t str) -> Option<usize> {
-        if let Some(&value) = self.names.get(word) {
-            return Some(value);
-        }
-        if word.starts_with(|c: char| c.is_ascii_digit()) {
-            let word = word.strip_suffix(self.suffix)?;
-            let value = match self.scalar {
-                "f32" => literal::<f32>(word)?,
-                _ => literal::<f64>(word)?,
-            };
-            return self.push(Node::Constant(value));
-        }
-        if self.is_inside {
-            return (*self.angle.get_or_insert(word) == word).then_some(0);
-        }
-        let (argument, index) = word.strip_suffix(']')?.split_once('[')?;
-        let (argument, joint) = (*self.arguments.get(argument)?, index.parse::<usize>().ok()?);
-        let length = entries(ARGUMENTS[argument], self.joints);
-        let is_entry = joint < length && index == joint.to_string();
-        self.push(Node::Input(argument, joint)).filter(|_| is_entry)
-    }
-
-    /// Reads a part of a long function: it hands on values by their names, and the others are
-    /// no more.
-    fn long(&mut self, names: &'t str) -> Option<()> {
-        if self.is_inside || std::mem::replace(&mut self.is_part, true) {
-            return None;
-        }
-        let before = self.names.clone();
-        (self.statements()? == names && self.next()? == "};").then_some(())?;
-        let inside = std::mem::replace(&mut self.names, before);
-        for name in between(names, "(", ",)")?.split(", ") {
-            let is_old = self.names.insert(name, *inside.get(name)?).is_some();
-            (!is_old).then_some(())?;
-        }
-        self.is_part = false;
-        Some(())
-    }
-
-    /// Reads a block: arithmetic on one angle, with names of its own.
-    fn block(&mut self, names: &'t str) -> Option<()> {
-        self.open();
-        let line = self.statements()?;
-        let words = pair(line).map_or(vec![line], Vec::from);
-        let values = words.into_iter().map(|word| self.operand(word));
-        let values = values.collect::<Option<Vec<usize>>>()?;
-        let names = pair(names).map_or(vec![names], Vec::from);
-        (names.len() == values.len()).then_some(())?;
-        self.results = names.into_iter().zip(values).collect();
-        self.close()?;
-        (self.next()? == "};").then_some(())
-    }
-
-    pub(crate) fn open(&mut self) {
-        self.is_inside = true;
-        let nodes = vec![Node::Constant(0.0)];
-        let nodes = std::mem::replace(&mut self.program.nodes, nodes);
-        self.outside = (std::mem::take(&mut self.names), nodes);
-    }
-
-    /// Ends a block, if one is read, and names its results.
-    pub(crate) fn close(&mut self) -> Option<()> {
-        if !std::mem::take(&mut self.is_inside) {
-            return Some(());
-        }
-        let (names, nodes) = std::mem::take(&mut self.outside);
-        let block = std::mem::replace(&mut self.program.nodes, nodes);
-        (self.names, self.block) = (names, None);
-        self.program.blocks.push(block);
-        let word = self.angle.take()?;
-        let angle = self.operand(word)?;
-        for (name, value) in std::mem::take(&mut self.results) {
-            let source = Source::Block(self.program.blocks.len() - 1, value);
-            self.name(name, Node::Sine(angle, name.starts_with('s'), source))?;
-        }
-        Some(())
-    }
-}
-
-/// Returns a number as it is printed.
-fn literal<T: FromStr + Debug + Into<f64>>(word: &str) -> Option<f64> {
-    let value: T = word.parse().ok()?;
-    let is_printed = format!("{value:?}") == word;
-    Some(value.into()).filter(|value| is_printed && value.is_finite())
-}
-
-/// Returns both parts of `(one, other)`.
-fn pair(text: &str) -> Option<[&str; 2]> {
-    let (one, other) = between(text, "(", ")")?.split_once(", ")?;
-    Some([one, other])
 }

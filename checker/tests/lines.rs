@@ -6,15 +6,15 @@ use std::fs;
 use crate::support::file;
 
 /// The most lines of all of it, as long as `identity` stands beside what it replaces.
-const MOST: usize = 7350;
+const MOST: usize = 8550;
 
 /// The README names every file with its lines, rounded up to ten.
 #[test]
 fn trusted_lines_are_named_and_counted() {
     let mut counted = BTreeMap::new();
     let folder = format!("{}/src", env!("CARGO_MANIFEST_DIR"));
-    for (folder, before) in [(folder.clone(), ""), (folder + "/identity", "identity/")] {
-        for entry in fs::read_dir(folder).unwrap() {
+    for before in ["", "identity/", "read/"] {
+        for entry in fs::read_dir(format!("{folder}/{before}")).unwrap() {
             let path = entry.unwrap().path();
             let name = path.file_stem().unwrap().to_str().unwrap();
             if let Ok(text) = fs::read_to_string(&path) {

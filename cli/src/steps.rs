@@ -8,8 +8,8 @@ use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 
 use dalembert_codegen::workspace::{
-    self, Admitted, Certificate, Columns, Dag, Folding, Found, Job, cost, replay, search,
-    search_graphs, skeleton, trace, trace_chain, tune, tune::Tuned,
+    self, Admitted, Certificate, Columns, Dag, Folding, Found, Job, Signature, cost, replay,
+    search, search_graphs, skeleton, trace, trace_chain, tune, tune::Tuned,
 };
 use dalembert_codegen::{Counts, Function, GenerateError, Program, Request, ScalarType, Start};
 
@@ -228,8 +228,11 @@ fn kept(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
 pub(super) fn tolerated(admitted: &Admitted) -> Result<Vec<Row>, GenerateError> {
     let row = |certificate: &Certificate| {
         let (function, scalar) = (certificate.emitted.function, certificate.scalar);
-        let text = workspace::Code::parse(&certificate.text, function, scalar)
-            .map_err(|error| GenerateError::Defect(function, Some(scalar), error.to_string()))?;
+        let text = workspace::Code::parse(
+            &certificate.text,
+            &Signature::of(&certificate.emitted, scalar),
+        )
+        .map_err(|error| GenerateError::Defect(function, Some(scalar), error.to_string()))?;
         Ok(Row {
             step: "tolerance",
             counts: text.counts(),

@@ -10,7 +10,7 @@ use crate::bound::magnitude::relative;
 use crate::bound::sample::{climb, draw};
 use crate::bound::sensitivity::{Rounding, rounding};
 use crate::certificate::Certificate;
-use crate::language::read::TextError;
+use crate::language::read::{Signature, TextError};
 use crate::program::{Code, ScalarType};
 use crate::random::Random;
 use crate::states::JointState;
@@ -109,12 +109,14 @@ struct Falsifier<'c> {
 impl<'c> Falsifier<'c> {
     fn new(certificate: &'c Certificate) -> Result<Falsifier<'c>, TextError> {
         let Certificate { text: printed, .. } = certificate;
-        let function = certificate.emitted.function;
         let program = &certificate.stages[0].program;
         let limits = &certificate.limits;
         Ok(Falsifier {
             certificate,
-            emitted: Code::parse(printed, function, certificate.scalar)?,
+            emitted: Code::parse(
+                printed,
+                &Signature::of(&certificate.emitted, certificate.scalar),
+            )?,
             exact: program.in_doubles(),
             granted: rounding(program, ScalarType::F64, &[], limits, 64),
             falsification: Falsification {

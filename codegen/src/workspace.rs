@@ -35,7 +35,10 @@ pub use crate::generate::{
 };
 pub use crate::interval::Interval;
 pub use crate::language::{
-    Printed, function::write as write_function, names::Names, read::TextError,
+    Printed,
+    function::write as write_function,
+    names::Names,
+    read::{Signature, TextError},
 };
 pub use crate::parallel::each;
 pub use crate::plan::{Edited, Entry, file as plan_file};
@@ -66,6 +69,7 @@ pub use crate::verify::{
 };
 pub use crate::watch::{Observer, Part, Progress};
 pub use crate::words::{Word, bundle, parse};
+pub use dalembert_checker::read::Text;
 
 pub mod scale {
     pub use crate::bound::scale::{actuator, range};

@@ -2,7 +2,9 @@
 //! them; certificates of sines that are taken together. `values` and `golden` have their numbers,
 //! `text` lines that say something else.
 
-use dalembert_codegen::workspace::{Certificate, Code, JointState, Library, Rounding, Setup, keep};
+use dalembert_codegen::workspace::{
+    Argument, Certificate, Code, JointState, Library, Rounding, Setup, Signature, Sizes, keep,
+};
 use dalembert_codegen::{Function, Generated, ScalarType};
 
 use crate::shown::shown;
@@ -59,7 +61,15 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
 }
 ";
     let single = TEXT.replace("f64", "f32").replace("sincos", "sincosf");
-    let read = |text: &str, scalar| Code::parse(text, Function::Gravity, scalar).unwrap();
+    let read = |text: &str, scalar| {
+        let signature = Signature {
+            function: Function::Gravity,
+            arguments: &[Argument::Position],
+            sizes: Sizes::whole(2),
+            scalar,
+        };
+        Code::parse(text, &signature).unwrap()
+    };
     let (text, single) = (read(TEXT, ScalarType::F64), read(&single, ScalarType::F32));
     assert_eq!(text.counts().to_string(), "1 mul, 0 add, 3 fma, 1 sincos");
     /// Rounds the same lines.

@@ -3,7 +3,7 @@
 
 use dalembert_codegen::workspace::{
     AngleKernel, BOUND, Candidates, Code, Dag, Edge, ErrorByCause, Input, Interval, Library, Node,
-    Printed, Runtime, Setup, seeded, write_function,
+    Printed, Runtime, Setup, Signature, seeded, write_function,
 };
 use dalembert_codegen::{
     Function, GenerateError, Generated, Program, Request, ScalarType, SinCos, generate,
@@ -118,7 +118,7 @@ fn kernels_of_narrow_ranges_are_read_back() {
                         let code = program.code(scalar, Library::Libm, &sines);
                         let text =
                             write_function(&Printed::of(&program, &code), Library::Libm, &[]);
-                        let found = Code::parse(&text, program.function, scalar).unwrap();
+                        let found = Code::parse(&text, &Signature::of(&program, scalar)).unwrap();
                         let same = found.matches(&program, Library::Libm, &sines);
                         assert_eq!(same, Ok(()), "{}\n{text}", sines[0].form);
                         read += 1;
@@ -165,7 +165,8 @@ fn a_text_with_other_sines_is_not_the_function() {
     let generated = with(&robot, 1e-5).unwrap();
     let (function, scalar) = (&generated.functions[0], ScalarType::F64);
     let matches = |text: &str| {
-        let read = Code::parse(text, FUNCTION, scalar).map_err(|e| e.to_string())?;
+        let read = Code::parse(text, &Signature::of(&function.program, scalar))
+            .map_err(|e| e.to_string())?;
         read.matches(&function.program, Library::Libm, function.sines(scalar))
             .map_err(|difference| difference.to_string())
     };
@@ -189,7 +190,7 @@ fn a_text_with_other_sines_is_not_the_function() {
     let text = generated.text()[..block].to_owned() + called + &generated.text()[end..];
     assert!(matches(&text).is_err());
     // Nor is it one of libm's sines.
-    let read = Code::parse(&generated.text(), FUNCTION, scalar).unwrap();
+    let read = Code::parse(&generated.text(), &Signature::of(&function.program, scalar)).unwrap();
     assert!(read.matches(&function.program, Library::Libm, &[]).is_err());
     let called = read.with_libm();
     assert!(

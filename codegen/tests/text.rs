@@ -1,7 +1,9 @@
 //! Reading emitted text back: what is no emitted function is refused with a line and a reason, and
 //! in every language no change of a line passes for the program.
 
-use dalembert_codegen::workspace::{Code, JointState, Library, Names, Printed, keep};
+use dalembert_codegen::workspace::{
+    Argument, Code, JointState, Library, Names, Signature, Sizes, Text, keep,
+};
 use dalembert_codegen::{Function, Generated, Language, ScalarType};
 
 use crate::support::{Case, rows};
@@ -17,8 +19,19 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
 }
 ";
 
+/// Returns what a function of two joints is called with, in doubles.
+fn signature(function: Function, arguments: &[Argument]) -> Signature<'_> {
+    Signature {
+        function,
+        arguments,
+        sizes: Sizes::whole(2),
+        scalar: ScalarType::F64,
+    }
+}
+
 fn read(text: &str) -> Result<Code, usize> {
-    Code::parse(text, Function::Gravity, ScalarType::F64).map_err(|error| {
+    let own = signature(Function::Gravity, &[Argument::Position]);
+    Code::parse(text, &own).map_err(|error| {
         assert!(!error.reason.is_empty());
         error.line
     })
@@ -50,7 +63,7 @@ fn what_was_not_is_refused() {
             ("gravity", "inertia", 1),
             ("let t1 = c1 * 0.5;", "let t1 = c1 * 0.5", 4),
             ("let t1 =", "let t1:", 4),
-            ("let t2", "let t3", 5),
+            ("let t2", "let t3", 6),
             ("t1 - s1", "t1 % s1", 5),
             ("t1 - s1", "t1 - s1 - s1", 5),
             ("t1 - s1", "t9 - s1", 5),
@@ -64,9 +77,9 @@ fn what_was_not_is_refused() {
             ("libm::cos(q[1])", "libm::cos(q[0])", 3),
             ("libm::cos", "libm::cosf", 3),
             ("(s1, c1)", "(c1, s1)", 2),
-            ("[t3, -t2]", "[t3, -t4]", 8),
+            ("[t3, -t2]", "[t3, -t4]", 7),
             ("[t3, -t2]", "[t3, -t2]\n    let t4 = t1 + t2;", 8),
-            ("}\n", "", 1),
+            ("}\n", "", 7),
         ],
     );
     refused(
@@ -120,15 +133,17 @@ fn all_angles_together_are_read() {
 /// D, h and c are arrays of one element type, in a bundle too: names in the wrong order compile.
 #[test]
 fn the_struct_at_the_end_is_read_with_its_names() {
-    const GOOD: &str = "ManipulatorEquation {\nd: [[1.0, -q[0]], [3.0, 4.0]],\nh: [5.0, 6.0],\n\
+    const GOOD: &str = "ManipulatorEquation {\nd: [[1.0, -q[0]], [3.0, 4.0],],\nh: [5.0, 6.0],\n\
                         c: [7.0, 8.0],\n}";
     const NAME: &str = "ManipulatorEquation";
     let bundle = Function::parse("equation=inertia+coriolis+gravity").unwrap();
     for (function, name) in [(Function::ManipulatorEquation, NAME), (bundle, "Equation")] {
         let read = |result: &str| {
             let result = result.replace(NAME, name);
-            let text = format!("pub fn {function}() -> M {{\n{result}\n}}\n");
-            Code::parse(&text, function, ScalarType::F64)
+            let head = "q: &[f64; 2], _qd: &[f64; 2]";
+            let text = format!("pub fn {function}({head}) -> {name} {{\n{result}\n}}\n");
+            let arguments = [Argument::Position, Argument::Velocity];
+            Code::parse(&text, &signature(function, &arguments))
         };
         assert_eq!(read(GOOD).unwrap().dag.outputs.len(), 8);
         for (from, to) in [
@@ -139,7 +154,7 @@ fn the_struct_at_the_end_is_read_with_its_names() {
             ),
             (NAME, "DynamicCoefficients"),
             ("ManipulatorEquation {\n", ""),
-            ("[[1.0, -q[0]], [3.0, 4.0]]", "[1.0, -q[0], 3.0, 4.0]"),
+            ("[[1.0, -q[0]], [3.0, 4.0],]", "[1.0, -q[0], 3.0, 4.0]"),
             ("[3.0, 4.0]", "[3.0]"),
             ("5.0, 6.0", "5.0 6.0"),
             ("5.0, 6.0", "5.0,, 6.0"),
@@ -340,12 +355,14 @@ fn unfused(line: &str) -> Vec<String> {
 fn passes(case: &Case, generated: &Generated, scalar: ScalarType, text: &str) -> bool {
     let (function, request) = (&generated.functions[0], &case.request);
     let code = function.code(scalar, request.library());
-    let printed = Printed::of(&function.program, &code);
+    let signature = Signature::of(&function.program, scalar);
     let read = match request.language {
-        Language::Rust => Code::parse_rust(text, &printed, request.batch),
+        Language::Rust => {
+            Text::rust(text).and_then(|text| Code::read_rust(&text, &signature, request.batch))
+        }
         language => {
             let names = Names::new(&request.module_name(case.robot()), language, scalar);
-            Code::parse_c(text, &printed, request.batch, &names)
+            Text::c(text).and_then(|text| Code::read_c(&text, &signature, &names, request.batch))
         }
     };
     read.is_ok_and(|read| read.difference(&code).is_none())

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use dalembert_codegen::workspace::{Argument, Code, Sizes, parse};
+use dalembert_codegen::workspace::{self, Argument, Code, Sizes, parse};
 use dalembert_codegen::{
     Counts, Function as Output, Generated, Language, Plan, Request, RobotFileError, ScalarType,
     generate,
@@ -280,15 +280,20 @@ fn compiled(entry: &Entry, proved: &Proved) -> Result<Function, LoadError> {
     };
     let scalar = parse::<ScalarType>(&proved.scalar).map_err(|_| damaged())?;
     let text = entry.rust.get(proved.file).ok_or_else(damaged)?;
-    let program = Code::parse(text, output, scalar).map_err(|_| damaged())?;
     let sizes = proved.sizes();
-    let arguments = proved.arguments.iter().map(|name| {
-        let argument = Argument::from_name(name)?;
-        Some((argument, argument.length(sizes)))
-    });
-    let arguments: Option<Vec<(Argument, usize)>> = arguments.collect();
+    let arguments = proved.arguments.iter().map(|name| Argument::from_name(name));
+    let arguments: Option<Vec<Argument>> = arguments.collect();
+    let arguments = arguments.ok_or_else(damaged)?;
+    let form = workspace::Signature {
+        function: output,
+        arguments: &arguments,
+        sizes,
+        scalar,
+    };
+    let program = Code::parse(text, &form).map_err(|_| damaged())?;
+    let lengths = arguments.iter().map(|own| (*own, own.length(sizes)));
     let signature = Signature {
-        arguments: arguments.ok_or_else(damaged)?,
+        arguments: lengths.collect(),
         results: output.quantities().iter().map(|q| q.len(sizes)).collect(),
     };
     let native = Native::compile(program, signature)

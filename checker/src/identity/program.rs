@@ -2,9 +2,9 @@
 
 use std::cell::RefCell;
 
-use super::exact::{Exact, Point};
-use super::number::Number;
-use super::outputs::State;
+use super::exact::Exact;
+#[cfg(feature = "certify")]
+use super::{exact::Point, number::Number, outputs::State};
 
 /// A signed sum of joints' angles: joints, each with whether it is subtracted.
 pub type Angle = Vec<(usize, bool)>;
@@ -20,13 +20,15 @@ pub enum Operand<C> {
     Entry(usize, usize),
     /// The sine, or else the cosine, of an angle.
     Sine(Angle, bool),
+    /// 1/√(q̇² + w²) of a joint.
+    Speed(usize),
 }
 
-/// One operation: `+`, `-`, `*` or `/`.
+/// One operation: `+`, `-`, `*` or `/`; or `×`, a product that is not rounded, whose sum is next.
 pub type Step<C> = (char, [Operand<C>; 2]);
 
 /// A function; results may be negated.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Program<C> {
     /// The operations, in order.
     pub steps: Vec<Step<C>>,
@@ -59,6 +61,7 @@ impl<C> Program<C> {
 
 impl Program<Exact> {
     /// Returns its results at a point.
+    #[cfg(feature = "certify")]
     pub fn residues(&self, point: &Point, state: &State) -> Option<Vec<Number>> {
         let leaf = |own: &Operand<Exact>| match own {
             Operand::Constant(constant) => Some(point.constant(constant)),
@@ -72,12 +75,12 @@ impl Program<Exact> {
                 }
                 Some(pair[usize::from(!is_sine)])
             }
-            Operand::Step(_) => None,
+            Operand::Step(_) | Operand::Speed(_) => None,
         };
         let all = self.run(leaf, |operation, a, b| match operation {
             '+' => a + b,
             '-' => a - b,
-            '*' => a * b,
+            '*' | '×' => a * b,
             _ => a / b,
         })?;
         Some(
@@ -107,7 +110,7 @@ impl Program<Exact> {
         };
         let all = self.run(leaf, |operation, a, b| match operation {
             '+' | '-' => zip(a, b, f64::max),
-            '*' => zip(a, b, |a, b| a + b),
+            '*' | '×' => zip(a, b, |a, b| a + b),
             _ => {
                 let mut known = divisors.borrow_mut();
                 known.push(b);

@@ -25,6 +25,7 @@ pub(crate) mod search;
 #[doc(hidden)]
 pub(crate) mod tolerate;
 
+use dalembert_checker::read::Text;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 use dalembert_stamp::{Comment, Stamp};
@@ -36,8 +37,9 @@ use crate::emit::GeneratedFunction;
 use crate::emit::header;
 use crate::emit::module;
 use crate::function::{Columns, Function};
+use crate::language::Language;
 use crate::language::c99::Names;
-use crate::language::{Language, Printed};
+use crate::language::read::{Signature, TextError};
 use crate::parallel;
 use crate::program::{Code, Program, ScalarType, has_inertia};
 use crate::search::Effort;
@@ -181,8 +183,17 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     for (index, (_, codes)) in codes.iter().enumerate() {
         // Headers have all scalars in one text.
         let text = &texts[index.min(texts.len() - 1)];
+        let words = match request.language {
+            Language::Rust => Text::rust(text),
+            Language::C | Language::Cuda => Text::c(text),
+        };
         for (generated, code) in functions.iter().zip(codes) {
-            emitted.push(read_back(job, text, generated, code)?);
+            let scalar = Some(code.scalar);
+            let fail = |error: &TextError| {
+                GenerateError::Defect(generated.function, scalar, error.to_string())
+            };
+            let words = words.as_ref().map_err(fail)?;
+            emitted.push(read_back(job, words, generated, code)?);
         }
     }
     contradiction::check(setup, &functions, &emitted)?;
@@ -392,19 +403,19 @@ fn spoil_inertia(setup: &Setup, program: &Program, scalar: ScalarType, sines: &S
 
 fn read_back(
     job: &Job<'_>,
-    text: &str,
+    text: &Text<'_>,
     generated: &GeneratedFunction,
     code: &Code,
 ) -> Result<Emitted, GenerateError> {
     let request = job.request;
     let scalar = code.scalar;
     let fail = |why| GenerateError::Defect(generated.function, Some(scalar), why);
-    let printed = Printed::of(&generated.program, code);
+    let signature = Signature::of(&generated.program, scalar);
     let read = match request.language {
-        Language::Rust => Code::parse_rust(text, &printed, request.batch),
+        Language::Rust => Code::read_rust(text, &signature, request.batch),
         Language::C | Language::Cuda => {
             let names = Names::new(&job.module_name(), request.language, scalar);
-            Code::parse_c(text, &printed, request.batch, &names)
+            Code::read_c(text, &signature, &names, request.batch)
         }
     };
     let read = read.map_err(|error| fail(error.to_string()))?;

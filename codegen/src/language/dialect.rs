@@ -1,5 +1,4 @@
-//! How a language writes the lines of a function: one table, by which they are printed and
-//! read back.
+//! How a language writes the lines of a function: one table, by which they are printed.
 
 use crate::dag::{Dag, Edge, Id, Node};
 use crate::program::kernel::{Angle, Kernel};
@@ -63,20 +62,6 @@ impl Dialect {
         }
     }
 
-    /// Reads an operation on two operands.
-    pub(crate) fn read_operation<'t>(&self, value: &'t str) -> Option<(Operation, [&'t str; 2])> {
-        let is_word = |words: &[&str; 2]| words.iter().all(|word| !word.contains([' ', '(']));
-        if let Some(words) = holes(self.product, value).filter(is_word) {
-            return Some((Operation::Mul, words));
-        }
-        let words: Vec<&str> = value.split(' ').collect();
-        let &[left, symbol, right] = words.as_slice() else {
-            return None;
-        };
-        let operation = Operation::from_symbol(symbol)?;
-        (operation != Operation::Mul).then_some((operation, [left, right]))
-    }
-
     /// Returns a call of a library's function.
     pub(crate) fn call(&self, path: &str, function: &str, argument: &str) -> String {
         let (separator, suffix) = (self.separator, self.scalar.math_suffix());
@@ -91,15 +76,6 @@ impl Dialect {
     /// Returns a literal of these digits.
     pub(crate) fn digits(&self, digits: &str) -> String {
         filled(self.literal, &[digits])
-    }
-
-    /// Reads a literal; an integer would be of another type.
-    pub(crate) fn read_literal(&self, word: &str) -> Option<Literal> {
-        let [digits] = holes(self.literal, word)?;
-        let value = digits
-            .contains(['.', 'e'])
-            .then(|| self.scalar.parse(digits));
-        value.flatten().map(Literal)
     }
 }
 
@@ -216,38 +192,15 @@ fn filled(pattern: &str, parts: &[&str]) -> String {
     text
 }
 
-/// Returns what fills a pattern to this text: each part ends where the pattern can go on
-/// first, the last one with the text.
-pub(crate) fn holes<'t, const N: usize>(pattern: &str, text: &'t str) -> Option<[&'t str; N]> {
-    let mut pieces = pattern.split("{}");
-    let mut rest = text.strip_prefix(pieces.next()?)?;
-    let mut parts = [""; N];
-    for (index, part) in parts.iter_mut().enumerate() {
-        let piece = pieces.next()?;
-        (*part, rest) = match index + 1 == N {
-            true => (rest.strip_suffix(piece)?, ""),
-            false => rest.split_once(piece)?,
-        };
-    }
-    Some(parts)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn patterns_give_back_what_fills_them() {
+    fn patterns_are_filled() {
         let rust = Dialect::rust(ScalarType::F64);
-        let line = rust.declare("t1", "c1 * 0.5");
-        assert_eq!(line, "let t1 = c1 * 0.5;");
-        assert_eq!(holes(rust.declaration, &line), Some(["t1", "c1 * 0.5"]));
-        assert_eq!(holes::<2>(rust.declaration, "let t1 = c1 * 0.5"), None);
+        assert_eq!(rust.declare("t1", "c1 * 0.5"), "let t1 = c1 * 0.5;");
         let fused = filled(rust.fused, &["(-t3)", "s2", "-t1"]);
         assert_eq!(fused, "(-t3).mul_add(s2, -t1)");
-        assert_eq!(holes(rust.fused, &fused), Some(["(-t3)", "s2", "-t1"]));
-        assert_eq!(holes::<3>(rust.fused, "t3.mul_add(s2)"), None);
-        assert_eq!(rust.read_literal("5"), None);
-        assert_eq!(rust.read_literal("0.5x"), None);
     }
 }

@@ -1,7 +1,11 @@
 //! Names in headers, and the types of scalars.
 
+use dalembert_checker::read::Symbols;
+
 use super::Language;
+use super::c99::{is_bundle, structure_name};
 use super::dialect::Dialect;
+use crate::function::Function;
 use crate::program::ScalarType;
 
 /// The most characters of a name: compilers need not tell longer ones apart.
@@ -95,6 +99,23 @@ impl Names {
         let mut names = [word, &short].into_iter().map(name);
         let fits = names.find(|name| name.len() <= LONGEST);
         fits.unwrap_or_else(|| name(&shorter))
+    }
+
+    /// Returns all names of a function, by which its text is found.
+    pub(super) fn symbols(&self, function: Function) -> Symbols {
+        let infix = match self.scalar {
+            ScalarType::F64 => "",
+            ScalarType::F32 => "_f32",
+        };
+        Symbols {
+            macros: self.base.to_uppercase(),
+            prefix: format!("{}{infix}", self.base),
+            single: self.of(function.name()),
+            any: self.of(&format!("{function}_any")),
+            batch: self.of(&format!("{function}_batch")),
+            structure: is_bundle(function).then(|| structure_name(function, self)),
+            is_cuda: self.language == Language::Cuda,
+        }
     }
 
     /// Returns a macro, which both scalars share.

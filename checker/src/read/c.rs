@@ -1,0 +1,388 @@
+//! Functions in C99 and CUDA.
+//!
+//! ```text
+//! static inline void arm_gravity(const double q[ARM_RESTRICT 2], double c[ARM_RESTRICT 2])
+//! {
+//!     ARM_UNFUSED
+//!     const double s1 = sin(q[0]);
+//!     const double t1 = s1 * 0.5;
+//!     c[0] = t1;
+//!     c[1] = -t1;
+//! }
+//! ```
+
+use super::reader::{Read, Reader};
+use super::{Function, Source, TextError};
+
+/// The names of a function in a header.
+#[derive(Clone, Debug, Default)]
+pub struct Symbols {
+    /// What macros begin with.
+    pub macros: String,
+    /// What the header's other functions of the scalar begin with.
+    pub prefix: String,
+    /// The function of one state.
+    pub single: String,
+    /// The function that is told whether an angle may be far, if there is one.
+    pub any: String,
+    /// The function of any number of states.
+    pub batch: String,
+    /// The struct that holds the results, if one does.
+    pub structure: Option<String>,
+    /// `true` in CUDA.
+    pub is_cuda: bool,
+}
+
+/// Up to here, in f64 and in f32, sines need no library.
+const LARGEST: [f64; 2] = [8192.0, 100.0];
+
+impl<'r> Reader<'r> {
+    /// Reads the function: its struct, itself, and those that call it.
+    pub(super) fn c(&mut self, has_batch: bool) -> Read<Function> {
+        let Some(symbols) = self.symbols else {
+            return self.refuse("names in C expected");
+        };
+        let is_told = self.find_c(symbols)?;
+        self.c_structure(symbols)?;
+        let inline = if symbols.is_cuda {
+            "static __host__ __device__ inline"
+        } else {
+            "static inline"
+        };
+        let returned = if self.is_number() {
+            self.float()
+        } else {
+            "void"
+        };
+        let (parameters, passed) = self.parameters(symbols);
+        let list = parameters.join(", ");
+        let own = if is_told {
+            &symbols.any
+        } else {
+            &symbols.single
+        };
+        let far = if is_told { "const int far, " } else { "" };
+        self.expect_all(&format!("{inline} {returned} {own}({far}{list})"))?;
+        self.expect_all(&format!("{{ {}_UNFUSED", symbols.macros))?;
+        self.c_statements(symbols, is_told)?;
+        self.c_results(symbols)?;
+        self.expect("}")?;
+        if is_told {
+            let back = if self.is_number() { "return " } else { "" };
+            let passed = passed.join(", ");
+            self.expect_all(&format!(
+                "{inline} {returned} {}({list}) {{ {back}{own}(1, {passed}); }}",
+                symbols.single
+            ))?;
+        }
+        if has_batch {
+            let text = self.batch(symbols, is_told, &passed);
+            self.expect_all(&text)?;
+        }
+        Ok(self.function.clone())
+    }
+
+    /// Goes to the first of the function's parts; returns whether it is told that an angle may be far.
+    fn find_c(&mut self, symbols: &Symbols) -> Read<bool> {
+        let place = |name: &str| {
+            let named = self.tokens.windows(2).enumerate();
+            let kinds = ["void", self.float()];
+            let is_own = |two: &[super::Token]| kinds.contains(&two[0].text) && two[1].text == name;
+            let mut places = named.filter(|(_, two)| is_own(two)).map(|(place, _)| place);
+            (places.next(), places.next())
+        };
+        let [(any, twice), (single, again)] = [&symbols.any, &symbols.single].map(|own| place(own));
+        if let Some(other) = twice.or(again) {
+            let why = format!("`{}` stands there twice", self.tokens[other + 1].text);
+            return Err(TextError::new(self.tokens[other].line, why));
+        }
+        let missing = || TextError::new(1, format!("there is no function `{}`", symbols.single));
+        let place = any.or(single).ok_or_else(missing)?;
+        let before = if symbols.is_cuda { 4 } else { 2 };
+        self.at = place.saturating_sub(before);
+        if symbols.structure.is_some() {
+            // `typedef struct { double tau[2]; … } name;`
+            self.at = self.at.saturating_sub(6 + 6 * self.head.fields.len());
+        }
+        self.first = self.at;
+        Ok(any.is_some())
+    }
+
+    fn c_structure(&mut self, symbols: &Symbols) -> Read<()> {
+        let Some(name) = &symbols.structure else {
+            return Ok(());
+        };
+        let (float, mut text) = (self.float(), String::from("typedef struct { "));
+        for (field, length) in self.head.lengths() {
+            text += &format!("{float} {field}[{length}]; ");
+        }
+        self.expect_all(&format!("{text} }} {name};"))
+    }
+
+    /// Returns the scalar's type.
+    fn float(&self) -> &'static str {
+        if self.head.is_single {
+            "float"
+        } else {
+            "double"
+        }
+    }
+
+    /// Returns whether the function returns its only number.
+    fn is_number(&self) -> bool {
+        let is_struct = self.symbols.is_some_and(|own| own.structure.is_some());
+        !is_struct && self.head.fields.iter().all(|(_, shape)| shape.is_empty())
+    }
+
+    /// Returns the parameters of the function of one state, and what they are called.
+    fn parameters(&self, symbols: &Symbols) -> (Vec<String>, Vec<String>) {
+        let (float, restrict) = (self.float(), format!("{}_RESTRICT", symbols.macros));
+        let array = |kind: &str, name: &str, length: usize| {
+            (
+                format!("{kind} {name}[{restrict} {length}]"),
+                name.to_owned(),
+            )
+        };
+        let given = self.head.arguments.iter();
+        let mut all: Vec<(String, String)> = given
+            .map(|own| array(&format!("const {float}"), own.name, own.length))
+            .collect();
+        match &symbols.structure {
+            Some(kind) => all.push(array(kind, "result", 1)),
+            None if self.is_number() => {}
+            None => all.extend(
+                self.head
+                    .lengths()
+                    .map(|(name, length)| array(float, name, length)),
+            ),
+        }
+        all.into_iter().unzip()
+    }
+
+    /// Reads all statements up to the results.
+    fn c_statements(&mut self, symbols: &Symbols, is_told: bool) -> Read<()> {
+        let (float, far) = (self.float(), if is_told { "far" } else { "1" });
+        let (mut called, mut pair) = (Vec::new(), None);
+        let kind = format!("{}_sincos_t", symbols.prefix);
+        loop {
+            if self.peek(0) == float {
+                let count = self.peek(3);
+                self.expect_all(&format!(
+                    "{float} sines[{count}]; {float} cosines[{count}];"
+                ))?;
+                self.expect_all(&format!("{}_sines_{count} (", symbols.prefix))?;
+                let count = count.parse::<usize>().unwrap_or(0);
+                if self.take("&") {
+                    let first = self.angle()?;
+                    called = (first..first + count).collect();
+                } else {
+                    self.expect("angles")?;
+                }
+                self.expect_all(", sines, cosines);")?;
+                if called.len() != count || called.iter().any(|own| *own >= self.head.joints) {
+                    return self.refuse("a call for as many angles as there are expected");
+                }
+            } else if self.peek(0) == "(" {
+                self.expect_all("( void )")?;
+                let name = self.next();
+                if self.head.arguments.iter().all(|own| own.name != name) {
+                    return self.refuse("an argument expected");
+                }
+                self.expect(";")?;
+            } else if self.peek(0) == "const" && self.peek(1) == kind {
+                self.at += 2;
+                let name = self.next();
+                self.expect_all(&format!("= {}_sincos({far},", symbols.prefix))?;
+                let joint = self.angle()?;
+                self.expect_all(") ;")?;
+                if name != format!("p{}", joint + 1) {
+                    return self.refuse("the name of an angle's pair expected");
+                }
+                pair = Some(joint);
+            } else if self.take("const") {
+                self.expect(float)?;
+                let name = self.next();
+                if name == "angles" {
+                    called = self.c_angles()?;
+                } else {
+                    self.expect("=")?;
+                    self.c_value(name, &called, pair)?;
+                }
+                self.expect(";")?;
+            } else {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Takes the angles of one call: `angles[2] = {q[0], q[2]}`.
+    fn c_angles(&mut self) -> Read<Vec<usize>> {
+        let count = self.peek(1);
+        self.expect_all(&format!("[{count}] = {{"))?;
+        let mut angles = Vec::new();
+        while !self.take("}") {
+            if !angles.is_empty() {
+                self.expect(",")?;
+            }
+            angles.push(self.angle()?);
+        }
+        match angles.len().to_string() == count {
+            true => Ok(angles),
+            false => self.refuse("as many angles as in the array expected"),
+        }
+    }
+
+    /// Takes a value, whose name was read: by its letter a sine, a cosine, an operation of an angle's
+    /// polynomials, a root or an operation.
+    fn c_value(&mut self, name: &'r str, called: &[usize], pair: Option<usize>) -> Read<()> {
+        let (letter, rest) = name.split_at_checked(1).unwrap_or_default();
+        let (number, _) = rest.split_once('_').unwrap_or((rest, ""));
+        let joint = number
+            .parse::<usize>()
+            .ok()
+            .and_then(|own| own.checked_sub(1));
+        let (joint, is_sine) = (joint.unwrap_or(usize::MAX), letter == "s");
+        let before = format!("x{number}_");
+        match letter {
+            "x" => self.polynomial_step(name, &before, joint),
+            "r" => self.speed(name, ""),
+            "s" | "c" => {
+                let source = self.c_sine(joint, is_sine, called, pair)?;
+                self.name_sine(name, joint, is_sine, source)
+            }
+            _ => self.operation(name),
+        }
+    }
+
+    /// Takes the sine, or else the cosine, of a joint's angle.
+    fn c_sine(
+        &mut self,
+        joint: usize,
+        is_sine: bool,
+        called: &[usize],
+        pair: Option<usize>,
+    ) -> Read<Source> {
+        let number = joint.wrapping_add(1);
+        let function = if is_sine { "sin" } else { "cos" };
+        if pair == Some(joint) && self.peek(0) == format!("p{number}") {
+            self.expect_all(&format!("p{number}.{function}"))?;
+            return Ok(Source::Together);
+        }
+        let array = if is_sine { "sines" } else { "cosines" };
+        if let Some(place) = called.iter().position(|own| *own == joint)
+            && self.peek(0) == array
+        {
+            self.expect_all(&format!("{array}[{place}]"))?;
+            return Ok(Source::Together);
+        }
+        let library = format!("{function}{}", self.suffix());
+        if self.peek(0) == library {
+            self.expect_all(&format!("{library}(q[{joint}])"))?;
+            return Ok(Source::Libm);
+        }
+        self.polynomial_result(&format!("x{number}_"), joint)
+    }
+
+    /// Reads the results: what is returned, or written entry by entry.
+    fn c_results(&mut self, symbols: &Symbols) -> Read<()> {
+        let before = if symbols.structure.is_some() {
+            "result->"
+        } else {
+            ""
+        };
+        let mut targets = Vec::new();
+        for (field, length) in self.head.lengths() {
+            targets.extend((0..length).map(|index| format!("{before}{field}[{index}] =")));
+        }
+        if self.is_number() {
+            targets = vec!["return".to_owned()];
+        }
+        for target in targets {
+            self.expect_all(&target)?;
+            let result = self.signed()?;
+            self.expect(";")?;
+            self.function.program.outputs.push(result);
+        }
+        Ok(())
+    }
+
+    /// Returns the function of any number of states: entry i of state s is at `i * n + s`. What is
+    /// told that no angle is far is called once more where one may be.
+    fn batch(&self, symbols: &Symbols, is_told: bool, passed: &[String]) -> String {
+        let (float, macros) = (self.float(), &symbols.macros);
+        let place = |index: usize| match index {
+            0 => "s".to_owned(),
+            1 => "n + s".to_owned(),
+            _ => format!("({index}U * n) + s"),
+        };
+        let restrict = match symbols.is_cuda {
+            true => "__restrict__".to_owned(),
+            false => format!("{macros}_RESTRICT"),
+        };
+        let mut columns = "const size_t n".to_owned();
+        let (mut state, mut stored, mut to) = (String::new(), String::new(), String::new());
+        for own in &self.head.arguments {
+            let (name, length) = (own.name, own.length);
+            let each = (0..length).map(|index| format!("{name}[{}]", place(index)));
+            let each = each.collect::<Vec<String>>().join(", ");
+            state += &format!("const {float} {name}_s[{length}] = {{{each}}}; ");
+            columns += &format!(", const {float} *{restrict} {name}");
+        }
+        if let Some(kind) = &symbols.structure {
+            state += &format!("{kind} result_s[1]; ");
+        }
+        for (field, length) in self.head.lengths() {
+            columns += &format!(", {float} *{restrict} {field}");
+            let from = match symbols.structure {
+                Some(_) => format!("result_s->{field}"),
+                None => format!("{field}_s"),
+            };
+            if self.is_number() {
+                to = format!("{field}[s] = ");
+                continue;
+            }
+            if symbols.structure.is_none() {
+                state += &format!("{float} {field}_s[{length}]; ");
+            }
+            for index in 0..length {
+                stored += &format!("{field}[{}] = {from}[{index}]; ", place(index));
+            }
+        }
+        let passed: Vec<String> = passed.iter().map(|name| format!("{name}_s")).collect();
+        let passed = passed.join(", ");
+        let each = |when: &str, call: &str| format!("{state}{when}{to}{call}{passed}); {stored}");
+        let single = format!("{}(", symbols.single);
+        let batch = &symbols.batch;
+        if symbols.is_cuda {
+            let first = "((size_t)blockIdx.x * blockDim.x) + threadIdx.x";
+            let body = each("", &single);
+            return format!(
+                "static __global__ void {batch}({columns}) {{
+                const size_t threads = (size_t)gridDim.x * blockDim.x; size_t s;
+                for (s = {first}; s < n; s += threads) {{ {body} }} }}"
+            );
+        }
+        let near = match is_told {
+            true => each("", &format!("{}(0, ", symbols.any)),
+            false => each("", &single),
+        };
+        let mut loops = format!("for (s = 0U; s < n; ++s) {{ {near} }}");
+        if is_told {
+            let joints = self.head.joints;
+            let most =
+                LARGEST[usize::from(self.head.is_single)] / joints.next_power_of_two() as f64;
+            let (f, end) = (self.suffix(), if self.head.is_single { "F" } else { "" });
+            let is_near = |joint| format!("(fabs{f}(q_s[{joint}]) <= {most:?}{end})");
+            let all = (0..joints)
+                .map(is_near)
+                .collect::<Vec<String>>()
+                .join(" && ");
+            let far = each(&format!("if ({all}) {{ continue; }} "), &single);
+            loops += &format!("for (s = 0U; s < n; ++s) {{ {far} }}");
+        }
+        format!(
+            "\n#if defined(__GNUC__)\n__attribute__((flatten))\n#endif\n
+            static inline void {batch}({columns}) {{ size_t s; {macros}_SIMD {loops} }}"
+        )
+    }
+}

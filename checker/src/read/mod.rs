@@ -1,0 +1,177 @@
+//! The text of a function, in Rust, C or CUDA, read into straight-line code.
+//!
+//! The grammar is what the generator prints. What is not in it is refused with its line, however
+//! harmless. All that follows from a function's head (types, what else calls the function, loops
+//! over states) is compared word by word with what it must be; the rest is one operation a
+//! statement, so that nothing can be contracted.
+//!
+//! - this file: [`Text`], and what is known of a function before it is read
+//! - `tokens`: words, numbers and signs
+//! - `reader`: operands, operations, sines
+//! - `rust`: functions in Rust, and those of any number of states
+//! - `c`: functions in C and CUDA, and those of any number of states
+
+mod c;
+mod reader;
+mod rust;
+mod tokens;
+
+use std::fmt;
+
+use self::reader::Reader;
+use self::tokens::Token;
+use crate::identity::program::Program;
+
+pub use self::c::Symbols;
+
+/// A text that is not what it should be.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TextError {
+    /// The line of the text, from one.
+    pub line: usize,
+    /// What was expected there.
+    pub reason: String,
+}
+
+impl TextError {
+    fn new(line: usize, reason: impl Into<String>) -> TextError {
+        let reason = reason.into();
+        TextError { line, reason }
+    }
+}
+
+impl fmt::Display for TextError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "emitted line {}: {}", self.line, self.reason)
+    }
+}
+
+impl std::error::Error for TextError {}
+
+/// An argument of a function.
+#[derive(Clone, Copy, Debug)]
+pub struct Argument<'h> {
+    /// The place among all arguments, which operands have.
+    pub place: usize,
+    /// The name.
+    pub name: &'h str,
+    /// The number of entries.
+    pub length: usize,
+}
+
+/// What a function begins and ends with.
+#[derive(Clone, Debug)]
+pub struct Head<'h> {
+    /// The name.
+    pub name: &'h str,
+    /// `true` if the scalar is f32.
+    pub is_single: bool,
+    /// The arguments, in order.
+    pub arguments: Vec<Argument<'h>>,
+    /// The results, in order: their names and the lengths of their axes.
+    pub fields: Vec<(&'h str, Vec<usize>)>,
+    /// The struct that holds the results in Rust, if one does.
+    pub structure: Option<&'h str>,
+    /// The number of joints.
+    pub joints: usize,
+}
+
+impl Head<'_> {
+    /// Returns the scalar in Rust.
+    fn scalar(&self) -> &'static str {
+        if self.is_single { "f32" } else { "f64" }
+    }
+
+    /// Returns how many numbers there are in each result.
+    fn lengths(&self) -> impl Iterator<Item = (&str, usize)> {
+        let fields = self.fields.iter();
+        fields.map(|(name, shape)| (*name, shape.iter().product()))
+    }
+}
+
+/// Who computes the sine and the cosine of an angle.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Source {
+    /// libm, or the C library.
+    Libm,
+    /// `dalembert-sines`, or the header's own function that does the same.
+    Together,
+    /// Operations that stand in the function: on entry 0 of argument 0, the angle.
+    Polynomial(Program<f64>),
+}
+
+/// The sine and cosine of a joint's angle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sines {
+    /// The joint.
+    pub joint: usize,
+    /// Whether the sine, and whether the cosine, has a name.
+    pub needs: [bool; 2],
+    /// Who computes them.
+    pub source: Source,
+}
+
+/// What the text of a function computes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Function {
+    /// Sines and cosines, in the order of the text.
+    pub sines: Vec<Sines>,
+    /// The joints of which 1/√(q̇² + w²) is read, each with w².
+    pub speeds: Vec<(usize, f64)>,
+    /// Operations and results.
+    pub program: Program<f64>,
+}
+
+/// A text as words.
+#[derive(Debug)]
+pub struct Text<'t> {
+    tokens: Vec<Token<'t>>,
+}
+
+impl<'t> Text<'t> {
+    /// Reads the words of a text in Rust.
+    ///
+    /// # Errors
+    /// The first line with a character that is none of generated code.
+    pub fn rust(source: &'t str) -> Result<Text<'t>, TextError> {
+        tokens::read(source, false).map(|tokens| Text { tokens })
+    }
+
+    /// Reads the words of a text in C or CUDA.
+    ///
+    /// # Errors
+    /// As [`Text::rust`].
+    pub fn c(source: &'t str) -> Result<Text<'t>, TextError> {
+        tokens::read(source, true).map(|tokens| Text { tokens })
+    }
+
+    /// Reads a function in Rust, with its struct, and with that of any number of states if it has
+    /// one; returns whether nothing else stands in the text as well.
+    ///
+    /// # Errors
+    /// The first thing that is not of such a function.
+    pub fn rust_function(
+        &self,
+        head: &Head<'_>,
+        has_columns: bool,
+    ) -> Result<(Function, bool), TextError> {
+        let mut reader = Reader::new(&self.tokens, head, None);
+        let function = reader.rust(has_columns)?;
+        Ok((function, reader.has_all()))
+    }
+
+    /// Reads a function in C or CUDA, as [`Text::rust_function`].
+    ///
+    /// # Errors
+    /// As [`Text::rust_function`].
+    pub fn c_function(
+        &self,
+        head: &Head<'_>,
+        symbols: &Symbols,
+        has_batch: bool,
+    ) -> Result<(Function, bool), TextError> {
+        let mut reader = Reader::new(&self.tokens, head, Some(symbols));
+        let function = reader.c(has_batch)?;
+        Ok((function, reader.has_all()))
+    }
+}

@@ -1,0 +1,409 @@
+//! Functions in Rust.
+//!
+//! ```text
+//! #[must_use]
+//! pub fn inverse_dynamics(q: &[f64; 2], qd: &[f64; 2], qdd: &[f64; 2]) -> [f64; 2] {
+//!     let (s1, c1) = libm::sincos(q[0]);
+//!     let t1 = qd[0] * 0.5;
+//!     [-t1, 0.0]
+//! }
+//! ```
+
+use super::reader::{Read, Reader};
+use super::{Function, Source, TextError};
+
+/// Arguments that have a type of their own.
+const TYPES: [(&str, &str); 3] = [("g", "Gravity"), ("load", "Load"), ("payload", "Payload")];
+
+impl<'r> Reader<'r> {
+    /// Reads the function, and that of any number of states.
+    pub(super) fn rust(&mut self, has_columns: bool) -> Read<Function> {
+        self.find_rust()?;
+        self.rust_head()?;
+        self.statements(false)?;
+        self.results()?;
+        self.expect("}")?;
+        if has_columns {
+            self.columns()?;
+        }
+        Ok(self.function.clone())
+    }
+
+    /// Goes to the function of the name, of which there has to be one.
+    fn find_rust(&mut self) -> Read<()> {
+        let words = self.tokens.windows(2).enumerate();
+        let is_own = |two: &[super::Token]| two[0].text == "fn" && two[1].text == self.head.name;
+        let mut places = words.filter(|(_, two)| is_own(two)).map(|(place, _)| place);
+        let missing = || TextError::new(1, format!("there is no function `{}`", self.head.name));
+        let place = places.next().ok_or_else(missing)?;
+        if let Some(other) = places.next() {
+            let why = format!("`{}` stands there twice", self.head.name);
+            return Err(TextError::new(self.tokens[other].line, why));
+        }
+        let before: Vec<&str> = self.tokens[..place]
+            .iter()
+            .rev()
+            .map(|own| own.text)
+            .collect();
+        let attribute = ["pub", "]", "must_use", "[", "#"];
+        let has_attribute = before.starts_with(&attribute);
+        self.at = place
+            - if has_attribute {
+                5
+            } else {
+                usize::from(place > 0)
+            };
+        self.first = self.at;
+        if has_attribute {
+            self.at += 4;
+        }
+        Ok(())
+    }
+
+    fn rust_head(&mut self) -> Read<()> {
+        let (head, scalar) = (self.head, self.head.scalar());
+        self.expect_all(&format!("pub fn {} (", head.name))?;
+        for (index, argument) in head.arguments.iter().enumerate() {
+            if index > 0 {
+                self.expect(",")?;
+            }
+            self.expect_name(argument.name)?;
+            let own = TYPES.iter().find(|(name, _)| *name == argument.name);
+            let array = || format!("[{scalar}; {}]", argument.length);
+            let kind = own.map_or_else(array, |(_, kind)| (*kind).to_owned());
+            self.expect_all(&format!(": & {kind}"))?;
+        }
+        let returned = match (head.structure, head.fields.as_slice()) {
+            (Some(name), _) => name.to_owned(),
+            (None, [("load", _)]) => "Load".to_owned(),
+            (None, [(_, shape)]) => {
+                let lengths = shape.iter().rev();
+                lengths.fold(scalar.to_owned(), |kind, length| {
+                    format!("[{kind}; {length}]")
+                })
+            }
+            _ => return self.refuse("a struct of the results expected"),
+        };
+        self.expect_all(&format!(") -> {returned} {{"))
+    }
+
+    /// Reads all statements up to the result; those of a part of a long function, up to its names.
+    fn statements(&mut self, is_part: bool) -> Read<()> {
+        while self.take("let") {
+            match (self.peek(0), self.peek(1)) {
+                ("(", "[") => self.together()?,
+                ("(", name) if name.starts_with('t') && !is_part => self.part()?,
+                ("(", _) => {
+                    self.next();
+                    let sine = self.next();
+                    self.expect(",")?;
+                    let cosine = self.next();
+                    self.expect_all(") =")?;
+                    self.sines(&[(sine, true), (cosine, false)])?;
+                }
+                _ => {
+                    let name = self.next();
+                    self.expect("=")?;
+                    match name.chars().next() {
+                        Some('s') => self.sines(&[(name, true)])?,
+                        Some('c') => self.sines(&[(name, false)])?,
+                        Some('r') => self.root(name)?,
+                        _ => self.operation(name)?,
+                    }
+                }
+            }
+            self.expect(";")?;
+        }
+        Ok(())
+    }
+
+    /// Reads what Coulomb friction needs of a speed; roots are correctly rounded, whoever computes
+    /// them.
+    fn root(&mut self, name: &'r str) -> Read<()> {
+        let libraries = ["libm", "dalembert_sines"];
+        let place = if self.is_vectors { 7 } else { 2 };
+        let own = libraries.iter().find(|own| **own == self.peek(place));
+        let library = match self.is_vectors {
+            true => "dalembert_batch",
+            false => own.unwrap_or(&libraries[0]),
+        };
+        self.speed(name, &format!("{library} ::"))
+    }
+
+    /// Reads sines and cosines of one angle: by a call, or by polynomials.
+    fn sines(&mut self, names: &[(&'r str, bool)]) -> Read<()> {
+        if self.take("{") {
+            return self.polynomials(names);
+        }
+        let end = self.suffix();
+        let (called, method) = match names {
+            [(_, true)] => ("sin", "each"),
+            [(_, false)] => ("cos", "each"),
+            _ => ("sincos", "both"),
+        };
+        let joint = match self.is_vectors {
+            true => {
+                let joint = self.angle()?;
+                self.expect_all(&format!(". {method} (libm :: {called}{end})"))?;
+                joint
+            }
+            false => {
+                self.expect_all(&format!("libm :: {called}{end} ("))?;
+                let joint = self.angle()?;
+                self.expect(")")?;
+                joint
+            }
+        };
+        let mut names = names.iter();
+        names.try_for_each(|(name, is_sine)| self.name_sine(name, joint, *is_sine, Source::Libm))
+    }
+
+    /// Reads the block of an angle's polynomials.
+    fn polynomials(&mut self, names: &[(&'r str, bool)]) -> Read<()> {
+        let number = names[0]
+            .0
+            .get(1..)
+            .and_then(|own| own.parse::<usize>().ok());
+        let Some(joint) = number.and_then(|number| number.checked_sub(1)) else {
+            return self.refuse("the name of a sine expected");
+        };
+        self.begin_polynomial();
+        while self.take("let") {
+            let name = self.next();
+            self.expect("=")?;
+            self.polynomial_step(name, "x", joint)?;
+            self.expect(";")?;
+        }
+        for (index, (name, is_sine)) in names.iter().enumerate() {
+            if names.len() > 1 {
+                self.expect(if index == 0 { "(" } else { "," })?;
+            }
+            let source = self.polynomial_result("x", joint)?;
+            self.name_sine(name, joint, *is_sine, source)?;
+        }
+        self.expect_all(if names.len() > 1 { ") }" } else { "}" })
+    }
+
+    /// Reads one call for all angles: `([s1, _], [c1, c2]) = …::sincos(&[q[0], q[1]])`.
+    fn together(&mut self) -> Read<()> {
+        self.expect("(")?;
+        let sines = self.listed()?;
+        self.expect(",")?;
+        let cosines = self.listed()?;
+        let end = self.suffix();
+        self.expect_all(&format!(") = dalembert_sines :: sincos{end} (& ["))?;
+        let mut angles = Vec::new();
+        while !self.take("]") {
+            if !angles.is_empty() {
+                self.expect(",")?;
+            }
+            angles.push(self.angle()?);
+        }
+        self.expect(")")?;
+        self.name_together(&angles, [&sines, &cosines])
+    }
+
+    /// Takes names in brackets.
+    fn listed(&mut self) -> Read<Vec<&'r str>> {
+        self.expect("[")?;
+        let mut names = Vec::new();
+        while !self.take("]") {
+            if !names.is_empty() {
+                self.expect(",")?;
+            }
+            names.push(self.next());
+            if self.at == self.tokens.len() {
+                return self.refuse("`]` expected");
+            }
+        }
+        Ok(names)
+    }
+
+    /// Names sines and cosines that one call gives; what nothing reads has no name.
+    fn name_together(&mut self, angles: &[usize], names: [&[&'r str]; 2]) -> Read<()> {
+        if names.iter().any(|own| own.len() != angles.len()) {
+            return self.refuse("as many sines, cosines and angles are expected");
+        }
+        for (place, &joint) in angles.iter().enumerate() {
+            let own = names.map(|names| names[place]);
+            if own == ["_"; 2] {
+                return self.refuse("neither sine nor cosine of an angle is taken");
+            }
+            for (name, is_sine) in own.into_iter().zip([true, false]) {
+                if name != "_" {
+                    self.name_sine(name, joint, is_sine, Source::Together)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads a part of a long function: `(t1, t2,) = { … (t1, t2,) }`. It hands on values by
+    /// their names, and the others are no more.
+    fn part(&mut self) -> Read<()> {
+        let start = self.at;
+        while !matches!(self.next(), ")" | "" | ";") {}
+        let words: Vec<&str> = self.tokens[start..self.at]
+            .iter()
+            .map(|own| own.text)
+            .collect();
+        self.expect_all("= {")?;
+        let before = self.names.clone();
+        self.statements(true)?;
+        for word in &words {
+            self.expect(word)?;
+        }
+        self.expect("}")?;
+        let inside = std::mem::replace(&mut self.names, before);
+        let names = words[1..words.len() - 1].chunks(2);
+        for pair in names {
+            let known = inside.get(pair[0]).filter(|_| pair.get(1) == Some(&","));
+            let Some(value) = known.cloned() else {
+                return self.refuse("a part hands on what is not there");
+            };
+            if self.names.insert(pair[0], value).is_some() {
+                return self.refuse("a part hands on what was there before");
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads the array or the struct that a function ends with.
+    fn results(&mut self) -> Read<()> {
+        let head = self.head;
+        if let Some(name) = head.structure {
+            self.expect_all(&format!("{name} {{"))?;
+            for (field, shape) in &head.fields {
+                self.expect_all(&format!("{field} :"))?;
+                self.array(shape)?;
+                self.expect(",")?;
+            }
+            return self.expect("}");
+        }
+        let Some((field, shape)) = head.fields.first() else {
+            return self.refuse("a result expected");
+        };
+        let is_load = *field == "load";
+        self.expect_all(if is_load { "Load (" } else { "" })?;
+        self.array(shape)?;
+        self.expect_all(if is_load { ")" } else { "" })
+    }
+
+    /// Reads the results of an array, row by row.
+    fn array(&mut self, shape: &[usize]) -> Read<()> {
+        let Some((length, inner)) = shape.split_first() else {
+            let result = self.signed()?;
+            self.function.program.outputs.push(result);
+            return Ok(());
+        };
+        self.expect("[")?;
+        for index in 0..*length {
+            if index > 0 && inner.is_empty() {
+                self.expect(",")?;
+            }
+            self.array(inner)?;
+            if !inner.is_empty() {
+                self.expect(",")?;
+            }
+        }
+        self.expect("]")
+    }
+
+    /// Reads the type and the function of any number of states: the same operations over vectors,
+    /// and what follows from the head.
+    fn columns(&mut self) -> Read<()> {
+        let (head, scalar, n) = (self.head, self.head.scalar(), self.head.joints);
+        let single = self.function.clone();
+        let is_together = |own: &&super::Sines| own.source == Source::Together;
+        let taken: Vec<usize> = single
+            .sines
+            .iter()
+            .filter(is_together)
+            .map(|own| own.joint)
+            .collect();
+        let (count, k) = (head.arguments.len(), taken.len());
+        let entries = single.program.outputs.len();
+        let kind = format!("{}Batch", camel(head.name));
+        let sizes = format!("{count}, {n}, {entries}, {k}");
+        let is_fused = single.program.steps.iter().any(|step| step.0 == '×') && k > 0;
+        let fused = if is_fused {
+            "const FUSED: bool = true;"
+        } else {
+            ""
+        };
+        self.expect_all(&format!(
+            "#[derive(Clone, Copy, Debug)] pub struct {kind};
+            impl dalembert_batch::Function<{sizes}> for {kind} {{
+            type Scalar = {scalar}; {fused}
+            #[inline(always)] fn angles<V: dalembert_batch::Floats<{scalar}>>(["
+        ))?;
+        self.argument_names()?;
+        let list: Vec<String> = taken.iter().map(|joint| format!("q[{joint}]")).collect();
+        self.expect_all(&format!(
+            "]: &[[V; {n}]; {count}]) -> [V; {k}] {{ [{}] }}
+            #[inline(always)] fn vectors<V: dalembert_batch::Vector<{scalar}>>([",
+            list.join(", ")
+        ))?;
+        self.argument_names()?;
+        self.names.clear();
+        (self.function.sines, self.function.speeds) = (Vec::new(), Vec::new());
+        (self.function.program.steps, self.function.program.outputs) = (Vec::new(), Vec::new());
+        self.expect_all(&format!("]: &[[V; {n}]; {count}], &"))?;
+        let sines = self.listed()?;
+        self.expect_all(&format!(": &[V; {k}], &"))?;
+        let cosines = self.listed()?;
+        self.expect_all(&format!(": &[V; {k}]) -> [V; {entries}] {{"))?;
+        self.name_together(&taken, [&sines, &cosines])?;
+        self.is_vectors = true;
+        if self.peek(1) == "of" {
+            let first = head.arguments.first().map_or("", |own| own.name);
+            self.expect_all(&format!("let of = {first}[0];"))?;
+            self.has_of = true;
+        }
+        self.statements(false)?;
+        self.array(&[entries])?;
+        self.is_vectors = false;
+        let sorted = |mut own: Function| {
+            own.sines.sort_by_key(|sines| sines.joint);
+            // Zeros are told apart by their signs.
+            format!("{own:?}")
+        };
+        let vectors = std::mem::replace(&mut self.function, single.clone());
+        if sorted(vectors) != sorted(single) {
+            return self.refuse("other operations over vectors than of one state");
+        }
+        let columns: Vec<String> = head
+            .arguments
+            .iter()
+            .map(|own| format!("{}: &[&[{scalar}]; {n}], ", own.name))
+            .collect();
+        let names: Vec<&str> = head.arguments.iter().map(|own| own.name).collect();
+        self.expect_all(&format!(
+            "}} }} pub fn {name}_columns({}results: &mut [&mut [{scalar}]; {entries}])
+            -> Result<(), dalembert_batch::Unequal> {{
+            dalembert_batch::columns::<{kind}, {sizes}>([{}], results) }}",
+            columns.concat(),
+            names.join(", "),
+            name = head.name,
+        ))
+    }
+
+    /// Takes the names of all arguments.
+    fn argument_names(&mut self) -> Read<()> {
+        let head = self.head;
+        for (index, argument) in head.arguments.iter().enumerate() {
+            if index > 0 {
+                self.expect(",")?;
+            }
+            self.expect_name(argument.name)?;
+        }
+        Ok(())
+    }
+}
+
+/// Returns a name as those of types are.
+pub(super) fn camel(name: &str) -> String {
+    let words = name.split('_').filter_map(|word| word.split_at_checked(1));
+    let words = words.map(|(first, rest)| first.to_ascii_uppercase() + rest);
+    words.collect()
+}
