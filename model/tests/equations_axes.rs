@@ -3,12 +3,12 @@
 //! choice of axes, against Lagrange–Euler in the prime field.
 
 use crate::equations_support::known::Known;
-use crate::equations_support::random;
+use crate::equations_support::random::{self, CONVENTIONS, known};
 use dalembert_model::equations::chain::composite::{Composite, CompositeOrder};
 use dalembert_model::equations::chain::recursion::{AccelerationForm, MomentForm};
 use dalembert_model::equations::chain::{Chain, Regrouping, Skeleton};
-use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};
-use dalembert_model::robot::{Convention, JointKind};
+use dalembert_model::equations::{Arm, Formulation, SinCosPair};
+use dalembert_model::robot::Convention;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
 
@@ -21,8 +21,7 @@ enum Twist {
 }
 
 fn arm(convention: Convention, twists: &[Twist], slides: u32, points: &mut Points) -> Arm<Known> {
-    let kinds = random::kinds(twists.len(), slides);
-    let mut arm = random::case(convention, &kinds, points).arm;
+    let mut arm = random::case(convention, twists.len(), slides, points).arm;
     for (link, twist) in arm.links.iter_mut().zip(twists) {
         let (sin, cos) = match twist {
             Twist::Along => (Field::ZERO, Field::ONE),
@@ -48,26 +47,20 @@ fn choices(chain: &Chain<Known>) -> Vec<Vec<i32>> {
 }
 
 fn compare(arm: &Arm<Known>, points: &mut Points) -> usize {
-    let position: Vec<_> = arm
-        .links
-        .iter()
-        .map(|link| match link.kind {
-            JointKind::Revolute => JointPosition::Revolute(random::pair(points).map(|x| Known(*x))),
-            JointKind::Prismatic => JointPosition::Prismatic(Known(points.field())),
-        })
-        .collect();
-    let n = arm.links.len();
-    let mut draw = || (0..n).map(|_| Known(points.field())).collect::<Vec<_>>();
+    let position = random::position(arm, points, Known);
+    let mut draw = || known(&random::fields(arm.links.len(), points));
     let (qd, qdd) = (draw(), draw());
     let (textbook, at) = (Formulation::LagrangeEuler, arm.at(&position));
     let torque = textbook.inverse_dynamics(arm, &at, &qd, &qdd);
     let inertia = textbook.inertia(arm, &at);
     let christoffel = textbook.christoffel(arm, &at);
     let gravity = textbook.gravity(arm, &at);
-    let by_position = textbook.torque_by_position(arm, &at, &qd, &qdd);
     let (v, a) = (draw(), draw());
     let passivity = textbook.passivity(arm, &at, &qd, [&v, &a]);
-    let by_velocity = textbook.torque_by_velocity(arm, &at, &qd);
+    let first = [
+        textbook.torque_by_position(arm, &at, &qd, &qdd),
+        textbook.torque_by_velocity(arm, &at, &qd),
+    ];
     let (state, rest) = ([&qd[..], &qdd, &v], [&qd[..], &v]);
     let second = [
         textbook.torque_by_positions(arm, &at, state),
@@ -84,10 +77,8 @@ fn compare(arm: &Arm<Known>, points: &mut Points) -> usize {
             link.axes = axes;
         }
         let (posed, at) = chain.posed(&position);
-        for (spin, couple) in [
-            (AccelerationForm::Column, MomentForm::SecondMoments),
-            (AccelerationForm::Rates, MomentForm::Euler),
-        ] {
+        let columns = (AccelerationForm::Column, MomentForm::SecondMoments);
+        for (spin, couple) in [columns, (AccelerationForm::Rates, MomentForm::Euler)] {
             let found = posed.inverse_dynamics(&at, &qd, &qdd, spin, couple);
             assert_eq!(found, torque, "{choice:?}");
         }
@@ -96,9 +87,8 @@ fn compare(arm: &Arm<Known>, points: &mut Points) -> usize {
         for travel in [CompositeOrder::Outward, CompositeOrder::Inward] {
             assert_eq!(composite.inertia(travel), inertia, "{choice:?}");
             assert_eq!(composite.gravity(travel), gravity, "{choice:?}");
-            let slopes = composite.slopes(&qd, &qdd, travel);
-            assert_eq!(slopes.position, by_position, "{choice:?}");
-            assert_eq!(slopes.velocity, by_velocity, "{choice:?}");
+            let own = composite.slopes(&qd, &qdd, travel);
+            assert_eq!([own.position, own.velocity], first, "{choice:?}");
             let own = composite.second_derivatives(state, travel);
             let own = [own.position, own.mixed, own.velocity, own.driven];
             assert_eq!(own, second, "{choice:?}");
@@ -113,7 +103,7 @@ fn axes_change_nothing() {
     use Twist::{Across, Against, Along};
     let mut points = Points::new(77);
     let mut seen = 0;
-    for convention in [Convention::Standard, Convention::Modified] {
+    for convention in CONVENTIONS {
         for (twists, slides) in [
             (&[Along, Along, Along][..], 0),
             (&[Along, Against, Along, Against], 0),

@@ -1,128 +1,213 @@
-//! The generic runtime in f64 against the extreme cases: speeds, sizes, mass
-//! ratios, far bases, huge angles, long snakes.
+//! The extreme cases: speeds, sizes, mass ratios, far bases, huge angles, long snakes; the
+//! generic runtime within ulps, the wide float against the 30 digits.
 
-use crate::equations_support::extremes::{self, Extreme};
-use crate::equations_support::normwise;
-use dalembert_model::equations::SinCosPair;
+use crate::equations_support::golden::{self, by_runtime, check, extreme, list, numbers};
+use crate::equations_support::{placed, sincos};
+use crate::support::vector;
+use dalembert_model::equations::{Arm, Formulation, SinCosPair};
+use dalembert_model::number::parse::parse_decimal;
+use dalembert_model::number::{Rational, Wide};
 use dalembert_model::reference::{Reference, WrongLength};
+use dalembert_model::scalar::Scalar;
 use nalgebra::DVector;
+use serde_json::Value;
 
 const U: f64 = f64::EPSILON / 2.0;
+const STATE: [&str; 3] = ["q", "qd", "qdd"];
 
-fn runtime(case: &Extreme) -> Reference<f64> {
-    let pair = |angle: f64| {
-        let (sin, cos) = libm::sincos(angle);
-        SinCosPair { sin, cos }
-    };
-    Reference::new(case.arm(|x| x, pair))
-}
-
-fn vector(values: &[f64]) -> DVector<f64> {
-    DVector::from_column_slice(values)
-}
-
-fn numbers(texts: &[String]) -> Vec<f64> {
-    texts.iter().map(|text| text.parse().unwrap()).collect()
+fn runtime(case: &Value) -> Reference<f64> {
+    Reference::new(extreme(case, |x| x, sincos))
 }
 
 #[test]
-fn torques_stay_within_100_u() {
-    let mut worst = (0.0, String::new());
-    for case in extremes::read() {
-        let reference = runtime(&case);
-        let [q, qd, qdd] = [&case.q, &case.qd, &case.qdd].map(|x| vector(x));
-        let tau = reference.inverse_dynamics(&q, &qd, &qdd).unwrap();
-        let c = reference.gravity(&q).unwrap();
-        assert!(tau.iter().chain(&c).all(|x| x.is_finite()), "{}", case.id);
+fn the_runtime_stays_within_100_u() {
+    let mut worst = (0.0, Value::Null);
+    for case in golden::extremes() {
+        let (runtime, id) = (runtime(&case), case["id"].to_string());
+        let found = by_runtime(&runtime, &case);
+        assert!(
+            found[..2]
+                .iter()
+                .flat_map(|own| &own.1)
+                .all(|x| x.is_finite()),
+            "{id}"
+        );
         // Products of subnormal speeds underflow: the error is absolute there.
-        if case.category == "subnormal_vel_nograv" {
-            let truth = numbers(&case.tau);
-            assert!(tau.iter().zip(truth).all(|(a, b)| (a - b).abs() < 1e-300));
+        if case["category"] == "subnormal_vel_nograv" {
+            let pairs = found[0].1.iter().zip(numbers(&case["tau"]));
+            assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-300));
             continue;
         }
-        for (found, truth) in [(tau, &case.tau), (c, &case.c)] {
-            let error = normwise(found.as_slice(), &numbers(truth)) / U;
-            assert!(error <= 100.0, "{}: {error} u", case.id);
-            if error > worst.0 {
-                worst = (error, case.id.clone());
-            }
+        let is_normal = case["category"] == "normal";
+        let error = check(
+            &found[..if is_normal { 4 } else { 2 }],
+            &case,
+            100.0 * U,
+            &id,
+        );
+        if error > worst.0 {
+            worst = (error, case["id"].clone());
+        }
+        if is_normal {
+            let [q, qd] = ["q", "qd"].map(|key| vector(&numbers(&case[key])));
+            let symbols = runtime.christoffel(&q).unwrap();
+            let summed = symbols
+                .iter()
+                .map(|h| (qd.transpose() * h * &qd)[0])
+                .collect();
+            check(&[("h", summed)], &case, 1000.0 * U, &id);
         }
     }
-    println!("worst: {worst:?} u");
-}
-
-#[test]
-fn inertia_and_velocity_terms_are_of_the_arm() {
-    for case in extremes::read()
-        .iter()
-        .filter(|case| case.category == "normal")
-    {
-        let reference = runtime(case);
-        let [q, qd] = [&case.q, &case.qd].map(|x| vector(x));
-        let d = reference.inertia(&q).unwrap();
-        assert_eq!(d, d.transpose());
-        assert!(normwise(d.as_slice(), &numbers(&case.d.concat())) <= 100.0 * U);
-        let h = reference.coriolis(&q, &qd).unwrap();
-        assert!(normwise(h.as_slice(), &numbers(&case.h)) <= 100.0 * U);
-        let symbols = reference.christoffel(&q).unwrap();
-        let summed: Vec<f64> = symbols
-            .iter()
-            .map(|h| (qd.transpose() * h * &qd)[0])
-            .collect();
-        assert!(normwise(&summed, &numbers(&case.h)) <= 1000.0 * U);
-    }
+    println!("worst: {worst:?}");
 }
 
 #[test]
 fn what_is_not_finite_spreads_without_a_panic() {
-    let cases = extremes::read();
-    let case = &cases[0];
-    let reference = runtime(case);
+    let case = &golden::extremes()[0];
+    let runtime = runtime(case);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        for joint in 0..case.q.len() {
-            let [mut q, mut qd, mut qdd] = [&case.q, &case.qd, &case.qdd].map(|x| vector(x));
-            let values = [&mut q, &mut qd, &mut qdd];
-            for (which, values) in values.into_iter().enumerate() {
-                let good = values[joint];
-                values[joint] = bad;
-                let arguments = match which {
-                    0 => [values.clone(), vector(&case.qd), vector(&case.qdd)],
-                    1 => [vector(&case.q), values.clone(), vector(&case.qdd)],
-                    _ => [vector(&case.q), vector(&case.qd), values.clone()],
-                };
-                values[joint] = good;
-                let [q, qd, qdd] = arguments;
-                let tau = reference.inverse_dynamics(&q, &qd, &qdd).unwrap();
-                assert!(!tau[joint].is_finite());
-            }
+        for entry in 0..3 * runtime.joints() {
+            let mut state = STATE.map(|key| vector(&numbers(&case[key])));
+            let joint = entry / 3;
+            state[entry % 3][joint] = bad;
+            let tau = runtime
+                .inverse_dynamics(&state[0], &state[1], &state[2])
+                .unwrap();
+            assert!(!tau[joint].is_finite());
         }
     }
 }
 
 #[test]
 fn wrong_lengths_are_errors() {
-    let cases = extremes::read();
-    let reference = runtime(&cases[0]);
-    let [right, wrong] = [DVector::zeros(6), DVector::zeros(5)];
-    let error = |argument| {
-        Err(WrongLength {
+    let runtime = runtime(&golden::extremes()[0]);
+    for (short, argument) in STATE.into_iter().enumerate() {
+        let [q, qd, qdd] = [0, 1, 2].map(|own| DVector::zeros(if own == short { 5 } else { 6 }));
+        let (expected, found) = (6, 5);
+        let error = WrongLength {
             argument,
-            expected: 6,
-            found: 5,
-        })
-    };
-    assert_eq!(
-        reference.inverse_dynamics(&wrong, &right, &right),
-        error("q")
-    );
-    assert_eq!(
-        reference.inverse_dynamics(&right, &wrong, &right),
-        error("qd")
-    );
-    assert_eq!(
-        reference.inverse_dynamics(&right, &right, &wrong),
-        error("qdd")
-    );
-    let text = reference.gravity(&wrong).unwrap_err().to_string();
+            expected,
+            found,
+        };
+        assert_eq!(runtime.inverse_dynamics(&q, &qd, &qdd), Err(error));
+    }
+    let text = runtime.gravity(&DVector::zeros(5)).unwrap_err().to_string();
     assert_eq!(text, "`q` has 5 values, the arm has 6 joints");
+}
+
+fn number(x: f64) -> Wide {
+    Wide::from_f64(x).unwrap()
+}
+
+fn pair(angle: f64) -> SinCosPair<Wide> {
+    Wide::sincos_of(angle).unwrap()
+}
+
+fn wide(values: &Value) -> Vec<Wide> {
+    numbers(values).into_iter().map(number).collect()
+}
+
+/// Returns max|found − truth| / max|truth| as an f64.
+fn relative(found: &[Wide], truth: &[Wide]) -> f64 {
+    assert_eq!(found.len(), truth.len());
+    // Some are below the least double: compared as they are.
+    let largest = |values: &mut dyn Iterator<Item = Wide>| {
+        let sizes = values.map(|x| if x.is_negative() { x.neg() } else { x });
+        sizes.fold(
+            Wide::zero(),
+            |a, b| if a.sub(&b).is_negative() { b } else { a },
+        )
+    };
+    let error = largest(&mut found.iter().zip(truth).map(|(a, b)| a.sub(b)));
+    let size = largest(&mut truth.iter().copied());
+    // The file writes entries below 1e-70 of the scale as zero.
+    error.over(&size).unwrap_or(error).magnitude()
+}
+
+/// Reads the digits of lists in lists, of which some are beyond what a robot file may hold.
+fn digits(json: &Value) -> Vec<Wide> {
+    if let Value::Array(items) = json {
+        return items.iter().flat_map(digits).collect();
+    }
+    let text = json.as_str().unwrap();
+    let (digits, power) = text.split_once('e').unwrap_or((text, "0"));
+    let ten = Rational::from_integer(10.into()).pow(power.parse().unwrap());
+    vec![Wide::from_rational(&(parse_decimal(digits).unwrap() * ten))]
+}
+
+/// Checks τ, D, h and c of a case to 28 digits.
+fn check_digits(case: &Value, arm: &Arm<Wide>, formulation: Formulation) {
+    let at = placed(arm, &numbers(&case["q"]), number, pair);
+    let [qd, qdd] = ["qd", "qdd"].map(|key| wide(&case[key]));
+    let d = formulation.inertia(arm, &at);
+    let rows = d.iter().zip(list(&case["D"]));
+    let d: Vec<Wide> = rows
+        .flat_map(|(row, truth)| row[..list(truth).len()].to_vec())
+        .collect();
+    for (key, found) in [
+        ("tau", formulation.inverse_dynamics(arm, &at, &qd, &qdd)),
+        ("D", d),
+        ("h", formulation.velocity_terms(arm, &at, &qd)),
+        ("c", formulation.gravity(arm, &at)),
+    ] {
+        let error = relative(&found, &digits(&case[key]));
+        assert!(
+            error <= 1e-28,
+            "{} {formulation:?} {key}: {error:e}",
+            case["id"]
+        );
+    }
+}
+
+/// The link-frame recursion meets every extreme, with the base folded too; every formulation
+/// meets the short ones.
+#[test]
+fn wide_floats_have_28_digits() {
+    let cases = golden::extremes();
+    assert_eq!(cases.len(), 114);
+    for case in cases {
+        let arm = extreme(&case, number, pair);
+        let is_short = arm.links.len() <= 7;
+        for formulation in Formulation::ALL {
+            if is_short || formulation == Formulation::NewtonEulerLink {
+                check_digits(&case, &arm, formulation);
+            }
+        }
+        check_digits(&case, &arm.fold_base(), Formulation::NewtonEulerLink);
+    }
+}
+
+#[test]
+fn the_runtime_in_f32_stays_within_100_u() {
+    let u = f64::from(f32::EPSILON) / 2.0;
+    // Out of the range of f32, on purpose.
+    let out_of_range = [
+        "f32overflow_qd1e20",
+        "subnormal_vel_nograv",
+        "tiny_all",
+        "tiny_vel_nograv",
+    ];
+    let near_pair = |angle: f64| {
+        let (sin, cos) = libm::sincosf(angle as f32);
+        SinCosPair { sin, cos }
+    };
+    let exact = |x: &f32| number(f64::from(*x));
+    for case in golden::extremes() {
+        if out_of_range.iter().any(|own| case["category"] == *own) {
+            continue;
+        }
+        // The same arm and state in both: parameters rounded to f32.
+        let runtime = Reference::new(extreme(&case, |x| x as f32, near_pair));
+        let truth = extreme(&case, |x| exact(&(x as f32)), |x| near_pair(x).map(exact));
+        let [q, qd, qdd] =
+            STATE.map(|key| DVector::from_vec(numbers(&case[key])).map(|x| x as f32));
+        let tau = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
+        let big = |values: &DVector<f32>| values.iter().map(exact).collect::<Vec<_>>();
+        let rounded: Vec<f64> = q.iter().map(|x| f64::from(*x)).collect();
+        let at = placed(&truth, &rounded, number, pair);
+        let recursion = Formulation::NewtonEulerLink;
+        let truth = recursion.inverse_dynamics(&truth, &at, &big(&qd), &big(&qdd));
+        let error = relative(&big(&tau), &truth) / u;
+        assert!(error <= 100.0, "{}: {error} u", case["id"]);
+    }
 }

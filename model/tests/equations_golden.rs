@@ -1,75 +1,47 @@
 //! Every formulation in f64 against τ, D, h and c of an independent library.
 
-use crate::equations_support::{golden, normwise, positions};
-use dalembert_model::equations::{Arm, Formulation};
-use dalembert_model::read;
+use crate::equations_support::golden::{by_runtime, check, numbers, read};
+use crate::equations_support::{placed, sincos};
+use crate::support::{ROBOTS, generated, reading};
+use dalembert_model::equations::Formulation;
 use dalembert_model::reference::Reference;
-use nalgebra::DVector;
-
-/// The bound of the golden states, normwise.
-const BOUND: f64 = 1e-12;
 
 #[test]
-fn golden_states() {
-    for name in golden::ROBOTS {
-        let (arm, states) = golden::read(name);
-        for formulation in Formulation::ALL {
-            // Worst error of τ, D, h, c.
-            let mut worst = [0.0f64; 4];
-            for state in &states {
-                let at = arm.at(&positions(&arm, &state.q));
-                let tau = formulation.inverse_dynamics(&arm, &at, &state.qd, &state.qdd);
-                let d = formulation.inertia(&arm, &at).concat();
-                let h = formulation.velocity_terms(&arm, &at, &state.qd);
-                let c = formulation.gravity(&arm, &at);
-                let errors = [
-                    normwise(&tau, &state.tau),
-                    normwise(&d, &state.d),
-                    normwise(&h, &state.h),
-                    normwise(&c, &state.c),
-                ];
-                for (worst, error) in worst.iter_mut().zip(errors) {
-                    *worst = worst.max(error);
-                }
-            }
-            println!("{name} {formulation:?}: {worst:?}");
-            assert!(
-                worst.iter().all(|e| *e <= BOUND),
-                "{name} {formulation:?}: {worst:?}"
-            );
+fn formulations_give_the_golden_states() {
+    for name in ROBOTS {
+        let (arm, states) = read(name);
+        for (formulation, state) in Formulation::ALL
+            .iter()
+            .flat_map(|own| states.iter().map(move |state| (own, state)))
+        {
+            let [q, qd, qdd] = ["q", "qd", "qdd"].map(|key| numbers(&state[key]));
+            let at = placed(&arm, &q, |x| x, sincos);
+            let found = [
+                ("tau", formulation.inverse_dynamics(&arm, &at, &qd, &qdd)),
+                ("D", formulation.inertia(&arm, &at).concat()),
+                ("h", formulation.velocity_terms(&arm, &at, &qd)),
+                ("c", formulation.gravity(&arm, &at)),
+            ];
+            check(&found, state, 1e-12, &format!("{name} {formulation:?}"));
         }
     }
 }
 
-/// Returns the runtime of the arm in the golden file, and of the robot file.
-fn runtimes(name: &str, arm: Arm<f64>) -> [Reference<f64>; 2] {
-    let robots = concat!(env!("CARGO_MANIFEST_DIR"), "/../generated/robots");
-    let text = std::fs::read_to_string(format!("{robots}/{name}.toml")).unwrap();
-    let reading = read::parse(&text, &read::Options::default()).unwrap();
-    [Reference::new(arm), Reference::from_robot(&reading.robot)]
-}
-
+/// The runtime of the arm in the golden file, and that of the robot file.
 #[test]
-fn runtime_on_golden_states() {
-    let bound = 100.0 * f64::EPSILON / 2.0;
-    for name in golden::ROBOTS {
-        let (arm, states) = golden::read(name);
-        let vector = |values: &[f64]| DVector::from_column_slice(values);
-        let runtimes = runtimes(name, arm);
-        for (runtime, state) in runtimes
-            .iter()
-            .flat_map(|r| states.iter().map(move |s| (r, s)))
-        {
-            let [q, qd, qdd] = [&state.q, &state.qd, &state.qdd].map(|x| vector(x));
-            let tau = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
-            let d = runtime.inertia(&q).unwrap();
-            let h = runtime.coriolis(&q, &qd).unwrap();
-            let c = runtime.gravity(&q).unwrap();
-            assert!(normwise(tau.as_slice(), &state.tau) <= bound, "{name}");
-            // Symmetric: its columns are its rows.
-            assert!(normwise(d.as_slice(), &state.d) <= bound, "{name}");
-            assert!(normwise(h.as_slice(), &state.h) <= bound, "{name}");
-            assert!(normwise(c.as_slice(), &state.c) <= bound, "{name}");
+fn runtimes_give_the_golden_states() {
+    for name in ROBOTS {
+        let (arm, states) = read(name);
+        let robot = reading(&generated(name)).robot;
+        for runtime in [Reference::new(arm), Reference::from_robot(&robot)] {
+            for state in &states {
+                check(
+                    &by_runtime(&runtime, state),
+                    state,
+                    100.0 * f64::EPSILON / 2.0,
+                    name,
+                );
+            }
         }
     }
 }

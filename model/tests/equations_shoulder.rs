@@ -2,20 +2,19 @@
 //! those that were given, in the prime field.
 
 use crate::equations_support::known::Known;
-use crate::equations_support::random;
+use crate::equations_support::random::{self, known};
 use dalembert_model::equations::chain::composite::Composite;
 use dalembert_model::equations::chain::{
     Chain, EliminatedTip, Form, HandChoice, Regrouping, Skeleton, Unknowns,
 };
-use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};
-use dalembert_model::robot::{Convention, JointKind};
+use dalembert_model::equations::{Arm, Formulation, SinCosPair};
+use dalembert_model::robot::Convention;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
 
 /// Returns an arm whose first three axes meet, four if `four`.
 fn arm(n: usize, slides: u32, four: bool, points: &mut Points) -> Arm<Known> {
-    let kinds = random::kinds(n, slides);
-    let mut arm = random::case(Convention::Modified, &kinds, points).arm;
+    let mut arm = random::case(Convention::Modified, n, slides, points).arm;
     let meeting = if four { 4 } else { 3 };
     for (i, link) in arm.links.iter_mut().enumerate().take(meeting) {
         if i > 0 {
@@ -33,30 +32,21 @@ fn arm(n: usize, slides: u32, four: bool, points: &mut Points) -> Arm<Known> {
     arm.map(|x| Known(*x))
 }
 
-/// The forms that solve for a shoulder as one.
-fn forms() -> Vec<Form> {
-    Form::with_shoulder(&Form::all(true, true, false, HandChoice::None))
+fn chain(arm: &Arm<Known>) -> Chain<Known> {
+    let skeleton = Skeleton::new(arm, &[]);
+    Chain::new(&skeleton, &Regrouping::base(&skeleton))
 }
 
 /// Finds q̈ in each form, by itself or with the tip eliminated before, and compares torques.
 fn compare(arm: &Arm<Known>, moves: &[bool], by_tip: bool, points: &mut Points) {
-    let position: Vec<_> = arm
-        .links
-        .iter()
-        .map(|link| match link.kind {
-            JointKind::Revolute => JointPosition::Revolute(random::pair(points).map(|x| Known(*x))),
-            JointKind::Prismatic => JointPosition::Prismatic(Known(points.field())),
-        })
-        .collect();
-    let n = arm.links.len();
-    let mut draw = || (0..n).map(|_| Known(points.field())).collect::<Vec<_>>();
-    let (qd, tau) = (draw(), draw());
-    let skeleton = Skeleton::new(arm, &[]);
-    let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
+    let position = random::position(arm, points, Known);
+    let [qd, tau] = [(); 2].map(|()| known(&random::fields(arm.links.len(), points)));
+    let chain = chain(arm);
     assert!(chain.has_shoulder());
     let (posed, at) = chain.posed(&position);
     let composite = Composite::new(&posed, &at);
-    for form in forms() {
+    // Those that solve for a shoulder as one.
+    for form in Form::with_shoulder(&Form::all(true, true, false, HandChoice::None)) {
         let given = [&qd[..], &tau];
         let found = match by_tip {
             false => composite.forward_dynamics_by_shoulder(given, moves, form),
@@ -112,22 +102,16 @@ fn so_they_are_where_the_tip_is_eliminated_before() {
 }
 
 #[test]
-fn one_joint_beyond_is_too_few() {
-    let mut points = Points::new(0x5404);
-    for (n, four) in [(4, false), (5, true)] {
-        let arm = arm(n, 0, four, &mut points);
-        let skeleton = Skeleton::new(&arm, &[]);
-        assert!(!Chain::new(&skeleton, &Regrouping::base(&skeleton)).has_shoulder());
-    }
-}
-
-#[test]
-fn axes_that_miss_each_other_have_no_shoulder() {
+fn a_shoulder_has_axes_that_meet_and_joints_beyond() {
     let mut points = Points::new(0x5403);
+    // One joint beyond is too few.
+    let mut arms = [(4, false), (5, true)]
+        .map(|(n, four)| arm(n, 0, four, &mut points))
+        .to_vec();
     for missed in [1, 2] {
         let mut arm = arm(7, 0, false, &mut points);
         arm.links[missed].a = Known(points.field());
-        let skeleton = Skeleton::new(&arm, &[]);
-        assert!(!Chain::new(&skeleton, &Regrouping::base(&skeleton)).has_shoulder());
+        arms.push(arm);
     }
+    assert!(arms.iter().all(|arm| !chain(arm).has_shoulder()));
 }

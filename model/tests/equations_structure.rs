@@ -4,60 +4,39 @@
 use std::collections::BTreeSet;
 
 use crate::equations_support::{golden, random};
-use dalembert_model::equations::{Formulation, JointPosition};
-use dalembert_model::robot::JointKind;
+use dalembert_model::equations::Formulation;
+use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
-use num_bigint::BigInt;
-use num_rational::BigRational;
 
-/// Returns the decimal number that a float is written as.
-fn decimal(x: f64) -> Field {
-    let text = format!("{x:e}");
-    let (digits, exponent) = text.split_once('e').unwrap();
-    let exponent: i32 = exponent.parse().unwrap();
-    let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
-    let numer: BigInt = format!("{whole}{fraction}").parse().unwrap();
-    let power = exponent - fraction.len() as i32;
-    let scale = BigRational::from_integer(10.into()).pow(power);
-    Field::from_rational(&(BigRational::from_integer(numer) * scale)).unwrap()
-}
-
-/// Returns Non-zero entries among all those given, and how many of them differ by more
-/// than a sign.
-fn nonzero_and_distinct(entries: &[Field]) -> (usize, usize) {
-    let nonzero = entries.iter().filter(|h| **h != Field::ZERO);
-    let sizes: BTreeSet<Field> = nonzero.clone().map(|h| *h.min(&h.neg())).collect();
-    (nonzero.count(), sizes.len())
+/// Returns how many of all entries do not vanish, and how many of these differ by more than a
+/// sign.
+pub fn nonzero_and_distinct(entries: impl IntoIterator<Item = Field>) -> (usize, usize) {
+    let nonzero: Vec<Field> = entries.into_iter().filter(|h| *h != Field::ZERO).collect();
+    let sizes: BTreeSet<Field> = nonzero.iter().map(|h| *h.min(&h.neg())).collect();
+    (nonzero.len(), sizes.len())
 }
 
 #[test]
 fn zeros_and_coincidences_are_those_known() {
+    let exact = Formulation::LagrangeEuler;
+    // The decimal number that a float is written as.
+    let decimal = |x: &f64| Field::from_rational(&parse_decimal(&format!("{x:e}")).unwrap());
+    let lower = |rows: &[Vec<Field>]| {
+        (0..6)
+            .flat_map(|m| rows[m][..=m].to_vec())
+            .collect::<Vec<_>>()
+    };
     for (robot, expected) in [("puma560", (84, 35)), ("stanford", (62, 34))] {
-        let arm = golden::read(robot).0.map(|x| decimal(*x));
-        let mut points = Points::new(40);
-        let position: Vec<_> = arm
-            .links
-            .iter()
-            .map(|link| match link.kind {
-                JointKind::Revolute => JointPosition::Revolute(random::pair(&mut points)),
-                JointKind::Prismatic => JointPosition::Prismatic(points.field()),
-            })
-            .collect();
-        let at = arm.at(&position);
-        let h = Formulation::LagrangeEuler.christoffel(&arm, &at);
-        let halves = h
-            .iter()
-            .flat_map(|h| (0..6).flat_map(move |m| h[m][..=m].to_vec()));
-        let halves: Vec<Field> = halves.collect();
+        let arm = golden::read(robot).0.map(|x| decimal(x).unwrap());
+        let at = arm.at(&random::position(&arm, &mut Points::new(40), |x| x));
+        let h = exact.christoffel(&arm, &at);
+        let halves: Vec<Field> = h.iter().flat_map(|h| lower(h)).collect();
         assert_eq!(halves.len(), 126);
-        assert_eq!(nonzero_and_distinct(&halves), expected, "{robot}");
+        assert_eq!(nonzero_and_distinct(halves), expected, "{robot}");
         if robot == "puma560" {
-            let d = Formulation::LagrangeEuler.inertia(&arm, &at);
-            let lower: Vec<_> = (0..6).flat_map(|i| d[i][..=i].to_vec()).collect();
-            assert_eq!(nonzero_and_distinct(&lower).0, 19);
-            let c = Formulation::LagrangeEuler.gravity(&arm, &at);
-            assert_eq!(nonzero_and_distinct(&c).0, 4);
+            assert_eq!(nonzero_and_distinct(lower(&exact.inertia(&arm, &at))).0, 19);
+            assert_eq!(nonzero_and_distinct(exact.gravity(&arm, &at)).0, 4);
         }
     }
 }

@@ -1,16 +1,14 @@
-//! Coulomb friction: its torque by hand, its slopes by differences of 76 digits, and
-//! what it leaves alone.
+//! Coulomb friction: its torque by hand, and what it leaves alone. Its slopes are in `outputs`.
 
+use crate::support::{data, ratio, reading, vector, written};
 use dalembert_model::number::Rational;
 use dalembert_model::outputs::Quantity;
-use dalembert_model::read::{Options, parse};
 use dalembert_model::reference::{JointVectors, Reference};
-use dalembert_model::robot::{Robot, write};
+use dalembert_model::robot::Robot;
 use nalgebra::DVector;
 
 fn robot() -> Robot {
-    let source = include_str!("data/coulomb.toml");
-    parse(source, &Options::default()).unwrap().robot
+    reading(&data("coulomb.toml")).robot
 }
 
 fn without(robot: &Robot) -> Robot {
@@ -22,9 +20,12 @@ fn without(robot: &Robot) -> Robot {
     robot
 }
 
-fn vector(values: [f64; 3]) -> DVector<f64> {
-    DVector::from_column_slice(&values)
+/// Returns the runtimes of the arm with its friction and without.
+fn both() -> [Reference<f64>; 2] {
+    [&robot(), &without(&robot())].map(Reference::from_robot)
 }
+
+const Q: [f64; 3] = [0.4, 0.1, -1.1];
 
 /// What it is, the keys of the file apart.
 const FORCES: [f64; 3] = [2.5, 14.0, 0.0];
@@ -59,16 +60,13 @@ fn passivity(arm: &Reference<f64>, [q, qd, v, a]: [&DVector<f64>; 4]) -> DVector
 /// does; with v = q̇ and a = q̈ passivity is inverse dynamics.
 #[test]
 fn the_runtime_has_the_torque_of_the_textbook() {
-    let (with, plain) = (robot(), without(&robot()));
-    let [with, plain] = [&with, &plain].map(Reference::<f64>::from_robot);
-    let (q, qdd) = (vector([0.4, 0.1, -1.1]), vector([2.0, -3.0, 5.0]));
+    let [with, plain] = both();
+    let [q, qdd, tau] = [Q, [2.0, -3.0, 5.0], [3.0, -40.0, 0.5]].map(|x| vector(&x));
     for velocities in VELOCITIES {
-        let (qd, friction) = (vector(velocities), vector(by_hand(&velocities)));
-        let tau = with.inverse_dynamics(&q, &qd, &qdd).unwrap();
-        let rest = plain.inverse_dynamics(&q, &qd, &qdd).unwrap();
-        close(&tau, &(&rest + &friction));
-        close(&passivity(&with, [&q, &qd, &qd, &qdd]), &tau);
-        let tau = vector([3.0, -40.0, 0.5]);
+        let [qd, friction] = [velocities, by_hand(&velocities)].map(|x| vector(&x));
+        let [own, rest] = [&with, &plain].map(|arm| arm.inverse_dynamics(&q, &qd, &qdd).unwrap());
+        close(&own, &(&rest + &friction));
+        close(&passivity(&with, [&q, &qd, &qd, &qdd]), &own);
         let found = with.forward_dynamics(&q, &qd, &tau).unwrap();
         let less = plain.forward_dynamics(&q, &qd, &(&tau - &friction));
         close(&found, &less.unwrap());
@@ -85,18 +83,12 @@ fn the_runtime_has_the_torque_of_the_textbook() {
 /// another v it is F v/√(q̇² + w²).
 #[test]
 fn passivity_takes_friction_as_a_damping() {
-    let (with, plain) = (robot(), without(&robot()));
-    let [with, plain] = [&with, &plain].map(Reference::<f64>::from_robot);
-    let [q, qd, v, a] = [
-        [0.4, 0.1, -1.1],
-        [0.02, -0.01, 2.0],
-        [-0.3, 0.2, 1.0],
-        [2.0, -3.0, 5.0],
-    ]
-    .map(vector);
+    let [with, plain] = both();
+    let states = [Q, [0.02, -0.01, 2.0], [-0.3, 0.2, 1.0], [2.0, -3.0, 5.0]];
+    let [q, qd, v, a] = states.map(|x| vector(&x));
     let damped = |i: usize| FORCES[i] * v[i] / qd[i].hypot(WIDTHS[i]);
     let rest = passivity(&plain, [&q, &qd, &v, &a]);
-    let expected = &rest + &vector(std::array::from_fn(damped));
+    let expected = &rest + &vector(&[0, 1, 2].map(damped));
     close(&passivity(&with, [&q, &qd, &v, &a]), &expected);
 }
 
@@ -104,106 +96,23 @@ fn passivity_takes_friction_as_a_damping() {
 /// the text, and so the hash, that it had.
 #[test]
 fn files_keep_it() {
-    let robot = robot();
-    let text = write(&robot);
+    let (robot, plain) = (robot(), without(&robot()));
+    let text = written(&robot);
     assert!(
         text.contains("coulomb = 14\ncoulomb_width = \"1/300\"\n"),
         "{text}"
     );
-    assert_eq!(parse(&text, &Options::default()).unwrap().robot, robot);
-    let plain = without(&robot);
     assert_ne!(plain.input_hash(), robot.input_hash());
-    assert!(!write(&plain).contains("coulomb_"));
+    assert!(!written(&plain).contains("coulomb_"));
 }
 
 /// A width alone is none: there is nothing that it smooths.
 #[test]
 fn a_width_without_a_force_changes_nothing() {
-    let (mut idle, plain) = (without(&robot()), without(&robot()));
-    idle.joints[0].coulomb_width = Rational::new(1.into(), 2.into());
+    let mut idle = without(&robot());
+    idle.joints[0].coulomb_width = ratio(1, 2);
     assert_eq!(idle.validate(), []);
-    let [idle, plain] = [&idle, &plain].map(Reference::<f64>::from_robot);
-    let (q, qd, qdd) = (vector([0.4, 0.1, -1.1]), vector([1.0; 3]), vector([2.0; 3]));
-    assert_eq!(
-        idle.inverse_dynamics(&q, &qd, &qdd),
-        plain.inverse_dynamics(&q, &qd, &qdd)
-    );
-}
-
-mod slopes {
-    use dalembert_model::equations::{Arm, Formulation, JointPosition};
-    use dalembert_model::number::parse::parse_decimal;
-    use dalembert_model::number::{Angle, Wide};
-    use dalembert_model::robot::JointKind;
-    use dalembert_model::scalar::{Divide, Scalar};
-
-    fn wide(text: &str) -> Wide {
-        Wide::from_rational(&parse_decimal(text).unwrap())
-    }
-
-    /// Returns the arm at a velocity.
-    fn at_speed(qd: &[Wide]) -> Arm<Wide> {
-        let arm = Arm::from_robot(&super::robot(), &mut Wide::from_exact);
-        let speeds = arm.links.iter().zip(qd);
-        let speeds = speeds.map(|(link, qd)| link.friction.per_speed(qd, Wide::sqrt));
-        let speeds: Vec<Option<Wide>> = speeds.collect();
-        arm.at_speeds(&speeds)
-    }
-
-    fn differ(found: &[Vec<Wide>], expected: &[Vec<Wide>]) -> f64 {
-        let pairs = found.iter().flatten().zip(expected.iter().flatten());
-        pairs.fold(0.0, |most: f64, (found, expected)| {
-            most.max(found.sub(expected).magnitude())
-        })
-    }
-
-    /// ∂τ/∂q̇ and ∂q̈/∂q̇ of all formulations are what τ and q̈ change by: central
-    /// differences over 2e-25, of which the rest is of the third derivative, below
-    /// 1e-41 here, and the digits lost are 25 of 76.
-    #[test]
-    fn slopes_are_differences() {
-        let position = [("0.4", true), ("0.1", false), ("-1.1", true)];
-        let (step, twice) = (wide("1e-25"), wide("2e-25"));
-        for velocities in super::VELOCITIES {
-            let qd = velocities.map(|x| Wide::from_f64(x).unwrap());
-            let arm = at_speed(&qd);
-            let q = position.map(|(q, turns)| match turns {
-                true => {
-                    let angle = Angle::Radians(parse_decimal(q).unwrap());
-                    JointPosition::Revolute(Wide::sincos(&angle))
-                }
-                false => JointPosition::Prismatic(wide(q)),
-            });
-            assert_eq!(arm.links[1].kind, JointKind::Prismatic);
-            let at = arm.at(&q);
-            let [qdd, tau] = [["2", "-3", "5"], ["3", "-40", "0.5"]].map(|x| x.map(wide));
-            let moves = [true; 3];
-            for form in Formulation::ALL {
-                let results = |qd: &[Wide; 3]| {
-                    let arm = at_speed(qd);
-                    let tau_of = form.inverse_dynamics(&arm, &at, qd, &qdd);
-                    [tau_of, form.forward_dynamics(&arm, &at, qd, &tau, &moves)]
-                };
-                let found = [
-                    form.torque_by_velocity(&arm, &at, &qd),
-                    form.acceleration_slopes(&arm, &at, &qd, &tau, &moves)[1].clone(),
-                ];
-                let mut expected = [(); 2].map(|()| vec![vec![Wide::zero(); 3]; 3]);
-                for k in 0..3 {
-                    let (mut more, mut less) = (qd, qd);
-                    (more[k], less[k]) = (qd[k].add(&step), qd[k].sub(&step));
-                    let pairs = results(&more).into_iter().zip(results(&less));
-                    for (rows, (more, less)) in expected.iter_mut().zip(pairs) {
-                        for (i, row) in rows.iter_mut().enumerate() {
-                            row[k] = Divide::div(&more[i].sub(&less[i]), &twice);
-                        }
-                    }
-                }
-                for (found, expected) in found.iter().zip(&expected) {
-                    let error = differ(found, expected);
-                    assert!(error < 1e-40, "{form:?} at {velocities:?}: {error:e}");
-                }
-            }
-        }
-    }
+    let (q, qd, qdd) = (vector(&Q), vector(&[1.0; 3]), vector(&[2.0; 3]));
+    let torques = |arm: &Reference<f64>| arm.inverse_dynamics(&q, &qd, &qdd);
+    assert_eq!(torques(&Reference::from_robot(&idle)), torques(&both()[1]));
 }

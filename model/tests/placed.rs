@@ -1,42 +1,38 @@
 //! Joints by placements: the same arm as by its DH rows, whatever the frames;
 //! and the same torques and poses as a recursion that knows nothing of DH.
 
-use crate::placed_support::{Drawn, compare, file};
-use crate::read_errors::rows;
+use crate::placed_support::{Arm, Drawn, compare, file};
+use crate::support::{changes, data, generated, has, only, reading, replaced, said, written};
 use dalembert_model::number::Angle;
-use dalembert_model::read::{Options, Reading, parse};
-use dalembert_model::robot::{Robot, write};
+use dalembert_model::robot::Robot;
 use num_traits::{Signed, ToPrimitive};
-
-fn reading(text: &str) -> Reading {
-    parse(text, &Options::default()).unwrap_or_else(|e| panic!("{}", e.render("arm.toml", text)))
-}
-
-fn data(name: &str) -> String {
-    let path = format!("{}/tests/data/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-    std::fs::read_to_string(path).unwrap()
-}
-
-fn checked_in(name: &str) -> String {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../generated/robots");
-    std::fs::read_to_string(format!("{folder}/{name}.toml")).unwrap()
-}
 
 /// Right angles and decimals: the rows come out as somebody wrote them, to the
 /// last digit of every inertia; so proofs, plans and counts are the same.
 #[test]
 fn the_same_arm_is_the_same_robot() {
-    let mut puma = reading(&data("puma560_placed")).robot;
-    // Poses of links are of the frames that the file has, which no torque depends on.
-    puma.joints.iter_mut().for_each(|joint| joint.frame = None);
-    assert_eq!(puma, reading(&checked_in("puma560")).robot);
-    assert_eq!(
-        puma.short_hash(),
-        reading(&checked_in("puma560")).robot.short_hash()
-    );
-    let mut scara = reading(&data("scara_placed")).robot;
-    scara.joints.iter_mut().for_each(|joint| joint.frame = None);
-    assert_eq!(scara, reading(&data("scara")).robot);
+    for (placed, rows) in [
+        ("puma560_placed.toml", generated("puma560")),
+        ("scara_placed.toml", data("scara.toml")),
+    ] {
+        let (mut placed, rows) = (reading(&data(placed)).robot, reading(&rows).robot);
+        // Poses of links are of the frames that the file has, which no torque depends on.
+        placed
+            .joints
+            .iter_mut()
+            .for_each(|joint| joint.frame = None);
+        assert_eq!(placed, rows);
+        assert_eq!(placed.short_hash(), rows.short_hash());
+    }
+}
+
+/// Checks torques and poses of an arm, and returns its robot.
+fn check(arm: &Arm, drawn: &mut Drawn, what: &str) -> Robot {
+    let text = file(arm);
+    let robot = reading(&text).robot;
+    let worst = compare(arm, &robot, drawn);
+    assert!(worst < 1e-12, "{what}: {worst:e}\n{text}");
+    robot
 }
 
 /// Arms of any kind, at any state: torques, gravity's among them, and the pose
@@ -46,20 +42,9 @@ fn torques_and_poses_are_those_of_the_frames() {
     for seed in 0..60 {
         let mut drawn = Drawn::new(seed);
         let arm = drawn.arm(1 + seed as usize % 7);
-        let robot = reading(&file(&arm)).robot;
-        let worst = compare(&arm, &robot, &mut drawn);
-        assert!(worst < 1e-12, "seed {seed}: {worst:e}\n{}", file(&arm));
-    }
-}
-
-/// The text of what was derived says the same robot.
-#[test]
-fn written_back() {
-    for seed in [3, 4, 5] {
-        let robot = reading(&file(&Drawn::new(seed).arm(5))).robot;
-        let text = write(&robot);
-        assert!(text.contains("convention = \"standard\""));
-        assert_eq!(reading(&text).robot, robot);
+        let robot = check(&arm, &mut drawn, &format!("seed {seed}"));
+        // The text of what was derived says the same robot.
+        assert!(written(&robot).contains("convention = \"standard\""));
     }
 }
 
@@ -109,9 +94,7 @@ fn nearly_parallel_axes_stay_near() {
             .map(|x| x.abs().to_f64().unwrap())
             .fold(0.0, f64::max)
     };
-    for radians in [
-        "1e-2", "1e-3", "1e-4", "1e-8", "1e-16", "1e-30", "-1e-3", "-1e-12",
-    ] {
+    for radians in "1e-2 1e-3 1e-4 1e-8 1e-16 1e-30 -1e-3 -1e-12".split(' ') {
         for about in [0, 1] {
             let robot = tilted(radians, about);
             assert!(!robot.joints[0].beta.is_zero() || about == 0);
@@ -140,9 +123,7 @@ fn nearly_parallel_axes_have_the_torques_of_the_frames() {
     for exponent in 0..20 {
         let mut drawn = Drawn::new(900 + exponent);
         let arm = drawn.nearly_parallel(5, 0.03 * 10f64.powi(-(exponent as i32)));
-        let robot = reading(&file(&arm)).robot;
-        let worst = compare(&arm, &robot, &mut drawn);
-        assert!(worst < 1e-12, "1e-{exponent}: {worst:e}");
+        check(&arm, &mut drawn, &format!("1e-{exponent}"));
     }
 }
 
@@ -170,31 +151,17 @@ xyz = [0, 0, 0.387] => xzy = [0, 0, 0.387]
 
 #[test]
 fn errors_say_where_and_what() {
-    let placed = data("scara_placed");
-    let lines: Vec<&str> = MISTAKES.trim().lines().collect();
-    for [change, said] in lines.as_chunks::<2>().0 {
-        let (from, to) = change.split_once(" =>").unwrap();
-        let [line, message, help] = rows(said).next().unwrap();
-        let text = placed.replacen(
-            &from.replace("\\n", "\n"),
-            &to.trim_start().replace("\\n", "\n"),
-            1,
-        );
-        assert_ne!(text, placed, "{from}");
-        let found = match parse(&text, &Options::default()) {
-            Ok(reading) => reading.notes,
-            Err(errors) => errors.0,
-        };
-        let found = found.iter().find(|d| d.message.contains(message));
+    let placed = data("scara_placed.toml");
+    for (from, to, [line, message, help]) in changes(MISTAKES) {
+        let found = said(&replaced(&placed, &from, &to));
+        let found = found.iter().find(|d| d.message.contains(&message));
         let found = found.unwrap_or_else(|| panic!("{to}: nothing says {message}"));
         assert_eq!(found.line.to_string(), line, "{to}");
-        let said = found.help.as_deref().unwrap_or_default();
-        assert!(said.contains(help), "{to}: {said}");
+        has(found, &message, &help);
     }
     // Once, at the line that has it, and of nothing that follows from it.
-    let text = placed.replace("xyz = [0, 0, 0.387]", "xyz = [0, 0, 387]");
-    let odd = reading(&text).notes;
-    assert_eq!(odd.len(), 1, "{odd:?}");
+    let far = placed.replace("xyz = [0, 0, 0.387]", "xyz = [0, 0, 387]");
+    only(&reading(&far).notes);
     // A convention that says what there is does no harm.
     let said = placed.replacen("gravity", "convention = \"standard\"\ngravity", 1);
     assert_eq!(reading(&said).robot, reading(&placed).robot);

@@ -3,15 +3,12 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use crate::support::ratio;
 use dalembert_model::number::parse::{NumberError, parse_decimal, write_decimal};
 use dalembert_model::number::{Angle, Rational, Snap, Snapped};
 use dalembert_model::read::{Options, Severity, parse};
 use dalembert_model::scalar::field::Points;
 use num_traits::ToPrimitive;
-
-fn ratio(numer: i64, denom: i64) -> Rational {
-    Rational::new(numer.into(), denom.into())
-}
 
 /// Every form means what it says, and prints as the shortest one.
 #[test]
@@ -36,50 +33,25 @@ fn forms() {
         assert_eq!(angle.to_string(), shown);
         assert_eq!(Angle::parse(shown).unwrap_or_default(), angle);
     }
-    for text in [
-        "",
-        "p",
-        "pie",
-        "pi/",
-        "pi/0",
-        "pi/-2",
-        "pi/2.0",
-        "pi/0.5",
-        "2pi",
-        "*pi",
-        "--pi",
-        "-+2*pi",
-        "--2*pi",
-        "pi*2",
-        "pi pi",
-        "deg",
-        "ninety deg",
-        "0x5a deg",
-        "infdeg",
-        "nan*pi",
-        "1e999*pi",
-        "1e-301*pi",
-        "1/0",
-        "π",
-        "0.5",
-    ] {
+    let bad = "|p|pie|pi/|pi/0|pi/-2|pi/2.0|pi/0.5|2pi|*pi|--pi|-+2*pi|--2*pi|pi*2|pi pi|deg|\
+        ninety deg|0x5a deg|infdeg|nan*pi|1e999*pi|1e-301*pi|1/0|π|0.5";
+    for text in bad.split('|') {
         assert!(Angle::parse(text).is_err(), "{text:?} was read");
     }
 }
 
 #[test]
 fn values() {
-    assert_eq!(Angle::PiTimes(ratio(1, 1)).to_f64(), PI);
-    assert_eq!(Angle::PiTimes(ratio(1, 2)).to_f64(), FRAC_PI_2);
-    assert_eq!(Angle::PiTimes(ratio(3, 2)).to_f64(), 3.0 * FRAC_PI_2);
-    assert_eq!(Angle::PiTimes(ratio(2, 1)).to_f64(), TAU);
+    let halves = [FRAC_PI_2, PI, 3.0 * FRAC_PI_2, TAU];
+    assert_eq!(
+        [1, 2, 3, 4].map(|n| Angle::PiTimes(ratio(n, 2)).to_f64()),
+        halves
+    );
     for n in -9..9 {
         let angle = Angle::right_angles(n);
-        assert_eq!(angle.quarter_turns(), Some(n.rem_euclid(4) as u8));
-        assert_eq!(
-            angle.negate().quarter_turns(),
-            Some((-n).rem_euclid(4) as u8)
-        );
+        for (angle, n) in [(angle.negate(), -n), (angle, n)] {
+            assert_eq!(angle.quarter_turns(), Some(n.rem_euclid(4) as u8));
+        }
     }
     assert_eq!(Angle::PiTimes(ratio(1, 3)).quarter_turns(), None);
     assert_eq!(Angle::Radians(ratio(0, 1)).quarter_turns(), Some(0));
@@ -104,16 +76,12 @@ fn snapping_at_its_borders() {
         let double = n as f64 * FRAC_PI_2;
         for sign in [1, -1] {
             let snapped = Snapped::Taken(Angle::right_angles(sign * n));
-            for steps in -down..=up {
-                let value = sign as f64 * ulps(double, steps);
-                assert_eq!(apply(value), snapped, "{n}: {steps} ulp");
-            }
-            for steps in [-down - 1, up + 1] {
-                let value = sign as f64 * ulps(double, steps);
-                assert!(
-                    matches!(apply(value), Snapped::Near { .. }),
-                    "{n}: {steps} ulp"
-                );
+            for steps in -down - 1..=up + 1 {
+                let found = apply(sign as f64 * ulps(double, steps));
+                match (-down..=up).contains(&steps) {
+                    true => assert_eq!(found, snapped, "{n}: {steps} ulp"),
+                    false => assert!(matches!(found, Snapped::Near { .. }), "{n}: {steps} ulp"),
+                }
             }
         }
     }
@@ -128,65 +96,74 @@ fn near_misses() {
         Snapped::Near { multiple, .. } => Some(multiple),
         _ => None,
     };
-    assert_eq!(near("1.5708"), Some(Angle::right_angles(1)));
-    assert_eq!(near("-3.1416"), Some(Angle::right_angles(-2)));
-    assert_eq!(near("0.0009"), Some(Angle::right_angles(0)));
-    assert_eq!(near("1e-300"), Some(Angle::right_angles(0)));
-    assert_eq!(near("0.00100001"), None);
-    assert_eq!(near("1.5717"), Some(Angle::right_angles(1)));
-    assert_eq!(near("1.5718"), None);
-    assert_eq!(near("0"), None);
-    assert_eq!(near("0.3"), None);
-    assert_eq!(near("1e299"), None);
+    for (text, turns) in [
+        ("1.5708", 1),
+        ("-3.1416", -2),
+        ("0.0009", 0),
+        ("1e-300", 0),
+        ("1.5717", 1),
+    ] {
+        assert_eq!(near(text), Some(Angle::right_angles(turns)), "{text}");
+    }
+    for text in ["0.00100001", "1.5718", "0", "0.3", "1e299"] {
+        assert_eq!(near(text), None, "{text}");
+    }
 }
 
 /// What the reader says about angles, and what it makes of them.
 #[test]
 fn in_a_file() {
-    let text = |alpha: &str| {
-        format!(
-            "name = \"arm\"\nconvention = \"standard\"\ngravity = [0, 0, -9.81]\n[[joint]]\n\
-             kind = \"revolute\"\nalpha = {alpha}\nmass = 0\ninertia = [0, 0, 0, 0, 0, 0]\n"
-        )
-    };
-    let read = |alpha: &str, snap| {
-        let reading = parse(&text(alpha), &Options { snap }).expect("reads");
-        let notes = reading
+    let head = "name = \"arm\"\nconvention = \"standard\"\ngravity = [0, 0, -9.81]\n[[joint]]\n\
+        kind = \"revolute\"\nmass = 0\ninertia = [0, 0, 0, 0, 0, 0]\nalpha = ";
+    let quarter = Angle::right_angles(1);
+    let written = Angle::Radians(parse_decimal("1.5707963267948966").unwrap());
+    assert_eq!(written.to_f64(), FRAC_PI_2);
+    let near = Angle::Radians(ratio(15_708, 10_000));
+    let (note, warning) = (Some(Severity::Note), Some(Severity::Warning));
+    for (alpha, snap, angle, severity, message) in [
+        (
+            "1.5707963267948966",
+            Snap::RightAngles,
+            quarter,
+            note,
+            "1.5707963267948966 is read as pi/2",
+        ),
+        ("1.5707963267948966", Snap::Never, written, warning, ""),
+        (
+            "1.5708",
+            Snap::RightAngles,
+            near,
+            warning,
+            "1.5708 is 3.7e-6 from pi/2; it stays as written",
+        ),
+        ("0", Snap::Never, Angle::default(), None, ""),
+        ("-0.0", Snap::RightAngles, Angle::default(), None, ""),
+        (
+            "\"45deg\"",
+            Snap::Never,
+            Angle::PiTimes(ratio(1, 4)),
+            None,
+            "",
+        ),
+    ] {
+        let reading = parse(&format!("{head}{alpha}"), &Options { snap }).expect("reads");
+        assert_eq!(reading.robot.joints[0].alpha, angle, "{alpha}");
+        let said: Vec<_> = reading
             .notes
             .iter()
-            .map(|n| (n.severity, n.line, n.message.clone()));
-        (
-            reading.robot.joints[0].alpha.clone(),
-            notes.collect::<Vec<_>>(),
-        )
-    };
-    let (angle, notes) = read("1.5707963267948966", Snap::RightAngles);
-    assert_eq!(angle, Angle::right_angles(1));
-    assert_eq!(
-        notes,
-        [(
-            Severity::Note,
-            6,
-            "1.5707963267948966 is read as pi/2".to_string()
-        )]
-    );
-
-    let (angle, notes) = read("1.5707963267948966", Snap::Never);
-    assert_eq!(angle.to_f64(), FRAC_PI_2);
-    assert!(matches!(angle, Angle::Radians(_)));
-    assert_eq!(notes[0].0, Severity::Warning);
-
-    let (angle, notes) = read("1.5708", Snap::RightAngles);
-    assert_eq!(angle, Angle::Radians(ratio(15_708, 10_000)));
-    let expected = "1.5708 is 3.7e-6 from pi/2; it stays as written".to_string();
-    assert_eq!(notes, [(Severity::Warning, 6, expected)]);
-
-    assert_eq!(read("0", Snap::Never), (Angle::default(), vec![]));
-    assert_eq!(read("-0.0", Snap::RightAngles), (Angle::default(), vec![]));
-    assert_eq!(
-        read("\"45deg\"", Snap::Never),
-        (Angle::PiTimes(ratio(1, 4)), vec![])
-    );
+            .map(|own| (own.severity, own.line))
+            .collect();
+        assert_eq!(
+            said,
+            severity.map(|own| (own, 8)).into_iter().collect::<Vec<_>>(),
+            "{alpha}"
+        );
+        let is_said = reading
+            .notes
+            .iter()
+            .all(|own| own.message == message || message.is_empty());
+        assert!(is_said, "{:?}", reading.notes);
+    }
 }
 
 /// Literals are read to the last digit, and refused before they cost much.
@@ -207,27 +184,19 @@ fn decimals() {
         assert_eq!(parse_decimal(text), Ok(value), "{text}");
     }
     let long = "1".repeat(801);
-    for (text, error) in [
-        ("", NumberError::Malformed),
-        ("-", NumberError::Malformed),
-        (".5", NumberError::Malformed),
-        ("5.", NumberError::Malformed),
-        ("1__0", NumberError::Malformed),
-        ("_1", NumberError::Malformed),
-        ("1e", NumberError::Malformed),
-        ("+-1", NumberError::Malformed),
-        ("1.2.3", NumberError::Malformed),
-        ("１", NumberError::Malformed),
-        ("inf", NumberError::NotFinite),
-        ("-nan", NumberError::NotFinite),
+    for (texts, error) in [
+        ("|-|.5|5.|1__0|_1|1e|+-1|1.2.3|１", NumberError::Malformed),
+        ("inf|-nan", NumberError::NotFinite),
         ("0xff", NumberError::Radix),
-        ("1.1e300", NumberError::OutOfRange),
-        ("-9e-301", NumberError::OutOfRange),
-        ("1e99999999999999999999999", NumberError::OutOfRange),
-        ("1e-99999999999999999999999", NumberError::OutOfRange),
+        (
+            "1.1e300|-9e-301|1e99999999999999999999999|1e-99999999999999999999999",
+            NumberError::OutOfRange,
+        ),
         (&long, NumberError::TooLong),
     ] {
-        assert_eq!(parse_decimal(text), Err(error), "{text}");
+        for text in texts.split('|') {
+            assert_eq!(parse_decimal(text), Err(error), "{text}");
+        }
     }
 }
 
@@ -247,16 +216,7 @@ fn decimals_round_trip() {
             assert_eq!(text.parse(), Ok(double));
         }
     }
-    for text in [
-        "1",
-        "-10",
-        "0.001",
-        "0.00001",
-        "9.5e-6",
-        "123456789.125",
-        "1e16",
-        "-1.5e20",
-    ] {
+    for text in "1 -10 0.001 0.00001 9.5e-6 123456789.125 1e16 -1.5e20".split(' ') {
         let value = parse_decimal(text).expect("a number");
         assert_eq!(write_decimal(&value).as_deref(), Some(text));
     }

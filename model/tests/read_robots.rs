@@ -1,33 +1,14 @@
 //! The six robots read well, mean what the golden data means, and survive a
 //! round through the canonical text.
 
+use crate::support::{ROBOTS, generated, has, ratio, reading, refused, replaced, rows, written};
 use dalembert_model::number::{Angle, Rational};
-use dalembert_model::read::{Options, RobotWarning, Severity, parse, parse_bytes};
-use dalembert_model::robot::{Convention, Inertia, JointKind, Position, Robot, write};
+use dalembert_model::read::{Options, RobotWarning, Severity, parse};
+use dalembert_model::robot::{Convention, Position, Robot};
 use num_traits::ToPrimitive;
 
-const NAMES: [&str; 6] = [
-    "puma560", "stanford", "ur10", "panda", "planar2r", "planar3r",
-];
-
-fn source(name: &str) -> String {
-    let path = format!(
-        "{}/../generated/robots/{name}.toml",
-        env!("CARGO_MANIFEST_DIR")
-    );
-    std::fs::read_to_string(path).expect("robot file")
-}
-
 fn robot(name: &str) -> Robot {
-    let text = source(name);
-    match parse(&text, &Options::default()) {
-        Ok(reading) => reading.robot,
-        Err(errors) => panic!("{}", errors.render(name, &text)),
-    }
-}
-
-fn ratio(numer: i64, denom: i64) -> Rational {
-    Rational::new(numer.into(), denom.into())
+    reading(&generated(name)).robot
 }
 
 /// Numbers come from the source text: 0.4318 is 4318/10000, not a double.
@@ -38,56 +19,28 @@ fn numbers_are_exact() {
     assert_eq!(puma.gravity[2], ratio(-981, 100));
     assert_eq!(puma.joints[0].alpha, Angle::right_angles(1));
     assert_eq!(puma.joints[5].limits.torque, Some(ratio(213, 10)));
-    assert_eq!(
-        puma.joints[0].limits.position,
-        Some([
-            Position::Angle(Angle::right_angles(-2)),
-            Position::Angle(Angle::right_angles(2))
-        ])
-    );
+    assert_eq!(puma.joints[0].d, ratio(67_183, 100_000));
+    let turn = [-2, 2].map(|n| Position::Angle(Angle::right_angles(n)));
+    assert_eq!(puma.joints[0].limits.position, Some(turn));
     let rod = &robot("planar2r").joints[0].inertia;
     assert_eq!(rod.zz.to_f64(), Some(1.0 / 12.0));
-}
-
-/// Conventions, kinds and the joint's variable end up where they belong.
-#[test]
-fn structure() {
-    let panda = robot("panda");
-    assert_eq!(panda.convention, Convention::Modified);
-    assert_eq!(panda.joints.len(), 7);
-    let stanford = robot("stanford");
-    let kinds = stanford.joints.iter().map(|j| j.kind);
-    let prismatic = kinds.map(|k| k == JointKind::Prismatic).collect::<Vec<_>>();
-    assert_eq!(prismatic, [false, false, true, false, false, false]);
-    assert_eq!(stanford.joints[2].theta, Angle::right_angles(-1));
-    // Six numbers are xx, yy, zz, xy, yz, xz.
-    let Inertia { xy, yz, xz, .. } = &panda.joints[0].inertia;
-    assert_eq!(
-        [xy, yz, xz],
-        [
-            &ratio(-139, 1_000_000),
-            &ratio(19_169, 1_000_000),
-            &ratio(6772, 1_000_000)
-        ]
-    );
 }
 
 /// The checked-in files silence what there is to say of inertias as published; without
 /// their `allow` it is said, at the lines of these inertias.
 #[test]
 fn notes() {
-    for name in NAMES {
-        let text = source(name);
-        let reading = parse(&text, &Options::default()).expect("reads");
-        assert!(reading.notes.is_empty(), "{name}: {:?}", reading.notes);
-        let loud: Vec<&str> = text
+    for name in ROBOTS {
+        let text = generated(name);
+        assert_eq!(reading(&text).notes, [], "{name}");
+        let loud = text
             .lines()
-            .map(|line| if line.starts_with("allow") { "" } else { line })
-            .collect();
-        let reading = parse(&loud.join("\n"), &Options::default()).expect("reads");
+            .map(|line| if line.starts_with("allow") { "" } else { line });
+        let loud: Vec<&str> = loud.collect();
+        let reading = reading(&loud.join("\n"));
         for note in &reading.notes {
             assert_eq!(note.severity, Severity::Warning);
-            assert!(note.message.contains("no body has this inertia"), "{note}");
+            has(note, "no body has this inertia", "");
             assert!(loud[note.line - 1].starts_with("inertia"), "{note}");
         }
         let expected = match name {
@@ -99,18 +52,20 @@ fn notes() {
     }
 }
 
-/// The canonical text says the same robot, and does not change again.
+/// The canonical text says the same robot, and does not change again; all angles of these are
+/// right ones.
 #[test]
 fn round_trip() {
-    for name in NAMES {
+    for name in ROBOTS {
         let robot = robot(name);
-        let text = write(&robot);
-        let again = parse_bytes(text.as_bytes(), &Options::default())
-            .expect("reads")
-            .robot;
-        assert_eq!(again, robot, "{name}");
-        assert_eq!(write(&again), text);
-        assert_eq!(again.input_hash(), robot.input_hash());
+        let angles = robot.joints.iter().flat_map(|own| [&own.alpha, &own.theta]);
+        assert!(angles.into_iter().all(|own| own.quarter_turns().is_some()));
+        let text = written(&robot);
+        let again = reading(&text).robot;
+        assert_eq!(
+            (written(&again), again.input_hash()),
+            (text, robot.input_hash())
+        );
     }
 }
 
@@ -118,8 +73,12 @@ fn round_trip() {
 #[test]
 fn hash() {
     let puma = robot("puma560");
-    let spaced = source("puma560").replace("mass = 17.4", "mass   = 1.740e1 # kg");
-    let same = parse(&spaced, &Options::default()).expect("reads").robot;
+    let spaced = replaced(
+        &generated("puma560"),
+        "mass = 17.4",
+        "mass   = 1.740e1 # kg",
+    );
+    let same = reading(&spaced).robot;
     assert_eq!(puma.short_hash(), same.short_hash());
     assert_eq!(puma.short_hash().len(), 16);
 
@@ -163,25 +122,7 @@ fn doubles_and_fractions_round_trip() {
     robot.joints[4].theta = Angle::PiTimes(ratio(-5, 7));
     robot.joints[5].name = Some("\"quoted\" \\ ünïcode".into());
     robot.joints[5].mass = ratio(i64::MAX, 1) * ratio(100, 1);
-    let text = write(&robot);
-    let again = parse(&text, &Options::default())
-        .unwrap_or_else(|e| panic!("{}", e.render("robot", &text)));
-    assert_eq!(again.robot, robot);
-}
-
-/// The golden data is computed from doubles; each is the file's number
-/// rounded, but for two noisy ones.
-#[test]
-fn files_agree_with_their_sources() {
-    let puma = robot("puma560");
-    let off = puma.joints[0].d.to_f64().expect("finite") - 0.671_829_999_999_999_9;
-    assert!(off.abs() < 2e-16);
-    for name in NAMES {
-        for joint in &robot(name).joints {
-            assert!(joint.alpha.quarter_turns().is_some());
-            assert!(joint.theta.quarter_turns().is_some());
-        }
-    }
+    written(&robot);
 }
 
 /// None of the robots that are checked in is odd in a way that its file does not know.
@@ -200,14 +141,14 @@ fn known_robots_are_not_far_off() {
                 continue;
             };
             seen += 1;
-            let mut doubts = reading.notes.iter().filter_map(|note| note.warning);
-            let far = |warning: &RobotWarning| {
-                matches!(
-                    warning,
-                    RobotWarning::LargeInertia | RobotWarning::LargeWidth
-                )
-            };
-            assert_eq!(doubts.find(far), None, "{}", path.display());
+            for far in [RobotWarning::LargeInertia, RobotWarning::LargeWidth] {
+                let mut notes = reading.notes.iter();
+                assert!(
+                    notes.all(|note| note.warning != Some(far)),
+                    "{}",
+                    path.display()
+                );
+            }
         }
     }
     assert!(seen > 25, "{seen}");
@@ -226,71 +167,45 @@ fn followers_read_back() {
         "kind = \"prismatic\"",
         "kind = \"revolute\"\nmimic = { joint = \"a\", multiplier = 3, offset = \"-pi/4\" }",
     );
-    let robot = parse(&text, &Options::default()).unwrap().robot;
+    let robot = reading(&text).robot;
     let [b, c] = &robot.followers[..] else {
         panic!("{:?}", robot.followers)
     };
     assert_eq!((b.leader, b.turns(), c.leader, c.turns()), (0, -6, 0, 3));
     assert_eq!(b.offset, Position::Angle(Angle::PiTimes(ratio(1, 1))));
     assert_eq!(robot.joints[0].limits.velocity, Some(ratio(1, 2)));
-    let again = parse(&write(&robot), &Options::default()).unwrap().robot;
-    assert_eq!(again, robot);
-    assert!(
-        robot
-            .validate()
-            .iter()
-            .all(|finding| finding.warning.is_some())
-    );
+    written(&robot);
+    let is_wrong = |robot: &Robot| robot.validate().iter().any(|own| own.warning.is_none());
+    assert!(!is_wrong(&robot));
     let mut torn = robot;
     torn.followers.swap(0, 1);
-    assert!(
-        torn.validate()
-            .iter()
-            .any(|finding| finding.warning.is_none())
-    );
+    assert!(is_wrong(&torn));
 }
+
+/// What a joint mimics, and what is said of that.
+const UNFOLLOWED: &str = r#"
+joint = 2 | a joint that follows itself
+joint = "c" | one of both joints turns, and the other slides
+joint = "d" | there is no link `d`
+joint = 1, multiplier = 0 | a multiplier of 0: the joint never moves
+joint = 1, multiplier = -0.5 | let that joint mimic this one, with multiplier = -2
+joint = 1, multiplier = 17 | sines are of whole multiples of an angle, up to 16
+joint = 1, factor = 2 | unknown key `factor`
+multiplier = 1 | mimic has no `joint`
+joint = 1 }\ncoulomb = 1\ncoulomb_width = 1\nframe = { | `coulomb` of a joint that follows another
+"#;
 
 #[test]
 fn what_cannot_follow_is_refused() {
-    for (mimic, says) in [
-        ("joint = 2", "a joint that follows itself"),
-        (
-            "joint = \"c\"",
-            "one of both joints turns, and the other slides",
-        ),
-        ("joint = \"d\"", "there is no link `d`"),
-        (
-            "joint = 1, multiplier = 0",
-            "a multiplier of 0: the joint never moves",
-        ),
-        (
-            "joint = 1, multiplier = -0.5",
-            "let that joint mimic this one, with multiplier = -2",
-        ),
-        (
-            "joint = 1, multiplier = 17",
-            "sines are of whole multiples of an angle, up to 16",
-        ),
-        ("joint = 1, factor = 2", "unknown key `factor`"),
-        ("multiplier = 1", "mimic has no `joint`"),
-        (
-            "joint = 1 }\ncoulomb = 1\ncoulomb_width = 0.1\nframe = { xyz = [0, 0, 0]",
-            "`coulomb` of a joint that follows another",
-        ),
-    ] {
-        let text = TIED.replace("MIMIC", &format!("mimic = {{ {mimic} }}"));
-        let errors = parse(&text, &Options::default()).unwrap_err();
-        let shown = errors.render("tied.toml", &text);
-        assert!(shown.contains(says), "{says}: {shown}");
+    let text = |mimic: &str| TIED.replace("MIMIC", &format!("mimic = {{ {mimic} }}"));
+    for [mimic, says] in rows(UNFOLLOWED) {
+        let shown = refused(&text(&mimic));
+        assert!(shown.contains(&says), "{says}: {shown}");
     }
-    let circle = TIED.replace("MIMIC", "mimic = { joint = 1 }");
-    let circle = circle.replacen("mass = 1\n", "mass = 1\nmimic = { joint = 2 }\n", 1);
-    let shown = parse(&circle, &Options::default()).unwrap_err();
-    assert!(shown.render("tied.toml", &circle).contains("in a circle"));
-    let scene = TIED.replace("MIMIC", "mimic = { joint = 1 }") + "[scene.s]\nlock = { b = 0 }\n";
-    let shown = parse(&scene, &Options::default())
-        .unwrap_err()
-        .render("tied.toml", &scene);
+    let tied = text("joint = 1");
+    let circle = replaced(&tied, "mass = 1\n", "mass = 1\nmimic = { joint = 2 }\n");
+    assert!(refused(&circle).contains("in a circle"));
+    let shown = refused(&(tied + "[scene.s]\nlock = { b = 0 }\n"));
     assert!(
         shown.contains("follows another") && shown.contains("joint 1 (a)"),
         "{shown}"

@@ -1,9 +1,9 @@
 //! What is odd in a file and not wrong: a warning or a note on the right line, in words
 //! that help, which can be silenced.
 
-use dalembert_model::read::{Options, RobotWarning, Severity, parse};
-
-use crate::read_errors::{GOOD, errors, rows};
+use crate::read_errors::GOOD;
+use crate::support::{errors, has, only, reading, replaced, rows};
+use dalembert_model::read::{RobotWarning, Severity};
 
 /// What is replaced in a good file, by what, the line, and words of what is said.
 const ODD: &str = r#"
@@ -14,24 +14,25 @@ acceleration = 3 | acceleration = 0.0 | 17 | the limit of acceleration is 0: the
 mass = 2 | mass = 0 | 14 | the mass is zero
 alpha = "pi/2" | alpha = 3.1416 | 7 | from pi
 position = [-1, 1] | position = [-1, 1.5708] | 17 | from pi/2
+alpha = "pi/2" | alpha = 4.71238898038469 | 7 | 4.71238898038469 is read as 3*pi/2
 "#;
 
 /// Odd but not wrong: read, with a warning or a note on the right line.
 #[test]
 fn warnings_and_notes() {
-    let note = r#"alpha = "pi/2" | alpha = 4.71238898038469 | 7 | 3*pi/2"#;
-    let odd = rows(ODD).map(|row| (row, Severity::Warning));
-    for ([what, by, line, message], severity) in
-        odd.chain(rows(note).map(|row| (row, Severity::Note)))
-    {
-        let source = GOOD.replacen(what, by, 1);
-        let notes = parse(&source, &Options::default()).expect("reads").notes;
-        assert_eq!(notes.len(), 1, "{by}: {notes:?}");
+    for [what, by, line, message] in rows(ODD) {
+        let notes = reading(&replaced(GOOD, &what, &by)).notes;
+        let note = only(&notes);
+        let severity = match message.contains("is read as") {
+            true => Severity::Note,
+            false => Severity::Warning,
+        };
         assert_eq!(
-            (notes[0].severity, notes[0].line.to_string()),
-            (severity, line.to_owned())
+            (note.severity, note.line.to_string()),
+            (severity, line),
+            "{by}"
         );
-        assert!(notes[0].message.contains(message), "{:?}", notes[0]);
+        has(note, &message, "");
     }
 }
 
@@ -57,108 +58,99 @@ viscous = 0.1 | coulomb = 1\ncoulomb_width = 2 | 16 | smoothed over 2 rad/s | a 
 viscous = 0.1 | coulomb = 1\ncoulomb_width = 2 | 16 | and the joint reaches 2 | of the slowest speed
 "#;
 
+/// The same of a joint that slides.
+const OF_SLIDES: &str = r#"
+offset = 0.1 | offset = 100 | 11 | | write 0.1
+[-1, 1] | [0, 500] | 17 | | write 0.5
+velocity = 2 | velocity = 500 | 17 | | write 0.5
+"#;
+
 /// Numbers that look like another unit's: taken as they stand, and the help says
 /// what was probably meant.
 #[test]
 fn sizes_of_other_units() {
-    const SLIDES: &str = "kind = \"prismatic\"\ntheta = 0\nd = 0";
-    for [what, by, line, message, help] in rows(OTHER_UNITS) {
-        let by = by.replace("\\n", "\n");
-        let source = GOOD.replacen(what, &by, 1);
-        let notes = parse(&source, &Options::default()).expect("reads").notes;
-        let [note] = notes.as_slice() else {
-            panic!("{by}: {notes:?}");
-        };
-        assert_eq!(note.severity, Severity::Warning, "{by}");
-        assert_eq!(note.line.to_string(), line, "{by}");
-        assert!(note.message.contains(message), "{note:?}");
-        let said = note.help.as_deref().unwrap_or_default();
-        assert!(
-            said.contains(help) && said.contains("it is taken as it stands; allow = [\""),
-            "{note:?}"
-        );
-    }
-    let sliding = GOOD.replace("kind = \"revolute\"", SLIDES);
-    let sliding = sliding.replacen("d = 0.25\ntheta = 0\n", "", 1);
-    for (what, by, help) in [
-        ("offset = 0.1", "offset = 100", "write 0.1"),
-        ("[-1, 1]", "[0, 500]", "write 0.5"),
-        ("velocity = 2", "velocity = 500", "write 0.5"),
-    ] {
-        let source = sliding.replacen(what, by, 1);
-        let notes = parse(&source, &Options::default()).expect("reads").notes;
-        assert_eq!(notes.len(), 1, "{by}: {notes:?}");
-        assert!(
-            notes[0]
-                .help
-                .as_deref()
-                .is_some_and(|said| said.contains(help))
-        );
+    let slides = "kind = \"prismatic\"\ntheta = 0\nd = 0";
+    let slides = replaced(GOOD, "kind = \"revolute\"", slides).replace("d = 0.25\ntheta = 0\n", "");
+    for (good, table) in [(GOOD, OTHER_UNITS), (&slides, OF_SLIDES)] {
+        for [what, by, line, message, help] in rows(table) {
+            let notes = reading(&replaced(good, &what, &by)).notes;
+            let note = only(&notes);
+            assert_eq!(
+                (note.severity, note.line.to_string()),
+                (Severity::Warning, line),
+                "{by}"
+            );
+            has(note, &message, &help);
+            has(note, "", "it is taken as it stands; allow = [\"");
+        }
     }
 }
 
 /// What is usual somewhere is not odd.
 #[test]
 fn sizes_that_are_none_of_our_business() {
-    for (what, by) in [
-        ("[0, 0, -9.81]", "[0, 0, 0]"),
-        ("[0, 0, -9.81]", "[0, 0, -1.62]"),
-        ("[0, 0, -9.81]", "[0, 6.94, -6.94]"),
-        ("\"pi/2\"", "\"5*pi/2\""),
-        ("\"pi/2\"", "\"450deg\""),
-        ("a = 0.5", "a = 10"),
-        ("mass = 2", "mass = 999"),
-        ("[-1, 1]", "[-31, 31]"),
-        // All mass further away than the arm reaches, but not far further.
-        ("[1, 1, 1, 0, 0, 0]", "[12, 12, 12, 0, 0, 0]"),
-        ("viscous = 0.1", "coulomb = 1\ncoulomb_width = 0.2"),
-        ("viscous = 0.1", "coulomb_width = 3"),
-        ("[-1, 1]", "[\"-36000deg\", \"36000deg\"]"),
-    ] {
-        let source = GOOD.replacen(what, by, 1);
-        let notes = parse(&source, &Options::default()).expect("reads").notes;
-        assert!(notes.is_empty(), "{by}: {notes:?}");
+    // Of inertia all mass further away than the arm reaches, but not far further.
+    let usual = r#"
+[0, 0, -9.81] | [0, 0, 0]
+[0, 0, -9.81] | [0, 0, -1.62]
+[0, 0, -9.81] | [0, 6.94, -6.94]
+"pi/2" | "5*pi/2"
+"pi/2" | "450deg"
+a = 0.5 | a = 10
+mass = 2 | mass = 999
+[-1, 1] | [-31, 31]
+[1, 1, 1, 0, 0, 0] | [12, 12, 12, 0, 0, 0]
+viscous = 0.1 | coulomb = 1\ncoulomb_width = 0.2
+viscous = 0.1 | coulomb_width = 3
+[-1, 1] | ["-36000deg", "36000deg"]
+"#;
+    for [what, by] in rows(usual) {
+        assert_eq!(reading(&replaced(GOOD, &what, &by)).notes, [], "{by}");
     }
 }
 
 /// Three rows say what six numbers say; a massless link needs no com.
 #[test]
 fn other_ways_to_say_it() {
-    let robot = |source: &str| parse(source, &Options::default()).expect("reads").robot;
+    let robot = |source: &str| reading(source).robot;
     let six = GOOD.replace("[1, 1, 1, 0, 0, 0]", "[3, 4, 5, 0.1, 0.2, 0.3]");
     let rows = "[[3, 0.1, 0.3],\n [0.10, 4, 2e-1],\n [0.3, 0.2, 5]] # a comment";
-    assert_eq!(
-        robot(&six),
-        robot(&GOOD.replace("[1, 1, 1, 0, 0, 0]", rows))
-    );
+    let nine = GOOD.replace("[1, 1, 1, 0, 0, 0]", rows);
     let massless = GOOD
         .replace("mass = 2", "mass = 0.0")
         .replace("com = [0, 0.1, 0]\n", "");
     assert_eq!(errors(&massless), []);
     let bare = massless.replace("inertia = [1, 1, 1, 0, 0, 0]\n", "");
     let zeros = massless.replace("[1, 1, 1, 0, 0, 0]", "[0, 0, 0, 0, 0, 0]");
-    assert_eq!(robot(&bare), robot(&zeros));
-    // Line ends of another system, and a byte order mark.
-    assert_eq!(robot(&GOOD.replace('\n', "\r\n")), robot(GOOD));
-    assert_eq!(robot(&format!("\u{feff}{GOOD}")), robot(GOOD));
-    // A limits table of its own, and inline joints.
+    // A limits table of its own.
     let table = GOOD
         .replace("limits = {", "[joint.limits]\n")
-        .replace(" }", "")
-        .replace(", v", "\nv")
-        .replace(", a", "\na")
-        .replace(", t", "\nt");
-    assert_eq!(robot(&table), robot(GOOD));
+        .replace(" }", "");
+    let keys = [", v", ", a", ", t"].into_iter();
+    let table = keys.fold(table, |text, key| {
+        text.replace(key, &key.replace(", ", "\n"))
+    });
+    let good = GOOD.to_owned();
+    for (one, other) in [
+        (six, nine),
+        (bare, zeros),
+        (table, good.clone()),
+        // Line ends of another system, and a byte order mark.
+        (GOOD.replace('\n', "\r\n"), good.clone()),
+        (format!("\u{feff}{GOOD}"), good),
+    ] {
+        assert_eq!(robot(&one), robot(&other));
+    }
 }
 
 /// A file that knows better says so by name, and hears of the rest only.
 #[test]
 fn warnings_are_silenced_one_by_one() {
     let odd = GOOD
-        .replacen("inertia = [1, 1, 1,", "inertia = [1, 1, 3,", 1)
-        .replacen("mass = 2", "mass = 2000", 1);
+        .replace("[1, 1, 1,", "[1, 1, 3,")
+        .replace("mass = 2", "mass = 2000");
     let doubts = |source: &str| -> Vec<Option<RobotWarning>> {
-        let notes = parse(source, &Options::default()).expect("reads").notes;
+        let notes = reading(source).notes;
         notes.iter().map(|note| note.warning).collect()
     };
     let [mass, inertia] = [RobotWarning::LargeMass, RobotWarning::ImpossibleInertia].map(Some);
@@ -174,52 +166,29 @@ fn warnings_are_silenced_one_by_one() {
         assert_eq!(doubts(&format!("allow = {allow}\n{odd}")), left, "{allow}");
     }
     // A warning says by which name.
-    let notes = parse(&odd, &Options::default()).unwrap().notes;
-    let help = notes[0].help.as_deref().unwrap();
-    assert!(
-        help.ends_with("; allow = [\"large_mass\"] silences this"),
-        "{help}"
-    );
+    let help = reading(&odd).notes[0].help.clone().unwrap();
+    assert!(help.ends_with("; allow = [\"large_mass\"] silences this"));
 }
+
+/// What of a file silences nothing, and what is said of that.
+const ALLOW: &str = r#"
+["large_mas"] | there is no warning `large_mas` | did you mean "large_mass"?
+["everything"] | there is no warning `everything` | warnings are: impossible_inertia,
+[1] | expected a string, found the number `1` | write it in quotes
+"" | expected an array of the names of warnings, found the string `` | allow = ["impossible_inertia
+"#;
 
 /// What silences nothing is an error: whoever wrote it thinks that it does.
 #[test]
 fn names_of_warnings() {
-    for (allow, message, help) in [
-        (
-            "[\"large_mas\"]",
-            "there is no warning `large_mas`",
-            "did you mean \"large_mass\"?",
-        ),
-        (
-            "[\"everything\"]",
-            "there is no warning `everything`",
-            "warnings are: impossible_inertia, ",
-        ),
-        (
-            "[1]",
-            "expected a string, found the number `1`",
-            "write it in quotes",
-        ),
-        (
-            "\"large_mass\"",
-            "expected an array of the names of warnings, found the string `large_mass`",
-            "allow = [\"impossible_inertia\"]",
-        ),
-    ] {
+    for [allow, message, help] in rows(ALLOW) {
         let found = errors(&format!("allow = {allow}\n{GOOD}"));
-        assert_eq!(found.len(), 1, "{allow}: {found:?}");
-        assert_eq!((found[0].line, found[0].message.as_str()), (1, message));
-        let said = found[0].help.as_deref().unwrap_or_default();
-        assert!(said.starts_with(help), "{said}");
+        assert_eq!((only(&found).line, &found[0].message), (1, &message));
+        let own = found[0].help.as_deref().unwrap_or_default();
+        assert!(own.starts_with(&help), "{own}");
     }
-    let mut names: Vec<&str> = RobotWarning::WORDS.iter().map(|(name, _)| *name).collect();
-    assert!(
-        RobotWarning::WORDS
-            .iter()
-            .all(|(name, warning)| warning.name() == *name)
-    );
-    names.sort_unstable();
-    names.dedup();
-    assert_eq!(names.len(), RobotWarning::WORDS.len());
+    let words = RobotWarning::WORDS;
+    let names: std::collections::BTreeSet<&str> = words.iter().map(|(name, _)| *name).collect();
+    assert!(words.iter().all(|(name, warning)| warning.name() == *name));
+    assert_eq!(names.len(), words.len());
 }

@@ -1,12 +1,11 @@
 //! Scenes of robot files: every key, and the text that says the same.
 
+use crate::support::{errors, has, only, ratio, reading, refused, replaced, rows};
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::outputs::Function;
-use dalembert_model::read::{Options, RobotWarning, parse};
+use dalembert_model::read::{Diagnostic, RobotWarning};
 use dalembert_model::robot::{Position, Severity};
 use dalembert_model::scene::{Float, Scale, Scene, write};
-
-use crate::read_errors::rows;
 
 const ROBOT: &str = r#"
 name = "arm"
@@ -36,15 +35,22 @@ limits = { position = [-2, 2], velocity = 3, acceleration = 10, torque = 5 }
 "#;
 
 fn scenes(text: &str) -> Vec<Scene> {
-    let source = format!("{ROBOT}{text}");
-    let reading = parse(&source, &Options::default());
-    reading
-        .unwrap_or_else(|errors| panic!("{}", errors.render("arm.toml", &source)))
-        .scenes
+    reading(&format!("{ROBOT}{text}")).scenes
 }
 
-fn ratio(numerator: i64, denominator: i64) -> Rational {
-    Rational::new(numerator.into(), denominator.into())
+/// Returns the robot with a scene.
+fn with(text: &str) -> String {
+    format!("{ROBOT}[scene.a]\n{text}\n")
+}
+
+/// Returns the notes of a scene whose messages begin so, with their lines in the scene.
+fn notes(text: &str, begin: &str) -> Vec<(usize, Diagnostic)> {
+    let reading = reading(&with(text));
+    assert_eq!(reading.scenes.len(), 1);
+    let notes = reading.notes.into_iter();
+    let lines = notes.map(|note| (note.line.wrapping_sub(ROBOT.lines().count() + 1), note));
+    let own = lines.filter(|(_, note)| note.message.starts_with(begin));
+    own.collect()
 }
 
 #[test]
@@ -75,10 +81,8 @@ acceleration = "zero"
     assert_eq!(pick.joints.as_deref(), Some(&[2, 0][..]));
     assert_eq!(pick.lock, [(1, Position::Length(ratio(1, 4)))]);
     assert!(pick.gravity.is_some() && pick.velocity_zero && !pick.acceleration_zero);
-    assert_eq!(
-        pick.payload.as_ref().map(|p| p.mass.clone()),
-        Some(ratio(5, 2))
-    );
+    let load = pick.payload.as_ref().map(|load| load.mass.clone());
+    assert_eq!(load, Some(ratio(5, 2)));
     let tolerance = pick.tolerance.as_ref().expect("has one");
     assert_eq!(tolerance.relative_to, Scale::Actuator);
     assert_eq!(tolerance.of(2), Some(&ratio(1, 10)));
@@ -121,10 +125,8 @@ scalar = "f64"
 /// mass, and inertia about any point.
 #[test]
 fn a_payload_is_part_of_the_last_link() {
-    let source = format!(
-        "{ROBOT}[scene.a]\npayload = {{ mass = 1.5, com = [0.1, 0.2, 0.4], inertia = [1, 2, 2, 0, 0, 0.5] }}\n"
-    );
-    let reading = parse(&source, &Options::default()).expect("reads");
+    let load = "{ mass = 1.5, com = [0.1, 0.2, 0.4], inertia = [1, 2, 2, 0, 0, 0.5] }";
+    let reading = reading(&with(&format!("payload = {load}")));
     let (bare, loaded) = (&reading.robot, reading.scenes[0].apply(&reading.robot));
     assert_eq!(bare.joints[..2], loaded.joints[..2]);
     let (link, both) = (&bare.joints[2], &loaded.joints[2]);
@@ -198,25 +200,25 @@ payload = { mass = "1kg", com = [0, 0, 0] } | in SI units
 #[test]
 fn mistakes() {
     for [text, words] in rows(MISTAKES) {
-        let text = text.replace("\\n", "\n");
-        let source = format!("{ROBOT}[scene.bad]\n{text}\n");
-        let errors = parse(&source, &Options::default()).expect_err(&text).0;
-        assert_eq!(errors.len(), 1, "{text}: {errors:?}");
-        let shown = errors[0].to_string();
-        assert!(shown.contains(words), "{text}: {shown}");
+        let errors = errors(&with(&text));
+        let shown = only(&errors).to_string();
+        assert!(shown.contains(&words), "{text}: {shown}");
         assert_eq!(errors[0].line, ROBOT.lines().count() + 2, "{text}: {shown}");
     }
 }
+
+/// A tolerance relative to the torques of the actuators.
+const ACTUATOR: &str = "tolerance = { value = 1e-3, relative_to = \"actuator\" }";
+const RANGE: &str = "tolerance = { value = 1e-3, relative_to = \"range\" }";
 
 #[test]
 fn a_bound_needs_a_box() {
     let bare = ROBOT
         .replace("velocity = 1, ", "")
         .replace(", torque = 5 ", " ");
-    let parse = |text: &str| parse(&format!("{bare}[scene.a]\n{text}"), &Options::default());
-    let errors = parse("tolerance = { value = 1e-3, relative_to = \"actuator\" }\n").unwrap_err();
-    let shown = errors.to_string();
-    assert_eq!(errors.0.len(), 2, "{shown}");
+    let with = |text: &str| format!("{bare}[scene.a]\n{text}");
+    let shown = refused(&with(ACTUATOR));
+    assert_eq!(shown.matches("error: ").count(), 2, "{shown}");
     assert!(
         shown.contains("the range of the velocity of joint 2 (boom)"),
         "{shown}"
@@ -226,12 +228,12 @@ fn a_bound_needs_a_box() {
         "{shown}"
     );
     for good in [
-        "box = { velocity = [1, 1, 1] }\ntolerance = { value = 1e-3, relative_to = \"range\" }\n",
-        "velocity = \"zero\"\ntolerance = { value = 1e-3, relative_to = \"range\" }\n",
-        "lock = { 2 = 0 }\njoints = [1]\ntolerance = { value = 1e-3, relative_to = \"actuator\" }\n",
-        "outputs = [\"gravity\"]\ntolerance = { value = 1e-3, relative_to = \"range\" }\n",
+        format!("box = {{ velocity = [1, 1, 1] }}\n{RANGE}"),
+        format!("velocity = \"zero\"\n{RANGE}"),
+        format!("lock = {{ 2 = 0 }}\njoints = [1]\n{ACTUATOR}"),
+        format!("outputs = [\"gravity\"]\n{RANGE}"),
     ] {
-        assert!(parse(good).is_ok(), "{good}");
+        assert_eq!(errors(&with(&good)), [], "{good}");
     }
 }
 
@@ -239,158 +241,131 @@ fn a_bound_needs_a_box() {
 /// stands. To be at rest is a range.
 #[test]
 fn a_limit_of_zero() {
-    let still = ROBOT.replace("torque = 80", "torque = 0").replace(
-        "acceleration = 10, torque = 5 }",
-        "acceleration = 0, torque = 5 }",
-    );
-    let read = |text: &str| {
-        let source = format!("{still}[scene.a]\n{text}\n");
-        parse(&source, &Options::default()).map_err(|errors| {
-            let lines: Vec<usize> = errors.0.iter().map(|error| error.line).collect();
-            (lines, errors.to_string())
-        })
-    };
-    let actuator = "tolerance = { value = 1e-3, relative_to = \"actuator\" }";
-    let line = |words: &str| 1 + still.lines().position(|l| l.contains(words)).unwrap();
-    let (lines, shown) = read(actuator).unwrap_err();
-    assert_eq!(lines, [line("torque = 0")], "{shown}");
-    assert!(
-        shown.contains("the torque limit of joint 2 (boom) is 0"),
-        "{shown}"
-    );
-    // T of D divides by the acceleration, unless nothing of that joint is asked for.
-    let inertia = format!("outputs = [\"inertia\"]\n{actuator}\n");
-    let (lines, shown) = read(&format!("{inertia}joints = [1, 3]")).unwrap_err();
-    assert_eq!(lines, [line("acceleration = 0")], "{shown}");
-    let zero = "box = { acceleration = [0, 1, 1] }";
-    let (lines, shown) = read(&format!("{inertia}joints = [1, 3]\n{zero}")).unwrap_err();
-    assert_eq!(lines, [still.lines().count() + 5], "{shown}");
-    assert!(
-        shown.contains("the acceleration limit of joint 1 (waist) is 0"),
-        "{shown}"
-    );
-    for good in [
-        format!("{inertia}joints = [1]"),
-        format!("{actuator}\njoints = [1, 3]"),
-        format!("{actuator}\nlock = {{ 2 = 0 }}\nbox = {{ velocity = [0, 0, 0] }}"),
-        "tolerance = { value = 1e-3, relative_to = \"range\" }".to_owned(),
-    ] {
-        assert!(read(&good).is_ok(), "{good}");
-    }
-    // A limit that could not be read is not zero.
-    let unread = ROBOT.replace("torque = 80", "torque = \"much\"");
-    let errors = parse(
-        &format!("{unread}[scene.a]\n{actuator}\n"),
-        &Options::default(),
-    )
-    .unwrap_err();
-    assert_eq!(errors.0.len(), 1, "{errors}");
-}
-
-/// A limit is shown at its own row, also behind a row that follows another.
-#[test]
-fn a_limit_of_zero_behind_a_follower() {
-    const BOOM: &str = "[[joint]]\nname = \"boom\"";
+    let slow = "acceleration = 0, torque = 5 }";
+    let still = replaced(ROBOT, "acceleration = 10, torque = 5 }", slow);
+    let still = replaced(&still, "torque = 80", "torque = 0");
+    // The row behind one that follows another, too.
+    let boom = "[[joint]]\nname = \"boom\"";
     let elbow = "[[joint]]\nname = \"elbow\"\nkind = \"revolute\"\nmass = 0\n\
                  mimic = { joint = 1 }\nlimits = { torque = 7 }\n";
-    let robot = ROBOT.replace(BOOM, &format!("{elbow}{BOOM}"));
-    let robot = robot.replace("torque = 80", "torque = 0");
-    let scene = "[scene.a]\ntolerance = { value = 1e-3, relative_to = \"actuator\" }\n";
-    let errors = parse(&format!("{robot}{scene}"), &Options::default()).unwrap_err();
-    let line = 1 + robot
-        .lines()
-        .position(|l| l.contains("torque = 0"))
-        .unwrap();
-    assert_eq!((errors.0.len(), errors.0[0].line), (1, line), "{errors}");
+    let following = replaced(&still, boom, &format!("{elbow}{boom}"));
+    let with = |text: &str| format!("{still}[scene.a]\n{text}\n");
+    let inertia = format!("outputs = [\"inertia\"]\n{ACTUATOR}\n");
+    let zero = "box = { acceleration = [0, 1, 1] }";
+    // T of D divides by the acceleration, unless nothing of that joint is asked for.
+    for (source, at, message) in [
+        (
+            with(ACTUATOR),
+            "torque = 0",
+            "the torque limit of joint 2 (boom) is 0",
+        ),
+        (
+            format!("{following}[scene.a]\n{ACTUATOR}\n"),
+            "torque = 0",
+            "(boom) is 0",
+        ),
+        (
+            with(&format!("{inertia}joints = [1, 3]")),
+            "acceleration = 0",
+            "",
+        ),
+        (
+            with(&format!("{inertia}joints = [1, 3]\n{zero}")),
+            zero,
+            "the acceleration limit of joint 1 (waist) is 0",
+        ),
+    ] {
+        let errors = errors(&source);
+        let line = 1 + source.lines().position(|line| line.contains(at)).unwrap();
+        assert_eq!(only(&errors).line, line, "{source}");
+        has(&errors[0], message, "");
+    }
+    for good in [
+        format!("{inertia}joints = [1]"),
+        format!("{ACTUATOR}\njoints = [1, 3]"),
+        format!("{ACTUATOR}\nlock = {{ 2 = 0 }}\nbox = {{ velocity = [0, 0, 0] }}"),
+        RANGE.to_owned(),
+    ] {
+        assert_eq!(errors(&with(&good)), [], "{good}");
+    }
+    // A limit that could not be read is not zero.
+    only(&errors(
+        &self::with(ACTUATOR).replace("torque = 80", "torque = \"much\""),
+    ));
 }
 
-/// A box may be larger than the limits, on purpose: a warning, and the scene as
-/// it stands.
+/// What a scene has, and what is said of its box: beyond which limits it goes. Of a locked joint
+/// it says nothing.
+const BEYOND: &str = r#"
+box = { position = [[-1, 1], [0, 0.1], [-2.5, 2]] } | limits of joint 3 (wrist), -2 to 2
+box = { position = [[-1, 1], [-0.5, 0.75], [-2, 2]] } | limits of joint 2 (boom), -0.5 to 0.5
+box = { velocity = [2.5, 1, 3] } | velocity limit of joint 1 (waist), 2
+box = { acceleration = [10, 5, 11] } | acceleration limit of joint 3 (wrist), 10
+box = { position = [["-pi", "pi"], [-0.5, 0.5], [-2, 2]], velocity = [2, 1, 3] } |
+box = { velocity = [2, 1, 9] }\nlock = { 3 = 0 } |
+"#;
+
+/// A box may be larger than the limits, on purpose: a warning, and the scene as it stands.
 #[test]
 fn a_box_beyond_the_limits() {
-    let read = |text: &str| {
-        let source = format!("{ROBOT}[scene.a]\n{text}\n");
-        let reading = parse(&source, &Options::default());
-        let reading = reading.unwrap_or_else(|errors| panic!("{text}: {errors}"));
-        assert_eq!(reading.scenes.len(), 1);
-        let notes = reading.notes.into_iter();
-        // The robot has notes of its own.
-        notes
-            .filter(|note| note.message.starts_with("the box of"))
-            .map(|note| (note.severity, note.line, note.message))
-            .collect::<Vec<_>>()
-    };
-    let line = ROBOT.lines().count() + 2;
-    for (text, words) in [
-        (
-            "box = { position = [[-1, 1], [0, 0.1], [-2.5, 2]] }",
-            "the box of scene `a` goes beyond the limits of joint 3 (wrist), -2 to 2",
-        ),
-        (
-            "box = { position = [[-1, 1], [-0.5, 0.75], [-2, 2]] }",
-            "the box of scene `a` goes beyond the limits of joint 2 (boom), -0.5 to 0.5",
-        ),
-        (
-            "box = { velocity = [2.5, 1, 3] }",
-            "the box of scene `a` goes beyond the velocity limit of joint 1 (waist), 2",
-        ),
-        (
-            "box = { acceleration = [10, 5, 11] }",
-            "the box of scene `a` goes beyond the acceleration limit of joint 3 (wrist), 10",
-        ),
-    ] {
-        let expected = (Severity::Warning, line, words.to_owned());
-        assert_eq!(read(text), [expected], "{text}");
-    }
-    for inside in [
-        "box = { position = [[\"-pi\", \"pi\"], [-0.5, 0.5], [-2, 2]], velocity = [2, 1, 3] }",
-        // Of a locked joint the box says nothing.
-        "box = { velocity = [2, 1, 9] }\nlock = { 3 = 0 }",
-    ] {
-        assert_eq!(read(inside), [], "{inside}");
+    for [text, limit] in rows(BEYOND) {
+        let found = notes(&text, "the box of");
+        assert_eq!(
+            found.len(),
+            usize::from(!limit.is_empty()),
+            "{text}: {found:?}"
+        );
+        for (line, note) in found {
+            let expected = format!("the box of scene `a` goes beyond the {limit}");
+            assert_eq!(
+                (note.severity, line, note.message),
+                (Severity::Warning, 1, expected)
+            );
+        }
     }
 }
 
 /// A tolerance of everything is probably meant in percent.
 #[test]
 fn a_tolerance_of_one_or_more() {
-    let read = |value: &str| {
-        let scene = format!("tolerance = {{ value = {value}, relative_to = \"actuator\" }}");
-        let source = format!("{ROBOT}[scene.a]\noutputs = [\"gravity\"]\n{scene}\n");
-        let reading = parse(&source, &Options::default());
-        let reading = reading.unwrap_or_else(|errors| panic!("{value}: {errors}"));
-        let notes = reading.notes.into_iter();
-        let mut notes = notes.filter(|note| note.message.starts_with("a tolerance of 1 or more"));
-        notes.next().map(|note| (note.severity, note.line))
-    };
-    let line = ROBOT.lines().count() + 3;
-    for value in ["1", "5", "[0.1, 0.1, 2]"] {
-        assert_eq!(read(value), Some((Severity::Warning, line)), "{value}");
+    for (value, said) in [
+        ("1", true),
+        ("5", true),
+        ("[0.1, 0.1, 2]", true),
+        ("0.999", false),
+    ] {
+        let text = format!(
+            "outputs = [\"gravity\"]\n{}",
+            ACTUATOR.replace("1e-3", value)
+        );
+        let found = notes(&text, "a tolerance of 1 or more");
+        let found: Vec<_> = found
+            .iter()
+            .map(|(line, note)| (note.severity, *line))
+            .collect();
+        let expected = [(Severity::Warning, 2)];
+        assert_eq!(found, expected[..usize::from(said)], "{value}");
     }
-    assert_eq!(read("0.999"), None);
 }
 
 /// A payload's inertia in kg·mm² is far beyond the arm.
 #[test]
 fn a_payload_in_other_units() {
-    let scene = "payload = { mass = 2, com = [0, 0, 0.1], inertia = [4e4, 4e4, 4e4, 0, 0, 0] }";
-    let source = format!("{ROBOT}[scene.a]\n{scene}\n");
-    let notes = parse(&source, &Options::default()).unwrap().notes;
-    let note = notes
+    let load = "payload = { mass = 2, com = [0, 0, 0.1], inertia = [4e4, 4e4, 4e4, 0, 0, 0] }";
+    let found = notes(load, "");
+    let mut own = found
         .iter()
-        .find(|note| note.warning == Some(RobotWarning::LargeInertia));
-    let note = note.expect("a warning");
-    assert_eq!(note.line, ROBOT.lines().count() + 2);
-    let help = note.help.as_deref().unwrap_or_default();
-    assert!(help.contains("write 0.04 for 40000"), "{help}");
+        .filter(|own| own.1.warning == Some(RobotWarning::LargeInertia));
+    let (line, note) = own.next().expect("a warning");
+    assert_eq!(*line, 1);
+    has(note, "", "write 0.04 for 40000");
 }
 
 /// Everything at once.
 #[test]
 fn all_mistakes_of_all_scenes() {
-    let source = format!(
-        "{ROBOT}[scene.a]\njoints = [7]\nlock = {{ 3 = 5 }}\n[scene.B]\ntolerance = {{ value = -1, relative_to = \"range\" }}\n"
-    );
-    let errors = parse(&source, &Options::default()).unwrap_err().0;
+    let bad = "joints = [7]\nlock = { 3 = 5 }\n[scene.B]\n\
+        tolerance = { value = -1, relative_to = \"range\" }";
+    let errors = errors(&with(bad));
     assert_eq!(errors.len(), 4, "{errors:?}");
 }

@@ -1,31 +1,68 @@
 //! Arms for the tests of the equations: golden robots and random general ones.
-#![allow(dead_code, reason = "each test file uses its own part")]
 
-pub mod extremes;
 pub mod golden;
 pub mod known;
 pub mod random;
 
-use dalembert_model::equations::{Arm, JointPosition, SinCosPair};
-use dalembert_model::robot::JointKind;
+use dalembert_model::equations::frames::Frames;
+use dalembert_model::equations::friction::Friction;
+use dalembert_model::equations::{Arm, DhVariables, JointPosition, Link, SinCosPair};
+use dalembert_model::robot::{Convention, Inertia, JointKind};
+use dalembert_model::scalar::Scalar;
 
-/// Returns max|a − b| / max|b|; the larger of the two when b is zero.
-pub fn normwise(a: &[f64], b: &[f64]) -> f64 {
-    assert_eq!(a.len(), b.len());
-    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-    let error = largest(&mut a.iter().zip(b).map(|(a, b)| (a - b).abs()));
-    let size = largest(&mut b.iter().map(|b| b.abs()));
-    if size == 0.0 { error } else { error / size }
+/// Returns an arm of links, of which nothing more is known.
+pub fn arm<S>(convention: Convention, gravity: [S; 3], links: Vec<Link<S>>) -> Arm<S> {
+    Arm {
+        convention,
+        gravity,
+        base: None,
+        tool: None,
+        links,
+        following: Vec::new(),
+        frames: Frames::default(),
+    }
 }
 
-/// Positions of an f64 arm from its joint values.
-pub fn positions(arm: &Arm<f64>, q: &[f64]) -> Vec<JointPosition<f64>> {
-    let of = |(link, q): (&dalembert_model::equations::Link<f64>, &f64)| match link.kind {
-        JointKind::Revolute => {
-            let (sin, cos) = libm::sincos(*q);
-            JointPosition::Revolute(SinCosPair { sin, cos })
-        }
-        JointKind::Prismatic => JointPosition::Prismatic(*q),
+/// Returns a link without friction and rotor.
+pub fn link<S: Scalar>(
+    kind: JointKind,
+    [alpha, theta]: [SinCosPair<S>; 2],
+    [a, d, mass]: [S; 3],
+    com: [S; 3],
+    inertia: Inertia<S>,
+) -> Link<S> {
+    Link {
+        kind,
+        alpha,
+        beta: None,
+        theta,
+        a,
+        d,
+        mass,
+        com,
+        inertia,
+        friction: Friction::none(),
+        armature: S::zero(),
+    }
+}
+
+/// Returns the variables of an arm at float positions.
+pub fn placed<S: Scalar>(
+    arm: &Arm<S>,
+    q: &[f64],
+    number: impl Fn(f64) -> S,
+    pair: impl Fn(f64) -> SinCosPair<S>,
+) -> Vec<DhVariables<S>> {
+    let position = |(link, q): (&Link<S>, &f64)| match link.kind {
+        JointKind::Revolute => JointPosition::Revolute(pair(*q)),
+        JointKind::Prismatic => JointPosition::Prismatic(number(*q)),
     };
-    arm.links.iter().zip(q).map(of).collect()
+    let position: Vec<_> = arm.links.iter().zip(q).map(position).collect();
+    arm.at(&position)
+}
+
+/// Returns the sine and the cosine of an angle in doubles.
+pub fn sincos(angle: f64) -> SinCosPair<f64> {
+    let (sin, cos) = libm::sincos(angle);
+    SinCosPair { sin, cos }
 }

@@ -1,88 +1,96 @@
 //! Random general arms in the prime field: every parameter its own residue, so
 //! that no slip can hide behind a zero or a right angle.
 
-use dalembert_model::equations::frames::Frames;
 use dalembert_model::equations::friction::{Coulomb, Friction};
 use dalembert_model::equations::matrix::Columns;
 use dalembert_model::equations::{Arm, DhVariables, JointPosition, Link, SinCosPair};
 use dalembert_model::robot::{Convention, Inertia, JointKind};
+use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
+
+use super::known::Known;
+use super::{arm, link};
+
+pub const CONVENTIONS: [Convention; 2] = [Convention::Standard, Convention::Modified];
 
 /// An arm and one state of it.
 #[derive(Clone)]
-pub struct Case {
-    pub arm: Arm<Field>,
-    pub at: Vec<DhVariables<Field>>,
-    pub qd: Vec<Field>,
-    pub qdd: Vec<Field>,
+pub struct Case<S = Field> {
+    pub arm: Arm<S>,
+    pub at: Vec<DhVariables<S>>,
+    pub qd: Vec<S>,
+    pub qdd: Vec<S>,
 }
 
-/// Returns the joint kinds of bit pattern `bits`, 1 for prismatic.
-pub fn kinds(n: usize, bits: u32) -> Vec<JointKind> {
-    let kind = |i| match bits >> i & 1 {
-        0 => JointKind::Revolute,
-        _ => JointKind::Prismatic,
-    };
-    (0..n).map(kind).collect()
+/// Returns a general arm of n joints at a general state; the bits say which of them slide.
+pub fn case(convention: Convention, n: usize, bits: u32, points: &mut Points) -> Case {
+    let gravity = triple(points);
+    let links = (0..n).map(|i| match bits >> i & 1 {
+        0 => general_link(JointKind::Revolute, points),
+        _ => general_link(JointKind::Prismatic, points),
+    });
+    let arm = arm(convention, gravity, links.collect());
+    let at = arm.at(&position(&arm, points, |x| x));
+    let [qd, qdd] = [(); 2].map(|()| fields(n, points));
+    Case { arm, at, qd, qdd }
 }
 
-/// Returns a general arm of the kinds given, at a general state.
-pub fn case(convention: Convention, kinds: &[JointKind], points: &mut Points) -> Case {
-    let arm = Arm {
-        convention,
-        gravity: triple(points),
-        base: None,
-        tool: None,
-        links: kinds.iter().map(|kind| link(*kind, points)).collect(),
-        following: Vec::new(),
-        frames: Frames::default(),
+/// Returns every pattern of kinds up to so many joints, in both conventions.
+pub fn every_kind(most: usize, points: &mut Points) -> Vec<Case> {
+    let patterns = (1..=most).flat_map(|n| (0..1 << n).map(move |bits| (n, bits)));
+    let all = CONVENTIONS
+        .into_iter()
+        .flat_map(|own| patterns.clone().map(move |of| (own, of)));
+    all.map(|(own, (n, bits))| case(own, n, bits, points))
+        .collect()
+}
+
+/// Draws the position of an arm.
+pub fn position<S: Scalar>(
+    arm: &Arm<S>,
+    points: &mut Points,
+    wrap: impl Fn(Field) -> S,
+) -> Vec<JointPosition<S>> {
+    let draw = |link: &Link<S>| match link.kind {
+        JointKind::Revolute => JointPosition::Revolute(pair(points).map(|x| wrap(*x))),
+        JointKind::Prismatic => JointPosition::Prismatic(wrap(points.field())),
     };
-    let position = |kind: &JointKind| match kind {
-        JointKind::Revolute => JointPosition::Revolute(pair(points)),
-        JointKind::Prismatic => JointPosition::Prismatic(points.field()),
-    };
-    let position: Vec<_> = kinds.iter().map(position).collect();
-    Case {
-        at: arm.at(&position),
-        arm,
-        qd: kinds.iter().map(|_| points.field()).collect(),
-        qdd: kinds.iter().map(|_| points.field()).collect(),
-    }
+    arm.links.iter().map(draw).collect()
 }
 
 /// Draws a pose somewhere, turned about all three axes.
 pub fn pose(points: &mut Points) -> Columns<Field> {
     let turned = Columns::identity()
         .turn_z(&pair(points))
-        .turn_y(&pair(points))
-        .turn_x(&pair(points));
+        .turn_y(&pair(points));
     Columns {
+        axes: turned.turn_x(&pair(points)).axes,
         origin: triple(points),
-        ..turned
     }
 }
 
-fn link(kind: JointKind, points: &mut Points) -> Link<Field> {
+fn general_link(kind: JointKind, points: &mut Points) -> Link<Field> {
+    let angles = [(); 2].map(|()| pair(points));
+    let [
+        lengths,
+        com,
+        [viscous, armature, force],
+        [width, per_speed, _],
+    ] = [(); 4].map(|()| triple(points));
+    let inertia = Inertia::of([(); 6].map(|()| points.field()));
+    let coulomb = Coulomb {
+        force,
+        width,
+        per_speed,
+    };
     Link {
-        kind,
-        alpha: pair(points),
-        beta: None,
-        theta: pair(points),
-        a: points.field(),
-        d: points.field(),
-        mass: points.field(),
-        com: triple(points),
-        inertia: Inertia::of([(); 6].map(|()| points.field())),
+        // Any three numbers: what formulations agree on rests on no relation of them.
         friction: Friction {
-            viscous: points.field(),
-            // Any three numbers: what formulations agree on rests on no relation of them.
-            coulomb: Some(Coulomb {
-                force: points.field(),
-                width: points.field(),
-                per_speed: points.field(),
-            }),
+            viscous,
+            coulomb: Some(coulomb),
         },
-        armature: points.field(),
+        armature,
+        ..link(kind, angles, lengths, com, inertia)
     }
 }
 
@@ -91,6 +99,15 @@ pub fn pair(points: &mut Points) -> SinCosPair<Field> {
     SinCosPair { sin, cos }
 }
 
-pub fn triple(points: &mut Points) -> [Field; 3] {
-    [points.field(), points.field(), points.field()]
+fn triple(points: &mut Points) -> [Field; 3] {
+    [(); 3].map(|()| points.field())
+}
+
+pub fn fields(n: usize, points: &mut Points) -> Vec<Field> {
+    (0..n).map(|_| points.field()).collect()
+}
+
+/// Returns residues that know their zeros and ones.
+pub fn known(values: &[Field]) -> Vec<Known> {
+    values.iter().copied().map(Known).collect()
 }

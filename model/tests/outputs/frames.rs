@@ -19,45 +19,44 @@ fn with_frames(case: &Case, points: &mut Points) -> Arm<Field> {
     arm
 }
 
-/// Values of a text's only quantity.
+/// Returns the values of a text's only quantity, by all formulations the same.
 fn at_frame(text: &str, arm: &Arm<Field>, case: &Case, motion: &Motion<Field>) -> Vec<Field> {
-    let written = Written {
-        formulation: Formulation::LagrangeEuler,
-        arm,
-        at: &case.at,
-        motion,
-        columns: &[],
+    let case = Case {
+        arm: arm.clone(),
+        ..case.clone()
     };
     let function = Function::parse(text).unwrap();
-    let expected = function.quantities()[0].written(&written);
-    assert_eq!(
-        expected.len(),
-        function.outputs(Sizes::whole(arm.links.len())),
-        "{text}"
-    );
+    let by = |own| written(function.quantities()[0], own, &case, motion, &[]);
+    let expected = by(Formulation::LagrangeEuler);
+    let length = function.outputs(Sizes::whole(arm.links.len()));
+    assert_eq!(expected.len(), length, "{text}");
     for formulation in Formulation::ALL {
-        let by = Written {
-            formulation,
-            ..written
-        };
-        assert_eq!(
-            function.quantities()[0].written(&by),
-            expected,
-            "{text} {formulation:?}"
-        );
+        assert_eq!(by(formulation), expected, "{text} {formulation:?}");
     }
     expected
 }
 
 fn matrix_product(a: &[Field], b: &[Field], inner: usize) -> Vec<Field> {
     let columns = b.len() / inner;
-    let entry = |row: &[Field], k: usize| {
-        (0..inner).fold(Field::ZERO, |sum, j| {
-            sum.add(&row[j].mul(&b[j * columns + k]))
-        })
-    };
+    let column = |k: usize| b[k..].iter().step_by(columns).copied().collect::<Vec<_>>();
     let rows = a.chunks(inner);
-    rows.flat_map(|row| (0..columns).map(move |k| entry(row, k)))
+    rows.flat_map(|row| {
+        (0..columns)
+            .map(|k| dot(row, &column(k)))
+            .collect::<Vec<_>>()
+    })
+    .collect()
+}
+
+fn one(n: usize) -> Vec<Field> {
+    (0..n * n)
+        .map(|at| {
+            if at.is_multiple_of(n + 1) {
+                Field::ONE
+            } else {
+                Field::ZERO
+            }
+        })
         .collect()
 }
 
@@ -79,11 +78,8 @@ fn frames_are_hands_in_other_places() {
             assert_eq!(of(&format!("{name}@hand"), &arm), of(name, &arm));
         }
         let inner = of("jacobian@inner", &arm);
-        assert!(
-            inner
-                .chunks(n)
-                .all(|row| row[1..].iter().all(|x| *x == Field::ZERO))
-        );
+        let mut behind = inner.chunks(n).flat_map(|row| &row[1..]);
+        assert!(behind.all(|x| *x == Field::ZERO));
         let moving_arm = arm.map(|x| Dual::constant(*x));
         let (_, moving_at) = moving(&case);
         for axes in ["mixed", "local", "world"] {
@@ -99,11 +95,11 @@ fn frames_are_hands_in_other_places() {
                 };
                 let seen = moving_arm.seen(&seen.view()).unwrap();
                 let rates = Formulation::LagrangeEuler.jacobian(&seen, &moving_at);
-                let rates = rates.iter().map(|row| {
-                    let products = row.iter().zip(&case.qd).map(|(j, qd)| j.rate.mul(qd));
-                    products.fold(Field::ZERO, |sum, x| sum.add(&x))
-                });
-                let rates: Vec<Field> = rates.collect();
+                let rate = |row: &Vec<Dual<Field>>| {
+                    let row: Vec<Field> = row.iter().map(|j| j.rate).collect();
+                    dot(&row, &case.qd)
+                };
+                let rates: Vec<Field> = rates.iter().map(rate).collect();
                 assert_eq!(of(&format!("jacobian_rate{view}"), &arm), rates, "{view}");
                 let torques = matrix_product(&motion.wrench, &j, 6);
                 let with = of(&format!("inverse_dynamics_with_wrench{view}"), &arm);
@@ -143,16 +139,6 @@ fn operational_space_fits_together() {
             assert_eq!(matrix_product(&reached, &inertia, m), inverse);
             let mut damped = mobility;
             (0..m).for_each(|i| damped[i * m + i] = damped[i * m + i].add(&damping));
-            let one = |n: usize| -> Vec<Field> {
-                let entry = |at: usize| {
-                    if at.is_multiple_of(n + 1) {
-                        Field::ONE
-                    } else {
-                        Field::ZERO
-                    }
-                };
-                (0..n * n).map(entry).collect()
-            };
             assert_eq!(matrix_product(&inertia, &damped, m), one(m));
             let mut projector = matrix_product(&inverse, &j, m);
             for (entry, one) in projector.iter_mut().zip(one(n)) {

@@ -3,7 +3,10 @@
 
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::Robot;
-use nalgebra::{DVector, Matrix3, Vector3};
+use dalembert_model::scalar::field::Points;
+use nalgebra::{Matrix3, Vector3};
+
+use crate::support::vector;
 
 pub struct Body {
     mass: f64,
@@ -29,23 +32,16 @@ pub struct Arm {
     payload: Option<Body>,
 }
 
-/// A generator of its own: xorshift.
-pub struct Drawn(u64);
+/// Draws arms and states.
+pub struct Drawn(Points);
 
 impl Drawn {
     pub fn new(seed: u64) -> Drawn {
-        Drawn(0x9e37_79b9_7f4a_7c15 ^ (seed + 1).wrapping_mul(0xbf58_476d_1ce4_e5b9))
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0
+        Drawn(Points::new(seed))
     }
 
     fn below(&mut self, n: u64) -> u64 {
-        (self.next() >> 20) % n
+        self.0.bits() % n
     }
 
     /// Returns a decimal of three digits within ±most.
@@ -121,11 +117,8 @@ impl Drawn {
         for joint in &mut arm.joints {
             joint.xyz = self.triple(0.5);
             joint.axis = [0.0, 0.0, 1.0];
-            joint.rpy = [
-                angle * self.number(1.0),
-                angle * self.number(1.0),
-                self.number(3.0),
-            ];
+            let [roll, pitch] = [(); 2].map(|()| angle * self.number(1.0));
+            joint.rpy = [roll, pitch, self.number(3.0)];
         }
         arm
     }
@@ -144,36 +137,22 @@ impl Arm {
 
 /// Returns the robot file.
 pub fn file(arm: &Arm) -> String {
-    let placement =
-        |(xyz, rpy): &([f64; 3], [f64; 3])| format!("{{ xyz = {xyz:?}, rpy = {rpy:?} }}");
-    let mut text = format!(
-        "name = \"arm\"\ngravity = {:?}\nbase = {}\ntool = {}\n",
-        arm.gravity.as_slice(),
-        placement(&arm.base),
-        placement(&arm.tool)
-    );
+    let placed = |xyz: &[f64; 3], rpy: &[f64; 3]| format!("{{ xyz = {xyz:?}, rpy = {rpy:?} }}");
+    let [base, tool] = [arm.base, arm.tool].map(|(xyz, rpy)| placed(&xyz, &rpy));
+    let gravity = arm.gravity.as_slice();
+    let mut text = format!("name = \"arm\"\ngravity = {gravity:?}\nbase = {base}\ntool = {tool}\n");
     for joint in &arm.joints {
-        let i = &joint.body.inertia;
-        let kind = if joint.slides {
-            "prismatic"
-        } else {
-            "revolute"
-        };
+        let kind = ["revolute", "prismatic"][usize::from(joint.slides)];
+        let places = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
+        let body = &joint.body;
         text += &format!(
             "[[joint]]\nkind = \"{kind}\"\nplacement = {}\naxis = {:?}\nmass = {:?}\ncom = {:?}\n\
              inertia = {:?}\nviscous = {:?}\narmature = {:?}\n",
-            placement(&(joint.xyz, joint.rpy)),
+            placed(&joint.xyz, &joint.rpy),
             joint.axis,
-            joint.body.mass,
-            joint.body.com.as_slice(),
-            [
-                i[(0, 0)],
-                i[(1, 1)],
-                i[(2, 2)],
-                i[(0, 1)],
-                i[(1, 2)],
-                i[(0, 2)]
-            ],
+            body.mass,
+            body.com.as_slice(),
+            places.map(|place| body.inertia[place]),
             joint.viscous,
             joint.armature
         );
@@ -261,15 +240,15 @@ pub fn compare(arm: &Arm, robot: &Robot, drawn: &mut Drawn) -> f64 {
             |most| -> Vec<f64> { arm.joints.iter().map(|_| drawn.number(most)).collect() };
         let (q, qd, qdd) = (draw(3.0), draw(2.0), draw(5.0));
         let (torques, hand) = by_frames(arm, &q, &qd, &qdd);
-        let vector = |x: &[f64]| DVector::from_column_slice(x);
+        let [at, rates, accelerations] = [&q, &qd, &qdd].map(|x| vector(x));
         let found = runtime
-            .inverse_dynamics(&vector(&q), &vector(&qd), &vector(&qdd))
+            .inverse_dynamics(&at, &rates, &accelerations)
             .unwrap();
         let largest = torques.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         for (a, b) in found.iter().zip(&torques) {
             worst = worst.max((a - b).abs() / largest);
         }
-        let pose = runtime.hand(&vector(&q)).unwrap();
+        let pose = runtime.hand(&at).unwrap();
         for k in 0..3 {
             worst = worst.max((Vector3::from(pose.axes[k]) - hand.0.column(k)).amax());
         }

@@ -1,0 +1,110 @@
+//! Files of robots, what reading them says, and tables of cases.
+
+use std::fmt::Debug;
+
+use dalembert_model::number::Rational;
+use dalembert_model::read::{Diagnostic, Options, Reading, parse};
+use dalembert_model::robot::{Robot, write};
+use nalgebra::DVector;
+
+/// The robots that golden files have.
+pub const ROBOTS: [&str; 6] = [
+    "puma560", "stanford", "ur10", "panda", "planar2r", "planar3r",
+];
+
+/// Returns a file of the tests.
+pub fn data(name: &str) -> String {
+    let path = format!("{}/tests/data/{name}", env!("CARGO_MANIFEST_DIR"));
+    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+/// Returns the file of a robot that code is checked in for.
+pub fn generated(name: &str) -> String {
+    data(&format!("../../../generated/robots/{name}.toml"))
+}
+
+/// Reads a robot file that is right.
+#[track_caller]
+pub fn reading(text: &str) -> Reading {
+    parse(text, &Options::default()).unwrap_or_else(|e| panic!("{}", e.render("arm.toml", text)))
+}
+
+/// Returns what is wrong with a robot file.
+pub fn errors(text: &str) -> Vec<Diagnostic> {
+    let errors = parse(text, &Options::default()).err();
+    errors.map_or_else(Vec::new, |errors| errors.0)
+}
+
+/// Returns what is said of a robot file: what is wrong, or what is odd.
+pub fn said(text: &str) -> Vec<Diagnostic> {
+    match parse(text, &Options::default()) {
+        Ok(reading) => reading.notes,
+        Err(errors) => errors.0,
+    }
+}
+
+/// Returns the text of what is wrong with a robot file.
+#[track_caller]
+pub fn refused(text: &str) -> String {
+    let errors = parse(text, &Options::default()).expect_err(text);
+    errors.render("arm.toml", text)
+}
+
+/// Returns the text of a robot, which reads as the same.
+#[track_caller]
+pub fn written(robot: &Robot) -> String {
+    let text = write(robot);
+    assert_eq!(reading(&text).robot, *robot);
+    text
+}
+
+/// Checks that a message and its help have these words in them.
+#[track_caller]
+pub fn has(said: &Diagnostic, message: &str, help: &str) {
+    assert!(said.message.contains(message), "{message}: {said:?}");
+    let own = said.help.as_deref().unwrap_or_default();
+    assert!(own.contains(help), "{help}: {said:?}");
+}
+
+/// Returns a text with its first such words replaced, which it has.
+#[track_caller]
+pub fn replaced(text: &str, what: &str, by: &str) -> String {
+    assert!(text.contains(what), "{what}");
+    text.replacen(what, by, 1)
+}
+
+/// Returns the only one that there is.
+#[track_caller]
+pub fn only<T: Debug>(all: &[T]) -> &T {
+    let [one] = all else { panic!("{all:#?}") };
+    one
+}
+
+/// Returns the cells of a table: a row a line, bars between cells, `\n` for the end of a line.
+pub fn rows<const N: usize>(table: &str) -> Vec<[String; N]> {
+    let cells = |row: &str| -> Vec<String> {
+        let cells = row.split('|').map(|cell| cell.trim().replace("\\n", "\n"));
+        cells.collect()
+    };
+    let rows = table.lines().filter(|row| !row.is_empty());
+    rows.map(|row| cells(row).try_into().expect(row)).collect()
+}
+
+/// Returns pairs of a table: what is replaced by what, and below it the cells of a row.
+pub fn changes<const N: usize>(table: &str) -> Vec<(String, String, [String; N])> {
+    let lines: Vec<&str> = table.trim().lines().collect();
+    let change = |[change, row]: &[&str; 2]| {
+        let (from, to) = change.split_once(" =>").expect(change);
+        let [from, to] = [from, to.trim_start()].map(|text| text.replace("\\n", "\n"));
+        (from, to, rows(row).remove(0))
+    };
+    lines.as_chunks().0.iter().map(change).collect()
+}
+
+pub fn ratio(numerator: i64, denominator: i64) -> Rational {
+    Rational::new(numerator.into(), denominator.into())
+}
+
+pub fn vector(values: &[f64]) -> DVector<f64> {
+    DVector::from_column_slice(values)
+}
