@@ -170,27 +170,31 @@ fn a_text_with_other_sines_is_not_the_function() {
         read.matches(&function.program, Library::Libm, function.sines(scalar))
             .map_err(|difference| difference.to_string())
     };
-    assert_eq!(matches(&generated.text()), Ok(()));
-    let block = generated.text().find("let (s1, c1) = {").unwrap();
-    let end = block + generated.text()[block..].find("};").unwrap() + 2;
+    assert_eq!(matches(&generated.texts[0]), Ok(()));
+    let block = generated.texts[0].find("let (s1, c1) = {").unwrap();
+    let end = block + generated.texts[0][block..].find("};").unwrap() + 2;
     for (from, to, why) in [
-        ("x1 = q[0] * q[0]", "x1 = q[0] * q[1]", "neither the angle"),
-        ("let x2", "let x3", "`x2` expected"),
-        ("+ 1.", "+ 1.1", "differ"),
+        ("x1 = q[0] * q[0]", "x1 = q[0] * q[1]", "another angle"),
+        ("let x2", "let x3", "not the next name"),
+        ("+ 1.", "- 1.", "differ"),
         ("1.0 -", "1.0 +", "differ"),
-        ("};", "", "`};` expected"),
+        ("};", "", "`}` expected"),
     ] {
-        let changed = generated.text()[block..end].replacen(from, to, 1);
-        assert_ne!(changed, generated.text()[block..end], "{from}");
-        let text = generated.text()[..block].to_owned() + &changed + &generated.text()[end..];
+        let changed = generated.texts[0][block..end].replacen(from, to, 1);
+        assert_ne!(changed, generated.texts[0][block..end], "{from}");
+        let text = generated.texts[0][..block].to_owned() + &changed + &generated.texts[0][end..];
         let found = matches(&text).unwrap_err();
         assert!(found.contains(why), "{found}");
     }
     let called = "let (s1, c1) = libm::sincos(q[0]);";
-    let text = generated.text()[..block].to_owned() + called + &generated.text()[end..];
+    let text = generated.texts[0][..block].to_owned() + called + &generated.texts[0][end..];
     assert!(matches(&text).is_err());
     // Nor is it one of libm's sines.
-    let read = Code::parse(&generated.text(), &Signature::of(&function.program, scalar)).unwrap();
+    let read = Code::parse(
+        &generated.texts[0],
+        &Signature::of(&function.program, scalar),
+    )
+    .unwrap();
     assert!(read.matches(&function.program, Library::Libm, &[]).is_err());
     let called = read.with_libm();
     assert!(
