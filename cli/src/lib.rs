@@ -95,7 +95,7 @@ enum Command {
     Show(show::ShowArgs),
     /// Prove the functions and measure their rounding errors
     Verify(verify::VerifyArgs),
-    /// Check generated code with a second program that shares no code with the generator
+    /// Check generated code with a second program, which has equations of its own
     Certify(certify::CertifyArgs),
     /// Show how many operations each step of the generator saves
     Explain(explain::ExplainArgs),
