@@ -7,6 +7,7 @@
 
 use crate::fault::Fault;
 use crate::quantity::Extent;
+use crate::read::camel;
 
 /// The longest file.
 pub const MOST_BYTES: usize = 32 << 20;
@@ -146,7 +147,7 @@ pub(crate) fn results<'t>(name: &str, text: &'t str) -> Vec<(&'t str, Extent)> {
         let lines = fields.lines().filter(|line| !line.is_empty());
         return lines.map_while(declared).collect();
     }
-    let tail = text.rsplit_once(&format!("\n    {} {{\n", structure(name)));
+    let tail = text.rsplit_once(&format!("\n    {} {{\n", camel(name)));
     let tail = tail.map_or("", |(_, fields)| fields);
     let listed = |(place, _): (usize, &str)| {
         let name = tail[..place].rsplit(' ').next()?;
@@ -154,13 +155,6 @@ pub(crate) fn results<'t>(name: &str, text: &'t str) -> Vec<(&'t str, Extent)> {
         Some((name, Extent::Axes(open.matches('[').count())))
     };
     tail.match_indices(": ").filter_map(listed).collect()
-}
-
-/// Returns the name of the struct that a function returns.
-pub(crate) fn structure(name: &str) -> String {
-    let words = name.split('_').filter_map(|word| word.split_at_checked(1));
-    let words = words.map(|(first, rest)| first.to_ascii_uppercase() + rest);
-    words.collect()
 }
 
 /// The lines of the stamp that a file begins with: how they begin.

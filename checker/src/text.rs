@@ -5,12 +5,11 @@ use std::collections::HashMap;
 use crate::c99;
 use crate::certificate::Claim;
 use crate::fault::Fault;
-use crate::file::structure;
 use crate::identity::program::Operand;
 use crate::interval::FARTHEST;
 use crate::program::{Node, Program, Source};
 use crate::quantity::{ARGUMENTS, entries};
-use crate::read::{self, Argument, Head, Text, TextError};
+use crate::read::{self, Argument, Head, Text, TextError, camel};
 use crate::scene::Setting;
 
 /// The most values of a function.
@@ -26,7 +25,7 @@ pub fn read(claim: &Claim, setting: &Setting) -> Result<Program, Fault> {
     let (text, joints, rows) = (&claim.text, setting.joints.len(), claim.rows.len());
     let is_c = text.contains("static inline ");
     let fields = function.fields.iter();
-    let structure = (function.fields.len() > 1).then(|| structure(&claim.function));
+    let structure = (function.fields.len() > 1).then(|| camel(&claim.function));
     // Which arguments there are, the head says: they have to be in their order.
     let named = |name: &str| match is_c {
         true => [" double ", " float "]
@@ -77,7 +76,9 @@ pub fn read(claim: &Claim, setting: &Setting) -> Result<Program, Fault> {
     let small = is_small
         .then_some(())
         .ok_or_else(|| Fault::Text(1, why.into()));
-    small.and_then(|()| near(claim, &read)).map(|()| program)
+    small
+        .and_then(|()| near(claim, &read, setting))
+        .map(|()| program)
 }
 
 /// Returns a fault of a text.
@@ -85,8 +86,11 @@ pub(crate) fn fault(own: TextError) -> Fault {
     Fault::Text(own.line, format!("not of the grammar: {}", own.reason))
 }
 
-/// Refuses a sine of an angle where the checker's own sine is none.
-fn near(claim: &Claim, read: &read::Function) -> Result<(), Fault> {
+/// Refuses a sine of a joint that slides, or of an angle where the checker's own sine is none.
+fn near(claim: &Claim, read: &read::Function, setting: &Setting) -> Result<(), Fault> {
+    let mut sines = read.sines.iter();
+    let turns = sines.all(|own| setting.joints[own.joint].turns);
+    Fault::unless(turns, "a sine of something that is no angle")?;
     let far = |own: &read::Sines| {
         let range = claim.position.get(own.joint).into_iter().flatten();
         range.fold(0.0, |most: f64, end| most.max(end.abs()))

@@ -13,6 +13,7 @@ mod lines;
 mod mutations;
 mod numbers;
 mod placements;
+mod read;
 mod refusals;
 mod support;
 mod tried;

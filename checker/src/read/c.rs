@@ -84,18 +84,9 @@ impl<'r> Reader<'r> {
 
     /// Goes to the first of the function's parts; returns whether it is told that an angle may be far.
     fn find_c(&mut self, symbols: &Symbols) -> Read<bool> {
-        let place = |name: &str| {
-            let named = self.tokens.windows(2).enumerate();
-            let kinds = ["void", self.float()];
-            let is_own = |two: &[super::Token]| kinds.contains(&two[0].text) && two[1].text == name;
-            let mut places = named.filter(|(_, two)| is_own(two)).map(|(place, _)| place);
-            (places.next(), places.next())
-        };
-        let [(any, twice), (single, again)] = [&symbols.any, &symbols.single].map(|own| place(own));
-        if let Some(other) = twice.or(again) {
-            let why = format!("`{}` stands there twice", self.tokens[other + 1].text);
-            return Err(TextError::new(self.tokens[other].line, why));
-        }
+        let before = ["void", self.float()];
+        let any = self.find(&before, &symbols.any)?;
+        let single = self.find(&before, &symbols.single)?;
         let missing = || TextError::new(1, format!("there is no function `{}`", symbols.single));
         let place = any.or(single).ok_or_else(missing)?;
         let before = if symbols.is_cuda { 4 } else { 2 };
@@ -108,6 +99,7 @@ impl<'r> Reader<'r> {
         Ok(any.is_some())
     }
 
+    /// Reads the struct of the results, if there is one.
     fn c_structure(&mut self, symbols: &Symbols) -> Read<()> {
         let Some(name) = &symbols.structure else {
             return Ok(());
@@ -162,7 +154,8 @@ impl<'r> Reader<'r> {
     /// Reads all statements up to the results.
     fn c_statements(&mut self, symbols: &Symbols, is_told: bool) -> Read<()> {
         let (float, far) = (self.float(), if is_told { "far" } else { "1" });
-        let (mut called, mut pair) = (Vec::new(), None);
+        // The angles of a list, those of the call that was read, and the one of the last pair.
+        let (mut angles, mut called, mut pair) = (Vec::new(), Vec::new(), None);
         let kind = format!("{}_sincos_t", symbols.prefix);
         loop {
             if self.peek(0) == float {
@@ -171,15 +164,15 @@ impl<'r> Reader<'r> {
                     "{float} sines[{count}]; {float} cosines[{count}];"
                 ))?;
                 self.expect_all(&format!("{}_sines_{count} (", symbols.prefix))?;
-                let count = count.parse::<usize>().unwrap_or(0);
-                if self.take("&") {
-                    let first = self.angle()?;
-                    called = (first..first + count).collect();
-                } else {
-                    self.expect("angles")?;
-                }
+                let length = count.parse().unwrap_or(usize::MAX);
+                called = match self.take("&") {
+                    true => (self.angle()?..self.head.joints).take(length).collect(),
+                    false => self
+                        .expect("angles")
+                        .map(|()| std::mem::take(&mut angles))?,
+                };
                 self.expect_all(", sines, cosines);")?;
-                if called.len() != count || called.iter().any(|own| *own >= self.head.joints) {
+                if called.len() != length {
                     return self.refuse("a call for as many angles as there are expected");
                 }
             } else if self.peek(0) == "(" {
@@ -203,7 +196,7 @@ impl<'r> Reader<'r> {
                 self.expect(float)?;
                 let name = self.next();
                 if name == "angles" {
-                    called = self.c_angles()?;
+                    angles = self.c_angles()?;
                 } else {
                     self.expect("=")?;
                     self.c_value(name, &called, pair)?;
@@ -219,13 +212,7 @@ impl<'r> Reader<'r> {
     fn c_angles(&mut self) -> Read<Vec<usize>> {
         let count = self.peek(1);
         self.expect_all(&format!("[{count}] = {{"))?;
-        let mut angles = Vec::new();
-        while !self.take("}") {
-            if !angles.is_empty() {
-                self.expect(",")?;
-            }
-            angles.push(self.angle()?);
-        }
+        let angles = self.angles("}")?;
         match angles.len().to_string() == count {
             true => Ok(angles),
             false => self.refuse("as many angles as in the array expected"),
@@ -245,7 +232,7 @@ impl<'r> Reader<'r> {
         let before = format!("x{number}_");
         match letter {
             "x" => self.polynomial_step(name, &before, joint),
-            "r" => self.speed(name, ""),
+            "r" => self.speed(name, &[]),
             "s" | "c" => {
                 let source = self.c_sine(joint, is_sine, called, pair)?;
                 self.name_sine(name, joint, is_sine, source)

@@ -23,13 +23,14 @@ use self::tokens::Token;
 use crate::identity::program::Program;
 
 pub use self::c::Symbols;
+pub(crate) use self::rust::camel;
 
 /// A text that is not what it should be.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TextError {
     /// The line of the text, from one.
     pub line: usize,
-    /// What was expected there.
+    /// The reason: mostly, the words that were expected there.
     pub reason: String,
 }
 
@@ -59,7 +60,7 @@ pub struct Argument<'h> {
     pub length: usize,
 }
 
-/// What a function begins and ends with.
+/// The head of a function, and its results.
 #[derive(Clone, Debug)]
 pub struct Head<'h> {
     /// The name.
@@ -105,13 +106,13 @@ pub enum Source {
 pub struct Sines {
     /// The joint.
     pub joint: usize,
-    /// Whether the sine, and whether the cosine, has a name.
+    /// `true` for the sine, and for the cosine, if it has a name.
     pub needs: [bool; 2],
     /// Who computes them.
     pub source: Source,
 }
 
-/// What the text of a function computes.
+/// A function as its text computes it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Function {
     /// Sines and cosines, in the order of the text.
@@ -145,8 +146,8 @@ impl<'t> Text<'t> {
         tokens::read(source, true).map(|tokens| Text { tokens })
     }
 
-    /// Reads a function in Rust, with its struct, and with that of any number of states if it has
-    /// one; returns whether nothing else stands in the text as well.
+    /// Reads a function in Rust, and that of any number of states if it has one; returns as well
+    /// whether nothing else stands in the text. A compiler compares the struct of its results.
     ///
     /// # Errors
     /// The first thing that is not of such a function.
@@ -160,7 +161,7 @@ impl<'t> Text<'t> {
         Ok((function, reader.has_all()))
     }
 
-    /// Reads a function in C or CUDA, as [`Text::rust_function`].
+    /// Reads a function in C or CUDA with its struct, as [`Text::rust_function`] does in Rust.
     ///
     /// # Errors
     /// As [`Text::rust_function`].

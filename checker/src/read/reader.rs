@@ -25,12 +25,15 @@ pub(super) struct Reader<'r> {
     pub symbols: Option<&'r Symbols>,
     /// `true` where values are vectors, whose literals are `of.all(0.5)`.
     pub is_vectors: bool,
-    /// Whether `of` is one of them.
+    /// `true` once `of` is one of them.
     pub has_of: bool,
-    pub names: HashMap<&'r str, Operand<f64>>,
+    names: HashMap<&'r str, Operand<f64>>,
+    /// The names, in the order in which they were given.
+    order: Vec<&'r str>,
     pub function: Function,
-    /// The operations of the polynomials of an angle, so far.
-    polynomial: Vec<Step<f64>>,
+    /// The operations of the polynomials of an angle, so far, and what their names begin with: of
+    /// another angle's, nothing is known.
+    polynomial: (String, Vec<Step<f64>>),
 }
 
 impl<'r> Reader<'r> {
@@ -49,6 +52,7 @@ impl<'r> Reader<'r> {
             is_vectors: false,
             has_of: false,
             names: HashMap::new(),
+            order: Vec::new(),
             function: Function {
                 sines: Vec::new(),
                 speeds: Vec::new(),
@@ -57,7 +61,7 @@ impl<'r> Reader<'r> {
                     outputs: Vec::new(),
                 },
             },
-            polynomial: Vec::new(),
+            polynomial: (String::new(), Vec::new()),
         }
     }
 
@@ -125,6 +129,58 @@ impl<'r> Reader<'r> {
         }
     }
 
+    /// Returns the place of the function of a name, behind a word of these; none if there is none.
+    ///
+    /// # Errors
+    /// There are two.
+    pub(super) fn find(&self, before: &[&str], name: &str) -> Read<Option<usize>> {
+        let words = self.tokens.windows(2).enumerate();
+        let is_own = |two: &[Token]| before.contains(&two[0].text) && two[1].text == name;
+        let mut places = words.filter(|(_, two)| is_own(two)).map(|(place, _)| place);
+        let place = places.next();
+        match places.next() {
+            None => Ok(place),
+            Some(other) => {
+                let line = self.tokens[other].line;
+                Err(TextError::new(line, format!("`{name}` stands there twice")))
+            }
+        }
+    }
+
+    /// Gives a value a name; returns whether it is new.
+    fn name(&mut self, name: &'r str, value: Operand<f64>) -> bool {
+        self.order.push(name);
+        self.names.insert(name, value).is_none()
+    }
+
+    /// Returns how many names there are.
+    pub(super) fn count_names(&self) -> usize {
+        self.order.len()
+    }
+
+    /// Forgets all names that were given after so many.
+    pub(super) fn forget_names(&mut self, count: usize) -> HashMap<&'r str, Operand<f64>> {
+        let names = self.order.split_off(count).into_iter();
+        names
+            .filter_map(|name| self.names.remove_entry(name))
+            .collect()
+    }
+
+    /// Gives names that were forgotten back to their values.
+    pub(super) fn hand_on(
+        &mut self,
+        names: &[&'r str],
+        mut inside: HashMap<&'r str, Operand<f64>>,
+    ) -> Read<()> {
+        for &name in names {
+            match inside.remove(name) {
+                Some(value) => self.name(name, value),
+                None => return self.refuse("a part hands on what is not there"),
+            };
+        }
+        Ok(())
+    }
+
     /// Returns what functions of libraries end with.
     pub(super) fn suffix(&self) -> &'static str {
         if self.head.is_single { "f" } else { "" }
@@ -151,6 +207,18 @@ impl<'r> Reader<'r> {
     pub(super) fn angle(&mut self) -> Read<usize> {
         self.expect("q")?;
         self.index(self.head.joints)
+    }
+
+    /// Takes positions of joints up to a bracket.
+    pub(super) fn angles(&mut self, close: &str) -> Read<Vec<usize>> {
+        let mut angles = Vec::new();
+        while !self.take(close) {
+            if !angles.is_empty() {
+                self.expect(",")?;
+            }
+            angles.push(self.angle()?);
+        }
+        Ok(angles)
     }
 
     /// Returns whether a literal follows.
@@ -267,7 +335,7 @@ impl<'r> Reader<'r> {
         let value = Operand::Step(count - 1);
         let number = name.strip_prefix('t').unwrap_or_default();
         let is_name = !number.is_empty() && number.bytes().all(|own| own.is_ascii_digit());
-        match is_name && self.names.insert(name, value).is_none() {
+        match is_name && self.name(name, value) {
             true => Ok(()),
             false => self.refuse(&format!("`{name}` is no new name of an operation")),
         }
@@ -327,13 +395,19 @@ impl<'r> Reader<'r> {
         Ok(())
     }
 
-    /// Takes 1/√(q̇² + w²) of a joint, and its name, which has been read.
-    pub(super) fn speed(&mut self, name: &'r str, root: &str) -> Read<()> {
+    /// Takes 1/√(q̇² + w²) of a joint, for a name that has been read; the root is a library's of
+    /// these, or C's. Roots are correctly rounded, whoever computes them.
+    pub(super) fn speed(&mut self, name: &'r str, libraries: &[&str]) -> Read<()> {
         if self.literal()?.to_bits() != 1f64.to_bits() {
             return self.refuse("1 expected over a root");
         }
         self.expect("/")?;
-        self.expect_all(root)?;
+        if !libraries.is_empty() {
+            if !libraries.contains(&self.next()) {
+                return self.refuse("a library of roots expected");
+            }
+            self.expect("::")?;
+        }
         let (end, velocity) = (self.suffix(), |own: &&super::Argument| own.name == "qd");
         self.expect_all(&format!("sqrt{end} ("))?;
         let square = self.binary(&Self::operand)?;
@@ -354,8 +428,7 @@ impl<'r> Reader<'r> {
             return self.refuse("another name or order of roots expected");
         }
         self.function.speeds.push((joint, width));
-        let value = Operand::Speed(joint);
-        self.names.insert(name, value);
+        self.name(name, Operand::Speed(joint));
         Ok(())
     }
 
@@ -399,7 +472,7 @@ impl<'r> Reader<'r> {
             };
         }
         let value = Operand::Sine(vec![(joint, false)], is_sine);
-        match is_good && self.names.insert(name, value).is_none() {
+        match is_good && self.name(name, value) {
             true => Ok(()),
             false => self.refuse("the sine of an angle stands there twice"),
         }
@@ -409,23 +482,24 @@ impl<'r> Reader<'r> {
     /// `before` and ends with its number.
     pub(super) fn polynomial_step(&mut self, name: &str, before: &str, joint: usize) -> Read<()> {
         if name == format!("{before}1") {
-            self.polynomial.clear();
+            self.begin_polynomial(before);
         }
         let operand = |own: &mut Self| own.polynomial_operand(before, joint);
         let step = self.binary(&operand)?;
         if step.0 == '/' {
             return self.refuse("no operation of a polynomial");
         }
-        self.polynomial.push(step);
-        match name == format!("{before}{}", self.polynomial.len()) {
+        let (known, steps) = &mut self.polynomial;
+        steps.push(step);
+        match known == before && name == format!("{before}{}", steps.len()) {
             true => Ok(()),
             false => self.refuse(&format!("`{name}` is not the next name")),
         }
     }
 
-    /// Forgets the operations of an angle's polynomials.
-    pub(super) fn begin_polynomial(&mut self) {
-        self.polynomial.clear();
+    /// Begins with the polynomials of an angle, whose names begin so.
+    pub(super) fn begin_polynomial(&mut self, before: &str) {
+        self.polynomial = (before.to_owned(), Vec::new());
     }
 
     /// Takes an operand of polynomials: the angle, an operation before, or a literal.
@@ -443,8 +517,9 @@ impl<'r> Reader<'r> {
         let number = word
             .strip_prefix(before)
             .and_then(|n| n.parse::<usize>().ok());
-        let known = number.filter(|n| (1..=self.polynomial.len()).contains(n));
-        match known.filter(|n| word == format!("{before}{n}")) {
+        let (known, steps) = &self.polynomial;
+        let is_known = |n: &usize| known == before && (1..=steps.len()).contains(n);
+        match number.filter(|n| is_known(n) && word == format!("{before}{n}")) {
             Some(number) => Ok(Operand::Step(number - 1)),
             None => self.refuse("neither the angle, a value nor a literal"),
         }
@@ -453,9 +528,12 @@ impl<'r> Reader<'r> {
     /// Takes a result of the polynomials, which may be negated.
     pub(super) fn polynomial_result(&mut self, before: &str, joint: usize) -> Read<Source> {
         let is_negative = !self.is_literal() && self.take("-");
+        if self.polynomial.0 != before {
+            self.begin_polynomial(before);
+        }
         let value = self.polynomial_operand(before, joint)?;
         Ok(Source::Polynomial(Program {
-            steps: self.polynomial.clone(),
+            steps: self.polynomial.1.clone(),
             outputs: vec![(is_negative, value)],
         }))
     }

@@ -29,37 +29,19 @@ impl<'r> Reader<'r> {
         Ok(self.function.clone())
     }
 
-    /// Goes to the function of the name, of which there has to be one.
+    /// Goes to the function of the name.
     fn find_rust(&mut self) -> Read<()> {
-        let words = self.tokens.windows(2).enumerate();
-        let is_own = |two: &[super::Token]| two[0].text == "fn" && two[1].text == self.head.name;
-        let mut places = words.filter(|(_, two)| is_own(two)).map(|(place, _)| place);
         let missing = || TextError::new(1, format!("there is no function `{}`", self.head.name));
-        let place = places.next().ok_or_else(missing)?;
-        if let Some(other) = places.next() {
-            let why = format!("`{}` stands there twice", self.head.name);
-            return Err(TextError::new(self.tokens[other].line, why));
-        }
-        let before: Vec<&str> = self.tokens[..place]
-            .iter()
-            .rev()
-            .map(|own| own.text)
-            .collect();
+        let place = self.find(&["fn"], self.head.name)?.ok_or_else(missing)?;
+        let words = self.tokens[..place].iter().rev().map(|own| own.text);
         let attribute = ["pub", "]", "must_use", "[", "#"];
-        let has_attribute = before.starts_with(&attribute);
-        self.at = place
-            - if has_attribute {
-                5
-            } else {
-                usize::from(place > 0)
-            };
-        self.first = self.at;
-        if has_attribute {
-            self.at += 4;
-        }
+        let has_attribute = words.take(5).eq(attribute);
+        self.at = place.saturating_sub(1);
+        self.first = if has_attribute { place - 5 } else { self.at };
         Ok(())
     }
 
+    /// Reads the head, up to the brace.
     fn rust_head(&mut self) -> Read<()> {
         let (head, scalar) = (self.head, self.head.scalar());
         self.expect_all(&format!("pub fn {} (", head.name))?;
@@ -107,7 +89,8 @@ impl<'r> Reader<'r> {
                     match name.chars().next() {
                         Some('s') => self.sines(&[(name, true)])?,
                         Some('c') => self.sines(&[(name, false)])?,
-                        Some('r') => self.root(name)?,
+                        Some('r') if self.is_vectors => self.speed(name, &["dalembert_batch"])?,
+                        Some('r') => self.speed(name, &["libm", "dalembert_sines"])?,
                         _ => self.operation(name)?,
                     }
                 }
@@ -115,19 +98,6 @@ impl<'r> Reader<'r> {
             self.expect(";")?;
         }
         Ok(())
-    }
-
-    /// Reads what Coulomb friction needs of a speed; roots are correctly rounded, whoever computes
-    /// them.
-    fn root(&mut self, name: &'r str) -> Read<()> {
-        let libraries = ["libm", "dalembert_sines"];
-        let place = if self.is_vectors { 7 } else { 2 };
-        let own = libraries.iter().find(|own| **own == self.peek(place));
-        let library = match self.is_vectors {
-            true => "dalembert_batch",
-            false => own.unwrap_or(&libraries[0]),
-        };
-        self.speed(name, &format!("{library} ::"))
     }
 
     /// Reads sines and cosines of one angle: by a call, or by polynomials.
@@ -167,7 +137,7 @@ impl<'r> Reader<'r> {
         let Some(joint) = number.and_then(|number| number.checked_sub(1)) else {
             return self.refuse("the name of a sine expected");
         };
-        self.begin_polynomial();
+        self.begin_polynomial("x");
         while self.take("let") {
             let name = self.next();
             self.expect("=")?;
@@ -192,13 +162,7 @@ impl<'r> Reader<'r> {
         let cosines = self.listed()?;
         let end = self.suffix();
         self.expect_all(&format!(") = dalembert_sines :: sincos{end} (& ["))?;
-        let mut angles = Vec::new();
-        while !self.take("]") {
-            if !angles.is_empty() {
-                self.expect(",")?;
-            }
-            angles.push(self.angle()?);
-        }
+        let angles = self.angles("]")?;
         self.expect(")")?;
         self.name_together(&angles, [&sines, &cosines])
     }
@@ -241,31 +205,27 @@ impl<'r> Reader<'r> {
     /// Reads a part of a long function: `(t1, t2,) = { … (t1, t2,) }`. It hands on values by
     /// their names, and the others are no more.
     fn part(&mut self) -> Read<()> {
-        let start = self.at;
-        while !matches!(self.next(), ")" | "" | ";") {}
-        let words: Vec<&str> = self.tokens[start..self.at]
-            .iter()
-            .map(|own| own.text)
-            .collect();
+        let names = self.part_names()?;
         self.expect_all("= {")?;
-        let before = self.names.clone();
+        let before = self.count_names();
         self.statements(true)?;
-        for word in &words {
-            self.expect(word)?;
+        if self.part_names()? != names {
+            return self.refuse("other names than those before the part");
         }
         self.expect("}")?;
-        let inside = std::mem::replace(&mut self.names, before);
-        let names = words[1..words.len() - 1].chunks(2);
-        for pair in names {
-            let known = inside.get(pair[0]).filter(|_| pair.get(1) == Some(&","));
-            let Some(value) = known.cloned() else {
-                return self.refuse("a part hands on what is not there");
-            };
-            if self.names.insert(pair[0], value).is_some() {
-                return self.refuse("a part hands on what was there before");
-            }
+        let inside = self.forget_names(before);
+        self.hand_on(&names, inside)
+    }
+
+    /// Takes the names that a part hands on: `(t1, t2,)`.
+    fn part_names(&mut self) -> Read<Vec<&'r str>> {
+        self.expect("(")?;
+        let mut names = Vec::new();
+        while !self.take(")") {
+            names.push(self.next());
+            self.expect(",")?;
         }
-        Ok(())
+        Ok(names)
     }
 
     /// Reads the array or the struct that a function ends with.
@@ -345,7 +305,7 @@ impl<'r> Reader<'r> {
             list.join(", ")
         ))?;
         self.argument_names()?;
-        self.names.clear();
+        self.forget_names(0);
         (self.function.sines, self.function.speeds) = (Vec::new(), Vec::new());
         (self.function.program.steps, self.function.program.outputs) = (Vec::new(), Vec::new());
         self.expect_all(&format!("]: &[[V; {n}]; {count}], &"))?;
@@ -402,7 +362,7 @@ impl<'r> Reader<'r> {
 }
 
 /// Returns a name as those of types are.
-pub(super) fn camel(name: &str) -> String {
+pub(crate) fn camel(name: &str) -> String {
     let words = name.split('_').filter_map(|word| word.split_at_checked(1));
     let words = words.map(|(first, rest)| first.to_ascii_uppercase() + rest);
     words.collect()

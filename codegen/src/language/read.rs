@@ -8,7 +8,6 @@ use dalembert_checker::read::{self, Head, Source, Text};
 
 use crate::dag::Dag;
 use crate::function::{Argument, Function, Sizes};
-use crate::language::Printed;
 use crate::language::names::Names;
 use crate::program::kernel::{Angle, Kernel, Need};
 use crate::program::{
@@ -18,14 +17,14 @@ use crate::program::{
 use crate::sincos::AngleKernel;
 use crate::words::Complaint;
 
-/// What a function is called with and returns.
+/// The arguments of a function, and what its results' lengths follow from.
 #[derive(Clone, Copy, Debug)]
 pub struct Signature<'a> {
     /// Which function.
     pub function: Function,
     /// The arguments there are, in order.
     pub arguments: &'a [Argument],
-    /// What the lengths of arguments and results follow from.
+    /// The sizes that the lengths of arguments and results follow from.
     pub sizes: Sizes,
     /// The scalar.
     pub scalar: ScalarType,
@@ -39,16 +38,6 @@ impl<'a> Signature<'a> {
             arguments: &program.arguments,
             sizes: program.sizes(),
             scalar,
-        }
-    }
-
-    /// Returns that of a printed function.
-    pub fn printed(printed: &Printed<'a>) -> Signature<'a> {
-        Signature {
-            function: printed.function,
-            arguments: printed.arguments,
-            sizes: printed.sizes,
-            scalar: printed.code.scalar,
         }
     }
 

@@ -1,0 +1,100 @@
+//! The reader of text: what a name stands for is what a compiler takes it for.
+
+use dalembert_checker::read::{Argument, Head, Symbols, Text};
+
+const HEAD: &str = "static inline void arm_gravity(const double q[ARM_RESTRICT 2], \
+                    double c[ARM_RESTRICT 1])\n{\nARM_UNFUSED\n";
+
+/// Reads a function of C with these lines, which returns `t1`; returns the reason if it is refused.
+fn read(lines: &str) -> Result<(), String> {
+    let text = format!("{HEAD}{lines}\nc[0] = t1;\n}}\n");
+    let head = Head {
+        name: "gravity",
+        is_single: false,
+        arguments: vec![Argument {
+            place: 0,
+            name: "q",
+            length: 2,
+        }],
+        fields: vec![("c", vec![1])],
+        structure: None,
+        joints: 2,
+    };
+    let symbols = Symbols {
+        macros: "ARM".into(),
+        prefix: "arm".into(),
+        single: "arm_gravity".into(),
+        ..Symbols::default()
+    };
+    let text = Text::c(&text).unwrap();
+    let read = text.c_function(&head, &symbols, false);
+    read.map(|_| ()).map_err(|error| error.reason)
+}
+
+/// Changes a text that is read, and expects a reason.
+fn refused(good: &str, changes: &[(&str, &str, &str)]) {
+    assert_eq!(read(good), Ok(()));
+    for (from, to, why) in changes {
+        let text = good.replacen(from, to, 1);
+        assert_ne!(text, good, "{from}");
+        let found = read(&text).unwrap_err();
+        assert!(found.contains(why), "{text}: {found}");
+    }
+}
+
+/// An angle's polynomials are its own: those of another one, of the same numbers, are not.
+#[test]
+fn polynomials_of_another_angle() {
+    let own = "const double x1_1 = q[0] * q[0];\nconst double x1_2 = x1_1 * 0.5;\n";
+    let other = own.replace("x1", "x2").replace("q[0]", "q[1]");
+    let sine = "const double s1 = x1_2;\n";
+    let result = "const double t1 = s1 * 0.5;";
+    let good = format!("{own}{sine}{other}const double s2 = x2_2;\n{result}");
+    let late = (sine, "");
+    let between = format!("{other}{sine}");
+    refused(
+        &good,
+        &[
+            (late.0, late.1, "neither a value nor a literal"),
+            (sine, &between, "neither the angle"),
+            (sine, "const double s1 = x2_2;\n", "neither the angle"),
+            ("x1_2 = x1_1", "x1_2 = x2_1", "neither the angle"),
+            ("x1_2 = x1_1", "x1_3 = x1_1", "not the next name"),
+            ("q[0] * q[0]", "q[0] * q[1]", "another angle"),
+        ],
+    );
+}
+
+/// The sines of a call are of the angles that it was given, whatever list comes after.
+#[test]
+fn sines_of_a_list_behind_the_call() {
+    let list = "const double angles[1] = {q[1]};\n";
+    let call = "double sines[1];\ndouble cosines[1];\narm_sines_1(&q[0], sines, cosines);\n";
+    let good = format!("{call}const double s1 = sines[0];\nconst double t1 = s1 * 0.5;");
+    let behind = format!("cosines);\n{list}");
+    refused(
+        &good.replace("s1", "s2").replace("&q[0]", "&q[1]"),
+        &[("s2 = sines", "s1 = sines", "neither the angle")],
+    );
+    let listed = good.replace("&q[0]", "angles").replace("s1", "s2");
+    let listed = format!("{list}{listed}");
+    refused(
+        &listed,
+        &[
+            (list, "", "as many angles"),
+            ("angles[1]", "angles[2]", "as many angles"),
+            ("arm_sines_1", "arm_sines_2", "`arm_sines_1` expected"),
+            ("angles, sines", "&q[0], sines", "neither the angle"),
+        ],
+    );
+    let other = listed.replace("angles, sines", "&q[0], sines");
+    let late = other.replace(list, "").replace("cosines);\n", &behind);
+    let found = read(&late).unwrap_err();
+    assert!(found.contains("neither the angle"), "{found}");
+    // As many angles as nobody has need no room.
+    let many = good
+        .replace("[1]", "[99999999999]")
+        .replace("sines_1", "sines_99999999999");
+    let found = read(&many).unwrap_err();
+    assert!(found.contains("as many angles"), "{found}");
+}
