@@ -207,8 +207,8 @@ pub(super) fn header(
     };
     lines.extend(proved.map(String::from));
     let drawn = [
-        "The points follow from the SHA-256 of robot, scene and program. The probability that a",
-        "wrong program passes is for one program.",
+        "The points follow from the SHA-256 of robot, scene and program. Each function says how",
+        "improbable it is that a wrong one passes.",
     ];
     lines.extend(drawn.map(String::from));
     lines
