@@ -6,7 +6,7 @@ use std::fs;
 use crate::support::file;
 
 /// The most lines of all of it, as long as `identity` stands beside what it replaces.
-const MOST: usize = 8574;
+const MOST: usize = 8575;
 
 /// The README names every file with its lines, rounded up to ten.
 #[test]

@@ -281,7 +281,10 @@ fn compiled(entry: &Entry, proved: &Proved) -> Result<Function, LoadError> {
     let scalar = parse::<ScalarType>(&proved.scalar).map_err(|_| damaged())?;
     let text = entry.rust.get(proved.file).ok_or_else(damaged)?;
     let sizes = proved.sizes();
-    let arguments = proved.arguments.iter().map(|name| Argument::from_name(name));
+    let arguments = proved
+        .arguments
+        .iter()
+        .map(|name| Argument::from_name(name));
     let arguments: Option<Vec<Argument>> = arguments.collect();
     let arguments = arguments.ok_or_else(damaged)?;
     let form = workspace::Signature {

@@ -23,6 +23,7 @@ use self::tokens::Token;
 use crate::identity::program::Program;
 
 pub use self::c::Symbols;
+#[cfg(feature = "certify")]
 pub(crate) use self::rust::camel;
 
 /// A text that is not what it should be.
