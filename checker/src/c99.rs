@@ -7,8 +7,8 @@
 
 use crate::fault::Fault;
 use crate::file::{Found, Lines, between, fault, is_letter, item};
-use crate::quantity::FUNCTIONS;
-use crate::read::Symbols;
+use crate::identity::exact::Exact;
+use crate::read::{Symbols, number};
 use crate::together;
 
 /// How a header begins.
@@ -101,34 +101,76 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
             take(&mut lines, &sines)?;
             continue;
         }
-        let mut words = Vec::new();
+        let mut heads = Vec::new();
         let found = item(&mut lines, |head| {
             let is_struct = head == "typedef struct {";
-            words.extend(Some(word(name, head)).filter(|_| !is_struct));
-            let is_last = head.contains("(const size_t n, ") || head.contains("_in_box(");
+            heads.extend(Some(head).filter(|_| !is_struct));
+            let ends = ["(const size_t n, ", "_in_box(", " pi["];
+            let is_last = ends.iter().any(|end| head.contains(end));
             !is_struct && (!has_loops || is_last)
         });
         let is_plain = |found: &Found| {
             found.text.ends_with("\n}\n") && !found.text.replacen(LOOP, "", 1).contains('#')
         };
         let mut found = found.filter(is_plain).ok_or_else(|| fault(first))?;
-        let last = words.last().copied().flatten();
-        (found.module, found.name) = last.ok_or_else(|| fault(first))?;
-        // The name of a bundle is its own.
-        if !found.text.starts_with("typedef ") {
-            let mut known = FUNCTIONS.iter().map(|(name, _)| *name);
-            let known = known.find(|name| is_short(found.name, name));
-            found.name = known.unwrap_or(found.name);
-        }
-        let is_alike = |word| is_short(word, found.name) || is_short(found.name, word);
-        let is_own = |(module, word): (&str, _)| module == found.module && is_alike(word);
-        if !words.iter().all(|piece| piece.is_some_and(is_own)) {
-            return Err(fault(first));
-        }
+        let named = heads.iter().map(|head| word(name, head));
+        let named = named.collect::<Option<Vec<_>>>();
+        let named = named.ok_or_else(|| fault(first))?;
+        // Behind the one that is told whether angles are far, and before that of many states.
+        let is_single = |head: &&&str| {
+            let others = ["(const int far, ", "(const size_t n, "];
+            !others.iter().any(|other| head.contains(other))
+        };
+        let single = heads.iter().find(is_single).ok_or_else(|| fault(first))?;
+        found.module = named.first().map_or("", |own| own.0);
+        let symbol = single
+            .split('(')
+            .next()
+            .and_then(|own| own.rsplit(' ').next());
+        found.name = symbol.unwrap_or_default();
         all.push(found);
     }
     let end = source.lines().count();
     Err(Fault::Text(end, "the header does not end".into()))
+}
+
+/// Returns whether all functions of a text are named after this one, in full or shortened.
+pub(crate) fn are_of(found: &Found, function: &str) -> bool {
+    let header = found.module.strip_suffix("_f32").unwrap_or(found.module);
+    let header = header.to_ascii_uppercase();
+    let heads = found
+        .text
+        .lines()
+        .filter(|line| line.starts_with("static inline "));
+    let mut words = heads.map(|head| word(&header, head));
+    let is_own = |(module, word): (&str, &str)| module == found.module && is_short(word, function);
+    words.all(|own| own.is_some_and(is_own))
+}
+
+/// Returns whether a text writes values of base parameters into `pi`, each the nearest float.
+pub(crate) fn are_values(found: &Found, values: &[Exact]) -> bool {
+    let count = values.len();
+    let mut lines = found.text.lines().filter(|line| !line.is_empty());
+    let head = lines.next().unwrap_or("");
+    let is_single = head.contains("(float pi[");
+    let (kind, end) = if is_single {
+        ("float", "F;")
+    } else {
+        ("double", ";")
+    };
+    let is_head = head.starts_with("static inline void ")
+        && head.contains(&format!("({kind} pi["))
+        && head.ends_with(&format!("_RESTRICT {count}])"))
+        && ["base_parameters", "passivity_parameters"]
+            .iter()
+            .any(|own| are_of(found, own));
+    let mut all = values.iter().enumerate().zip(lines.by_ref().skip(1));
+    let are = all.by_ref().all(|((index, value), line)| {
+        let literal = between(line.trim(), &format!("pi[{index}] = "), end);
+        let literal = literal.and_then(|own| number(own, is_single));
+        literal.is_some_and(|own| value.is_nearest(own, is_single))
+    });
+    is_head && are && found.text.lines().filter(|line| !line.is_empty()).count() == count + 3
 }
 
 /// Returns the module of the function that has this head, and its name there.
@@ -145,16 +187,15 @@ fn word<'t>(header: &str, head: &'t str) -> Option<(&'t str, &'t str)> {
     Some((named.strip_suffix(word)?.trim_end_matches('_'), word))
 }
 
-/// Returns whether a name is another whose words are shortened: to the first letter and some that follow.
+/// Returns whether a name is another one shortened: some of its letters in their order, with the
+/// first one; a 2 is for `second`.
 fn is_short(word: &str, long: &str) -> bool {
-    let mut pairs = word.split('_').zip(long.split('_'));
-    let is_part = |short: &str, long: &str| {
-        let mut letters = long.chars();
-        let has_all = short.chars().all(|own| letters.any(|c| c == own));
-        has_all && short.len() > 1 && long.starts_with(&short[..1])
-    };
-    let is_alike = pairs.all(|(short, long)| short == long || is_part(short, long));
-    is_alike && word.split('_').count() == long.split('_').count()
+    let long = long.replace("second_derivatives", "derivatives2");
+    let mut letters = long.chars();
+    let mut own = word.replace("sec_deriv", "deriv2");
+    own = own.replace("second_derivatives", "derivatives2");
+    let has_all = own.chars().all(|own| letters.any(|c| c == own));
+    has_all && word.len() > 1 && long.starts_with(&word[..1])
 }
 
 /// Returns the lines that are neither empty nor comments, with their numbers; or the first line that

@@ -4,9 +4,8 @@
 use serde::Deserialize;
 
 use crate::fault::Fault;
-use crate::file::{Found, results};
+use crate::file::results;
 use crate::quantity::Function;
-use crate::scene::Setting;
 
 /// The longest file, and the most certificates in it.
 const MOST_BYTES: usize = 16 << 20;
@@ -45,21 +44,6 @@ pub struct Claim {
 }
 
 impl Claim {
-    /// Returns the claim that nothing was left out of a text; E is for the checker to find.
-    pub(crate) fn exact(found: &Found, is_single: bool, setting: &Setting) -> Claim {
-        let [position, velocity, acceleration] = setting.ranges.clone();
-        Claim {
-            function: found.name.to_owned(),
-            rows: setting.rows.iter().map(|row| row + 1).collect(),
-            scalar: if is_single { "f32" } else { "f64" }.to_owned(),
-            position,
-            velocity,
-            acceleration,
-            text: found.text.clone(),
-            ..Claim::default()
-        }
-    }
-
     /// Returns the function; where the text returns a struct of another name, the bundle of its fields.
     ///
     /// # Errors

@@ -11,6 +11,8 @@ pub enum Fault {
     Robot(String, String),
     /// The certificate: what is wrong with it.
     Certificate(String),
+    /// The claim: what is wrong with it, or with what it says.
+    Claim(String),
     /// The text of the function: its line, from one, and what was expected there.
     Text(usize, String),
     /// A polynomial has a higher power of a variable than is written down, or more terms.
@@ -46,6 +48,7 @@ impl fmt::Display for Fault {
         match self {
             Fault::Robot(key, why) => write!(f, "robot file, `{key}`: {why}"),
             Fault::Certificate(why) => write!(f, "certificate: {why}"),
+            Fault::Claim(why) => write!(f, "claim: {why}"),
             Fault::Text(line, why) => write!(f, "text, line {line}: {why}"),
             Fault::Large => f.write_str(
                 "this is too general to be written out: a power beyond c^7, q\u{307}^3 and q\u{308}^1, \

@@ -26,7 +26,8 @@ pub struct Found<'t> {
 }
 
 /// Attributes, and how those begin that list names.
-const ATTRIBUTES: [&str; 6] = [
+const ATTRIBUTES: [&str; 7] = [
+    "#[repr(transparent)]",
     "#[must_use]",
     "#[inline]",
     "#[inline(always)]",
@@ -52,15 +53,16 @@ pub(crate) fn item<'t>(
     lines: &mut Lines<'_, 't>,
     mut is_last: impl FnMut(&'t str) -> bool,
 ) -> Option<Found<'t>> {
-    let (mut found, mut depth) = (Found::default(), 0usize);
+    let (mut found, mut depth, mut ends) = (Found::default(), 0usize, 0);
     let mut head = lines.first()?.1;
     found.line = lines.first()?.0;
     loop {
         let (&(number, line), behind) = lines.split_first()?;
         let count = |brackets: [char; 3]| line.matches(brackets).count();
-        let before = found.text.matches('\n').count();
-        found.text += &"\n".repeat(number - found.line - before);
+        // As many lines as in the file.
+        found.text += &"\n".repeat(number - found.line - ends);
         found.text += &format!("{line}\n");
+        ends = number - found.line + 1;
         *lines = behind;
         depth = (depth + count(['{', '[', '('])).checked_sub(count(['}', ']', ')']))?;
         if depth == 0 && line.ends_with(['}', ';']) {
@@ -83,6 +85,7 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
     let numbered = source.split('\n').enumerate();
     let numbered = numbered.map(|(index, line)| (index + 1, line));
     let lines: Vec<(usize, &str)> = numbered.filter(|line| !is_plain(*line)).collect();
+    let lines = without_types(lines);
     let is_known =
         |line: &str| is_code(line.trim_start_matches(' ')) || module_head(line).is_some();
     if let Some(line) = lines.iter().find(|(_, line)| !is_known(line)) {
@@ -113,6 +116,51 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
         None => Ok(all),
         Some(_) => Err(Fault::Text(end, "a brace is not closed".into())),
     }
+}
+
+/// The type of an argument that is no list of joints; and what a payload has besides.
+const TYPE: &str = "pub struct NAME(pub [REAL; COUNT]);
+impl ::core::ops::Deref for NAME {
+type Target = [REAL; COUNT];
+fn deref(&self) -> &[REAL; COUNT] {
+&self.0
+}
+}";
+const NEW: &str = "impl Payload {
+pub const NONE: Payload = Payload([0.0; 10]);
+pub const fn new(mass: REAL, com: [REAL; 3], inertia: [REAL; 6]) -> Payload {
+let ([x, y, z], [xx, yy, zz, xy, yz, xz]) = (com, inertia);
+Payload([mass, x, y, z, xx, yy, zz, xy, yz, xz])
+}
+}";
+
+/// Returns the lines without the types of arguments, each of which has to be as it is printed.
+fn without_types(lines: Vec<(usize, &str)>) -> Vec<(usize, &str)> {
+    let (mut left, mut rest) = (Vec::new(), lines.as_slice());
+    while let Some(&first) = rest.first() {
+        let head = first.1.trim_start_matches(' ');
+        let tuple = between(head, "pub struct ", "]);").and_then(|own| own.split_once("(pub ["));
+        let kind = tuple.and_then(|(name, kind)| Some((name, kind.split_once("; ")?)));
+        let known = match kind {
+            Some((name, (real, count))) if ["Gravity", "Load", "Payload"].contains(&name) => {
+                let text = TYPE.replace("NAME", name).replace("REAL", real);
+                text.replace("COUNT", count)
+            }
+            _ if head == "impl Payload {" => {
+                let is_single = rest.get(2).is_some_and(|(_, line)| line.contains(": f32"));
+                NEW.replace("REAL", if is_single { "f32" } else { "f64" })
+            }
+            _ => String::new(),
+        };
+        let mut own = rest.iter().map(|(_, line)| line.trim_start_matches(' '));
+        let is_own = known.lines().all(|line| own.next() == Some(line));
+        let count = known.lines().count();
+        if count == 0 || !is_own {
+            left.push(first);
+        }
+        rest = &rest[if is_own { count.max(1) } else { 1 }..];
+    }
+    left
 }
 
 /// Returns a line that the generator would not print.

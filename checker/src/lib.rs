@@ -1,23 +1,27 @@
 //! The checker of generated code, small enough to be read in a day.
 //!
-//! A certificate says that a generated function differs from the dynamics of a robot, at
-//! every state of a box, by at most E·T; a generated file without one says that nothing
-//! was left out. This crate uses none of the project's others. It takes the text, the
-//! box, T and E, reads the robot file itself, and shows the claim with its own means, or
-//! says how far its own bound is from it:
+//! This crate uses none of the project's others, and reads the robot file itself. A generated file
+//! has a claim beside it, with the exact program of each function:
+//!
+//! 1. `file`, `aside`, `c99`, `together`, `read`: the text, by a small strict grammar
+//! 2. `claim`, `compare`: the text is the program that is claimed, its literals rounded once
+//! 3. `identity`: that program equals the equations of motion, modulo primes that SHA-256 draws
+//! 4. `rounding`, `cost`: what rounding costs, over the box or at drawn states
+//! 5. `certify`: these in order, function by function
+//!
+//! A certificate says that a function from which something was left out differs from the dynamics,
+//! at every state of a box, by at most E·T. The checker takes the text, the box, T and E, and shows
+//! that with means of its own, or says how far its bound is from it:
 //!
 //! 1. `literal`, `robot`, `scene`: the robot file, every number as an interval about a double
-//! 2. `file`, `aside`, `c99`, `program`, `text`: the text, by a small strict grammar
+//! 2. `program`, `text`: the text as straight-line code
 //! 3. `dynamics`, `kinematics`, `quantity`: the recursion of Newton and Euler, and what follows
 //! 4. `polynomial`, `ring`, `values`, `sines`: text and recursion as polynomials in
 //!    sines, cosines and rates; all that was not edited cancels in their difference
 //! 5. `levels`, `maximum`: the largest magnitude of that difference over the box
-//! 6. `values`, again: what rounding costs, by one pass over the text
-//! 7. `sample`: the text run at some states, which must not contradict the bounds;
+//! 6. `sample`: the text run at some states, which must not contradict the bounds;
 //!    `witness`: states at which T is reached
-//! 8. `tried`: functions that divide, by their equation at states that SHA-256 draws, without a bound
-//! 9. `identity`: an exact program equals the equations of motion, modulo primes that SHA-256 draws
-//! 10. `verdict`, `exact`: the parts in order, of a certificate and of a whole file
+//! 7. `verdict`: the parts in order
 //!
 //! What is believed: that every operation is rounded to nearest and none is contracted,
 //! that the library's sines are within one ulp, this crate, the compiler, and the parsers
@@ -32,9 +36,15 @@ mod c99;
 #[cfg(feature = "certify")]
 mod certificate;
 #[cfg(feature = "certify")]
-pub mod dynamics;
+pub mod certify;
 #[cfg(feature = "certify")]
-pub mod exact;
+pub mod claim;
+#[cfg(feature = "certify")]
+mod compare;
+#[cfg(feature = "certify")]
+mod cost;
+#[cfg(feature = "certify")]
+pub mod dynamics;
 #[cfg(feature = "certify")]
 mod fault;
 #[cfg(feature = "certify")]
@@ -64,6 +74,8 @@ mod ring;
 #[cfg(feature = "certify")]
 pub mod robot;
 #[cfg(feature = "certify")]
+mod rounding;
+#[cfg(feature = "certify")]
 mod sample;
 #[cfg(feature = "certify")]
 pub mod scene;
@@ -73,8 +85,6 @@ mod sines;
 pub mod text;
 #[cfg(feature = "certify")]
 mod together;
-#[cfg(feature = "certify")]
-mod tried;
 #[cfg(feature = "certify")]
 mod values;
 #[cfg(feature = "certify")]

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use crate::c99;
 use crate::certificate::Claim;
 use crate::fault::Fault;
-use crate::identity::program::Operand;
+use crate::identity::program::{Operand, Program as Straight};
 use crate::interval::FARTHEST;
 use crate::program::{Node, Program, Source};
 use crate::quantity::{ARGUMENTS, entries};
@@ -99,6 +99,23 @@ fn near(claim: &Claim, read: &read::Function, setting: &Setting) -> Result<(), F
     Fault::unless(most < FARTHEST, "the sine of an angle beyond 1000 rad")
 }
 
+/// Returns polynomials of an angle as a list of values, and which are the results.
+pub(crate) fn block(polynomial: &Straight<f64>) -> (Vec<Node>, Vec<usize>) {
+    let mut block = Program::default();
+    let angle = block.push(Node::Constant(0.0));
+    let leaf = |operand: &Operand<f64>| matches!(operand, Operand::Entry(..)).then_some(angle);
+    let values = block.take(&polynomial.steps, &leaf);
+    let mut results = Vec::new();
+    for (negative, operand) in &polynomial.outputs {
+        let value = block.operand(operand, &values, &leaf);
+        results.push(match negative {
+            true => block.push(Node::Neg(value)),
+            false => value,
+        });
+    }
+    (block.nodes, results)
+}
+
 /// Returns what was read as a list of values.
 fn nodes(read: &read::Function) -> Program {
     let mut program = Program::default();
@@ -107,23 +124,9 @@ fn nodes(read: &read::Function) -> Program {
         let angle = program.push(Node::Input(0, own.joint));
         let mut results = Vec::new();
         if let read::Source::Polynomial(polynomial) = &own.source {
-            let mut block = Program::default();
-            let angle = block.push(Node::Constant(0.0));
-            let values = block.take(&polynomial.steps, &|operand| match operand {
-                Operand::Entry(..) => Some(angle),
-                _ => None,
-            });
-            for (negative, operand) in &polynomial.outputs {
-                let value = match operand {
-                    Operand::Entry(..) => angle,
-                    own => block.operand(own, &values, &|_| None),
-                };
-                results.push(match negative {
-                    true => block.push(Node::Neg(value)),
-                    false => value,
-                });
-            }
-            program.blocks.push(block.nodes);
+            let (block, own) = block(polynomial);
+            results = own;
+            program.blocks.push(block);
         }
         let block = program.blocks.len().saturating_sub(1);
         let mut results = results.into_iter();

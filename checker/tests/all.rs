@@ -2,18 +2,14 @@
 
 mod attacks;
 mod certificates;
-mod exact;
 mod forgeries;
 mod golden;
-mod headers;
 mod identity;
 mod intervals;
 mod lagrange;
 mod lines;
 mod mutations;
 mod numbers;
-mod placements;
 mod read;
 mod refusals;
 mod support;
-mod tried;

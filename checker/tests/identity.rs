@@ -3,26 +3,47 @@
 
 use dalembert_checker::identity::arm::Arm;
 use dalembert_checker::identity::exact::{Exact, Point};
-use dalembert_checker::identity::outputs::{argument, functions};
 use dalembert_checker::identity::program::{Operand, Program};
-use dalembert_checker::identity::{check, robot};
+use dalembert_checker::identity::state::State;
+use dalembert_checker::identity::table::{argument, functions};
+use dalembert_checker::identity::{Base, Combination, Statement, check, robot};
 
 use crate::support::file;
 
 const ROBOT: &str = "generated/robots/planar2r.toml";
 
 /// Words of the robot file, those in their place, and the refusal.
-const ROBOTS: [[&str; 3]; 9] = [
+const ROBOTS: [[&str; 3]; 13] = [
     ["\"revolute\"", "\"continuous\"", "joint 1: expected `kind`"],
     [
         "a = 1",
         "a = 1\ncoulomb = 0.3",
-        "joint 1: `coulomb` is not compared yet",
+        "joint 1: `coulomb` without a `coulomb_width`",
     ],
     [
         "a = 1",
-        "a = 1\nmimic = { joint = \"elbow\" }",
-        "joint 1: `mimic` is not compared yet",
+        "a = 1\nmimic = { joint = \"elbow\", multiplier = 0.5 }",
+        "joint 1: `multiplier` of an angle is no whole number",
+    ],
+    [
+        "a = 1",
+        "a = 1\nmimic = { joint = \"wrist\" }",
+        "there is no joint `wrist`",
+    ],
+    [
+        "a = 1",
+        "a = 1\nmimic = { joint = 1 }",
+        "joint 1: joints follow each other in a circle",
+    ],
+    [
+        "a = 1",
+        "a = 1\ncoulomb = 1\nmimic = { joint = 2 }",
+        "joint 1: `coulomb` of a joint that follows another",
+    ],
+    [
+        "a = 1",
+        "a = 1\nmimic = { joint = 2, factor = 1 }",
+        "unknown field `factor`",
     ],
     [
         "a = 1",
@@ -57,7 +78,10 @@ fn joints_that_the_equations_lack_are_refused() {
     let source = file(ROBOT);
     let read = |source: &str| {
         let file = robot::read(source)?;
-        Arm::read(&file, &Point::new(&[source])).map(|_| ())
+        let setting = file.setting(None)?;
+        let point = Point::new(&[source]);
+        Arm::read(&setting, &point)?;
+        State::draw(&point, &setting).map(|_| ())
     };
     assert_eq!(read(&source), Ok(()));
     for [what, by, words] in ROBOTS {
@@ -84,11 +108,21 @@ fn exact(text: &str) -> Operand<Exact> {
 fn programs_that_do_not_fit_are_refused() {
     let file = robot::read(&file(ROBOT)).unwrap();
     let outputs = |operand: Operand<Exact>| vec![(false, operand); 2];
-    let refused = |name: &str, outputs, base: &[_]| {
+    let setting = file.setting(None).unwrap();
+    let refused = |name: &str, outputs, combinations: &[Combination]| {
         let function = functions().into_iter().find(|own| own.name == name);
         let steps = Vec::new();
-        let program = Program { steps, outputs };
-        check(&file, &["no program"], &function.unwrap(), &program, base).unwrap_err()
+        let statement = Statement {
+            setting: &setting,
+            function: &function.unwrap(),
+            program: &Program { steps, outputs },
+            base: &Base {
+                combinations: combinations.to_vec(),
+                values: Vec::new(),
+            },
+            load: None,
+        };
+        check(statement, &["no program"]).unwrap_err()
     };
     let missing = "the program reads what is not there";
     for operand in [

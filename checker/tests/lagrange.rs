@@ -4,8 +4,10 @@
 use dalembert_checker::identity::arm::Arm;
 use dalembert_checker::identity::exact::Point;
 use dalembert_checker::identity::number::Number;
-use dalembert_checker::identity::outputs::{State, argument, functions, result};
+use dalembert_checker::identity::outputs::result;
 use dalembert_checker::identity::robot;
+use dalembert_checker::identity::state::State;
+use dalembert_checker::identity::table::{argument, functions};
 
 use crate::support::file;
 
@@ -28,10 +30,11 @@ fn value(arm: &Arm, state: &State, name: &str) -> Vec<Number> {
 fn torques_are_those_of_lagranges_equation() {
     for name in ROBOTS {
         let source = robot::read(&file(name)).unwrap();
+        let setting = source.setting(None).unwrap();
         let point = Point::new(&[name]);
-        let arm = Arm::read(&source, &point).unwrap();
+        let arm = Arm::read(&setting, &point).unwrap();
         let n = arm.joints.len();
-        let state = State::draw(&point, n);
+        let state = State::draw(&point, &setting).unwrap();
         let [qd, qdd] = ["qd", "qdd"].map(|own| &state.given[argument(own).unwrap()]);
         let d = value(&arm, &state, "inertia");
         let slopes: Vec<(Vec<Number>, Number)> = (0..n)

@@ -5,8 +5,8 @@ use std::fs;
 
 use crate::support::file;
 
-/// The most lines of all of it, as long as `identity` stands beside what it replaces.
-const MOST: usize = 8575;
+/// The most lines of all of it, as long as certificates have a recursion of their own.
+const MOST: usize = 10669;
 
 /// The README names every file with its lines, rounded up to ten.
 #[test]

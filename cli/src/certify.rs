@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use dalembert_checker::exact::{self, Distance, Line, RATE};
+use dalembert_checker::certify::{Line, RATE, Shown, certify};
 use dalembert_checker::file::MOST_BYTES;
 use dalembert_checker::{Fault, Output, audit, read};
 use dalembert_codegen::workspace::{Setup, input_hash};
@@ -150,39 +150,46 @@ fn whole_file(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
             args.robot.display()
         )));
     }
-    let found = exact::check(source, &robot.robot_file, scene);
+    let place = claim_of(&args.file);
+    if !place.exists() {
+        return Err(Failure::Input(format!(
+            "error: there is no `{0}`, which says what `{name}` is to be compared with\n  = help: \
+             `dalembert generate {1} -o {name}` writes it beside the code",
+            place.display(),
+            args.robot.display()
+        )));
+    }
+    let claim = text(&place, MOST_BYTES as u64)?;
+    let found = certify(source, &claim, &robot.robot_file, scene);
     let found = found.map_err(|fault: Fault| Failure::Input(format!("error: {fault}")))?;
     let mut report = Report::default();
     report.line(
-        "The largest error of each function over the box of the robot file, relative to the largest value of\n\
-         each entry, in a matrix of its row or column; u is half an ulp of that value.",
+        "Each function is the program that is claimed, its literals rounded once, and this is the robot's in real\n\
+         numbers. What rounding costs is relative to the largest value of each entry, in a matrix of its row or\n\
+         column; u is half an ulp of that value.",
     );
     if found.is_unlimited {
         let rates =
             format!("Joints without limits: velocities and accelerations up to {RATE} (SI).");
         report.line(rates);
     }
-    let heads = "module|function|real|rounding|units|tried|seen_units|why|passed";
-    let mut table = Table::new(heads);
+    let mut table = Table::new("module|function|rounding|units|states|why|passed");
     let mut module = "";
     for line in &found.lines {
         if line.module != module {
             module = &line.module;
             report.line(module);
         }
-        report.line(format!("  {:<22} {}", line.name, words(line)));
+        report.line(format!("  {:<35} {}", line.name, words(line)));
         let own = line.result.as_ref().ok();
-        let bounded = own.filter(|own| own.tried == 0);
         table.row(cells![
             line.module.as_str(),
             line.name.as_str(),
-            Cell::json(bounded.map(|own| own.edits)),
-            Cell::json(bounded.map(|own| own.rounding)),
-            Cell::json(own.map(Distance::units)),
-            own.map_or(0, |own| own.tried),
-            Cell::json(own.map(|own| own.seen / own.unit)),
+            Cell::json(own.map(|own| own.rounding)),
+            Cell::json(own.map(|own| own.units)),
+            Cell::json(own.map(|own| own.states)),
             Cell::json(line.result.as_ref().err().map(ToString::to_string)),
-            Cell::json(own.is_some_and(Distance::is_shown)),
+            Cell::json(own.is_some()),
         ]);
     }
     report.value("file", name.to_string());
@@ -196,29 +203,37 @@ fn whole_file(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
     Ok(done)
 }
 
+/// Returns where the claim of a file is: both scalars in Rust have one.
+pub(crate) fn claim_of(file: &Path) -> PathBuf {
+    let own = file.with_extension("claim.json");
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+    match stem.strip_suffix("_f32") {
+        Some(base) if !own.exists() => file.with_file_name(format!("{base}.claim.json")),
+        _ => own,
+    }
+}
+
 /// Formats the result of a function.
 fn words(line: &Line) -> String {
     match &line.result {
         Err(fault) => format!("not shown: {fault}"),
-        Ok(found) if found.tried > 0 => format!(
-            "no bound; the residual of its equation is {:.1} u of the terms, the largest at {} states  {}",
-            found.units(),
-            found.tried,
-            if found.is_shown() { "tried" } else { "wrong" },
-        ),
-        Ok(found) => format!(
-            "in real numbers {:>9.2e}  rounding {:>9.2e}  both {:>7.0} u  seen {:>7.1} u  {}",
-            found.edits,
-            found.rounding,
-            found.units(),
-            found.seen / found.unit,
-            match (found.is_shown(), found.has_polynomials) {
-                (true, _) => "shown",
-                (false, false) => "not shown",
-                (false, true) =>
-                    "not shown: polynomial sines have more than rounding errors; certify them in a scene with a tolerance",
-            },
-        ),
+        Ok(Shown {
+            rounding,
+            units,
+            states,
+            has_polynomials,
+        }) => {
+            let of = if *has_polynomials {
+                "sines and rounding"
+            } else {
+                "rounding"
+            };
+            let over = match states {
+                0 => "over the box".to_owned(),
+                count => format!("at {count} states"),
+            };
+            format!("shown; {of} {rounding:>9.2e} {units:>9.0} u {over}")
+        }
     }
 }
 

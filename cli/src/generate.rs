@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::workspace::{keep, plan_file};
+use dalembert_codegen::workspace::{claim, keep, plan_file};
 use dalembert_codegen::{Language, Request, ScalarType};
 use dalembert_stamp::relative;
 
@@ -19,8 +19,9 @@ pub struct GenerateArgs {
     #[command(flatten)]
     task: TaskArgs,
     /// Write the code to this file [default: standard output, `-`], the second of two
-    /// scalars in Rust beside it; its ending chooses the language (.rs, .h, .cuh), and what a
-    /// tolerance takes is certified beside it in NAME.certificate.json
+    /// scalars in Rust beside it; its ending chooses the language (.rs, .h, .cuh). What `certify`
+    /// compares the code with goes beside it into NAME.claim.json, and what a tolerance takes
+    /// into NAME.certificate.json
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// The language of the code [default: that of the ending of -o, or rust]
@@ -37,7 +38,9 @@ pub struct GenerateArgs {
 struct Places {
     /// One for each file.
     code: Vec<Target>,
-    /// With a tolerance, unless the code goes into a device or a pipe.
+    /// Unless the code goes into a device or a pipe: what is claimed of it, but for a scene with a
+    /// tolerance, whose certificates say more.
+    claim: Option<Target>,
     certificates: Option<Target>,
     /// If it is to be kept.
     plan: Option<Target>,
@@ -71,6 +74,11 @@ pub(crate) fn run(args: &GenerateArgs, context: &Context) -> Outcome {
         files.push((target, kept.plan.write()));
     }
     files.extend(places.certificates.zip(certificates(&generated)));
+    if let Some(target) = places.claim {
+        let claim = claim(&source.robot, &source.robot_file, &request, &generated);
+        let claim = claim.map_err(|why| Failure::Input(format!("error: {why}")))?;
+        files.push((target, claim.write()));
+    }
     let place = match args.output.as_deref() {
         Some(file) if places.code.iter().any(|target| target.file().is_some()) => {
             relative(&source.path, file)
@@ -125,11 +133,17 @@ impl Places {
         let scene = request.scene.as_ref();
         let certified = scene.is_some_and(|scene| scene.tolerance.is_some());
         let file = code.first().and_then(Target::file);
-        let beside = file.and(args.output.as_ref()).filter(|_| certified);
-        let beside = beside.map(|file| file.with_extension("certificate.json"));
+        let output = file.and(args.output.as_ref());
+        let mut beside = |ending: &str, is_there: bool| {
+            let path = output.map(|file| file.with_extension(ending));
+            path.filter(|_| is_there)
+                .map(|path| files.add(&path))
+                .transpose()
+        };
         Ok(Places {
+            claim: beside("claim.json", !certified)?,
+            certificates: beside("certificate.json", certified)?,
             code,
-            certificates: beside.map(|file| files.add(&file)).transpose()?,
             plan: args.save_plan.then(|| files.add(&path)).transpose()?,
         })
     }

@@ -5,8 +5,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use dalembert_codegen::Language;
+use dalembert_codegen::workspace::claim;
 use dalembert_stamp::Stamp;
 
+use crate::certify::claim_of;
 use crate::code::certificates;
 use crate::files::{Files, first};
 use crate::output::{Context, Done, Failure, Outcome};
@@ -34,7 +36,7 @@ struct Found {
     language: Language,
 }
 
-/// The new text of a file: the code, or the certificates beside it.
+/// The new text of a file: the code, or the claim or the certificates beside it.
 struct New {
     path: PathBuf,
     text: String,
@@ -48,7 +50,12 @@ pub(crate) fn run(args: &RenewArgs, context: &Context) -> Outcome {
     let (mut texts, mut failed) = (Vec::new(), Vec::new());
     for file in &files {
         match renewed(context, file) {
-            Ok(own) => texts.extend(own),
+            // Both scalars have one claim.
+            Ok(own) => own.into_iter().for_each(|new| {
+                if !texts.iter().any(|other: &New| other.path == new.path) {
+                    texts.push(new);
+                }
+            }),
             Err(Failure::Input(why) | Failure::Check(why)) => {
                 let path = file.path.display();
                 failed.push(format!("{why}\n  = note: to renew `{path}`"));
@@ -172,8 +179,13 @@ fn renewed(context: &Context, file: &Found) -> Result<Vec<New>, Failure> {
         differs: difference(&file.text, &code),
         text: code,
     }];
-    if let Some(text) = certificates(&generated) {
-        let path = file.path.with_extension("certificate.json");
+    let beside = claim_of(&file.path);
+    let claim = claim(&source.robot, &source.robot_file, &request, &generated);
+    let claim = claim.map_err(|why| Failure::Input(format!("error: {why}")))?;
+    let claim = Some(claim.write()).filter(|_| beside.exists());
+    let certificate = file.path.with_extension("certificate.json");
+    for (path, text) in [(certificate, certificates(&generated)), (beside, claim)] {
+        let Some(text) = text else { continue };
         let old = fs::read_to_string(&path).unwrap_or_default();
         let differs = difference(&old, &text);
         new.push(New {

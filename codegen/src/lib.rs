@@ -32,6 +32,7 @@
 //! - `approximate`: the lossy search
 //! - `emit`: the module of a robot: header, documentation, functions
 //! - `generate`: the one function that macro, build script and command call
+//! - `claim`: what is claimed of generated functions, for the checker
 //!
 //! And the ways in, which all end in `generate`:
 //! - `robot_file`: a robot file from a path, with errors fit to show
@@ -48,6 +49,8 @@ mod approximate;
 mod ask;
 mod bound;
 mod certificate;
+#[cfg(feature = "certificates")]
+mod claim;
 mod dag;
 mod edits;
 mod emit;

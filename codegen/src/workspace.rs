@@ -19,6 +19,8 @@ pub use crate::bound::{
 #[cfg(feature = "certificates")]
 pub use crate::certificate::format::write as write_certificates;
 pub use crate::certificate::{Certificate, Refuted};
+#[cfg(feature = "certificates")]
+pub use crate::claim::claim;
 pub use crate::dag::{Dag, Edge, Fingerprint, Folding, Id, Leaves, Node, Points};
 pub use crate::edits::{
     Edit, EditSite, Stage, difference,

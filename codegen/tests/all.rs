@@ -3,6 +3,8 @@
 mod accuracy_limit;
 mod arguments;
 mod c99;
+mod certified;
+mod certified_texts;
 mod certify_bars;
 mod certify_campaign;
 mod certify_certificate;

@@ -1,198 +1,27 @@
 //! The arm in base axes: where every joint's axis and every link's mass is at q = 0, and at a
 //! state.
-//!
-//! A motion is (ω, v): the angular velocity, and the velocity of the point at the base's origin. A
-//! wrench is (n, f): the moment about that origin, and the force. So motions, wrenches and masses
-//! of all links add up without any frame between them.
 
 use std::array::from_fn;
 
-use num_traits::Zero;
+use num_rational::BigRational as Rational;
+use num_traits::{ToPrimitive, Zero};
 
 use super::exact::{Angle, Point, number};
 use super::number::Number;
-use super::robot::{File, Placement, Row};
-
-pub(super) type Vector = [Number; 3];
-
-pub(super) fn sum(a: Vector, b: Vector) -> Vector {
-    from_fn(|i| a[i] + b[i])
-}
-
-fn scaled(x: Number, a: Vector) -> Vector {
-    a.map(|a| x * a)
-}
-
-fn opposite(a: Vector) -> Vector {
-    a.map(|a| -a)
-}
-
-pub(super) fn dot(a: Vector, b: Vector) -> Number {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub(super) fn cross(a: Vector, b: Vector) -> Vector {
-    let [i, k] = [[1, 2, 0], [2, 0, 1]];
-    from_fn(|axis| a[i[axis]] * b[k[axis]] - a[k[axis]] * b[i[axis]])
-}
-
-/// A motion (ω, v), or a wrench (n, f).
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Screw(pub(super) Vector, pub(super) Vector);
-
-impl Screw {
-    fn plus(self, other: Screw) -> Screw {
-        Screw(sum(self.0, other.0), sum(self.1, other.1))
-    }
-
-    fn times(self, x: Number) -> Screw {
-        Screw(scaled(x, self.0), scaled(x, self.1))
-    }
-
-    /// Returns the power of a wrench in this motion.
-    pub(super) fn power(self, wrench: Screw) -> Number {
-        dot(self.0, wrench.0) + dot(self.1, wrench.1)
-    }
-
-    /// Returns the rate of a motion that this one carries along.
-    fn across(self, other: Screw) -> Screw {
-        let linear = sum(cross(self.0, other.1), cross(self.1, other.0));
-        Screw(cross(self.0, other.0), linear)
-    }
-
-    /// Returns the rate of a momentum that this motion carries along.
-    fn across_momentum(self, other: Screw) -> Screw {
-        let moment = sum(cross(self.0, other.0), cross(self.1, other.1));
-        Screw(moment, cross(self.0, other.1))
-    }
-}
-
-/// A turn R, by its columns, and a shift p: r ↦ R r + p.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Pose {
-    axes: [Vector; 3],
-    pub(super) origin: Vector,
-}
-
-impl Pose {
-    fn shift(origin: Vector) -> Pose {
-        let axes = from_fn(|k| from_fn(|i| i64::from(i == k).into()));
-        Pose { axes, origin }
-    }
-
-    /// Returns the turn about an axis of the frame, x being 0.
-    fn turn(axis: usize, [sin, cos]: [Number; 2]) -> Pose {
-        let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
-        let mut pose = Pose::shift(Vector::default());
-        (pose.axes[next][next], pose.axes[next][last]) = (cos, sin);
-        (pose.axes[last][next], pose.axes[last][last]) = (-sin, cos);
-        pose
-    }
-
-    fn rotate(&self, v: Vector) -> Vector {
-        from_fn(|i| self.axes[0][i] * v[0] + self.axes[1][i] * v[1] + self.axes[2][i] * v[2])
-    }
-
-    pub(super) fn apply(&self, point: Vector) -> Vector {
-        sum(self.rotate(point), self.origin)
-    }
-
-    pub(super) fn then(&self, next: &Pose) -> Pose {
-        let axes = next.axes.map(|axis| self.rotate(axis));
-        let origin = self.apply(next.origin);
-        Pose { axes, origin }
-    }
-
-    fn screw(&self, own: Screw) -> Screw {
-        let turned = self.rotate(own.0);
-        Screw(turned, sum(self.rotate(own.1), cross(self.origin, turned)))
-    }
-
-    /// Returns [R | p], row by row.
-    pub(super) fn rows(&self) -> Vec<Number> {
-        let [x, y, z] = self.axes;
-        let row = |i: usize| [x[i], y[i], z[i], self.origin[i]];
-        (0..3).flat_map(row).collect()
-    }
-
-    /// Returns the motion of a joint, by a sine and a cosine or by a length.
-    fn moved(axis: Screw, turns: bool, [sin, cos]: [Number; 2], slide: Number) -> Pose {
-        if !turns {
-            return Pose::shift(scaled(slide, axis.1));
-        }
-        // r ↦ c r + s ω × r + (1 − c) ω (ω·r), about the point ω × v of the axis.
-        let about = |r: Vector| {
-            let along = scaled((Number::from(1) - cos) * dot(axis.0, r), axis.0);
-            sum(sum(scaled(cos, r), scaled(sin, cross(axis.0, r))), along)
-        };
-        let point = cross(axis.0, axis.1);
-        let mut pose = Pose::shift(point);
-        pose.axes = pose.axes.map(about);
-        pose.origin = sum(point, opposite(pose.rotate(point)));
-        pose
-    }
-}
-
-/// Mass, first moment and the tensor of inertia about the origin.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Body {
-    pub(super) mass: Number,
-    pub(super) first: Vector,
-    pub(super) tensor: [Vector; 3],
-}
-
-impl Body {
-    /// Returns a body of m, m x, m y, m z, xx, yy, zz, xy, yz and xz.
-    pub(super) fn new([mass, x, y, z, xx, yy, zz, xy, yz, xz]: [Number; 10]) -> Body {
-        let tensor = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-        let first = [x, y, z];
-        Body {
-            mass,
-            first,
-            tensor,
-        }
-    }
-
-    fn plus(&self, other: &Body) -> Body {
-        Body {
-            mass: self.mass + other.mass,
-            first: sum(self.first, other.first),
-            tensor: from_fn(|i| sum(self.tensor[i], other.tensor[i])),
-        }
-    }
-
-    /// Returns the body moved by a pose.
-    pub(super) fn moved(&self, pose: &Pose) -> Body {
-        let (p, turned) = (pose.origin, pose.rotate(self.first));
-        // R I Rᵀ, then Steiner from the old origin to the new one.
-        let half = self.tensor.map(|row| pose.rotate(row));
-        let twice = dot(p, turned) + dot(p, turned) + self.mass * dot(p, p);
-        let entry = |i: usize, k: usize| {
-            let column = [0, 1, 2].map(|j: usize| half[j][k]);
-            let row = [0, 1, 2].map(|j: usize| pose.axes[j][i]);
-            let across = p[i] * turned[k] + turned[i] * p[k] + self.mass * p[i] * p[k];
-            dot(row, column) - across + if i == k { twice } else { 0.into() }
-        };
-        Body {
-            mass: self.mass,
-            first: sum(turned, scaled(self.mass, p)),
-            tensor: from_fn(|i| from_fn(|k| entry(i, k))),
-        }
-    }
-
-    /// Returns the momentum of a motion.
-    fn momentum(&self, motion: Screw) -> Screw {
-        let spin = self.tensor.map(|row| dot(row, motion.0));
-        let force = sum(scaled(self.mass, motion.1), cross(motion.0, self.first));
-        Screw(sum(spin, cross(self.first, motion.1)), force)
-    }
-}
+use super::robot::{Placement, Row};
+use super::screw::{Body, Pose, Screw, Vector, dot, opposite, scaled};
+use super::setting::Setting;
+use super::state::State;
 
 /// A joint and its link, at q = 0 in base axes.
 #[derive(Clone, Debug)]
 pub struct Joint {
     turns: bool,
     axis: Screw,
+    /// The joint that moves it, and how many times as far: itself, but for one that follows.
+    pub(super) leader: (usize, Number),
+    /// How often a joint that turns counts, and sine and cosine, or the length, that is added.
+    line: (i64, [Number; 2], Number),
     /// The origin of the frame whose z the axis is, and whether the joint moves it.
     pub(super) origin: (Vector, bool),
     /// The link's frame of the table.
@@ -205,21 +34,51 @@ pub struct Joint {
     pub(super) given: (Body, Pose),
     /// Viscous friction, N·m·s/rad or N·s/m.
     pub viscous: Number,
+    /// Coulomb friction, N·m or N.
+    pub coulomb: Number,
     /// The inertia of the drive as the joint feels it, kg·m² or kg.
     pub armature: Number,
+}
+
+/// A frame of a link, at q = 0.
+#[derive(Clone, Debug)]
+pub(super) struct Frame {
+    pub(super) name: String,
+    /// The row of the link.
+    pub(super) row: usize,
+    pub(super) pose: Pose,
 }
 
 /// An arm at q = 0.
 #[derive(Clone, Debug)]
 pub struct Arm {
-    /// The joints, from the base outward.
+    /// The rows of the table, from the base outward.
     pub joints: Vec<Joint>,
+    /// The rows whose joints move by themselves.
+    pub(super) movers: Vec<usize>,
+    /// Those of them that are not locked.
+    pub(super) free: Vec<usize>,
     /// The acceleration of gravity, m/s².
     pub(super) gravity: Vector,
-    /// The hand.
-    pub(super) hand: Pose,
+    /// The hand, and the frames that have names.
+    pub(super) hand: Frame,
+    pub(super) frames: Vec<Frame>,
     /// One half, in this field.
     pub half: Number,
+}
+
+/// The joint that moves a row and how many times as far, and what is added.
+type Line = ((usize, Number), (i64, [Number; 2], Number));
+
+/// Returns sine and cosine of the sum of two angles.
+fn turned([sin, cos]: [Number; 2], [other, by]: [Number; 2]) -> [Number; 2] {
+    [sin * by + cos * other, cos * by - sin * other]
+}
+
+/// Returns sine and cosine of so many times an angle.
+fn times([sin, cos]: [Number; 2], count: i64) -> [Number; 2] {
+    let one = [if count < 0 { -sin } else { sin }, cos];
+    (0..count.abs()).fold([0.into(), 1.into()], |all, _| turned(all, one))
 }
 
 impl Point {
@@ -250,9 +109,46 @@ impl Point {
         Ok(pose)
     }
 
+    /// Returns a body about its centre of mass, and where that is.
+    fn body(
+        &self,
+        mass: Option<&String>,
+        com: Option<&[String; 3]>,
+        inertia: Option<&[String; 6]>,
+    ) -> Result<(Body, Pose), String> {
+        let [mass] = self.list([mass])?;
+        let [xx, yy, zz, xy, yz, xz] = self.list(entries(inertia))?;
+        let none = Number::default();
+        let body = Body::new([mass, none, none, none, xx, yy, zz, xy, yz, xz]);
+        Ok((body, Pose::shift(self.list(entries(com))?)))
+    }
+
+    /// Returns the joint that moves a row, and along which line.
+    fn line(&self, setting: &Setting, row: usize) -> Result<Line, String> {
+        let place = |row: usize| setting.movers.iter().position(|own| *own == row);
+        let Some(own) = &setting.follows[row] else {
+            let still = [0.into(), 1.into()];
+            return Ok(((place(row).unwrap_or(row), 1.into()), (1, still, 0.into())));
+        };
+        let whole = |times: &Rational| times.to_i64().unwrap_or_default();
+        let (mut pair, mut length) = ([0.into(), 1.into()], Number::from(0));
+        for (factor, text) in &own.offsets {
+            if setting.file.joint[row].turns() {
+                let angle = Angle::read(text).ok_or_else(|| format!("`{text}` is no angle"))?;
+                pair = turned(pair, times(self.angle(&angle), whole(factor)));
+            } else {
+                let [offset] = self.list([Some(*text)])?;
+                length = length + offset * self.number(factor);
+            }
+        }
+        let leader = place(own.row).ok_or("a joint follows one that does not move")?;
+        let line = (whole(&own.times), pair, length);
+        Ok(((leader, self.number(&own.times)), line))
+    }
+
     /// Returns the ways before and behind a joint's axis.
     fn ways(&self, row: &Row, convention: Option<&str>) -> Result<[Pose; 2], String> {
-        let (theta, d) = match row.kind == "revolute" {
+        let (theta, d) = match row.turns() {
             true => (&row.offset, &row.d),
             false => (&row.theta, &row.offset),
         };
@@ -284,7 +180,7 @@ impl Row {
             let value = text.as_ref().map(|text| number(text));
             value.is_none_or(|value| value.is_some_and(|value| value.is_zero()))
         };
-        let turns = self.kind == "revolute";
+        let turns = self.turns();
         let variable = if turns { &self.theta } else { &self.d };
         let turned = [&self.alpha, &self.beta, &self.theta].map(is_zero);
         let shifted = [&self.a, &self.d, &self.offset].map(is_zero);
@@ -294,10 +190,8 @@ impl Row {
         let has_mass = !is_zero(&Some(self.mass.clone()));
         Err(if !turns && self.kind != "prismatic" {
             "expected `kind` revolute or prismatic"
-        } else if self.mimic.is_some() {
-            "`mimic` is not compared yet"
-        } else if !is_zero(&self.coulomb) {
-            "`coulomb` is not compared yet"
+        } else if self.mimic.is_some() && !is_zero(&self.coulomb) {
+            "`coulomb` of a joint that follows another"
         } else if !is_zero(variable) {
             "`theta` of a revolute joint and `d` of a prismatic one must be 0"
         } else if convention != Some("standard") && !is_zero(&self.beta) {
@@ -315,13 +209,14 @@ impl Row {
 }
 
 impl Arm {
-    /// Returns the arm of a robot file at a point of a field.
+    /// Returns a robot in its scene at a point of a field.
     ///
     /// # Errors
     /// The first text that is no number, or no angle, and a joint that the equations do not have.
-    pub fn read(file: &File, point: &Point) -> Result<Arm, String> {
+    pub fn read(setting: &Setting, point: &Point) -> Result<Arm, String> {
+        let (file, scene) = (setting.file, setting.scene);
         let mut frame = point.placement(file.base.as_ref())?;
-        let mut joints = Vec::new();
+        let mut joints: Vec<Joint> = Vec::new();
         for (index, row) in file.joint.iter().enumerate() {
             let in_joint = |why: &str| format!("joint {}: {why}", index + 1);
             row.check(file.convention.as_deref()).map_err(in_joint)?;
@@ -335,17 +230,16 @@ impl Arm {
             if dot(along, along).value(point.prime) != Some(1) {
                 return Err(in_joint("`axis` is no unit vector in the digits given"));
             }
-            let turns = row.kind == "revolute";
-            let [mass] = point.list([Some(&row.mass)])?;
-            let [xx, yy, zz, xy, yz, xz] = point.list(entries(row.inertia.as_ref()))?;
-            let none = Number::default();
-            let given = Body::new([mass, none, none, none, xx, yy, zz, xy, yz, xz]);
-            let centre = Pose::shift(point.list(entries(row.com.as_ref()))?);
-            let centre = frame.then(&centre);
-            let drive = [row.viscous.as_ref(), row.armature.as_ref()];
-            let [viscous, armature] = point.list(drive)?;
+            let turns = row.turns();
+            let given = point.body(Some(&row.mass), row.com.as_ref(), row.inertia.as_ref())?;
+            let given = (given.0, frame.then(&given.1));
+            let drive = [&row.viscous, &row.coulomb, &row.armature];
+            let [viscous, coulomb, armature] = point.list(drive.map(Option::as_ref))?;
+            let (leader, line) = point.line(setting, index)?;
             joints.push(Joint {
                 turns,
+                leader,
+                line,
                 axis: at.screw(match turns {
                     true => Screw(along, Vector::default()),
                     false => Screw(Vector::default(), along),
@@ -356,18 +250,101 @@ impl Arm {
                 },
                 link: frame,
                 shown: frame.then(&point.placement(row.frame.as_ref())?),
-                body: given.moved(&centre),
-                given: (given, centre),
+                body: given.0.moved(&given.1),
+                given,
                 viscous,
+                coulomb,
                 armature,
             });
         }
-        Ok(Arm {
+        let gravity = scene.and_then(|scene| scene.gravity.as_ref());
+        let named = file.frame.iter().map(|own| {
+            let row = file.row(&own.link)?;
+            let placement = Placement {
+                xyz: own.xyz.clone(),
+                rpy: own.rpy.clone(),
+            };
+            let pose = joints[row].link.then(&point.placement(Some(&placement))?);
+            let name = own.name.clone();
+            Ok(Frame { name, row, pose })
+        });
+        let frames = named.collect::<Result<_, String>>()?;
+        let free = (0..setting.joints()).filter(|&own| setting.locks[own].is_none());
+        let mut arm = Arm {
+            movers: setting.movers.clone(),
+            free: free.collect(),
+            gravity: point.list(entries(Some(gravity.unwrap_or(&file.gravity))))?,
+            hand: Frame {
+                name: "hand".into(),
+                row: joints.len().saturating_sub(1),
+                pose: frame.then(&point.placement(file.tool.as_ref())?),
+            },
+            frames,
             joints,
-            gravity: point.list(entries(Some(&file.gravity)))?,
-            hand: frame.then(&point.placement(file.tool.as_ref())?),
-            half: Number::new(point.prime / 2 + 1, point.prime),
-        })
+            half: point.half(),
+        };
+        if let Some(own) = scene.and_then(|scene| scene.payload.as_ref()) {
+            let carried = point.body(Some(&own.mass), Some(&own.com), own.inertia.as_ref())?;
+            arm.carry(carried, &point.placement(file.payload_frame.as_ref())?);
+        }
+        Ok(arm)
+    }
+
+    /// Adds a body to the last link, in a frame of that; the link's own is then both as one.
+    pub(super) fn carry(&mut self, (body, centre): (Body, Pose), frame: &Pose) {
+        if let Some(last) = self.joints.last_mut() {
+            let at = last.link.then(frame).then(&centre);
+            last.body = last.body.plus(&body.moved(&at));
+            let under = Number::from(1) / last.body.mass;
+            let centre = scaled(under, last.body.first);
+            let mut about = last.body.moved(&Pose::shift(opposite(centre)));
+            about.first = Vector::default();
+            last.given = (about, Pose::shift(centre));
+        }
+    }
+
+    /// Returns the arm with these numbers as payload, in the frame of the robot file: the mass, the
+    /// centre of mass and the tensor about it.
+    pub(super) fn carrying(
+        mut self,
+        setting: &Setting,
+        point: &Point,
+        own: &[Number],
+    ) -> Result<Arm, String> {
+        let &[mass, x, y, z, xx, yy, zz, xy, yz, xz] = own else {
+            return Err("a payload is ten numbers".into());
+        };
+        let none = Number::default();
+        let body = Body::new([mass, none, none, none, xx, yy, zz, xy, yz, xz]);
+        let frame = point.placement(setting.file.payload_frame.as_ref())?;
+        self.carry((body, Pose::shift([x, y, z])), &frame);
+        Ok(self)
+    }
+
+    /// Returns the parameters that base parameters add up: ten a link, about the origin and in the axes
+    /// of its frame, then armature and viscous friction of each row.
+    pub(super) fn parameters(&self) -> Vec<Number> {
+        let links = self.joints.iter().flat_map(|own| {
+            let Body {
+                mass,
+                first,
+                tensor,
+            } = own.body.moved(&own.link.inverse());
+            let [x, y, z] = first;
+            let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = tensor;
+            [mass, x, y, z, xx, yy, zz, xy, yz, xz]
+        });
+        let armatures = self.joints.iter().map(|own| own.armature);
+        let viscous = self.joints.iter().map(|own| own.viscous);
+        links.chain(armatures).chain(viscous).collect()
+    }
+
+    /// Returns the arm in another gravity.
+    pub(super) fn in_gravity(mut self, own: &[Number]) -> Arm {
+        for (axis, own) in self.gravity.iter_mut().zip(own) {
+            *axis = *own;
+        }
+        self
     }
 
     /// Returns the arm with other bodies.
@@ -380,17 +357,39 @@ impl Arm {
     }
 
     /// Returns the arm at the sines and cosines, or the lengths, of its joints.
-    pub(super) fn at(&self, pairs: &[[Number; 2]], slides: &[Number]) -> Placed {
+    pub(super) fn at(&self, state: &State) -> Placed {
         let mut placed = Placed::default();
         let mut pose = Pose::shift(Vector::default());
-        for ((joint, pair), slide) in self.joints.iter().zip(pairs).zip(slides) {
+        for joint in &self.joints {
+            let (leader, factor) = joint.leader;
+            let (turns, offset, length) = joint.line;
+            let slide = state.given[0][leader] * factor + length;
+            let pair = turned(times(state.pairs[leader], turns), offset);
             placed.axes.push(pose.screw(joint.axis));
             placed.before.push(pose);
-            pose = pose.then(&Pose::moved(joint.axis, joint.turns, *pair, *slide));
+            pose = pose.then(&Pose::moved(joint.axis, joint.turns, pair, slide));
             placed.poses.push(pose);
             placed.bodies.push(joint.body.moved(&pose));
         }
         placed
+    }
+
+    /// Returns the rates of rows, from those of joints.
+    pub(super) fn spread(&self, rates: &[Number]) -> Vec<Number> {
+        let leaders = self.joints.iter().map(|own| own.leader);
+        leaders
+            .map(|(leader, factor)| rates[leader] * factor)
+            .collect()
+    }
+
+    /// Returns the loads of joints, from those of rows: of a joint that others follow all.
+    pub(super) fn gathered(&self, loads: impl IntoIterator<Item = Number>) -> Vec<Number> {
+        let mut all = vec![Number::default(); self.movers.len()];
+        for (joint, load) in self.joints.iter().zip(loads) {
+            let (leader, factor) = joint.leader;
+            all[leader] = all[leader] + load * factor;
+        }
+        all
     }
 }
 

@@ -3,9 +3,11 @@
 use super::arm::Arm;
 use super::exact::{Exact, Point};
 use super::number::{Draws, Number};
-use super::outputs::{Function, State, result};
+use super::outputs::{result, selected};
 use super::program::Program;
-use super::robot::File;
+use super::setting::Setting;
+use super::state::State;
+use super::table::{Function, argument};
 
 /// The number of points.
 const POINTS: usize = 12;
@@ -15,54 +17,126 @@ const MOST_DEGREE: f64 = (1u64 << 30) as f64;
 /// A base parameter: the columns of the parameters that it adds up, each times a constant.
 pub type Combination = Vec<(usize, Exact)>;
 
-/// Checks a function's program against a robot; `base` are the parameters that a regressor is over.
+/// The base parameters that a regressor is over, and their values if these are claimed too.
+#[derive(Clone, Debug, Default)]
+pub struct Base {
+    /// What each adds up.
+    pub combinations: Vec<Combination>,
+    /// The values; none if nothing is claimed of them.
+    pub values: Vec<Exact>,
+}
+
+/// What is claimed of a function.
+#[derive(Clone, Copy)]
+pub struct Statement<'s> {
+    /// The robot in its scene.
+    pub setting: &'s Setting<'s>,
+    /// The function.
+    pub function: &'s Function,
+    /// What it computes.
+    pub program: &'s Program<Exact>,
+    /// What its columns are, if it is a regressor.
+    pub base: &'s Base,
+    /// What computes the load of a payload, if the function takes one.
+    pub load: Option<&'s Program<Exact>>,
+}
+
+/// Checks a function's program against a robot; the points are drawn from these texts, which have
+/// all that is claimed.
 ///
 /// # Errors
 /// The first result that differs, by its number.
-pub fn check(
-    file: &File,
-    statement: &[&str],
-    function: &Function,
-    program: &Program<Exact>,
-    base: &[Combination],
-) -> Result<(), String> {
+pub fn check(own: Statement, texts: &[&str]) -> Result<(), String> {
+    let Statement {
+        setting,
+        function,
+        program,
+        base,
+        load,
+    } = own;
     // Own formulas are quotients of polynomials of a degree below 200 n²: D's entries are of 4 n,
     // its determinant of 4 n², and what is derived twice or inverted twice of a small multiple of
-    // that.
-    let n = file.joint.len() as f64;
-    let degree = (program.degree() + 200.0 * n * n) * (2.0 * n + 1.0);
+    // that. What follows a joint several times as far is of as many times its degree.
+    let n = setting.links() as f64;
+    let own_degree = 200.0 * n * n * setting.turns();
+    let load_degree = load.map_or(1.0, |own| own.degree().max(1.0));
+    let degree = (program.degree() * load_degree + own_degree) * (2.0 * n + 1.0);
     // No number counts as too large.
     if !(degree <= MOST_DEGREE) {
         return Err("the degree is too large for a few points to decide".into());
     }
-    let mut draws = Draws::new(&[statement, &[function.name]].concat());
+    let mut draws = Draws::new(&[texts, &[&function.name]].concat());
     for _ in 0..POINTS {
-        let point = Point::draw(&mut draws);
-        let arm = Arm::read(file, &point)?;
-        let state = State::draw(&point, arm.joints.len());
-        let found = program.residues(&point, &state);
-        let mut found = found.ok_or("the program reads what is not there")?;
-        let fields = function.fields.iter();
-        let expected = fields.map(|field| result(&arm, &state, field));
-        let expected = expected.collect::<Option<Vec<_>>>();
-        let expected = expected.ok_or("no such result")?.concat();
-        if !base.is_empty() {
-            let rows = arm.joints.len().max(1);
-            let spread = spread(&found, base, &point, [rows, expected.len() / rows]);
-            found = spread.ok_or("the base parameters do not fit the results")?;
-        }
-        let is_other = |(own, other): (&Number, &Number)| {
-            let own = own.value(point.prime);
-            own.is_none() || own != other.value(point.prime)
-        };
-        if found.len() != expected.len() {
-            return Err(format!("{} results, not {}", found.len(), expected.len()));
-        }
-        if let Some(place) = found.iter().zip(&expected).position(is_other) {
-            return Err(format!("result {} is not that of the robot", place + 1));
-        }
+        at_point(own, base, &Point::draw(&mut draws))?;
     }
     Ok(())
+}
+
+/// Compares at a point.
+fn at_point(own: Statement, base: &Base, point: &Point) -> Result<(), String> {
+    let Statement {
+        setting,
+        function,
+        program,
+        load,
+        ..
+    } = own;
+    let mut arm = Arm::read(setting, point)?;
+    let mut state = State::draw(point, setting)?;
+    let place = |name: &str| argument(name).unwrap_or_default();
+    let takes = |name: &str| function.arguments.contains(&place(name));
+    if takes("g") {
+        arm = arm.in_gravity(&state.given[place("g")]);
+    }
+    if takes("load") {
+        let computed = load.and_then(|load| load.residues(point, &state));
+        let payload = state.given[place("payload")].clone();
+        state.given[place("load")] = computed.ok_or("nothing computes its `load`")?;
+        arm = arm.carrying(setting, point, &payload)?;
+    }
+    let found = program.residues(point, &state);
+    let mut found = found.ok_or("the program reads what is not there")?;
+    let mut expected = Vec::new();
+    for field in &function.fields {
+        let values = result(&arm, &state, field).ok_or("no such result")?;
+        let is_over_base = field.axes.contains('b');
+        let values = selected(field, setting, values);
+        if is_over_base {
+            let rows = setting.rows.len().max(1);
+            let own = rows * base.combinations.len();
+            let columns = found.get(expected.len()..expected.len() + own);
+            let spread = columns.and_then(|own| {
+                spread(own, &base.combinations, point, [rows, values.len() / rows])
+            });
+            let spread = spread.ok_or("the base parameters do not fit the results")?;
+            found.splice(expected.len()..expected.len() + own, spread);
+        }
+        expected.extend(values);
+    }
+    if !base.values.is_empty() {
+        let parameters = arm.parameters();
+        let sums = base.combinations.iter().map(|combination| {
+            let mut sum = Number::new(0, point.prime);
+            for (column, factor) in combination {
+                sum = sum + *parameters.get(*column)? * point.constant(factor);
+            }
+            Some(sum)
+        });
+        let sums = sums.collect::<Option<Vec<Number>>>();
+        expected.extend(sums.ok_or("the base parameters do not fit the robot")?);
+        found.extend(base.values.iter().map(|own| point.constant(own)));
+    }
+    if found.len() != expected.len() {
+        return Err(format!("{} results, not {}", found.len(), expected.len()));
+    }
+    let is_other = |(own, other): (&Number, &Number)| {
+        let own = own.value(point.prime);
+        own.is_none() || own != other.value(point.prime)
+    };
+    match found.iter().zip(&expected).position(is_other) {
+        Some(place) => Err(format!("result {} is not that of the robot", place + 1)),
+        None => Ok(()),
+    }
 }
 
 /// Returns the columns of all parameters, from those of base parameters, over n rows; none if there

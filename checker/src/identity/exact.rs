@@ -3,6 +3,7 @@
 
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::sync::{Arc, OnceLock};
 
 use num_bigint::BigInt;
 use num_rational::BigRational as Rational;
@@ -83,6 +84,14 @@ impl Angle {
         )
     }
 
+    /// Returns the nearest double of its radians, to two ulps; none beyond doubles.
+    pub fn radians(&self) -> Option<f64> {
+        match self {
+            Angle::Pi(multiple) => Some(multiple.to_f64()? * std::f64::consts::PI),
+            Angle::Radians(radians) => radians.to_f64(),
+        }
+    }
+
     /// Returns sine and cosine, by those of an angle up to an eighth of a turn or of positive
     /// radians, so that angles share theirs.
     fn pair(&self, drawn: impl FnOnce(&Angle) -> [Number; 2]) -> [Number; 2] {
@@ -118,9 +127,9 @@ impl Angle {
         }
     }
 
-    /// Returns sine and cosine to 2⁻³⁰⁰; none of angles beyond 8 rad, whose series loses more bits.
-    fn rounded(&self) -> Option<[Rational; 2]> {
-        let one = BigInt::one() << BITS;
+    /// Returns the radians, in units of 2 to the power of −`bits`.
+    pub(super) fn scaled(&self, bits: u32) -> BigInt {
+        let one = BigInt::one() << bits;
         let scaled = |x: &Rational| (x * Rational::from_integer(one.clone())).to_integer();
         let arc = |under: u32| {
             // arctan 1/n
@@ -132,10 +141,15 @@ impl Angle {
             }
             sum
         };
-        let radians = match self {
+        match self {
             Angle::Radians(x) => scaled(x),
-            Angle::Pi(x) => (scaled(x) * (16 * arc(5) - 4 * arc(239))) >> BITS,
-        };
+            Angle::Pi(x) => (scaled(x) * (16 * arc(5) - 4 * arc(239))) >> bits,
+        }
+    }
+
+    /// Returns sine and cosine to 2⁻³⁰⁰; none of angles beyond 8 rad, whose series loses more bits.
+    pub(super) fn rounded(&self) -> Option<[Rational; 2]> {
+        let (one, radians) = (BigInt::one() << BITS, self.scaled(BITS));
         if radians.abs() > BigInt::from(8) << BITS {
             return None;
         }
@@ -158,11 +172,34 @@ impl Angle {
 /// A fraction, times powers of the sine and the cosine of angles.
 type Term = (Rational, Vec<(Angle, [u32; 2])>);
 
-/// A constant of a program: a sum of terms.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Exact(Vec<Term>);
+/// A constant of a program: a sum of terms. Where it stands often it is one, and rounded once.
+#[derive(Clone, Debug)]
+pub struct Exact(Arc<Sum>);
+
+#[derive(Debug)]
+struct Sum {
+    terms: Vec<Term>,
+    rounded: OnceLock<Option<[Rational; 2]>>,
+}
+
+impl PartialEq for Exact {
+    fn eq(&self, other: &Exact) -> bool {
+        self.0.terms == other.0.terms
+    }
+}
+
+impl From<Rational> for Exact {
+    fn from(value: Rational) -> Exact {
+        Exact::new(vec![(value, Vec::new())])
+    }
+}
 
 impl Exact {
+    fn new(terms: Vec<Term>) -> Exact {
+        let rounded = OnceLock::new();
+        Exact(Arc::new(Sum { terms, rounded }))
+    }
+
     /// Reads a constant as programs write it; none of other text.
     pub fn read(text: &str) -> Option<Exact> {
         let term = |text: &str| {
@@ -188,32 +225,26 @@ impl Exact {
             (rest.is_empty() && total <= MOST_FACTORS).then_some((number(factor)?, powers))
         };
         (text.len() < 1 << 16).then_some(())?;
-        Some(Exact(text.split('+').map(term).collect::<Option<_>>()?))
+        let terms = text.split('+').map(term).collect::<Option<_>>();
+        terms.map(Exact::new)
     }
 
     /// Returns a constant without angles as text.
     pub fn text(&self) -> Option<String> {
-        match self.0.as_slice() {
+        match self.0.terms.as_slice() {
             [(factor, powers)] if powers.is_empty() => Some(factor.to_string()),
             _ => None,
         }
     }
 
-    /// Compares a literal with the nearest float; between two as near, the even one counts.
-    pub fn is_nearest(&self, literal: f64, is_single: bool) -> bool {
-        // Printed code has no zero with a sign.
-        if literal == 0.0 && literal.is_sign_negative() {
-            return false;
-        }
+    /// Returns a fraction, and how far it is off at most; none if an angle is too far.
+    fn rounded(&self) -> Option<[Rational; 2]> {
         let mut sum = Rational::zero();
         let mut slack = Rational::zero();
-        for (factor, powers) in &self.0 {
+        for (factor, powers) in &self.0.terms {
             let mut product = factor.clone();
             for (angle, powers) in powers {
-                let Some(pair) = angle.rounded() else {
-                    return false;
-                };
-                for (value, power) in pair.iter().zip(powers) {
+                for (value, power) in angle.rounded()?.iter().zip(powers) {
                     (0..*power).for_each(|_| product = (&product * value).reduced());
                 }
             }
@@ -224,6 +255,18 @@ impl Exact {
         }
         // 1024 factors at most, each off by 2⁻³⁰⁰.
         slack *= Rational::new(1.into(), BigInt::one() << 280);
+        Some([sum, slack])
+    }
+
+    /// Compares a literal with the nearest float; between two as near, the even one counts.
+    pub fn is_nearest(&self, literal: f64, is_single: bool) -> bool {
+        // Printed code has no zero with a sign.
+        if literal == 0.0 && literal.is_sign_negative() {
+            return false;
+        }
+        let Some([sum, slack]) = self.0.rounded.get_or_init(|| self.rounded()) else {
+            return false;
+        };
         let float = |x: f64| Rational::from_float(x);
         let own = literal as f32;
         if is_single && f64::from(own) != literal {
@@ -242,8 +285,8 @@ impl Exact {
             return false;
         };
         let twice = |x: &Rational| x + x;
-        let low = twice(&(&sum - &slack)) - (&own + below);
-        let high = (own + above) - twice(&(sum + &slack));
+        let low = twice(&(sum - slack)) - (&own + below);
+        let high = (own + above) - twice(&(sum + slack));
         let is_tie = bits.is_multiple_of(2) && slack.is_zero();
         let fits = |room: Rational| room.is_positive() || is_tie && room.is_zero();
         fits(low) && fits(high)
@@ -256,6 +299,7 @@ pub struct Point {
     pub prime: u64,
     draws: RefCell<Draws>,
     angles: RefCell<HashMap<Angle, [Number; 2]>>,
+    constants: RefCell<HashMap<*const Sum, (Exact, Number)>>,
 }
 
 impl Point {
@@ -272,7 +316,13 @@ impl Point {
             prime,
             draws: draws.into(),
             angles: RefCell::default(),
+            constants: RefCell::default(),
         }
+    }
+
+    /// Returns one half.
+    pub fn half(&self) -> Number {
+        Number::new(self.prime / 2 + 1, self.prime)
     }
 
     /// Returns a residue that was not drawn before.
@@ -306,6 +356,10 @@ impl Point {
 
     /// Returns the residue of a constant.
     pub fn constant(&self, constant: &Exact) -> Number {
+        let key = Arc::as_ptr(&constant.0);
+        if let Some((_, known)) = self.constants.borrow().get(&key) {
+            return *known;
+        }
         let term = |(factor, powers): &Term| {
             let mut product = self.number(factor);
             for (angle, powers) in powers {
@@ -315,6 +369,11 @@ impl Point {
             }
             product
         };
-        constant.0.iter().map(term).fold(0.into(), |a, b| a + b)
+        let own = constant.0.terms.iter().map(term);
+        let own = own.fold(0.into(), |a, b| a + b);
+        // Kept with the constant, whose place is no other's as long as it is there.
+        let mut known = self.constants.borrow_mut();
+        known.insert(key, (constant.clone(), own));
+        own
     }
 }

@@ -60,7 +60,10 @@ impl Number {
     /// Combines the parts of two numbers.
     fn with(self, other: Number, combine: impl Fn(u64, [u64; 4], [u64; 4]) -> [u64; 4]) -> Number {
         let prime = self.prime.max(other.prime);
-        let parts = |own: Number| [0, 1, 2, 3].map(|part| own.entry(part, prime));
+        let parts = |own: Number| match own.prime == prime {
+            true => own.parts,
+            false => [0, 1, 2, 3].map(|part| own.entry(part, prime)),
+        };
         Number {
             prime,
             parts: combine(prime, parts(self), parts(other)),
@@ -108,7 +111,10 @@ fn plus(prime: u64, a: u64, b: u64) -> u64 {
 impl Add for Number {
     type Output = Number;
     fn add(self, other: Number) -> Number {
-        self.with(other, |p, a, b| [0, 1, 2, 3].map(|k| plus(p, a[k], b[k])))
+        self.with(other, |p, a, b| {
+            let sum = |k: usize| plus(p, a[k], b[k]);
+            [sum(0), sum(1), sum(2), sum(3)]
+        })
     }
 }
 
@@ -120,10 +126,9 @@ impl Neg for Number {
             (_, 0) => 0,
             (prime, x) => prime - x,
         };
-        Number {
-            parts: self.parts.map(opposite),
-            ..self
-        }
+        let [a, b, c, d] = self.parts;
+        let parts = [opposite(a), opposite(b), opposite(c), opposite(d)];
+        Number { parts, ..self }
     }
 }
 
@@ -200,6 +205,11 @@ impl Draws {
         }
     }
 
+    /// Returns the hash that all follow from, in hexadecimal.
+    pub fn text(&self) -> String {
+        self.seed.iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+
     /// Returns draws that are independent of all others of these.
     pub fn split(&mut self) -> Draws {
         let seed = self.next_hash();
@@ -214,6 +224,11 @@ impl Draws {
     /// Returns the next number of 64 bits.
     fn next(&mut self) -> u64 {
         first_bits(&self.next_hash())
+    }
+
+    /// Returns the next number from zero to one.
+    pub fn share(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
 
     /// Returns the next prime of 62 bits.

@@ -1,184 +1,41 @@
-//! The 35 outputs: a table of what each reads and returns, and every result by the equations of
-//! Newton and Euler in base axes. Slopes are those of the numbers, so that no derivative is written
-//! out.
+//! Every result by the equations of Newton and Euler in base axes. Slopes are those of the numbers,
+//! so that no derivative is written out.
 
-use super::arm::{Arm, Body, Joint, Placed, Pose, Screw, Vector, cross, dot, sum};
-use super::exact::Point;
+use super::arm::{Arm, Joint, Placed};
+use super::matrix::{Matrix, minus, plus, product, solve, times, transposed, units};
 use super::number::Number;
+use super::screw::{Body, Pose, Screw, Vector, cross, dot, sum};
+use super::setting::Setting;
+use super::state::State;
+use super::table::{Field, View, argument};
 
-/// Every function, its arguments in order, and its results: the field in a struct, what it is where
-/// that is another word, and the lengths of its axes. `n` is the joints, `l` ten a link, `b` the
-/// base parameters.
-const TABLE: &str = "
-    inverse_dynamics: q qd qdd -> tau[n]
-    gravity: q -> c[n]
-    inertia: q -> d[nn]
-    coriolis: q qd -> h[n]
-    manipulator_equation: q qd -> d[nn] h[n] c[n]
-    dynamic_coefficients: q -> d[nn] h=symbols[nnn] c[n]
-    kinetic_energy: q qd -> kinetic[]
-    potential_energy: q -> potential[]
-    momentum: q qd -> p[n] ct_qd[n]
-    coriolis_matrix: q qd -> c_matrix[nn]
-    dalembert_terms: q qd -> d_rot[nn] d_tran[nn] h_rot[n] h_tran[n] c[n]
-    forward_kinematics: q -> pose[34]
-    link_poses: q -> poses[n34]
-    jacobian: q -> jacobian[6n]
-    jacobian_rate: q qd -> jacobian_rate[6]
-    reaction_wrenches: q qd qdd -> wrenches[n6]
-    inverse_dynamics_derivatives: q qd qdd -> dtau_dq[nn] dtau_dqd[nn] d[nn]
-    passivity: q qd v a -> tau=passivity[n]
-    forward_dynamics: q qd tau -> qdd[n]
-    inertia_inverse: q -> d_inv[nn]
-    forward_dynamics_derivatives: q qd tau -> dqdd_dq[nn] dqdd_dqd[nn] dqdd_dtau=d_inv[nn]
-    regressor: q qd qdd -> y=y_base[nb]
-    full_regressor: q qd qdd -> y[nl]
-    passivity_regressor: q qd v a -> y=y_passivity[nb]
-    momentum_observer: q qd -> p[n] drift[n]
-    inverse_dynamics_with_wrench: q qd qdd wrench -> tau=tau_wrench[n]
-    forward_dynamics_with_wrench: q qd tau wrench -> qdd=qdd_wrench[n]
-    contact_wrench: q tau damping -> contact_wrench[6]
-    operational_inertia_inverse: q -> mobility[66]
-    operational_inertia: q damping -> operational_inertia[66]
-    consistent_inverse: q damping -> consistent_inverse[n6]
-    operational_bias: q qd damping -> operational_bias[6]
-    null_space_projector: q damping -> null_space[nn]
-    inverse_dynamics_second_derivatives: q qd qdd multiplier ->
-        d2tau_dq_dq[nn] d2tau_dq_dqd[nn] d2tau_dqd_dqd[nn] d2tau_dqdd_dq[nn]
-    forward_dynamics_second_derivatives: q qd tau multiplier ->
-        d2qdd_dq_dq[nn] d2qdd_dq_dqd[nn] d2qdd_dqd_dqd[nn] d2qdd_dtau_dq[nn]
-";
-
-/// The arguments, in the order in which heads have them, and their lengths.
-pub const ARGUMENTS: [(&str, char); 9] = [
-    ("q", 'n'),
-    ("qd", 'n'),
-    ("qdd", 'n'),
-    ("tau", 'n'),
-    ("v", 'n'),
-    ("a", 'n'),
-    ("wrench", '6'),
-    ("damping", '1'),
-    ("multiplier", 'n'),
-];
-
-/// A result of a function.
-#[derive(Clone, Debug)]
-pub struct Field {
-    /// The name of the field of the struct.
-    pub name: &'static str,
-    /// The word of its formula.
-    is: &'static str,
-    /// The lengths of its axes, a character each.
-    pub axes: &'static str,
-}
-
-/// A function that is known.
-#[derive(Clone, Debug)]
-pub struct Function {
-    /// Its name.
-    pub name: &'static str,
-    /// The places of its arguments among all.
-    pub arguments: Vec<usize>,
-    /// Its results, in order.
-    pub fields: Vec<Field>,
-}
-
-/// Returns the place of an argument.
-pub fn argument(name: &str) -> Option<usize> {
-    ARGUMENTS.iter().position(|own| own.0 == name)
-}
-
-/// Returns the length of an axis.
-pub fn length(axis: char, joints: usize) -> usize {
-    match axis {
-        'n' => joints,
-        'l' => 10 * joints,
-        digit => digit.to_digit(10).unwrap_or(0) as usize,
-    }
-}
-
-/// Returns all functions.
-pub fn functions() -> Vec<Function> {
-    let field = |word: &'static str| {
-        let (names, axes) = word.strip_suffix(']')?.split_once('[')?;
-        let (name, is) = names.split_once('=').unwrap_or((names, names));
-        Some(Field { name, is, axes })
-    };
-    let mut all: Vec<Function> = Vec::new();
-    for word in TABLE.split_whitespace() {
-        if let Some(name) = word.strip_suffix(':') {
-            let (arguments, fields) = (Vec::new(), Vec::new());
-            all.push(Function {
-                name,
-                arguments,
-                fields,
-            });
-        } else if let Some(last) = all.last_mut() {
-            last.arguments.extend(argument(word));
-            last.fields.extend(field(word));
-        }
-    }
-    all
-}
-
-/// A state: the arguments, and sine and cosine of every joint.
-#[derive(Clone, Debug)]
-pub struct State {
-    /// The entries of each argument, in the order of [`ARGUMENTS`].
-    pub given: Vec<Vec<Number>>,
-    /// Sine and cosine of each joint's angle.
-    pub pairs: Vec<[Number; 2]>,
-}
-
-impl State {
-    /// Draws a state of so many joints at a point of a field.
-    pub fn draw(point: &Point, joints: usize) -> State {
-        let list = |axis: char| (0..length(axis, joints)).map(|_| point.residue()).collect();
-        State {
-            given: ARGUMENTS.iter().map(|own| list(own.1)).collect(),
-            pairs: (0..joints).map(|_| point.pair()).collect(),
-        }
-    }
-
-    /// Returns the state in which an entry of an argument has a slope of one in direction 1 or 2.
-    pub fn moving(&self, argument: usize, joint: usize, direction: usize) -> State {
-        let mut state = self.clone();
-        let moving = |own: &mut Number, by: Number| *own = own.moving(by, direction);
-        moving(&mut state.given[argument][joint], 1.into());
-        if argument == 0 {
-            let [sin, cos] = self.pairs[joint];
-            // Where the angle moves already, so do the slopes of its sine and cosine.
-            let both = [cos, -sin].map(|own| [own.slope(0), own.slope(1)]);
-            for (own, [slope, bend]) in state.pairs[joint].iter_mut().zip(both) {
-                *own = own.moving(slope, direction);
-                if direction == 2 {
-                    *own = own.moving(bend, 3);
-                }
-            }
-        }
-        state
-    }
-}
-
-/// A matrix by rows.
-type Matrix = Vec<Vec<Number>>;
-
-/// An arm at a state.
+/// An arm at a state, and the frame that is its hand.
 struct At<'a> {
     arm: &'a Arm,
     placed: Placed,
     state: &'a State,
+    view: &'a View,
 }
 
 impl<'a> At<'a> {
-    fn new(arm: &'a Arm, state: &'a State) -> At<'a> {
-        let placed = arm.at(&state.pairs, &state.given[0]);
-        At { arm, placed, state }
+    fn new(arm: &'a Arm, state: &'a State, view: &'a View) -> At<'a> {
+        let placed = arm.at(state);
+        At {
+            arm,
+            placed,
+            state,
+            view,
+        }
     }
 
+    /// Returns another arm at the same state.
+    fn with<'b>(&'b self, arm: &'b Arm) -> At<'b> {
+        At::new(arm, self.state, self.view)
+    }
+
+    /// Returns the number of joints that move by themselves.
     fn count(&self) -> usize {
-        self.arm.joints.len()
+        self.arm.movers.len()
     }
 
     fn given(&self, name: &str) -> &'a [Number] {
@@ -196,14 +53,19 @@ impl<'a> At<'a> {
         } else {
             Vector::default()
         };
-        let wrenches = self.placed.wrenches(qd, qdd, gravity);
+        let rates = [qd, qdd].map(|rates| self.arm.spread(rates));
+        let wrenches = self.placed.wrenches(&rates[0], &rates[1], gravity);
         let torques = self.placed.axes.iter().zip(wrenches);
-        let torques = torques.map(|(axis, wrench)| axis.power(wrench)).collect();
+        let torques = torques.map(|(axis, wrench)| axis.power(wrench));
+        let torques = self.arm.gathered(torques);
         self.with_drives(torques, |own| own.armature, qdd)
     }
 
     fn with_friction(&self, loads: Vec<Number>, rates: &[Number]) -> Vec<Number> {
-        self.with_drives(loads, |own| own.viscous, rates)
+        let loads = self.with_drives(loads, |own| own.viscous, rates);
+        let joints = self.arm.movers.iter().zip(&self.state.speeds).zip(rates);
+        let dry = joints.map(|((row, speed), rate)| self.arm.joints[*row].coulomb * *speed * *rate);
+        plus(loads, dry)
     }
 
     /// Adds a number of each joint times its rate.
@@ -213,8 +75,10 @@ impl<'a> At<'a> {
         number: fn(&Joint) -> Number,
         rates: &[Number],
     ) -> Vec<Number> {
-        let joints = self.arm.joints.iter().zip(rates);
-        plus(loads, joints.map(|(own, rate)| number(own) * *rate))
+        let rates = self.arm.spread(rates).into_iter();
+        let rows = self.arm.joints.iter().zip(rates);
+        let drives = rows.map(|(own, rate)| number(own) * rate);
+        plus(loads, self.arm.gathered(drives))
     }
 
     fn torques(&self, qdd: &[Number]) -> Vec<Number> {
@@ -231,7 +95,28 @@ impl<'a> At<'a> {
         for (k, own) in self.arm.joints.iter().enumerate() {
             d[k][k] = d[k][k] + own.armature;
         }
-        d
+        self.square(d)
+    }
+
+    /// Returns Sᵀ M S: what is of rows, over joints.
+    fn square(&self, rows: Matrix) -> Matrix {
+        let half = rows.into_iter().map(|row| self.arm.gathered(row)).collect();
+        let columns = transposed(&half).into_iter();
+        columns.map(|column| self.arm.gathered(column)).collect()
+    }
+
+    /// Returns D⁻¹ x of each x; what is locked stands still.
+    fn driven(&self, right: &[Vec<Number>]) -> Matrix {
+        let (free, d) = (&self.arm.free, self.inertia());
+        let pick = |row: &Vec<Number>| free.iter().map(|&k| row[k]).collect::<Vec<Number>>();
+        let own: Matrix = free.iter().map(|&i| pick(&d[i])).collect();
+        let right: Matrix = right.iter().map(pick).collect();
+        let spread = |own: Vec<Number>| {
+            let mut all = self.zeros();
+            free.iter().zip(own).for_each(|(&k, own)| all[k] = own);
+            all
+        };
+        solve(own, &right).into_iter().map(spread).collect()
     }
 
     fn coriolis(&self, qd: &[Number]) -> Vec<Number> {
@@ -258,31 +143,86 @@ impl<'a> At<'a> {
 
     fn accelerations(&self, tau: &[Number]) -> Vec<Number> {
         let rest = minus(tau, &self.torques(&self.zeros()));
-        solve(self.inertia(), &[rest]).concat()
+        self.driven(&[rest]).concat()
     }
 
-    fn hand(&self) -> Pose {
-        let last = self.placed.poses.last();
-        last.map_or(self.arm.hand, |last| last.then(&self.arm.hand))
+    /// Returns the row of the link that has the hand, or the frame in its place, and its pose; of a
+    /// frame that is not there nothing.
+    fn hand(&self) -> Option<(usize, Pose)> {
+        let is_hand = self.view.frame.is_empty() || self.view.frame == self.arm.hand.name;
+        let mut frames = self.arm.frames.iter();
+        let own = match is_hand {
+            true => Some(&self.arm.hand),
+            false => frames.find(|own| own.name == self.view.frame),
+        }?;
+        let pose = self.placed.poses.get(own.row)?;
+        Some((own.row, pose.then(&own.pose)))
     }
 
-    /// Returns J of the hand, linear over angular.
+    /// Returns the components that are asked for of a motion of the hand's link, linear over
+    /// angular.
+    fn seen(&self, motion: Screw, hand: &Pose) -> Vec<Number> {
+        let linear = sum(motion.1, cross(motion.0, hand.origin));
+        let six = match self.view.axes.as_str() {
+            "world" => [motion.1, motion.0],
+            "local" => [linear, motion.0].map(|own| hand.back(own)),
+            _ => [linear, motion.0],
+        };
+        self.picked(six.concat())
+    }
+
+    /// Returns the components that are asked for, of six.
+    fn picked(&self, six: Vec<Number>) -> Vec<Number> {
+        match self.view.rows.as_slice() {
+            [] => six,
+            rows => rows.iter().map(|&row| six[row]).collect(),
+        }
+    }
+
+    /// Returns J of the hand.
     fn jacobian(&self) -> Matrix {
-        let point = self.hand().origin;
-        let column = |own: &Screw| [sum(own.1, cross(own.0, point)), own.0].concat();
-        transposed(&self.placed.axes.iter().map(column).collect())
+        let Some((last, hand)) = self.hand() else {
+            return Vec::new();
+        };
+        let column = |(row, own): (usize, &Screw)| {
+            let own = if row <= last { *own } else { Screw::default() };
+            self.seen(own, &hand)
+        };
+        let columns = self.placed.axes.iter().enumerate().map(column).collect();
+        let rows = transposed(&columns).into_iter();
+        rows.map(|row| self.arm.gathered(row)).collect()
+    }
+
+    /// Returns J of what moves.
+    fn moving_jacobian(&self) -> Matrix {
+        let mut j = self.jacobian();
+        for row in &mut j {
+            for (k, own) in row.iter_mut().enumerate() {
+                if !self.arm.free.contains(&k) {
+                    *own = 0.into();
+                }
+            }
+        }
+        j
     }
 
     /// Returns J̇q̇: the acceleration of the hand without q̈.
     fn rate(&self) -> Vec<Number> {
-        let motions = self
-            .placed
-            .motions(self.given("qd"), &self.zeros(), Vector::default());
-        let [v, a] = motions.last().copied().unwrap_or_default();
-        let point = self.hand().origin;
-        let velocity = sum(v.1, cross(v.0, point));
-        let linear = sum(sum(a.1, cross(a.0, point)), cross(v.0, velocity));
-        [linear, a.0].concat()
+        let rates = [self.given("qd"), &self.zeros()].map(|rates| self.arm.spread(rates));
+        let motions = self.placed.motions(&rates[0], &rates[1], Vector::default());
+        let Some((last, hand)) = self.hand() else {
+            return Vec::new();
+        };
+        let [v, a] = motions.get(last).copied().unwrap_or_default();
+        let velocity = sum(v.1, cross(v.0, hand.origin));
+        let mixed = sum(sum(a.1, cross(a.0, hand.origin)), cross(v.0, velocity));
+        let six = match self.view.axes.as_str() {
+            "world" => [a.1, a.0],
+            // The frame's axes turn as well.
+            "local" => [sum(mixed, cross(velocity, v.0)), a.0].map(|own| hand.back(own)),
+            _ => [mixed, a.0],
+        };
+        self.picked(six.concat())
     }
 
     /// Returns Jᵀw.
@@ -300,8 +240,8 @@ impl<'a> At<'a> {
 
     /// Returns J D⁻¹ and Λ⁻¹ = J D⁻¹ Jᵀ.
     fn mobility(&self) -> [Matrix; 2] {
-        let j = self.jacobian();
-        let driven = solve(self.inertia(), &j);
+        let j = self.moving_jacobian();
+        let driven = self.driven(&j);
         let mobility = driven.iter().map(|row| times(&j, row)).collect();
         [driven, mobility]
     }
@@ -317,7 +257,7 @@ impl<'a> At<'a> {
     fn columns(&self, torques: impl Fn(&At) -> Vec<Number>) -> Matrix {
         let mut bare = self.arm.with(|_, _| Body::default());
         for own in &mut bare.joints {
-            (own.viscous, own.armature) = (0.into(), 0.into());
+            (own.viscous, own.armature, own.coulomb) = (0.into(), 0.into(), 0.into());
         }
         let column = |place: usize| {
             let one = |k: usize| Number::from(i64::from(k == place % 10));
@@ -325,9 +265,9 @@ impl<'a> At<'a> {
             let mut arm = bare.clone();
             let joint = &mut arm.joints[place / 10];
             joint.body = unit.moved(&joint.link);
-            torques(&At::new(&arm, self.state))
+            torques(&self.with(&arm))
         };
-        (0..10 * self.count()).map(column).collect()
+        (0..10 * self.arm.joints.len()).map(column).collect()
     }
 
     /// Returns the columns of all parameters that base parameters add up: those of links, then
@@ -338,12 +278,14 @@ impl<'a> At<'a> {
         torques: impl Fn(&At) -> Vec<Number>,
     ) -> Vec<Number> {
         let mut columns = self.columns(torques);
-        let units = units(self.count());
+        let units = units(self.arm.joints.len());
         for (place, rates) in rates.into_iter().enumerate() {
+            let rates = self.arm.spread(rates);
             for (k, own) in self.arm.joints.iter().enumerate() {
                 let has = [own.armature, own.viscous][place].is_nonzero();
                 let rate = if has { rates[k] } else { 0.into() };
-                columns.push(units[k].iter().map(|one| *one * rate).collect());
+                let column = units[k].iter().map(|one| *one * rate);
+                columns.push(self.arm.gathered(column));
             }
         }
         transposed(&columns).concat()
@@ -379,9 +321,9 @@ impl<'a> At<'a> {
             "h" => self.coriolis(qd),
             "d_rot" | "d_tran" | "h_rot" | "h_tran" => {
                 let arm = self.with_tensors_or_masses(is.ends_with("rot"));
-                let own = At::new(&arm, self.state);
+                let own = self.with(&arm);
                 match is.starts_with('d') {
-                    true => own.placed.inertia().concat(),
+                    true => own.square(own.placed.inertia()).concat(),
                     false => own.coriolis(qd),
                 }
             }
@@ -399,7 +341,7 @@ impl<'a> At<'a> {
             "ct_qd" => self.slope(),
             "drift" => minus(&self.slope(), &self.with_friction(self.gravity(), qd)),
             "c_matrix" => transposed(&self.columns_of_coriolis()).concat(),
-            "pose" => self.hand().rows(),
+            "pose" => self.hand().map_or_else(Vec::new, |(_, hand)| hand.rows()),
             "poses" => {
                 let links = self.placed.poses.iter().zip(&self.arm.joints);
                 links
@@ -409,9 +351,9 @@ impl<'a> At<'a> {
             "jacobian" => self.jacobian().concat(),
             "jacobian_rate" => self.rate(),
             "wrenches" => {
-                let wrenches = self
-                    .placed
-                    .wrenches(qd, self.given("qdd"), self.arm.gravity);
+                let rates = [qd, self.given("qdd")].map(|rates| self.arm.spread(rates));
+                let [qd, qdd] = &rates;
+                let wrenches = self.placed.wrenches(qd, qdd, self.arm.gravity);
                 let about = |(k, own): (usize, Screw)| {
                     let (origin, is_moved) = self.arm.joints[k].origin;
                     let all = if is_moved {
@@ -425,21 +367,22 @@ impl<'a> At<'a> {
             }
             "passivity" => self.passivity(),
             "qdd" => self.accelerations(self.given("tau")),
-            "d_inv" => solve(self.inertia(), &units(n)).concat(),
+            "d_inv" => self.driven(&units(n)).concat(),
             "tau_wrench" => minus(&self.torques(self.given("qdd")), &self.of_wrench()),
             "qdd_wrench" => {
                 let tau = plus(self.of_wrench(), self.given("tau").iter().copied());
                 self.accelerations(&tau)
             }
             "contact_wrench" => {
-                let j = self.jacobian();
+                let j = self.moving_jacobian();
                 let square = j.iter().map(|row| times(&j, row)).collect();
                 solve(self.damped(square), &[times(&j, self.given("tau"))]).concat()
             }
             "mobility" => self.mobility()[1].concat(),
             "operational_inertia" => {
                 let [_, mobility] = self.mobility();
-                solve(self.damped(mobility), &units(6)).concat()
+                let units = units(mobility.len());
+                solve(self.damped(mobility), &units).concat()
             }
             "consistent_inverse" => self.consistent().concat(),
             "operational_bias" => {
@@ -448,9 +391,15 @@ impl<'a> At<'a> {
                 solve(self.damped(mobility), &[minus(&driven, &self.rate())]).concat()
             }
             "null_space" => {
-                let j = transposed(&self.jacobian());
-                let rows = self.consistent().into_iter().zip(units(n));
-                rows.flat_map(|(row, unit)| minus(&unit, &times(&j, &row)))
+                let j = transposed(&self.moving_jacobian());
+                // What is locked is in no space.
+                let unit = |k: usize, mut unit: Vec<Number>| {
+                    unit[k] = if self.arm.free.contains(&k) { 1 } else { 0 }.into();
+                    unit
+                };
+                let units = units(n).into_iter().enumerate();
+                let rows = self.consistent().into_iter().zip(units);
+                rows.flat_map(|(row, (k, own))| minus(&unit(k, own), &times(&j, &row)))
                     .collect()
             }
             "y" => transposed(&self.columns(|own| own.torques(own.given("qdd")))).concat(),
@@ -469,7 +418,7 @@ impl<'a> At<'a> {
 /// Returns a result of an arm at a state, flat by rows: `dtau_dq` is the slopes of `tau` by q, and
 /// `d2tau_dq_dqd` those of λᵀτ by q and q̇. None of a field that has no formula.
 pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
-    let n = arm.joints.len();
+    let n = arm.movers.len();
     let mut words = field.is.split('_');
     let first = words.next()?;
     let of = first
@@ -482,73 +431,49 @@ pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
         [by] => {
             let column = |joint: usize| {
                 let moved = state.moving(by, joint, 1);
-                let values = At::new(arm, &moved).value(of).into_iter();
+                let values = At::new(arm, &moved, &field.view).value(of).into_iter();
                 values.map(|own| own.slope(1)).collect()
             };
             transposed(&(0..n).map(column).collect()).concat()
         }
         [one, other] => {
             let bend = |at: usize| {
+                // Of a motion that is solved for, what is locked has none.
+                let is_held = |joint: usize| !arm.free.contains(&joint);
+                if of == "qdd" && (is_held(at / n) || is_held(at % n)) {
+                    return 0.into();
+                }
                 let moved = state.moving(one, at / n, 1).moving(other, at % n, 2);
-                let values = At::new(arm, &moved).value(of).into_iter();
+                let values = At::new(arm, &moved, &field.view).value(of).into_iter();
                 let bends: Vec<Number> = values.map(|own| own.slope(3)).collect();
                 product(&bends, &state.given[argument("multiplier").unwrap_or(0)])
             };
             (0..n * n).map(bend).collect()
         }
-        _ => At::new(arm, state).value(field.is),
+        _ => At::new(arm, state, &field.view).value(field.is),
     })
 }
 
-fn product(a: &[Number], b: &[Number]) -> Number {
-    let products = a.iter().zip(b).map(|(a, b)| *a * *b);
-    products.fold(0.into(), |a, b| a + b)
-}
-
-fn plus(a: Vec<Number>, b: impl IntoIterator<Item = Number>) -> Vec<Number> {
-    a.into_iter().zip(b).map(|(a, b)| a + b).collect()
-}
-
-fn minus(a: &[Number], b: &[Number]) -> Vec<Number> {
-    a.iter().zip(b).map(|(a, b)| *a - *b).collect()
-}
-
-/// Returns M x.
-fn times(matrix: &Matrix, x: &[Number]) -> Vec<Number> {
-    matrix.iter().map(|row| product(row, x)).collect()
-}
-
-fn units(n: usize) -> Matrix {
-    let one = |i: usize, k: usize| i64::from(i == k).into();
-    (0..n)
-        .map(|i| (0..n).map(|k| one(i, k)).collect())
-        .collect()
-}
-
-fn transposed(matrix: &Matrix) -> Matrix {
-    let length = matrix.first().map_or(0, Vec::len);
-    (0..length)
-        .map(|k| matrix.iter().map(|row| row[k]).collect())
-        .collect()
-}
-
-/// Returns M⁻¹ x of each x, by Gauss: M is symmetric, and no pivot is zero but by chance.
-fn solve(mut m: Matrix, right: &[Vec<Number>]) -> Matrix {
-    let (n, mut right) = (m.len(), right.to_vec());
-    for k in 0..n {
-        for i in k + 1..n {
-            let factor = m[i][k] / m[k][k];
-            let pivot = m[k].clone();
-            let both = m[i].iter_mut().zip(&pivot).skip(k);
-            both.for_each(|(own, above)| *own = *own - factor * *above);
-            right.iter_mut().for_each(|x| x[i] = x[i] - factor * x[k]);
+/// Returns those entries of a result that are over the joints that a scene asks for.
+pub fn selected(field: &Field, setting: &Setting, values: Vec<Number>) -> Vec<Number> {
+    let lengths = field.lengths(setting, 0).into_iter();
+    let mut parts = vec![values];
+    for (axis, length) in field.axes.chars().zip(lengths) {
+        // Behind these nothing is over joints.
+        if ['l', 'b'].contains(&axis) {
+            break;
         }
+        let all: Vec<usize> = (0..length).collect();
+        let (count, rows) = match axis {
+            'n' => (setting.joints(), &setting.rows),
+            _ => (length, &all),
+        };
+        let split = parts.iter().flat_map(|part| {
+            let length = part.len() / count.max(1);
+            let pick = move |row: &usize| part[row * length..(row + 1) * length].to_vec();
+            rows.iter().map(pick)
+        });
+        parts = split.collect();
     }
-    for x in &mut right {
-        for k in (0..n).rev() {
-            let known = product(&m[k][k + 1..], &x[k + 1..]);
-            x[k] = (x[k] - known) / m[k][k];
-        }
-    }
-    right
+    parts.concat()
 }

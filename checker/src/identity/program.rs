@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use super::exact::Exact;
 #[cfg(feature = "certify")]
-use super::{exact::Point, number::Number, outputs::State};
+use super::{exact::Point, number::Number, state::State};
 
 /// A signed sum of joints' angles: joints, each with whether it is subtracted.
 pub type Angle = Vec<(usize, bool)>;
@@ -75,7 +75,8 @@ impl Program<Exact> {
                 }
                 Some(pair[usize::from(!is_sine)])
             }
-            Operand::Step(_) | Operand::Speed(_) => None,
+            Operand::Speed(joint) => state.speeds.get(*joint).copied(),
+            Operand::Step(_) => None,
         };
         let all = self.run(leaf, |operation, a, b| match operation {
             '+' => a + b,

@@ -1,6 +1,8 @@
 //! The robot file, read strictly: a key that is not named here is refused. Every number stays the
 //! text that it is in the file.
 
+use std::collections::BTreeMap;
+
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::Value;
@@ -21,11 +23,54 @@ pub struct File {
     pub(super) payload_frame: Option<Placement>,
     pub(super) tool: Option<Placement>,
     #[serde(default)]
-    pub(super) frame: Vec<Frame>,
+    pub(super) frame: Vec<NamedFrame>,
+    #[serde(default)]
+    pub(super) scene: BTreeMap<String, Scene>,
     name: IgnoredAny,
-    scene: Option<IgnoredAny>,
     allow: Option<IgnoredAny>,
     outputs: Option<IgnoredAny>,
+}
+
+/// What a scene fixes, carries and asks for.
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[allow(
+    dead_code,
+    reason = "keys that the equations do not read are known all the same"
+)]
+pub(super) struct Scene {
+    pub(super) joints: Option<Vec<String>>,
+    pub(super) lock: BTreeMap<String, String>,
+    pub(super) gravity: Option<[String; 3]>,
+    pub(super) velocity: Option<Zero>,
+    pub(super) acceleration: Option<Zero>,
+    pub(super) payload: Option<Payload>,
+    pub(super) r#box: Bounds,
+    outputs: Option<IgnoredAny>,
+    scalar: Option<IgnoredAny>,
+    tolerance: Option<IgnoredAny>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Zero {
+    Zero,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Payload {
+    pub(super) mass: String,
+    pub(super) com: [String; 3],
+    pub(super) inertia: Option<[String; 6]>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct Bounds {
+    pub(super) position: Option<Vec<[String; 2]>>,
+    pub(super) velocity: Option<Vec<String>>,
+    pub(super) acceleration: Option<Vec<String>>,
 }
 
 #[derive(Clone, Default, Deserialize)]
@@ -42,7 +87,7 @@ pub(super) struct Placement {
     dead_code,
     reason = "keys that the equations do not read are known all the same"
 )]
-pub(super) struct Frame {
+pub(super) struct NamedFrame {
     pub(super) name: String,
     pub(super) link: String,
     #[serde(default)]
@@ -72,8 +117,17 @@ pub(super) struct Row {
     pub(super) coulomb_width: Option<String>,
     pub(super) armature: Option<String>,
     pub(super) frame: Option<Placement>,
-    pub(super) mimic: Option<IgnoredAny>,
+    pub(super) mimic: Option<Mimic>,
     pub(super) limits: Limits,
+}
+
+/// The line along which a joint follows another.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Mimic {
+    pub(super) joint: String,
+    pub(super) multiplier: Option<String>,
+    pub(super) offset: Option<String>,
 }
 
 #[derive(Default, Deserialize)]
@@ -83,6 +137,28 @@ pub(super) struct Limits {
     pub(super) velocity: Option<String>,
     pub(super) acceleration: Option<String>,
     pub(super) torque: Option<String>,
+}
+
+impl File {
+    /// Returns whether its joints are placed, and have no rows.
+    pub fn is_placed(&self) -> bool {
+        self.joint.iter().any(|row| row.placement.is_some())
+    }
+
+    /// Returns this robot with the scenes of another file.
+    pub fn in_scenes_of(self, other: &mut File) -> File {
+        let scene = std::mem::take(&mut other.scene);
+        let limits = other
+            .joint
+            .iter_mut()
+            .map(|row| std::mem::take(&mut row.limits));
+        let mut file = File { scene, ..self };
+        file.joint
+            .iter_mut()
+            .zip(limits)
+            .for_each(|(own, limits)| own.limits = limits);
+        file
+    }
 }
 
 /// Reads a robot file.

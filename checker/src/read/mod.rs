@@ -24,7 +24,7 @@ use crate::identity::program::Program;
 
 pub use self::c::Symbols;
 #[cfg(feature = "certify")]
-pub(crate) use self::rust::camel;
+pub(crate) use self::{reader::number, rust::camel};
 
 /// A text that is not what it should be.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -245,11 +245,7 @@ impl<'r> Reader<'r> {
             _ => "",
         };
         let digits = word.strip_suffix(end).unwrap_or("");
-        let value = match self.head.is_single {
-            true => printed::<f32>(digits),
-            false => printed::<f64>(digits),
-        };
-        let Some(value) = value else {
+        let Some(value) = number(digits, self.head.is_single) else {
             return self.refuse("no literal of this scalar");
         };
         if self.is_vectors {
@@ -537,6 +533,20 @@ impl<'r> Reader<'r> {
             outputs: vec![(is_negative, value)],
         }))
     }
+}
+
+/// Reads a number of a scalar as it is printed: another text of the same value is refused.
+pub(crate) fn number(text: &str, is_single: bool) -> Option<f64> {
+    let digits = text.strip_prefix('-').unwrap_or(text);
+    let value = match is_single {
+        true => printed::<f32>(digits)?,
+        false => printed::<f64>(digits)?,
+    };
+    Some(if digits.len() < text.len() {
+        -value
+    } else {
+        value
+    })
 }
 
 /// Returns a number as it is printed.

@@ -41,7 +41,7 @@ pub(super) fn check(
 /// beginning, and four digits of its hash, which tell robots apart that begin alike.
 ///
 /// The request stays as it is where no such name is short enough: [`check`] refuses that.
-pub(super) fn with_short_name<'a>(robot: &Robot, request: &'a Request) -> Cow<'a, Request> {
+pub(crate) fn with_short_name<'a>(robot: &Robot, request: &'a Request) -> Cow<'a, Request> {
     let misnamed = |name: &str| {
         header::misnamed(name, &request.functions, request.batch, &request.scalars).is_some()
     };

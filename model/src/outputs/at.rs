@@ -55,6 +55,12 @@ impl QuantityAt {
         self.0.view
     }
 
+    /// Returns the frame and what is asked of it as words: `camera:local:linear`.
+    pub fn words(self) -> String {
+        let view = self.0.view;
+        format!("{}{}", view.frame, suffix(view, OF))
+    }
+
     pub(super) fn facts(self) -> &'static Facts {
         &self.0.facts
     }

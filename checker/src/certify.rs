@@ -1,0 +1,381 @@
+//! A generated file and its claim: every function is the exact program that is claimed, which is
+//! the robot's, and rounding costs so much.
+
+use std::collections::{HashMap, HashSet};
+
+use crate::aside;
+use crate::c99;
+use crate::claim::{Claim, Claimed, Constants};
+use crate::compare::compare;
+use crate::cost::{cost, ranges};
+use crate::fault::Fault;
+use crate::file::{self, Found};
+use crate::identity::exact::Exact;
+use crate::identity::number::Draws;
+use crate::identity::program::Program;
+use crate::identity::setting::Setting;
+use crate::identity::table::{ARGUMENTS, Function, argument, length};
+use crate::identity::{Base, Statement, aligned, check, robot};
+use crate::read::{self, Argument, Head, Text, camel};
+use crate::rounding::Ranges;
+use crate::text::fault;
+
+pub use crate::cost::{RATE, Shown};
+
+/// The findings about one function, or about what stands beside functions.
+#[derive(Clone, Debug)]
+pub struct Line {
+    /// Its module.
+    pub module: String,
+    /// Its name.
+    pub name: String,
+    /// Its first line in the file, from one.
+    pub line: usize,
+    /// What rounding costs, if it is shown; else the reason why it is not.
+    pub result: Result<Shown, Fault>,
+}
+
+/// The findings about a file.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// One a function, in the file's order, then what is not shown beside them.
+    pub lines: Vec<Line>,
+    /// `true` if the robot file gives rates no limit.
+    pub is_unlimited: bool,
+}
+
+impl Report {
+    /// Returns whether every function is shown.
+    pub fn is_shown(&self) -> bool {
+        !self.lines.is_empty() && self.lines.iter().all(|line| line.result.is_ok())
+    }
+}
+
+/// Checks every function of a file, with its claim, against a robot or one of its scenes.
+///
+/// # Errors
+/// A robot file, a claim or a file that this checker does not know; what is wrong with a function
+/// is in its line.
+pub fn certify(
+    source: &str,
+    claim: &str,
+    robot: &str,
+    scene: Option<&str>,
+) -> Result<Report, Fault> {
+    let document = Claim::read(claim)?;
+    let of_robot = |why: String| Fault::Robot("file".into(), why);
+    let mut file = robot::read(robot).map_err(of_robot)?;
+    if let Some(rows) = document.aligned.as_ref().filter(|_| file.is_placed()) {
+        let of_rows = |why: String| Fault::Claim(format!("`aligned`: {why}"));
+        let rows = robot::read(rows).map_err(of_rows)?;
+        aligned::check(&file, &rows).map_err(of_rows)?;
+        file = rows.in_scenes_of(&mut file);
+    }
+    let setting = file.setting(scene).map_err(of_robot)?;
+    let is_c = source.starts_with(c99::HEAD);
+    let items = match is_c {
+        true => c99::functions(source)?,
+        false => file::functions(source)?,
+    };
+    let singles = items.iter().filter(|item| item.text.contains("[f32; "));
+    let mut whole = Whole {
+        seed: Draws::new(&[robot, claim, source]).text(),
+        constants: document.constants()?,
+        claim: &document,
+        ranges: ranges(&setting).map_err(of_robot)?,
+        setting: &setting,
+        scene,
+        is_c,
+        singles: singles.map(|item| item.module).collect(),
+        found: HashMap::new(),
+    };
+    // These compute no dynamics: one says where a box is, one which angles there are.
+    let is_other = |found: &&Found| {
+        let ends = ["in_box", "angles"];
+        !is_beside(found) && !ends.iter().any(|end| found.name.ends_with(end))
+    };
+    let mut lines = Vec::new();
+    for found in items.iter().filter(is_other) {
+        lines.push(Line {
+            module: found.module.to_owned(),
+            name: whole.name(found),
+            line: found.line,
+            result: whole.shown(found),
+        });
+    }
+    for item in items.iter().filter(|item| is_beside(item)) {
+        if let Err(why) = whole.beside(item, &items) {
+            let head = item.text.lines().next().unwrap_or("");
+            let name = head.split([':', '{', '(']).next().unwrap_or("").trim();
+            lines.push(Line {
+                module: item.module.to_owned(),
+                name: name.to_owned(),
+                line: item.line,
+                result: Err(why),
+            });
+        }
+    }
+    Ok(Report {
+        lines,
+        is_unlimited: setting.is_unlimited(),
+    })
+}
+
+/// Returns whether an item is no function, or one that gives constants.
+fn is_beside(found: &Found) -> bool {
+    found.name.is_empty() || found.text.contains(" pi[")
+}
+
+/// A file that is checked.
+struct Whole<'w> {
+    /// What all draws follow from: robot, claim and text.
+    seed: String,
+    claim: &'w Claim,
+    constants: Constants,
+    setting: &'w Setting<'w>,
+    ranges: Ranges,
+    scene: Option<&'w str>,
+    is_c: bool,
+    /// The modules in Rust whose scalar is f32.
+    singles: HashSet<&'w str>,
+    /// What was found of each function of the claim: both scalars have one program.
+    found: HashMap<usize, Result<(), Fault>>,
+}
+
+impl Whole<'_> {
+    /// Returns the function that a text is claimed to be, with its place.
+    fn claimed(&self, found: &Found) -> Option<(usize, &Claimed)> {
+        let is_own = |own: &&Claimed| {
+            let named = match self.is_c {
+                true => {
+                    let is_single = usize::from(found.text.contains("const float "));
+                    let symbol = own.symbols.get(is_single).map(String::as_str);
+                    symbol == Some(found.name) && c99::are_of(found, &own.function)
+                }
+                false => own.function == found.name,
+            };
+            named && own.scene.as_deref() == self.scene
+        };
+        let mut all = self.claim.functions.iter().enumerate();
+        all.find(|(_, own)| is_own(own))
+    }
+
+    /// Returns the name of a function; of a name in C that is short also the one that it is for.
+    fn name(&self, found: &Found) -> String {
+        match self.claimed(found) {
+            Some((_, own)) if !found.name.ends_with(&own.function) => {
+                format!("{} = {}", found.name, own.function)
+            }
+            _ => found.name.to_owned(),
+        }
+    }
+
+    /// Shows a function.
+    fn shown(&mut self, found: &Found) -> Result<Shown, Fault> {
+        let Some((place, claimed)) = self.claimed(found) else {
+            let scene = self
+                .scene
+                .map_or_else(String::new, |scene| format!(" in scene `{scene}`"));
+            let why = format!("nothing is claimed of `{}`{scene}", found.name);
+            return Err(Fault::Claim(why));
+        };
+        let claimed = &claimed.clone();
+        let refused = |why: String| Fault::Claim(format!("`{}`: {why}", claimed.function));
+        let in_file = |own: Fault| match own {
+            Fault::Text(line, why) => Fault::Text(found.line + line - 1, why),
+            other => other,
+        };
+        let exact = claimed.program(&self.constants)?;
+        let function = function(claimed).map_err(refused)?;
+        let base = claimed.base(&self.constants, self.setting.links())?;
+        let head = self.head(claimed, &function, &base, found)?;
+        let read = self.read(&head, found).map_err(in_file)?;
+        let why = |why: String| Fault::Text(found.line, why);
+        compare(&read.program, &exact, head.is_single).map_err(why)?;
+        self.sines(&read, head.is_single).map_err(why)?;
+        if !self.found.contains_key(&place) {
+            let identity = self.identity(claimed, &function, &exact, &base);
+            self.found.insert(place, identity);
+        }
+        self.found.get(&place).cloned().unwrap_or(Ok(()))?;
+        Ok(cost(&read, &head, &self.ranges, &[&self.seed, head.name]))
+    }
+
+    /// Returns the head that a function must have.
+    fn head<'h>(
+        &self,
+        claimed: &'h Claimed,
+        function: &'h Function,
+        base: &Base,
+        found: &Found,
+    ) -> Result<Head<'h>, Fault> {
+        let sizes = [self.setting.joints(), self.setting.links()];
+        let load = match function.fields.is_empty() {
+            true => claimed.returns.split_ascii_whitespace().count(),
+            false => self.load()?.map_or(0, |own| own.outputs.len()),
+        };
+        let arguments = function.arguments.iter().map(|&place| {
+            let (name, axis) = ARGUMENTS[place];
+            let length = if name == "load" {
+                load
+            } else {
+                length(axis, sizes)
+            };
+            Argument {
+                place,
+                name,
+                length,
+            }
+        });
+        let columns = base.combinations.len();
+        let fields = function.fields.iter();
+        let fields = fields.map(|own| (own.name.as_str(), own.lengths(self.setting, columns)));
+        let mut fields: Vec<(&str, Vec<usize>)> = fields.collect();
+        if fields.is_empty() {
+            fields.push((LOAD, vec![load]));
+        }
+        Ok(Head {
+            name: &claimed.function,
+            is_single: match self.is_c {
+                true => found.text.contains("const float "),
+                false => self.singles.contains(found.module),
+            },
+            arguments: arguments.collect(),
+            structure: None,
+            fields,
+            joints: sizes[0],
+        })
+    }
+
+    /// Reads the text of a function.
+    fn read(&self, head: &Head, found: &Found) -> Result<read::Function, Fault> {
+        let structure = camel(head.name);
+        let head = &Head {
+            structure: (head.fields.len() > 1).then_some(structure.as_str()),
+            ..head.clone()
+        };
+        let text = &found.text;
+        let read = match self.is_c {
+            true => Text::c(text).and_then(|words| {
+                let symbols = c99::symbols(text, head.is_single);
+                words.c_function(head, &symbols, !symbols.batch.is_empty())
+            }),
+            false => Text::rust(text).and_then(|words| words.rust_function(head, false)),
+        };
+        match read.map_err(fault)? {
+            (read, true) => Ok(read),
+            _ => Err(Fault::Text(1, "more than the function stands there".into())),
+        }
+    }
+
+    /// Checks that sines are of joints that turn, and roots of the widths of friction.
+    fn sines(&self, read: &read::Function, is_single: bool) -> Result<(), String> {
+        if let Some(own) = read
+            .sines
+            .iter()
+            .find(|own| !self.setting.turns_by(own.joint))
+        {
+            return Err(format!("the sine of joint {}, which slides", own.joint + 1));
+        }
+        for &(joint, literal) in &read.speeds {
+            let square = self.setting.square_of_width(joint);
+            if !square.is_some_and(|own| own.is_nearest(literal, is_single)) {
+                return Err(format!("another width of friction of joint {}", joint + 1));
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the program that computes the load of a payload, if it is claimed.
+    fn load(&self) -> Result<Option<Program<Exact>>, Fault> {
+        let mut all = self.claim.functions.iter();
+        let own = all.find(|own| own.function == LOAD && own.scene.as_deref() == self.scene);
+        own.map(|own| own.program(&self.constants)).transpose()
+    }
+
+    /// Compares a function's program with the equations of motion.
+    fn identity(
+        &self,
+        claimed: &Claimed,
+        function: &Function,
+        program: &Program<Exact>,
+        base: &Base,
+    ) -> Result<(), Fault> {
+        if function.fields.is_empty() {
+            // What it computes is shown by those that take it.
+            return Ok(());
+        }
+        let load = self.load()?;
+        let statement = Statement {
+            setting: self.setting,
+            function,
+            program,
+            base,
+            load: load.as_ref(),
+        };
+        let refused = |why| Fault::Claim(format!("`{}`: {why}", claimed.function));
+        check(statement, &[&self.seed]).map_err(refused)
+    }
+
+    /// Checks what stands beside functions.
+    fn beside(&self, item: &Found, items: &[Found]) -> Result<(), Fault> {
+        let own = |other: &&Found| other.module == item.module && !other.name.is_empty();
+        let functions: Vec<&Found> = items.iter().filter(own).collect();
+        let claims = self.claim.functions.iter();
+        let (mut values, mut structs) = (Vec::new(), Vec::new());
+        for own in claims.filter(|own| own.scene.as_deref() == self.scene) {
+            let base = own.base(&self.constants, self.setting.links())?;
+            let refused = |why: String| Fault::Claim(format!("`{}`: {why}", own.function));
+            let function = function(own).map_err(refused)?;
+            structs.push(structure(&self.head(own, &function, &base, item)?));
+            values.push(base.values);
+        }
+        if self.is_c {
+            let are = values.iter().any(|own| c99::are_values(item, own));
+            let why = "its numbers are not the base parameters that are claimed";
+            return are
+                .then_some(())
+                .ok_or_else(|| Fault::Text(item.line, why.into()));
+        }
+        let known = aside::Known {
+            setting: self.setting,
+            ranges: &self.ranges,
+            values: &values,
+            structs: &structs,
+        };
+        known.follows(item, &functions)
+    }
+}
+
+/// The function that computes the load of a payload, and its result.
+const LOAD: &str = "load";
+
+/// Returns the function that is claimed. What computes a load means what others make of it: it has
+/// no results of its own.
+fn function(claimed: &Claimed) -> Result<Function, String> {
+    let is_load = claimed.function == LOAD && claimed.results == [LOAD];
+    let results = if is_load { &[][..] } else { &claimed.results };
+    let function = Function::named(&claimed.function, &claimed.arguments, results)?;
+    let payload = argument("payload").unwrap_or_default();
+    match is_load && function.arguments != [payload] {
+        true => Err("a load is of a payload alone".into()),
+        false => Ok(function),
+    }
+}
+
+/// Returns the lines of the struct of a function's results in Rust; none if one number or array is
+/// returned.
+fn structure(head: &Head) -> Vec<String> {
+    if head.fields.len() < 2 {
+        return Vec::new();
+    }
+    let scalar = if head.is_single { "f32" } else { "f64" };
+    let fields = head.fields.iter().map(|(name, shape)| {
+        let lengths = shape.iter().rev();
+        let of = lengths.fold(scalar.to_owned(), |of, length| format!("[{of}; {length}]"));
+        format!("pub {name}: {of},")
+    });
+    let first = format!("pub struct {} {{", camel(head.name));
+    let lines = [first].into_iter().chain(fields);
+    lines.chain(["}".to_owned()]).collect()
+}

@@ -1,0 +1,259 @@
+//! The document beside a file: of each function what it is said to compute, and the exact program
+//! that its text has to be.
+//!
+//! ```json
+//! { "claim": 1,
+//!   "constants": ["981/100", "1/2*cos(3/10)"],
+//!   "functions": [
+//!     { "function": "gravity", "arguments": ["q"], "results": ["gravity.c"],
+//!       "steps": "s1*#0 c1*#1 t1-t2", "returns": "t3 -t1" } ] }
+//! ```
+
+use std::collections::HashSet;
+
+use serde::{Deserialize, Serialize};
+
+use crate::fault::Fault;
+use crate::identity::Base;
+use crate::identity::exact::Exact;
+use crate::identity::program::{Operand, Program, Step};
+use crate::identity::table::{ARGUMENTS, argument};
+
+/// The version that is read.
+pub const VERSION: u32 = 1;
+/// The longest document.
+const MOST_BYTES: usize = 32 << 20;
+/// The most constants, and the most operations of a function.
+const MOST: usize = 1 << 17;
+
+/// The functions of a robot, each with what is claimed of it.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Claim {
+    /// The version of the document.
+    pub claim: u32,
+    /// Of a robot whose joints are placed, the robot by rows, as generators take it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub aligned: Option<String>,
+    /// The constants of all programs: `#0` is the first.
+    pub constants: Vec<String>,
+    /// The functions.
+    pub functions: Vec<Claimed>,
+}
+
+/// What is claimed of a function.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Claimed {
+    /// The name.
+    pub function: String,
+    /// The names in C, of one state: in f64, and in f32.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub symbols: Vec<String>,
+    /// The scene that it is for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scene: Option<String>,
+    /// The arguments there are, in order.
+    pub arguments: Vec<String>,
+    /// The results in order, each by a function that has it: `gravity.c`, `jacobian.jacobian@camera`.
+    pub results: Vec<String>,
+    /// The operations, one a word: `s1*#0`. A product that is not rounded has `×`, and its sum is
+    /// next.
+    pub steps: String,
+    /// The values of the results.
+    pub returns: String,
+    /// Of a regressor what each column adds up: `m2 #4*mx2`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub base: Vec<String>,
+    /// The values of these parameters, constants each.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub values: String,
+}
+
+/// The constants of a claim.
+pub struct Constants(Vec<Exact>);
+
+impl Claim {
+    /// Reads a document.
+    ///
+    /// # Errors
+    /// What is no claim, with the line of the mistake.
+    pub fn read(source: &str) -> Result<Claim, Fault> {
+        let refuse = |why: String| Err(Fault::Claim(why));
+        if source.len() > MOST_BYTES {
+            return refuse(format!("more than {MOST_BYTES} bytes"));
+        }
+        let claim: Claim = match serde_json::from_str(source) {
+            Ok(claim) => claim,
+            Err(error) => return refuse(error.to_string()),
+        };
+        if claim.claim != VERSION {
+            return refuse(format!(
+                "version {} is not known: version {VERSION} is read",
+                claim.claim
+            ));
+        }
+        if claim.constants.len() > MOST {
+            return refuse(format!("more than {MOST} constants"));
+        }
+        let mut keys = HashSet::new();
+        for own in &claim.functions {
+            if !keys.insert((&own.function, &own.scene)) {
+                return refuse(format!("`{}` stands there twice", own.function));
+            }
+        }
+        Ok(claim)
+    }
+
+    /// Writes the document.
+    pub fn write(&self) -> String {
+        // A struct of strings and lists has a text.
+        serde_json::to_string(self).unwrap_or_default() + "\n"
+    }
+
+    /// Reads the constants.
+    ///
+    /// # Errors
+    /// The first that is none.
+    pub fn constants(&self) -> Result<Constants, Fault> {
+        let read = self.constants.iter().map(|text| {
+            let why = || Fault::Claim(format!("`{text:.40}` is no constant"));
+            Exact::read(text).ok_or_else(why)
+        });
+        read.collect::<Result<_, _>>().map(Constants)
+    }
+}
+
+impl Constants {
+    /// Returns the constant of a word: `#3`.
+    fn of(&self, word: &str) -> Option<&Exact> {
+        self.0.get(whole(word.strip_prefix('#')?)?)
+    }
+}
+
+/// Returns a whole number as it is printed.
+fn whole(word: &str) -> Option<usize> {
+    let number: usize = word.parse().ok()?;
+    (number.to_string() == word).then_some(number)
+}
+
+impl Claimed {
+    /// Returns the program.
+    ///
+    /// # Errors
+    /// The first word that is not of one.
+    pub fn program(&self, constants: &Constants) -> Result<Program<Exact>, Fault> {
+        let mut steps: Vec<Step<Exact>> = Vec::new();
+        for word in self.steps.split_ascii_whitespace() {
+            let step = self.step(word, steps.len(), constants);
+            steps.push(step.ok_or_else(|| self.refused(word))?);
+            if steps.len() > MOST {
+                return Err(self.refused("more than 131072 operations"));
+            }
+        }
+        let returns = self.returns.split_ascii_whitespace();
+        let outputs = returns.map(|word| {
+            let bare = word.strip_prefix('-').unwrap_or(word);
+            let operand = self.operand(bare, steps.len(), constants);
+            let operand = operand.ok_or_else(|| self.refused(word))?;
+            Ok((bare.len() < word.len(), operand))
+        });
+        let outputs = outputs.collect::<Result<Vec<_>, Fault>>()?;
+        Ok(Program { steps, outputs })
+    }
+
+    fn refused(&self, word: &str) -> Fault {
+        let own = &self.function;
+        Fault::Claim(format!("`{own}`: `{word:.40}` is not of a program"))
+    }
+
+    /// Reads an operation before which so many stand.
+    fn step(&self, word: &str, count: usize, constants: &Constants) -> Option<Step<Exact>> {
+        let (place, operation) = word.char_indices().find(|(_, c)| "+-*/×".contains(*c))?;
+        let (left, right) = (&word[..place], &word[place + operation.len_utf8()..]);
+        let read = |word| self.operand(word, count, constants);
+        Some((operation, [read(left)?, read(right)?]))
+    }
+
+    fn operand(&self, word: &str, count: usize, constants: &Constants) -> Option<Operand<Exact>> {
+        if let Some(constant) = constants.of(word) {
+            return Some(Operand::Constant(constant.clone()));
+        }
+        if let Some((name, index)) = word.strip_suffix(']').and_then(|own| own.split_once('[')) {
+            let is_own = self.arguments.iter().any(|own| own == name);
+            let place = argument(name).filter(|_| is_own)?;
+            return Some(Operand::Entry(place, whole(index)?));
+        }
+        let (letter, number) = word.split_at_checked(1)?;
+        let place = whole(number)?.checked_sub(1)?;
+        match letter {
+            "t" if place < count => Some(Operand::Step(place)),
+            "s" | "c" => Some(Operand::Sine(vec![(place, false)], letter == "s")),
+            "r" => Some(Operand::Speed(place)),
+            _ => None,
+        }
+    }
+
+    /// Returns the base parameters of a regressor of so many links.
+    ///
+    /// # Errors
+    /// The first word that is no parameter, or no value.
+    pub fn base(&self, constants: &Constants, links: usize) -> Result<Base, Fault> {
+        let term = |word: &str| {
+            let (factor, name) = match word.split_once('*') {
+                Some((factor, name)) => (constants.of(factor)?.clone(), name),
+                None => (Exact::read("1")?, word),
+            };
+            Some((parameter(name, links)?, factor))
+        };
+        let read = |word: &str| term(word).ok_or_else(|| self.refused(word));
+        let combination = |text: &String| text.split_ascii_whitespace().map(read).collect();
+        let value = |word: &str| {
+            constants
+                .of(word)
+                .cloned()
+                .ok_or_else(|| self.refused(word))
+        };
+        Ok(Base {
+            combinations: self
+                .base
+                .iter()
+                .map(combination)
+                .collect::<Result<_, _>>()?,
+            values: self
+                .values
+                .split_ascii_whitespace()
+                .map(value)
+                .collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+/// Returns the place of a parameter such as `Izz2` among those of links, rotors and friction.
+fn parameter(name: &str, links: usize) -> Option<usize> {
+    const NAMES: [&str; 10] = [
+        "m", "mx", "my", "mz", "Ixx", "Iyy", "Izz", "Ixy", "Iyz", "Ixz",
+    ];
+    let digits = name.find(|c: char| c.is_ascii_digit())?;
+    let link = whole(&name[digits..])?.checked_sub(1)?;
+    let link = Some(link).filter(|link| *link < links)?;
+    match &name[..digits] {
+        "armature" => Some(10 * links + link),
+        "viscous" => Some(11 * links + link),
+        own => Some(10 * link + NAMES.iter().position(|name| *name == own)?),
+    }
+}
+
+/// Writes an operand as claims have it, its constants by their places.
+pub fn word(operand: &Operand<usize>) -> String {
+    match operand {
+        Operand::Step(step) => format!("t{}", step + 1),
+        Operand::Constant(place) => format!("#{place}"),
+        Operand::Entry(place, index) => format!("{}[{index}]", ARGUMENTS[*place].0),
+        Operand::Sine(angle, is_sine) => {
+            let joint = angle.first().map_or(0, |own| own.0 + 1);
+            format!("{}{joint}", if *is_sine { 's' } else { 'c' })
+        }
+        Operand::Speed(joint) => format!("r{}", joint + 1),
+    }
+}

@@ -1,0 +1,147 @@
+//! What rounding costs a function: over the box where that can be bounded, else at states that a
+//! hash draws.
+
+use crate::identity::number::Draws;
+use crate::identity::setting::Setting;
+use crate::identity::table::{ARGUMENTS, length};
+use crate::read::{self, Function, Head, Source};
+use crate::rounding::{Ranges, Rounding, Value};
+use crate::sines::Scalar;
+
+/// The largest rates where the robot file has no limit, per second and per second squared.
+pub const RATE: f64 = 10.0;
+/// The ranges of arguments that no robot file has limits of.
+const WRENCH: f64 = 100.0;
+const GRAVITY: f64 = 9.81;
+const DAMPING: [f64; 2] = [1e-3, 1e-1];
+/// The number of states at which bounds are asked for where there is none over the box; and at
+/// which values are looked at where there is.
+const STATES: usize = 1000;
+const LOOKED_AT: usize = 100;
+/// An entry below this share of its result's largest counts as zero.
+const ZERO: f64 = 1e-12;
+
+/// A function that is the robot's but for rounding.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown {
+    /// What rounding costs at most, relative to the largest value seen of the entry, of a matrix
+    /// of its row or its column.
+    pub rounding: f64,
+    /// The same in halves of an ulp of that value.
+    pub units: f64,
+    /// At how many states that holds; zero for the whole box.
+    pub states: usize,
+    /// `true` if it has polynomials for sines, whose error counts as rounding.
+    pub has_polynomials: bool,
+}
+
+/// Bounds what rounding costs a function of this head, over ranges; states are drawn from these
+/// texts.
+pub(crate) fn cost(read: &Function, head: &Head, ranges: &Ranges, texts: &[&str]) -> Shown {
+    let mut ranges = ranges.clone();
+    for own in &head.arguments {
+        ranges[own.place].resize(own.length, [-1.0, 1.0]);
+    }
+    let rounding = Rounding::new(read, head.is_single, &ranges);
+    let mut draws = Draws::new(texts);
+    let over_box = rounding.bounds(&ranges);
+    let is_bounded = over_box.iter().all(|own| own.error.is_finite());
+    let states = if is_bounded { LOOKED_AT } else { STATES };
+    let (mut sizes, mut errors) = (vec![0.0; over_box.len()], vec![0.0; over_box.len()]);
+    for _ in 0..states {
+        let state = drawn(&ranges, &mut draws, head.is_single);
+        for (k, own) in rounding.bounds(&state).iter().enumerate() {
+            sizes[k] = worse(sizes[k], own.exact.magnitude());
+            errors[k] = worse(errors[k], own.error);
+        }
+    }
+    if is_bounded {
+        errors = over_box.iter().map(|own: &Value| own.error).collect();
+    }
+    let sizes = measures(&sizes, head.fields.iter().map(|own| own.1.as_slice()));
+    let relative = errors
+        .iter()
+        .zip(&sizes)
+        .map(|(error, size)| match *error == 0.0 {
+            true => 0.0,
+            false => error / size,
+        });
+    let rounding = relative.fold(0.0, worse);
+    let unit = Scalar::of(if head.is_single { "f32" } else { "f64" }).unit;
+    let is_polynomial = |own: &read::Sines| matches!(own.source, Source::Polynomial(_));
+    Shown {
+        rounding,
+        units: rounding / unit,
+        states: if is_bounded { 0 } else { states },
+        has_polynomials: read.sines.iter().any(is_polynomial),
+    }
+}
+
+/// Returns the larger one; what is no number counts as larger.
+fn worse(before: f64, own: f64) -> f64 {
+    if own > before || own.is_nan() {
+        own
+    } else {
+        before
+    }
+}
+
+/// Returns the ranges of all arguments.
+pub(crate) fn ranges(setting: &Setting) -> Result<Ranges, String> {
+    let sizes = [setting.joints(), setting.links()];
+    let of = |&(name, axis): &(&str, char)| {
+        let rate = if name == "tau" { WRENCH } else { RATE };
+        let own = setting.ranges(name, rate)?;
+        let [low, high] = match name {
+            "g" => [-GRAVITY, GRAVITY],
+            "wrench" => [-WRENCH, WRENCH],
+            "damping" => DAMPING,
+            _ => [-1.0, 1.0],
+        };
+        Ok(own.unwrap_or_else(|| vec![[low, high]; length(axis, sizes)]))
+    };
+    ARGUMENTS.iter().map(of).collect()
+}
+
+/// Draws a state of the box, in numbers of the scalar.
+fn drawn(ranges: &Ranges, draws: &mut Draws, is_single: bool) -> Ranges {
+    let lists = ranges.iter().map(|list| {
+        let points = list.iter().map(|[low, high]| {
+            let own = low + (high - low) * draws.share();
+            let own = if is_single {
+                f64::from(own as f32)
+            } else {
+                own
+            };
+            [own; 2]
+        });
+        points.collect()
+    });
+    lists.collect()
+}
+
+/// Returns the size that each entry is measured by: its own largest value, of a matrix the smallest
+/// of the largest in its row and in its column; where that is zero, the result's.
+fn measures<'s>(seen: &[f64], shapes: impl Iterator<Item = &'s [usize]>) -> Vec<f64> {
+    let (mut all, mut left) = (Vec::new(), seen);
+    for shape in shapes {
+        let count = shape.iter().product::<usize>().min(left.len());
+        let (each, behind) = left.split_at(count);
+        left = behind;
+        let whole = each.iter().copied().fold(0.0, f64::max);
+        for index in 0..count {
+            let (mut size, mut stride) = (whole, count);
+            for length in shape {
+                stride /= length;
+                let digit = |index: usize| index / stride % length;
+                let same = (0..count).filter(|other| digit(*other) == digit(index));
+                let most = same.map(|other| each[other]).fold(0.0, f64::max);
+                if most > ZERO * whole {
+                    size = size.min(most);
+                }
+            }
+            all.push(size);
+        }
+    }
+    all
+}

@@ -1,0 +1,59 @@
+//! Vectors and matrices of residues.
+
+use super::number::Number;
+
+/// A matrix by rows.
+pub(super) type Matrix = Vec<Vec<Number>>;
+
+pub(super) fn product(a: &[Number], b: &[Number]) -> Number {
+    let products = a.iter().zip(b).map(|(a, b)| *a * *b);
+    products.fold(0.into(), |a, b| a + b)
+}
+
+pub(super) fn plus(a: Vec<Number>, b: impl IntoIterator<Item = Number>) -> Vec<Number> {
+    a.into_iter().zip(b).map(|(a, b)| a + b).collect()
+}
+
+pub(super) fn minus(a: &[Number], b: &[Number]) -> Vec<Number> {
+    a.iter().zip(b).map(|(a, b)| *a - *b).collect()
+}
+
+/// Returns M x.
+pub(super) fn times(matrix: &Matrix, x: &[Number]) -> Vec<Number> {
+    matrix.iter().map(|row| product(row, x)).collect()
+}
+
+pub(super) fn units(n: usize) -> Matrix {
+    let one = |i: usize, k: usize| i64::from(i == k).into();
+    (0..n)
+        .map(|i| (0..n).map(|k| one(i, k)).collect())
+        .collect()
+}
+
+pub(super) fn transposed(matrix: &Matrix) -> Matrix {
+    let length = matrix.first().map_or(0, Vec::len);
+    (0..length)
+        .map(|k| matrix.iter().map(|row| row[k]).collect())
+        .collect()
+}
+
+/// Returns M⁻¹ x of each x, by Gauss: M is symmetric, and no pivot is zero but by chance.
+pub(super) fn solve(mut m: Matrix, right: &[Vec<Number>]) -> Matrix {
+    let (n, mut right) = (m.len(), right.to_vec());
+    for k in 0..n {
+        for i in k + 1..n {
+            let factor = m[i][k] / m[k][k];
+            let pivot = m[k].clone();
+            let both = m[i].iter_mut().zip(&pivot).skip(k);
+            both.for_each(|(own, above)| *own = *own - factor * *above);
+            right.iter_mut().for_each(|x| x[i] = x[i] - factor * x[k]);
+        }
+    }
+    for x in &mut right {
+        for k in (0..n).rev() {
+            let known = product(&m[k][k + 1..], &x[k + 1..]);
+            x[k] = (x[k] - known) / m[k][k];
+        }
+    }
+    right
+}

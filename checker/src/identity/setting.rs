@@ -1,0 +1,341 @@
+//! A robot file in one of its scenes: which joints move by themselves, what stands still, which
+//! results are asked for, and the box of states.
+
+use std::f64::consts::PI;
+
+use num_bigint::BigInt;
+use num_rational::BigRational as Rational;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
+use super::exact::{Angle, Exact, Point, number};
+use super::number::Number;
+use super::robot::{File, Row, Scene};
+use super::{state::State, table::argument};
+
+/// The most joints.
+const MOST_JOINTS: usize = 64;
+/// The most turns of a joint that follows, for one of its leader's.
+const MOST_TURNS: i64 = 16;
+
+/// A robot in a scene, or by itself.
+pub struct Setting<'f> {
+    pub(super) file: &'f File,
+    pub(super) scene: Option<&'f Scene>,
+    /// Of each row of the table what it follows, if it does.
+    pub(super) follows: Vec<Option<Follows<'f>>>,
+    /// The rows whose joints move by themselves: joints are numbered by their places here.
+    pub(super) movers: Vec<usize>,
+    /// The positions that joints are locked at.
+    pub(super) locks: Vec<Option<&'f String>>,
+    /// `true` where q̇, and q̈, is zero.
+    pub(super) still: [bool; 2],
+    /// The joints that results are over, from zero.
+    pub rows: Vec<usize>,
+}
+
+/// The line along which a joint follows another, which moves by itself.
+pub(super) struct Follows<'f> {
+    /// The row of the other.
+    pub row: usize,
+    /// How many times as far it moves.
+    pub times: Rational,
+    /// The offsets on the way, each as often as it counts.
+    pub offsets: Vec<(Rational, &'f String)>,
+}
+
+impl File {
+    /// Returns the robot in the scene of a name, or by itself.
+    ///
+    /// # Errors
+    /// A name or number that the file has not.
+    pub fn setting(&self, name: Option<&str>) -> Result<Setting<'_>, String> {
+        let count = self.joint.len();
+        if !(1..=MOST_JOINTS).contains(&count) {
+            return Err(format!("1 to {MOST_JOINTS} joints are read, not {count}"));
+        }
+        let missing = |name: &str| format!("the robot file has no scene `{name}`");
+        let scene = name.map(|name| self.scene.get(name).ok_or(missing(name)));
+        let scene = scene.transpose()?;
+        let follows = (0..count).map(|row| self.follows(row));
+        let follows = follows.collect::<Result<Vec<_>, String>>()?;
+        let movers = (0..count).filter(|&row| follows[row].is_none());
+        let movers: Vec<usize> = movers.collect();
+        let joint = |word: &str| {
+            let found = match word.parse::<usize>() {
+                Ok(number) => number.checked_sub(1).filter(|&own| own < movers.len()),
+                Err(_) => {
+                    let is_own = |row: &usize| self.joint[*row].name.as_deref() == Some(word);
+                    movers.iter().position(is_own)
+                }
+            };
+            found.ok_or_else(|| format!("there is no joint `{word}`"))
+        };
+        let mut locks = vec![None; movers.len()];
+        for (word, position) in scene.into_iter().flat_map(|scene| &scene.lock) {
+            locks[joint(word)?] = Some(position);
+        }
+        let rows = match scene.and_then(|scene| scene.joints.as_ref()) {
+            Some(list) => list
+                .iter()
+                .map(|word| joint(word))
+                .collect::<Result<_, _>>()?,
+            None => (0..movers.len())
+                .filter(|&own| locks[own].is_none())
+                .collect(),
+        };
+        let is_still = |of: fn(&Scene) -> bool| scene.is_some_and(of);
+        Ok(Setting {
+            file: self,
+            scene,
+            follows,
+            movers,
+            locks,
+            still: [
+                is_still(|scene| scene.velocity.is_some()),
+                is_still(|scene| scene.acceleration.is_some()),
+            ],
+            rows,
+        })
+    }
+
+    /// Returns the row of a joint's number, from one, or of its name.
+    pub(super) fn row(&self, word: &str) -> Result<usize, String> {
+        let found = match word.parse::<usize>() {
+            Ok(number) => number.checked_sub(1).filter(|&row| row < self.joint.len()),
+            Err(_) => {
+                let mut rows = self.joint.iter();
+                rows.position(|row| row.name.as_deref() == Some(word))
+            }
+        };
+        found.ok_or_else(|| format!("there is no joint `{word}`"))
+    }
+
+    /// Returns what a row follows, over all that stand between.
+    pub(super) fn follows(&self, row: usize) -> Result<Option<Follows<'_>>, String> {
+        let (mut at, mut times, mut offsets) = (row, Rational::one(), Vec::new());
+        for _ in 0..=self.joint.len() {
+            let Some(mimic) = &self.joint[at].mimic else {
+                let found = Follows {
+                    row: at,
+                    times,
+                    offsets,
+                };
+                return Ok((at != row).then_some(found));
+            };
+            offsets.extend(mimic.offset.as_ref().map(|text| (times.clone(), text)));
+            let in_joint = |why: &str| format!("joint {}: {why}", row + 1);
+            let read = mimic.multiplier.as_ref().map(|text| number(text));
+            let own = read.unwrap_or_else(|| Some(Rational::one()));
+            times *= own.ok_or_else(|| in_joint("`multiplier` is no number"))?;
+            let leader = self.row(&mimic.joint)?;
+            if self.joint[leader].kind != self.joint[row].kind {
+                return Err(in_joint(
+                    "it turns and what it follows slides, or otherwise",
+                ));
+            }
+            let most = Rational::from_integer(BigInt::from(MOST_TURNS));
+            if self.joint[row].turns() && !(times.is_integer() && times.abs() <= most) {
+                return Err(in_joint("`multiplier` of an angle is no whole number"));
+            }
+            at = leader;
+        }
+        Err(format!(
+            "joint {}: joints follow each other in a circle",
+            row + 1
+        ))
+    }
+}
+
+impl Row {
+    /// Returns whether the joint turns.
+    pub(super) fn turns(&self) -> bool {
+        self.kind == "revolute"
+    }
+
+    /// Returns a position in radians or metres, as a double.
+    fn position(&self, text: &str) -> Option<f64> {
+        match self.turns() {
+            true => Angle::read(text)?.radians(),
+            false => number(text)?.to_f64(),
+        }
+    }
+}
+
+impl Setting<'_> {
+    /// Returns how many joints move by themselves, locked ones too.
+    pub fn joints(&self) -> usize {
+        self.movers.len()
+    }
+
+    /// Returns how many links there are.
+    pub fn links(&self) -> usize {
+        self.file.joint.len()
+    }
+
+    /// Returns by how much the degree in a joint's sines grows for those that follow it.
+    pub(super) fn turns(&self) -> f64 {
+        let follows = self.follows.iter().flatten();
+        let turns = follows.map(|own| own.times.abs().to_f64().unwrap_or(f64::INFINITY));
+        turns.fold(1.0, |all, own| all + own)
+    }
+
+    /// Puts what the scene fixes in the place of what was drawn.
+    pub(super) fn fix(&self, state: &mut State, point: &Point) -> Result<(), String> {
+        let rates = ["qd", "qdd", "tau", "v", "a", "multiplier"];
+        let rates = rates.map(|name| argument(name).unwrap_or_default());
+        for (joint, lock) in self.locks.iter().enumerate() {
+            let Some(text) = lock else { continue };
+            match self.file.joint[self.movers[joint]].turns() {
+                true => {
+                    let angle = Angle::read(text).ok_or_else(|| format!("`{text}` is no angle"))?;
+                    state.pairs[joint] = point.angle(&angle);
+                }
+                false => {
+                    let at = number(text).ok_or_else(|| format!("`{text}` is no number"))?;
+                    state.given[0][joint] = point.number(&at);
+                }
+            }
+            for place in rates {
+                state.given[place][joint] = 0.into();
+            }
+            self.rest(state, point, joint)?;
+        }
+        for (place, is_still) in [1, 2].into_iter().zip(self.still) {
+            if is_still {
+                state.given[place].fill(0.into());
+            }
+        }
+        if self.still[0] {
+            (0..self.joints()).try_for_each(|joint| self.rest(state, point, joint))?;
+        }
+        Ok(())
+    }
+
+    /// Puts 1/w in the place of 1/√(q̇² + w²).
+    fn rest(&self, state: &mut State, point: &Point, joint: usize) -> Result<(), String> {
+        let width = self.width(point, joint)?;
+        if width.is_nonzero() {
+            state.speeds[joint] = Number::from(1) / width;
+        }
+        Ok(())
+    }
+
+    /// Returns the speed over which Coulomb friction is smoothed; zero of a joint without.
+    fn width(&self, point: &Point, joint: usize) -> Result<Number, String> {
+        let row = &self.file.joint[self.movers[joint]];
+        let [force, width] = [&row.coulomb, &row.coulomb_width].map(|text| match text {
+            Some(text) => number(text).ok_or_else(|| format!("`{text}` is no number")),
+            None => Ok(Rational::zero()),
+        });
+        match (force?.is_zero(), width?) {
+            (true, _) => Ok(0.into()),
+            (false, width) if width.is_positive() => Ok(point.number(&width)),
+            _ => Err(format!(
+                "joint {}: `coulomb` without a `coulomb_width`",
+                joint + 1
+            )),
+        }
+    }
+
+    /// Draws velocities of which 1/√(q̇² + w²) is a residue too: q̇ = (u − w²/u)/2, and the root is
+    /// (u + w²/u)/2.
+    pub(super) fn draw_speeds(&self, state: &mut State, point: &Point) -> Result<(), String> {
+        for joint in 0..self.joints() {
+            let width = self.width(point, joint)?;
+            if width.is_nonzero() {
+                let (u, half) = (point.residue(), point.half());
+                let rest = width * width / u;
+                state.given[1][joint] = (u - rest) * half;
+                state.speeds[joint] = Number::from(1) / ((u + rest) * half);
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the ranges of an argument's entries: the scene's, else the limits of the joints,
+    /// else these rates; of what the file does not speak of, none. The box of states is that of
+    /// q, q̇ and q̈; what a controller wishes for is in the same.
+    ///
+    /// # Errors
+    /// A range that is empty, or no range.
+    pub fn ranges(&self, name: &str, rate: f64) -> Result<Option<Vec<[f64; 2]>>, String> {
+        let given = self.scene.map(|scene| &scene.r#box);
+        let mut all = Vec::new();
+        for (joint, &row) in self.movers.iter().enumerate() {
+            let own = &self.file.joint[row];
+            let is_empty = || format!("joint {}: the range of `{name}` is empty", joint + 1);
+            let entry = |list: &Option<Vec<String>>| list.as_ref()?.get(joint).cloned();
+            let (given, limit) = match name {
+                "q" => {
+                    let own_limits = own.limits.position.clone();
+                    let given =
+                        given.and_then(|given| given.position.as_ref()?.get(joint).cloned());
+                    let ends = match (self.locks[joint], given.or(own_limits)) {
+                        (Some(at), _) => [own.position(at), own.position(at)],
+                        (None, Some(ends)) => ends.each_ref().map(|end| own.position(end)),
+                        (None, None) if own.turns() => [Some(-PI), Some(PI)],
+                        // A joint that slides without an end: a metre either way.
+                        (None, None) => [Some(-1.0), Some(1.0)],
+                    };
+                    let [Some(low), Some(high)] = ends else {
+                        return Err(is_empty());
+                    };
+                    if !(low <= high) {
+                        return Err(is_empty());
+                    }
+                    all.push([low, high]);
+                    continue;
+                }
+                "qd" | "v" => (
+                    given.and_then(|own| entry(&own.velocity)),
+                    &own.limits.velocity,
+                ),
+                "qdd" | "a" => (
+                    given.and_then(|own| entry(&own.acceleration)),
+                    &own.limits.acceleration,
+                ),
+                "tau" => (None, &own.limits.torque),
+                _ => return Ok(None),
+            };
+            let is_still = match name {
+                "qd" => self.still[0],
+                "qdd" => self.still[1],
+                _ => false,
+            };
+            let most = match given.as_ref().or(limit.as_ref()) {
+                Some(text) => number(text).and_then(|most| most.to_f64()),
+                None => Some(rate),
+            };
+            match most.filter(|most| *most >= 0.0) {
+                _ if self.locks[joint].is_some() || is_still => all.push([0.0; 2]),
+                Some(most) => all.push([-most, most]),
+                None => return Err(is_empty()),
+            }
+        }
+        Ok(Some(all))
+    }
+
+    /// Returns whether a joint turns.
+    pub fn turns_by(&self, joint: usize) -> bool {
+        let row = self.movers.get(joint);
+        row.is_some_and(|row| self.file.joint[*row].turns())
+    }
+
+    /// Returns w² of a joint with Coulomb friction.
+    pub fn square_of_width(&self, joint: usize) -> Option<Exact> {
+        let row = &self.file.joint[*self.movers.get(joint)?];
+        let width = number(row.coulomb_width.as_ref()?)?;
+        Some(Exact::from(&width * &width))
+    }
+
+    /// Returns whether a joint's rates have no limit.
+    pub fn is_unlimited(&self) -> bool {
+        let given = self.scene.map(|scene| &scene.r#box);
+        let [rates, more] = [
+            given.is_some_and(|own| own.velocity.is_some()),
+            given.is_some_and(|own| own.acceleration.is_some()),
+        ];
+        let mut rows = self.movers.iter().map(|&row| &self.file.joint[row].limits);
+        rows.any(|own| !rates && own.velocity.is_none() || !more && own.acceleration.is_none())
+    }
+}

@@ -1,0 +1,237 @@
+//! The 35 outputs: what each reads and returns.
+
+use super::setting::Setting;
+
+/// Every function, its arguments in order, and its results: the field in a struct, what it is where
+/// that is another word, and the lengths of its axes. `n` is the joints, `l` ten a link, `b` the
+/// base parameters.
+const TABLE: &str = "
+    inverse_dynamics: q qd qdd -> tau[n]
+    gravity: q -> c[n]
+    inertia: q -> d[nn]
+    coriolis: q qd -> h[n]
+    manipulator_equation: q qd -> d[nn] h[n] c[n]
+    dynamic_coefficients: q -> d[nn] h=symbols[nnn] c[n]
+    kinetic_energy: q qd -> kinetic[]
+    potential_energy: q -> potential[]
+    momentum: q qd -> p[n] ct_qd[n]
+    coriolis_matrix: q qd -> c_matrix[nn]
+    dalembert_terms: q qd -> d_rot[nn] d_tran[nn] h_rot[n] h_tran[n] c[n]
+    forward_kinematics: q -> pose[34]
+    link_poses: q -> poses[n34]
+    jacobian: q -> jacobian[6n]
+    jacobian_rate: q qd -> jacobian_rate[6]
+    reaction_wrenches: q qd qdd -> wrenches[n6]
+    inverse_dynamics_derivatives: q qd qdd -> dtau_dq[nn] dtau_dqd[nn] d[nn]
+    passivity: q qd v a -> tau=passivity[n]
+    forward_dynamics: q qd tau -> qdd[n]
+    inertia_inverse: q -> d_inv[nn]
+    forward_dynamics_derivatives: q qd tau -> dqdd_dq[nn] dqdd_dqd[nn] dqdd_dtau=d_inv[nn]
+    regressor: q qd qdd -> y=y_base[nb]
+    full_regressor: q qd qdd -> y[nl]
+    passivity_regressor: q qd v a -> y=y_passivity[nb]
+    momentum_observer: q qd -> p[n] drift[n]
+    inverse_dynamics_with_wrench: q qd qdd wrench -> tau=tau_wrench[n]
+    forward_dynamics_with_wrench: q qd tau wrench -> qdd=qdd_wrench[n]
+    contact_wrench: q tau damping -> contact_wrench[6]
+    operational_inertia_inverse: q -> operational_inertia_inverse=mobility[66]
+    operational_inertia: q damping -> operational_inertia[66]
+    consistent_inverse: q damping -> consistent_inverse[n6]
+    operational_bias: q qd damping -> operational_bias[6]
+    null_space_projector: q damping -> null_space[nn]
+    inverse_dynamics_second_derivatives: q qd qdd multiplier ->
+        d2tau_dq_dq[nn] d2tau_dq_dqd[nn] d2tau_dqd_dqd[nn] d2tau_dqdd_dq[nn]
+    forward_dynamics_second_derivatives: q qd tau multiplier ->
+        d2qdd_dq_dq[nn] d2qdd_dq_dqd[nn] d2qdd_dqd_dqd[nn] d2qdd_dtau_dq[nn]
+";
+
+/// The arguments, in the order in which heads have them, and their lengths.
+pub const ARGUMENTS: [(&str, char); 12] = [
+    ("q", 'n'),
+    ("qd", 'n'),
+    ("qdd", 'n'),
+    ("tau", 'n'),
+    ("v", 'n'),
+    ("a", 'n'),
+    ("g", '3'),
+    ("load", '0'),
+    ("payload", 'p'),
+    ("wrench", '6'),
+    ("damping", '1'),
+    ("multiplier", 'n'),
+];
+
+/// A result of a function.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// The name of the field of the struct.
+    pub name: String,
+    /// The word of its formula.
+    pub(super) is: &'static str,
+    /// The lengths of its axes, a character each.
+    pub axes: &'static str,
+    /// The frame that it is of, and how that is looked at, where it is not the hand.
+    pub(super) view: View,
+}
+
+/// A frame, and what is asked of its motion.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct View {
+    pub(super) frame: String,
+    /// `local`, `world` or neither.
+    pub(super) axes: String,
+    /// The components, of six; none for all.
+    pub(super) rows: Vec<usize>,
+}
+
+/// A function that is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Function {
+    /// Its name.
+    pub name: String,
+    /// The places of its arguments among all.
+    pub arguments: Vec<usize>,
+    /// Its results, in order.
+    pub fields: Vec<Field>,
+}
+
+/// Returns the place of an argument.
+pub fn argument(name: &str) -> Option<usize> {
+    ARGUMENTS.iter().position(|own| own.0 == name)
+}
+
+/// Returns the length of an axis over so many joints, or links.
+pub fn length(axis: char, [joints, links]: [usize; 2]) -> usize {
+    match axis {
+        'n' => joints,
+        'l' => 10 * links,
+        'p' => 10,
+        digit => digit.to_digit(10).unwrap_or(0) as usize,
+    }
+}
+
+impl Field {
+    /// Reads a result as the table has it: `h=symbols[nnn]`.
+    fn read(word: &'static str) -> Option<Field> {
+        let (names, axes) = word.strip_suffix(']')?.split_once('[')?;
+        let (name, is) = names.split_once('=').unwrap_or((names, names));
+        let (name, view) = (name.to_owned(), View::default());
+        Some(Field {
+            name,
+            is,
+            axes,
+            view,
+        })
+    }
+
+    /// Returns the result of the table at a frame, given as `camera:local:x_y`.
+    fn at(mut self, view: &str) -> Option<Field> {
+        const COMPONENTS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+        let mut words = view.split(':');
+        let mut own = View {
+            frame: words.next()?.to_owned(),
+            ..View::default()
+        };
+        for word in words {
+            match word {
+                "local" | "world" if own.axes.is_empty() => own.axes = word.to_owned(),
+                "linear" => own.rows.extend(0..3),
+                "angular" => own.rows.extend(3..6),
+                list => {
+                    let place = |name| COMPONENTS.iter().position(|own| *own == name);
+                    let rows = list.split('_').map(place).collect::<Option<Vec<usize>>>()?;
+                    own.rows.extend(rows);
+                }
+            }
+        }
+        own.rows
+            .windows(2)
+            .all(|two| two[0] < two[1])
+            .then_some(())?;
+        self.name = format!("{}_{}", self.name, view.replace(':', "_"));
+        self.view = own;
+        Some(self)
+    }
+
+    /// Returns the lengths of its axes, `base` being the number of base parameters.
+    pub fn lengths(&self, setting: &Setting, base: usize) -> Vec<usize> {
+        let components = match self.view.rows.len() {
+            0 => 6,
+            some => some,
+        };
+        let axes = self.axes.chars();
+        axes.map(|axis| match axis {
+            'n' => setting.rows.len(),
+            'b' => base,
+            '6' => components,
+            axis => length(axis, [setting.joints(), setting.links()]),
+        })
+        .collect()
+    }
+}
+
+/// Returns all functions.
+pub fn functions() -> Vec<Function> {
+    let mut all: Vec<Function> = Vec::new();
+    for word in TABLE.split_whitespace() {
+        if let Some(name) = word.strip_suffix(':') {
+            all.push(Function {
+                name: name.to_owned(),
+                arguments: Vec::new(),
+                fields: Vec::new(),
+            });
+        } else if let Some(last) = all.last_mut() {
+            last.arguments.extend(argument(word));
+            last.fields.extend(Field::read(word));
+        }
+    }
+    all
+}
+
+impl Function {
+    /// Returns the function of a name with these results: that of the table, one of it at a frame
+    /// (`jacobian@camera:local`), or several of them as one, each by its name in the table. So a
+    /// name that is known means what the table says.
+    ///
+    /// # Errors
+    /// The first result that is not of the table, or a known name with other results.
+    pub fn named(name: &str, arguments: &[String], results: &[String]) -> Result<Function, String> {
+        let all = functions();
+        let place = |name: &String| {
+            let unknown = || format!("there is no argument `{name}`");
+            argument(name).ok_or_else(unknown)
+        };
+        let arguments = arguments.iter().map(place);
+        let arguments = arguments.collect::<Result<Vec<usize>, String>>()?;
+        let of = |result: &String| {
+            let (function, rest) = result.split_once('.')?;
+            let (field, view) = match rest.split_once('@') {
+                Some((field, view)) => (field, Some(view)),
+                None => (rest, None),
+            };
+            let own = all.iter().find(|own| own.name == function)?;
+            let field = own.fields.iter().find(|own| own.name == field)?.clone();
+            view.map_or(Some(field.clone()), |view| field.at(view))
+        };
+        let found =
+            |result: &String| of(result).ok_or_else(|| format!("there is no result `{result}`"));
+        let fields = results
+            .iter()
+            .map(found)
+            .collect::<Result<Vec<_>, String>>()?;
+        let is_other = |own: &&Function| own.name == name && own.fields != fields;
+        match all.iter().find(is_other) {
+            Some(_) => Err(format!("`{name}` has other results")),
+            None => Ok(Function {
+                name: name.to_owned(),
+                arguments,
+                fields,
+            }),
+        }
+    }
+
+    /// Returns whether one of its results is over base parameters.
+    pub fn is_over_base(&self) -> bool {
+        self.fields.iter().any(|own| own.axes.contains('b'))
+    }
+}

@@ -1,0 +1,281 @@
+//! Generated files and their claims, shown by the checker; and none that says something else.
+
+use dalembert_checker::Fault;
+use dalembert_checker::certify::{Report, certify};
+use dalembert_codegen::workspace::claim;
+
+use crate::support::{Case, dose, every_output, in_scene, path, rows, source};
+
+/// A file, its claim and its robot.
+pub struct Certified {
+    pub text: String,
+    pub claim: String,
+    pub robot: String,
+    pub scene: Option<&'static str>,
+}
+
+impl Certified {
+    /// Generates what is asked of a robot, in the scene of these lines if there are any; a file
+    /// each scalar in Rust.
+    pub fn all(name: &str, lines: &str, asked: &str) -> Vec<Certified> {
+        let (robot, asked) = in_scene(name, lines, asked);
+        let scene = asked.starts_with("scene: ").then_some("test");
+        Certified::of(&robot, scene, &asked)
+    }
+
+    /// Generates what is asked of a robot file.
+    pub fn of(robot: &str, scene: Option<&'static str>, asked: &str) -> Vec<Certified> {
+        let case = Case::read(robot, asked);
+        let generated = case.generated();
+        let claim = claim(case.robot(), robot, &case.request, &generated).unwrap();
+        let files = generated.files(&case.request, "robot.toml", robot);
+        let files = files.into_iter().map(|text| Certified {
+            text,
+            claim: claim.write(),
+            robot: robot.to_owned(),
+            scene,
+        });
+        files.collect()
+    }
+
+    /// Has the checker look at it.
+    pub fn report(&self) -> Result<Report, Fault> {
+        self.with(&self.text)
+    }
+
+    /// Has the checker look at another text.
+    pub fn with(&self, text: &str) -> Result<Report, Fault> {
+        certify(text, &self.claim, &self.robot, self.scene)
+    }
+
+    /// Asserts that all of so many functions are shown.
+    #[track_caller]
+    pub fn is_shown(&self, count: usize, what: &str) {
+        let report = self
+            .report()
+            .unwrap_or_else(|fault| panic!("{what}: {fault}"));
+        for line in &report.lines {
+            assert!(line.result.is_ok(), "{what}: {line:?}");
+        }
+        assert_eq!(report.lines.len(), count, "{what}");
+    }
+}
+
+/// Returns why something of a file is not shown; none if all is.
+pub fn refusal(found: Result<Report, Fault>) -> Option<String> {
+    match found {
+        Err(fault) => Some(fault.to_string()),
+        Ok(report) if report.lines.is_empty() => Some("there is no function".into()),
+        Ok(report) => report
+            .lines
+            .into_iter()
+            .find_map(|line| line.result.err())
+            .map(|fault| fault.to_string()),
+    }
+}
+
+/// Arms of two and three joints, one of them with a base and a tool at odd angles, one of placed
+/// joints, then larger ones for optimised tests: of ten joints, with joints that follow, of
+/// general angles.
+const ROBOTS: [&str; 10] = [
+    "planar2r",
+    "base_and_tool",
+    "scara_placed",
+    "planar3r",
+    "scara",
+    "stanford",
+    "puma560",
+    "open_manipulator",
+    "panda",
+    "general6r",
+];
+
+#[test]
+fn every_function_is_shown_in_both_scalars_and_languages() {
+    for name in dose(&ROBOTS, 3) {
+        for language in ["rust", "c"] {
+            let asked = format!("{}; scalar: f64, f32; language: {language}", every_output());
+            let files = Certified::all(name, "", &asked);
+            let count = if language == "c" { 70 } else { 35 };
+            for own in &files {
+                own.is_shown(count, &format!("{name} {language}"));
+            }
+            assert_eq!(files.len() * count, 70);
+        }
+    }
+}
+
+/// What scenes fix and carry, frames, friction, joints that follow, arguments, sources of sines and
+/// ways of printing: a robot, the lines of a scene or of a frame, what is asked, and how many
+/// functions there are.
+const CASES: &str = r#"
+TORQUES := inverse_dynamics, gravity, inertia, forward_dynamics, dalembert_terms, link_poses
+EYE := [[frame]]; name = "eye"; link = 2; xyz = [0.1, 0.2, 0]; rpy = [0, 0.3, 0.5]
+planar3r | lock = { 2 = 0.3 }; payload = { mass = 1.5, com = [0.1, 0.2, 0], inertia = [0.1, 0.2, 0.25, 0, 0, 0] }; gravity = [1, 2, -3] | TORQUES | 6
+planar3r | lock = { 2 = "pi/6" }; joints = [1, 2] | TORQUES, inverse_dynamics_derivatives, null_space_projector | 8
+planar3r | velocity = "zero"; acceleration = "zero"; joints = [3, 1] | TORQUES, regressor | 7
+scara    | lock = { 3 = 0.1 } | TORQUES, jacobian | 7
+planar2r | EYE | jacobian@eye:local:linear, jacobian@eye:world, jacobian_rate@eye:local, jacobian_rate@eye:world:x_rz, forward_kinematics@eye, contact_wrench@eye:linear, operational_inertia@eye:x_y, null_space_projector@hand:linear, inverse_dynamics_with_wrench@eye:local | 9
+planar2r | | servo=inverse_dynamics+jacobian, kinetic_energy | 2
+coulomb  | | inverse_dynamics, forward_dynamics, inverse_dynamics_derivatives, passivity, momentum_observer, forward_dynamics_derivatives | 6
+coulomb  | velocity = "zero" | inverse_dynamics, inverse_dynamics_derivatives | 2
+coulomb  | | forward_dynamics_second_derivatives, inverse_dynamics_second_derivatives | 2
+wafer    | | inverse_dynamics, gravity, coriolis_matrix, forward_dynamics | 4
+planar2r | | inverse_dynamics, inertia, forward_dynamics; parameters: payload, gravity | 4
+planar3r | | inverse_dynamics, gravity; parameters: gravity | 2
+planar2r | | TORQUES; sincos: polynomial | 6
+planar2r | | TORQUES; sincos: together; batch: on | 6
+planar2r | | TORQUES; fma: on | 6
+"#;
+
+#[test]
+fn scenes_frames_friction_arguments_and_ways_of_printing_are_shown() {
+    for [name, lines, asked, count] in rows::<4>(CASES) {
+        let count: usize = count.parse().unwrap();
+        for language in ["rust", "c"] {
+            // Batches in Rust are what the crate of vectors has made of them.
+            let asked = match language {
+                "rust" => asked.replace("; batch: on", ""),
+                _ => asked.clone(),
+            };
+            let asked = format!("{asked}; scalar: f64, f32; name: p; language: {language}");
+            for own in Certified::all(&name, &lines, &asked) {
+                let count = if language == "c" { 2 * count } else { count };
+                own.is_shown(count, &format!("{name} {lines} {asked}"));
+            }
+        }
+    }
+}
+
+/// Another robot, scene or frame is seen in what it changes, and in nothing else.
+#[test]
+fn robots_that_are_others() {
+    const HAND: &str = "../checker/tests/data/hand.toml";
+    let robot = std::fs::read_to_string(path(HAND)).unwrap();
+    let files = Certified::of(
+        &robot,
+        None,
+        &format!("outputs: {}; scalar: f64", every_output()),
+    );
+    files[0].is_shown(35, HAND);
+    for (from, to, kept) in [
+        ("0, 0.107]", "0, 0.1071]", "inertia"),
+        ("[0, 0, -0.2]", "[0, 0, -0.21]", "forward_kinematics"),
+        ("0.1, 0.2, 0.8]", "0.1, 0.2, 0.81]", "inertia"),
+        ("viscous = 0.4", "viscous = 0.41", "gravity"),
+        (
+            "viscous = 0.4",
+            "viscous = 0.4000000000000000001",
+            "gravity",
+        ),
+    ] {
+        assert!(robot.contains(from), "{from}");
+        let other = robot.replacen(from, to, 1);
+        let report = certify(&files[0].text, &files[0].claim, &other, None).unwrap();
+        let is_kept = |name: &str| {
+            let line = report.lines.iter().find(|line| line.name == name);
+            line.unwrap().result.is_ok()
+        };
+        assert!(!report.is_shown() && is_kept(kept), "{to}: {report:?}");
+    }
+}
+
+/// Rows that stand for placed joints, of which one is another.
+#[test]
+fn rows_that_are_not_those_of_the_robot_file() {
+    let robot = source("open_manipulator", "");
+    let own = &Certified::of(&robot, None, "outputs: gravity; scalar: f64")[0];
+    own.is_shown(1, "placed");
+    for (from, to, words) in [
+        ("mass = 0.0984", "mass = 0.0985", "mass of joint 1"),
+        ("velocity = 4.8", "viscous = 1", "aligned"),
+        (
+            "name = \\\"joint2\\\"",
+            "name = \\\"joint3\\\"",
+            "other joints",
+        ),
+    ] {
+        assert!(own.claim.contains(from), "{from}: {}", own.claim);
+        let claim = own.claim.replacen(from, to, 1);
+        let why = refusal(certify(&own.text, &claim, &own.robot, None)).unwrap();
+        assert!(why.contains(words), "{why}");
+    }
+}
+
+/// Words of a line of a function, and others in their place: what is computed is then another, or
+/// a compiler sees the same as before.
+const CHANGES: [[&str; 2]; 32] = [
+    [" + ", " - "],
+    [" - ", " + "],
+    [" * ", " + "],
+    [" * ", " / "],
+    [" / ", " * "],
+    ["t1 ", "t2 "],
+    ["t1;", "t2;"],
+    ["s1", "s2"],
+    ["c1", "s1"],
+    ["q[0]", "q[1]"],
+    ["qd[0]", "qd[1]"],
+    ["qd", "q"],
+    ["[t", "[-t"],
+    [", t", ", -t"],
+    ["-t", "t"],
+    ["(s1, c1)", "(c1, s1)"],
+    ["sincos", "cossin"],
+    ["libm", "evil"],
+    ["libm::sincos", "dalembert_sines::sincos"],
+    [";", " + 0.0;"],
+    [";", " * 1.0;"],
+    [".", ".0"],
+    ["5", "6"],
+    ["9", "8"],
+    ["0.", "1."],
+    ["f64", "f32"],
+    ["double", "float"],
+    ["; 2]", "; 3]"],
+    ["]", ", 0.0]"],
+    ["const ", "const volatile "],
+    ["{", "{ let x = 0.0;"],
+    ["[0] = ", "[1] = "],
+];
+
+/// Each line changed in each way, or taken away: nothing is shown then.
+#[test]
+fn no_line_of_a_function_can_say_something_else() {
+    let step = if cfg!(debug_assertions) { 11 } else { 1 };
+    let (mut count, mut turn) = (0, 0);
+    for name in every_output().split(", ") {
+        for language in ["rust", "c"] {
+            let asked = format!("{name}; scalar: f64; name: p; language: {language}");
+            let own = &Certified::all("planar2r", "", &asked)[0];
+            own.is_shown(1, &asked);
+            let lines: Vec<&str> = own.text.lines().collect();
+            for index in (0..lines.len()).filter(|&index| is_code(lines[index])) {
+                let line = lines[index];
+                let others = CHANGES.iter().map(|[from, to]| line.replacen(from, to, 1));
+                let others = others.chain([String::new()]).filter(|other| other != line);
+                for other in others.collect::<Vec<_>>() {
+                    turn += 1;
+                    if turn % step > 0 {
+                        continue;
+                    }
+                    count += 1;
+                    let mut changed = lines.clone();
+                    changed[index] = &other;
+                    let found = refusal(own.with(&(changed.join("\n") + "\n")));
+                    assert!(found.is_some(), "{name}: {line} -> {other}");
+                }
+            }
+        }
+    }
+    assert!(count > 18_000 / step, "{count}");
+}
+
+/// Returns whether a line is neither a comment nor a brace.
+fn is_code(line: &str) -> bool {
+    let words = line.trim();
+    let comments = ["//", "/*", "*", "#"];
+    let is_comment = comments.iter().any(|start| words.starts_with(start));
+    let is_end = ["", "}"].contains(&words);
+    !is_end && !is_comment && !words.starts_with("pub const N")
+}

@@ -1,0 +1,329 @@
+//! Files that a compiler reads otherwise than they look, and claims that a forger writes.
+
+use dalembert_checker::certify::certify;
+use serde_json::{Value, json};
+
+use crate::certified::{Certified, refusal};
+use crate::support::path;
+
+/// Returns a file of the attacks on the checker.
+fn attack(name: &str) -> String {
+    std::fs::read_to_string(path(&format!("../checker/tests/data/attacks/{name}"))).unwrap()
+}
+
+/// Asserts that a text with one word changed is refused.
+#[track_caller]
+fn planted(own: &Certified, from: &str, to: &str) {
+    assert!(own.text.contains(from), "{from}");
+    let found = refusal(own.with(&own.text.replacen(from, to, 1)));
+    assert!(found.is_some(), "{from} -> {to}");
+}
+
+/// Text that a C compiler reads otherwise than it looks: words of a header, and others.
+const HEADERS: [[&str; 2]; 14] = [
+    ["#ifndef P_H", "#define sin cos\n#ifndef P_H"],
+    ["#include <math.h>", "#include <math.h>\n#define t1 0.0"],
+    ["#include <math.h>", "#include \"math.h\""],
+    [
+        "#define P_UNFUSED _Pragma(\"STDC FP_CONTRACT OFF\")",
+        "#define P_UNFUSED",
+    ],
+    ["\"no-tree-slp-vectorize\"", "\"fast-math\""],
+    ["#ifdef __FAST_MATH__", "#ifdef __OTHER_MATH__"],
+    [
+        GRAVITY,
+        "static inline double sin(double x)\n{\n    return x;\n}\nstatic inline void p_gravity(",
+    ],
+    [GRAVITY, "static double t9;\nstatic inline void p_gravity("],
+    [GRAVITY, "typedef float p_t;\nstatic inline void p_gravity("],
+    [
+        GRAVITY,
+        "/* a */ double t; /* b */\nstatic inline void p_gravity(",
+    ],
+    [
+        " */\nstatic inline void p_gravity(",
+        " * \\\n/\nstatic inline void p_gravity(",
+    ],
+    [
+        " */\nstatic inline void p_gravity(",
+        " *??/\n/\nstatic inline void p_gravity(",
+    ],
+    [GRAVITY, "#undef P_UNFUSED\nstatic inline void p_gravity("],
+    ["#pragma GCC pop_options", "#pragma GCC push_options"],
+];
+const GRAVITY: &str = "static inline void p_gravity(";
+
+/// The same in a function.
+const FUNCTIONS: [[&str; 2]; 10] = [
+    ["    P_UNFUSED\n", ""],
+    ["const double t1 = ", "double t1 = "],
+    [
+        "const double t1 = ",
+        "const double t1 = 0.0;\n    const double t1 = ",
+    ],
+    [" * 4.905;", " * 4.905F;"],
+    [" * 14.715F;", " * 14.715;"],
+    ["    c[0] = ", "    return;\n    c[0] = "],
+    ["p_gravity(", "p_potential("],
+    ["p_gravity(", "p_f32_gravity("],
+    ["result->tau[0] = ", "result->tau[1] = "],
+    ["result[P_RESTRICT 1]", "result[P_RESTRICT 2]"],
+];
+
+#[test]
+fn headers_that_are_not_generated() {
+    let asked = "gravity, servo=inverse_dynamics+gravity; scalar: f64, f32; name: p; language: c";
+    let own = &Certified::all("planar2r", "", asked)[0];
+    own.is_shown(4, asked);
+    for [from, to] in HEADERS.iter().chain(&FUNCTIONS) {
+        planted(own, from, to);
+    }
+}
+
+/// No line of the functions that give sines, or of those that call a function at many states, can
+/// go or say something else.
+#[test]
+fn lines_around_functions_that_are_something_else() {
+    let step = if cfg!(debug_assertions) { 5 } else { 1 };
+    for options in ["together", "together; batch: on"] {
+        let asked = format!(
+            "gravity, kinetic_energy, servo=inertia+gravity; scalar: f64; name: p; sincos: {options}; language: c"
+        );
+        let own = &Certified::all("planar2r", "", &asked)[0];
+        own.is_shown(3, &asked);
+        let lines: Vec<&str> = own.text.lines().collect();
+        let is_code = |line: &str| {
+            let starts = [
+                "const double t",
+                "//",
+                "/*",
+                "*",
+                "#",
+                "}",
+                "result",
+                "c[",
+                "return t",
+            ];
+            let words = line.trim();
+            !words.is_empty() && !starts.iter().any(|start| words.starts_with(start))
+        };
+        let (mut count, mut turn) = (0, 0);
+        for index in (0..lines.len()).filter(|&index| is_code(lines[index])) {
+            let line = lines[index];
+            let changed = AROUND.iter().map(|[from, to]| line.replacen(from, to, 1));
+            let others = changed.chain([String::new(), line.replace(';', " + 0.0;")]);
+            for other in others.filter(|other| other != line).collect::<Vec<_>>() {
+                turn += 1;
+                if turn % step > 0 {
+                    continue;
+                }
+                count += 1;
+                let mut changed = lines.clone();
+                changed[index] = &other;
+                let found = refusal(own.with(&(changed.join("\n") + "\n")));
+                assert!(found.is_some(), "{line} -> {other}");
+            }
+        }
+        assert!(count > 60, "{count}");
+    }
+}
+
+const AROUND: [[&str; 2]; 40] = [
+    ["n + s", "s"],
+    ["[s]", "[n + s]"],
+    ["[s]", "[0]"],
+    ["(2U * n)", "(3U * n)"],
+    ["* n", "* s"],
+    ["{q[s]", "{q[0]"],
+    ["[0]", "[1]"],
+    ["[1]", "[0]"],
+    ["q_s", "qd_s"],
+    ["(0, ", "(1, "],
+    ["(1, ", "(0, "],
+    ["far", "0"],
+    ["_any", ""],
+    ["_batch", ""],
+    ["p_", "p_f32_"],
+    ["gravity", "coriolis"],
+    ["kinetic_energy", "momentum"],
+    ["servo", "other"],
+    ["double", "float"],
+    ["const ", ""],
+    ["s = 0U", "s = 1U"],
+    ["s < n", "s <= n"],
+    ["s < n", "s + 1U < n"],
+    ["++s", "s += 2U"],
+    ["4096.0", "8192.0"],
+    [" && ", " || "],
+    ["<=", ">="],
+    ["continue", "break"],
+    ["static inline", "inline"],
+    ["P_SIMD", "P_UNFUSED"],
+    ["_RESTRICT", "_OTHER"],
+    ["{", "{ s += 1U;"],
+    ["* ", "+ "],
+    ["x1", "x2"],
+    ["sin", "cos"],
+    ["sines[0]", "sines[1]"],
+    ["&q[0]", "&q[1]"],
+    ["sines, cosines", "cosines, sines"],
+    ["sines[2]", "sines[1]"],
+    ["_sines_2", "_sines_1"],
+];
+
+/// What rustc would read otherwise, and constants that do not follow.
+#[test]
+fn items_that_are_not_generated() {
+    let asked = "gravity, regressor, model=inertia+gravity; scalar: f64";
+    let own = &Certified::all("planar2r", "", asked)[0];
+    own.is_shown(3, asked);
+    let first = "pub const N: usize = 2;";
+    for item in [
+        "use evil as libm;",
+        "pub struct libm;",
+        "mod libm {}",
+        "macro_rules! f { () => {} }",
+        "pub static T: f64 = 0.0;",
+        "impl dalembert::Robot for Arm {}",
+        "#[cfg(test)]",
+        "pub fn gravity(q: &[f64; 2]) -> [f64; 2] {\n    [0.0, 0.0]\n}",
+        "/* a */",
+        "pub fn gravity\u{a0}() {}",
+    ] {
+        planted(own, first, &format!("{item}\n{first}"));
+    }
+    planted(own, first, "pub const N: usize = 3;");
+    planted(own, "BASE_PARAMETERS: [f64; ", "BASE_PARAMETERS: [f32; ");
+    let values = own.text.find("BASE_PARAMETERS: [").unwrap();
+    let digit = values + own.text[values..].find("\n    ").unwrap() + 5;
+    let other = if &own.text[digit..=digit] == "1" {
+        "2"
+    } else {
+        "1"
+    };
+    let changed = format!("{}{other}{}", &own.text[..digit], &own.text[digit + 1..]);
+    assert!(refusal(own.with(&changed)).is_some());
+}
+
+/// Claims with keys that are not known, of another version, cut, too long, and of other programs.
+#[test]
+fn claims_that_are_not_written_by_a_generator() {
+    let asked = "gravity, regressor; scalar: f64";
+    let own = &Certified::all("planar2r", "", asked)[0];
+    own.is_shown(2, asked);
+    let with = |claim: &str| refusal(certify(&own.text, claim, &own.robot, None));
+    let changed = |change: &dyn Fn(&mut Value)| {
+        let mut claim: Value = serde_json::from_str(&own.claim).unwrap();
+        change(&mut claim);
+        with(&claim.to_string()).expect("shown")
+    };
+    for (key, value, words) in [
+        ("claim", json!(2), "version 2 is not known"),
+        ("more", json!(1), "unknown field `more`"),
+        ("constants", json!(["1e999999999"]), "is no constant"),
+        (
+            "constants",
+            json!(["1".repeat(1_000_000)]),
+            "is no constant",
+        ),
+        ("constants", json!(["nan"]), "is no constant"),
+        ("constants", json!([]), "is not of a program"),
+        ("functions", json!([]), "nothing is claimed of `gravity`"),
+    ] {
+        let why = changed(&|claim| claim[key] = value.clone());
+        assert!(why.contains(words), "{key}: {why}");
+    }
+    let gravity = |key: &'static str, value: Value| {
+        changed(&|claim| claim["functions"][0][key] = value.clone())
+    };
+    for (key, value, words) in [
+        (
+            "function",
+            json!("inertia"),
+            "nothing is claimed of `gravity`",
+        ),
+        ("scene", json!("other"), "nothing is claimed of `gravity`"),
+        (
+            "results",
+            json!(["inertia.d"]),
+            "`gravity` has other results",
+        ),
+        (
+            "results",
+            json!(["gravity.g"]),
+            "there is no result `gravity.g`",
+        ),
+        (
+            "results",
+            json!(["gravity.c@eye"]),
+            "`gravity` has other results",
+        ),
+        ("arguments", json!(["qdd"]), "not of the grammar"),
+        ("arguments", json!(["x"]), "there is no argument `x`"),
+        ("steps", json!("t1+t1"), "`t1+t1` is not of a program"),
+        ("steps", json!("s1*qd[0]"), "is not of a program"),
+        ("steps", json!("s1*#0"), "is not of a program"),
+        ("returns", json!("t1"), "operations and"),
+    ] {
+        let why = gravity(key, value);
+        assert!(why.contains(words), "{key}: {why}");
+    }
+    let twice = changed(&|claim| {
+        let own = claim["functions"][0].clone();
+        claim["functions"].as_array_mut().unwrap().push(own);
+    });
+    assert!(twice.contains("stands there twice"), "{twice}");
+    for cut in (0..own.claim.len() - 2).step_by(own.claim.len() / 40) {
+        assert!(with(&own.claim[..cut]).is_some());
+    }
+    let deep = with(&"[".repeat(100_000)).unwrap();
+    assert!(deep.starts_with("claim: "), "{deep}");
+    let long = with(&" ".repeat(200 << 20)).unwrap();
+    assert!(long.contains("more than"), "{long}");
+}
+
+/// A constant that is off by a prime, or by a digit that no float has, in claim and text alike.
+#[test]
+fn constants_that_are_aimed_at_primes() {
+    let own = &Certified::all("planar2r", "", "gravity; scalar: f64")[0];
+    let text = own.claim.clone();
+    let place = text.find("2943/200").expect("the constant 14.715");
+    for off in [
+        "14.7150000000000000001",
+        "14.71500000000000000000000000000000000000000001",
+    ] {
+        let claim = format!(
+            "{}{off}{}",
+            &text[..place],
+            &text[place + "2943/200".len()..]
+        );
+        let why = refusal(certify(&own.text, &claim, &own.robot, None)).unwrap();
+        assert!(why.contains("is not that of the robot"), "{why}");
+    }
+}
+
+/// Files that another checker took for right: sines of constants and of what is far, an item that
+/// hides, another number of joints.
+#[test]
+fn files_of_attacks() {
+    let pend = attack("pend.toml");
+    let asked = "outputs: gravity, forward_dynamics; scalar: f64";
+    let own = &Certified::of(&pend, None, asked)[0];
+    own.is_shown(2, asked);
+    for (name, words) in [
+        ("ulp.rs", "not of the grammar: `q` expected"),
+        ("far32.rs", "not of the grammar: `q` expected"),
+        ("trait1.rs", "follow from the functions and the robot"),
+        ("n1.rs", ""),
+    ] {
+        let report = own.with(&attack(name));
+        let why = format!("{report:?}");
+        assert!(
+            why.contains(words) && refusal(report).is_some(),
+            "{name}: {why}"
+        );
+    }
+    let own = &Certified::of(&pend, None, &format!("{asked}; name: two; language: c"))[0];
+    own.is_shown(2, asked);
+    assert!(refusal(own.with(&attack("hide.h"))).is_some());
+}
