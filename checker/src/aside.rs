@@ -18,8 +18,8 @@ pub(crate) struct Known<'k> {
     pub setting: &'k Setting<'k>,
     /// The box of states.
     pub ranges: &'k Ranges,
-    /// The values of the base parameters of each function.
-    pub values: &'k [Vec<Exact>],
+    /// The values of base parameters, each with the name of its constant.
+    pub values: &'k [(&'static str, Vec<Exact>)],
     /// The lines of the struct of each function's results.
     pub structs: &'k [Vec<String>],
 }
@@ -34,7 +34,7 @@ impl Known<'_> {
         let lines: Vec<&str> = lines.filter(|line| !line.is_empty()).collect();
         let mut structs = self.structs.iter();
         let is_known = structs.any(|own| !own.is_empty() && *own == lines);
-        if is_known || self.values.iter().any(|own| are(&lines, own)) {
+        if is_known || self.values.iter().any(|(name, own)| are(&lines, name, own)) {
             return Ok(());
         }
         let expected = expected(&lines, functions, self.setting, self.ranges);
@@ -50,22 +50,15 @@ impl Known<'_> {
     }
 }
 
-/// Returns whether lines are the values of base parameters, each the nearest float.
-fn are(lines: &[&str], values: &[Exact]) -> bool {
-    let head = lines
-        .first()
-        .and_then(|head| between(head, "pub const ", " = ["));
-    let kind = head.and_then(|head| head.split_once(": ["));
-    let Some((name, kind)) = kind.filter(|(name, _)| name.ends_with("PARAMETERS")) else {
-        return false;
-    };
-    let is_single = kind.starts_with("f32");
+/// Returns whether lines are a constant of a name with these values, each the nearest float.
+fn are(lines: &[&str], name: &str, values: &[Exact]) -> bool {
+    let head = lines.first().copied().unwrap_or("");
+    let is_single = head.contains(": [f32; ");
     let scalar = if is_single { "f32" } else { "f64" };
-    let is_named = name.chars().all(|c| c.is_ascii_uppercase() || c == '_');
-    let mut all = lines[1..].iter().zip(values);
-    is_named
-        && kind == format!("{scalar}; {}]", values.len())
-        && lines.len() == values.len() + 2
+    let expected = format!("pub const {name}: [{scalar}; {}] = [", values.len());
+    let is_whole = lines.len() == values.len() + 2 && head == expected;
+    let mut all = lines.iter().skip(1).zip(values);
+    is_whole
         && lines.last() == Some(&"];")
         && all.all(|(line, value)| {
             let literal = line.strip_suffix(',');

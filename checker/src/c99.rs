@@ -147,30 +147,32 @@ pub(crate) fn are_of(found: &Found, function: &str) -> bool {
     words.all(|own| own.is_some_and(is_own))
 }
 
-/// Returns whether a text writes values of base parameters into `pi`, each the nearest float.
-pub(crate) fn are_values(found: &Found, values: &[Exact]) -> bool {
-    let count = values.len();
-    let mut lines = found.text.lines().filter(|line| !line.is_empty());
-    let head = lines.next().unwrap_or("");
-    let is_single = head.contains("(float pi[");
-    let (kind, end) = if is_single {
-        ("float", "F;")
-    } else {
-        ("double", ";")
+/// Returns whether a text is the function of a name that writes these values into `pi`, each the
+/// nearest float.
+pub(crate) fn are_values(found: &Found, name: &str, values: &[Exact]) -> bool {
+    let (module, count) = (found.module, values.len());
+    let (kind, end) = match module.ends_with("_f32") && found.text.contains("(float pi[") {
+        true => ("float", "F;"),
+        false => ("double", ";"),
     };
-    let is_head = head.starts_with("static inline void ")
-        && head.contains(&format!("({kind} pi["))
-        && head.ends_with(&format!("_RESTRICT {count}])"))
-        && ["base_parameters", "passivity_parameters"]
-            .iter()
-            .any(|own| are_of(found, own));
-    let mut all = values.iter().enumerate().zip(lines.by_ref().skip(1));
-    let are = all.by_ref().all(|((index, value), line)| {
-        let literal = between(line.trim(), &format!("pi[{index}] = "), end);
-        let literal = literal.and_then(|own| number(own, is_single));
-        literal.is_some_and(|own| value.is_nearest(own, is_single))
-    });
-    is_head && are && found.text.lines().filter(|line| !line.is_empty()).count() == count + 3
+    let header = module.strip_suffix("_f32").unwrap_or(module);
+    let header = header.to_ascii_uppercase();
+    let own = found.name;
+    let head = format!("static inline void {own}({kind} pi[{header}_RESTRICT {count}])");
+    let lines = found.text.lines().filter(|line| !line.is_empty());
+    let lines: Vec<&str> = lines.collect();
+    let is_whole = lines.len() == count + 3
+        && lines[0] == head
+        && lines[1] == "{"
+        && lines[count + 2] == "}"
+        && are_of(found, name);
+    let mut all = values.iter().enumerate();
+    is_whole
+        && all.all(|(index, value)| {
+            let literal = between(lines[index + 2], &format!("pi[{index}] = "), end);
+            let literal = literal.and_then(|own| number(own, kind == "float"));
+            literal.is_some_and(|own| value.is_nearest(own, kind == "float"))
+        })
 }
 
 /// Returns the module of the function that has this head, and its name there.

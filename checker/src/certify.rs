@@ -14,13 +14,16 @@ use crate::identity::exact::Exact;
 use crate::identity::number::Draws;
 use crate::identity::program::Program;
 use crate::identity::setting::Setting;
-use crate::identity::table::{ARGUMENTS, Function, argument, length};
+use crate::identity::table::{ARGUMENTS, Function, argument, functions, length};
 use crate::identity::{Base, Statement, aligned, check, robot};
 use crate::read::{self, Argument, Head, Text, camel};
 use crate::rounding::Ranges;
 use crate::text::fault;
 
 pub use crate::cost::{RATE, Shown};
+
+/// The most functions, and what stands beside them, of a file.
+const MOST_ITEMS: usize = 1 << 14;
 
 /// The findings about one function, or about what stands beside functions.
 #[derive(Clone, Debug)]
@@ -77,6 +80,9 @@ pub fn certify(
         true => c99::functions(source)?,
         false => file::functions(source)?,
     };
+    if items.len() > MOST_ITEMS {
+        return Err(Fault::Text(1, format!("more than {MOST_ITEMS} items")));
+    }
     let singles = items.iter().filter(|item| item.text.contains("[f32; "));
     let mut whole = Whole {
         seed: Draws::new(&[robot, claim, source]).text(),
@@ -103,8 +109,9 @@ pub fn certify(
             result: whole.shown(found),
         });
     }
+    let beside = whole.beside()?;
     for item in items.iter().filter(|item| is_beside(item)) {
-        if let Err(why) = whole.beside(item, &items) {
+        if let Err(why) = whole.follows(item, &items, &beside) {
             let head = item.text.lines().next().unwrap_or("");
             let name = head.split([':', '{', '(']).next().unwrap_or("").trim();
             lines.push(Line {
@@ -160,14 +167,21 @@ impl Whole<'_> {
         all.find(|(_, own)| is_own(own))
     }
 
-    /// Returns the name of a function; of a name in C that is short also the one that it is for.
+    /// Returns the name of a function; of a name in C that is short also the one that it is for, and
+    /// of one that is of nobody's table what it returns.
     fn name(&self, found: &Found) -> String {
-        match self.claimed(found) {
-            Some((_, own)) if !found.name.ends_with(&own.function) => {
-                format!("{} = {}", found.name, own.function)
-            }
-            _ => found.name.to_owned(),
+        let mut name = found.name.to_owned();
+        let Some((_, own)) = self.claimed(found) else {
+            return name;
+        };
+        if !found.name.ends_with(&own.function) {
+            name += &format!(" = {}", own.function);
         }
+        let is_known = functions().iter().any(|known| known.name == own.function);
+        if !is_known && own.function != LOAD {
+            name += &format!(" = {}", own.results.join(" + "));
+        }
+        name
     }
 
     /// Shows a function.
@@ -188,7 +202,11 @@ impl Whole<'_> {
         let exact = claimed.program(&self.constants)?;
         let function = function(claimed).map_err(refused)?;
         let base = claimed.base(&self.constants, self.setting.links())?;
-        let head = self.head(claimed, &function, &base, found)?;
+        let is_single = match self.is_c {
+            true => found.text.contains("const float "),
+            false => self.singles.contains(found.module),
+        };
+        let head = self.head(claimed, &function, &base, is_single)?;
         let read = self.read(&head, found).map_err(in_file)?;
         let why = |why: String| Fault::Text(found.line, why);
         compare(&read.program, &exact, head.is_single).map_err(why)?;
@@ -207,7 +225,7 @@ impl Whole<'_> {
         claimed: &'h Claimed,
         function: &'h Function,
         base: &Base,
-        found: &Found,
+        is_single: bool,
     ) -> Result<Head<'h>, Fault> {
         let sizes = [self.setting.joints(), self.setting.links()];
         let load = match function.fields.is_empty() {
@@ -236,10 +254,7 @@ impl Whole<'_> {
         }
         Ok(Head {
             name: &claimed.function,
-            is_single: match self.is_c {
-                true => found.text.contains("const float "),
-                false => self.singles.contains(found.module),
-            },
+            is_single,
             arguments: arguments.collect(),
             structure: None,
             fields,
@@ -317,34 +332,53 @@ impl Whole<'_> {
         check(statement, &[&self.seed]).map_err(refused)
     }
 
-    /// Checks what stands beside functions.
-    fn beside(&self, item: &Found, items: &[Found]) -> Result<(), Fault> {
-        let own = |other: &&Found| other.module == item.module && !other.name.is_empty();
-        let functions: Vec<&Found> = items.iter().filter(own).collect();
+    /// Returns what items beside functions follow from: the values of base parameters, and the
+    /// structs of results in each scalar.
+    fn beside(&self) -> Result<Beside, Fault> {
+        let mut all = Beside::default();
         let claims = self.claim.functions.iter();
-        let (mut values, mut structs) = (Vec::new(), Vec::new());
         for own in claims.filter(|own| own.scene.as_deref() == self.scene) {
             let base = own.base(&self.constants, self.setting.links())?;
             let refused = |why: String| Fault::Claim(format!("`{}`: {why}", own.function));
             let function = function(own).map_err(refused)?;
-            structs.push(structure(&self.head(own, &function, &base, item)?));
-            values.push(base.values);
+            for is_single in [false, true] {
+                let head = self.head(own, &function, &base, is_single)?;
+                all.structs.push(structure(&head));
+            }
+            let name = function.parameters();
+            all.values.extend(name.map(|name| (name, base.values)));
         }
+        Ok(all)
+    }
+
+    /// Checks what stands beside functions.
+    fn follows(&self, item: &Found, items: &[Found], beside: &Beside) -> Result<(), Fault> {
         if self.is_c {
-            let are = values.iter().any(|own| c99::are_values(item, own));
+            let mut values = beside.values.iter();
+            let are =
+                values.any(|(name, own)| c99::are_values(item, &name.to_ascii_lowercase(), own));
             let why = "its numbers are not the base parameters that are claimed";
             return are
                 .then_some(())
                 .ok_or_else(|| Fault::Text(item.line, why.into()));
         }
+        let own = |other: &&Found| other.module == item.module && !other.name.is_empty();
+        let functions: Vec<&Found> = items.iter().filter(own).collect();
         let known = aside::Known {
             setting: self.setting,
             ranges: &self.ranges,
-            values: &values,
-            structs: &structs,
+            values: &beside.values,
+            structs: &beside.structs,
         };
         known.follows(item, &functions)
     }
+}
+
+/// What items beside functions follow from.
+#[derive(Default)]
+struct Beside {
+    values: Vec<(&'static str, Vec<Exact>)>,
+    structs: Vec<Vec<String>>,
 }
 
 /// The function that computes the load of a payload, and its result.

@@ -15,16 +15,20 @@ use serde::{Deserialize, Serialize};
 
 use crate::fault::Fault;
 use crate::identity::Base;
-use crate::identity::exact::Exact;
+use crate::identity::exact::{Exact, Sines};
 use crate::identity::program::{Operand, Program, Step};
 use crate::identity::table::{ARGUMENTS, argument};
 
 /// The version that is read.
 pub const VERSION: u32 = 1;
 /// The longest document.
-const MOST_BYTES: usize = 32 << 20;
+const MOST_BYTES: usize = 8 << 20;
 /// The most constants, and the most operations of a function.
 const MOST: usize = 1 << 17;
+/// The most functions, and the most angles that constants have sines of.
+const MOST_FUNCTIONS: usize = 1 << 10;
+/// The most operations times quotients: what divides has a degree in each divisor.
+const MOST_DEGREES: usize = 1 << 24;
 
 /// The functions of a robot, each with what is claimed of it.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
@@ -96,6 +100,9 @@ impl Claim {
         if claim.constants.len() > MOST {
             return refuse(format!("more than {MOST} constants"));
         }
+        if claim.functions.len() > MOST_FUNCTIONS {
+            return refuse(format!("more than {MOST_FUNCTIONS} functions"));
+        }
         let mut keys = HashSet::new();
         for own in &claim.functions {
             if !keys.insert((&own.function, &own.scene)) {
@@ -120,7 +127,16 @@ impl Claim {
             let why = || Fault::Claim(format!("`{text:.40}` is no constant"));
             Exact::read(text).ok_or_else(why)
         });
-        read.collect::<Result<_, _>>().map(Constants)
+        let all = read.collect::<Result<Vec<Exact>, Fault>>()?;
+        let mut sines = Sines::new();
+        for own in &all {
+            own.settle(&mut sines);
+            if sines.len() > MOST_FUNCTIONS {
+                let why = format!("sines of more than {MOST_FUNCTIONS} angles");
+                return Err(Fault::Claim(why));
+            }
+        }
+        Ok(Constants(all))
     }
 }
 
@@ -150,6 +166,10 @@ impl Claimed {
             if steps.len() > MOST {
                 return Err(self.refused("more than 131072 operations"));
             }
+        }
+        let quotients = steps.iter().filter(|step| step.0 == '/').count();
+        if steps.len() * quotients > MOST_DEGREES {
+            return Err(self.refused("more quotients than are looked at"));
         }
         let returns = self.returns.split_ascii_whitespace();
         let outputs = returns.map(|word| {

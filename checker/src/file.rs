@@ -142,7 +142,11 @@ fn without_types(lines: Vec<(usize, &str)>) -> Vec<(usize, &str)> {
         let tuple = between(head, "pub struct ", "]);").and_then(|own| own.split_once("(pub ["));
         let kind = tuple.and_then(|(name, kind)| Some((name, kind.split_once("; ")?)));
         let known = match kind {
-            Some((name, (real, count))) if ["Gravity", "Load", "Payload"].contains(&name) => {
+            Some((name, (real, count)))
+                if ["Gravity", "Load", "Payload"].contains(&name)
+                    && ["f32", "f64"].contains(&real)
+                    && whole(count).is_some() =>
+            {
                 let text = TYPE.replace("NAME", name).replace("REAL", real);
                 text.replace("COUNT", count)
             }

@@ -1,6 +1,7 @@
 //! Files that a compiler reads otherwise than they look, and claims that a forger writes.
 
 use dalembert_checker::certify::certify;
+use dalembert_checker::identity::table::Function;
 use serde_json::{Value, json};
 
 use crate::certified::{Certified, refusal};
@@ -203,6 +204,68 @@ fn items_that_are_not_generated() {
     };
     let changed = format!("{}{other}{}", &own.text[..digit], &own.text[digit + 1..]);
     assert!(refusal(own.with(&changed)).is_some());
+    planted(own, " BASE_PARAMETERS", " PASSIVITY_PARAMETERS");
+}
+
+/// The types of arguments that are no lists of joints, and the function that writes base
+/// parameters in C, in which something else hides.
+#[test]
+fn what_stands_beside_functions_has_no_room() {
+    let asked = "gravity; scalar: f64; parameters: payload, gravity";
+    let own = &Certified::all("planar2r", "", asked)[0];
+    own.is_shown(2, asked);
+    for [from, to] in [
+        ["[f64; 3]", "[f64; { use evil as libm; 3 }]"],
+        ["[f64; 3]", "[f64; 4]"],
+        ["&self.0", "&[0.0; 3]"],
+        ["[0.0; 10]", "[1.0; 10]"],
+        ["Payload([mass, x, y, z", "Payload([mass, y, x, z"],
+    ] {
+        assert!(own.text.contains(from), "{from}");
+        let found = refusal(own.with(&own.text.replace(from, to)));
+        assert!(found.is_some(), "{from} -> {to}");
+    }
+    let asked = "regressor; scalar: f64; name: p; language: c";
+    let own = &Certified::all("planar2r", "", asked)[0];
+    own.is_shown(1, asked);
+    for [from, to] in [
+        ["    pi[0] = ", "    pi[1] = "],
+        ["    pi[0] = ", "    return;\n    pi[0] = "],
+        ["pi[P_RESTRICT", "pi[Q_RESTRICT"],
+        ["p_base_parameters(", "p_passivity_parameters("],
+        ["p_base_parameters(double", "p_base_parameters(float"],
+    ] {
+        planted(own, from, to);
+    }
+}
+
+/// A name that is known means what the table says, at its frame.
+#[test]
+fn names_mean_what_they_say() {
+    let named = |name: &str, result: &str| {
+        let own = Function::named(name, &["q".to_owned()], &[result.to_owned()]);
+        own.map(|_| ())
+    };
+    let other = |name: &str| Err(format!("`{name}` has other results"));
+    assert_eq!(named("jacobian", "jacobian.jacobian"), Ok(()));
+    assert_eq!(
+        named("jacobian", "jacobian.jacobian@eye"),
+        other("jacobian")
+    );
+    assert_eq!(named("jacobian_eye", "jacobian.jacobian@eye"), Ok(()));
+    assert_eq!(
+        named("jacobian_eye_local", "jacobian.jacobian@eye:local"),
+        Ok(())
+    );
+    assert_eq!(
+        named("jacobian_eye", "jacobian.jacobian@hand"),
+        other("jacobian_eye")
+    );
+    assert_eq!(
+        named("jacobian_eye", "jacobian.jacobian@eye:local"),
+        other("jacobian_eye")
+    );
+    assert_eq!(named("task", "jacobian.jacobian@hand"), Ok(()));
 }
 
 /// Claims with keys that are not known, of another version, cut, too long, and of other programs.
@@ -228,6 +291,12 @@ fn claims_that_are_not_written_by_a_generator() {
         ),
         ("constants", json!(["nan"]), "is no constant"),
         ("constants", json!([]), "is not of a program"),
+        ("constants", json!(["1*sin(1)^65"]), "is no constant"),
+        (
+            "constants",
+            json!(angles(2000)),
+            "sines of more than 1024 angles",
+        ),
         ("functions", json!([]), "nothing is claimed of `gravity`"),
     ] {
         let why = changed(&|claim| claim[key] = value.clone());
@@ -261,6 +330,7 @@ fn claims_that_are_not_written_by_a_generator() {
         ("arguments", json!(["qdd"]), "not of the grammar"),
         ("arguments", json!(["x"]), "there is no argument `x`"),
         ("steps", json!("t1+t1"), "`t1+t1` is not of a program"),
+        ("steps", json!("s1/c1 ".repeat(5000)), "more quotients"),
         ("steps", json!("s1*qd[0]"), "is not of a program"),
         ("steps", json!("s1*#0"), "is not of a program"),
         ("returns", json!("t1"), "operations and"),
@@ -280,6 +350,11 @@ fn claims_that_are_not_written_by_a_generator() {
     assert!(deep.starts_with("claim: "), "{deep}");
     let long = with(&" ".repeat(200 << 20)).unwrap();
     assert!(long.contains("more than"), "{long}");
+}
+
+/// Returns constants of as many angles.
+fn angles(count: usize) -> Vec<String> {
+    (1..=count).map(|k| format!("1*sin(1/{k})")).collect()
 }
 
 /// A constant that is off by a prime, or by a digit that no float has, in claim and text alike.

@@ -72,7 +72,7 @@ impl Pose {
         let text = text.map_or("0", String::as_str);
         let angle = Angle::read(text).and_then(|angle| angle.rounded());
         let [sin, cos] = angle.ok_or_else(|| format!("`{text}` is no angle up to 8 rad"))?;
-        let (sin, cos) = (fixed(&sin), fixed(&cos));
+        let (sin, cos) = (sin >> (320 - BITS), cos >> (320 - BITS));
         let mut pose = Pose::shift(Default::default());
         let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
         (pose.axes[next][next], pose.axes[last][last]) = (cos.clone(), cos);

@@ -13,10 +13,13 @@ use super::number::{Draws, Number};
 
 /// The longest number that is read.
 const MOST_DIGITS: usize = 1 << 12;
+/// The longest constant.
+const MOST_BYTES: usize = 1 << 15;
 /// The most sines and cosines of a product.
-const MOST_FACTORS: u32 = 1 << 10;
-/// Bits behind the point where sines are rounded.
+const MOST_FACTORS: u32 = 1 << 6;
+/// Bits behind the point where sines are rounded, and where products with them are.
 const BITS: u32 = 320;
+const PLACES: u32 = 1400;
 
 /// An angle: a multiple of π, or a number of radians.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -147,8 +150,8 @@ impl Angle {
         }
     }
 
-    /// Returns sine and cosine to 2⁻³⁰⁰; none of angles beyond 8 rad, whose series loses more bits.
-    pub(super) fn rounded(&self) -> Option<[Rational; 2]> {
+    /// Returns sine and cosine to 2⁻³⁰⁰, in units of 2⁻³²⁰; none of angles beyond 8 rad, whose series loses more bits.
+    pub(super) fn rounded(&self) -> Option<[BigInt; 2]> {
         let (one, radians) = (BigInt::one() << BITS, self.scaled(BITS));
         if radians.abs() > BigInt::from(8) << BITS {
             return None;
@@ -165,9 +168,12 @@ impl Angle {
             // Towards zero, so that it ends.
             term = &term * &radians / (&one * k);
         }
-        Some(sums.map(|sum| Rational::new(sum, one.clone())))
+        Some(sums)
     }
 }
+
+/// Sines and cosines of angles, each rounded once.
+pub type Sines = HashMap<Angle, Option<[BigInt; 2]>>;
 
 /// A fraction, times powers of the sine and the cosine of angles.
 type Term = (Rational, Vec<(Angle, [u32; 2])>);
@@ -224,7 +230,7 @@ impl Exact {
             }
             (rest.is_empty() && total <= MOST_FACTORS).then_some((number(factor)?, powers))
         };
-        (text.len() < 1 << 16).then_some(())?;
+        (text.len() < MOST_BYTES).then_some(())?;
         let terms = text.split('+').map(term).collect::<Option<_>>();
         terms.map(Exact::new)
     }
@@ -237,25 +243,37 @@ impl Exact {
         }
     }
 
+    /// Rounds the constant with the sines that are known, to which it adds its own.
+    pub fn settle(&self, known: &mut Sines) {
+        self.0.rounded.get_or_init(|| self.rounded(known));
+    }
+
     /// Returns a fraction, and how far it is off at most; none if an angle is too far.
-    fn rounded(&self) -> Option<[Rational; 2]> {
-        let mut sum = Rational::zero();
-        let mut slack = Rational::zero();
+    fn rounded(&self, known: &mut Sines) -> Option<[Rational; 2]> {
+        if let [(factor, powers)] = self.0.terms.as_slice()
+            && powers.is_empty()
+        {
+            return Some([factor.clone(), Rational::zero()]);
+        }
+        let one = BigInt::one() << PLACES;
+        let (mut sum, mut slack) = (BigInt::zero(), BigInt::one());
         for (factor, powers) in &self.0.terms {
+            let factor = factor.numer() * &one / factor.denom();
             let mut product = factor.clone();
             for (angle, powers) in powers {
-                for (value, power) in angle.rounded()?.iter().zip(powers) {
-                    (0..*power).for_each(|_| product = (&product * value).reduced());
+                let own = known
+                    .entry(angle.clone())
+                    .or_insert_with(|| angle.rounded());
+                for (value, power) in own.as_ref()?.iter().zip(powers) {
+                    (0..*power).for_each(|_| product = (&product * value) >> BITS);
                 }
             }
-            if !powers.is_empty() {
-                slack += factor.abs();
-            }
+            // 64 factors at most, each off by 2⁻³⁰⁰, and as many products rounded.
+            slack += (factor.abs() >> 280u32) + 128;
             sum += product;
         }
-        // 1024 factors at most, each off by 2⁻³⁰⁰.
-        slack *= Rational::new(1.into(), BigInt::one() << 280);
-        Some([sum, slack])
+        let own = |scaled| Rational::new(scaled, one.clone());
+        Some([own(sum), own(slack)])
     }
 
     /// Compares a literal with the nearest float; between two as near, the even one counts.
@@ -264,7 +282,8 @@ impl Exact {
         if literal == 0.0 && literal.is_sign_negative() {
             return false;
         }
-        let Some([sum, slack]) = self.0.rounded.get_or_init(|| self.rounded()) else {
+        let own = || self.rounded(&mut Sines::new());
+        let Some([sum, slack]) = self.0.rounded.get_or_init(own) else {
             return false;
         };
         let float = |x: f64| Rational::from_float(x);

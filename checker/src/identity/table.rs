@@ -219,10 +219,23 @@ impl Function {
             .iter()
             .map(found)
             .collect::<Result<Vec<_>, String>>()?;
-        let is_other = |own: &&Function| own.name == name && own.fields != fields;
-        match all.iter().find(is_other) {
-            Some(_) => Err(format!("`{name}` has other results")),
-            None => Ok(Function {
+        let is_same = |own: &Function| {
+            let words = |fields: &[Field]| fields.iter().map(|field| field.is).collect::<Vec<_>>();
+            let has_frame = fields.iter().any(|field| !field.view.frame.is_empty());
+            has_frame && words(&fields) == words(&own.fields)
+        };
+        let is_other = |own: &Function| match name.strip_prefix(own.name.as_str()) {
+            Some("") => own.fields != fields,
+            // A function and a frame: their names are its name.
+            Some(rest) if is_same(own) => {
+                let mut pairs = fields.iter().zip(&own.fields);
+                pairs.any(|(field, own)| field.name != format!("{}{rest}", own.name))
+            }
+            _ => false,
+        };
+        match all.iter().any(is_other) {
+            true => Err(format!("`{name}` has other results")),
+            false => Ok(Function {
                 name: name.to_owned(),
                 arguments,
                 fields,
@@ -230,8 +243,14 @@ impl Function {
         }
     }
 
-    /// Returns whether one of its results is over base parameters.
-    pub fn is_over_base(&self) -> bool {
-        self.fields.iter().any(|own| own.axes.contains('b'))
+    /// Returns the name of the constant that has the values of its base parameters, if it is over
+    /// some.
+    pub fn parameters(&self) -> Option<&'static str> {
+        let mut fields = self.fields.iter();
+        fields.find_map(|own| match own.is {
+            "y_base" => Some("BASE_PARAMETERS"),
+            "y_passivity" => Some("PASSIVITY_PARAMETERS"),
+            _ => None,
+        })
     }
 }
