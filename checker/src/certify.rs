@@ -109,7 +109,7 @@ pub fn certify(
             result: whole.shown(found),
         });
     }
-    let beside = whole.beside()?;
+    let beside = whole.beside();
     for item in items.iter().filter(|item| is_beside(item)) {
         if let Err(why) = whole.follows(item, &items, &beside) {
             let head = item.text.lines().next().unwrap_or("");
@@ -333,22 +333,23 @@ impl Whole<'_> {
     }
 
     /// Returns what items beside functions follow from: the values of base parameters, and the
-    /// structs of results in each scalar.
-    fn beside(&self) -> Result<Beside, Fault> {
+    /// structs of results in each scalar. Of a function whose claim is none, nothing follows.
+    fn beside(&self) -> Beside {
         let mut all = Beside::default();
         let claims = self.claim.functions.iter();
         for own in claims.filter(|own| own.scene.as_deref() == self.scene) {
-            let base = own.base(&self.constants, self.setting.links())?;
-            let refused = |why: String| Fault::Claim(format!("`{}`: {why}", own.function));
-            let function = function(own).map_err(refused)?;
-            for is_single in [false, true] {
-                let head = self.head(own, &function, &base, is_single)?;
-                all.structs.push(structure(&head));
-            }
+            let (Ok(base), Ok(function)) = (
+                own.base(&self.constants, self.setting.links()),
+                function(own),
+            ) else {
+                continue;
+            };
+            let heads = [false, true].map(|is_single| self.head(own, &function, &base, is_single));
+            all.structs.extend(heads.iter().flatten().map(structure));
             let name = function.parameters();
             all.values.extend(name.map(|name| (name, base.values)));
         }
-        Ok(all)
+        all
     }
 
     /// Checks what stands beside functions.
