@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf, is_separator};
 
 use tempfile::{Builder, NamedTempFile};
 
-use crate::output::{Context, Failure, print};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::terminal::print;
 
 /// The path that stands for standard output.
 const STANDARD: &str = "-";

@@ -1,8 +1,9 @@
 //! The `dalembert` command: a subcommand takes arguments and a `Context`, and returns a report and
 //! files; [`run`] prints and writes them, and returns the exit code.
 //!
-//! - `args`: the command line; `source`: robots and requests; `progress`: progress bar and Ctrl-C
-//! - `report`: facts and tables, as text and as JSON; `output`: prints; `files`: writes all or none
+//! - `args`: the command line; `source`: robots and requests; `progress`: searches in the bar, and Ctrl-C
+//! - `report`: facts and tables, as text and as JSON; `terminal`: prints, beside the bar
+//! - `files`: writes all or none; `output`: what a subcommand returns, printed and written
 //! - `generate`, `renew`, `count`; `code`: the report of generated code
 //! - `import`, `new`, `show`, `outputs`; [`drawing`]: the arm in two views, as SVG
 //! - `verify`; [`measure`]: rounding errors against 256-bit arithmetic; [`extremes`]: the same in
@@ -18,11 +19,13 @@ mod args;
 mod certify;
 mod chart;
 mod code;
+mod context;
 mod count;
 pub mod couplings;
 pub mod drawing;
 pub mod explain;
 pub mod extremes;
+mod failure;
 mod files;
 mod generate;
 pub mod given;
@@ -39,6 +42,7 @@ mod show;
 mod source;
 pub mod steps;
 pub mod table3;
+mod terminal;
 mod tradeoff;
 mod verify;
 
@@ -47,7 +51,8 @@ use std::ffi::OsString;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
-use output::{Context, Done, Failure, note};
+use output::{Context, Done, Failure};
+use terminal::note;
 
 /// Verified, flat robot dynamics generated for one arm.
 ///
@@ -113,7 +118,7 @@ enum Command {
 pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
     let args = Args::parse_from(args);
     let context = args.context();
-    let bar = progress::begin();
+    let bar = terminal::begin();
     let outcome = match &args.command {
         Command::New(args) => new::run(args, &context),
         Command::Import(args) => import::run(args, &context),
@@ -129,7 +134,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut Args::command(), "dalembert", &mut script);
-            output::print(&String::from_utf8_lossy(&script)).map(|()| Done::default())
+            terminal::print(&String::from_utf8_lossy(&script)).map(|()| Done::default())
         }
     };
     drop(bar);

@@ -1,41 +1,17 @@
 //! Output: a subcommand returns [`Done`], and [`Context::finish`] prints and writes it.
 
-use std::cell::Cell;
-use std::io::{self, Write};
 use std::path::PathBuf;
 
-use anstream::{AutoStream, ColorChoice};
-use dalembert_codegen::GenerateError;
-use dalembert_codegen::workspace::{Disproof, plan_file};
+use dalembert_codegen::workspace::plan_file;
 
+pub use crate::context::Context;
+pub use crate::failure::Failure;
 use crate::files::{self, Target};
-use crate::progress;
 use crate::report::Report;
-
-/// The failure of a run, with its text for standard error.
-#[derive(Debug)]
-pub enum Failure {
-    /// A check failed: exit code 1.
-    Check(String),
-    /// The input cannot be used: exit code 2.
-    Input(String),
-}
+use crate::terminal::{note, print};
 
 /// The result of a subcommand.
 pub type Outcome = Result<Done, Failure>;
-
-impl From<GenerateError> for Failure {
-    fn from(error: GenerateError) -> Self {
-        let text = format!("error: {error}");
-        match error {
-            // Failed proofs, runs and text checks are failed checks; all other errors come
-            // from the robot or the request.
-            GenerateError::Disproved(_, Disproof::Unfit | Disproof::Large) => Failure::Input(text),
-            GenerateError::Disproved(..) | GenerateError::Defect(..) => Failure::Check(text),
-            _ => Failure::Input(text),
-        }
-    }
-}
 
 /// The report, the files and the notes of a subcommand.
 #[derive(Default)]
@@ -63,48 +39,7 @@ impl From<Report> for Done {
     }
 }
 
-/// The options that all subcommands share, and whether there was a warning.
-pub struct Context {
-    pub json: bool,
-    pub force: bool,
-    denies_warnings: bool,
-    warned: Cell<bool>,
-}
-
 impl Context {
-    pub fn new(json: bool, force: bool, denies_warnings: bool) -> Context {
-        Context {
-            json,
-            force,
-            denies_warnings,
-            warned: Cell::new(false),
-        }
-    }
-
-    /// Prints notes and warnings, and records whether there was a warning.
-    pub fn say(&self, text: &str) {
-        self.heard(text.lines().any(|line| line.starts_with("warning")));
-        note(text);
-    }
-
-    /// Records whether there was a warning, without printing it.
-    pub fn heard(&self, is_warning: bool) {
-        self.warned.set(self.warned.get() || is_warning);
-    }
-
-    /// Fails if there was a warning and warnings are denied.
-    ///
-    /// # Errors
-    /// A failed check.
-    pub fn undenied(&self) -> Result<(), Failure> {
-        match self.warned.get() && self.denies_warnings {
-            true => Err(Failure::Check(
-                "error: --deny-warnings is set, and there were warnings".into(),
-            )),
-            false => Ok(()),
-        }
-    }
-
     /// Writes the files of a run and prints its report; after denied warnings, only a JSON report.
     ///
     /// # Errors
@@ -141,45 +76,4 @@ impl Context {
             false => Err(Failure::Check(done.failed.join("\n"))),
         }
     }
-}
-
-/// Prints to standard output. A closed pipe, as in `… | head`, is no failure.
-///
-/// # Errors
-/// Standard output cannot be written.
-pub fn print(text: &str) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
-    match progress::aside(|| out.write_all(text.as_bytes()).and_then(|()| out.flush())) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Input(format!(
-            "error: standard output cannot be written: {error}"
-        ))),
-        _ => Ok(()),
-    }
-}
-
-/// The words that begin a message or its parts, with their colours on a terminal.
-const COLOURS: [(&str, &str); 6] = [
-    ("error", "1;31"),
-    ("warning", "1;33"),
-    ("note", "1;36"),
-    ("  = help", "1;32"),
-    ("  = note", "1;36"),
-    (" --> ", "1;34"),
-];
-
-/// Prints lines on standard error: in colour on a terminal, unless the environment says otherwise
-/// (`NO_COLOR`, `CLICOLOR_FORCE`).
-pub fn note(text: &str) {
-    let plain = AutoStream::choice(&io::stderr()) == ColorChoice::Never;
-    let coloured = |line: &str| match COLOURS.iter().find(|(mark, _)| line.starts_with(mark)) {
-        Some((mark, code)) if !plain => {
-            format!("\x1b[{code}m{mark}\x1b[0m{}", &line[mark.len()..])
-        }
-        _ => line.to_owned(),
-    };
-    let lines: Vec<String> = text.trim_end().split('\n').map(coloured).collect();
-    progress::aside(|| {
-        // No stream is left on which to report an error.
-        let _ = writeln!(io::stderr().lock(), "{}", lines.join("\n"));
-    });
 }

@@ -1,79 +1,19 @@
-//! Long runs: a progress bar on a terminal after two seconds, and Ctrl-C, which ends a thorough
-//! search with the best program so far.
+//! Long searches: their state in the bar, and Ctrl-C, which ends a thorough one with the best program
+//! so far.
 //!
 //! Only the command uses clocks, terminals and signals; the library calls an [`Observer`].
 
-use std::io::{self, IsTerminal};
 use std::process;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
-use std::thread;
-use std::time::Duration;
 
 use dalembert_codegen::workspace::{Observer, Progress};
 use dalembert_codegen::{Effort, Function, Request, Watch};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::output::note;
-
-/// The time before the bar appears.
-const QUIET: Duration = Duration::from_secs(2);
+use crate::terminal::{bar, note};
 
 /// The exit code of a process that Ctrl-C ended: 128 + SIGINT.
 const INTERRUPTED: i32 = 130;
-
-/// The bar of the run; there is only one, since there is one terminal.
-static BAR: Mutex<Option<ProgressBar>> = Mutex::new(None);
-
-/// A guard: the bar is shown until it is dropped.
-pub struct Shown;
-
-/// Starts the bar of a run; it appears on a terminal after two seconds.
-pub fn begin() -> Shown {
-    let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::hidden());
-    if let Ok(style) = ProgressStyle::with_template("{elapsed} {bar:24} {wide_msg}") {
-        bar.set_style(style);
-    }
-    *BAR.lock().unwrap_or_else(PoisonError::into_inner) = Some(bar.clone());
-    if io::stderr().is_terminal() {
-        thread::spawn(move || {
-            thread::sleep(QUIET);
-            if !bar.is_finished() {
-                bar.set_draw_target(ProgressDrawTarget::stderr());
-                bar.enable_steady_tick(Duration::from_millis(500));
-            }
-        });
-    }
-    Shown
-}
-
-impl Drop for Shown {
-    fn drop(&mut self) {
-        bar().finish_and_clear();
-    }
-}
-
-/// Runs `print` while the bar is hidden.
-pub fn aside<R>(print: impl FnOnce() -> R) -> R {
-    bar().suspend(print)
-}
-
-/// Sets the number of steps of a long run.
-pub fn steps(steps: usize) {
-    bar().set_length(steps as u64);
-}
-
-/// Starts the next step of a long run and shows its name.
-pub fn step(name: &str) {
-    bar().set_message(name.to_owned());
-    bar().inc(1);
-}
-
-/// Returns the bar of the run.
-fn bar() -> ProgressBar {
-    let bar = BAR.lock().unwrap_or_else(PoisonError::into_inner).clone();
-    bar.unwrap_or_else(ProgressBar::hidden)
-}
 
 /// A guard: searches are watched until it is dropped.
 pub struct Session(Arc<Seen>);

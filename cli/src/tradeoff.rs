@@ -13,9 +13,9 @@ use crate::chart::{self, Dot};
 use crate::files::{Files, Target};
 use crate::ladder::{Ladder, Point, mark};
 use crate::output::{Context, Done, Failure, Outcome};
-use crate::progress;
 use crate::report::{Cell, Table, cells, in_scene};
 use crate::source::Source;
+use crate::terminal;
 
 /// Arguments of `tradeoff`.
 #[derive(Debug, clap::Args)]
@@ -165,9 +165,9 @@ fn climb(
         ))
     })?;
     // Every tolerance and the exact program: searched for, then falsified.
-    progress::steps(2 * (1 + tolerances.len()));
+    terminal::steps(2 * (1 + tolerances.len()));
     let ladder = Ladder::new(args.samples as usize, request.effort, &frame);
-    let points = ladder.climb(tolerances, &progress::step);
+    let points = ladder.climb(tolerances, &terminal::step);
     points.map_err(|error| Failure::Check(format!("error: {error}")))
 }
 

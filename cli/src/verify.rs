@@ -17,9 +17,9 @@ use crate::extremes::{self, Held, Row, Verdict};
 use crate::given::{self, Compared, GivenState};
 use crate::measure::{Bench, ENTRY, VECTOR};
 use crate::output::{Context, Done, Failure, Outcome};
-use crate::progress;
 use crate::report::{Cell, Report, Table, cells};
 use crate::source::{Source, text};
+use crate::terminal;
 
 /// Arguments of `verify`.
 #[derive(Debug, clap::Args)]
@@ -78,9 +78,9 @@ pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
     let exact = generated.emitted.iter().filter(is_exact);
     let mut rows = extremes::inside(&bench, exact, &states);
     if args.extremes {
-        progress::step("the torques at the extremes");
+        terminal::step("the torques at the extremes");
         rows.extend(extremes::torques(robot, &request, args.states)?);
-        progress::step("what divides, nearest to singular");
+        terminal::step("what divides, nearest to singular");
         rows.extend(extremes::divided(robot, &request, args.states)?);
     }
     rounding(args.states, &rows, &mut done);

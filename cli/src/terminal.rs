@@ -1,0 +1,108 @@
+//! The terminal: what is printed, and the bar of a long run, which gives way to it.
+
+use std::io::{self, IsTerminal, Write};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+use anstream::{AutoStream, ColorChoice};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::failure::Failure;
+
+/// The time before the bar appears.
+const QUIET: Duration = Duration::from_secs(2);
+
+/// The bar of the run; there is only one, since there is one terminal.
+static BAR: Mutex<Option<ProgressBar>> = Mutex::new(None);
+
+/// A guard: the bar is shown until it is dropped.
+pub struct Shown;
+
+/// Starts the bar of a run; it appears on a terminal after two seconds.
+pub fn begin() -> Shown {
+    let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::hidden());
+    if let Ok(style) = ProgressStyle::with_template("{elapsed} {bar:24} {wide_msg}") {
+        bar.set_style(style);
+    }
+    *BAR.lock().unwrap_or_else(PoisonError::into_inner) = Some(bar.clone());
+    if io::stderr().is_terminal() {
+        thread::spawn(move || {
+            thread::sleep(QUIET);
+            if !bar.is_finished() {
+                bar.set_draw_target(ProgressDrawTarget::stderr());
+                bar.enable_steady_tick(Duration::from_millis(500));
+            }
+        });
+    }
+    Shown
+}
+
+impl Drop for Shown {
+    fn drop(&mut self) {
+        bar().finish_and_clear();
+    }
+}
+
+/// Runs `print` while the bar is hidden.
+pub fn aside<R>(print: impl FnOnce() -> R) -> R {
+    bar().suspend(print)
+}
+
+/// Sets the number of steps of a long run.
+pub fn steps(steps: usize) {
+    bar().set_length(steps as u64);
+}
+
+/// Starts the next step of a long run and shows its name.
+pub fn step(name: &str) {
+    bar().set_message(name.to_owned());
+    bar().inc(1);
+}
+
+/// Returns the bar of the run.
+pub fn bar() -> ProgressBar {
+    let bar = BAR.lock().unwrap_or_else(PoisonError::into_inner).clone();
+    bar.unwrap_or_else(ProgressBar::hidden)
+}
+
+/// Prints to standard output. A closed pipe, as in `… | head`, is no failure.
+///
+/// # Errors
+/// Standard output cannot be written.
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match aside(|| out.write_all(text.as_bytes()).and_then(|()| out.flush())) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Input(format!(
+            "error: standard output cannot be written: {error}"
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// The words that begin a message or its parts, with their colours on a terminal.
+const COLOURS: [(&str, &str); 6] = [
+    ("error", "1;31"),
+    ("warning", "1;33"),
+    ("note", "1;36"),
+    ("  = help", "1;32"),
+    ("  = note", "1;36"),
+    (" --> ", "1;34"),
+];
+
+/// Prints lines on standard error: in colour on a terminal, unless the environment says otherwise
+/// (`NO_COLOR`, `CLICOLOR_FORCE`).
+pub fn note(text: &str) {
+    let plain = AutoStream::choice(&io::stderr()) == ColorChoice::Never;
+    let coloured = |line: &str| match COLOURS.iter().find(|(mark, _)| line.starts_with(mark)) {
+        Some((mark, code)) if !plain => {
+            format!("\x1b[{code}m{mark}\x1b[0m{}", &line[mark.len()..])
+        }
+        _ => line.to_owned(),
+    };
+    let lines: Vec<String> = text.trim_end().split('\n').map(coloured).collect();
+    aside(|| {
+        // No stream is left on which to report an error.
+        let _ = writeln!(io::stderr().lock(), "{}", lines.join("\n"));
+    });
+}
