@@ -389,6 +389,9 @@ const LOAD: &str = "load";
 /// no results of its own.
 fn function(claimed: &Claimed) -> Result<Function, String> {
     let is_load = claimed.function == LOAD && claimed.results == [LOAD];
+    if claimed.results.is_empty() {
+        return Err("it has no results".into());
+    }
     let results = if is_load { &[][..] } else { &claimed.results };
     let function = Function::named(&claimed.function, &claimed.arguments, results)?;
     let payload = argument("payload").unwrap_or_default();

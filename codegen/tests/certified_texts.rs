@@ -343,6 +343,13 @@ fn claims_that_are_not_written_by_a_generator() {
         claim["functions"].as_array_mut().unwrap().push(own);
     });
     assert!(twice.contains("stands there twice"), "{twice}");
+    // Another name, and results that nothing is said of.
+    let text = own.text.replace("pub fn gravity(", "pub fn pull(");
+    let mut claim: Value = serde_json::from_str(&own.claim).unwrap();
+    claim["functions"][0]["function"] = json!("pull");
+    claim["functions"][0]["results"] = json!([]);
+    let why = refusal(certify(&text, &claim.to_string(), &own.robot, None));
+    assert!(why.unwrap().contains("`pull`: it has no results"));
     for cut in (0..own.claim.len() - 2).step_by(own.claim.len() / 40) {
         assert!(with(&own.claim[..cut]).is_some());
     }
