@@ -2,11 +2,11 @@
 //! follows from the functions and from the robot, so that whoever asks for the number of joints gets
 //! what was checked.
 
+use crate::compare::is_literal;
 use crate::fault::Fault;
 use crate::file::{Found, between};
 use crate::identity::exact::Exact;
 use crate::identity::setting::Setting;
-use crate::read::number;
 use crate::rounding::Ranges;
 
 /// By how much a box may be larger than the file's: decimals were rounded.
@@ -62,8 +62,7 @@ fn are(lines: &[&str], name: &str, values: &[Exact]) -> bool {
         && lines.last() == Some(&"];")
         && all.all(|(line, value)| {
             let literal = line.strip_suffix(',');
-            let literal = literal.and_then(|own| number(own, is_single));
-            literal.is_some_and(|own| value.is_nearest(own, is_single))
+            literal.is_some_and(|own| is_literal(own, value, is_single))
         })
 }
 

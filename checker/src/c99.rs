@@ -5,10 +5,11 @@
 //! own. Sines of the header's own are those of `together`. A function's text begins with its
 //! struct, if it has one.
 
+use crate::compare::is_literal;
 use crate::fault::Fault;
 use crate::file::{Found, Lines, between, fault, is_letter, item};
 use crate::identity::exact::Exact;
-use crate::read::{Symbols, number};
+use crate::read::Symbols;
 use crate::together;
 
 /// How a header begins.
@@ -170,8 +171,7 @@ pub(crate) fn are_values(found: &Found, name: &str, values: &[Exact]) -> bool {
     is_whole
         && all.all(|(index, value)| {
             let literal = between(lines[index + 2], &format!("pi[{index}] = "), end);
-            let literal = literal.and_then(|own| number(own, kind == "float"));
-            literal.is_some_and(|own| value.is_nearest(own, kind == "float"))
+            literal.is_some_and(|own| is_literal(own, value, kind == "float"))
         })
 }
 

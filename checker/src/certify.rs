@@ -34,7 +34,7 @@ pub struct Line {
     pub name: String,
     /// Its first line in the file, from one.
     pub line: usize,
-    /// What rounding costs, if it is shown; else the reason why it is not.
+    /// The cost of rounding, if it is shown; else the reason why it is not.
     pub result: Result<Shown, Fault>,
 }
 
@@ -48,7 +48,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// Returns whether every function is shown.
+    /// Returns true if every function is shown.
     pub fn is_shown(&self) -> bool {
         !self.lines.is_empty() && self.lines.iter().all(|line| line.result.is_ok())
     }
@@ -95,11 +95,12 @@ pub fn certify(
         singles: singles.map(|item| item.module).collect(),
         found: HashMap::new(),
     };
-    // These compute no dynamics: one says where a box is, one which angles there are.
-    let is_other = |found: &&Found| {
-        let ends = ["in_box", "angles"];
-        !is_beside(found) && !ends.iter().any(|end| found.name.ends_with(end))
+    // It computes no dynamics: it says where a box is.
+    let is_box = |found: &Found| match is_c {
+        true => found.name == format!("{}_in_box", found.module),
+        false => found.name == "in_box",
     };
+    let is_other = |found: &&Found| !is_beside(found) && !is_box(found);
     let mut lines = Vec::new();
     for found in items.iter().filter(is_other) {
         lines.push(Line {
@@ -128,7 +129,7 @@ pub fn certify(
     })
 }
 
-/// Returns whether an item is no function, or one that gives constants.
+/// Returns true for an item that is no function, or one that gives constants.
 fn is_beside(found: &Found) -> bool {
     found.name.is_empty() || found.text.contains(" pi[")
 }
@@ -150,13 +151,21 @@ struct Whole<'w> {
 }
 
 impl Whole<'_> {
+    /// Returns true for a function in f32.
+    fn is_single(&self, found: &Found) -> bool {
+        match self.is_c {
+            true => found.text.contains("const float "),
+            false => self.singles.contains(found.module),
+        }
+    }
+
     /// Returns the function that a text is claimed to be, with its place.
     fn claimed(&self, found: &Found) -> Option<(usize, &Claimed)> {
         let is_own = |own: &&Claimed| {
             let named = match self.is_c {
                 true => {
-                    let is_single = usize::from(found.text.contains("const float "));
-                    let symbol = own.symbols.get(is_single).map(String::as_str);
+                    let place = usize::from(self.is_single(found));
+                    let symbol = own.symbols.get(place).map(String::as_str);
                     symbol == Some(found.name) && c99::are_of(found, &own.function)
                 }
                 false => own.function == found.name,
@@ -202,11 +211,7 @@ impl Whole<'_> {
         let exact = claimed.program(&self.constants)?;
         let function = function(claimed).map_err(refused)?;
         let base = claimed.base(&self.constants, self.setting.links())?;
-        let is_single = match self.is_c {
-            true => found.text.contains("const float "),
-            false => self.singles.contains(found.module),
-        };
-        let head = self.head(claimed, &function, &base, is_single)?;
+        let head = self.head(claimed, &function, &base, self.is_single(found))?;
         let read = self.read(&head, found).map_err(in_file)?;
         let why = |why: String| Fault::Text(found.line, why);
         compare(&read.program, &exact, head.is_single).map_err(why)?;

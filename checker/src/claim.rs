@@ -14,10 +14,11 @@ use std::collections::HashSet;
 use serde::{Deserialize, Serialize};
 
 use crate::fault::Fault;
+use crate::file::whole;
 use crate::identity::Base;
 use crate::identity::exact::{Exact, Sines};
 use crate::identity::program::{Operand, Program, Step};
-use crate::identity::table::{ARGUMENTS, argument};
+use crate::identity::table::argument;
 
 /// The version that is read.
 pub const VERSION: u32 = 1;
@@ -36,7 +37,7 @@ const MOST_DEGREES: usize = 1 << 24;
 pub struct Claim {
     /// The version of the document.
     pub claim: u32,
-    /// Of a robot whose joints are placed, the robot by rows, as generators take it.
+    /// The robot by rows, as generators take it, if its joints are placed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub aligned: Option<String>,
     /// The constants of all programs: `#0` is the first.
@@ -45,7 +46,7 @@ pub struct Claim {
     pub functions: Vec<Claimed>,
 }
 
-/// What is claimed of a function.
+/// The claim of one function.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Claimed {
@@ -66,7 +67,7 @@ pub struct Claimed {
     pub steps: String,
     /// The values of the results.
     pub returns: String,
-    /// Of a regressor what each column adds up: `m2 #4*mx2`.
+    /// The parameters that each column of a regressor adds up: `m2 #4*mx2`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub base: Vec<String>,
     /// The values of these parameters, constants each.
@@ -145,12 +146,6 @@ impl Constants {
     fn of(&self, word: &str) -> Option<&Exact> {
         self.0.get(whole(word.strip_prefix('#')?)?)
     }
-}
-
-/// Returns a whole number as it is printed.
-fn whole(word: &str) -> Option<usize> {
-    let number: usize = word.parse().ok()?;
-    (number.to_string() == word).then_some(number)
 }
 
 impl Claimed {
@@ -261,19 +256,5 @@ fn parameter(name: &str, links: usize) -> Option<usize> {
         "armature" => Some(10 * links + link),
         "viscous" => Some(11 * links + link),
         own => Some(10 * link + NAMES.iter().position(|name| *name == own)?),
-    }
-}
-
-/// Writes an operand as claims have it, its constants by their places.
-pub fn word(operand: &Operand<usize>) -> String {
-    match operand {
-        Operand::Step(step) => format!("t{}", step + 1),
-        Operand::Constant(place) => format!("#{place}"),
-        Operand::Entry(place, index) => format!("{}[{index}]", ARGUMENTS[*place].0),
-        Operand::Sine(angle, is_sine) => {
-            let joint = angle.first().map_or(0, |own| own.0 + 1);
-            format!("{}{joint}", if *is_sine { 's' } else { 'c' })
-        }
-        Operand::Speed(joint) => format!("r{}", joint + 1),
     }
 }

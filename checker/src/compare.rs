@@ -3,6 +3,7 @@
 
 use crate::identity::exact::Exact;
 use crate::identity::program::{Operand, Program};
+use crate::read::number;
 
 /// Compares a text with an exact program.
 ///
@@ -34,6 +35,11 @@ pub fn compare(text: &Program<f64>, exact: &Program<Exact>, is_single: bool) -> 
         }
     }
     Ok(())
+}
+
+/// Returns true for the text of a literal that is the float nearest to a value.
+pub(crate) fn is_literal(text: &str, value: &Exact, is_single: bool) -> bool {
+    number(text, is_single).is_some_and(|own| value.is_nearest(own, is_single))
 }
 
 fn is_same(own: &Operand<f64>, other: &Operand<Exact>, is_single: bool) -> bool {

@@ -6,7 +6,6 @@ use crate::identity::setting::Setting;
 use crate::identity::table::{ARGUMENTS, length};
 use crate::read::{self, Function, Head, Source};
 use crate::rounding::{Ranges, Rounding, Value};
-use crate::sines::Scalar;
 
 /// The largest rates where the robot file has no limit, per second and per second squared.
 pub const RATE: f64 = 10.0;
@@ -66,8 +65,7 @@ pub(crate) fn cost(read: &Function, head: &Head, ranges: &Ranges, texts: &[&str]
             true => 0.0,
             false => error / size,
         });
-    let rounding = relative.fold(0.0, worse);
-    let unit = Scalar::of(if head.is_single { "f32" } else { "f64" }).unit;
+    let (unit, rounding) = (rounding.unit(), relative.fold(0.0, worse));
     let is_polynomial = |own: &read::Sines| matches!(own.source, Source::Polynomial(_));
     Shown {
         rounding,
@@ -129,19 +127,22 @@ fn measures<'s>(seen: &[f64], shapes: impl Iterator<Item = &'s [usize]>) -> Vec<
         let (each, behind) = left.split_at(count);
         left = behind;
         let whole = each.iter().copied().fold(0.0, f64::max);
-        for index in 0..count {
-            let (mut size, mut stride) = (whole, count);
-            for length in shape {
-                stride /= length;
-                let digit = |index: usize| index / stride % length;
-                let same = (0..count).filter(|other| digit(*other) == digit(index));
-                let most = same.map(|other| each[other]).fold(0.0, f64::max);
-                if most > ZERO * whole {
-                    size = size.min(most);
+        let (mut sizes, mut stride) = (vec![whole; count], count);
+        for length in shape {
+            stride /= length;
+            let digit = |index: usize| index / stride % length;
+            let mut most = vec![0.0f64; *length];
+            for (index, own) in each.iter().enumerate() {
+                most[digit(index)] = most[digit(index)].max(*own);
+            }
+            for (index, size) in sizes.iter_mut().enumerate() {
+                let own = most[digit(index)];
+                if own > ZERO * whole {
+                    *size = size.min(own);
                 }
             }
-            all.push(size);
         }
+        all.extend(sizes);
     }
     all
 }

@@ -18,7 +18,7 @@ pub type Ranges = Vec<Vec<[f64; 2]>>;
 pub struct Value {
     /// The exact value.
     pub exact: Interval,
-    /// What the float may be off.
+    /// The largest distance of the float from it.
     pub error: f64,
 }
 
@@ -32,7 +32,7 @@ impl Value {
 pub struct Rounding<'f> {
     function: &'f Function,
     scalar: Scalar,
-    /// How far the polynomials of a joint are from sine and cosine over the box.
+    /// The largest errors of the polynomials for a joint's sine and cosine over the box.
     polynomials: HashMap<(usize, bool), f64>,
 }
 
@@ -59,6 +59,11 @@ impl<'f> Rounding<'f> {
             scalar,
             polynomials,
         }
+    }
+
+    /// Returns half an ulp of one.
+    pub fn unit(&self) -> f64 {
+        self.scalar.unit
     }
 
     /// Returns bounds of the results over ranges: a box, or a state.

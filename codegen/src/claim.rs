@@ -2,8 +2,7 @@
 
 use std::collections::HashMap;
 
-use dalembert_checker::claim::{Claim, Claimed, VERSION, word};
-use dalembert_checker::identity::program::Operand as Straight;
+use dalembert_checker::claim::{Claim, Claimed, VERSION};
 use dalembert_model::number::Exact;
 use dalembert_model::robot::{Robot, write};
 use dalembert_model::scalar::Scalar;
@@ -13,7 +12,8 @@ use crate::function::{Columns, Function, Quantity};
 use crate::generate::{Generated, language};
 use crate::language::Language;
 use crate::language::names::Names;
-use crate::program::{Input, Operand, ScalarType, Steps};
+use crate::program::text::input_name;
+use crate::program::{Operand, ScalarType, Steps};
 use crate::setup::Setup;
 use crate::task::{Job, Request};
 use crate::words::Complaint;
@@ -73,16 +73,11 @@ impl Constants {
     }
 
     fn word(&mut self, operand: &Operand) -> String {
-        word(&match operand {
-            Operand::Step(step) => Straight::Step(*step),
-            Operand::Constant(constant) => Straight::Constant(self.place(constant)),
-            Operand::Input(Input::Sin(joint)) => Straight::Sine(vec![(*joint, false)], true),
-            Operand::Input(Input::Cos(joint)) => Straight::Sine(vec![(*joint, false)], false),
-            Operand::Input(Input::PerSpeed(joint)) => Straight::Speed(*joint),
-            Operand::Input(Input::Entry(argument, index)) => {
-                return format!("{}[{index}]", argument.name());
-            }
-        })
+        match operand {
+            Operand::Step(step) => format!("t{}", step + 1),
+            Operand::Constant(constant) => format!("#{}", self.place(constant)),
+            Operand::Input(input) => input_name(*input),
+        }
     }
 }
 

@@ -92,9 +92,8 @@ fn lines_around_functions_that_are_something_else() {
         );
         let own = &Certified::all("planar2r", "", &asked)[0];
         own.is_shown(3, &asked);
-        let lines: Vec<&str> = own.text.lines().collect();
-        let is_code = |line: &str| {
-            let starts = [
+        let count = own.changed(step, &AROUND, |line| {
+            const OTHERS: [&str; 9] = [
                 "const double t",
                 "//",
                 "/*",
@@ -106,30 +105,14 @@ fn lines_around_functions_that_are_something_else() {
                 "return t",
             ];
             let words = line.trim();
-            !words.is_empty() && !starts.iter().any(|start| words.starts_with(start))
-        };
-        let (mut count, mut turn) = (0, 0);
-        for index in (0..lines.len()).filter(|&index| is_code(lines[index])) {
-            let line = lines[index];
-            let changed = AROUND.iter().map(|[from, to]| line.replacen(from, to, 1));
-            let others = changed.chain([String::new(), line.replace(';', " + 0.0;")]);
-            for other in others.filter(|other| other != line).collect::<Vec<_>>() {
-                turn += 1;
-                if turn % step > 0 {
-                    continue;
-                }
-                count += 1;
-                let mut changed = lines.clone();
-                changed[index] = &other;
-                let found = refusal(own.with(&(changed.join("\n") + "\n")));
-                assert!(found.is_some(), "{line} -> {other}");
-            }
-        }
+            !words.is_empty() && !OTHERS.iter().any(|start| words.starts_with(start))
+        });
         assert!(count > 60, "{count}");
     }
 }
 
-const AROUND: [[&str; 2]; 40] = [
+const AROUND: [[&str; 2]; 41] = [
+    [";", " + 0.0;"],
     ["n + s", "s"],
     ["[s]", "[n + s]"],
     ["[s]", "[0]"],
@@ -236,6 +219,16 @@ fn what_stands_beside_functions_has_no_room() {
         ["p_base_parameters(double", "p_base_parameters(float"],
     ] {
         planted(own, from, to);
+    }
+    // A name that ends as the one of the box does is looked at.
+    for (asked, name) in [
+        ("gravity; scalar: f64", "gravity("),
+        ("gravity; scalar: f64; name: p; language: c", "p_gravity("),
+    ] {
+        let own = &Certified::all("planar2r", "", asked)[0];
+        let other = name.replace("gravity", "gravity_in_box");
+        planted(own, name, &other);
+        planted(own, name, &name.replace("gravity", "angles"));
     }
 }
 

@@ -20,24 +20,24 @@ pub type Combination = Vec<(usize, Exact)>;
 /// The base parameters that a regressor is over, and their values if these are claimed too.
 #[derive(Clone, Debug, Default)]
 pub struct Base {
-    /// What each adds up.
+    /// The parameters that each adds up.
     pub combinations: Vec<Combination>,
     /// The values; none if nothing is claimed of them.
     pub values: Vec<Exact>,
 }
 
-/// What is claimed of a function.
+/// A function, the program that it is claimed to be, and what both are over.
 #[derive(Clone, Copy)]
 pub struct Statement<'s> {
     /// The robot in its scene.
     pub setting: &'s Setting<'s>,
     /// The function.
     pub function: &'s Function,
-    /// What it computes.
+    /// The program that it is claimed to be.
     pub program: &'s Program<Exact>,
-    /// What its columns are, if it is a regressor.
+    /// The base parameters that its columns are of, if it is a regressor.
     pub base: &'s Base,
-    /// What computes the load of a payload, if the function takes one.
+    /// The program of a payload's load, if the function takes one.
     pub load: Option<&'s Program<Exact>>,
 }
 
@@ -51,8 +51,8 @@ pub fn check(own: Statement, texts: &[&str]) -> Result<(), String> {
         setting,
         function,
         program,
-        base,
         load,
+        ..
     } = own;
     // Own formulas are quotients of polynomials of a degree below 200 n²: D's entries are of 4 n,
     // its determinant of 4 n², and what is derived twice or inverted twice of a small multiple of
@@ -67,19 +67,19 @@ pub fn check(own: Statement, texts: &[&str]) -> Result<(), String> {
     }
     let mut draws = Draws::new(&[texts, &[&function.name]].concat());
     for _ in 0..POINTS {
-        at_point(own, base, &Point::draw(&mut draws))?;
+        at_point(own, &Point::draw(&mut draws))?;
     }
     Ok(())
 }
 
 /// Compares at a point.
-fn at_point(own: Statement, base: &Base, point: &Point) -> Result<(), String> {
+fn at_point(own: Statement, point: &Point) -> Result<(), String> {
     let Statement {
         setting,
         function,
         program,
+        base,
         load,
-        ..
     } = own;
     let mut arm = Arm::read(setting, point)?;
     let mut state = State::draw(point, setting)?;

@@ -140,7 +140,7 @@ pub(super) struct Limits {
 }
 
 impl File {
-    /// Returns whether its joints are placed, and have no rows.
+    /// Returns true if its joints are placed, and have no rows.
     pub fn is_placed(&self) -> bool {
         self.joint.iter().any(|row| row.placement.is_some())
     }

@@ -21,7 +21,7 @@ const MOST_TURNS: i64 = 16;
 pub struct Setting<'f> {
     pub(super) file: &'f File,
     pub(super) scene: Option<&'f Scene>,
-    /// Of each row of the table what it follows, if it does.
+    /// The line along which each row of the table follows another, if it does.
     pub(super) follows: Vec<Option<Follows<'f>>>,
     /// The rows whose joints move by themselves: joints are numbered by their places here.
     pub(super) movers: Vec<usize>,
@@ -37,7 +37,7 @@ pub struct Setting<'f> {
 pub(super) struct Follows<'f> {
     /// The row of the other.
     pub row: usize,
-    /// How many times as far it moves.
+    /// The factor of its motion.
     pub times: Rational,
     /// The offsets on the way, each as often as it counts.
     pub offsets: Vec<(Rational, &'f String)>,
@@ -60,16 +60,7 @@ impl File {
         let follows = follows.collect::<Result<Vec<_>, String>>()?;
         let movers = (0..count).filter(|&row| follows[row].is_none());
         let movers: Vec<usize> = movers.collect();
-        let joint = |word: &str| {
-            let found = match word.parse::<usize>() {
-                Ok(number) => number.checked_sub(1).filter(|&own| own < movers.len()),
-                Err(_) => {
-                    let is_own = |row: &usize| self.joint[*row].name.as_deref() == Some(word);
-                    movers.iter().position(is_own)
-                }
-            };
-            found.ok_or_else(|| format!("there is no joint `{word}`"))
-        };
+        let joint = |word: &str| find(word, movers.iter().map(|row| &self.joint[*row]));
         let mut locks = vec![None; movers.len()];
         for (word, position) in scene.into_iter().flat_map(|scene| &scene.lock) {
             locks[joint(word)?] = Some(position);
@@ -100,17 +91,10 @@ impl File {
 
     /// Returns the row of a joint's number, from one, or of its name.
     pub(super) fn row(&self, word: &str) -> Result<usize, String> {
-        let found = match word.parse::<usize>() {
-            Ok(number) => number.checked_sub(1).filter(|&row| row < self.joint.len()),
-            Err(_) => {
-                let mut rows = self.joint.iter();
-                rows.position(|row| row.name.as_deref() == Some(word))
-            }
-        };
-        found.ok_or_else(|| format!("there is no joint `{word}`"))
+        find(word, self.joint.iter())
     }
 
-    /// Returns what a row follows, over all that stand between.
+    /// Finds the row that a row follows in the end, over all that stand between.
     pub(super) fn follows(&self, row: usize) -> Result<Option<Follows<'_>>, String> {
         let (mut at, mut times, mut offsets) = (row, Rational::one(), Vec::new());
         for _ in 0..=self.joint.len() {
@@ -146,8 +130,17 @@ impl File {
     }
 }
 
+/// Returns the place of a joint's number, from one, or of its name, among these.
+fn find<'r>(word: &str, mut rows: impl ExactSizeIterator<Item = &'r Row>) -> Result<usize, String> {
+    let found = match word.parse::<usize>() {
+        Ok(number) => number.checked_sub(1).filter(|&own| own < rows.len()),
+        Err(_) => rows.position(|row| row.name.as_deref() == Some(word)),
+    };
+    found.ok_or_else(|| format!("there is no joint `{word}`"))
+}
+
 impl Row {
-    /// Returns whether the joint turns.
+    /// Returns true for a joint that turns.
     pub(super) fn turns(&self) -> bool {
         self.kind == "revolute"
     }
@@ -315,7 +308,7 @@ impl Setting<'_> {
         Ok(Some(all))
     }
 
-    /// Returns whether a joint turns.
+    /// Returns true for a joint that turns.
     pub fn turns_by(&self, joint: usize) -> bool {
         let row = self.movers.get(joint);
         row.is_some_and(|row| self.file.joint[*row].turns())
@@ -328,7 +321,7 @@ impl Setting<'_> {
         Some(Exact::from(&width * &width))
     }
 
-    /// Returns whether a joint's rates have no limit.
+    /// Returns true if rates of some joint have no limit.
     pub fn is_unlimited(&self) -> bool {
         let given = self.scene.map(|scene| &scene.r#box);
         let [rates, more] = [
