@@ -335,7 +335,7 @@ pub mod matrices;
 /// ```
 ///
 /// Arguments keep an entry for every joint, results are over `joints`. With a
-/// tolerance each function's documentation has its certificate: how far it is
+/// tolerance each function's documentation has its bounds: how far it is
 /// from the full model at most, in the box. Where functions hold in a box only,
 /// be it for a tolerance or for polynomials, the module has that as `BOX` and a
 /// function `in_box`, which takes what they take and says whether it is inside.

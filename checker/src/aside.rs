@@ -85,7 +85,7 @@ fn expected(
             rows.len()
         )])
     } else if head.starts_with("pub const BOX:") {
-        within(lines, functions, ranges)
+        within(lines, functions, setting, ranges)
     } else if head == "pub struct StateBox {" {
         let field = |name: &str, scalar: &str| format!("pub {name}: [[{scalar}; 2]; {joints}],");
         let scalars = ["f64", "f32"].into_iter();
@@ -103,19 +103,24 @@ fn expected(
 }
 
 /// Returns the lines of the box of states if it is within the robot file's, and open only
-/// where sines are no polynomials.
-fn within(lines: &[&str], functions: &[&Found], ranges: &Ranges) -> Option<Vec<String>> {
+/// where sines are no polynomials, or none of the joint's is read.
+fn within(
+    lines: &[&str],
+    functions: &[&Found],
+    setting: &Setting,
+    ranges: &Ranges,
+) -> Option<Vec<String>> {
     let is_open = !functions.iter().any(|own| own.text.contains("let x1 = "));
     let (mut own, mut is_position) = (None, false);
     for line in lines.get(1..)? {
         if let Some(name) = line.strip_suffix(": [") {
             let place = ["q", "qd", "qdd"].iter().position(|own| *own == name)?;
-            (own, is_position) = (Some(ranges[place].iter()), place == 0);
+            (own, is_position) = (Some(ranges[place].iter().enumerate()), place == 0);
         } else if let Some(pair) = between(line, "[", "],") {
-            let [own_low, own_high] = *own.as_mut()?.next()?;
+            let (joint, [own_low, own_high]) = own.as_mut()?.next()?;
             let (low, high) = pair.split_once(", ")?;
             if low.ends_with("::NEG_INFINITY") && high.ends_with("::INFINITY") {
-                (is_open || !is_position).then_some(())?;
+                (is_open || !is_position || setting.is_locked(joint)).then_some(())?;
                 continue;
             }
             let (low, high): (f64, f64) = (low.parse().ok()?, high.parse().ok()?);

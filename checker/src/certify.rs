@@ -16,11 +16,12 @@ use crate::identity::program::Program;
 use crate::identity::setting::Setting;
 use crate::identity::table::{ARGUMENTS, Function, argument, functions, length};
 use crate::identity::{Base, Statement, aligned, check, robot};
-use crate::read::{self, Argument, Head, Text, camel};
+use crate::read::{self, Argument, Head, Text, TextError, camel};
 use crate::rounding::Ranges;
-use crate::text::fault;
+use crate::tolerance::Subject;
 
 pub use crate::cost::{RATE, Shown};
+pub use crate::tolerance::Bounded;
 
 /// The most functions, and what stands beside them, of a file.
 const MOST_ITEMS: usize = 1 << 14;
@@ -54,7 +55,8 @@ impl Report {
     }
 }
 
-/// Checks every function of a file, with its claim, against a robot or one of its scenes.
+/// Checks every function of a file, with its claim, against a robot or one of its scenes. A
+/// `tolerance`, relative to T, takes the place of the scene's.
 ///
 /// # Errors
 /// A robot file, a claim or a file that this checker does not know; what is wrong with a function
@@ -64,6 +66,7 @@ pub fn certify(
     claim: &str,
     robot: &str,
     scene: Option<&str>,
+    tolerance: Option<f64>,
 ) -> Result<Report, Fault> {
     let document = Claim::read(claim)?;
     let of_robot = |why: String| Fault::Robot("file".into(), why);
@@ -90,6 +93,10 @@ pub fn certify(
         claim: &document,
         ranges: ranges(&setting).map_err(of_robot)?,
         setting: &setting,
+        tolerance: match tolerance {
+            Some(own) => Some((vec![own; setting.joints()], None)),
+            None => (setting.tolerance().map_err(of_robot)?).map(|(own, to)| (own, Some(to))),
+        },
         scene,
         is_c,
         singles: singles.map(|item| item.module).collect(),
@@ -134,6 +141,11 @@ fn is_beside(found: &Found) -> bool {
     found.name.is_empty() || found.text.contains(" pi[")
 }
 
+/// Returns a fault of a text.
+fn fault(own: TextError) -> Fault {
+    Fault::Text(own.line, format!("not of the grammar: {}", own.reason))
+}
+
 /// A file that is checked.
 struct Whole<'w> {
     /// What all draws follow from: robot, claim and text.
@@ -142,6 +154,8 @@ struct Whole<'w> {
     constants: Constants,
     setting: &'w Setting<'w>,
     ranges: Ranges,
+    /// How far the results of each joint may be off, and relative to what, if that is given.
+    tolerance: Option<(Vec<f64>, Option<&'w str>)>,
     scene: Option<&'w str>,
     is_c: bool,
     /// The modules in Rust whose scalar is f32.
@@ -208,20 +222,63 @@ impl Whole<'_> {
             Fault::Text(line, why) => Fault::Text(found.line + line - 1, why),
             other => other,
         };
-        let exact = claimed.program(&self.constants)?;
+        let emitted = claimed.program(&self.constants)?;
+        let other = claimed.exact(&self.constants)?;
+        let exact = other.as_ref().unwrap_or(&emitted);
         let function = function(claimed).map_err(refused)?;
         let base = claimed.base(&self.constants, self.setting.links())?;
         let head = self.head(claimed, &function, &base, self.is_single(found))?;
         let read = self.read(&head, found).map_err(in_file)?;
         let why = |why: String| Fault::Text(found.line, why);
-        compare(&read.program, &exact, head.is_single).map_err(why)?;
+        compare(&read.program, &emitted, head.is_single).map_err(why)?;
         self.sines(&read, head.is_single).map_err(why)?;
         if !self.found.contains_key(&place) {
-            let identity = self.identity(claimed, &function, &exact, &base);
+            let identity = self.identity(claimed, &function, exact, &base);
             self.found.insert(place, identity);
         }
         self.found.get(&place).cloned().unwrap_or(Ok(()))?;
-        Ok(cost(&read, &head, &self.ranges, &[&self.seed, head.name]))
+        let cost = cost(&read, &head, &self.ranges, &[&self.seed, head.name]);
+        let (tolerance, own) = match (&self.tolerance, &claimed.tolerated) {
+            (None, None) => return Ok(cost),
+            (Some((tolerance, relative_to)), Some(own))
+                if relative_to.is_none_or(|to| to == own.relative_to) =>
+            {
+                (tolerance, own)
+            }
+            (Some(_), Some(_)) => {
+                return Err(refused(
+                    "its errors are relative to what the scene's are not".into(),
+                ));
+            }
+            (Some(_), None) if claimed.function == LOAD => return Ok(cost),
+            (Some(_), None) => {
+                return Err(refused("nothing is claimed of how far it is off".into()));
+            }
+            (None, Some(_)) => {
+                let why = "it is under a tolerance, and there is none: name its scene, or give one";
+                return Err(refused(why.into()));
+            }
+        };
+        let subject = Subject {
+            setting: self.setting,
+            function: &function,
+            exact,
+            emitted: &emitted,
+            read: &read,
+            is_single: head.is_single,
+            own,
+            tolerance,
+        };
+        let results = subject.bounded()?;
+        match results.iter().position(|own| !own.is_shown()) {
+            Some(place) => {
+                let [bound, tolerated] = results[place].relative();
+                let place = place + 1;
+                let why = format!("result {place} is within {bound:.3e} of T, not {tolerated:.3e}");
+                Err(refused(why))
+            }
+            None => Ok(Shown { results, ..cost }),
+        }
     }
 
     /// Returns the head that a function must have.

@@ -8,6 +8,8 @@
 //!     { "function": "gravity", "arguments": ["q"], "results": ["gravity.c"],
 //!       "steps": "s1*#0 c1*#1 t1-t2", "returns": "t3 -t1" } ] }
 //! ```
+//!
+//! Under a tolerance the text is another program than the exact one, and both stand there.
 
 use std::collections::HashSet;
 
@@ -62,17 +64,48 @@ pub struct Claimed {
     pub arguments: Vec<String>,
     /// The results in order, each by a function that has it: `gravity.c`, `jacobian.jacobian@camera`.
     pub results: Vec<String>,
-    /// The operations, one a word: `s1*#0`. A product that is not rounded has `×`, and its sum is
-    /// next.
+    /// The operations of the text, one a word: `s1*#0`. A product that is not rounded has `×`, and its
+    /// sum is next.
     pub steps: String,
     /// The values of the results.
     pub returns: String,
+    /// How far they may be from the robot's, if a tolerance left something out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerated: Option<Tolerated>,
     /// The parameters that each column of a regressor adds up: `m2 #4*mx2`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub base: Vec<String>,
     /// The values of these parameters, constants each.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub values: String,
+}
+
+/// What is claimed of a function under a tolerance: at every state of the box each result of the
+/// text is within E·T of the robot's.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Tolerated {
+    /// The operations of the exact program, if the text has others.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub steps: String,
+    /// The values that it returns.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub returns: String,
+    /// T: of every result what it may be `actuator` or `range`.
+    pub relative_to: String,
+    /// The ranges of q, q̇ and q̈, of each joint; none of what is no argument.
+    pub ranges: [Vec<[f64; 2]>; 3],
+    /// T of each result, in its unit.
+    pub scales: Vec<f64>,
+    /// Where T is the range: a state for each result at which it is reached, q, q̇ and q̈ in a row.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub reached: Vec<Vec<f64>>,
+    /// E of each result in f64; empty where nothing is claimed.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub f64: Vec<f64>,
+    /// E of each result in f32; empty where nothing is claimed.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub f32: Vec<f64>,
 }
 
 /// The constants of a claim.
@@ -149,13 +182,35 @@ impl Constants {
 }
 
 impl Claimed {
-    /// Returns the program.
+    /// Returns the program of the text.
     ///
     /// # Errors
     /// The first word that is not of one.
     pub fn program(&self, constants: &Constants) -> Result<Program<Exact>, Fault> {
+        self.read(&self.steps, &self.returns, constants)
+    }
+
+    /// Returns the exact program, if it is another one.
+    ///
+    /// # Errors
+    /// The first word that is not of one.
+    pub fn exact(&self, constants: &Constants) -> Result<Option<Program<Exact>>, Fault> {
+        let own = self
+            .tolerated
+            .as_ref()
+            .filter(|own| !own.returns.is_empty());
+        own.map(|own| self.read(&own.steps, &own.returns, constants))
+            .transpose()
+    }
+
+    fn read(
+        &self,
+        words: &str,
+        returns: &str,
+        constants: &Constants,
+    ) -> Result<Program<Exact>, Fault> {
         let mut steps: Vec<Step<Exact>> = Vec::new();
-        for word in self.steps.split_ascii_whitespace() {
+        for word in words.split_ascii_whitespace() {
             let step = self.step(word, steps.len(), constants);
             steps.push(step.ok_or_else(|| self.refused(word))?);
             if steps.len() > MOST {
@@ -166,7 +221,7 @@ impl Claimed {
         if steps.len() * quotients > MOST_DEGREES {
             return Err(self.refused("more quotients than are looked at"));
         }
-        let returns = self.returns.split_ascii_whitespace();
+        let returns = returns.split_ascii_whitespace();
         let outputs = returns.map(|word| {
             let bare = word.strip_prefix('-').unwrap_or(word);
             let operand = self.operand(bare, steps.len(), constants);

@@ -6,6 +6,7 @@ use crate::identity::setting::Setting;
 use crate::identity::table::{ARGUMENTS, length};
 use crate::read::{self, Function, Head, Source};
 use crate::rounding::{Ranges, Rounding, Value};
+use crate::tolerance::Bounded;
 
 /// The largest rates where the robot file has no limit, per second and per second squared.
 pub const RATE: f64 = 10.0;
@@ -20,8 +21,8 @@ const LOOKED_AT: usize = 100;
 /// An entry below this share of its result's largest counts as zero.
 const ZERO: f64 = 1e-12;
 
-/// A function that is the robot's but for rounding.
-#[derive(Clone, Copy, Debug)]
+/// A function that is the robot's but for rounding, and for what a tolerance left out.
+#[derive(Clone, Debug)]
 pub struct Shown {
     /// What rounding costs at most, relative to the largest value seen of the entry, of a matrix
     /// of its row or its column.
@@ -32,6 +33,8 @@ pub struct Shown {
     pub states: usize,
     /// `true` if it has polynomials for sines, whose error counts as rounding.
     pub has_polynomials: bool,
+    /// The findings about each result, if it is under a tolerance.
+    pub results: Vec<Bounded>,
 }
 
 /// Bounds what rounding costs a function of this head, over ranges; states are drawn from these
@@ -72,6 +75,7 @@ pub(crate) fn cost(read: &Function, head: &Head, ranges: &Ranges, texts: &[&str]
         units: rounding / unit,
         states: if is_bounded { 0 } else { states },
         has_polynomials: read.sines.iter().any(is_polynomial),
+        results: Vec::new(),
     }
 }
 

@@ -1,60 +1,35 @@
-//! Why something is not audited.
+//! Reasons why something is not shown.
 
 use std::fmt;
 
-/// Why there is no verdict: something could not be read, is of a kind that this
+/// A reason why something is not shown: it could not be read, is of a kind that this
 /// checker does not know, or takes more work than it is willing to do.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Fault {
     /// The robot file: the key at fault, and what was expected.
     Robot(String, String),
-    /// The certificate: what is wrong with it.
-    Certificate(String),
     /// The claim: what is wrong with it, or with what it says.
     Claim(String),
     /// The text of the function: its line, from one, and what was expected there.
     Text(usize, String),
     /// A polynomial has a higher power of a variable than is written down, or more terms.
     Large,
-    /// More work than is done for one certificate.
+    /// More work than is done for one function.
     Work,
-}
-
-impl Fault {
-    /// Returns a fault of the robot file.
-    pub(crate) fn robot(key: impl Into<String>, why: impl Into<String>) -> Fault {
-        Fault::Robot(key.into(), why.into())
-    }
-
-    /// Returns a fault of the certificate.
-    pub(crate) fn certificate(why: impl Into<String>) -> Fault {
-        Fault::Certificate(why.into())
-    }
-
-    /// Refuses a robot file unless something holds of a key.
-    pub(crate) fn require(holds: bool, key: &str, why: &str) -> Result<(), Fault> {
-        holds.then_some(()).ok_or_else(|| Fault::robot(key, why))
-    }
-
-    /// Refuses a certificate unless something holds.
-    pub(crate) fn unless(holds: bool, why: &str) -> Result<(), Fault> {
-        holds.then_some(()).ok_or_else(|| Fault::certificate(why))
-    }
 }
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Fault::Robot(key, why) => write!(f, "robot file, `{key}`: {why}"),
-            Fault::Certificate(why) => write!(f, "certificate: {why}"),
             Fault::Claim(why) => write!(f, "claim: {why}"),
             Fault::Text(line, why) => write!(f, "text, line {line}: {why}"),
             Fault::Large => f.write_str(
                 "this is too general to be written out: a power beyond c^7, q\u{307}^3 and q\u{308}^1, \
                  or more than 262144 terms",
             ),
-            Fault::Work => f.write_str("more work than is done for one certificate"),
+            Fault::Work => f.write_str("more work than is done for one function"),
         }
     }
 }

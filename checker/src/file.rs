@@ -6,8 +6,6 @@
 //! a function calls. So the function of a name and module is the one that is found here.
 
 use crate::fault::Fault;
-use crate::quantity::Extent;
-use crate::read::camel;
 
 /// The longest file.
 pub const MOST_BYTES: usize = 32 << 20;
@@ -186,27 +184,6 @@ pub(crate) fn between<'t>(text: &'t str, before: &str, behind: &str) -> Option<&
 pub(crate) fn whole(word: &str) -> Option<usize> {
     let number = word.parse().ok()?;
     (word == format!("{number}")).then_some(number)
-}
-
-/// Returns the fields of the struct that a text returns, and how far each reaches; none if it
-/// returns no struct.
-pub(crate) fn results<'t>(name: &str, text: &'t str) -> Vec<(&'t str, Extent)> {
-    let declared = |line: &'t str| {
-        let (name, length) = line.split_once(' ')?.1.split_once('[')?;
-        Some((name, Extent::Entries(whole(length.strip_suffix("];")?)?)))
-    };
-    if let Some(fields) = text.strip_prefix("typedef struct {\n") {
-        let lines = fields.lines().filter(|line| !line.is_empty());
-        return lines.map_while(declared).collect();
-    }
-    let tail = text.rsplit_once(&format!("\n    {} {{\n", camel(name)));
-    let tail = tail.map_or("", |(_, fields)| fields);
-    let listed = |(place, _): (usize, &str)| {
-        let name = tail[..place].rsplit(' ').next()?;
-        let open = tail[place + 2..].split(|c| !"[ \n".contains(c)).next()?;
-        Some((name, Extent::Axes(open.matches('[').count())))
-    };
-    tail.match_indices(": ").filter_map(listed).collect()
 }
 
 /// The lines of the stamp that a file begins with: how they begin.

@@ -16,11 +16,18 @@ pub struct Interval {
 }
 
 impl Interval {
+    /// All numbers: nothing is known.
+    pub const NOTHING_KNOWN: Interval = Interval {
+        low: f64::NEG_INFINITY,
+        high: f64::INFINITY,
+    };
+
     /// Returns the numbers between two ends; everything if these are no numbers in order.
     pub fn new(low: f64, high: f64) -> Interval {
-        let known = Some((low, high)).filter(|_| low <= high);
-        let (low, high) = known.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
-        Interval { low, high }
+        match low <= high {
+            true => Interval { low, high },
+            false => Interval::NOTHING_KNOWN,
+        }
     }
 
     /// Returns one number.
@@ -36,6 +43,11 @@ impl Interval {
     /// Returns the largest magnitude in it.
     pub fn magnitude(self) -> f64 {
         self.low.abs().max(self.high.abs())
+    }
+
+    /// Returns the numbers of it that are at most so far from zero: all are known to be.
+    pub(crate) fn within(self, most: f64) -> Interval {
+        Interval::new(self.low.max(-most), self.high.min(most))
     }
 
     /// Returns one step outward: an operation on the ends was rounded to nearest.
@@ -64,7 +76,7 @@ impl Mul for Interval {
         let (a, b) = (self.low * other.low, self.low * other.high);
         let (c, d) = (self.high * other.low, self.high * other.high);
         if [a, b, c, d].iter().any(|x| x.is_nan()) {
-            return Interval::new(f64::NAN, f64::NAN);
+            return Interval::NOTHING_KNOWN;
         }
         Interval::outward(a.min(b).min(c.min(d)), a.max(b).max(c.max(d)))
     }

@@ -9,8 +9,20 @@
 
 use crate::fault::Fault;
 use crate::interval::UNIT;
-pub use crate::number::Work;
-use crate::number::{Number, Real};
+
+/// The most products of terms for the polynomials of one function.
+const MOST_WORK: u64 = 400_000_000;
+
+/// Counts products of terms, so that the work for a function is bounded.
+#[derive(Debug, Default)]
+pub struct Work(u64);
+
+impl Work {
+    fn spend(&mut self, products: usize) -> Result<(), Fault> {
+        self.0 = self.0.saturating_add(products as u64);
+        (self.0 <= MOST_WORK).then_some(()).ok_or(Fault::Work)
+    }
+}
 
 /// The exponents of a monomial: `WIDTH` bits a joint.
 pub type Key = u128;
@@ -94,36 +106,38 @@ impl Polynomial {
         Polynomial { terms, rest }
     }
 
-    /// Returns its first coefficient: all of a number's.
-    pub(crate) fn value(&self) -> f64 {
-        self.terms.first().map_or(0.0, |term| term.1)
-    }
-
     /// Returns more than its magnitude anywhere in the box.
     pub fn norm(&self) -> f64 {
         let sum: f64 = self.terms.iter().map(|(_, c)| c.abs()).sum();
         (sum + self.rest) * SLACK
     }
-}
 
-impl Number for Polynomial {
-    fn constant(real: Real) -> Polynomial {
-        Polynomial::term(0, real.value, real.radius)
+    /// Returns a number that is at most so far from a double.
+    pub fn constant(value: f64, radius: f64) -> Polynomial {
+        Polynomial::term(0, value, radius)
     }
 
-    fn negated(&self) -> Polynomial {
+    /// Returns the opposite.
+    #[must_use]
+    pub fn negated(&self) -> Polynomial {
         let terms = self.terms.iter().map(|&(key, c)| (key, -c)).collect();
         let rest = self.rest;
         Polynomial { terms, rest }
     }
 
-    fn plus(&self, other: &Polynomial) -> Polynomial {
+    /// Returns the sum of two.
+    #[must_use]
+    pub fn plus(&self, other: &Polynomial) -> Polynomial {
         let mut terms = [self.terms.as_slice(), &other.terms].concat();
         sort(&mut terms);
         merged(terms, self.rest + other.rest)
     }
 
-    fn times(&self, other: &Polynomial, work: &mut Work) -> Result<Polynomial, Fault> {
+    /// Returns the product of two.
+    ///
+    /// # Errors
+    /// More than is written out, or more work than is done.
+    pub fn times(&self, other: &Polynomial, work: &mut Work) -> Result<Polynomial, Fault> {
         let zero = Polynomial::default();
         if *self == zero || *other == zero {
             return Ok(zero);

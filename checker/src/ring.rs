@@ -1,31 +1,36 @@
 //! The box of states as polynomials: which variables stand for positions and rates.
 //!
 //! Where the axes of two joints that turn are parallel, the second one's variable is the
-//! sum φ of its angle and of those before it (their difference, where the axes point
+//! sum φ of its angle and of the one before (their difference, where the axes point
 //! against each other): then a link's direction is one sine, not a product of many. That
 //! is done only where the second joint goes all the way round: as q does so does φ, at
 //! every angle of the joint before, so that the box of the φ is the box of the q.
 
-use crate::certificate::Claim;
-use crate::dynamics::{State, axis};
 use crate::fault::Fault;
-use crate::number::Number;
+use crate::identity::arm::Arm;
+use crate::identity::exact::Point;
+use crate::identity::program::Operand;
+use crate::identity::setting::Setting;
 use crate::polynomial::{Key, MAX_JOINTS, Polynomial, Variable, Work, exponent};
-use crate::scene::Setting;
 
 /// A range of at least so much counts as all angles.
 const WHOLE_TURN: f64 = std::f64::consts::TAU - 1e-9;
 
+/// The ranges of q, q̇ and q̈, of each joint.
+pub type StateBox = [Vec<[f64; 2]>; 3];
+
 /// The variables over a box.
 #[derive(Clone, Debug)]
 pub struct Ring {
-    /// The state of each joint.
-    pub states: Vec<State<Polynomial>>,
+    /// Of each joint sine, cosine and position, or what there is of them.
+    positions: Vec<[Option<Polynomial>; 3]>,
+    /// Of each joint q̇ and q̈.
+    rates: [Vec<Polynomial>; 2],
     /// The range of each joint's angle φ; `None` where it goes all the way round, or
     /// stands for a position between two ends.
     pub angles: Vec<Option<[f64; 2]>>,
     /// The ranges of q̇ and of q̈ in their units.
-    rates: [Vec<[f64; 2]>; 2],
+    units: [Vec<[f64; 2]>; 2],
 }
 
 /// Returns the least power of two that is not below a size, which is not zero.
@@ -36,92 +41,99 @@ fn unit(size: f64) -> f64 {
 }
 
 impl Ring {
-    /// Returns the variables of a setting's joints over the ranges of a claim.
+    /// Returns the variables of a robot's joints over a box, which has a range of each.
     ///
     /// # Errors
-    /// Ranges that are none: not one a joint, not finite, or with ends in the wrong order.
-    pub fn new(setting: &Setting, claim: &Claim, work: &mut Work) -> Result<Ring, Fault> {
-        let count = setting.joints.len();
-        let good = |range: &[f64; 2]| range[0] <= range[1] && range.iter().all(|x| x.abs() < 1e30);
-        for list in [&claim.position, &claim.velocity, &claim.acceleration] {
-            let why = format!("expected {count} finite ranges of q, qd, qdd");
-            Fault::unless(list.len() == count && list.iter().all(good), &why)?;
+    /// More joints than there are variables of, or a robot that the equations do not have.
+    pub fn new(setting: &Setting, ranges: &StateBox, work: &mut Work) -> Result<Ring, Fault> {
+        let of_robot = |why| Fault::Robot("joint".into(), why);
+        let count = setting.joints();
+        if count > MAX_JOINTS {
+            let why = format!("under a tolerance at most {MAX_JOINTS} joints are checked");
+            return Err(of_robot(why));
         }
+        let arm = Arm::read(setting, &Point::new(&["axes"])).map_err(of_robot)?;
         let mut ring = Ring {
-            states: Vec::new(),
+            positions: Vec::new(),
+            rates: Default::default(),
             angles: Vec::new(),
-            rates: [Vec::new(), Vec::new()],
+            units: Default::default(),
         };
-        for joint in 0..count {
-            let mut rate = |which: usize, [low, high]: [f64; 2]| {
+        for (joint, position) in ranges[0].iter().enumerate() {
+            ring.position(setting, &arm, *position, work)?;
+            for (which, variable) in [Variable::Velocity, Variable::Acceleration]
+                .into_iter()
+                .enumerate()
+            {
+                let [low, high] = ranges[which + 1][joint];
                 let size = low.abs().max(high.abs());
-                let moves = size > 0.0 && setting.locks[joint].is_none() && !setting.still[which];
-                let unit = if moves { unit(size) } else { 0.0 };
+                let unit = if size > 0.0 { unit(size) } else { 0.0 };
                 let range = [low / unit, high / unit];
-                ring.rates[which].push(if moves { range } else { [0.0; 2] });
-                let variable = [Variable::Velocity, Variable::Acceleration][which];
-                Polynomial::variable(variable, joint, unit)
-            };
-            let velocity = rate(0, claim.velocity[joint]);
-            let acceleration = rate(1, claim.acceleration[joint]);
-            let state = State {
-                velocity,
-                acceleration,
-                ..State::default()
-            };
-            let state = ring.positioned(state, setting, claim.position[joint], work)?;
-            ring.states.push(state);
+                ring.units[which].push(if size > 0.0 { range } else { [0.0; 2] });
+                ring.rates[which].push(Polynomial::variable(variable, joint, unit));
+            }
         }
         Ok(ring)
     }
 
-    /// Returns sine, cosine and position of the next joint.
-    fn positioned(
+    /// Adds sine and cosine, or the position, of the next joint.
+    fn position(
         &mut self,
-        mut state: State<Polynomial>,
         setting: &Setting,
+        arm: &Arm,
         range: [f64; 2],
         work: &mut Work,
-    ) -> Result<State<Polynomial>, Fault> {
-        let joint = self.states.len();
+    ) -> Result<(), Fault> {
+        let joint = self.positions.len();
         let own =
             |joint| [Variable::Sin, Variable::Cos].map(|v| Polynomial::variable(v, joint, 1.0));
         let is_whole = range[1] - range[0] >= WHOLE_TURN;
-        let turns = setting.joints[joint].turns && setting.locks[joint].is_none();
-        self.angles.push(Some(range).filter(|_| turns && !is_whole));
-        if let Some(at) = setting.locks[joint] {
-            [state.sin, state.cos, state.position] = at.map(Number::constant);
-        } else if !turns {
+        let moves = |joint: usize| setting.turns_by(joint) && !setting.is_locked(joint);
+        self.angles
+            .push(Some(range).filter(|_| moves(joint) && !is_whole));
+        self.positions.push(if setting.is_locked(joint) {
+            // A program of the scene has a number in its place.
+            [None, None, None]
+        } else if !setting.turns_by(joint) {
             // A position between two ends is their middle and a cosine's share of half
             // their distance, whatever the angle.
             let middle = 0.5 * range[0] + 0.5 * range[1];
             let half = (range[1] - middle).max(middle - range[0]).next_up();
             let share = Polynomial::variable(Variable::Cos, joint, half);
-            state.position = Polynomial::constant(middle.into()).plus(&share);
+            [
+                None,
+                None,
+                Some(Polynomial::constant(middle, 0.0).plus(&share)),
+            ]
         } else {
-            [state.sin, state.cos] = own(joint);
-            if let Some(sign) = Ring::parallel(setting, joint, work)?.filter(|_| is_whole) {
+            let [mut sin, mut cos] = own(joint);
+            let before = joint.checked_sub(1).filter(|&before| moves(before));
+            let sign = before.and_then(|before| arm.parallel([before, joint]));
+            if let Some(sign) = sign.filter(|_| is_whole) {
                 // sin(φ ∓ ψ), cos(φ ∓ ψ), ψ being the variable of the joint before.
-                let ([sin, cos], [sin_b, cos_b]) = (own(joint), own(joint - 1));
-                let sin_b = sin_b.times(&Polynomial::constant(sign.into()), work)?;
-                let across = cos.times(&sin_b, work)?.negated();
-                state.sin = sin.times(&cos_b, work)?.plus(&across);
-                state.cos = cos.times(&cos_b, work)?.plus(&sin.times(&sin_b, work)?);
+                let ([sin_a, cos_a], [sin_b, cos_b]) = (own(joint), own(joint - 1));
+                let sin_b = if sign < 0.0 { sin_b.negated() } else { sin_b };
+                let across = cos_a.times(&sin_b, work)?.negated();
+                sin = sin_a.times(&cos_b, work)?.plus(&across);
+                cos = cos_a.times(&cos_b, work)?.plus(&sin_a.times(&sin_b, work)?);
             }
-        }
-        Ok(state)
+            [Some(sin), Some(cos), None]
+        });
+        Ok(())
     }
 
-    /// Returns whether the axis of a joint that turns is parallel to that of the one before,
-    /// which turns too and is not locked: 1, or −1 if it points the other way.
-    fn parallel(setting: &Setting, joint: usize, work: &mut Work) -> Result<Option<f64>, Fault> {
-        let moves = |k: usize| setting.joints[k].turns && setting.locks[k].is_none();
-        if !joint.checked_sub(1).is_some_and(moves) {
-            return Ok(None);
+    /// Returns what a program reads: a sine, a position that slides, or a rate; none of what is no
+    /// polynomial, or of a joint that is locked.
+    pub fn leaf<C>(&self, own: &Operand<C>) -> Option<Polynomial> {
+        match own {
+            Operand::Sine(angle, is_sine) => match angle.as_slice() {
+                [(joint, false)] => self.positions.get(*joint)?[usize::from(!is_sine)].clone(),
+                _ => None,
+            },
+            Operand::Entry(0, joint) => self.positions.get(*joint)?[2].clone(),
+            Operand::Entry(place @ (1 | 2), joint) => self.rates[place - 1].get(*joint).cloned(),
+            _ => None,
         }
-        let [_, _, along]: [Polynomial; 3] = axis(setting, joint, work)?;
-        let sign = |sign: f64| along == Polynomial::constant(sign.into());
-        Ok([1.0, -1.0].into_iter().find(|one| sign(*one)))
     }
 
     /// Returns the values that the rates and errors of a monomial take over the box: the middle
@@ -130,7 +142,7 @@ impl Ring {
         let (mut low, mut high) = (1.0f64, 1.0f64);
         for joint in 0..MAX_JOINTS {
             let rates = [Variable::Velocity, Variable::Acceleration];
-            for (variable, ranges) in rates.into_iter().zip(&self.rates) {
+            for (variable, ranges) in rates.into_iter().zip(&self.units) {
                 let [a, b] = ranges.get(joint).copied().unwrap_or_default();
                 let power = exponent(key, variable, joint) as i32;
                 let (x, y) = (a.powi(power), b.powi(power));

@@ -8,7 +8,6 @@ use crate::identity::program::Operand;
 use crate::interval::{FARTHEST, Interval, SINE_ERROR, sin_cos};
 use crate::read::{Function, Source};
 use crate::sines::{self, Scalar};
-use crate::text;
 
 /// The ranges of the entries of every argument.
 pub type Ranges = Vec<Vec<[f64; 2]>>;
@@ -46,11 +45,10 @@ impl<'f> Rounding<'f> {
                 continue;
             };
             let range = ranges[0].get(own.joint).copied().unwrap_or([f64::NAN; 2]);
-            let (block, results) = text::block(program);
             let needed = [true, false].into_iter().zip(own.needs).filter(|own| own.1);
-            for ((is_sine, _), result) in needed.zip(results) {
+            for (result, (is_sine, _)) in needed.enumerate() {
                 let range = Interval::new(range[0], range[1]);
-                let error = sines::error(&block, result, is_sine, range, scalar);
+                let error = sines::error(program, result, is_sine, range, scalar);
                 polynomials.insert((own.joint, is_sine), error);
             }
         }
@@ -66,11 +64,23 @@ impl<'f> Rounding<'f> {
         self.scalar.unit
     }
 
+    /// Returns the largest error of the polynomial for the sine, or the cosine, of a joint's angle
+    /// over the box; none where a library gives it.
+    pub fn polynomial(&self, joint: usize, is_sine: bool) -> Option<f64> {
+        self.polynomials.get(&(joint, is_sine)).copied()
+    }
+
     /// Returns bounds of the results over ranges: a box, or a state.
     pub fn bounds(&self, ranges: &Ranges) -> Vec<Value> {
+        self.bounds_within(ranges, None)
+    }
+
+    /// Returns bounds of the results over a box where sizes of all values are known, one a step. The
+    /// exact value is then that of polynomials for sines, whose error is none of rounding.
+    pub fn bounds_within(&self, ranges: &Ranges, sizes: Option<&[f64]>) -> Vec<Value> {
         let steps = &self.function.program.steps;
         let mut values: Vec<Value> = Vec::with_capacity(steps.len());
-        let given = &Given::new(self, ranges);
+        let given = &Given::new(self, ranges, sizes.is_none());
         for (index, (operation, operands)) in steps.iter().enumerate() {
             let [a, b] = operands
                 .each_ref()
@@ -85,7 +95,10 @@ impl<'f> Rounding<'f> {
             if ['+', '-'].contains(operation)
                 && let Some(most) = self.turned(index, &values, given)
             {
-                exact = Interval::new(exact.low.max(-most), exact.high.min(most));
+                exact = exact.within(most);
+            }
+            if let Some(most) = sizes.and_then(|sizes| sizes.get(index)) {
+                exact = exact.within(*most);
             }
             let is_rounded = *operation != '×';
             let error = match is_rounded {
@@ -105,7 +118,7 @@ impl<'f> Rounding<'f> {
 
     fn operand(&self, own: &Operand<f64>, values: &[Value], given: &Given) -> Value {
         let nothing = Value {
-            exact: Interval::new(f64::NAN, f64::NAN),
+            exact: Interval::NOTHING_KNOWN,
             error: f64::INFINITY,
         };
         let known = match own {
@@ -132,13 +145,21 @@ impl<'f> Rounding<'f> {
         known.unwrap_or(nothing)
     }
 
-    /// Returns the sine, or the cosine, of a joint's angle.
-    fn sine(&self, joint: usize, range: [f64; 2], is_sine: bool) -> Value {
+    /// Returns the sine, or the cosine, of a joint's angle, or else what polynomials return for it.
+    fn sine(&self, joint: usize, range: [f64; 2], is_sine: bool, is_exact: bool) -> Value {
         let exact = sine(Interval::new(range[0], range[1]), is_sine);
-        let own = self.polynomials.get(&(joint, is_sine)).copied();
-        // The library's is within an ulp of at most one.
-        let error = own.unwrap_or(2.0 * self.scalar.unit);
-        Value { exact, error }
+        match self.polynomial(joint, is_sine) {
+            // The library's is within an ulp of at most one.
+            None => Value {
+                exact,
+                error: 2.0 * self.scalar.unit,
+            },
+            Some(error) if is_exact => Value { exact, error },
+            Some(error) => Value {
+                exact: exact + Interval::around(0.0, error),
+                error: 0.0,
+            },
+        }
     }
 
     /// Returns 1/√(q̇² + w²): four operations, and w² is rounded.
@@ -194,10 +215,10 @@ struct Given<'g> {
 }
 
 impl<'g> Given<'g> {
-    fn new(own: &Rounding, ranges: &'g Ranges) -> Given<'g> {
+    fn new(own: &Rounding, ranges: &'g Ranges, is_exact: bool) -> Given<'g> {
         let joints = ranges[0].iter().enumerate();
         let pair = |(joint, range): (usize, &[f64; 2])| {
-            [true, false].map(|is_sine| own.sine(joint, *range, is_sine))
+            [true, false].map(|is_sine| own.sine(joint, *range, is_sine, is_exact))
         };
         let sines = joints.map(pair).collect();
         Given { ranges, sines }
@@ -226,7 +247,7 @@ fn square(own: Interval) -> Interval {
 
 /// Returns a quotient; nothing is known of one whose divisor may be zero.
 fn quotient(a: Value, b: Value) -> (Interval, f64) {
-    let nothing = (Interval::new(f64::NAN, f64::NAN), f64::INFINITY);
+    let nothing = (Interval::NOTHING_KNOWN, f64::INFINITY);
     let (low, high) = (b.exact.low, b.exact.high);
     let least = low.abs().min(high.abs()) - b.error;
     if !(least > 0.0) || low <= 0.0 && high >= 0.0 {

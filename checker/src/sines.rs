@@ -1,9 +1,8 @@
-//! What rounding costs, and how far a block of arithmetic is from the sine or the cosine
-//! of its angle.
+//! What rounding costs, and how far polynomials of an angle are from its sine and its cosine.
 
+use crate::identity::program::{Operand, Program};
 use crate::interval::{Interval, SINE_ERROR, UNIT, sin_cos};
 use crate::polynomial::SLACK;
-use crate::program::Node;
 
 /// Half an ulp of f32, relative.
 const SINGLE_UNIT: f64 = 5.960_464_477_539_063e-8;
@@ -41,13 +40,20 @@ impl Scalar {
     }
 }
 
-/// Returns the largest difference of what a block computes in floating point, at the angles of a
-/// range, from the sine (or cosine); infinite if nothing can be said.
+/// Returns the largest difference of what polynomials of an angle return in floating point, at the
+/// angles of a range, from its sine (or cosine); infinite if nothing can be said. `result` says
+/// which of their results that is.
 ///
-/// Of f, the block in real numbers less the sine, the value at the middle of each cell
+/// Of f, the polynomial in real numbers less the sine, the value at the middle of each cell
 /// and the slope over the cell are enclosed: |f| ≤ |f(m)| + max|f′|·w. What rounding
 /// costs on the way is added.
-pub fn error(block: &[Node], result: usize, is_sine: bool, range: Interval, scalar: Scalar) -> f64 {
+pub fn error(
+    polynomials: &Program<f64>,
+    result: usize,
+    is_sine: bool,
+    range: Interval,
+    scalar: Scalar,
+) -> f64 {
     if !(range.magnitude() < 1000.0) {
         return f64::INFINITY;
     }
@@ -62,8 +68,8 @@ pub fn error(block: &[Node], result: usize, is_sine: bool, range: Interval, scal
             true => (sin, Interval::around(cos, half + SINE_ERROR)),
             false => (cos, Interval::around(-sin, half + SINE_ERROR)),
         };
-        let at = last(&evaluate(block, Interval::point(middle), scalar), result);
-        let around = last(&evaluate(block, over, scalar), result);
+        let at = evaluate(polynomials, result, Interval::point(middle), scalar);
+        let around = evaluate(polynomials, result, over, scalar);
         let off = (at.value + -Interval::around(value, SINE_ERROR)).magnitude();
         let off = off + (around.slope + -slope).magnitude() * half + around.error;
         // So that a result that is no number counts as the worst.
@@ -77,7 +83,7 @@ pub fn error(block: &[Node], result: usize, is_sine: bool, range: Interval, scal
     worst * (1.0 + 1e-12)
 }
 
-/// A value of a block over a range of angles: enclosures of it and of its derivative, and
+/// A value of polynomials over a range of angles: enclosures of it and of its derivative, and
 /// what rounding costs up to it.
 #[derive(Clone, Copy)]
 struct Enclosed {
@@ -86,51 +92,57 @@ struct Enclosed {
     error: f64,
 }
 
-impl Enclosed {
-    fn new(value: Interval, slope: Interval, error: f64) -> Enclosed {
+fn evaluate(own: &Program<f64>, result: usize, angle: Interval, scalar: Scalar) -> Enclosed {
+    let leaf = |own: &Operand<f64>| {
+        let (value, slope) = match own {
+            Operand::Constant(literal) => (Interval::point(*literal), 0.0),
+            Operand::Entry(..) => (angle, 1.0),
+            _ => return None,
+        };
+        let (slope, error) = (Interval::point(slope), 0.0);
+        Some(Enclosed {
+            value,
+            slope,
+            error,
+        })
+    };
+    let apply = |operation: char, a: Enclosed, b: Enclosed| {
+        let signed = |x: Interval| if operation == '-' { -x } else { x };
+        let (value, slope, inherited) = match operation {
+            '+' | '-' => {
+                let (value, slope) = (a.value + signed(b.value), a.slope + signed(b.slope));
+                (value, slope, a.error + b.error)
+            }
+            '*' | '×' => {
+                let slope = a.slope * b.value + a.value * b.slope;
+                let own = a.error * (b.value.magnitude() + b.error);
+                let inherited = own + b.error * a.value.magnitude();
+                (a.value * b.value, slope, inherited)
+            }
+            _ => (Interval::NOTHING_KNOWN, Interval::NOTHING_KNOWN, 0.0),
+        };
+        let error = match operation {
+            '×' => inherited,
+            _ => scalar.rounded(value.magnitude(), inherited),
+        };
         Enclosed {
             value,
             slope,
             error,
         }
+    };
+    let results = own.run(leaf, apply).unwrap_or_default();
+    match results.get(result) {
+        Some((false, own)) => *own,
+        Some((true, own)) => Enclosed {
+            value: -own.value,
+            slope: -own.slope,
+            ..*own
+        },
+        None => Enclosed {
+            value: Interval::NOTHING_KNOWN,
+            slope: Interval::NOTHING_KNOWN,
+            error: f64::INFINITY,
+        },
     }
-}
-
-fn last(values: &[Enclosed], result: usize) -> Enclosed {
-    let unknown = Interval::new(f64::NAN, f64::NAN);
-    let nothing = Enclosed::new(unknown, unknown, f64::INFINITY);
-    values.get(result).copied().unwrap_or(nothing)
-}
-
-fn evaluate(block: &[Node], angle: Interval, scalar: Scalar) -> Vec<Enclosed> {
-    let mut values = vec![Enclosed::new(angle, Interval::point(1.0), 0.0)];
-    for &node in block.iter().skip(1) {
-        let get = |node: usize| last(&values, node);
-        // What is neither a literal nor an opposite is rounded.
-        let rounded = |value: Interval, slope, inherited| {
-            Enclosed::new(value, slope, scalar.rounded(value.magnitude(), inherited))
-        };
-        let value = match node {
-            Node::Constant(value) => {
-                Enclosed::new(Interval::point(value), Interval::point(0.0), 0.0)
-            }
-            Node::Neg(a) => Enclosed::new(-get(a).value, -get(a).slope, get(a).error),
-            Node::Add(a, b) | Node::Sub(a, b) => {
-                let (a, b, sum) = (get(a), get(b), matches!(node, Node::Add(..)));
-                let signed = |x: Interval| if sum { x } else { -x };
-                let (value, slope) = (a.value + signed(b.value), a.slope + signed(b.slope));
-                rounded(value, slope, a.error + b.error)
-            }
-            Node::Mul(a, b) => {
-                let (a, b) = (get(a), get(b));
-                let slope = a.slope * b.value + a.value * b.slope;
-                let own = a.error * (b.value.magnitude() + b.error);
-                let inherited = own + b.error * a.value.magnitude();
-                rounded(a.value * b.value, slope, inherited)
-            }
-            Node::Input(..) | Node::Sine(..) | Node::Fused(..) | Node::Div(..) => last(&[], 0),
-        };
-        values.push(value);
-    }
-    values
 }

@@ -1,115 +1,131 @@
-//! The false claims that the project's own checker once accepted: none is shown here.
+//! Variants and claims that were made to be believed, each accepted once by some checker: none is
+//! shown. The text, its claim and the robot of each are files.
 
-use dalembert_checker::{Fault, audit};
+use dalembert_checker::certify::{Bounded, certify};
 
-use crate::support::{claim, file};
+use crate::support::file;
 
-fn data(name: &str) -> String {
-    format!("cli/tests/data/attacks/{name}")
-}
-
-/// Returns what the audit says of a false claim: a fault's words, or nothing if it is only not
-/// shown.
-fn refused(certificate: &str, robot: &str, scene: Option<&str>) -> String {
-    let mut claim = claim(&data(certificate));
-    claim.scene = scene.map(String::from).or(claim.scene);
-    match audit(&claim, &file(&data(robot)), None) {
-        Ok(verdict) => {
-            assert!(!verdict.is_shown(), "{certificate}: {verdict:?}");
-            String::new()
-        }
-        Err(fault) => fault.to_string(),
-    }
-}
-
-#[test]
-fn programs_aimed_at_primes_and_points() {
-    for certificate in ["C.json", "C2.json"] {
-        assert_eq!(refused(certificate, "r2l.toml", None), "");
-    }
-    assert_eq!(refused("pt.certificate.json", "pt.toml", None), "");
-}
-
-#[test]
-fn another_function_than_the_claims() {
-    assert_eq!(refused("still_bad.json", "r2_conf.toml", None), "");
-}
-
-#[test]
-fn inputs_that_are_no_values() {
-    assert!(refused("locked_bad.json", "r2_conf.toml", None).contains("joint 2, which is locked"));
-    assert!(
-        refused("pend_bad.json", "pend.toml", None).contains("the angle of a joint as a number")
+/// Returns the bounds of the results of a variant, or why it is not shown.
+fn found(
+    name: &str,
+    [robot, scene]: [&str; 2],
+    tolerance: Option<f64>,
+) -> Result<Vec<Bounded>, String> {
+    let data = |name: &str| file(&format!("checker/tests/data/attacks/{name}"));
+    let (text, claim) = (
+        data(&format!("{name}.rs")),
+        data(&format!("{name}.claim.json")),
     );
+    let report = certify(
+        &text,
+        &claim,
+        &data(&format!("{robot}.toml")),
+        Some(scene),
+        tolerance,
+    );
+    let line = report.map_err(|fault| fault.to_string())?.lines.remove(0);
+    let shown = line.result.map_err(|fault| fault.to_string())?;
+    Ok(shown.results)
 }
 
+/// A variant, its robot, its scene, and the refusal.
+const ATTACKS: [[&str; 4]; 13] = [
+    // Multiples of 2⁶¹ − 1 in a constant of the exact program; of the text alone.
+    ["A", "r2", "pick", "result 1 is not that of the robot"],
+    ["B", "r2", "pick", "E of result 1 is refuted at a state"],
+    // Terms that vanish at known points of a known prime.
+    ["C", "r2l", "pick", "result 1 is not that of the robot"],
+    ["C2", "r2l", "pick", "E of result 1 is refuted at a state"],
+    ["pt", "pt", "pick", "result 1 is not that of the robot"],
+    // The function at rest is another one.
+    [
+        "still_bad",
+        "r2_conf",
+        "still",
+        "result 1 is not that of the robot",
+    ],
+    // Inputs that are no values.
+    [
+        "locked_bad",
+        "r2_conf",
+        "locked",
+        "a joint that is locked, or an angle as a number",
+    ],
+    [
+        "pend_bad",
+        "pend_bad",
+        "pick",
+        "a joint that is locked, or an angle as a number",
+    ],
+    // Texts that are not of the grammar.
+    ["t1", "r2l", "pick", "line 3: nothing that is generated"],
+    ["t5", "r2l", "pick", "`libm` expected, not `0.0`"],
+    ["t6", "r2l", "pick", "line 6: nothing that is generated"],
+    // T that nothing reaches, and limits between which nothing is.
+    ["forged", "user", "s", "the largest that is reached"],
+    ["ra", "ru", "s", "the range of `qd` is empty"],
+];
+
 #[test]
-fn texts_that_are_not_of_the_grammar() {
-    let lines = [
-        "`libm` expected, not `crate`",
-        "`libm` expected, not `0.0`",
-        "`=` expected, not `t1`",
-    ];
-    for (certificate, line) in ["t1.json", "t5.json", "t6.json"].into_iter().zip(lines) {
-        let words = refused(certificate, "r2l.toml", None);
-        assert!(
-            words.starts_with("text, line") && words.contains(line),
-            "{certificate}: {words}"
-        );
+fn variants_that_are_not_what_is_claimed() {
+    for [name, robot, scene, words] in ATTACKS {
+        let why = found(name, [robot, scene], None).unwrap_err();
+        assert!(why.contains(words), "{name}: {why}");
     }
 }
 
+/// What is within a tolerance of 0.1 is not within the scene's.
 #[test]
 fn a_tolerance_that_is_not_the_scenes() {
-    assert_eq!(
-        refused("scara_a4_too_loose.json", "scara.toml", Some("a4")),
-        ""
-    );
-}
-
-/// Robots of attacks on other parts: they are read as they stand, or refused by key.
-#[test]
-fn robots_of_attacks() {
-    let mut claim = claim("checker/tests/data/planar2r-pick.json");
-    claim.scene = None;
-    // It has no limits of velocity, so that no box has all its states.
-    let fault = audit(&claim, &file(&data("pe.toml")), None).unwrap_err();
-    assert!(fault.to_string().contains("the box lacks"), "{fault}");
-    let fault = audit(&claim, &file(&data("h.toml")), None).unwrap_err();
+    let (name, scene) = ("scara_a4_too_loose", ["scara", "a4"]);
+    let results = found(name, scene, Some(0.1)).unwrap();
+    let held = results.iter().filter(|own| own.holds()).count();
+    assert_eq!(held, 3, "{results:?}");
+    let why = found(name, scene, None).unwrap_err();
     assert!(
-        matches!(fault, Fault::Robot(ref key, _) if key == "alpha"),
-        "{fault}"
-    );
-    claim.scene = Some("d".into());
-    let fault = audit(&claim, &file(&data("indefinite.toml")), None).unwrap_err();
-    assert!(
-        fault.to_string().contains("relative_to") || fault.to_string().contains("box"),
-        "{fault}"
+        why.contains("result 1 is within 7.920e-2 of T, not 1.000e-3"),
+        "{why}"
     );
 }
 
-const TRI: &str = "checker/tests/data/attacks/tri.toml";
-
-/// A certificate that names no scene is held to no tolerance, and E of two to nothing.
+/// An arm whose results are all zero is a true claim: T is zero, and so is the error.
 #[test]
-fn certificates_that_nothing_holds() {
-    let path = "checker/tests/data/attacks/zero.json";
-    let mut claim = claim(path);
-    let fault = audit(&claim, &file(TRI), None).unwrap_err().to_string();
-    assert!(fault.contains("it names no scene"), "{fault}");
-    claim.scene = Some("act".into());
-    let fault = audit(&claim, &file(TRI), None).unwrap_err().to_string();
-    assert!(fault.contains("below one"), "{fault}");
+fn nothing_of_nothing() {
+    let results = found("nothing", ["zero", "s"], None).unwrap();
+    assert!(results[0].scale == 0.0 && results[0].bound() == 0.0);
 }
 
-/// Thirty-nine scales that nothing reaches are refused soon.
+/// The multiples of 2⁶¹ − 1 are what is refused: without them the variants are shown.
 #[test]
-fn work_for_witnesses() {
-    let claim = claim("checker/tests/data/attacks/dos.json");
-    let begin = std::time::Instant::now();
-    let refused = audit(&claim, &file(TRI), Some(1e-2));
-    assert!(!refused.is_ok_and(|verdict| verdict.is_shown()));
-    let seconds = begin.elapsed().as_secs_f64();
-    // Five of a processor; it was 152, and other tests take their share.
-    assert!(seconds < 120.0, "{seconds}");
+fn variants_without_the_planted_number() {
+    let data = |name: &str| file(&format!("checker/tests/data/attacks/{name}"));
+    let claim = data("B.claim.json");
+    let (text, robot) = (data("B.rs"), data("r2.toml"));
+    let planted = ["230.5843009213694", "2305843009213693951/10000000000000000"];
+    assert!(text.contains(planted[0]) && claim.contains(planted[1]));
+    let [text, claim] = [
+        text.replace(planted[0], "0.0"),
+        claim.replace(planted[1], "0"),
+    ];
+    let report = certify(&text, &claim, &robot, Some("pick"), None).unwrap();
+    assert!(report.is_shown(), "{report:?}");
+}
+
+/// The checked-in variants of the PUMA hold, every E of them.
+#[test]
+fn variants_that_are_checked_in() {
+    let robot = file("generated/robots/puma560.toml");
+    for (name, tolerance) in [("actuator-1e-3", 1e-3), ("range-1e-2", 1e-2)] {
+        let own = format!("generated/variants/puma560-{name}");
+        let (text, claim) = (
+            file(&format!("{own}.rs")),
+            file(&format!("{own}.claim.json")),
+        );
+        let report = certify(&text, &claim, &robot, None, Some(tolerance)).unwrap();
+        let results = &report.lines[0].result.as_ref().unwrap().results;
+        assert!(
+            results.len() == 6 && results.iter().all(Bounded::holds),
+            "{results:?}"
+        );
+    }
 }

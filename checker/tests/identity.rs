@@ -13,7 +13,8 @@ use crate::support::file;
 const ROBOT: &str = "generated/robots/planar2r.toml";
 
 /// Words of the robot file, those in their place, and the refusal.
-const ROBOTS: [[&str; 3]; 13] = [
+const ROBOTS: [[&str; 3]; 14] = [
+    ["mass = 1", "mass = nan", "`nan` is no number"],
     ["\"revolute\"", "\"continuous\"", "joint 1: expected `kind`"],
     [
         "a = 1",

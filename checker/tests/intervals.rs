@@ -1,7 +1,6 @@
 //! Intervals and polynomials against exact numbers.
 
 use dalembert_checker::interval::{Interval, SINE_ERROR, sin_cos};
-use dalembert_checker::number::Number;
 use dalembert_checker::polynomial::{Polynomial, Variable, Work};
 use num_rational::BigRational;
 
@@ -78,7 +77,7 @@ fn products_of_polynomials_are_within_their_rest() {
     for six in all.chunks(6) {
         let cos = Polynomial::variable(Variable::Cos, 0, six[0]);
         let rate = Polynomial::variable(Variable::Velocity, 1, six[1]);
-        let one = cos.plus(&Polynomial::constant(six[2].into())).plus(&rate);
+        let one = cos.plus(&Polynomial::constant(six[2], 0.0)).plus(&rate);
         let other = rate.plus(&Polynomial::variable(Variable::Cos, 0, six[3]));
         let product = one.times(&other, &mut Work::default()).unwrap();
         let (c, v) = (exact(six[4] % 1.0), exact(six[5] % 1.0));
@@ -106,7 +105,7 @@ fn the_square_of_a_sine_is_one_less_that_of_the_cosine() {
         .times(&sin, work)
         .unwrap()
         .plus(&cos.times(&cos, work).unwrap());
-    assert_eq!(sum, Polynomial::one());
+    assert_eq!(sum, Polynomial::constant(1.0, 0.0));
 }
 
 #[test]

@@ -1,125 +1,100 @@
-//! What is not known is refused, by name, and nothing panics.
+//! Robot files and tolerances that are refused, by name.
 
-use dalembert_checker::{audit, read};
+use dalembert_checker::certify::certify;
 
-use crate::support::{claim, file};
+use crate::support::file;
 
-const CLAIM: &str = "checker/tests/data/planar2r-pick.json";
-const ROBOT: &str = "cli/tests/data/attacks/r2_conf.toml";
-
-fn fault_of_robot(robot: &str) -> String {
-    audit(&claim(CLAIM), robot, None).unwrap_err().to_string()
-}
-
-#[test]
-fn keys_that_are_not_audited() {
-    let robot = file(ROBOT);
-    for key in ["springs = {}", "gear = 2", "mimic = { joint = 1 }"] {
-        let with = robot.replacen("mass = 1\n", &format!("mass = 1\n{key}\n"), 1);
-        let name = key.split(' ').next().unwrap();
-        assert!(
-            fault_of_robot(&with).contains(&format!("unknown field `{name}`")),
-            "{key}"
-        );
-    }
-    let with = format!("flange = {{}}\n{robot}");
-    assert!(fault_of_robot(&with).contains("unknown field `flange`"));
-    // A row's second twist is the standard convention's, and an axis that of a placement.
-    for key in ["placement = {}", "axis = [0, 0, 1]"] {
-        let with = robot.replacen("mass = 1\n", &format!("mass = 1\n{key}\n"), 1);
-        assert!(fault_of_robot(&with).contains("`placement`"), "{key}");
-    }
-    let twisted = robot.replacen("mass = 1\n", "mass = 1\nbeta = 0.1\n", 1);
-    let modified = twisted.replace("standard", "modified");
-    assert!(fault_of_robot(&modified).contains("`placement`"));
-    let with = robot.replace("[scene.pick]\n", "[scene.pick]\nwind = 1\n");
-    assert!(fault_of_robot(&with).contains("unknown field `wind`"));
-}
-
-#[test]
-fn values_that_are_none() {
-    let robot = file(ROBOT);
-    for (from, to) in [
-        ("mass = 1\n", "mass = nan\n"),
-        ("mass = 1\n", "mass = \"heavy\"\n"),
-        ("mass = 1\n", "mass = 1\nalpha = \"pi/0\"\n"),
-        ("mass = 1\n", "mass = 1\nalpha = \"right\"\n"),
-        ("mass = 1\n", "mass = 1\ntheta = 1\n"),
-        ("standard", "denavit"),
-        ("com = [-0.5, 0, 0]\n", ""),
-        ("[scene.pick]", "[scene.other]"),
-    ] {
-        assert!(robot.contains(from), "{from}");
-        assert!(
-            fault_of_robot(&robot.replacen(from, to, 1)).starts_with("robot file"),
-            "{to}"
-        );
-    }
-}
-
-#[test]
-fn claims_about_other_states_rows_and_scales() {
-    let robot = file(ROBOT);
-    let refused = |change: &dyn Fn(&mut dalembert_checker::Claim)| {
-        let mut claim = claim(CLAIM);
-        change(&mut claim);
-        audit(&claim, &robot, None).unwrap_err().to_string()
-    };
-    assert!(refused(&|c| c.velocity[0] = [-1.0, 1.0]).contains("the box lacks"));
-    assert!(refused(&|c| c.position[1] = [0.0, 1.0]).contains("the box lacks"));
-    assert!(refused(&|c| c.position[1] = [1.0, f64::NAN]).contains("the box lacks"));
-    assert!(refused(&|c| c.velocity[0] = [f64::NEG_INFINITY, 9.0]).contains("finite ranges"));
-    assert!(refused(&|c| c.rows = vec![2, 1]).contains("`rows`"));
-    assert!(refused(&|c| c.rows = vec![0, 1]).contains("`rows`"));
-    assert!(refused(&|c| c.rows = vec![1]).contains("`scale`"));
-    assert!(refused(&|c| c.scale[0] = 1e3).contains("`scale`"));
-    assert!(refused(&|c| c.scale[0] = f64::NAN).contains("`scale`"));
-    assert!(refused(&|c| c.relative_to = Some("range".into())).contains("`relative_to`"));
-}
-
-#[test]
-fn files_that_are_cut_or_garbled() {
-    let (certificate, robot) = (file(CLAIM), file(ROBOT));
-    for cut in (0..certificate.len()).step_by(37) {
-        assert!(read(&certificate[..cut]).is_err());
-    }
-    for cut in (0..robot.len()).step_by(11) {
-        // Cut behind the scene, what is left may be whole.
-        let _ = audit(&claim(CLAIM), &robot[..cut], None);
-    }
-    let text = claim(CLAIM).text;
-    for cut in (0..text.trim_end().len() - 1).step_by(5) {
-        let mut claim = claim(CLAIM);
-        claim.text.truncate(cut);
-        assert!(audit(&claim, &robot, None).is_err(), "{cut}");
-    }
-    assert!(read(&"[".repeat(100_000)).is_err());
-    assert!(fault_of_robot(&"a = [".repeat(20_000)).starts_with("robot file"));
-    assert!(fault_of_robot(&format!("a{} = 1", ".a".repeat(50_000))).starts_with("robot file"));
-}
+/// Words of a robot file, those in their place, and the refusal.
+const ROBOTS: [[&str; 3]; 17] = [
+    [
+        "mass = 1\n",
+        "mass = 1\nsprings = {}\n",
+        "unknown field `springs`",
+    ],
+    [
+        "mass = 1\n",
+        "mass = true\n",
+        "is no number, text, list or table",
+    ],
+    [
+        "[scene.pick]",
+        "[scene.pick]\nwind = 1",
+        "unknown field `wind`",
+    ],
+    ["[scene.pick]", "[scene.other]", "no scene `pick`"],
+    [
+        "relative_to = \"actuator\"",
+        "relative_to = 1, of = 2",
+        "unknown field `of`",
+    ],
+    [
+        "value = 5e-2",
+        "value = [5e-2]",
+        "expected a number, or one a joint",
+    ],
+    [
+        "value = 5e-2",
+        "value = \"much\"",
+        "expected a number, or one a joint",
+    ],
+    [
+        "position = [\"-pi\", \"pi\"]",
+        "position = [\"pi\", \"-pi\"]",
+        "the range of `q` is empty",
+    ],
+    [
+        "position = [\"-pi\", \"pi\"]",
+        "position = [nan, 1]",
+        "the range of `q` is empty",
+    ],
+    [
+        "velocity = 2",
+        "velocity = -2",
+        "the range of `qd` is empty",
+    ],
+    [
+        "acceleration = 10",
+        "acceleration = -10",
+        "the range of `qdd` is empty",
+    ],
+    ["torque = 50", "torque = -50", "the range of `tau` is empty"],
+    [
+        BOX,
+        "box = { position = [[1, -1], [0, 1]] }",
+        "the range of `q` is empty",
+    ],
+    [
+        BOX,
+        "box = { velocity = [-1, 1] }",
+        "the range of `qd` is empty",
+    ],
+    [
+        BOX,
+        "box = { acceleration = [1, -1] }",
+        "the range of `qdd` is empty",
+    ],
+    [BOX, "box = { depth = [1, -1] }", "unknown field `depth`"],
+    ["convention", "name", "duplicate key"],
+];
+const BOX: &str = "outputs";
 
 #[test]
-fn functions_that_are_not_audited() {
-    let other = file(CLAIM).replace("\"inverse_dynamics\"", "\"forward_dynamics\"");
-    let fault = audit(&read(&other).unwrap()[0], &file(ROBOT), None).unwrap_err();
-    assert!(
-        fault
-            .to_string()
-            .contains("`forward_dynamics` is only tried"),
-        "{fault}"
-    );
-}
-
-/// Products that grow with every line end with a fault, not with all memory.
-#[test]
-fn texts_that_grow_without_end() {
-    let mut claim = claim(CLAIM);
-    let mut lines: Vec<String> = vec!["    let t900 = qd[0] + c1;".into()];
-    for k in 900..960 {
-        lines.push(format!("    let t{} = t{k} * t{k};", k + 1));
+fn robot_files_that_are_none() {
+    let source = file("checker/tests/data/attacks/r2_conf.toml");
+    let claim = r#"{ "claim": 1, "constants": [], "functions": [] }"#;
+    let text = file("checker/tests/data/attacks/C.rs");
+    for [from, to, words] in ROBOTS {
+        let robot = match from == BOX {
+            true => source.replacen("[scene.pick]\n", &format!("[scene.pick]\n{to}\n"), 1),
+            false => source.replacen(from, to, 1),
+        };
+        assert_ne!(robot, source, "{from}");
+        let fault = certify(&text, claim, &robot, Some("pick"), None);
+        let why = fault.unwrap_err().to_string();
+        assert!(why.contains(words), "{to}: {why}");
     }
-    let head = claim.text.find("    let t1").unwrap();
-    claim.text.insert_str(head, &(lines.join("\n") + "\n"));
-    let fault = audit(&claim, &file(ROBOT), None).unwrap_err().to_string();
-    assert!(fault.contains("power"), "{fault}");
+    let long = format!("{source}#{}", "#".repeat(1 << 18));
+    assert!(certify(&text, claim, &long, None, None).is_err());
+    let deep = format!("a{} = 1", ".a".repeat(50_000));
+    assert!(certify(&text, claim, &deep, None, None).is_err());
 }

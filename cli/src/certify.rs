@@ -1,14 +1,13 @@
-//! `dalembert certify`: checks generated code and certificates by `dalembert-checker`, which shares
-//! no code with the generator.
+//! `dalembert certify`: checks generated code by `dalembert-checker`, which shares no formula with the
+//! generator.
 
 use std::path::{Path, PathBuf};
 
-use dalembert_checker::certify::{Line, RATE, Shown, certify};
+use dalembert_checker::Fault;
+use dalembert_checker::certify::{Bounded, Line, RATE, Shown, certify};
 use dalembert_checker::file::MOST_BYTES;
-use dalembert_checker::{Fault, Output, audit, read};
-use dalembert_codegen::workspace::{Setup, input_hash};
+use dalembert_codegen::workspace::input_hash;
 use dalembert_stamp::Stamp;
-use serde_json::{Value, json};
 
 use crate::args::values::{certified_parser, positive_parser};
 use crate::output::{Context, Done, Failure, Outcome};
@@ -18,8 +17,7 @@ use crate::source::{Source, text};
 /// Arguments of `certify`.
 #[derive(Debug, clap::Args)]
 pub struct CertifyArgs {
-    /// A generated file (.rs, .h), to check every function, or a certificate (.json), to check its
-    /// text, its box and every bound
+    /// A generated file (.rs, .h), whose claim stands beside it: NAME.claim.json
     #[arg(value_parser = certified_parser())]
     file: PathBuf,
     /// The robot that the file was generated for
@@ -28,8 +26,8 @@ pub struct CertifyArgs {
     /// The scene that the file was generated for [default: the one it names]
     #[arg(long, value_name = "NAME")]
     scene: Option<String>,
-    /// Accept errors up to this, relative to T, instead of the scene's tolerance; for
-    /// certificates that `tradeoff` wrote for other tolerances
+    /// Accept errors up to this, relative to T, instead of the scene's tolerance; for the variants that
+    /// `tradeoff` writes
     #[arg(long, value_name = "E", value_parser = positive_parser())]
     tolerance: Option<f64>,
 }
@@ -39,117 +37,46 @@ pub(crate) fn run(args: &CertifyArgs, context: &Context) -> Outcome {
     let source = text(&args.file, MOST_BYTES as u64)?;
     let robot = Source::open(context, &args.robot)?;
     let edited = origin(&args.file, &source, &robot)?;
-    let kind = args.file.extension().and_then(|kind| kind.to_str());
-    let done = match kind {
-        Some("rs" | "h" | "hpp" | "hh" | "cuh" | "cu") => whole_file(args, &source, &robot)?,
-        _ => certificates(args, &source, &robot)?,
-    };
+    let done = whole_file(args, &source, &robot)?;
     if let (Some(note), false) = (edited, done.failed.is_empty()) {
         context.say(&note);
     }
     Ok(done)
 }
 
-/// Checks the claims of certificates.
-fn certificates(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
-    let name = args.file.display();
-    let claims = read(source).map_err(|fault| Failure::Input(format!("error: {name}: {fault}")))?;
-    let mut report = Report::default();
-    let (mut all, mut refused) = (Vec::new(), Vec::new());
-    for (index, mut claim) in claims.into_iter().enumerate() {
-        claim.scene = args.scene.clone().or(claim.scene);
-        let found = audit(&claim, &robot.robot_file, args.tolerance);
-        let found = found.map_err(|fault| match fault {
-            Fault::Robot(..) => Failure::Input(format!("error: {fault}")),
-            _ => Failure::Check(format!("error: {name}: `{}`: {fault}", claim.function)),
-        })?;
-        let (function, scalar) = (&found.name, &found.scalar);
-        if !found.is_shown() {
-            refused.push(format!("`{function}` in {scalar}"));
-        }
-        let scene = claim.scene.as_ref();
-        let within = scene.map_or_else(String::new, |scene| format!(" in scene {scene}"));
-        let before = if index > 0 { "\n" } else { "" };
-        report.line(format!(
-            "{before}`{function}` in {scalar}{within}, relative to T"
-        ));
-        let heads = "joint|T|real|rounding|bound|E|.tolerance|seen|finding=|.passed";
-        let table = Table::new(heads).with(found.outputs.iter().map(row));
-        all.push(json!({
-            "file": name.to_string(),
-            "function": function.to_string(),
-            "scalar": scalar.to_string(),
-            "scene": claim.scene,
-            "outputs": table.json(),
-            "passed": found.is_shown(),
-        }));
-        report.rows(table);
-    }
-    report.value("certificates", all);
-    report.value("passed", refused.is_empty());
-    let mut done = Done::from(report);
-    if !refused.is_empty() {
-        let refused = refused.join(", ");
-        done.failed
-            .push(format!("error: {name}: not shown: {refused}"));
-    }
-    Ok(done)
-}
+/// The columns of what is shown of the results of a function.
+const RESULTS: &str = "joint|T|real|rounding|bound|E|.tolerance|finding=";
 
-/// Returns the table row of an output, relative to T; absolute if T is zero.
-fn row(output: &Output) -> Vec<Cell> {
-    let relative = |x: f64| match output.scale {
-        0.0 => x,
-        scale => x / scale,
-    };
-    let cell = |x: f64| Cell::power(relative(x), 3);
-    let found = &output.found;
-    let finding = match (output.holds(), output.is_shown()) {
-        _ if found.seen.off > output.claimed => "E is refuted at a state",
-        (true, true) => "E holds",
-        (true, false) => "E holds, but is above the tolerance",
-        (false, true) => "E not shown; within the tolerance",
-        (false, false) => "not shown",
+/// Returns the table row of a result, relative to T; absolute if T is zero.
+fn row(own: &Bounded) -> Vec<Cell> {
+    let scale = if own.scale == 0.0 { 1.0 } else { own.scale };
+    let cell = |x: f64| Cell::power(x / scale, 3);
+    let finding = match own.holds() {
+        true => "E holds",
+        false => "E not shown; within the tolerance",
     };
     // An entry of D has two: its row and its column.
-    let joints = output.joints.iter().map(|joint| (joint + 1).to_string());
+    let joints = own.joints.iter().map(|joint| (joint + 1).to_string());
     cells![
         joints.collect::<Vec<_>>().join(", "),
-        Cell::power(output.scale, 4),
-        cell(found.edits),
-        cell(found.rounding),
-        cell(found.bound()),
-        cell(output.claimed),
-        Cell::json(output.tolerated.map(relative)),
-        cell(found.seen.off),
+        Cell::power(own.scale, 4),
+        cell(own.real),
+        cell(own.rounding),
+        cell(own.bound()),
+        cell(own.claimed),
+        Cell::json(own.tolerated / scale),
         finding,
-        Cell::json(output.is_shown()),
     ]
 }
 
 /// Checks every function of a file.
 fn whole_file(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
     let name = args.file.display();
-    if args.tolerance.is_some() {
-        return Err(Failure::Input(format!(
-            "error: --tolerance is for a certificate, and `{name}` is a generated file"
-        )));
-    }
     let stamp = Stamp::read(source);
     let named = stamp
         .as_ref()
         .and_then(|(stamp, _)| stamp.asked.get("scene"));
     let scene = args.scene.as_deref().or(named);
-    let mut scenes = robot.scenes.iter();
-    let own = scenes.find(|own| Some(own.name.as_str()) == scene);
-    if own.is_some_and(|own| own.tolerance.is_some()) {
-        return Err(Failure::Input(format!(
-            "error: `{name}` was generated under a tolerance\n  = help: its certificate holds the bounds: \
-             `dalembert certify {} --robot {}`",
-            args.file.with_extension("certificate.json").display(),
-            args.robot.display()
-        )));
-    }
     let place = claim_of(&args.file);
     if !place.exists() {
         return Err(Failure::Input(format!(
@@ -160,14 +87,21 @@ fn whole_file(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
         )));
     }
     let claim = text(&place, MOST_BYTES as u64)?;
-    let found = certify(source, &claim, &robot.robot_file, scene);
+    let found = certify(source, &claim, &robot.robot_file, scene, args.tolerance);
     let found = found.map_err(|fault: Fault| Failure::Input(format!("error: {fault}")))?;
     let mut report = Report::default();
-    report.line(
-        "Each function is the program that is claimed, its literals rounded once, and this is the robot's in real\n\
-         numbers. What rounding costs is relative to the largest value of each entry, in a matrix of its row or\n\
-         column; u is half an ulp of that value.",
-    );
+    let results = |line: &Line| line.result.as_ref().map_or(0, |own| own.results.len());
+    report.line(match found.lines.iter().any(|line| results(line) > 0) {
+        false => {
+            "Shown: the text is the program that is claimed, its literals rounded once, and that is the robot's in\n\
+             real numbers. What rounding costs is relative to the largest value of each entry, in a matrix of its row\n\
+             or column; u is half an ulp of that value."
+        }
+        true => {
+            "Shown: the text is the program that is claimed, its literals rounded once, and at every state of the box\n\
+             each result is within its bound of an exact program, which is the robot's in real numbers. Relative to T."
+        }
+    });
     if found.is_unlimited {
         let rates =
             format!("Joints without limits: velocities and accelerations up to {RATE} (SI).");
@@ -182,6 +116,11 @@ fn whole_file(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
         }
         report.line(format!("  {:<35} {}", line.name, words(line)));
         let own = line.result.as_ref().ok();
+        if let Some(own) = own.filter(|own| !own.results.is_empty()) {
+            let results = Table::new(RESULTS).with(own.results.iter().map(row));
+            report.value(&format!("within/{}", line.name), results.json());
+            report.rows(results);
+        }
         table.row(cells![
             line.module.as_str(),
             line.name.as_str(),
@@ -222,7 +161,11 @@ fn words(line: &Line) -> String {
             units,
             states,
             has_polynomials,
+            results,
         }) => {
+            if !results.is_empty() {
+                return "shown to be within the tolerance".into();
+            }
             let of = if *has_polynomials {
                 "sines and rounding"
             } else {
@@ -242,18 +185,9 @@ fn words(line: &Line) -> String {
 /// # Errors
 /// The file names another robot.
 fn origin(file: &Path, source: &str, robot: &Source) -> Result<Option<String>, Failure> {
-    let own = &robot.robot;
-    // A certificate has the hash of the robot in its scene.
-    let scenes = robot.scenes.iter().map(Some).chain([None]);
-    let placed = scenes.filter_map(|scene| Setup::in_scene(own, scene).ok());
-    let mut hashes: Vec<String> = placed.map(|placed| input_hash(placed.robot())).collect();
-    let hash = input_hash(own);
-    hashes.push(hash.clone());
-    let is_own = |input: &str| input.len() >= 16 && hashes.iter().any(|own| own.starts_with(input));
-    let origins = named(source).into_iter();
-    let others = origins.filter(|(_, input)| !is_own(input));
-    // Another robot's name is reported before an edit of this one.
-    let Some((name, input)) = others.min_by_key(|(name, _)| *name == own.name) else {
+    let (own, hash) = (&robot.robot, input_hash(&robot.robot));
+    let is_own = |input: &str| input.len() >= 16 && hash.starts_with(input);
+    let Some((name, input)) = named(source).filter(|(_, input)| !is_own(input)) else {
         return Ok(None);
     };
     let found = format!(
@@ -262,7 +196,7 @@ fn origin(file: &Path, source: &str, robot: &Source) -> Result<Option<String>, F
         robot.path.display(),
         own.name
     );
-    match name == own.name {
+    match *name == own.name {
         true => Ok(Some(format!(
             "note: {found}: the robot file was edited since"
         ))),
@@ -272,21 +206,10 @@ fn origin(file: &Path, source: &str, robot: &Source) -> Result<Option<String>, F
     }
 }
 
-/// Returns the robot names and input hashes in the documentation of a generated file, or in the
-/// fields of certificates.
-fn named(source: &str) -> Vec<(String, String)> {
-    let documentation = source.split_once("Dynamics of the robot `");
-    let origin = documentation.and_then(|(_, rest)| {
-        let (robot, rest) = rest.split_once('`')?;
-        let input = rest.split_once("Input hash ")?.1.split('.').next()?;
-        Some((robot.to_owned(), input.to_owned()))
-    });
-    let document: Value = serde_json::from_str(source).unwrap_or_default();
-    let one = std::slice::from_ref(&document);
-    let certificates = document.as_array().map_or(one, Vec::as_slice).iter();
-    let fields = certificates.filter_map(|certificate| {
-        let field = |key: &str| Some(certificate[key].as_str()?.to_owned());
-        Some((field("robot")?, field("input")?))
-    });
-    origin.into_iter().chain(fields).collect()
+/// Returns the robot's name and input hash in the documentation of a generated file.
+fn named(source: &str) -> Option<(&str, &str)> {
+    let (_, rest) = source.split_once("Dynamics of the robot `")?;
+    let (robot, rest) = rest.split_once('`')?;
+    let input = rest.split_once("Input hash ")?.1.split('.').next()?;
+    Some((robot, input))
 }

@@ -2,7 +2,7 @@
 //! everything is asked for, what the search did and what rounding costs.
 
 use dalembert_codegen::workspace::{
-    Admitted, Certificate, Library, Proof, SEED, bound_of, omissions, write_certificates,
+    Admitted, Certificate, Library, Proof, SEED, bound_of, omissions,
 };
 use dalembert_codegen::{Function, Generated, GeneratedFunction, Request};
 use dalembert_model::robot::Robot;
@@ -246,12 +246,4 @@ fn calls(generated: &Generated, function: Function) -> usize {
         Library::Together => called.count().min(1),
     };
     angles + text.speeds.len()
-}
-
-/// Returns the certificates of a scene with a tolerance.
-pub fn certificates(generated: &Generated) -> Option<String> {
-    let admitted = generated.functions.iter();
-    let admitted = admitted.filter_map(|own| own.admitted.as_ref());
-    let certificates: Vec<_> = admitted.flat_map(|own| &own.certificates).collect();
-    (!certificates.is_empty()).then(|| write_certificates(&certificates))
 }

@@ -294,6 +294,6 @@ fn is_ours(file: &Path) -> bool {
     let head = first(file, HEAD).unwrap_or_default();
     let text = String::from_utf8_lossy(&head);
     let is_table = text.starts_with("tolerance,scalar,");
-    let is_document = text.contains("\"certificate\": ") || text.starts_with("{\"claim\":");
+    let is_document = text.starts_with("{\"claim\":");
     text.is_empty() || is_table || text.contains("dalembert") || is_document
 }

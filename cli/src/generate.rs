@@ -8,7 +8,7 @@ use dalembert_stamp::relative;
 
 use crate::args::values::word_parser;
 use crate::args::{CODE, TaskArgs};
-use crate::code::{Detail, certificates, report};
+use crate::code::{Detail, report};
 use crate::files::{Files, Target};
 use crate::output::{Context, Done, Failure, Outcome};
 use crate::source::Source;
@@ -20,8 +20,7 @@ pub struct GenerateArgs {
     task: TaskArgs,
     /// Write the code to this file [default: standard output, `-`], the second of two
     /// scalars in Rust beside it; its ending chooses the language (.rs, .h, .cuh). What `certify`
-    /// compares the code with goes beside it into NAME.claim.json, and what a tolerance takes
-    /// into NAME.certificate.json
+    /// compares the code with goes beside it into NAME.claim.json
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// The language of the code [default: that of the ending of -o, or rust]
@@ -34,14 +33,12 @@ pub struct GenerateArgs {
     save_plan: bool,
 }
 
-/// Where code, certificates and plan go.
+/// Where code, claim and plan go.
 struct Places {
     /// One for each file.
     code: Vec<Target>,
-    /// Unless the code goes into a device or a pipe: what is claimed of it, but for a scene with a
-    /// tolerance, whose certificates say more.
+    /// Unless the code goes into a device or a pipe: what is claimed of it.
     claim: Option<Target>,
-    certificates: Option<Target>,
     /// If it is to be kept.
     plan: Option<Target>,
 }
@@ -73,7 +70,6 @@ pub(crate) fn run(args: &GenerateArgs, context: &Context) -> Outcome {
         announced = is_first.then(|| source.path.clone());
         files.push((target, kept.plan.write()));
     }
-    files.extend(places.certificates.zip(certificates(&generated)));
     if let Some(target) = places.claim {
         let claim = claim(&source.robot, &source.robot_file, &request, &generated);
         let claim = claim.map_err(|why| Failure::Input(format!("error: {why}")))?;
@@ -130,19 +126,11 @@ impl Places {
         }
         let mut files = Files::new(context, &inputs);
         let code = code(args, &mut files, request)?;
-        let scene = request.scene.as_ref();
-        let certified = scene.is_some_and(|scene| scene.tolerance.is_some());
         let file = code.first().and_then(Target::file);
-        let output = file.and(args.output.as_ref());
-        let mut beside = |ending: &str, is_there: bool| {
-            let path = output.map(|file| file.with_extension(ending));
-            path.filter(|_| is_there)
-                .map(|path| files.add(&path))
-                .transpose()
-        };
+        let beside = file.and(args.output.as_ref());
+        let beside = beside.map(|file| file.with_extension("claim.json"));
         Ok(Places {
-            claim: beside("claim.json", !certified)?,
-            certificates: beside("certificate.json", certified)?,
+            claim: beside.map(|path| files.add(&path)).transpose()?,
             code,
             plan: args.save_plan.then(|| files.add(&path)).transpose()?,
         })

@@ -33,11 +33,11 @@ pub struct Point {
 }
 
 impl Point {
-    /// Returns where its certificate goes.
-    pub fn file(&self) -> String {
+    /// Returns the name of its text.
+    pub fn name(&self) -> String {
         let Certificate { scalar, sines, .. } = &self.certificate;
         let by = if sines.is_empty() { "" } else { "-polynomials" };
-        format!("{:e}-{scalar}{by}.json", self.tolerance)
+        format!("{:e}-{scalar}{by}", self.tolerance)
     }
 
     /// Returns which kind of variant it is: scalar and sines.

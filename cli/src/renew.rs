@@ -9,7 +9,6 @@ use dalembert_codegen::workspace::claim;
 use dalembert_stamp::Stamp;
 
 use crate::certify::claim_of;
-use crate::code::certificates;
 use crate::files::{Files, first};
 use crate::output::{Context, Done, Failure, Outcome};
 use crate::report::{Cell, Report, Table, cells};
@@ -36,7 +35,7 @@ struct Found {
     language: Language,
 }
 
-/// The new text of a file: the code, or the claim or the certificates beside it.
+/// The new text of a file: the code, or the claim beside it.
 struct New {
     path: PathBuf,
     text: String,
@@ -182,14 +181,11 @@ fn renewed(context: &Context, file: &Found) -> Result<Vec<New>, Failure> {
     let beside = claim_of(&file.path);
     let claim = claim(&source.robot, &source.robot_file, &request, &generated);
     let claim = claim.map_err(|why| Failure::Input(format!("error: {why}")))?;
-    let claim = Some(claim.write()).filter(|_| beside.exists());
-    let certificate = file.path.with_extension("certificate.json");
-    for (path, text) in [(certificate, certificates(&generated)), (beside, claim)] {
-        let Some(text) = text else { continue };
-        let old = fs::read_to_string(&path).unwrap_or_default();
+    if let Ok(old) = fs::read_to_string(&beside) {
+        let text = claim.write();
         let differs = difference(&old, &text);
         new.push(New {
-            path,
+            path: beside,
             text,
             differs,
         });

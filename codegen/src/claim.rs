@@ -2,24 +2,23 @@
 
 use std::collections::HashMap;
 
-use dalembert_checker::claim::{Claim, Claimed, VERSION};
+use dalembert_checker::claim::{Claim, Claimed, Tolerated, VERSION};
 use dalembert_model::number::Exact;
 use dalembert_model::robot::{Robot, write};
 use dalembert_model::scalar::Scalar;
 
-use crate::emit::GeneratedFunction;
-use crate::function::{Columns, Function, Quantity};
+use crate::certificate::Certificate;
+use crate::function::{Argument, Columns, Function, Quantity};
 use crate::generate::{Generated, language};
 use crate::language::Language;
 use crate::language::names::Names;
 use crate::program::text::input_name;
-use crate::program::{Operand, ScalarType, Steps};
+use crate::program::{Operand, Program, ScalarType, Steps};
 use crate::setup::Setup;
 use crate::task::{Job, Request};
 use crate::words::Complaint;
 
-/// Returns what is claimed of the functions that were generated for the robot of a file, but for those from
-/// which a tolerance left something out, whose certificates say how much.
+/// Returns what is claimed of the functions that were generated for the robot of a file.
 ///
 /// # Errors
 /// As of [`Request::setup`].
@@ -38,14 +37,14 @@ pub fn claim(
     }
     .module_name();
     let mut constants = Constants::default();
-    let exact = generated.functions.iter();
-    let exact = exact.filter(|own| own.admitted.is_none());
-    let functions = exact.map(|own| {
+    let functions = generated.functions.iter().map(|own| {
         // A header of the same functions has the same claim.
         let symbol = |&scalar| Names::new(&name, Language::C, scalar).of(own.function.name());
         Claimed {
             symbols: ScalarType::ALL.iter().map(symbol).collect(),
-            ..claimed(own, setup, &mut constants)
+            tolerated: (own.admitted.as_ref())
+                .and_then(|own| tolerated(&own.certificates, &mut constants)),
+            ..claimed(&own.program, setup, &mut constants)
         }
     });
     Ok(Claim {
@@ -54,6 +53,21 @@ pub fn claim(
         functions: functions.collect(),
         constants: constants.texts,
     })
+}
+
+/// Returns what is claimed of one text that a tolerance admitted.
+pub fn claim_of(robot: &Robot, source: &str, setup: &Setup, own: &Certificate) -> Claim {
+    let mut constants = Constants::default();
+    let function = Claimed {
+        tolerated: tolerated(std::slice::from_ref(own), &mut constants),
+        ..claimed(&own.emitted, setup, &mut constants)
+    };
+    Claim {
+        claim: VERSION,
+        aligned: source.contains("placement").then(|| write(robot)),
+        functions: vec![function],
+        constants: constants.texts,
+    }
 }
 
 /// The constants of all programs, each once.
@@ -81,8 +95,9 @@ impl Constants {
     }
 }
 
-fn claimed(own: &GeneratedFunction, setup: &Setup, constants: &mut Constants) -> Claimed {
-    let Steps { steps, outputs } = own.program.dag.steps();
+/// Returns the operations and the results of a program.
+fn code(program: &Program, constants: &mut Constants) -> [String; 2] {
+    let Steps { steps, outputs } = program.dag.steps();
     let steps = steps.iter().map(|step| {
         let [left, right] = [&step.left, &step.right].map(|own| constants.word(own));
         format!("{left}{}{right}", step.operation.symbol())
@@ -93,6 +108,52 @@ fn claimed(own: &GeneratedFunction, setup: &Setup, constants: &mut Constants) ->
         format!("{sign}{}", constants.word(&output.value))
     });
     let returns: Vec<String> = returns.collect();
+    [steps, returns].map(|words| words.join(" "))
+}
+
+/// Returns what is claimed of a function under a tolerance, from the claims about its scalars.
+fn tolerated(certificates: &[Certificate], constants: &mut Constants) -> Option<Tolerated> {
+    let first = certificates.first()?;
+    let program = &first.emitted;
+    let exact = first.stages.first().map(|stage| &stage.program);
+    let exact = exact.filter(|exact| *exact != program);
+    let [steps, returns] = exact.map_or_else(Default::default, |own| code(own, constants));
+    let limits = &first.limits;
+    let lists = [&limits.position, &limits.velocity, &limits.acceleration];
+    let given = [
+        Argument::Position,
+        Argument::Velocity,
+        Argument::Acceleration,
+    ]
+    .map(|own| program.arguments.contains(&own));
+    let ranges = [0, 1, 2].map(|place| {
+        let list = lists[place].iter().filter(|_| given[place]);
+        list.map(|range| [range.low(), range.high()]).collect()
+    });
+    let reached = first.reached.iter().map(|at| {
+        let lists = [&at.q, &at.qd, &at.qdd].into_iter().zip(given);
+        let lists = lists.filter(|own| own.1);
+        lists.flat_map(|own| own.0.iter().copied()).collect()
+    });
+    let bounds = |scalar: ScalarType| {
+        let own = certificates.iter().find(|own| own.scalar == scalar);
+        let bounds = own.map_or(&[][..], |own| &own.bounds);
+        bounds.iter().map(|own| own.total()).collect()
+    };
+    Some(Tolerated {
+        steps,
+        returns,
+        relative_to: (first.relative_to).map_or_else(String::new, |own| own.word().to_owned()),
+        ranges,
+        scales: first.scales.clone(),
+        reached: reached.collect(),
+        f64: bounds(ScalarType::F64),
+        f32: bounds(ScalarType::F32),
+    })
+}
+
+fn claimed(own: &Program, setup: &Setup, constants: &mut Constants) -> Claimed {
+    let [steps, returns] = code(own, constants);
     let base = match own.function.columns() {
         Columns::Base(quantity) => setup.base(quantity).ok(),
         Columns::Links | Columns::None => None,
@@ -117,7 +178,6 @@ fn claimed(own: &GeneratedFunction, setup: &Setup, constants: &mut Constants) ->
         symbols: Vec::new(),
         scene: setup.scene().map(|scene| scene.name.clone()),
         arguments: own
-            .program
             .arguments
             .iter()
             .map(|own| own.name().to_owned())
@@ -128,8 +188,9 @@ fn claimed(own: &GeneratedFunction, setup: &Setup, constants: &mut Constants) ->
             .iter()
             .map(|own| result(*own))
             .collect(),
-        steps: steps.join(" "),
-        returns: returns.join(" "),
+        steps,
+        returns,
+        tolerated: None,
         values: values.collect::<Vec<String>>().join(" "),
         base: terms,
     }

@@ -49,7 +49,7 @@ mod approximate;
 mod ask;
 mod bound;
 mod certificate;
-#[cfg(feature = "certificates")]
+#[cfg(feature = "claims")]
 mod claim;
 mod dag;
 mod edits;

@@ -16,11 +16,9 @@ pub use crate::bound::{
     sample::{climb, draw},
     sensitivity::{BoundEffort, Sensitivity, rounding},
 };
-#[cfg(feature = "certificates")]
-pub use crate::certificate::format::write as write_certificates;
 pub use crate::certificate::{Certificate, Refuted};
-#[cfg(feature = "certificates")]
-pub use crate::claim::claim;
+#[cfg(feature = "claims")]
+pub use crate::claim::{claim, claim_of};
 pub use crate::dag::{Dag, Edge, Fingerprint, Folding, Id, Leaves, Node, Points};
 pub use crate::edits::{
     Edit, EditSite, Stage, difference,

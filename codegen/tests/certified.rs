@@ -2,6 +2,7 @@
 
 use dalembert_checker::Fault;
 use dalembert_checker::certify::{Report, certify};
+use dalembert_codegen::Plan;
 use dalembert_codegen::workspace::claim;
 
 use crate::support::{Case, dose, every_output, in_scene, path, rows, source};
@@ -25,7 +26,10 @@ impl Certified {
 
     /// Generates what is asked of a robot file.
     pub fn of(robot: &str, scene: Option<&'static str>, asked: &str) -> Vec<Certified> {
-        let case = Case::read(robot, asked);
+        Certified::from(&Case::read(robot, asked), robot, scene)
+    }
+
+    fn from(case: &Case, robot: &str, scene: Option<&'static str>) -> Vec<Certified> {
         let generated = case.generated();
         let claim = claim(case.robot(), robot, &case.request, &generated).unwrap();
         let files = generated.files(&case.request, "robot.toml", robot);
@@ -45,7 +49,7 @@ impl Certified {
 
     /// Has the checker look at another text.
     pub fn with(&self, text: &str) -> Result<Report, Fault> {
-        certify(text, &self.claim, &self.robot, self.scene)
+        certify(text, &self.claim, &self.robot, self.scene, None)
     }
 
     /// Asserts that nothing is shown with a line of code taken away or with one of these changes in
@@ -70,6 +74,25 @@ impl Certified {
             assert!(found.is_some(), "{} -> {other}", lines[index]);
         }
         count
+    }
+
+    /// Asserts that all functions are shown to be within their tolerance, with so many results, and of
+    /// how many at least E is.
+    #[track_caller]
+    fn holds(&self, count: usize, held: usize, what: &str) {
+        let report = self
+            .report()
+            .unwrap_or_else(|fault| panic!("{what}: {fault}"));
+        let lines = report.lines.iter();
+        let lines = lines.map(|line| {
+            line.result
+                .as_ref()
+                .unwrap_or_else(|_| panic!("{what}: {line:?}"))
+        });
+        let results: Vec<_> = lines.flat_map(|own| &own.results).collect();
+        assert_eq!(results.len(), count, "{what}");
+        let found = results.iter().filter(|own| own.holds()).count();
+        assert!(found >= held, "{what}: {results:?}");
     }
 
     /// Asserts that all of so many functions are shown.
@@ -171,6 +194,49 @@ fn scenes_frames_friction_arguments_and_ways_of_printing_are_shown() {
     }
 }
 
+/// Scenes with a tolerance: of a SCARA with results relative to either scale, at rest, of several
+/// functions, in a narrow box, with locks and a payload; how many results there are, and of how many
+/// E is shown. Of those that nothing was left out of, E is a bound of rounding that is tighter.
+const TOLERATED: [(&str, usize, usize); 8] = [
+    ("a1", 4, 3),
+    ("lockp", 2, 2),
+    ("r3", 4, 3),
+    ("a4", 4, 3),
+    ("still", 4, 3),
+    ("narrow", 4, 3),
+    ("lock", 2, 2),
+    ("allfn", 48, 41),
+];
+
+#[test]
+fn variants_that_a_tolerance_admits_are_shown() {
+    let scara = std::fs::read_to_string(path("../checker/tests/data/attacks/scara.toml")).unwrap();
+    for &(scene, count, held) in dose(&TOLERATED, 3) {
+        for language in ["rust", "c"] {
+            let asked = format!("scene: {scene}; scalar: f64, f32; language: {language}");
+            for own in Certified::of(&scara, Some(scene), &asked) {
+                let both = if language == "c" { 2 } else { 1 };
+                own.holds(both * count, both * held, &asked);
+            }
+        }
+    }
+}
+
+/// A joint that slides, seven joints of modified rows, three parallel axes and sines by polynomials:
+/// variants of the plans beside these robots.
+#[test]
+fn variants_of_plans_are_shown() {
+    for &(name, count) in dose(&[("stanford", 6), ("panda", 7), ("ur10", 6)], 1) {
+        let robot = source(name, "");
+        let plan = std::fs::read_to_string(path(&format!("../generated/robots/{name}.plan")));
+        let mut case = Case::read(&robot, "scene: swing; scalar: f64");
+        case.request.plan = Some(Plan::parse(&plan.unwrap()).unwrap());
+        for own in Certified::from(&case, &robot, Some("swing")) {
+            own.holds(count, count, name);
+        }
+    }
+}
+
 /// Another robot, scene or frame is seen in what it changes, and in nothing else.
 #[test]
 fn robots_that_are_others() {
@@ -195,7 +261,7 @@ fn robots_that_are_others() {
     ] {
         assert!(robot.contains(from), "{from}");
         let other = robot.replacen(from, to, 1);
-        let report = certify(&files[0].text, &files[0].claim, &other, None).unwrap();
+        let report = certify(&files[0].text, &files[0].claim, &other, None, None).unwrap();
         let is_kept = |name: &str| {
             let line = report.lines.iter().find(|line| line.name == name);
             line.unwrap().result.is_ok()
@@ -221,7 +287,7 @@ fn rows_that_are_not_those_of_the_robot_file() {
     ] {
         assert!(own.claim.contains(from), "{from}: {}", own.claim);
         let claim = own.claim.replacen(from, to, 1);
-        let why = refusal(certify(&own.text, &claim, &own.robot, None)).unwrap();
+        let why = refusal(certify(&own.text, &claim, &own.robot, None, None)).unwrap();
         assert!(why.contains(words), "{why}");
     }
 }

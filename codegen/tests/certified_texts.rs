@@ -267,7 +267,7 @@ fn claims_that_are_not_written_by_a_generator() {
     let asked = "gravity, regressor; scalar: f64";
     let own = &Certified::all("planar2r", "", asked)[0];
     own.is_shown(2, asked);
-    let with = |claim: &str| refusal(certify(&own.text, claim, &own.robot, None));
+    let with = |claim: &str| refusal(certify(&own.text, claim, &own.robot, None, None));
     let changed = |change: &dyn Fn(&mut Value)| {
         let mut claim: Value = serde_json::from_str(&own.claim).unwrap();
         change(&mut claim);
@@ -341,7 +341,7 @@ fn claims_that_are_not_written_by_a_generator() {
     let mut claim: Value = serde_json::from_str(&own.claim).unwrap();
     claim["functions"][0]["function"] = json!("pull");
     claim["functions"][0]["results"] = json!([]);
-    let why = refusal(certify(&text, &claim.to_string(), &own.robot, None));
+    let why = refusal(certify(&text, &claim.to_string(), &own.robot, None, None));
     assert!(why.unwrap().contains("`pull`: it has no results"));
     for cut in (0..own.claim.len() - 2).step_by(own.claim.len() / 40) {
         assert!(with(&own.claim[..cut]).is_some());
@@ -372,7 +372,7 @@ fn constants_that_are_aimed_at_primes() {
             &text[..place],
             &text[place + "2943/200".len()..]
         );
-        let why = refusal(certify(&own.text, &claim, &own.robot, None)).unwrap();
+        let why = refusal(certify(&own.text, &claim, &own.robot, None, None)).unwrap();
         assert!(why.contains("is not that of the robot"), "{why}");
     }
 }

@@ -38,7 +38,7 @@ fn certificate(
 /// Prunes at 15 % of each entry's range.
 fn pruned(program: &Program, limits: &InputBox, stages: usize, alike: usize) -> Pruned {
     let ranges = scale::range(program, limits);
-    let allowances: Vec<f64> = ranges.iter().map(|t| 0.15 * t).collect();
+    let allowances: Vec<f64> = ranges.iter().map(|(t, _)| 0.15 * t).collect();
     let settings = PruneSettings {
         retries: 2,
         stages,

@@ -15,7 +15,7 @@ use crate::cache::{self, Folder};
 use crate::compile::Signature;
 use crate::entry::{Entry, Proved};
 use crate::error::LoadError;
-use crate::make::{made, read_robot};
+use crate::make::{claimed, made, read_robot};
 use crate::native::Native;
 use crate::request::{Cache, Load};
 
@@ -219,24 +219,27 @@ impl Arm {
         Ok(scalars.iter().zip(&self.entry.rust).map(file).collect())
     }
 
-    /// Prints the functions as one header of C99, proved once more, and returns it with the warnings
-    /// that [`notes`](Arm::notes) do not have. Names in it begin with `name`, or with the robot's.
+    /// Prints the functions as one header of C99, proved once more, and returns it with its claim and
+    /// the warnings that [`notes`](Arm::notes) do not have. Names in it begin with `name`, or with
+    /// the robot's.
     ///
     /// # Errors
     /// [`LoadError`]: among others, a name that no C compiler takes.
-    pub fn c(&self, name: Option<String>) -> Result<(String, Vec<String>), LoadError> {
+    pub fn c(&self, name: Option<String>) -> Result<(String, String, Vec<String>), LoadError> {
         let reading = read_robot(&self.entry.robot, "the arm's robot file")?;
         let mut request = self.load.request(&reading)?;
         request.language = Language::C;
         request.module = name;
         request.plan = Plan::parse(&self.entry.plan).ok();
+        let generated = generate(&reading.robot, &request).map_err(LoadError::Generate)?;
+        let claim = claimed(&reading.robot, self.robot_file(), &request, &generated)?;
         let Generated {
             texts,
             mut warnings,
             ..
-        } = generate(&reading.robot, &request).map_err(LoadError::Generate)?;
+        } = generated;
         warnings.retain(|warning| !self.notes().contains(warning));
-        Ok((texts.concat(), warnings))
+        Ok((texts.concat(), claim, warnings))
     }
 
     /// Returns the robot as a robot file.
@@ -249,9 +252,10 @@ impl Arm {
         &self.entry.plan
     }
 
-    /// Returns the certificates of a scene's tolerance, as JSON.
-    pub fn certificates(&self) -> Option<&str> {
-        self.entry.certificates.as_deref()
+    /// Returns what is claimed of the functions, as JSON: the document that stands beside the file of
+    /// [`files`](Arm::files), under its name and with the ending `claim.json`.
+    pub fn claim(&self) -> &str {
+        &self.entry.claim
     }
 
     /// Returns what a user should know of the robot and its functions.

@@ -22,7 +22,7 @@ use crate::entry::Entry;
 use crate::request::{Cache, Load};
 
 /// Changes when entries of before mean something else, or the generator's sources change.
-const GENERATOR: &str = concat!("entry 1 of ", env!("DALEMBERT_SOURCES"));
+const GENERATOR: &str = concat!("entry 2 of ", env!("DALEMBERT_SOURCES"));
 
 /// Larger files are none of ours.
 const MAX_BYTES: u64 = 1 << 28;

@@ -15,8 +15,8 @@ pub(crate) struct Entry {
     pub(crate) functions: Vec<Proved>,
     /// The functions as Rust: a file's text for each scalar.
     pub(crate) rust: Vec<String>,
-    /// The certificates, where a scene has a tolerance.
-    pub(crate) certificates: Option<String>,
+    /// What is claimed of these files, which the command `certify` compares with it.
+    pub(crate) claim: String,
     /// The programs with exact constants.
     pub(crate) plan: String,
     /// Whether the search was ended early.
@@ -51,7 +51,7 @@ impl Proved {
         let arguments = function.program.arguments.iter();
         let tolerance = match function.admitted {
             None => "",
-            Some(_) => "; what a tolerance left out of it, its certificate bounds",
+            Some(_) => "; what a tolerance left out of it is bounded in its claim",
         };
         Proved {
             function: function.function.text(),

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use dalembert_codegen::workspace::{Emitted, generate_anew, input_hash, keep, write_certificates};
-use dalembert_codegen::{Generated, Plan, generate};
+use dalembert_codegen::workspace::{Emitted, claim, generate_anew, input_hash, keep};
+use dalembert_codegen::{Generated, Plan, Request, generate};
 use dalembert_import::Text;
 use dalembert_model::read::{self, Reading};
+use dalembert_model::robot::Robot;
 
 use crate::cache::{self, Folder};
 use crate::entry::{Entry, Proved};
@@ -61,11 +62,12 @@ pub(crate) fn made(
         folder.keep_plan(&key, &plan);
     }
     notes.extend(generated.warnings.iter().cloned());
+    let claim = claimed(&reading.robot, &opened.robot_file, &request, &generated)?;
     Ok(Entry {
         robot: opened.robot_file,
         notes,
         functions: proved(&generated),
-        certificates: certificates(&generated),
+        claim,
         plan: plan.write(),
         rust: generated.texts,
         ended: generated.ended,
@@ -84,10 +86,14 @@ fn proved(generated: &Generated) -> Vec<Proved> {
     emitted.flat_map(of).collect()
 }
 
-/// Writes the certificates of a scene with a tolerance, which the command `certify` checks.
-fn certificates(generated: &Generated) -> Option<String> {
-    let functions = generated.functions.iter();
-    let admitted = functions.filter_map(|function| function.admitted.as_ref());
-    let all: Vec<_> = admitted.flat_map(|a| &a.certificates).collect();
-    (!all.is_empty()).then(|| write_certificates(&all))
+/// Writes what is claimed of functions.
+pub(crate) fn claimed(
+    robot: &Robot,
+    source: &str,
+    request: &Request,
+    generated: &Generated,
+) -> Result<String, LoadError> {
+    let claim = claim(robot, source, request, generated);
+    let claim = claim.map_err(|why| LoadError::Generate(why.into()))?;
+    Ok(claim.write())
 }

@@ -110,10 +110,10 @@ impl Arm {
         Function::new(&self.0, name, structure, refuses_nan)
     }
 
-    /// Returns the certificates of a scene's tolerance, as JSON.
+    /// Returns what is claimed of the functions, as JSON.
     #[getter]
-    fn certificates(&self) -> Option<&str> {
-        self.0.certificates()
+    fn claim(&self) -> &str {
+        self.0.claim()
     }
 
     /// Returns what there is to know of the robot and its functions.
@@ -139,8 +139,8 @@ impl Arm {
         self.0.files().map_err(|error| raised(&error))
     }
 
-    /// Returns the functions as one header of C99, with warnings about it.
-    fn c(&self, py: Python<'_>, name: Option<String>) -> PyResult<(String, Vec<String>)> {
+    /// Returns the functions as one header of C99, with its claim and warnings about it.
+    fn c(&self, py: Python<'_>, name: Option<String>) -> PyResult<(String, String, Vec<String>)> {
         let header = py.detach(|| self.0.c(name));
         header.map_err(|error| raised(&error))
     }

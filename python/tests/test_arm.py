@@ -106,7 +106,7 @@ def test_what_an_arm_knows(planar):
     assert planar.limits.lower.shape == (3,)
     assert planar.counts["gravity"]["mul"] > 0
     assert "random points" in planar.proof["inverse_dynamics"]
-    assert planar.certificate == []
+    assert "tolerated" not in planar.claim["functions"][0]
     assert "inverse_dynamics" in dir(planar) and "planar3r" in repr(planar)
     assert repr(planar.gravity) == "gravity(q) -> c (3,)"
     html = planar._repr_html_()
@@ -315,10 +315,11 @@ def test_a_bundle_shares_work():
     assert found.tau.shape == (2,) and found.jacobian.shape == (6, 2)
 
 
-def test_a_scene_with_a_tolerance_has_certificates():
+def test_a_scene_with_a_tolerance_claims_its_bounds():
     arm = dalembert.load(robot("stanford"), scene="swing")
-    name = arm.certificate[0]["function"]
-    assert name in arm.functions and "certificate" in arm.proof[name]
+    own = arm.claim["functions"][0]
+    assert own["function"] in arm.functions and "claim" in arm.proof[own["function"]]
+    assert max(own["tolerated"]["f64"]) <= 1e-2
 
 
 def command(*arguments):

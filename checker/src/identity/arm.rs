@@ -9,7 +9,7 @@ use num_traits::{ToPrimitive, Zero};
 use super::exact::{Angle, Point, number};
 use super::number::Number;
 use super::robot::{Placement, Row};
-use super::screw::{Body, Pose, Screw, Vector, dot, opposite, scaled};
+use super::screw::{Body, Pose, Screw, Vector, cross, dot, opposite, scaled};
 use super::setting::Setting;
 use super::state::State;
 
@@ -345,6 +345,20 @@ impl Arm {
             *axis = *own;
         }
         self
+    }
+
+    /// Returns 1 where the axes of two joints that turn are parallel at q = 0, −1 where they point
+    /// against each other, and none of others.
+    pub(crate) fn parallel(&self, joints: [usize; 2]) -> Option<f64> {
+        let [a, b] = joints.map(|own| self.joints[self.movers[own]].axis.0);
+        let is_zero = |own: &Number| !own.is_nonzero();
+        let along = dot(a, b);
+        cross(a, b).iter().all(is_zero).then_some(())?;
+        Some(if is_zero(&(along - Number::from(1))) {
+            1.0
+        } else {
+            -1.0
+        })
     }
 
     /// Returns the arm with other bodies.

@@ -248,6 +248,20 @@ impl Exact {
         self.0.rounded.get_or_init(|| self.rounded(known));
     }
 
+    /// Returns a double, and how far the constant is from it at most; none if an angle is too far.
+    pub fn double(&self) -> Option<[f64; 2]> {
+        let own = || self.rounded(&mut Sines::new());
+        let [sum, slack] = self.0.rounded.get_or_init(own).as_ref()?;
+        let value = sum.to_f64().filter(|value| value.is_finite())?;
+        let off = (sum - Rational::from_float(value)?).abs() + slack;
+        let radius = if off.is_zero() {
+            0.0
+        } else {
+            off.to_f64()?.next_up()
+        };
+        Some([value, radius])
+    }
+
     /// Returns a fraction, and how far it is off at most; none if an angle is too far.
     fn rounded(&self, known: &mut Sines) -> Option<[Rational; 2]> {
         if let [(factor, powers)] = self.0.terms.as_slice()

@@ -46,9 +46,24 @@ pub(super) struct Scene {
     pub(super) acceleration: Option<Zero>,
     pub(super) payload: Option<Payload>,
     pub(super) r#box: Bounds,
+    pub(super) tolerance: Option<Tolerance>,
     outputs: Option<IgnoredAny>,
     scalar: Option<IgnoredAny>,
-    tolerance: Option<IgnoredAny>,
+}
+
+/// How far results may be off, relative to a scale: all, or those of each joint.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Tolerance {
+    pub(super) value: OneOrEach,
+    pub(super) relative_to: String,
+}
+
+#[derive(Deserialize)]
+#[serde(untagged)]
+pub(super) enum OneOrEach {
+    One(String),
+    Each(Vec<String>),
 }
 
 #[derive(Deserialize)]

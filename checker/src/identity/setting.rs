@@ -9,7 +9,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::exact::{Angle, Exact, Point, number};
 use super::number::Number;
-use super::robot::{File, Row, Scene};
+use super::robot::{File, OneOrEach, Row, Scene};
 use super::{state::State, table::argument};
 
 /// The most joints.
@@ -267,8 +267,10 @@ impl Setting<'_> {
                         (Some(at), _) => [own.position(at), own.position(at)],
                         (None, Some(ends)) => ends.each_ref().map(|end| own.position(end)),
                         (None, None) if own.turns() => [Some(-PI), Some(PI)],
-                        // A joint that slides without an end: a metre either way.
-                        (None, None) => [Some(-1.0), Some(1.0)],
+                        // A joint that slides without an end: a metre either way, unless every
+                        // state counts.
+                        (None, None) => [-1.0, 1.0]
+                            .map(|end| Some(if rate.is_finite() { end } else { end * rate })),
                     };
                     let [Some(low), Some(high)] = ends else {
                         return Err(is_empty());
@@ -306,6 +308,45 @@ impl Setting<'_> {
             }
         }
         Ok(Some(all))
+    }
+
+    /// Returns how far the results of each joint may be off, and relative to which scale; none where
+    /// no tolerance is given.
+    ///
+    /// # Errors
+    /// What is no number, or not one a joint.
+    pub fn tolerance(&self) -> Result<Option<(Vec<f64>, &str)>, String> {
+        let own = self.scene.and_then(|scene| scene.tolerance.as_ref());
+        let Some(own) = own else { return Ok(None) };
+        let each = match &own.value {
+            OneOrEach::One(one) => vec![one; self.links()],
+            OneOrEach::Each(each) => each.iter().collect(),
+        };
+        let wrong = "`tolerance`: expected a number, or one a joint";
+        // Down, so that nothing is allowed that the decimal does not allow.
+        let read = |row: &usize| Some(number(each.get(*row)?)?.to_f64()?.next_down());
+        let read: Option<Vec<f64>> = self.movers.iter().map(read).collect();
+        let read = read.filter(|_| each.len() == self.links());
+        Ok(Some((read.ok_or(wrong)?, &own.relative_to)))
+    }
+
+    /// Returns a joint's limit of `velocity`, `acceleration` or `torque`, if there is one: the box's,
+    /// else that of the robot file.
+    pub fn limit(&self, joint: usize, name: &str) -> Option<f64> {
+        let given = self.scene.map(|scene| &scene.r#box);
+        let limits = &self.file.joint[*self.movers.get(joint)?].limits;
+        let (given, limit) = match name {
+            "velocity" => (given.map(|own| &own.velocity), &limits.velocity),
+            "acceleration" => (given.map(|own| &own.acceleration), &limits.acceleration),
+            _ => (None, &limits.torque),
+        };
+        let given = given.and_then(|list| list.as_ref()?.get(joint));
+        number(given.or(limit.as_ref())?)?.to_f64()
+    }
+
+    /// Returns true for a joint that is locked.
+    pub fn is_locked(&self, joint: usize) -> bool {
+        self.locks.get(joint).is_some_and(Option::is_some)
     }
 
     /// Returns true for a joint that turns.

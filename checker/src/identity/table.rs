@@ -74,6 +74,17 @@ pub struct Field {
     pub(super) view: View,
 }
 
+/// The limit of an actuator that a result is measured by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Measure {
+    /// That of torques.
+    Load,
+    /// Torque by acceleration.
+    Inertia,
+    /// Torque by two velocities.
+    Coefficient,
+}
+
 /// A frame, and what is asked of its motion.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct View {
@@ -151,6 +162,16 @@ impl Field {
         self.name = format!("{}_{}", self.name, view.replace(':', "_"));
         self.view = own;
         Some(self)
+    }
+
+    /// Returns what the actuators' limits are to it, if they are a measure of it.
+    pub(crate) fn measure(&self) -> Option<Measure> {
+        match self.is {
+            "tau" | "c" | "h" | "h_rot" | "h_tran" => Some(Measure::Load),
+            "d" | "d_rot" | "d_tran" => Some(Measure::Inertia),
+            "symbols" => Some(Measure::Coefficient),
+            _ => None,
+        }
     }
 
     /// Returns the lengths of its axes, `base` being the number of base parameters.

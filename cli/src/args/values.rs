@@ -57,8 +57,7 @@ pub fn certified_parser() -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().try_map(|path| {
         match path.extension().and_then(OsStr::to_str) {
             Some("toml" | "urdf" | "xacro" | "xml") => Err(format!(
-                "expected a certificate (.json) or a generated file (.rs, .h, .cuh), found a robot: write \
-                 `dalembert certify FILE --robot {}`",
+                "expected a generated file (.rs, .h), found a robot: write `dalembert certify FILE --robot {}`",
                 path.display()
             )),
             _ => Ok(path),

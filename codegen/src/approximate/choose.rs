@@ -28,6 +28,7 @@ use crate::certificate::{Certificate, Refuted, Shared};
 use crate::edits::Stage;
 use crate::program::{Library, Program, ScalarType, has_inertia};
 use crate::setup::Setup;
+use crate::states::JointState;
 use crate::watch::{FunctionWatch, Part};
 use crate::words::{Complaint, complaint};
 
@@ -44,6 +45,8 @@ pub struct ErrorBudget<'a> {
     pub scales: Vec<f64>,
     /// What T is.
     pub relative_to: Scale,
+    /// If it is the range, states at which the outputs reach it.
+    reached: Vec<JointState>,
     /// Who waits, if anybody does.
     watch: Option<FunctionWatch<'a>>,
     /// Of the programs asked for last.
@@ -67,11 +70,12 @@ impl<'a> ErrorBudget<'a> {
     ) -> Result<ErrorBudget<'a>, ToleranceError> {
         Unbounded::find(exact).map_or(Ok(()), |why| Err(ToleranceError::Function(why)))?;
         let limits = InputBox::within(setup, exact.function).map_err(ToleranceError::Missing)?;
-        let scales = match relative_to {
+        let (scales, reached) = match relative_to {
             Scale::Actuator => {
-                scale::actuator(setup.robot(), exact).map_err(ToleranceError::Scale)?
+                let scales = scale::actuator(setup.robot(), exact);
+                (scales.map_err(ToleranceError::Scale)?, Vec::new())
             }
-            Scale::Range => scale::range(exact, &limits),
+            Scale::Range => scale::range(exact, &limits).into_iter().unzip(),
         };
         Ok(ErrorBudget {
             setup,
@@ -79,6 +83,7 @@ impl<'a> ErrorBudget<'a> {
             limits,
             scales,
             relative_to,
+            reached,
             watch: None,
             sensitivities: RefCell::default(),
             definite: RefCell::default(),
@@ -153,6 +158,7 @@ impl<'a> ErrorBudget<'a> {
             limits: &self.limits,
             scales: &self.scales,
             relative_to: Some(self.relative_to),
+            reached: &self.reached,
             sines: &[],
             library: Library::Libm,
         }

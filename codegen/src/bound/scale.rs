@@ -113,21 +113,24 @@ pub(crate) fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
 
 /// Returns a magnitude that each output attains, found by climbing from actual states:
 /// its largest over the box or just below, so an error relative to it is not
-/// understated.
-pub fn range(program: &Program, limits: &InputBox) -> Vec<f64> {
+/// understated; and the state at which it does.
+pub fn range(program: &Program, limits: &InputBox) -> Vec<(f64, JointState)> {
     let exact = program.in_doubles();
     let granted = rounding(program, ScalarType::F64, &[], limits, 64);
     let mut random = Random::new(0x7a46e);
-    let mut most = vec![0.0f64; program.dag.outputs.len()];
-    for output in 0..most.len() {
+    let mut reached = Vec::new();
+    for (output, granted) in granted.iter().enumerate() {
         let mut size = |state: &JointState| exact.run_at(state)[output].abs();
-        for _ in 0..12 {
+        let (mut most, mut at) = (0.0f64, JointState::default());
+        for climbed in 0..12 {
             let from = draw(limits, &mut random);
-            let (_, found) = climb(limits, from, 1500, &mut random, &mut size);
-            most[output] = most[output].max(found);
+            let (state, found) = climb(limits, from, 1500, &mut random, &mut size);
+            if found > most || climbed == 0 {
+                (most, at) = (found, state);
+            }
         }
-        let lost = granted[output].arithmetic + granted[output].sincos;
-        most[output] = (most[output] - lost).next_down().max(0.0);
+        let lost = granted.arithmetic + granted.sincos;
+        reached.push(((most - lost).next_down().max(0.0), at));
     }
-    most
+    reached
 }

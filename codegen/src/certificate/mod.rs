@@ -14,13 +14,10 @@
 //! - `check`: that edits lead from program to program, which is proved of what was found and
 //!   of what a plan kept; `work` and `shape`: what comes first; `bounds`: a plan's bounds,
 //!   found anew; `refuted`: why these are not so
-//! - `format`: its text (feature `certificates`)
 //! - [`subject`]: what a claim is about, and how its bounds are found
 
 mod bounds;
 mod check;
-#[cfg(feature = "certificates")]
-pub(crate) mod format;
 mod refuted;
 mod shape;
 pub(crate) mod subject;
@@ -40,44 +37,15 @@ use crate::setup::SceneKey;
 use crate::setup::Setup;
 use crate::sincos::Sines;
 use crate::split::ErrorByCause;
+use crate::states::JointState;
 pub(crate) use bounds::Shared;
 pub use refuted::Refuted;
 pub(crate) use refuted::WrongInput;
 use subject::{Subject, printed};
 
-/// What every bound rests on besides arithmetic.
-const ASSUMPTIONS: [&str; 3] = [
-    "every operation is rounded to nearest: (x op y)(1 + d) + e, |d| <= u, |e| <= least subnormal / 2 for products",
-    "no operation is contracted to a fused multiply-add",
-    INSIDE,
-];
-
-/// The same where the text has fused multiply-adds.
-const FUSED_ASSUMPTIONS: [&str; 3] = [
-    "every operation is rounded to nearest, mul_add once: (x op y)(1 + d) + e, |d| <= u, |e| <= least subnormal / 2 for products and mul_add",
-    "no other operation is contracted to a fused multiply-add",
-    INSIDE,
-];
-
-const INSIDE: &str =
-    "positions, velocities and accelerations are the scalar's numbers inside the box";
-
-/// How the bounds were found.
-#[cfg(feature = "certificates")]
-pub(crate) const METHOD: &str = "edits: program of the error, written out as a trigonometric polynomial, \
-     at a grid with Riesz's and Bernstein's inequalities, or branch and bound with intervals; \
-     rounding: half an ulp of the largest values times largest adjoints, both written out in the \
-     same way, or the largest sum of their products, at a grid with Riesz's inequality, \
-     or interval adjoints over sub-boxes";
-
 /// A claim about one emitted function.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Certificate {
-    /// The robot's name.
-    pub robot: String,
-    /// The robot's input hash in hexadecimal; in a scene that of the robot
-    /// with the scene's payload, gravity and box.
-    pub input: String,
     /// The scene, unless it is about the whole robot.
     pub scene: Option<SceneKey>,
     /// The scalar of the emitted code.
@@ -88,6 +56,8 @@ pub struct Certificate {
     pub scales: Vec<f64>,
     /// What the scales are, if they are one of these: then that is checked.
     pub relative_to: Option<Scale>,
+    /// If they are ranges, states at which the outputs reach them.
+    pub reached: Vec<JointState>,
     /// The exact program and its edits, program after program.
     pub stages: Vec<Stage>,
     /// The program that is emitted, with exact constants.
@@ -140,6 +110,7 @@ impl Certificate {
             limits,
             scales,
             relative_to: None,
+            reached: &[],
             sines: &[],
             library: Library::Libm,
         };
@@ -213,11 +184,18 @@ impl Certificate {
         if !self.sines.is_empty() || self.library == library {
             return self.clone();
         }
-        Certificate {
+        let other = Certificate {
             library,
-            text: printed(&self.emitted, self.scalar, library, &self.sines),
             ..self.clone()
-        }
+        };
+        other.printed()
+    }
+
+    /// Returns the same claim with the text of its program.
+    #[must_use]
+    pub fn printed(self) -> Certificate {
+        let text = printed(&self.emitted, self.scalar, self.library, &self.sines);
+        Certificate { text, ..self }
     }
 
     /// Returns E·T of each output.
@@ -229,19 +207,6 @@ impl Certificate {
             .collect()
     }
 
-    /// Returns the assumptions that its bounds rest on besides arithmetic. The errors of
-    /// polynomials for sines are proved; sines that are called are assumed to be within one ulp.
-    pub fn assumptions(&self) -> Vec<&'static str> {
-        let mut all = match self.emitted.fuses() {
-            true => FUSED_ASSUMPTIONS.to_vec(),
-            false => ASSUMPTIONS.to_vec(),
-        };
-        if self.sines.is_empty() {
-            all.insert(1, self.library.assumption());
-        }
-        all
-    }
-
     fn subject<'a>(&'a self, setup: &'a Setup, sines: &'a [(ScalarType, Sines)]) -> Subject<'a> {
         Subject {
             setup,
@@ -250,6 +215,7 @@ impl Certificate {
             limits: &self.limits,
             scales: &self.scales,
             relative_to: self.relative_to,
+            reached: &self.reached,
             sines,
             // Polynomials call nothing.
             library: match sines.iter().all(|(_, sines)| sines.is_empty()) {

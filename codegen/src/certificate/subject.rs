@@ -11,10 +11,10 @@ use crate::dag::Dag;
 use crate::edits::{Stage, deviation, difference, has_edits};
 use crate::language::{Printed, function};
 use crate::program::{Library, Program, ScalarType, has_inertia};
-use crate::setup::Setup;
-use crate::setup::{SceneKey, input_hash};
+use crate::setup::{SceneKey, Setup};
 use crate::sincos::{self, AngleKernel, Sines};
 use crate::split::ErrorByCause;
+use crate::states::JointState;
 use crate::verify::exact::prove_same;
 
 /// A bound that exceeds its limit by more than this factor is not tried at the limit.
@@ -35,6 +35,8 @@ pub(crate) struct Subject<'a> {
     pub scales: &'a [f64],
     /// What the scales are, if they are one of these.
     pub relative_to: Option<Scale>,
+    /// States at which the outputs reach them, if they are ranges.
+    pub reached: &'a [JointState],
     /// The polynomials for sines in each scalar; the library's where there are none.
     pub sines: &'a [(ScalarType, Sines)],
     /// Who computes the sines that are called.
@@ -135,13 +137,12 @@ impl Subject<'_> {
     /// nothing is claimed of the least eigenvalue.
     pub(crate) fn claim(&self, scalar: ScalarType, bounds: Vec<ErrorByCause>) -> Certificate {
         Certificate {
-            robot: self.setup.robot().name.clone(),
-            input: input_hash(self.setup.robot()),
             scene: self.setup.scene().map(SceneKey::new),
             scalar,
             limits: self.limits.clone(),
             scales: self.scales.to_vec(),
             relative_to: self.relative_to,
+            reached: self.reached.to_vec(),
             stages: match self.stages {
                 [] => vec![Stage::unedited(self.emitted.clone())],
                 stages => stages.to_vec(),

@@ -13,7 +13,7 @@ use crate::program::ScalarType;
 use crate::setup::Setup;
 use crate::split::ErrorByCause;
 
-/// Returns a line each: the certificate, the box, what was left out.
+/// Returns a line each: the bounds, the box, what was left out.
 pub(super) fn describe(admitted: &Admitted, setup: &Setup, scalar: ScalarType) -> Vec<String> {
     let mut all = admitted.certificates.iter();
     let Some(certificate) = all.find(|certificate| certificate.scalar == scalar) else {
@@ -57,7 +57,7 @@ fn omitted(mut left_out: Vec<Omission>) -> Vec<String> {
             1 => "Left out, and the operations that it would bring back:".to_owned(),
             2..=MAX_LISTED => "Left out, and the operations that each would bring back:".to_owned(),
             _ => format!(
-                "Left out: {count} values, all of them in the certificate. The {MAX_LISTED} that save \
+                "Left out: {count} values, which `dalembert generate` lists. The {MAX_LISTED} that save \
                  most, and the operations that each would bring back:"
             ),
         },

@@ -116,12 +116,12 @@ class Arm:
         return {about["name"]: about["proof"] for about in self._native.functions}
 
     @property
-    def certificate(self) -> list[Any]:
-        """The certificates of a scene with a tolerance, as the command writes them."""
+    def claim(self) -> dict[str, Any]:
+        """What is claimed of the functions: exact programs, and error bounds under a tolerance."""
         import json
 
-        found = json.loads(self._native.certificates or "[]")
-        return found if isinstance(found, list) else [found]
+        found: dict[str, Any] = json.loads(self._native.claim)
+        return found
 
     @property
     def notes(self) -> list[str]:
@@ -140,23 +140,26 @@ class Arm:
 
     def to_rust(self, path: Path) -> None:
         """Write the functions as flat Rust, as the command does: the second of two scalars to a
-        file that ends in ``_f32``."""
+        file that ends in ``_f32``, and the claim that ``certify`` reads beside the first."""
         _ends_in(path, [".rs"], "Rust", "to_c writes a header of C")
         base, ending = os.path.splitext(os.fspath(path))
         for suffix, text in self._native.rust():
             _write(base + suffix + ending, text)
+        _write(base + ".claim.json", self._native.claim)
 
     def to_c(self, path: Path, *, name: str | None = None) -> None:
-        """Write the functions as one header of C99, which C++ reads too; proved once more.
+        """Write the functions as one header of C99, which C++ reads too; proved once more. The
+        claim that ``certify`` reads stands beside it.
 
         Names in it begin with ``name``; with the robot's, if ``None``, which is shortened where
         it is too long for C: a warning says how.
         """
         _ends_in(path, [".h", ".hpp", ".hh"], "C", "to_rust writes Rust")
-        header, said = self._native.c(name)
+        header, claim, said = self._native.c(name)
         for warning in said:
             warnings.warn(keywords(warning), stacklevel=2)
         _write(path, header)
+        _write(os.path.splitext(os.fspath(path))[0] + ".claim.json", claim)
 
     def save(self, path: Path) -> None:
         """Write the robot file, and beside it the plan with the programs found.

@@ -1,0 +1,349 @@
+//! A function under a tolerance: at every state of the box each result of its text is within E·T of
+//! the exact program's, and T is no larger than it may be.
+//!
+//! What differs between the two programs is a polynomial in sines, cosines and rates, of which all
+//! that both have in common cancels. Its largest magnitude over the box and what rounding costs add up.
+
+use crate::claim::Tolerated;
+use crate::fault::Fault;
+use crate::identity::exact::Exact;
+use crate::identity::number::Draws;
+use crate::identity::program::Program;
+use crate::identity::setting::Setting;
+use crate::identity::table::{ARGUMENTS, Field, Function, Measure};
+use crate::interval::FARTHEST;
+use crate::maximum;
+use crate::polynomial::{SLACK, Work};
+use crate::read;
+use crate::ring::{Ring, StateBox};
+use crate::rounding::{Ranges, Rounding};
+use crate::written::{at, written};
+
+/// By how much a box may be smaller than the file's: decimals were rounded to doubles.
+const BOX_SLACK: f64 = 1e-9;
+/// By how much T may be above the value that is reached. What is tolerated is relative to that.
+const SCALE_SLACK: f64 = 1e-4;
+/// The number of states that may refute an E that is not shown.
+const STATES: usize = 1000;
+/// What a result that is always zero may be off, relative to the largest T: differences of programs
+/// are of doubles.
+const ZERO: f64 = 1e-12;
+
+/// The findings about one result, in its own unit.
+#[derive(Clone, Debug)]
+pub struct Bounded {
+    /// Its joints, from zero: of an entry of D its row and its column.
+    pub joints: Vec<usize>,
+    /// T
+    pub scale: f64,
+    /// A bound of what the text differs from the exact program in real numbers.
+    pub real: f64,
+    /// A bound of what rounding costs.
+    pub rounding: f64,
+    /// The claim, E·T.
+    pub claimed: f64,
+    /// The user's tolerance times T.
+    pub tolerated: f64,
+}
+
+impl Bounded {
+    /// Returns the bound of both.
+    pub fn bound(&self) -> f64 {
+        let sum = self.real + self.rounding;
+        if sum == 0.0 { 0.0 } else { sum.next_up() }
+    }
+
+    /// Returns the bound and what is tolerated, relative to T; absolute if T is zero.
+    pub fn relative(&self) -> [f64; 2] {
+        let scale = if self.scale == 0.0 { 1.0 } else { self.scale };
+        [self.bound(), self.tolerated].map(|own| own / scale)
+    }
+
+    /// Returns true if E is shown, but for one part in 10⁹ of it.
+    pub fn holds(&self) -> bool {
+        self.bound() <= self.claimed * (1.0 + 1e-9)
+    }
+
+    /// Returns true if the tolerance is shown.
+    pub fn is_shown(&self) -> bool {
+        let is_none = self.claimed == 0.0 && !self.holds();
+        !is_none && self.bound() <= self.tolerated
+    }
+}
+
+/// A function whose text is to be near an exact program.
+pub(crate) struct Subject<'s> {
+    pub(crate) setting: &'s Setting<'s>,
+    pub(crate) function: &'s Function,
+    /// The exact program, and that of the text.
+    pub(crate) exact: &'s Program<Exact>,
+    pub(crate) emitted: &'s Program<Exact>,
+    /// The text.
+    pub(crate) read: &'s read::Function,
+    pub(crate) is_single: bool,
+    pub(crate) own: &'s Tolerated,
+    /// How far the results of each joint may be off, relative to T.
+    pub(crate) tolerance: &'s [f64],
+}
+
+impl Subject<'_> {
+    /// Bounds every result.
+    ///
+    /// # Errors
+    /// A claim that is not about this robot and function, or more work than is done.
+    pub(crate) fn bounded(&self) -> Result<Vec<Bounded>, Fault> {
+        let (own, count) = (self.own, self.emitted.outputs.len());
+        let errors = if self.is_single { &own.f32 } else { &own.f64 };
+        let is_error = |error: &f64| (0.0..1.0).contains(error);
+        unless(
+            errors.len() == count && errors.iter().all(is_error),
+            "expected E of each result, from zero to below one",
+        )?;
+        unless(
+            own.scales.len() == count && own.scales.iter().all(|own| *own >= 0.0),
+            "expected T of each result",
+        )?;
+        unless(
+            self.exact.outputs.len() == count,
+            "two programs of other results",
+        )?;
+        let joints = self.joints();
+        unless(joints.len() == count, "results that are not the function's")?;
+        let ranges = self.ranges()?;
+        let most = self.attainable(&joints)?;
+        let work = &mut Work::default();
+        let ring = Ring::new(self.setting, &ranges, work)?;
+        let all: &mut Ranges = &mut ranges.to_vec();
+        all.resize(ARGUMENTS.len(), Vec::new());
+        let rounding = Rounding::new(self.read, self.is_single, all);
+        let (mut sizes, emitted) = written(self.emitted, &ring, Some(&rounding), work)?;
+        let (_, exact) = written(self.exact, &ring, None, work)?;
+        sizes.iter_mut().for_each(|size| *size *= SLACK);
+        let rounding = rounding.bounds_within(all, Some(&sizes));
+        let largest = own.scales.iter().copied().fold(0.0, f64::max);
+        let mut found = Vec::new();
+        for (k, (emitted, exact)) in emitted.iter().zip(&exact).enumerate() {
+            let (scale, rounding) = (own.scales[k], rounding[k].error);
+            let is_zero = scale == 0.0 && most[k] == 0.0;
+            let claimed = match is_zero {
+                true => ZERO * largest,
+                false => below(errors[k] * scale),
+            };
+            let tolerated = match is_zero {
+                true => claimed,
+                false => below(self.held(&joints[k]) * scale.min(most[k])),
+            };
+            let difference = emitted.plus(&exact.negated());
+            let wanted = (claimed - rounding).next_down().next_down();
+            found.push(Bounded {
+                joints: joints[k].clone(),
+                scale,
+                real: maximum::bound(&difference, &ring, wanted),
+                rounding,
+                claimed,
+                tolerated,
+            });
+        }
+        self.tried(&found, &ranges)?;
+        Ok(found)
+    }
+
+    /// Refuses an E that is not shown where a state of the box refutes it.
+    fn tried(&self, found: &[Bounded], ranges: &StateBox) -> Result<(), Fault> {
+        if found.iter().all(Bounded::holds) {
+            return Ok(());
+        }
+        let mut draws = Draws::new(&["states"]);
+        for count in 0..STATES {
+            let given = ranges.each_ref().map(|list| {
+                let drawn = list.iter().map(|[low, high]| {
+                    let share = draws.share();
+                    // Of every second state all are ends of their ranges.
+                    low + (high - low) * if count % 2 == 0 { share } else { share.round() }
+                });
+                drawn.collect::<Vec<f64>>()
+            });
+            let both = [self.emitted, self.exact].map(|own| at(own, &given).unwrap_or_default());
+            for (k, (a, b)) in both[0].iter().zip(&both[1]).enumerate() {
+                let off = *a + -*b;
+                let is_refuted = off.low.max(-off.high) > found[k].claimed;
+                let why = format!("E of result {} is refuted at a state", k + 1);
+                unless(!is_refuted, &why)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the joints of every result: of a torque its own, of an entry of D two.
+    fn joints(&self) -> Vec<Vec<usize>> {
+        let rows = &self.setting.rows;
+        let each = self.function.fields.iter().flat_map(|field| {
+            let lengths = field.lengths(self.setting, 0);
+            (0..lengths.iter().product()).map(move |index: usize| {
+                let mut left = index;
+                let axes = field.axes.bytes().zip(&lengths).rev();
+                let digits = axes.map(|(axis, length)| {
+                    let digit = left % length;
+                    left /= length;
+                    (axis == b'n').then(|| rows[digit])
+                });
+                let mut own: Vec<usize> = digits.flatten().collect();
+                own.reverse();
+                own
+            })
+        });
+        each.collect()
+    }
+
+    /// Returns the tolerance of a result: of several joints, and of none, the strictest.
+    fn held(&self, joints: &[usize]) -> f64 {
+        let joints = match joints.is_empty() {
+            true => &self.setting.rows,
+            false => joints,
+        };
+        let each = joints.iter().map(|joint| self.tolerance[*joint]);
+        each.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Returns the box of the claim, once it has all states of the file's.
+    fn ranges(&self) -> Result<StateBox, Fault> {
+        let places = &self.function.arguments;
+        let is_bounded = places.iter().all(|place| *place < 3);
+        unless(is_bounded, "an argument that no box bounds")?;
+        let mut all = StateBox::default();
+        for (place, all) in all.iter_mut().enumerate() {
+            let own = self.file(place)?;
+            if !places.contains(&place) {
+                all.resize(self.setting.joints(), [0.0; 2]);
+                continue;
+            }
+            all.clone_from(&self.own.ranges[place]);
+            let inside = |(own, claimed): (&[f64; 2], &[f64; 2])| {
+                let slack = slack(*own);
+                claimed[0] - slack <= own[0] && own[1] <= claimed[1] + slack
+            };
+            let is_range =
+                |own: &[f64; 2]| own[0] <= own[1] && own.iter().all(|end| end.abs() < 1e30);
+            let is_finite = all.iter().all(is_range);
+            let has_all = all.len() == own.len() && own.iter().zip(all.iter()).all(inside);
+            unless(
+                is_finite && has_all,
+                "the box lacks states of the scene, or of the joints' limits",
+            )?;
+        }
+        let is_far = |(joint, range): (usize, &[f64; 2])| {
+            self.setting.turns_by(joint) && range.iter().any(|end| end.abs() >= FARTHEST)
+        };
+        let is_near = !all[0].iter().enumerate().any(is_far);
+        unless(is_near, "the sine of an angle beyond 1000 rad")?;
+        Ok(all)
+    }
+
+    /// Returns the ranges of an argument's entries that the file speaks of; what it does not limit has
+    /// no end.
+    fn file(&self, place: usize) -> Result<Vec<[f64; 2]>, Fault> {
+        let own = self.setting.ranges(ARGUMENTS[place].0, f64::INFINITY);
+        let own = own.map_err(|why| Fault::Robot("limits".into(), why))?;
+        Ok(own.unwrap_or_default())
+    }
+
+    /// Returns the largest T of each result: the actuators' limits, or what it reaches at a state of
+    /// the claim. Refuses a T that is above it: E would look smaller than it is.
+    fn attainable(&self, joints: &[Vec<usize>]) -> Result<Vec<f64>, Fault> {
+        let most = match self.own.relative_to.as_str() {
+            "actuator" => self.actuator(joints)?,
+            "range" => self.reached()?,
+            _ => {
+                return unless(false, "`relative_to` is neither actuator nor range")
+                    .map(|()| vec![]);
+            }
+        };
+        for (scale, most) in self.own.scales.iter().zip(&most) {
+            let is_reached = *scale <= most * (1.0 + SCALE_SLACK) || *scale == 0.0;
+            let why = format!("T of {scale:e} is above {most:e}, the largest that is reached");
+            unless(is_reached, &why)?;
+        }
+        Ok(most)
+    }
+
+    /// Returns the limits of the actuators; of an entry of D the inertia that takes all of a limit at
+    /// the largest acceleration, of h_ikm the coefficient at the largest velocities.
+    fn actuator(&self, joints: &[Vec<usize>]) -> Result<Vec<f64>, Fault> {
+        let limit = |joint: usize, name: &str| self.setting.limit(joint, name).unwrap_or(f64::NAN);
+        let torque = |joint: usize| limit(joint, "torque");
+        let inertia = |i: usize, k: usize| torque(i) / limit(k, "acceleration");
+        let fields = self.function.fields.iter();
+        let fields = fields.flat_map(|field: &Field| {
+            let count = field.lengths(self.setting, 0).iter().product();
+            std::iter::repeat_n(field, count)
+        });
+        let own =
+            fields.zip(joints).map(
+                |(field, joints)| match (field.measure(), joints.as_slice()) {
+                    (Some(Measure::Load), &[i]) => Some(torque(i)),
+                    (Some(Measure::Inertia), &[i, k]) => Some(inertia(i, k).min(inertia(k, i))),
+                    (Some(Measure::Coefficient), &[i, k, m]) => {
+                        Some(torque(i) / (limit(k, "velocity") * limit(m, "velocity")))
+                    }
+                    _ => None,
+                },
+            );
+        own.collect::<Option<_>>().ok_or_else(|| {
+            Fault::Claim("the actuators' limits are no measure of this function".into())
+        })
+    }
+
+    /// Returns what each result is at least at its state of the claim, which is one of the file's.
+    fn reached(&self) -> Result<Vec<f64>, Fault> {
+        let (states, count) = (&self.own.reached, self.setting.joints());
+        let wrong = "`reached`: expected a state of the box for each result";
+        unless(states.len() == self.exact.outputs.len(), wrong)?;
+        let own = [0, 1, 2].map(|place: usize| self.file(place));
+        let [q, qd, qdd] = own;
+        let file = [q?, qd?, qdd?];
+        let mut all = Vec::new();
+        for (result, state) in states.iter().enumerate() {
+            let mut given = vec![Vec::new(); 3];
+            let lists = self
+                .function
+                .arguments
+                .iter()
+                .zip(state.chunks(count.max(1)));
+            lists.for_each(|(place, list)| given[*place] = list.to_vec());
+            let is_whole = state.len() == count * self.function.arguments.len();
+            let is_inside = given.iter().zip(&file).all(|(given, own)| {
+                given
+                    .iter()
+                    .zip(own)
+                    .all(|(at, own)| own[0] - slack(*own) <= *at && *at <= own[1] + slack(*own))
+            });
+            unless(is_whole && is_inside, wrong)?;
+            let found = at(self.exact, &given).and_then(|own| own.get(result).copied());
+            let found = found.ok_or_else(|| Fault::Claim(wrong.into()))?;
+            let least = found.low.max(-found.high).max(0.0);
+            all.push(least);
+        }
+        Ok(all)
+    }
+}
+
+/// Returns by how much a range of decimals may be another in doubles: of a point by their least.
+fn slack([low, high]: [f64; 2]) -> f64 {
+    BOX_SLACK * (low.abs() + high.abs()) + f64::MIN_POSITIVE
+}
+
+/// Refuses a claim unless something holds.
+fn unless(holds: bool, why: &str) -> Result<(), Fault> {
+    holds
+        .then_some(())
+        .ok_or_else(|| Fault::Claim(format!("tolerance: {why}")))
+}
+
+/// Returns a number that a rounded one is not below; zero is exact.
+fn below(value: f64) -> f64 {
+    if value > 0.0 {
+        value.next_down()
+    } else {
+        value
+    }
+}
