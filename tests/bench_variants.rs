@@ -36,7 +36,7 @@ fn the_bench_of_sines_is_up_to_date() {
     let limits = InputBox::of(&robot).unwrap();
     let scales = scale::actuator(&robot, program).unwrap();
     let (scalar, fineness) = (ScalarType::F64, BoundEffort::QUICK);
-    let libm = Certificate::make(&robot, &[], program, scalar, &limits, &scales);
+    let libm = Certificate::make(&robot, program, program, scalar, &limits, &scales);
     // Rounding has its part of the tolerance, the polynomials have the rest.
     let pairs = scales.iter().zip(&libm.bounds);
     let allowances: Vec<f64> = pairs

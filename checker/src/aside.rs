@@ -12,7 +12,7 @@ use crate::rounding::Ranges;
 /// By how much a box may be larger than the file's: decimals were rounded.
 const BOX_SLACK: f64 = 1e-9;
 
-/// What items beside functions follow from.
+/// The facts that items beside functions follow from.
 pub(crate) struct Known<'k> {
     /// The robot in its scene.
     pub setting: &'k Setting<'k>,

@@ -12,7 +12,7 @@ use crate::fault::Fault;
 use crate::file::{self, Found};
 use crate::identity::exact::Exact;
 use crate::identity::number::Draws;
-use crate::identity::program::Program;
+use crate::identity::program::{Operand, Program};
 use crate::identity::setting::Setting;
 use crate::identity::table::{ARGUMENTS, Function, argument, functions, length};
 use crate::identity::{Base, Statement, aligned, check, robot};
@@ -148,7 +148,7 @@ fn fault(own: TextError) -> Fault {
 
 /// A file that is checked.
 struct Whole<'w> {
-    /// What all draws follow from: robot, claim and text.
+    /// The seed of all draws, from robot, claim and text.
     seed: String,
     claim: &'w Claim,
     constants: Constants,
@@ -160,7 +160,7 @@ struct Whole<'w> {
     is_c: bool,
     /// The modules in Rust whose scalar is f32.
     singles: HashSet<&'w str>,
-    /// What was found of each function of the claim: both scalars have one program.
+    /// The finding about each function of the claim: both scalars have one program.
     found: HashMap<usize, Result<(), Fault>>,
 }
 
@@ -226,6 +226,12 @@ impl Whole<'_> {
         let other = claimed.exact(&self.constants)?;
         let exact = other.as_ref().unwrap_or(&emitted);
         let function = function(claimed).map_err(refused)?;
+        let mut programs = [&emitted, exact].into_iter();
+        let is_fixed = |own: &Operand<Exact>| self.setting.is_fixed(own);
+        if programs.any(|own| own.reads(is_fixed)) {
+            let why = "it reads a joint that is locked, or a rate that stands still";
+            return Err(refused(why.into()));
+        }
         let base = claimed.base(&self.constants, self.setting.links())?;
         let head = self.head(claimed, &function, &base, self.is_single(found))?;
         let read = self.read(&head, found).map_err(in_file)?;
@@ -437,7 +443,7 @@ impl Whole<'_> {
     }
 }
 
-/// What items beside functions follow from.
+/// The values and structs that items beside functions follow from.
 #[derive(Default)]
 struct Beside {
     values: Vec<(&'static str, Vec<Exact>)>,

@@ -80,7 +80,7 @@ pub struct Claimed {
     pub values: String,
 }
 
-/// What is claimed of a function under a tolerance: at every state of the box each result of the
+/// The claim about a function under a tolerance: at every state of the box each result of the
 /// text is within E·T of the robot's.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
@@ -115,7 +115,7 @@ impl Claim {
     /// Reads a document.
     ///
     /// # Errors
-    /// What is no claim, with the line of the mistake.
+    /// A text that is no claim, with the line of the mistake.
     pub fn read(source: &str) -> Result<Claim, Fault> {
         let refuse = |why: String| Err(Fault::Claim(why));
         if source.len() > MOST_BYTES {

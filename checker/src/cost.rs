@@ -1,4 +1,4 @@
-//! What rounding costs a function: over the box where that can be bounded, else at states that a
+//! The cost of rounding in a function: over the box where that can be bounded, else at states that a
 //! hash draws.
 
 use crate::identity::number::Draws;
@@ -24,7 +24,7 @@ const ZERO: f64 = 1e-12;
 /// A function that is the robot's but for rounding, and for what a tolerance left out.
 #[derive(Clone, Debug)]
 pub struct Shown {
-    /// What rounding costs at most, relative to the largest value seen of the entry, of a matrix
+    /// The largest cost of rounding, relative to the largest value seen of the entry, of a matrix
     /// of its row or its column.
     pub rounding: f64,
     /// The same in halves of an ulp of that value.

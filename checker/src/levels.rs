@@ -13,7 +13,7 @@ pub(crate) struct Level {
     pub(crate) range: Option<[f64; 2]>,
     /// Powers of sin and cos that occur.
     powers: Vec<[u32; 2]>,
-    /// Of each coefficient its power and its place among those of the next level.
+    /// The power of each coefficient, and its place among those of the next level.
     moves: Vec<(u32, u32)>,
 }
 
@@ -21,7 +21,7 @@ pub(crate) struct Level {
 pub(crate) struct Search {
     pub(crate) levels: Vec<Level>,
     pub(crate) values: Vec<Vec<f64>>,
-    /// Of each value behind the last level, the factors of a product of velocities that are
+    /// The factors of each value behind the last level that is a product of velocities which are
     /// as large backwards as forwards: joint k's is factor k + 1, and factor 0 is 1.
     factors: Vec<Option<[usize; 2]>>,
     /// The sum of the magnitudes of all terms, before they were added up.

@@ -12,7 +12,7 @@
 //!    `maximum`
 //! 6. `certify`: these in order, function by function
 //!
-//! What is believed: that every operation is rounded to nearest and none is contracted,
+//! Believed are: that every operation is rounded to nearest and none is contracted,
 //! that the library's sines are within one ulp, this crate, the compiler, and the parsers
 //! of TOML and JSON.
 #![forbid(unsafe_code)]

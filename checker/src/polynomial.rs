@@ -34,7 +34,7 @@ const WIDTH: usize = 13;
 const FIELDS: [(usize, usize); 6] = [(0, 2), (2, 4), (6, 3), (9, 2), (11, 1), (12, 1)];
 /// The most terms of one polynomial.
 const MOST_TERMS: usize = 1 << 18;
-/// What summing up `rest` in floating point may cost, as a factor: far fewer than 2³⁰
+/// The factor that summing up `rest` in floating point may cost: far fewer than 2³⁰
 /// additions, each rounded by at most one part in 2⁵³.
 pub const SLACK: f64 = 1.000_001;
 /// The least double, at least what a product is off where it underflows.
@@ -90,7 +90,7 @@ pub const ANGLES: Key = each((1 << 6) - 1);
 pub struct Polynomial {
     /// In the order of their keys, each key once.
     pub terms: Vec<(Key, f64)>,
-    /// What is left out, at most.
+    /// The largest magnitude of all that is left out.
     pub rest: f64,
 }
 

@@ -22,9 +22,9 @@ pub type StateBox = [Vec<[f64; 2]>; 3];
 /// The variables over a box.
 #[derive(Clone, Debug)]
 pub struct Ring {
-    /// Of each joint sine, cosine and position, or what there is of them.
+    /// Sine, cosine and position of each joint, or what there is of them.
     positions: Vec<[Option<Polynomial>; 3]>,
-    /// Of each joint q̇ and q̈.
+    /// The rates q̇ and q̈ of each joint.
     rates: [Vec<Polynomial>; 2],
     /// The range of each joint's angle φ; `None` where it goes all the way round, or
     /// stands for a position between two ends.

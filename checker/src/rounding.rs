@@ -1,4 +1,4 @@
-//! What rounding costs: of each value an interval, and how far the float is from the exact
+//! Bounds of rounding: of each value an interval, and how far the float is from the exact
 //! program's value at most, by one pass over the text. Over the whole box that is a bound; at a
 //! point, the bound at that state.
 
@@ -207,7 +207,7 @@ impl<'f> Rounding<'f> {
     }
 }
 
-/// What a function is given over ranges.
+/// The sines and arguments that a function is given over ranges.
 struct Given<'g> {
     ranges: &'g Ranges,
     /// Sine and cosine of each joint.

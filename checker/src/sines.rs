@@ -1,4 +1,4 @@
-//! What rounding costs, and how far polynomials of an angle are from its sine and its cosine.
+//! Bounds of one rounding, and of how far polynomials of an angle are from its sine and its cosine.
 
 use crate::identity::program::{Operand, Program};
 use crate::interval::{Interval, SINE_ERROR, UNIT, sin_cos};
@@ -12,9 +12,9 @@ const CELLS: usize = 1 << 14;
 /// The scalar that a text computes in.
 #[derive(Clone, Copy, Debug)]
 pub struct Scalar {
-    /// What rounding to nearest costs, relative.
+    /// The relative cost of rounding to nearest.
     pub unit: f64,
-    /// What it costs more where results underflow.
+    /// The cost beside that where results underflow.
     pub least: f64,
     /// Where results overflow.
     pub most: f64,
@@ -44,7 +44,7 @@ impl Scalar {
 /// angles of a range, from its sine (or cosine); infinite if nothing can be said. `result` says
 /// which of their results that is.
 ///
-/// Of f, the polynomial in real numbers less the sine, the value at the middle of each cell
+/// Let f be the polynomial in real numbers less the sine: the value at the middle of each cell
 /// and the slope over the cell are enclosed: |f| ≤ |f(m)| + max|f′|·w. What rounding
 /// costs on the way is added.
 pub fn error(

@@ -1,7 +1,7 @@
 //! A function under a tolerance: at every state of the box each result of its text is within E·T of
 //! the exact program's, and T is no larger than it may be.
 //!
-//! What differs between the two programs is a polynomial in sines, cosines and rates, of which all
+//! The difference of the two programs is a polynomial in sines, cosines and rates, of which all
 //! that both have in common cancels. Its largest magnitude over the box and what rounding costs add up.
 
 use crate::claim::Tolerated;
@@ -25,7 +25,7 @@ const BOX_SLACK: f64 = 1e-9;
 const SCALE_SLACK: f64 = 1e-4;
 /// The number of states that may refute an E that is not shown.
 const STATES: usize = 1000;
-/// What a result that is always zero may be off, relative to the largest T: differences of programs
+/// The largest error of a result that is always zero, relative to the largest T: differences of programs
 /// are of doubles.
 const ZERO: f64 = 1e-12;
 
@@ -197,12 +197,12 @@ impl Subject<'_> {
 
     /// Returns the tolerance of a result: of several joints, and of none, the strictest.
     fn held(&self, joints: &[usize]) -> f64 {
-        let joints = match joints.is_empty() {
-            true => &self.setting.rows,
-            false => joints,
-        };
-        let each = joints.iter().map(|joint| self.tolerance[*joint]);
-        each.fold(f64::INFINITY, f64::min)
+        let strictest =
+            |joints: &mut dyn Iterator<Item = &f64>| joints.copied().fold(f64::INFINITY, f64::min);
+        match joints.is_empty() {
+            true => strictest(&mut self.tolerance.iter()),
+            false => strictest(&mut joints.iter().map(|joint| &self.tolerance[*joint])),
+        }
     }
 
     /// Returns the box of the claim, once it has all states of the file's.
@@ -269,7 +269,10 @@ impl Subject<'_> {
     /// Returns the limits of the actuators; of an entry of D the inertia that takes all of a limit at
     /// the largest acceleration, of h_ikm the coefficient at the largest velocities.
     fn actuator(&self, joints: &[Vec<usize>]) -> Result<Vec<f64>, Fault> {
-        let limit = |joint: usize, name: &str| self.setting.limit(joint, name).unwrap_or(f64::NAN);
+        let limit = |joint: usize, name: &str| {
+            let own = self.setting.limit(joint, name).filter(|own| *own > 0.0);
+            own.unwrap_or(f64::NAN)
+        };
         let torque = |joint: usize| limit(joint, "torque");
         let inertia = |i: usize, k: usize| torque(i) / limit(k, "acceleration");
         let fields = self.function.fields.iter();

@@ -47,7 +47,7 @@ pub(crate) fn written(
 ) -> Result<(Vec<f64>, Vec<Polynomial>), Fault> {
     let mut values: Vec<Polynomial> = Vec::with_capacity(program.steps.len());
     let refused = || {
-        let why = "tolerance: it reads a joint that is locked, or an angle as a number";
+        let why = "tolerance: it reads an angle as a number, or what is no state";
         Fault::Claim(why.into())
     };
     let read = |values: &[Polynomial], own: &Operand<Exact>| -> Result<Polynomial, Fault> {

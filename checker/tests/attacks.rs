@@ -49,13 +49,13 @@ const ATTACKS: [[&str; 4]; 13] = [
         "locked_bad",
         "r2_conf",
         "locked",
-        "a joint that is locked, or an angle as a number",
+        "it reads a joint that is locked, or a rate",
     ],
     [
         "pend_bad",
         "pend_bad",
         "pick",
-        "a joint that is locked, or an angle as a number",
+        "it reads an angle as a number",
     ],
     // Texts that are not of the grammar.
     ["t1", "r2l", "pick", "line 3: nothing that is generated"],

@@ -1,9 +1,7 @@
 //! The report of generated code: operations, bounds under a tolerance, the proof, and, if
 //! everything is asked for, what the search did and what rounding costs.
 
-use dalembert_codegen::workspace::{
-    Admitted, Certificate, Library, Proof, SEED, bound_of, omissions,
-};
+use dalembert_codegen::workspace::{Admitted, Certificate, Library, Proof, SEED, bound_of};
 use dalembert_codegen::{Function, Generated, GeneratedFunction, Request};
 use dalembert_model::robot::Robot;
 
@@ -157,7 +155,7 @@ fn tolerance(report: &mut Report, function: Function, admitted: &Admitted, ended
             Table::new(BOUNDS).with(bounds(own)),
         );
     }
-    let left_out = omissions(&admitted.stages);
+    let left_out = &admitted.left_out;
     let rows = left_out.iter().map(|own| {
         let pairs = match own.sincos {
             0 => String::new(),

@@ -17,6 +17,8 @@ pub struct Point {
     pub tolerance: f64,
     /// The claim about it.
     pub certificate: Certificate,
+    /// The number of values that were left out.
+    pub left_out: usize,
     /// The largest E of an output.
     pub certified: f64,
     /// The largest error that was seen, if it was run at any state.
@@ -55,12 +57,6 @@ impl Point {
             trig_add,
             ..self.certificate.emitted.counts()
         }
-    }
-
-    /// Counts the replaced values.
-    pub fn edits(&self) -> usize {
-        let stages = self.certificate.stages.iter();
-        stages.map(|stage| stage.edits.len()).sum()
     }
 
     /// Returns its operations, those of polynomials included.
@@ -163,16 +159,25 @@ impl<'a> Ladder<'a> {
         };
         begin(&format!("attempts to refute {tolerance:e}"));
         let mut certificates = Vec::new();
-        for certificate in variants.into_iter().flat_map(|v| v.certificates) {
-            let polynomials = match exact {
-                true => None,
-                false => self.polynomials(tolerance, &certificate),
-            };
-            certificates.push(certificate);
-            certificates.extend(polynomials);
+        for variant in variants {
+            let left_out = variant.left_out.len();
+            for certificate in variant.certificates {
+                let polynomials = match exact {
+                    true => None,
+                    false => self.polynomials(tolerance, &certificate),
+                };
+                let both = [Some(certificate), polynomials].into_iter().flatten();
+                certificates.extend(both.map(|own| (left_out, own)));
+            }
         }
         let samples = self.samples;
-        let points = each(&certificates, |own| point(samples, tolerance, own));
+        let points = each(&certificates, |(left_out, own)| {
+            let point = point(samples, tolerance, own)?;
+            Ok(Point {
+                left_out: *left_out,
+                ..point
+            })
+        });
         points.into_iter().collect()
     }
 
@@ -223,6 +228,7 @@ fn point(samples: usize, tolerance: f64, certificate: &Certificate) -> Result<Po
     Ok(Point {
         tolerance,
         certificate: certificate.clone(),
+        left_out: 0,
         certified: worst(certificate),
         observed,
         rounding: worst(&rounding),

@@ -239,7 +239,7 @@ fn table(points: &[Point]) -> Table {
             counts.sincos,
             counts.trig_mul,
             counts.trig_add,
-            own.edits(),
+            own.left_out,
             Cell::power(own.certified, 2),
             seen(own.observed),
             Cell::power(own.rounding, 2),

@@ -115,8 +115,7 @@ fn code(program: &Program, constants: &mut Constants) -> [String; 2] {
 fn tolerated(certificates: &[Certificate], constants: &mut Constants) -> Option<Tolerated> {
     let first = certificates.first()?;
     let program = &first.emitted;
-    let exact = first.stages.first().map(|stage| &stage.program);
-    let exact = exact.filter(|exact| *exact != program);
+    let exact = Some(&first.exact).filter(|exact| *exact != program);
     let [steps, returns] = exact.map_or_else(Default::default, |own| code(own, constants));
     let limits = &first.limits;
     let lists = [&limits.position, &limits.velocity, &limits.acceleration];

@@ -109,7 +109,7 @@ struct Falsifier<'c> {
 impl<'c> Falsifier<'c> {
     fn new(certificate: &'c Certificate) -> Result<Falsifier<'c>, TextError> {
         let Certificate { text: printed, .. } = certificate;
-        let program = &certificate.stages[0].program;
+        let program = &certificate.exact;
         let limits = &certificate.limits;
         Ok(Falsifier {
             certificate,

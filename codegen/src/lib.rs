@@ -27,7 +27,7 @@
 //! - `plan`: programs kept from a long search
 //! - `task`: what is generated, for which robot in which scene, with which options
 //! - `bound`: rigorous bounds of what was left out and of what rounding costs
-//! - `certificate`: claims about emitted code, their check and their text
+//! - `certificate`: claims about variants that a tolerance admits
 //! - `falsify`: attempts to refute them
 //! - `approximate`: the lossy search
 //! - `emit`: the module of a robot: header, documentation, functions

@@ -16,14 +16,4 @@ impl ErrorByCause {
     pub fn total(self) -> f64 {
         (self.model + self.sincos + self.rounding) * (1.0 + 1e-15)
     }
-
-    /// Returns the smaller of two bounds, cause by cause.
-    #[must_use]
-    pub fn min(self, other: ErrorByCause) -> ErrorByCause {
-        ErrorByCause {
-            model: self.model.min(other.model),
-            sincos: self.sincos.min(other.sincos),
-            rounding: self.rounding.min(other.rounding),
-        }
-    }
 }

@@ -5,7 +5,7 @@
 pub use crate::approximate::{
     admitted::Admitted,
     choose::ErrorBudget,
-    prune::{PruneSettings, Pruned, omissions, prune},
+    prune::{PruneSettings, Pruned, prune},
     sines::within,
 };
 pub use crate::bound::{
@@ -20,10 +20,7 @@ pub use crate::certificate::{Certificate, Refuted};
 #[cfg(feature = "claims")]
 pub use crate::claim::{claim, claim_of};
 pub use crate::dag::{Dag, Edge, Fingerprint, Folding, Id, Leaves, Node, Points};
-pub use crate::edits::{
-    Edit, EditSite, Stage, difference,
-    text::{read_edit, write_edit},
-};
+pub use crate::edits::{Edit, EditSite, Omission, Stage, difference, omissions};
 pub use crate::emit::figures::bound_of;
 pub use crate::falsify::{Falsification, falsify};
 pub use crate::function::{Argument, Columns, Quantity, RuntimeParameter, Sizes};

@@ -402,3 +402,36 @@ fn files_of_attacks() {
     own.is_shown(2, asked);
     assert!(refusal(own.with(&attack("hide.h"))).is_some());
 }
+
+/// Whoever calls a function in a scene may give any number for a joint that is locked: one that is
+/// added to a result, in text and claim, is refused, with a tolerance and without.
+#[test]
+fn joints_that_are_locked_are_not_read() {
+    let tolerance = "velocity = [1, 1, 1], acceleration = [1, 1, 1] }; \
+        tolerance = { value = 0.1, relative_to = \"range\" }";
+    for more in ["", &format!("; box = {{ {tolerance}")] {
+        let scene = format!("lock = {{ 2 = 0.3 }}{more}");
+        let asked = "inverse_dynamics; scalar: f64; sincos: libm";
+        let own = &Certified::all("planar3r", &scene, asked)[0];
+        own.is_shown(own.report().unwrap().lines.len(), &scene);
+        let mut claim: Value = serde_json::from_str(&own.claim).unwrap();
+        let function = &mut claim["functions"][0];
+        let [steps, returns] =
+            ["steps", "returns"].map(|key| function[key].as_str().unwrap().to_owned());
+        let count = steps.split(' ').count();
+        let first = returns.split(' ').next().unwrap();
+        assert!(first.starts_with('t'), "{first}");
+        let [square, sum] = [count + 1, count + 2].map(|step| format!("t{step}"));
+        function["steps"] = format!("{steps} qd[1]*qd[1] {first}+{square}").into();
+        function["returns"] = returns.replacen(first, &sum, 1).into();
+        let last = own.text.rfind(&format!("    [{first},")).unwrap();
+        let text = format!(
+            "{}    let {square} = qd[1] * qd[1];\n    let {sum} = {first} + {square};\n{}",
+            &own.text[..last],
+            own.text[last..].replacen(first, &sum, 1)
+        );
+        let found = certify(&text, &claim.to_string(), &own.robot, own.scene, None);
+        let why = refusal(found).unwrap();
+        assert!(why.contains("it reads a joint that is locked"), "{why}");
+    }
+}

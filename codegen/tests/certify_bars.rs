@@ -25,7 +25,7 @@ fn bar(tolerance: f64, operations: usize) {
     assert!(counts.operations() <= operations, "{counts}");
     let certificate = Certificate::make(
         &robot,
-        &pruned.stages,
+        program,
         &pruned.program,
         ScalarType::F64,
         &limits,

@@ -531,7 +531,7 @@ fn plans() {
     let mut random = Random::new(0x91a2);
     let words = [
         "t1", "t2", "t7", "q[0]", "qd[1]", "s1", "c2", "s3", "#0", "#1/2", "+", "-", "*", "~t1",
-        "edit", "next", "bound", "1e-9", "0", "return", "f32", "gravity", "1,2,3", "q",
+        "left", "edited", "1e-9", "0", "return", "f32", "gravity", "1,2,3", "q",
     ];
     let (mut refused, mut kept) = (0, 0);
     for _ in 0..MUTATIONS {
@@ -560,7 +560,6 @@ fn plans() {
 fn plan(robot: &Reading, generated: &Generated) -> String {
     let function = &generated.functions[0];
     let claim = certificate(generated);
-    let exact = &claim.stages[0].program;
     Plan {
         robot: robot.robot.name.clone(),
         input: input_hash(&robot.robot),
@@ -571,12 +570,10 @@ fn plan(robot: &Reading, generated: &Generated) -> String {
             passes: Vec::new(),
             scene: claim.scene.clone(),
             parameters: None,
-            program: exact.clone(),
+            program: claim.exact.clone(),
             edited: Some(Edited {
-                stages: claim.stages.clone(),
                 program: claim.emitted.clone(),
-                bounds: claim.bounds.clone(),
-                lambda_min: claim.lambda_min,
+                left_out: Vec::new(),
             }),
         }],
     }

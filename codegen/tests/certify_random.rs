@@ -4,7 +4,7 @@
 use crate::support;
 use crate::support::draw::{Draw, robots};
 use dalembert_codegen::workspace::{
-    Certificate, ErrorBudget, InputBox, PruneSettings, Pruned, Setup, Stage, falsify, prune,
+    Certificate, ErrorBudget, InputBox, PruneSettings, Pruned, Setup, falsify, prune,
 };
 use dalembert_codegen::{Function, Program, ScalarType, Start};
 use dalembert_model::number::{Angle, Rational};
@@ -64,20 +64,20 @@ fn bounds_hold_and_are_close() {
             .unwrap()
             .scales;
         let limits = InputBox::of(&robot).unwrap();
-        let certify = |stages: &[Stage], program: &Program, scalar| {
-            let made = Certificate::make(&robot, stages, program, scalar, &limits, &scales);
+        let certify = |emitted: &Program, scalar| {
+            let made = Certificate::make(&robot, program, emitted, scalar, &limits, &scales);
             let falsification = falsify(&made, 4000, 3, seed).unwrap();
             assert_eq!(falsification.violation, None, "{what}");
             let certified = made.bounds.iter().map(|bound| bound.total());
             let certified = certified.fold(0.0, f64::max);
             certified / falsification.observed.into_iter().fold(0.0, f64::max)
         };
-        let rounding = certify(&[], program, ScalarType::F32);
+        let rounding = certify(program, ScalarType::F32);
         assert!(rounding <= 30.0, "{what}: {rounding}");
         if n < 4 {
             let pruned = pruned(program, &limits, &scales);
             assert!(!pruned.stages.is_empty(), "{what}");
-            let model = certify(&pruned.stages, &pruned.program, ScalarType::F64);
+            let model = certify(&pruned.program, ScalarType::F64);
             assert!(model <= 1.5, "{what}: {model}");
         }
     }

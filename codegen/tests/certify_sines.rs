@@ -58,7 +58,7 @@ impl Case {
 
     fn certificate(&self, scalar: ScalarType, sines: &Sines) -> Certificate {
         let (robot, program) = (&self.robot, &self.program);
-        let libm = Certificate::make(robot, &[], program, scalar, &self.limits, &self.scales);
+        let libm = Certificate::make(robot, program, program, scalar, &self.limits, &self.scales);
         let sensitivity = Sensitivity::new(program, &self.limits, BoundEffort::CERTIFY);
         libm.with_sines(&Setup::whole(robot), sines, &sensitivity)
     }

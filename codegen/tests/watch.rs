@@ -115,7 +115,7 @@ fn an_early_end_is_no_worse_than_the_quick_search() {
     let run = |effort, until| watched(case(), effort, until).0;
     let leaves_out = |own: &Generated| {
         let admitted = own.functions[0].admitted.as_ref();
-        admitted.is_some_and(|admitted| !admitted.stages.is_empty())
+        admitted.is_some_and(|admitted| admitted.is_other())
     };
     let quick = run(Effort::Quick, None);
     assert!(!quick.ended && leaves_out(&quick));

@@ -157,7 +157,7 @@ impl Row {
     }
 }
 
-/// What is compared, each by its name.
+/// The parts that are compared, each by its name.
 type Parts = Vec<(String, Vec<Fixed>)>;
 
 /// Returns axes, masses and frames of a robot file.

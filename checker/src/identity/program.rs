@@ -37,6 +37,13 @@ pub struct Program<C> {
 }
 
 impl<C> Program<C> {
+    /// Returns true if some operand is such.
+    pub fn reads(&self, is_such: impl Fn(&Operand<C>) -> bool) -> bool {
+        let steps = self.steps.iter().flat_map(|own| &own.1);
+        let outputs = self.outputs.iter().map(|own| &own.1);
+        steps.chain(outputs).any(is_such)
+    }
+
     /// Evaluates it, given the values of operands other than steps; none if one of them has none.
     pub fn run<V: Clone>(
         &self,

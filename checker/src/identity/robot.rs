@@ -31,7 +31,7 @@ pub struct File {
     outputs: Option<IgnoredAny>,
 }
 
-/// What a scene fixes, carries and asks for.
+/// The positions that a scene fixes, the payload that it carries and the results that it asks for.
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[allow(

@@ -9,8 +9,10 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::exact::{Angle, Exact, Point, number};
 use super::number::Number;
+use super::program::Operand;
 use super::robot::{File, OneOrEach, Row, Scene};
-use super::{state::State, table::argument};
+use super::state::State;
+use super::table::{ARGUMENTS, argument};
 
 /// The most joints.
 const MOST_JOINTS: usize = 64;
@@ -314,7 +316,7 @@ impl Setting<'_> {
     /// no tolerance is given.
     ///
     /// # Errors
-    /// What is no number, or not one a joint.
+    /// A text that is no number, or a list that has not one for each joint.
     pub fn tolerance(&self) -> Result<Option<(Vec<f64>, &str)>, String> {
         let own = self.scene.and_then(|scene| scene.tolerance.as_ref());
         let Some(own) = own else { return Ok(None) };
@@ -342,6 +344,21 @@ impl Setting<'_> {
         };
         let given = given.and_then(|list| list.as_ref()?.get(joint));
         number(given.or(limit.as_ref())?)?.to_f64()
+    }
+
+    /// Returns true for an operand that the scene fixes: whoever calls a function may give another
+    /// number for it.
+    pub fn is_fixed<C>(&self, own: &Operand<C>) -> bool {
+        match own {
+            Operand::Sine(angle, _) => angle.iter().any(|own| self.is_locked(own.0)),
+            Operand::Speed(joint) => self.is_locked(*joint) || self.still[0],
+            Operand::Entry(place, joint) => {
+                let is_of_joints = ARGUMENTS.get(*place).is_some_and(|own| own.1 == 'n');
+                let is_still = [1, 2].map(|rate| *place == rate && self.still[rate - 1]);
+                is_of_joints && self.is_locked(*joint) || is_still.contains(&true)
+            }
+            Operand::Step(_) | Operand::Constant(_) => false,
+        }
     }
 
     /// Returns true for a joint that is locked.

@@ -20,7 +20,7 @@ impl State {
     /// Draws a state of a robot in its scene at a point of a field.
     ///
     /// # Errors
-    /// What the scene fixes is no number.
+    /// A position that the scene fixes is no number.
     pub fn draw(point: &Point, setting: &Setting) -> Result<State, String> {
         let sizes = [setting.joints(), setting.links()];
         let list = |axis: char| (0..length(axis, sizes)).map(|_| point.residue()).collect();

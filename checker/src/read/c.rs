@@ -17,9 +17,9 @@ use super::{Function, Source, TextError};
 /// The names of a function in a header.
 #[derive(Clone, Debug, Default)]
 pub struct Symbols {
-    /// What macros begin with.
+    /// The beginning of macros.
     pub macros: String,
-    /// What the header's other functions of the scalar begin with.
+    /// The beginning of the header's other functions of the scalar.
     pub prefix: String,
     /// The function of one state.
     pub single: String,

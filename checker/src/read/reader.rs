@@ -1,4 +1,4 @@
-//! What functions in Rust and in C have in common: operands, operations, sines and roots.
+//! The grammar that functions in Rust and in C share: operands, operations, sines and roots.
 
 use std::collections::HashMap;
 use std::fmt::Debug;

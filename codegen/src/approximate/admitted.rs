@@ -1,61 +1,36 @@
-//! What a tolerance admitted, with its certificates.
+//! Variants that a tolerance admits, with their claims.
 
 use super::error::ToleranceError;
 use crate::bound::ranges::{RANGE_BOXES, overflows};
 use crate::certificate::Certificate;
-use crate::edits::{Stage, has_edits};
-use crate::program::{Program, ScalarType, has_inertia};
+use crate::certificate::subject::is_same;
+use crate::edits::Omission;
+use crate::program::{Program, has_inertia};
 use crate::split::ErrorByCause;
 
 /// A variant that meets its tolerance.
 #[derive(Clone, Debug)]
 pub struct Admitted {
-    /// What was edited, program after program; none if nothing was.
-    pub stages: Vec<Stage>,
+    /// The exact program.
+    pub exact: Program,
     /// The program to emit.
     pub program: Program,
+    /// What was left out one by one, if it was: a smaller model has nothing of that.
+    pub left_out: Vec<Omission>,
     /// One a scalar, as they were asked for.
     pub certificates: Vec<Certificate>,
-    /// What is claimed of each with libm's sines, which plans keep.
-    pub libm: Vec<Claim>,
-}
-
-/// What is claimed of a variant in a scalar.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Claim {
-    /// The scalar.
-    pub scalar: ScalarType,
-    /// E of each output.
-    pub bounds: Vec<ErrorByCause>,
-    /// [`Certificate::lambda_min`].
-    pub lambda_min: Option<f64>,
 }
 
 impl Admitted {
-    pub(super) fn of(
-        stages: &[Stage],
-        emitted: &Program,
-        certificates: Vec<Certificate>,
-    ) -> Admitted {
-        let claim = |certificate: &Certificate| Claim {
-            scalar: certificate.scalar,
-            bounds: certificate.bounds.clone(),
-            lambda_min: certificate.lambda_min,
-        };
-        Admitted {
-            stages: stages.to_vec(),
-            program: emitted.clone(),
-            libm: certificates.iter().map(claim).collect(),
-            certificates,
-        }
+    /// Returns whether it is another function than the exact program.
+    pub fn is_other(&self) -> bool {
+        !is_same(&self.exact, &self.program)
     }
 
     /// Returns whether D, if it is an output and was edited, is positive definite.
     pub fn is_definite(&self) -> bool {
         let certain = |certificate: &Certificate| certificate.lambda_min.is_some();
-        !has_edits(&self.stages)
-            || !has_inertia(&self.program)
-            || self.certificates.iter().all(certain)
+        !has_inertia(&self.program) || self.certificates.iter().all(certain) || !self.is_other()
     }
 
     /// Returns whether every E is within its output's tolerance, and nothing overflows.

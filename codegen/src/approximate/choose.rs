@@ -10,7 +10,7 @@ use std::rc::Rc;
 
 use dalembert_model::scene::{Scale, Tolerance};
 
-use crate::approximate::admitted::{Admitted, Claim, within};
+use crate::approximate::admitted::{Admitted, within};
 use crate::approximate::error::{ToleranceError, Unbounded};
 use crate::approximate::prune::{PruneSettings, Pruned};
 use crate::approximate::regrouping;
@@ -24,8 +24,8 @@ use crate::bound::sensitivity::Sensitivity;
 use crate::bound::turns::sine_positions;
 use crate::bound::work::Meter;
 use crate::certificate::subject::Subject;
-use crate::certificate::{Certificate, Refuted, Shared};
-use crate::edits::Stage;
+use crate::certificate::{Certificate, Refuted};
+use crate::edits::{Omission, omissions};
 use crate::program::{Library, Program, ScalarType, has_inertia};
 use crate::setup::Setup;
 use crate::states::JointState;
@@ -150,10 +150,10 @@ impl<'a> ErrorBudget<'a> {
     }
 
     /// Returns what is claimed of a variant.
-    fn subject<'s>(&'s self, stages: &'s [Stage], emitted: &'s Program) -> Subject<'s> {
+    fn subject<'s>(&'s self, emitted: &'s Program) -> Subject<'s> {
         Subject {
             setup: self.setup,
-            stages,
+            exact: self.exact,
             emitted,
             limits: &self.limits,
             scales: &self.scales,
@@ -166,14 +166,14 @@ impl<'a> ErrorBudget<'a> {
 
     /// Returns the exact program's certificates, whatever they come to.
     pub fn unedited(&self, scalars: &[ScalarType], bound_effort: BoundEffort) -> Admitted {
-        self.certified(&[], self.exact, scalars, &[], bound_effort)
+        self.certified(self.exact, &[], scalars, &[], bound_effort)
     }
 
     /// Returns the certificates of a variant, which is to be within tolerances.
     fn certified(
         &self,
-        stages: &[Stage],
         emitted: &Program,
+        left_out: &[Omission],
         scalars: &[ScalarType],
         tolerances: &[f64],
         bound_effort: BoundEffort,
@@ -186,7 +186,7 @@ impl<'a> ErrorBudget<'a> {
             }
         };
         tell(0);
-        let subject = self.subject(stages, emitted);
+        let subject = self.subject(emitted);
         let sensitivity = self.sensitivity(emitted, bound_effort);
         let limits = self.left(&subject, scalars, tolerances, &sensitivity);
         let model = subject.model_within(&limits, bound_effort);
@@ -198,7 +198,12 @@ impl<'a> ErrorBudget<'a> {
             }
         };
         let certificates = scalars.iter().enumerate().map(certificate);
-        Admitted::of(stages, emitted, certificates.collect())
+        Admitted {
+            exact: self.exact.clone(),
+            program: emitted.clone(),
+            left_out: left_out.to_vec(),
+            certificates: certificates.collect(),
+        }
     }
 
     /// Returns what rounding leaves of each tolerance in every scalar, in the output's unit.
@@ -220,45 +225,31 @@ impl<'a> ErrorBudget<'a> {
         pairs.map(|(left, scale)| left * scale).collect()
     }
 
-    /// Returns the variant of a plan, with its claims: program and edits are proved to
-    /// belong together. Of its bounds [`ErrorBudget::derived`] says whether they hold.
+    /// Returns a variant with bounds that are as coarse as shows that it is within the tolerances; if
+    /// nothing does, with the finest. So one that a plan kept has those that it had when it was
+    /// found.
     ///
     /// # Errors
-    /// Programs that edits do not lead to, or that read what they may not.
-    pub fn replayed(
+    /// A program that is not of the function, or reads what it may not.
+    pub fn shown(
         &self,
-        stages: &[Stage],
         emitted: &Program,
-        claims: &[Claim],
+        left_out: &[Omission],
+        scalars: &[ScalarType],
+        tolerances: &[f64],
     ) -> Result<Admitted, Refuted> {
-        let first = stages.first().map_or(emitted, |stage| &stage.program);
-        if first != self.exact {
-            return Err(Refuted::Step(0));
-        }
-        let subject = self.subject(stages, emitted);
-        let mut certificates = Vec::new();
-        for claim in claims {
-            let certificate = Certificate {
-                lambda_min: claim.lambda_min,
-                ..subject.claim(claim.scalar, claim.bounds.clone())
-            };
-            certificate.check_programs(self.setup)?;
-            certificates.push(certificate);
-        }
-        Ok(Admitted::of(stages, emitted, certificates))
-    }
-
-    /// Returns whether what a plan claims of a variant's bounds can be shown: they are
-    /// found anew, as coarsely as shows them.
-    ///
-    /// # Errors
-    /// The first claim that cannot be shown.
-    pub fn derived(&self, kept: &Admitted) -> Result<(), Refuted> {
-        let sensitivity = |bound_effort| self.sensitivity(&kept.program, bound_effort);
-        let shared = Shared::new(self.subject(&kept.stages, &kept.program), &sensitivity);
-        kept.certificates
-            .iter()
-            .try_for_each(|certificate| certificate.check_claims(&shared).map(|_| ()))
+        let subject = self.subject(emitted);
+        subject
+            .claim(ScalarType::F64, Vec::new())
+            .check(self.setup)?;
+        let certified = |effort| self.certified(emitted, left_out, scalars, tolerances, effort);
+        let coarse = certified(BoundEffort::QUICK);
+        Ok(
+            match coarse.within(tolerances).is_ok() && coarse.is_definite() {
+                true => coarse,
+                false => certified(BoundEffort::CERTIFY),
+            },
+        )
     }
 
     /// Returns the cheapest variant found of which every output in every scalar is
@@ -330,7 +321,9 @@ impl<'a> ErrorBudget<'a> {
                 stages, program, ..
             } in found
             {
-                let variant = self.certified(&stages, &program, scalars, tolerances, bound_effort);
+                let left_out = omissions(&stages);
+                let variant =
+                    self.certified(&program, &left_out, scalars, tolerances, bound_effort);
                 if variant.within(tolerances).is_ok() && variant.is_definite() {
                     return Ok(variant);
                 }

@@ -103,18 +103,6 @@ pub fn least_eigenvalue(
     shown(program, scalar, sines, limits, Wanted::Most)
 }
 
-/// Returns whether it can be shown to be no less than a number above zero: one pass in place
-/// of a search for the largest.
-pub(crate) fn is_at_least(
-    least: f64,
-    program: &Program,
-    scalar: ScalarType,
-    sines: &[AngleKernel],
-    limits: &InputBox,
-) -> bool {
-    least > 0.0 && shown(program, scalar, sines, limits, Wanted::AtLeast(least)).is_ok()
-}
-
 /// Returns whether D can be shown to be positive definite, by whatever little: what a search
 /// asks of one variant after the other.
 pub(crate) fn is_definite(

@@ -1,23 +1,17 @@
-//! Certificates: claims about emitted code that anybody can check again.
+//! Claims about variants: what a tolerance left of an exact program.
 //!
-//! A certificate holds the exact program, the edits, the emitted program and
-//! its printed text, and for each output a bound E of
-//! |emitted code in its scalar − full model| / T over the box, split by cause.
-//! Here they are made and written. `dalembert-checker`, which shares no line with this
-//! crate, takes box, T, E and text from one and checks it.
+//! A claim has the exact program, the emitted one and its printed text, and for each output a
+//! bound E of |emitted code in its scalar − full model| / T over the box, split by cause.
+//! `dalembert-checker`, which shares no formula with this crate, checks it.
 //!
-//! The emitted program and the edited one are the same function but not the
-//! same arithmetic; rounding is bounded on the emitted one, edits between
-//! exact programs, and the two add up by the triangle inequality.
+//! Rounding is bounded on the emitted program, and what it differs from the exact one between
+//! exact programs; the two add up by the triangle inequality.
 //!
 //! - this file: the claim, and how it is made
-//! - `check`: that edits lead from program to program, which is proved of what was found and
-//!   of what a plan kept; `work` and `shape`: what comes first; `bounds`: a plan's bounds,
-//!   found anew; `refuted`: why these are not so
+//! - `shape` and `work`: a variant that a plan kept fits the scene, and is bounded in bounded time;
+//!   `refuted`: why not
 //! - [`subject`]: what a claim is about, and how its bounds are found
 
-mod bounds;
-mod check;
 mod refuted;
 mod shape;
 pub(crate) mod subject;
@@ -30,7 +24,6 @@ use crate::bound::input_box::InputBox;
 use crate::bound::sensitivity::BoundEffort;
 use crate::bound::sensitivity::Sensitivity;
 use crate::bound::turns::turns_freely;
-use crate::edits::Stage;
 use crate::interval::Interval;
 use crate::program::{Library, Program, ScalarType};
 use crate::setup::SceneKey;
@@ -38,7 +31,6 @@ use crate::setup::Setup;
 use crate::sincos::Sines;
 use crate::split::ErrorByCause;
 use crate::states::JointState;
-pub(crate) use bounds::Shared;
 pub use refuted::Refuted;
 pub(crate) use refuted::WrongInput;
 use subject::{Subject, printed};
@@ -58,8 +50,8 @@ pub struct Certificate {
     pub relative_to: Option<Scale>,
     /// If they are ranges, states at which the outputs reach them.
     pub reached: Vec<JointState>,
-    /// The exact program and its edits, program after program.
-    pub stages: Vec<Stage>,
+    /// The exact program.
+    pub exact: Program,
     /// The program that is emitted, with exact constants.
     pub emitted: Program,
     /// The function as printed.
@@ -78,6 +70,16 @@ pub struct Certificate {
 }
 
 impl Certificate {
+    /// Checks that the programs are of this robot and scene, and take bounded work.
+    pub(crate) fn check(&self, setup: &Setup) -> Result<(), Refuted> {
+        let mut programs = [&self.exact, &self.emitted].into_iter();
+        if !programs.all(|program| program.dag.is_straight()) {
+            return Err(Refuted::Shape);
+        }
+        work::check(self).map_err(Refuted::Work)?;
+        shape::check(self, setup)
+    }
+
     /// Returns the positions of a joint of this robot for which it holds; `None` for all.
     ///
     /// Where a joint [turns freely](turns_freely), one turn is certified and its
@@ -94,10 +96,10 @@ impl Certificate {
 
     /// Bounds the emitted program's error and writes the claim down.
     ///
-    /// `stages` are what was edited; none for an exact program.
+    /// The exact program may be the one that is emitted.
     pub fn make(
         robot: &Robot,
-        stages: &[Stage],
+        exact: &Program,
         emitted: &Program,
         scalar: ScalarType,
         limits: &InputBox,
@@ -105,7 +107,7 @@ impl Certificate {
     ) -> Certificate {
         let subject = Subject {
             setup: &Setup::whole(robot),
-            stages,
+            exact,
             emitted,
             limits,
             scales,
@@ -133,7 +135,7 @@ impl Certificate {
             ..*bound
         });
         Certificate {
-            stages: vec![Stage::unedited(self.emitted.clone())],
+            exact: self.emitted.clone(),
             bounds: bounds.collect(),
             ..self.clone()
         }
@@ -210,7 +212,7 @@ impl Certificate {
     fn subject<'a>(&'a self, setup: &'a Setup, sines: &'a [(ScalarType, Sines)]) -> Subject<'a> {
         Subject {
             setup,
-            stages: &self.stages,
+            exact: &self.exact,
             emitted: &self.emitted,
             limits: &self.limits,
             scales: &self.scales,

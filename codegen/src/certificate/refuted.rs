@@ -1,11 +1,8 @@
-//! Why what a plan says of a variant is not so.
+//! Reasons why a plan's variant is none.
 
 use std::fmt;
 
 use super::work::TooMuch;
-use crate::bound::definite::Indefinite;
-use crate::split::ErrorByCause;
-use crate::words::Complaint;
 
 /// Why a program may not read an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,7 +34,7 @@ impl fmt::Display for WrongInput {
     }
 }
 
-/// Why what a plan says of a variant is not so, or what was found is no variant.
+/// A reason why a plan's variant is none.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refuted {
     /// A list has not as many entries as there are outputs or joints, or a
@@ -62,29 +59,6 @@ pub enum Refuted {
         /// Why it may not.
         why: WrongInput,
     },
-    /// Edits cannot be applied.
-    Edits(usize, Complaint),
-    /// A stage's edited program is not what follows.
-    Step(usize),
-    /// A claim is smaller than what can be shown.
-    Bound {
-        /// The output's name.
-        entry: String,
-        /// What is claimed.
-        claimed: ErrorByCause,
-        /// What was found.
-        found: ErrorByCause,
-    },
-    /// D cannot be shown to be positive definite.
-    Indefinite(Indefinite),
-    /// The least eigenvalue is claimed to be larger than what can be shown,
-    /// or not claimed at all.
-    Eigenvalue {
-        /// What is claimed; zero if nothing.
-        claimed: f64,
-        /// What was found.
-        found: f64,
-    },
 }
 
 impl fmt::Display for Refuted {
@@ -106,32 +80,6 @@ impl fmt::Display for Refuted {
                 input,
                 why,
             } => write!(f, "{program} reads `{input}`: {why}"),
-            Refuted::Edits(stage, bad) => write!(f, "stage {}: {bad}", stage + 1),
-            Refuted::Step(stage) => write!(
-                f,
-                "stage {}: the edited program is not the one that follows",
-                stage + 1
-            ),
-            Refuted::Indefinite(why) => why.fmt(f),
-            Refuted::Eigenvalue { claimed, found } => write!(
-                f,
-                "lambda_min: claimed {claimed:e}; what can be shown is {found:e}"
-            ),
-            Refuted::Bound {
-                entry,
-                claimed,
-                found,
-            } => write!(
-                f,
-                "{entry}: claimed model {:e}, sincos {:e}, rounding {:e}; \
-                 what can be shown is {:e}, {:e}, {:e}",
-                claimed.model,
-                claimed.sincos,
-                claimed.rounding,
-                found.model,
-                found.sincos,
-                found.rounding
-            ),
         }
     }
 }

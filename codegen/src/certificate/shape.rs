@@ -1,4 +1,4 @@
-//! What a plan's variant is about: the function, arguments and results of the robot in its
+//! A plan's variant fits the scene: the function, arguments and results of the robot in its
 //! scene, and nothing read that they do not have.
 //!
 //! Everything after this may take for granted that lists are as long as they
@@ -8,44 +8,25 @@
 use dalembert_model::robot::JointKind;
 
 use super::{Certificate, Refuted, WrongInput};
-use crate::edits::EditSite;
 use crate::function::Argument;
 use crate::program::Input;
+use crate::program::Program;
 use crate::program::text::input_name;
-use crate::program::{Operand, Program};
 use crate::setup::Setup;
 
-/// Returns whether all parts of a claim fit the scene and each other.
+/// Checks that all parts of a claim fit the scene and each other.
 pub(super) fn check(certificate: &Certificate, setup: &Setup) -> Result<(), Refuted> {
     let Certificate {
         emitted, limits, ..
     } = certificate;
     let (n, outputs) = (setup.joints(), emitted.dag.outputs.len());
     let lists = [&limits.position, &limits.velocity, &limits.acceleration];
-    let fits = !certificate.stages.is_empty()
-        && lists.iter().all(|list| list.len() == n)
-        && certificate.scales.len() == outputs
-        && certificate.bounds.len() == outputs;
+    let fits = lists.iter().all(|list| list.len() == n) && certificate.scales.len() == outputs;
     if !fits {
         return Err(Refuted::Shape);
     }
     let checker = Checker { setup, emitted };
-    for (index, stage) in certificate.stages.iter().enumerate() {
-        let name = format!("the program of stage {}", index + 1);
-        checker.program(&name, &stage.program)?;
-        let count = stage.program.dag.operations().count();
-        for edit in &stage.edits {
-            match &edit.value {
-                Operand::Constant(_) => {}
-                Operand::Step(step) if *step < count => {}
-                Operand::Step(_) => return Err(Refuted::Shape),
-                Operand::Input(input) => checker.input(&name, *input)?,
-            }
-            if let EditSite::Input(input) = edit.place {
-                checker.input(&name, input)?;
-            }
-        }
-    }
+    checker.program("the exact program", &certificate.exact)?;
     checker.program("the emitted program", emitted)
 }
 

@@ -8,7 +8,7 @@ use crate::bound::input_box::InputBox;
 use crate::bound::magnitude::{magnitudes, magnitudes_within, relative};
 use crate::bound::sensitivity::{BoundEffort, Sensitivity};
 use crate::dag::Dag;
-use crate::edits::{Stage, deviation, difference, has_edits};
+use crate::edits::deviation;
 use crate::language::{Printed, function};
 use crate::program::{Library, Program, ScalarType, has_inertia};
 use crate::setup::{SceneKey, Setup};
@@ -25,8 +25,8 @@ const NEAR: f64 = 1.07;
 pub(crate) struct Subject<'a> {
     /// The full model.
     pub setup: &'a Setup,
-    /// What was edited; none for an exact program.
-    pub stages: &'a [Stage],
+    /// The exact program.
+    pub exact: &'a Program,
     /// The program that is emitted, with exact constants.
     pub emitted: &'a Program,
     /// Where it holds.
@@ -53,11 +53,10 @@ impl Subject<'_> {
     /// Returns the same; an output that is a little above its limit is shown to be at most that, if
     /// it can be: bounds by themselves exceed what is reached by some hundredths.
     pub(crate) fn model_within(&self, limits: &[f64], bound_effort: BoundEffort) -> Vec<f64> {
-        let error = match direct(self.stages, self.emitted) {
-            Some(exact) => deviation(exact, self.emitted),
-            None if has_edits(self.stages) => difference(self.stages),
-            None => return vec![0.0; self.scales.len()],
-        };
+        if is_same(self.exact, self.emitted) {
+            return vec![0.0; self.scales.len()];
+        }
+        let error = deviation(self.exact, self.emitted);
         let budget = bound_effort.budget;
         let mut found = magnitudes(&error, self.limits, self.scales, budget);
         let pairs = || found.iter().zip(limits);
@@ -127,7 +126,8 @@ impl Subject<'_> {
     /// Returns a lower bound of the least eigenvalue of S D S, if D is an output and
     /// not the model's; `None` as well if there is none above zero.
     pub(crate) fn least_eigenvalue(&self, scalar: ScalarType) -> Option<f64> {
-        if !changes_inertia(self.stages, self.emitted, self.sines(scalar)) {
+        let is_changed = !is_same(self.exact, self.emitted) || !self.sines(scalar).is_empty();
+        if !has_inertia(self.emitted) || !is_changed {
             return None;
         }
         least_eigenvalue(self.emitted, scalar, self.sines(scalar), self.limits).ok()
@@ -143,10 +143,7 @@ impl Subject<'_> {
             scales: self.scales.to_vec(),
             relative_to: self.relative_to,
             reached: self.reached.to_vec(),
-            stages: match self.stages {
-                [] => vec![Stage::unedited(self.emitted.clone())],
-                stages => stages.to_vec(),
-            },
+            exact: self.exact.clone(),
             emitted: self.emitted.clone(),
             text: printed(self.emitted, scalar, self.library, self.sines(scalar)),
             library: self.library,
@@ -162,23 +159,9 @@ impl Subject<'_> {
     }
 }
 
-/// Returns the exact program of a claim that has no edits and emits another function: it is
-/// bounded against that, however it was found. None for D, which must be shown to stay
-/// definite.
-pub(super) fn direct<'s>(stages: &'s [Stage], emitted: &Program) -> Option<&'s Program> {
-    match stages {
-        [stage] if stage.edits.is_empty() && !has_inertia(emitted) => {
-            let exact = &stage.program;
-            prove_same(exact, emitted).is_err().then_some(exact)
-        }
-        _ => None,
-    }
-}
-
-/// Returns whether D is an output and differs from the model's by more than rounding:
-/// something was left out of it, or its sines are polynomials.
-pub(super) fn changes_inertia(stages: &[Stage], emitted: &Program, sines: &[AngleKernel]) -> bool {
-    has_inertia(emitted) && (has_edits(stages) || !sines.is_empty())
+/// Returns whether two programs are the same function: what differs is rounding.
+pub(crate) fn is_same(exact: &Program, emitted: &Program) -> bool {
+    exact == emitted || prove_same(exact, emitted).is_ok()
 }
 
 /// Returns the text of a claim: a program and its sines, printed by themselves.

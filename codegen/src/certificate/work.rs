@@ -10,16 +10,10 @@ use std::fmt;
 use dalembert_model::number::{Exact, Extent};
 
 use super::Certificate;
-use crate::edits::{Edit, EditSite, Stage};
-use crate::program::{Operand, Operation, Steps};
-use std::collections::BTreeMap;
+use crate::program::{Operand, Operation, Program, Steps};
 
-/// The most programs of a variant that are edited one after another.
-const MAX_STAGES: usize = 64;
 /// The most steps of a program.
 const MAX_STEPS: usize = 50_000;
-/// The most edits of a program.
-const MAX_EDITS: usize = 10_000;
 /// The most angles whose sine or cosine a program reads.
 const MAX_ANGLES: usize = 256;
 /// The most bits of a constant's coefficient.
@@ -62,17 +56,10 @@ impl fmt::Display for TooMuch {
 
 impl std::error::Error for TooMuch {}
 
-/// Returns whether a variant can be proved with bounded work.
+/// Checks that a variant can be bounded with bounded work.
 pub(super) fn check(certificate: &Certificate) -> Result<(), TooMuch> {
-    let stages = &certificate.stages;
-    within("the variant", "stages", stages.len(), MAX_STAGES)?;
-    for (index, stage) in stages.iter().enumerate() {
-        program(&format!("stage {}", index + 1), stage)?;
-    }
-    program(
-        "the emitted program",
-        &Stage::unedited(certificate.emitted.clone()),
-    )
+    program("the exact program", &certificate.exact)?;
+    program("the emitted program", &certificate.emitted)
 }
 
 fn within(place: &str, what: &'static str, found: usize, most: usize) -> Result<(), TooMuch> {
@@ -91,32 +78,27 @@ fn limit(place: &str, what: &'static str, found: u64, most: u64) -> Result<(), T
     })
 }
 
-fn program(place: &str, stage: &Stage) -> Result<(), TooMuch> {
-    let Stage { program, edits } = stage;
+fn program(place: &str, program: &Program) -> Result<(), TooMuch> {
     let steps = program.dag.steps();
     within(place, "steps", steps.steps.len(), MAX_STEPS)?;
-    within(place, "edits", edits.len(), MAX_EDITS)?;
     within(place, "angles", program.trig().len(), MAX_ANGLES)?;
     let mut cost = 0u64;
-    for constant in constants(&steps, edits) {
+    for constant in constants(&steps) {
         let extent = constant.extent();
         admit(place, &extent)?;
         cost = cost.saturating_add(work(&extent));
     }
     limit(place, "units of work for its constants", cost, MAX_COST)?;
-    let edits = edits.iter().map(|edit| (edit.place, edit)).collect();
-    Sizes::default().steps(place, &steps, &BTreeMap::new())?;
-    Sizes::default().steps(place, &steps, &edits)
+    Sizes::default().steps(place, &steps)
 }
 
-fn constants<'a>(program: &'a Steps, edits: &'a [Edit]) -> impl Iterator<Item = &'a Exact> {
+fn constants(program: &Steps) -> impl Iterator<Item = &Exact> {
     let steps = program
         .steps
         .iter()
         .flat_map(|step| [&step.left, &step.right]);
     let outputs = program.outputs.iter().map(|output| &output.value);
-    let edits = edits.iter().map(|edit| &edit.value);
-    let all = steps.chain(outputs).chain(edits);
+    let all = steps.chain(outputs);
     all.filter_map(|operand| match operand {
         Operand::Constant(constant) => Some(constant),
         _ => None,
@@ -138,7 +120,7 @@ fn admit(place: &str, extent: &Extent) -> Result<(), TooMuch> {
 /// or the factor in front of it.
 type Size = Option<Extent>;
 
-/// Of every step, with edits or without.
+/// Of every step.
 #[derive(Default)]
 struct Sizes {
     /// The size, and whether the step is that constant itself.
@@ -146,19 +128,10 @@ struct Sizes {
 }
 
 impl Sizes {
-    fn steps(
-        &mut self,
-        place: &str,
-        program: &Steps,
-        edits: &BTreeMap<EditSite, &Edit>,
-    ) -> Result<(), TooMuch> {
+    fn steps(&mut self, place: &str, program: &Steps) -> Result<(), TooMuch> {
         for (index, step) in program.steps.iter().enumerate() {
-            let left = self.operand(&step.left, EditSite::Left(index), edits);
-            let right = self.operand(&step.right, EditSite::Right(index), edits);
-            let value = match edits.get(&EditSite::Step(index)) {
-                Some(edit) => self.read(&edit.value),
-                None => operate(step.operation, left, right),
-            };
+            let (left, right) = (self.read(&step.left), self.read(&step.right));
+            let value = operate(step.operation, left, right);
             if let (Some(extent), _) = &value {
                 let place = format!("{place}, t{}", index + 1);
                 admit(&place, extent)?;
@@ -166,22 +139,6 @@ impl Sizes {
             self.steps.push(value);
         }
         Ok(())
-    }
-
-    fn operand(
-        &self,
-        operand: &Operand,
-        place: EditSite,
-        edits: &BTreeMap<EditSite, &Edit>,
-    ) -> (Size, bool) {
-        match (edits.get(&place), operand) {
-            (Some(edit), _) => self.read(&edit.value),
-            (None, Operand::Input(input)) => match edits.get(&EditSite::Input(*input)) {
-                Some(edit) => self.read(&edit.value),
-                None => (None, false),
-            },
-            (None, operand) => self.read(operand),
-        }
     }
 
     fn read(&self, operand: &Operand) -> (Size, bool) {

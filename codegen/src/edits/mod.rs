@@ -2,13 +2,14 @@
 //!
 //! - `edit`: what was left out
 //! - `difference`: the edited program, and the program of its error
-//! - [`text`]: edits as plans and certificates write them
+//! - `omissions`: what was left out, one by one
 
 mod difference;
 mod edit;
-pub(crate) mod text;
+mod omissions;
 
 pub(crate) use difference::deviation;
 pub use difference::difference;
 pub(crate) use edit::has_edits;
 pub use edit::{Edit, EditSite, Stage};
+pub use omissions::{Omission, omissions};

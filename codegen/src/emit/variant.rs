@@ -5,8 +5,8 @@ use std::cmp::Reverse;
 use super::figures::{at_least, bound as up, inside};
 use super::scale;
 use crate::approximate::admitted::Admitted;
-use crate::approximate::prune::{Omission, omissions};
 use crate::certificate::Certificate;
+use crate::edits::Omission;
 use crate::function::Argument;
 use crate::interval::Interval;
 use crate::program::ScalarType;
@@ -32,13 +32,12 @@ pub(super) fn describe(admitted: &Admitted, setup: &Setup, scalar: ScalarType) -
     lines.push(String::new());
     lines.extend(states(certificate, setup));
     lines.push(String::new());
-    let left_out = omissions(&admitted.stages);
-    if left_out.is_empty() && !admitted.stages.is_empty() {
+    if !admitted.left_out.is_empty() {
+        lines.extend(omitted(admitted.left_out.clone()));
+    } else if admitted.is_other() {
         lines.push("Computed by a smaller model, fitted to the full one.".into());
-    } else if left_out.is_empty() {
-        lines.push("Nothing was left out.".into());
     } else {
-        lines.extend(omitted(left_out));
+        lines.push("Nothing was left out.".into());
     }
     lines
 }

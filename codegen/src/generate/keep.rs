@@ -62,14 +62,9 @@ fn entry(request: &Request, function: &GeneratedFunction, scalar: ScalarType) ->
         scene: request.scene.as_ref().map(SceneKey::new),
         parameters: function.parameters.clone(),
         program: exact(function).clone(),
-        edited: function.admitted.as_ref().and_then(|admitted| {
-            let claim = admitted.libm.iter().find(|claim| claim.scalar == scalar)?;
-            Some(Edited {
-                stages: admitted.stages.clone(),
-                program: admitted.program.clone(),
-                bounds: claim.bounds.clone(),
-                lambda_min: claim.lambda_min,
-            })
+        edited: function.admitted.as_ref().map(|admitted| Edited {
+            program: admitted.program.clone(),
+            left_out: admitted.left_out.clone(),
         }),
     }
 }
@@ -90,10 +85,8 @@ fn scalars(request: &Request, function: &GeneratedFunction) -> Vec<ScalarType> {
 
 /// Returns the proved program: what a tolerance was applied to.
 fn exact(function: &GeneratedFunction) -> &Program {
-    let admitted = function.admitted.as_ref();
-    let first = admitted.and_then(|admitted| admitted.stages.first());
     let program = function.found.as_ref().unwrap_or(&function.program);
-    first.map_or(program, |stage| &stage.program)
+    (function.admitted.as_ref()).map_or(program, |admitted| &admitted.exact)
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@
 
 use dalembert_model::scene::Tolerance;
 
-use crate::approximate::admitted::{Admitted, Claim};
+use crate::approximate::admitted::Admitted;
 use crate::approximate::choose::ErrorBudget;
 use crate::approximate::error::ToleranceError;
 use crate::approximate::prune::PruneSettings;
@@ -129,24 +129,36 @@ fn bound_effort(job: &Job<'_>) -> BoundEffort {
     }
 }
 
-/// Returns the plan's variant, if the tolerances admit it. A plan is a text that anybody
-/// can edit, and its bounds are what documentation and certificate will say: they
-/// are found anew.
+/// Returns the plan's variant, if the tolerances admit it and it is the same for each of the scalars.
+/// A plan is a text that anybody can edit: the variant's bounds are found anew.
 fn usable(
     job: &Job<'_>,
     budget: &ErrorBudget<'_>,
     tolerances: &[f64],
     scalars: &[ScalarType],
 ) -> Result<Option<Admitted>, GenerateError> {
-    let function = budget.exact.function;
-    let kept = kept(job, budget, scalars)?;
-    let usable = kept.filter(|kept| kept.within(tolerances).is_ok());
-    if let Some(usable) = &usable {
-        budget
-            .derived(usable)
-            .map_err(|refuted| GenerateError::Variant(function, refuted))?;
+    let (request, function) = (job.request, budget.exact.function);
+    let (Some(plan), Some(scene)) = (&request.plan, job.setup.scene()) else {
+        return Ok(None);
+    };
+    let scene_key = Some(SceneKey::new(scene));
+    let find = |&scalar: &ScalarType| {
+        let entry = plan.find(function, request.start, scalar, Some(scene), None)?;
+        (entry.scene == scene_key && entry.program == *budget.exact)
+            .then_some(entry.edited.as_ref())
+            .flatten()
+    };
+    let variants: Option<Vec<&Edited>> = scalars.iter().map(find).collect();
+    let Some([first, rest @ ..]) = variants.as_deref() else {
+        return Ok(None);
+    };
+    if rest.iter().any(|other| other.program != first.program) {
+        return Ok(None);
     }
-    Ok(usable)
+    let found = budget.shown(&first.program, &first.left_out, scalars, tolerances);
+    let found = found.map_err(|refuted| GenerateError::Variant(function, refuted))?;
+    let is_usable = found.within(tolerances).is_ok() && found.is_definite();
+    Ok(is_usable.then_some(found))
 }
 
 /// Returns what a tolerance admits of one function: the plan's variant, or the cheapest found.
@@ -183,7 +195,9 @@ fn chosen(
         Some(planned) => planned,
         None => {
             let found = budget.choose(&tolerances, scalars, &settings, bound_effort);
-            proved(&budget, found.map_err(fail)?)?
+            let found = found.map_err(fail)?;
+            let shown = budget.shown(&found.program, &found.left_out, scalars, &tolerances);
+            shown.map_err(|why| GenerateError::Variant(function, why))?
         }
     };
     // Always as fine, so that a plan's variant gets the sines that it got when
@@ -237,19 +251,6 @@ fn chosen(
     Ok(admitted)
 }
 
-/// Proves that a variant that was just found is the exact program with its edits, as is proved
-/// of one that a plan kept. The scalars share both.
-fn proved(budget: &ErrorBudget<'_>, found: Admitted) -> Result<Admitted, GenerateError> {
-    let programs = found.certificates.first();
-    match programs.map(|certificate| certificate.check_programs(budget.setup)) {
-        Some(Err(why)) => {
-            let why = format!("what was left out is not what was written down: {why}");
-            Err(GenerateError::Defect(budget.exact.function, None, why))
-        }
-        _ => Ok(found),
-    }
-}
-
 /// Another regrouping may be looked for only where the start may be any.
 fn thorough(request: &Request) -> PruneSettings {
     let sweeps = match request.start == Start::Auto {
@@ -260,42 +261,4 @@ fn thorough(request: &Request) -> PruneSettings {
         sweeps,
         ..PruneSettings::THOROUGH
     }
-}
-
-/// Returns the plan's variant, if it has the same one for each of the scalars.
-fn kept(
-    job: &Job<'_>,
-    budget: &ErrorBudget<'_>,
-    scalars: &[ScalarType],
-) -> Result<Option<Admitted>, GenerateError> {
-    let (request, function) = (job.request, budget.exact.function);
-    let (Some(plan), Some(scene)) = (&request.plan, job.setup.scene()) else {
-        return Ok(None);
-    };
-    let scene_key = Some(SceneKey::new(scene));
-    let find = |&scalar: &ScalarType| {
-        let entry = plan.find(function, request.start, scalar, Some(scene), None)?;
-        (entry.scene == scene_key && entry.program == *budget.exact)
-            .then_some(entry.edited.as_ref())
-            .flatten()
-    };
-    let variants: Option<Vec<&Edited>> = scalars.iter().map(find).collect();
-    let Some([first, rest @ ..]) = variants.as_deref() else {
-        return Ok(None);
-    };
-    let same = |other: &&Edited| other.stages == first.stages && other.program == first.program;
-    if !rest.iter().all(same) {
-        return Ok(None);
-    }
-    let pairs = scalars.iter().zip(variants.iter().flatten());
-    let claims = pairs.map(|(&scalar, variant)| Claim {
-        scalar,
-        bounds: variant.bounds.clone(),
-        lambda_min: variant.lambda_min,
-    });
-    let claims: Vec<Claim> = claims.collect();
-    budget
-        .replayed(&first.stages, &first.program, &claims)
-        .map(Some)
-        .map_err(|refuted| GenerateError::Variant(function, refuted))
 }

@@ -7,23 +7,20 @@
 //!
 //! - this file: [`Plan`]: its entries and how one is found
 //! - [`mod@file`]: where it is kept
-//! - [`parse`], [`write`](Plan::write): the text; `variant` reads what a
-//!   tolerance left of a program
+//! - [`parse`], [`write`](Plan::write): the text
 
 pub mod file;
 pub(crate) mod parse;
-mod variant;
 pub(crate) mod write;
 
 use std::fmt;
 
-use crate::edits;
+use crate::edits::Omission;
 use crate::function::Function;
 use crate::program::{Program, ScalarType};
 use crate::search::Pass;
 use crate::seeds::{Source, Start};
 use crate::setup::{ParametersKey, SceneKey};
-use crate::split::ErrorByCause;
 use crate::words::Complaint;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::scene::Scene;
@@ -78,20 +75,13 @@ pub struct Entry {
     pub edited: Option<Edited>,
 }
 
-/// A variant that a scene's tolerance admits. Whenever it is used, it is proved
-/// again that edits and programs belong together, and the bounds are found anew:
-/// a smaller one than can be shown is refused.
+/// A variant that a scene's tolerance admits. Whenever it is used, its bounds are found anew.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edited {
-    /// The entry's program and those that followed, with their edits; none if
-    /// nothing was left out.
-    pub stages: Vec<edits::Stage>,
     /// The program to emit.
     pub program: Program,
-    /// The bounds of each output in the entry's scalar.
-    pub bounds: Vec<ErrorByCause>,
-    /// That of D's least eigenvalue, if D is an output and was edited.
-    pub lambda_min: Option<f64>,
+    /// What was left out, for the documentation.
+    pub left_out: Vec<Omission>,
 }
 
 /// What tells the entries of a plan apart.

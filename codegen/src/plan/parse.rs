@@ -4,10 +4,10 @@
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 
-use super::variant::Variant;
-use super::{Entry, Plan, PlanError};
+use super::{Edited, Entry, Plan, PlanError};
+use crate::edits::Omission;
 use crate::function::{BundleError, Function};
-use crate::program::text::{read_results, read_step};
+use crate::program::text::{read_results, read_step, without_quotient};
 use crate::program::{Counts, Program, ScalarType, Steps};
 use crate::search::Pass;
 use crate::seeds::{Source, Start};
@@ -17,6 +17,7 @@ use crate::words::{Complaint, Word, complaint};
 /// The complaints about lines of parameters and of stages.
 const PARAMETERS: &str = "expected `payload`, `gravity` or both, the load's length and its hash";
 const STAGE: &str = "expected a stage and four counts";
+const LEFT: &str = "expected what was left out: operations, sines and words";
 
 /// The longest plan that is read.
 pub(crate) const MAX_BYTES: usize = 64 << 20;
@@ -53,7 +54,7 @@ struct Reader {
     /// Its steps so far.
     steps: Steps,
     /// What is being read of the last entry's variant.
-    variant: Option<Variant>,
+    variant: Option<Edited>,
 }
 
 impl Reader {
@@ -65,17 +66,14 @@ impl Reader {
             return Ok(());
         }
         let words: Vec<&str> = line.split(' ').collect();
-        if let Some(variant) = &mut self.variant {
-            if let Some(edited) = variant.line(line, &words)? {
-                if let Some(entry) = self.entries.last_mut() {
-                    entry.edited = Some(edited);
-                }
-                self.variant = None;
-            }
-            return Ok(());
+        if self.variant.is_some() {
+            return self.variant(line, &words);
         }
         if let ("edited", None, Some(entry)) = (words[0], &self.open, self.entries.last()) {
-            self.variant = Some(Variant::new(entry));
+            self.variant = Some(Edited {
+                program: entry.program.clone(),
+                left_out: Vec::new(),
+            });
             return Ok(());
         }
         let is_late = !self.steps.steps.is_empty();
@@ -110,14 +108,37 @@ impl Reader {
         Ok(())
     }
 
+    /// Reads a line of a variant: `left OPERATIONS SINES WORDS`, a step, or its results.
+    fn variant(&mut self, line: &str, words: &[&str]) -> Result<(), Complaint> {
+        let Some(variant) = &mut self.variant else {
+            return Ok(());
+        };
+        match words[0] {
+            "left" if self.steps.steps.is_empty() => {
+                let omission = left_out(line).ok_or_else(|| complaint(LEFT))?;
+                variant.left_out.push(omission);
+            }
+            "return" => {
+                let steps = std::mem::take(&mut self.steps);
+                read_results(&words[1..], steps, &mut variant.program)?;
+                if let Some(entry) = self.entries.last_mut() {
+                    entry.edited = self.variant.take();
+                }
+            }
+            _ => {
+                let step = read_step(words, &variant.program, self.steps.steps.len())?;
+                self.steps.steps.push(without_quotient(step)?);
+            }
+        }
+        Ok(())
+    }
+
     fn finish(self) -> Result<Plan, Complaint> {
         if self.open.is_some() {
             return Err(complaint("the last program has no `return`"));
         }
         if self.variant.is_some() {
-            return Err(complaint(
-                "the last variant has not a `bound` for every result",
-            ));
+            return Err(complaint("the last variant has no `return`"));
         }
         Ok(Plan {
             robot: self
@@ -129,6 +150,19 @@ impl Reader {
             entries: self.entries,
         })
     }
+}
+
+/// Reads what was left out; its words go into documentation, in every language.
+fn left_out(line: &str) -> Option<Omission> {
+    let mut parts = line.splitn(4, ' ').skip(1);
+    let (operations, sincos) = (parts.next()?.parse().ok()?, parts.next()?.parse().ok()?);
+    let words = parts.next()?.to_owned();
+    let is_plain = !words.contains("*/") && !words.contains(char::is_control);
+    is_plain.then_some(Omission {
+        words,
+        operations,
+        sincos,
+    })
 }
 
 fn program(words: &[&str]) -> Result<Entry, Complaint> {

@@ -3,9 +3,7 @@
 use std::fmt::Write;
 
 use super::{Edited, Plan};
-use crate::edits::text::write_edit;
 use crate::program::text::write_steps;
-use crate::split::ErrorByCause;
 
 impl Plan {
     /// Returns the text; [`Plan::parse`] reads it back.
@@ -62,26 +60,11 @@ impl Plan {
     }
 }
 
-/// Writes the edits of the program above, then program after program; the bounds.
+/// Writes what a tolerance left of the program above: what was left out, and the program.
 fn variant(text: &mut String, edited: &Edited) {
     text.push_str("edited\n");
-    for (index, stage) in edited.stages.iter().enumerate() {
-        for edit in &stage.edits {
-            let _ = writeln!(text, "edit {}", write_edit(edit));
-        }
-        text.push_str("next\n");
-        let next = edited.stages.get(index + 1).map(|next| &next.program);
-        write_steps(text, next.unwrap_or(&edited.program));
+    for own in &edited.left_out {
+        let _ = writeln!(text, "left {} {} {}", own.operations, own.sincos, own.words);
     }
-    if let Some(least) = edited.lambda_min {
-        let _ = writeln!(text, "eigenvalue {least:e}");
-    }
-    for bound in &edited.bounds {
-        let ErrorByCause {
-            model,
-            sincos,
-            rounding,
-        } = bound;
-        let _ = writeln!(text, "bound {model:e} {sincos:e} {rounding:e}");
-    }
+    write_steps(text, &edited.program);
 }

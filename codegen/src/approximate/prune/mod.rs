@@ -15,12 +15,11 @@
 //! - `fit`: constants corrected for what is left out
 //! - `price`: operations that stay
 //! - `spares`: multiples of values that others could be replaced by
-//! - `omissions`: what was left out, for reports; `tally`: rounds, for who watches
+//! - `tally`: rounds, for who watches
 
 mod columns;
 mod fit;
 mod greedy;
-mod omissions;
 mod price;
 mod search;
 mod side_by_side;
@@ -36,8 +35,6 @@ use crate::random::Random;
 use crate::search::Effort;
 use crate::verify::exact::prove_same;
 use crate::watch::FunctionWatch;
-pub(crate) use omissions::Omission;
-pub use omissions::omissions;
 use search::Search;
 pub(crate) use search::cost;
 use tally::Tally;

@@ -42,8 +42,6 @@ pub(in crate::bound) enum Wanted {
     Most,
     /// That it is above zero, by whatever: the easiest.
     Any,
-    /// That it is no less than this, which is above zero.
-    AtLeast(f64),
 }
 
 /// Returns a lower bound, above zero, of the least eigenvalue over a box of the matrix
@@ -104,10 +102,7 @@ pub(in crate::bound) fn least_eigenvalue(
         |values: &[f64], bound: f64| exceeds(matrix(values), n, (most - bound).next_up() + lost);
     let whole = layout.part.contains(&true).then_some(2.0 * most);
     let mut cells = Cells::new(&layout, limits, whole, &accept);
-    let seen = match wanted {
-        Wanted::AtLeast(least) => least,
-        Wanted::Any | Wanted::Most => sampled(&mut cells, &matrix, n, most),
-    };
+    let seen = sampled(&mut cells, &matrix, n, most);
     let mut is_shown = |least: f64| {
         let bound = (most - least).next_down();
         cells.points = points / TRIAL;
@@ -124,7 +119,6 @@ pub(in crate::bound) fn least_eigenvalue(
     };
     let [tighter @ .., easiest] = PARTS.map(|part| part * seen);
     match wanted {
-        Wanted::AtLeast(least) => is_shown(least).then_some(least),
         Wanted::Any => is_shown(easiest).then_some(easiest),
         // Where the easiest part cannot be shown, no other can: a refusal comes early.
         Wanted::Most if !is_shown(easiest) => None,

@@ -2,18 +2,14 @@
 
 use dalembert_model::number::{Exact, Rounded};
 
+use super::{Edit, EditSite, Stage};
 use crate::dag::Folding;
-use crate::edits::{Edit, EditSite, Stage};
 use crate::program::text::input_name;
 use crate::program::{Counts, Operand, Operation, Steps};
 
-/// One edit, and what it saves.
+/// A value that was left out, and what that saves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Omission {
-    /// Which program it edits, from zero.
-    pub stage: usize,
-    /// The edit.
-    pub edit: Edit,
     /// What is replaced, as an expression cut short where it is deep, and by
     /// what: `qd[3] * (s4 * …) -> 0`.
     pub words: String,
@@ -28,14 +24,12 @@ pub struct Omission {
 /// Constants that were corrected are no omissions: they save nothing.
 pub fn omissions(stages: &[Stage]) -> Vec<Omission> {
     let mut omissions = Vec::new();
-    for (index, stage) in stages.iter().enumerate() {
+    for stage in stages {
         let steps = stage.program.dag.steps();
         let paid = stage.program(Folding::Syntactic).counts();
         for edit in stage.edits.iter().filter(|edit| !edit.corrects()) {
             let back = without(stage, edit);
             omissions.push(Omission {
-                stage: index,
-                edit: edit.clone(),
                 words: words(&steps, edit),
                 operations: back.operations().saturating_sub(paid.operations()),
                 sincos: back.sincos.saturating_sub(paid.sincos),
