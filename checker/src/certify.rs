@@ -23,6 +23,8 @@ use crate::tolerance::Subject;
 pub use crate::cost::{RATE, Shown};
 pub use crate::tolerance::Bounded;
 
+/// How often one function of a claim is bounded under a tolerance.
+const MOST_TIMES: usize = 4;
 /// The most functions, and what stands beside them, of a file.
 const MOST_ITEMS: usize = 1 << 14;
 
@@ -101,6 +103,7 @@ pub fn certify(
         is_c,
         singles: singles.map(|item| item.module).collect(),
         found: HashMap::new(),
+        bounded: HashMap::new(),
     };
     // It computes no dynamics: it says where a box is.
     let is_box = |found: &Found| match is_c {
@@ -162,6 +165,8 @@ struct Whole<'w> {
     singles: HashSet<&'w str>,
     /// The finding about each function of the claim: both scalars have one program.
     found: HashMap<usize, Result<(), Fault>>,
+    /// How often each was bounded under a tolerance.
+    bounded: HashMap<usize, usize>,
 }
 
 impl Whole<'_> {
@@ -275,6 +280,12 @@ impl Whole<'_> {
             own,
             tolerance,
         };
+        // A file has each in two scalars; it may not ask for the work again and again.
+        let times = self.bounded.entry(place).or_default();
+        *times += 1;
+        if *times > MOST_TIMES {
+            return Err(Fault::Work);
+        }
         let results = subject.bounded()?;
         match results.iter().position(|own| !own.is_shown()) {
             Some(place) => {

@@ -128,6 +128,9 @@ fn measures<'s>(seen: &[f64], shapes: impl Iterator<Item = &'s [usize]>) -> Vec<
     let (mut all, mut left) = (Vec::new(), seen);
     for shape in shapes {
         let count = shape.iter().product::<usize>().min(left.len());
+        if count == 0 {
+            continue;
+        }
         let (each, behind) = left.split_at(count);
         left = behind;
         let whole = each.iter().copied().fold(0.0, f64::max);

@@ -35,6 +35,9 @@ const FIRST_LOSS: f64 = 0.087;
 /// By how much B grows where it was not shown.
 const GROWTH: [f64; 7] = [1.002, 1.01, 1.05, 1.2, 1.5, 2.0, 4.0];
 
+/// The most cells that a range is cut into at first.
+const MOST_CELLS: f64 = 1e6;
+
 /// Why F is not known to be at most B.
 enum Unshown {
     /// F, or a bound of it that cannot be avoided, is so large somewhere.
@@ -97,6 +100,9 @@ impl Search {
         let widest = (2.0 * FIRST_LOSS * most / bend.min(degree * degree * most)).sqrt();
         // Of what is no number, with B below zero, one.
         let count = (0.5 * (high - low) / widest).ceil().max(1.0);
+        if !(count < MOST_CELLS) {
+            return Err(Unshown::Steps);
+        }
         let half = (0.5 * (high - low) / count).next_up();
         let cell = |k: usize| (low + half * (2.0 * k as f64 + 1.0), half);
         let mut cells: Vec<(f64, f64)> = (0..count as usize).map(cell).collect();

@@ -133,6 +133,17 @@ impl Polynomial {
         merged(terms, self.rest + other.rest)
     }
 
+    /// Returns the sum of two, and counts its terms.
+    ///
+    /// # Errors
+    /// More than is written out, or more work than is done.
+    pub(crate) fn sum(&self, other: &Polynomial, work: &mut Work) -> Result<Polynomial, Fault> {
+        work.spend(self.terms.len() + other.terms.len())?;
+        let sum = self.plus(other);
+        let is_short = sum.terms.len() <= MOST_TERMS;
+        is_short.then_some(sum).ok_or(Fault::Large)
+    }
+
     /// Returns the product of two.
     ///
     /// # Errors

@@ -203,7 +203,12 @@ impl<'f> Rounding<'f> {
         else {
             return None;
         };
-        (one == other && is_sine != is_other).then(|| x.hypot(y) * (1.0 + 1e-12))
+        // What polynomials return is no point of the circle.
+        let joint = one.first().map_or(0, |own| own.0);
+        let is_off = [true, false].map(|own| self.polynomial(joint, own).is_some());
+        let is_pair = one == other && is_sine != is_other;
+        let is_circle = given.is_exact || is_off == [false; 2];
+        (is_pair && is_circle).then(|| x.hypot(y) * (1.0 + 1e-12))
     }
 }
 
@@ -212,6 +217,8 @@ struct Given<'g> {
     ranges: &'g Ranges,
     /// Sine and cosine of each joint.
     sines: Vec<[Value; 2]>,
+    /// `false` if what polynomials return stands for the sine.
+    is_exact: bool,
 }
 
 impl<'g> Given<'g> {
@@ -221,7 +228,11 @@ impl<'g> Given<'g> {
             [true, false].map(|is_sine| own.sine(joint, *range, is_sine, is_exact))
         };
         let sines = joints.map(pair).collect();
-        Given { ranges, sines }
+        Given {
+            ranges,
+            sines,
+            is_exact,
+        }
     }
 }
 

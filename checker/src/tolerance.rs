@@ -11,7 +11,7 @@ use crate::identity::number::Draws;
 use crate::identity::program::Program;
 use crate::identity::setting::Setting;
 use crate::identity::table::{ARGUMENTS, Field, Function, Measure};
-use crate::interval::FARTHEST;
+use crate::interval::{FARTHEST, Interval};
 use crate::maximum;
 use crate::polynomial::{SLACK, Work};
 use crate::read;
@@ -23,6 +23,8 @@ use crate::written::{at, written};
 const BOX_SLACK: f64 = 1e-9;
 /// By how much T may be above the value that is reached. What is tolerated is relative to that.
 const SCALE_SLACK: f64 = 1e-4;
+/// The most operations times results.
+const MOST_EVALUATED: usize = 1 << 24;
 /// The number of states that may refute an E that is not shown.
 const STATES: usize = 1000;
 /// The largest error of a result that is always zero, relative to the largest T: differences of programs
@@ -111,6 +113,9 @@ impl Subject<'_> {
         unless(joints.len() == count, "results that are not the function's")?;
         let ranges = self.ranges()?;
         let most = self.attainable(&joints)?;
+        if self.exact.steps.len() * count > MOST_EVALUATED {
+            return Err(Fault::Work);
+        }
         let work = &mut Work::default();
         let ring = Ring::new(self.setting, &ranges, work)?;
         let all: &mut Ranges = &mut ranges.to_vec();
@@ -197,12 +202,15 @@ impl Subject<'_> {
 
     /// Returns the tolerance of a result: of several joints, and of none, the strictest.
     fn held(&self, joints: &[usize]) -> f64 {
-        let strictest =
-            |joints: &mut dyn Iterator<Item = &f64>| joints.copied().fold(f64::INFINITY, f64::min);
-        match joints.is_empty() {
-            true => strictest(&mut self.tolerance.iter()),
-            false => strictest(&mut joints.iter().map(|joint| &self.tolerance[*joint])),
-        }
+        let all: Vec<usize> = (0..self.tolerance.len()).collect();
+        let rows = &self.setting.rows;
+        let held = match joints.is_empty() {
+            true if rows.is_empty() => &all,
+            true => rows,
+            false => joints,
+        };
+        let each = held.iter().map(|joint| self.tolerance[*joint]);
+        each.fold(f64::INFINITY, f64::min)
     }
 
     /// Returns the box of the claim, once it has all states of the file's.
@@ -239,12 +247,22 @@ impl Subject<'_> {
         Ok(all)
     }
 
-    /// Returns the ranges of an argument's entries that the file speaks of; what it does not limit has
-    /// no end.
+    /// Returns the ranges of an argument's entries; none of what is no argument. Refuses a joint that
+    /// the file does not limit.
     fn file(&self, place: usize) -> Result<Vec<[f64; 2]>, Fault> {
-        let own = self.setting.ranges(ARGUMENTS[place].0, f64::INFINITY);
-        let own = own.map_err(|why| Fault::Robot("limits".into(), why))?;
-        Ok(own.unwrap_or_default())
+        let name = ARGUMENTS[place].0;
+        if !self.function.arguments.contains(&place) {
+            return Ok(Vec::new());
+        }
+        let of_robot = |why: String| Fault::Robot("limits".into(), why);
+        let own = self.setting.ranges(name, f64::INFINITY).map_err(of_robot)?;
+        let own = own.unwrap_or_default();
+        match own.iter().flatten().all(|end| end.is_finite()) {
+            true => Ok(own),
+            false => Err(of_robot(format!(
+                "a tolerance needs the range of `{name}` of every joint"
+            ))),
+        }
     }
 
     /// Returns the largest T of each result: the actuators' limits, or what it reaches at a state of
@@ -254,8 +272,8 @@ impl Subject<'_> {
             "actuator" => self.actuator(joints)?,
             "range" => self.reached()?,
             _ => {
-                return unless(false, "`relative_to` is neither actuator nor range")
-                    .map(|()| vec![]);
+                let why = "tolerance: `relative_to` is neither actuator nor range";
+                return Err(Fault::Claim(why.into()));
             }
         };
         for (scale, most) in self.own.scales.iter().zip(&most) {
@@ -304,7 +322,7 @@ impl Subject<'_> {
         let own = [0, 1, 2].map(|place: usize| self.file(place));
         let [q, qd, qdd] = own;
         let file = [q?, qd?, qdd?];
-        let mut all = Vec::new();
+        let (mut all, mut known) = (Vec::new(), None::<(Vec<Vec<f64>>, Vec<Interval>)>);
         for (result, state) in states.iter().enumerate() {
             let mut given = vec![Vec::new(); 3];
             let lists = self
@@ -321,7 +339,11 @@ impl Subject<'_> {
                     .all(|(at, own)| own[0] - slack(*own) <= *at && *at <= own[1] + slack(*own))
             });
             unless(is_whole && is_inside, wrong)?;
-            let found = at(self.exact, &given).and_then(|own| own.get(result).copied());
+            if known.as_ref().is_none_or(|(own, _)| *own != given) {
+                let values = at(self.exact, &given).unwrap_or_default();
+                known = Some((given, values));
+            }
+            let found = known.as_ref().and_then(|own| own.1.get(result).copied());
             let found = found.ok_or_else(|| Fault::Claim(wrong.into()))?;
             let least = found.low.max(-found.high).max(0.0);
             all.push(least);

@@ -37,57 +37,102 @@ pub(crate) fn at(program: &Program<Exact>, given: &[Vec<f64>]) -> Option<Vec<Int
     Some(signed.collect())
 }
 
-/// Writes a program out over a ring: the size of each of its values, and its results. Sines by
-/// polynomials have an error that is a variable.
+/// Writes a program out over a ring: the size of each of its values that a result reads, and its
+/// results. Sines by polynomials have an error that is a variable.
 pub(crate) fn written(
     program: &Program<Exact>,
     ring: &Ring,
     sines: Option<&Rounding>,
     work: &mut Work,
 ) -> Result<(Vec<f64>, Vec<Polynomial>), Fault> {
-    let mut values: Vec<Polynomial> = Vec::with_capacity(program.steps.len());
-    let refused = || {
-        let why = "tolerance: it reads an angle as a number, or what is no state";
-        Fault::Claim(why.into())
+    let counted = uses(program);
+    let mut own = Values {
+        ring,
+        sines,
+        values: vec![None; counted.len()],
+        left: counted.clone(),
     };
-    let read = |values: &[Polynomial], own: &Operand<Exact>| -> Result<Polynomial, Fault> {
-        let known = match own {
-            Operand::Step(step) => values.get(*step).cloned(),
-            Operand::Constant(constant) => {
-                let [value, radius] = constant.double().ok_or_else(refused)?;
-                Some(Polynomial::constant(value, radius))
-            }
-            own => ring.leaf(own),
-        };
-        let known = known.ok_or_else(refused)?;
-        let error = match own {
-            Operand::Sine(angle, is_sine) => {
-                let joint = angle.first().map_or(0, |own| own.0);
-                let error = sines.and_then(|own| own.polynomial(joint, *is_sine));
-                error.map(|error| {
-                    let variables = [Variable::EvenError, Variable::OddError];
-                    Polynomial::variable(variables[usize::from(*is_sine)], joint, error)
-                })
-            }
-            _ => None,
-        };
-        Ok(error.map_or(known.clone(), |error| known.plus(&error)))
-    };
-    let mut sizes = Vec::with_capacity(program.steps.len());
-    for (operation, [left, right]) in &program.steps {
-        let (a, b) = (read(&values, left)?, read(&values, right)?);
+    let mut sizes = vec![f64::INFINITY; counted.len()];
+    for (index, (operation, [one, other])) in program.steps.iter().enumerate() {
+        if counted[index] == 0 {
+            continue;
+        }
+        let (a, b) = (own.read(one)?, own.read(other)?);
         let value = match operation {
-            '+' => a.plus(&b),
-            '-' => a.plus(&b.negated()),
+            '+' => a.sum(&b, work)?,
+            '-' => a.sum(&b.negated(), work)?,
             '*' | '×' => a.times(&b, work)?,
             _ => return Err(Fault::Claim("tolerance: the program divides".into())),
         };
-        sizes.push(ring.size(&value));
-        values.push(value);
+        sizes[index] = ring.size(&value);
+        own.values[index] = Some(value);
     }
-    let outputs = program.outputs.iter().map(|(negative, own)| {
-        let own = read(&values, own)?;
-        Ok(if *negative { own.negated() } else { own })
+    let outputs = program.outputs.iter().map(|(negative, output)| {
+        let value = own.read(output)?;
+        Ok(if *negative { value.negated() } else { value })
     });
-    Ok((sizes, outputs.collect::<Result<_, Fault>>()?))
+    let outputs = outputs.collect::<Result<_, Fault>>()?;
+    Ok((sizes, outputs))
+}
+
+/// The values of steps that are still to be read.
+struct Values<'v> {
+    ring: &'v Ring,
+    sines: Option<&'v Rounding<'v>>,
+    values: Vec<Option<Polynomial>>,
+    /// How often each is still read.
+    left: Vec<usize>,
+}
+
+impl Values<'_> {
+    /// Reads an operand; who is the last to read a step takes its value away.
+    fn read(&mut self, own: &Operand<Exact>) -> Result<Polynomial, Fault> {
+        let value = match own {
+            Operand::Step(step) => {
+                self.left[*step] -= 1;
+                match self.left[*step] {
+                    0 => self.values[*step].take(),
+                    _ => self.values[*step].clone(),
+                }
+            }
+            Operand::Constant(constant) => {
+                let double = constant.double();
+                double.map(|[value, radius]| Polynomial::constant(value, radius))
+            }
+            own => self.ring.leaf(own),
+        };
+        let why = "tolerance: it reads an angle as a number, or what is no state";
+        let value = value.ok_or_else(|| Fault::Claim(why.into()))?;
+        let Operand::Sine(angle, is_sine) = own else {
+            return Ok(value);
+        };
+        let joint = angle.first().map_or(0, |own| own.0);
+        let error = self.sines.and_then(|own| own.polynomial(joint, *is_sine));
+        let variable = [Variable::EvenError, Variable::OddError][usize::from(*is_sine)];
+        Ok(match error {
+            Some(error) => value.plus(&Polynomial::variable(variable, joint, error)),
+            None => value,
+        })
+    }
+}
+
+/// Counts how often each step is read on the way to the results: never, if it is in vain.
+fn uses(program: &Program<Exact>) -> Vec<usize> {
+    let mut all = vec![0; program.steps.len()];
+    let count = |all: &mut Vec<usize>, own: &Operand<Exact>| {
+        if let Operand::Step(step) = own {
+            all[*step] += 1;
+        }
+    };
+    for (_, own) in &program.outputs {
+        count(&mut all, own);
+    }
+    for index in (0..program.steps.len()).rev() {
+        if all[index] > 0 {
+            for own in &program.steps[index].1 {
+                count(&mut all, own);
+            }
+        }
+    }
+    all
 }

@@ -34,6 +34,10 @@ fn the_nearest_float_is_told_from_its_neighbours() {
     }
     let third = Exact::read("1/3").unwrap();
     assert!(!third.is_nearest(1.0 / 3.0, true));
+    // What vanishes in a scalar is no zero: a factor beside it may be as large as it is small.
+    for (small, is_single) in [("1/2e45", true), ("1/5e323", false)] {
+        assert!(!Exact::read(small).unwrap().is_nearest(0.0, is_single));
+    }
     let zero = Exact::read("0").unwrap();
     assert!(zero.is_nearest(0.0, false) && !zero.is_nearest(-0.0, false));
     // The series of a large angle has lost its digits.
@@ -49,6 +53,7 @@ fn what_is_no_constant_is_not_read() {
         "x",
         "1e",
         "1/0",
+        "1e999/1e-999/1e999",
         "1/-2",
         "1*tan(1)",
         "1*sin(1",

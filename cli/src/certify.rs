@@ -102,6 +102,10 @@ fn whole_file(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
              each result is within its bound of an exact program, which is the robot's in real numbers. Relative to T."
         }
     });
+    if let Some(scene) = scene {
+        report.line(format!("Scene `{scene}`."));
+    }
+    report.value("scene", scene);
     if found.is_unlimited {
         let rates =
             format!("Joints without limits: velocities and accelerations up to {RATE} (SI).");

@@ -403,6 +403,37 @@ fn files_of_attacks() {
     assert!(refusal(own.with(&attack("hide.h"))).is_some());
 }
 
+/// A joint whose rates have no limit is in no box: not in one of a claim where it stands still.
+#[test]
+fn joints_without_limits_have_no_tolerance() {
+    let robot =
+        std::fs::read_to_string(path("../checker/tests/data/attacks/r2_conf.toml")).unwrap();
+    let own = &Certified::of(
+        &robot,
+        Some("pick"),
+        "outputs: coriolis; scene: pick; scalar: f64",
+    )[0];
+    own.is_shown(own.report().unwrap().lines.len(), "pick");
+    let other = robot.replacen("velocity = 2, ", "", 1);
+    assert_ne!(other, robot);
+    let why = refusal(certify(&own.text, &own.claim, &other, own.scene, None)).unwrap();
+    assert!(why.contains("a tolerance needs the range of `qd`"), "{why}");
+}
+
+/// Who passes q̇ for q does so because a text has them in another order.
+#[test]
+fn arguments_have_their_order() {
+    let named = |arguments: [&str; 2]| {
+        let words = arguments.map(str::to_owned);
+        Function::named("coriolis", &words, &["coriolis.h".to_owned()])
+    };
+    assert!(named(["q", "qd"]).is_ok());
+    for others in [["qd", "q"], ["q", "q"]] {
+        let why = named(others).unwrap_err();
+        assert!(why.contains("another order"), "{why}");
+    }
+}
+
 /// Whoever calls a function in a scene may give any number for a joint that is locked: one that is
 /// added to a result, in text and claim, is refused, with a tolerance and without.
 #[test]

@@ -32,12 +32,18 @@ pub enum Angle {
 
 /// Reads a decimal, or a fraction of two.
 pub fn number(text: &str) -> Option<Rational> {
+    match text.split_once('/') {
+        Some((over, under)) => {
+            let under = decimal(under).filter(|under| under.is_positive())?;
+            Some(decimal(over)? / under)
+        }
+        None => decimal(text),
+    }
+}
+
+fn decimal(text: &str) -> Option<Rational> {
     if text.len() > MOST_DIGITS {
         return None;
-    }
-    if let Some((over, under)) = text.split_once('/') {
-        let under = number(under).filter(|under| under.is_positive())?;
-        return Some(number(over)? / under);
     }
     let (digits, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
     let (whole, behind) = digits.split_once('.').unwrap_or((digits, ""));
@@ -186,6 +192,7 @@ pub struct Exact(Arc<Sum>);
 struct Sum {
     terms: Vec<Term>,
     rounded: OnceLock<Option<[Rational; 2]>>,
+    double: OnceLock<Option<[f64; 2]>>,
 }
 
 impl PartialEq for Exact {
@@ -202,8 +209,11 @@ impl From<Rational> for Exact {
 
 impl Exact {
     fn new(terms: Vec<Term>) -> Exact {
-        let rounded = OnceLock::new();
-        Exact(Arc::new(Sum { terms, rounded }))
+        Exact(Arc::new(Sum {
+            terms,
+            rounded: OnceLock::new(),
+            double: OnceLock::new(),
+        }))
     }
 
     /// Reads a constant as programs write it; none of other text.
@@ -250,6 +260,10 @@ impl Exact {
 
     /// Returns a double, and how far the constant is from it at most; none if an angle is too far.
     pub fn double(&self) -> Option<[f64; 2]> {
+        *self.0.double.get_or_init(|| self.nearest())
+    }
+
+    fn nearest(&self) -> Option<[f64; 2]> {
         let own = || self.rounded(&mut Sines::new());
         let [sum, slack] = self.0.rounded.get_or_init(own).as_ref()?;
         let value = sum.to_f64().filter(|value| value.is_finite())?;
@@ -300,6 +314,10 @@ impl Exact {
         let Some([sum, slack]) = self.0.rounded.get_or_init(own) else {
             return false;
         };
+        // A number that is not zero does not vanish: others could be as large as it is small.
+        if literal == 0.0 && !(sum.is_zero() && slack.is_zero()) {
+            return false;
+        }
         let float = |x: f64| Rational::from_float(x);
         let own = literal as f32;
         if is_single && f64::from(own) != literal {

@@ -224,6 +224,9 @@ impl Function {
         };
         let arguments = arguments.iter().map(place);
         let arguments = arguments.collect::<Result<Vec<usize>, String>>()?;
+        if !arguments.is_sorted_by(|one, next| one < next) {
+            return Err("its arguments are in another order".into());
+        }
         let of = |result: &String| {
             let (function, rest) = result.split_once('.')?;
             let (field, view) = match rest.split_once('@') {

@@ -10,6 +10,8 @@ use crate::identity::program::{Operand, Program, Step};
 
 /// The most operations of a function.
 const MOST_STEPS: usize = 1 << 17;
+/// The most operations of the polynomials of an angle.
+const MOST_OF_ANGLE: usize = 1 << 8;
 
 /// An outcome; or the line that is not of generated code.
 pub(super) type Read<T> = Result<T, TextError>;
@@ -487,6 +489,9 @@ impl<'r> Reader<'r> {
         }
         let (known, steps) = &mut self.polynomial;
         steps.push(step);
+        if steps.len() > MOST_OF_ANGLE {
+            return self.refuse("more than 256 operations of a polynomial");
+        }
         match known == before && name == format!("{before}{}", steps.len()) {
             true => Ok(()),
             false => self.refuse(&format!("`{name}` is not the next name")),
