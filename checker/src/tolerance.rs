@@ -27,8 +27,8 @@ const SCALE_SLACK: f64 = 1e-4;
 const MOST_EVALUATED: usize = 1 << 24;
 /// The number of states that may refute an E that is not shown.
 const STATES: usize = 1000;
-/// The largest error of a result that is always zero, relative to the largest T: differences of programs
-/// are of doubles.
+/// The largest error of a result that is always zero, relative to the largest T: differences of
+/// programs are of doubles.
 const ZERO: f64 = 1e-12;
 
 /// The findings about one result, in its own unit.
@@ -112,10 +112,10 @@ impl Subject<'_> {
         let joints = self.joints();
         unless(joints.len() == count, "results that are not the function's")?;
         let ranges = self.ranges()?;
-        let most = self.attainable(&joints)?;
         if self.exact.steps.len() * count > MOST_EVALUATED {
             return Err(Fault::Work);
         }
+        let most = self.attainable(&joints)?;
         let work = &mut Work::default();
         let ring = Ring::new(self.setting, &ranges, work)?;
         let all: &mut Ranges = &mut ranges.to_vec();
