@@ -8,9 +8,7 @@ use crate::file::{Found, between};
 use crate::identity::exact::Exact;
 use crate::identity::setting::Setting;
 use crate::rounding::Ranges;
-
-/// By how much a box may be larger than the file's: decimals were rounded.
-const BOX_SLACK: f64 = 1e-9;
+use crate::tolerance::BOX_SLACK;
 
 /// The facts that items beside functions follow from.
 pub(crate) struct Known<'k> {

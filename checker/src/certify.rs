@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::aside;
 use crate::c99;
-use crate::claim::{Claim, Claimed, Constants};
+use crate::claim::{Claim, Claimed, Constants, Tolerated};
 use crate::compare::compare;
 use crate::cost::{cost, ranges};
 use crate::fault::Fault;
@@ -23,7 +23,7 @@ use crate::tolerance::Subject;
 pub use crate::cost::{RATE, Shown};
 pub use crate::tolerance::Bounded;
 
-/// How often one function of a claim is bounded under a tolerance.
+/// The most times that a function of a claim is bounded under a tolerance.
 const MOST_TIMES: usize = 4;
 /// The most functions, and what stands beside them, of a file.
 const MOST_ITEMS: usize = 1 << 14;
@@ -157,7 +157,7 @@ struct Whole<'w> {
     constants: Constants,
     setting: &'w Setting<'w>,
     ranges: Ranges,
-    /// How far the results of each joint may be off, and relative to what, if that is given.
+    /// The tolerance of each joint, and the scale that it is relative to, if that is given.
     tolerance: Option<(Vec<f64>, Option<&'w str>)>,
     scene: Option<&'w str>,
     is_c: bool,
@@ -165,11 +165,11 @@ struct Whole<'w> {
     singles: HashSet<&'w str>,
     /// The finding about each function of the claim: both scalars have one program.
     found: HashMap<usize, Result<(), Fault>>,
-    /// How often each was bounded under a tolerance.
+    /// The times that each was bounded under a tolerance.
     bounded: HashMap<usize, usize>,
 }
 
-impl Whole<'_> {
+impl<'w> Whole<'w> {
     /// Returns true for a function in f32.
     fn is_single(&self, found: &Found) -> bool {
         match self.is_c {
@@ -179,7 +179,7 @@ impl Whole<'_> {
     }
 
     /// Returns the function that a text is claimed to be, with its place.
-    fn claimed(&self, found: &Found) -> Option<(usize, &Claimed)> {
+    fn claimed(&self, found: &Found) -> Option<(usize, &'w Claimed)> {
         let is_own = |own: &&Claimed| {
             let named = match self.is_c {
                 true => {
@@ -221,7 +221,6 @@ impl Whole<'_> {
             let why = format!("nothing is claimed of `{}`{scene}", found.name);
             return Err(Fault::Claim(why));
         };
-        let claimed = &claimed.clone();
         let refused = |why: String| Fault::Claim(format!("`{}`: {why}", claimed.function));
         let in_file = |own: Fault| match own {
             Fault::Text(line, why) => Fault::Text(found.line + line - 1, why),
@@ -248,53 +247,53 @@ impl Whole<'_> {
             self.found.insert(place, identity);
         }
         self.found.get(&place).cloned().unwrap_or(Ok(()))?;
-        let cost = cost(&read, &head, &self.ranges, &[&self.seed, head.name]);
-        let (tolerance, own) = match (&self.tolerance, &claimed.tolerated) {
-            (None, None) => return Ok(cost),
-            (Some((tolerance, relative_to)), Some(own))
-                if relative_to.is_none_or(|to| to == own.relative_to) =>
-            {
-                (tolerance, own)
-            }
-            (Some(_), Some(_)) => {
-                return Err(refused(
-                    "its errors are relative to what the scene's are not".into(),
-                ));
-            }
-            (Some(_), None) if claimed.function == LOAD => return Ok(cost),
-            (Some(_), None) => {
-                return Err(refused("nothing is claimed of how far it is off".into()));
-            }
-            (None, Some(_)) => {
-                let why = "it is under a tolerance, and there is none: name its scene, or give one";
-                return Err(refused(why.into()));
+        let results = match self.tolerated(claimed).map_err(refused)? {
+            None => Vec::new(),
+            Some((own, tolerance)) => {
+                // A file has each in two scalars; it may not ask for the work again and again.
+                let times = self.bounded.entry(place).or_default();
+                *times += 1;
+                if *times > MOST_TIMES {
+                    return Err(Fault::Work);
+                }
+                let subject = Subject {
+                    setting: self.setting,
+                    function: &function,
+                    exact,
+                    emitted: &emitted,
+                    read: &read,
+                    is_single: head.is_single,
+                    own,
+                    tolerance: &tolerance,
+                };
+                subject.bounded()?
             }
         };
-        let subject = Subject {
-            setting: self.setting,
-            function: &function,
-            exact,
-            emitted: &emitted,
-            read: &read,
-            is_single: head.is_single,
-            own,
-            tolerance,
-        };
-        // A file has each in two scalars; it may not ask for the work again and again.
-        let times = self.bounded.entry(place).or_default();
-        *times += 1;
-        if *times > MOST_TIMES {
-            return Err(Fault::Work);
+        if let Some(place) = results.iter().position(|own| !own.is_shown()) {
+            let own = &results[place];
+            let [bound, tolerated] = [own.bound(), own.tolerated].map(|size| size / own.unit());
+            let place = place + 1;
+            let why = format!("result {place} is within {bound:.3e} of T, not {tolerated:.3e}");
+            return Err(refused(why));
         }
-        let results = subject.bounded()?;
-        match results.iter().position(|own| !own.is_shown()) {
-            Some(place) => {
-                let [bound, tolerated] = results[place].relative();
-                let place = place + 1;
-                let why = format!("result {place} is within {bound:.3e} of T, not {tolerated:.3e}");
-                Err(refused(why))
-            }
-            None => Ok(Shown { results, ..cost }),
+        let cost = cost(&read, &head, &self.ranges, &[&self.seed, head.name]);
+        Ok(Shown { results, ..cost })
+    }
+
+    /// Returns the claim under a tolerance, and the tolerance of each joint; none of a function that
+    /// needs none.
+    fn tolerated(&self, own: &'w Claimed) -> Result<Option<(&'w Tolerated, Vec<f64>)>, String> {
+        match (&self.tolerance, &own.tolerated) {
+            (None, None) => Ok(None),
+            (Some(_), None) if own.function == LOAD => Ok(None),
+            (Some(_), None) => Err("nothing is claimed of how far it is off".into()),
+            (None, Some(_)) => Err(
+                "it is under a tolerance, and there is none: name its scene, or give one".into(),
+            ),
+            (Some((each, to)), Some(own)) => match to.is_none_or(|to| to == own.relative_to) {
+                true => Ok(Some((own, each.clone()))),
+                false => Err("its errors are relative to what the scene's are not".into()),
+            },
         }
     }
 

@@ -69,7 +69,7 @@ pub struct Claimed {
     pub steps: String,
     /// The values of the results.
     pub returns: String,
-    /// How far they may be from the robot's, if a tolerance left something out.
+    /// The errors of the results, if a tolerance left something out.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerated: Option<Tolerated>,
     /// The parameters that each column of a regressor adds up: `m2 #4*mx2`.
@@ -91,7 +91,8 @@ pub struct Tolerated {
     /// The values that it returns.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub returns: String,
-    /// T: of every result what it may be `actuator` or `range`.
+    /// The meaning of T: `actuator`, the limits of the actuators, or `range`, a size that the result
+    /// reaches.
     pub relative_to: String,
     /// The ranges of q, q̇ and q̈, of each joint; none of what is no argument.
     pub ranges: [Vec<[f64; 2]>; 3],

@@ -122,8 +122,8 @@ impl Ring {
         Ok(())
     }
 
-    /// Returns what a program reads: a sine, a position that slides, or a rate; none of what is no
-    /// polynomial, or of a joint that is locked.
+    /// Returns a sine, a position that slides or a rate as a polynomial; none of other operands, and of
+    /// a joint that is locked.
     pub fn leaf<C>(&self, own: &Operand<C>) -> Option<Polynomial> {
         match own {
             Operand::Sine(angle, is_sine) => match angle.as_slice() {

@@ -38,7 +38,7 @@ pub struct Rounding<'f> {
 impl<'f> Rounding<'f> {
     /// Begins with a function, whose polynomials of sines are bounded over a box.
     pub fn new(function: &'f Function, is_single: bool, ranges: &Ranges) -> Rounding<'f> {
-        let scalar = Scalar::of(if is_single { "f32" } else { "f64" });
+        let scalar = Scalar::new(is_single);
         let mut polynomials = HashMap::new();
         for own in &function.sines {
             let Source::Polynomial(program) = &own.source else {

@@ -1,7 +1,7 @@
 //! Bounds of one rounding, and of how far polynomials of an angle are from its sine and its cosine.
 
 use crate::identity::program::{Operand, Program};
-use crate::interval::{Interval, SINE_ERROR, UNIT, sin_cos};
+use crate::interval::{FARTHEST, Interval, SINE_ERROR, UNIT, sin_cos};
 use crate::polynomial::SLACK;
 
 /// Half an ulp of f32, relative.
@@ -21,11 +21,11 @@ pub struct Scalar {
 }
 
 impl Scalar {
-    /// Returns f32 or f64.
-    pub fn of(name: &str) -> Scalar {
-        let (unit, least, most) = match name {
-            "f32" => (SINGLE_UNIT, 1e-45, f64::from(f32::MAX)),
-            _ => (UNIT, f64::from_bits(1), f64::MAX),
+    /// Returns f32, or else f64.
+    pub fn new(is_single: bool) -> Scalar {
+        let (unit, least, most) = match is_single {
+            true => (SINGLE_UNIT, 1e-45, f64::from(f32::MAX)),
+            false => (UNIT, f64::from_bits(1), f64::MAX),
         };
         Scalar { unit, least, most }
     }
@@ -54,7 +54,7 @@ pub fn error(
     range: Interval,
     scalar: Scalar,
 ) -> f64 {
-    if !(range.magnitude() < 1000.0) {
+    if !(range.magnitude() < FARTHEST) {
         return f64::INFINITY;
     }
     let width = (range.high - range.low) / CELLS as f64;

@@ -19,9 +19,9 @@ use crate::ring::{Ring, StateBox};
 use crate::rounding::{Ranges, Rounding};
 use crate::written::{at, written};
 
-/// By how much a box may be smaller than the file's: decimals were rounded to doubles.
-const BOX_SLACK: f64 = 1e-9;
-/// By how much T may be above the value that is reached. What is tolerated is relative to that.
+/// The share by which a box may be another than the file's: decimals were rounded to doubles.
+pub(crate) const BOX_SLACK: f64 = 1e-9;
+/// The share by which T may be above the value that is reached. The tolerance is relative to that.
 const SCALE_SLACK: f64 = 1e-4;
 /// The most operations times results.
 const MOST_EVALUATED: usize = 1 << 24;
@@ -36,7 +36,7 @@ const ZERO: f64 = 1e-12;
 pub struct Bounded {
     /// Its joints, from zero: of an entry of D its row and its column.
     pub joints: Vec<usize>,
-    /// T
+    /// T: the size that errors are relative to.
     pub scale: f64,
     /// A bound of what the text differs from the exact program in real numbers.
     pub real: f64,
@@ -55,10 +55,9 @@ impl Bounded {
         if sum == 0.0 { 0.0 } else { sum.next_up() }
     }
 
-    /// Returns the bound and what is tolerated, relative to T; absolute if T is zero.
-    pub fn relative(&self) -> [f64; 2] {
-        let scale = if self.scale == 0.0 { 1.0 } else { self.scale };
-        [self.bound(), self.tolerated].map(|own| own / scale)
+    /// Returns the unit of relative errors: T, or one if T is zero.
+    pub fn unit(&self) -> f64 {
+        if self.scale == 0.0 { 1.0 } else { self.scale }
     }
 
     /// Returns true if E is shown, but for one part in 10⁹ of it.
@@ -84,7 +83,7 @@ pub(crate) struct Subject<'s> {
     pub(crate) read: &'s read::Function,
     pub(crate) is_single: bool,
     pub(crate) own: &'s Tolerated,
-    /// How far the results of each joint may be off, relative to T.
+    /// The tolerance of each joint, relative to T.
     pub(crate) tolerance: &'s [f64],
 }
 
@@ -314,7 +313,7 @@ impl Subject<'_> {
         })
     }
 
-    /// Returns what each result is at least at its state of the claim, which is one of the file's.
+    /// Returns the least size of each result at its state of the claim, which is one of the file's.
     fn reached(&self) -> Result<Vec<f64>, Fault> {
         let (states, count) = (&self.own.reached, self.setting.joints());
         let wrong = "`reached`: expected a state of the box for each result";

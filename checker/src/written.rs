@@ -80,7 +80,7 @@ struct Values<'v> {
     ring: &'v Ring,
     sines: Option<&'v Rounding<'v>>,
     values: Vec<Option<Polynomial>>,
-    /// How often each is still read.
+    /// The times that each is still read.
     left: Vec<usize>,
 }
 

@@ -37,7 +37,7 @@ pub(crate) fn run(args: &CertifyArgs, context: &Context) -> Outcome {
     let source = text(&args.file, MOST_BYTES as u64)?;
     let robot = Source::open(context, &args.robot)?;
     let edited = origin(&args.file, &source, &robot)?;
-    let done = whole_file(args, &source, &robot)?;
+    let done = checked(args, &source, &robot)?;
     if let (Some(note), false) = (edited, done.failed.is_empty()) {
         context.say(&note);
     }
@@ -49,8 +49,7 @@ const RESULTS: &str = "joint|T|real|rounding|bound|E|.tolerance|finding=";
 
 /// Returns the table row of a result, relative to T; absolute if T is zero.
 fn row(own: &Bounded) -> Vec<Cell> {
-    let scale = if own.scale == 0.0 { 1.0 } else { own.scale };
-    let cell = |x: f64| Cell::power(x / scale, 3);
+    let cell = |x: f64| Cell::power(x / own.unit(), 3);
     let finding = match own.holds() {
         true => "E holds",
         false => "E not shown; within the tolerance",
@@ -64,13 +63,13 @@ fn row(own: &Bounded) -> Vec<Cell> {
         cell(own.rounding),
         cell(own.bound()),
         cell(own.claimed),
-        Cell::json(own.tolerated / scale),
+        Cell::json(own.tolerated / own.unit()),
         finding,
     ]
 }
 
 /// Checks every function of a file.
-fn whole_file(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
+fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
     let name = args.file.display();
     let stamp = Stamp::read(source);
     let named = stamp

@@ -172,11 +172,7 @@ impl<'a> Ladder<'a> {
         }
         let samples = self.samples;
         let points = each(&certificates, |(left_out, own)| {
-            let point = point(samples, tolerance, own)?;
-            Ok(Point {
-                left_out: *left_out,
-                ..point
-            })
+            point(samples, tolerance, *left_out, own)
         });
         points.into_iter().collect()
     }
@@ -216,7 +212,12 @@ impl<'a> Ladder<'a> {
 }
 
 /// Runs a variant at states that try to refute its claim.
-fn point(samples: usize, tolerance: f64, certificate: &Certificate) -> Result<Point, TextError> {
+fn point(
+    samples: usize,
+    tolerance: f64,
+    left_out: usize,
+    certificate: &Certificate,
+) -> Result<Point, TextError> {
     let (observed, mut violation) = falsified(samples, certificate)?;
     let rounding = certificate.of_rounding();
     let mut rounding_observed = None;
@@ -228,7 +229,7 @@ fn point(samples: usize, tolerance: f64, certificate: &Certificate) -> Result<Po
     Ok(Point {
         tolerance,
         certificate: certificate.clone(),
-        left_out: 0,
+        left_out,
         certified: worst(certificate),
         observed,
         rounding: worst(&rounding),

@@ -18,7 +18,7 @@ use crate::setup::Setup;
 use crate::task::{Job, Request};
 use crate::words::Complaint;
 
-/// Returns what is claimed of the functions that were generated for the robot of a file.
+/// Returns the claim about the functions that were generated for the robot of a file.
 ///
 /// # Errors
 /// As of [`Request::setup`].
@@ -47,25 +47,25 @@ pub fn claim(
             ..claimed(&own.program, setup, &mut constants)
         }
     });
-    Ok(Claim {
-        claim: VERSION,
-        aligned: source.contains("placement").then(|| write(robot)),
-        functions: functions.collect(),
-        constants: constants.texts,
-    })
+    let functions = functions.collect();
+    Ok(document(robot, source, functions, constants))
 }
 
-/// Returns what is claimed of one text that a tolerance admitted.
+/// Returns the claim about one text that a tolerance admitted.
 pub fn claim_of(robot: &Robot, source: &str, setup: &Setup, own: &Certificate) -> Claim {
     let mut constants = Constants::default();
     let function = Claimed {
         tolerated: tolerated(std::slice::from_ref(own), &mut constants),
         ..claimed(&own.emitted, setup, &mut constants)
     };
+    document(robot, source, vec![function], constants)
+}
+
+fn document(robot: &Robot, source: &str, functions: Vec<Claimed>, constants: Constants) -> Claim {
     Claim {
         claim: VERSION,
         aligned: source.contains("placement").then(|| write(robot)),
-        functions: vec![function],
+        functions,
         constants: constants.texts,
     }
 }
@@ -111,7 +111,7 @@ fn code(program: &Program, constants: &mut Constants) -> [String; 2] {
     [steps, returns].map(|words| words.join(" "))
 }
 
-/// Returns what is claimed of a function under a tolerance, from the claims about its scalars.
+/// Returns the part of a claim about a tolerance, from the certificates of its scalars.
 fn tolerated(certificates: &[Certificate], constants: &mut Constants) -> Option<Tolerated> {
     let first = certificates.first()?;
     let program = &first.emitted;

@@ -252,7 +252,7 @@ impl Arm {
         &self.entry.plan
     }
 
-    /// Returns what is claimed of the functions, as JSON: the document that stands beside the file of
+    /// Returns the claim about the functions, as JSON: the document that stands beside the file of
     /// [`files`](Arm::files), under its name and with the ending `claim.json`.
     pub fn claim(&self) -> &str {
         &self.entry.claim

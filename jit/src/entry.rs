@@ -15,7 +15,7 @@ pub(crate) struct Entry {
     pub(crate) functions: Vec<Proved>,
     /// The functions as Rust: a file's text for each scalar.
     pub(crate) rust: Vec<String>,
-    /// What is claimed of these files, which the command `certify` compares with it.
+    /// The claim about these files, which the command `certify` compares with them.
     pub(crate) claim: String,
     /// The programs with exact constants.
     pub(crate) plan: String,

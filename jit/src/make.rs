@@ -86,7 +86,7 @@ fn proved(generated: &Generated) -> Vec<Proved> {
     emitted.flat_map(of).collect()
 }
 
-/// Writes what is claimed of functions.
+/// Writes the claim about functions.
 pub(crate) fn claimed(
     robot: &Robot,
     source: &str,

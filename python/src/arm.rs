@@ -110,7 +110,7 @@ impl Arm {
         Function::new(&self.0, name, structure, refuses_nan)
     }
 
-    /// Returns what is claimed of the functions, as JSON.
+    /// Returns the claim about the functions, as JSON.
     #[getter]
     fn claim(&self) -> &str {
         self.0.claim()

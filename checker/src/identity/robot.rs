@@ -51,7 +51,7 @@ pub(super) struct Scene {
     scalar: Option<IgnoredAny>,
 }
 
-/// How far results may be off, relative to a scale: all, or those of each joint.
+/// The largest error of results, relative to a scale: of all, or of those of each joint.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Tolerance {

@@ -259,8 +259,7 @@ impl Setting<'_> {
         for (joint, &row) in self.movers.iter().enumerate() {
             let own = &self.file.joint[row];
             let is_empty = || format!("joint {}: the range of `{name}` is empty", joint + 1);
-            let entry = |list: &Option<Vec<String>>| list.as_ref()?.get(joint).cloned();
-            let (given, limit) = match name {
+            let limit = match name {
                 "q" => {
                     let own_limits = own.limits.position.clone();
                     let given =
@@ -283,15 +282,9 @@ impl Setting<'_> {
                     all.push([low, high]);
                     continue;
                 }
-                "qd" | "v" => (
-                    given.and_then(|own| entry(&own.velocity)),
-                    &own.limits.velocity,
-                ),
-                "qdd" | "a" => (
-                    given.and_then(|own| entry(&own.acceleration)),
-                    &own.limits.acceleration,
-                ),
-                "tau" => (None, &own.limits.torque),
+                "qd" | "v" => "velocity",
+                "qdd" | "a" => "acceleration",
+                "tau" => "torque",
                 _ => return Ok(None),
             };
             let is_still = match name {
@@ -299,7 +292,7 @@ impl Setting<'_> {
                 "qdd" => self.still[1],
                 _ => false,
             };
-            let most = match given.as_ref().or(limit.as_ref()) {
+            let most = match self.limit_text(joint, limit) {
                 Some(text) => number(text).and_then(|most| most.to_f64()),
                 None => Some(rate),
             };
@@ -332,9 +325,13 @@ impl Setting<'_> {
         Ok(Some((read.ok_or(wrong)?, &own.relative_to)))
     }
 
-    /// Returns a joint's limit of `velocity`, `acceleration` or `torque`, if there is one: the box's,
-    /// else that of the robot file.
+    /// Returns a joint's limit of `velocity`, `acceleration` or `torque`, if there is one.
     pub fn limit(&self, joint: usize, name: &str) -> Option<f64> {
+        number(self.limit_text(joint, name)?)?.to_f64()
+    }
+
+    /// Returns the text of a limit: the box's, else that of the joint.
+    fn limit_text(&self, joint: usize, name: &str) -> Option<&String> {
         let given = self.scene.map(|scene| &scene.r#box);
         let limits = &self.file.joint[*self.movers.get(joint)?].limits;
         let (given, limit) = match name {
@@ -343,7 +340,7 @@ impl Setting<'_> {
             _ => (None, &limits.torque),
         };
         let given = given.and_then(|list| list.as_ref()?.get(joint));
-        number(given.or(limit.as_ref())?)?.to_f64()
+        given.or(limit.as_ref())
     }
 
     /// Returns true for an operand that the scene fixes: whoever calls a function may give another

@@ -164,7 +164,7 @@ impl Field {
         Some(self)
     }
 
-    /// Returns what the actuators' limits are to it, if they are a measure of it.
+    /// Returns the limit of an actuator that is a measure of it, if one is.
     pub(crate) fn measure(&self) -> Option<Measure> {
         match self.is {
             "tau" | "c" | "h" | "h_rot" | "h_tran" => Some(Measure::Load),

@@ -15,7 +15,7 @@ pub struct Admitted {
     pub exact: Program,
     /// The program to emit.
     pub program: Program,
-    /// What was left out one by one, if it was: a smaller model has nothing of that.
+    /// The values that were left out one by one; none of a smaller model.
     pub left_out: Vec<Omission>,
     /// One a scalar, as they were asked for.
     pub certificates: Vec<Certificate>,

@@ -126,8 +126,9 @@ impl Subject<'_> {
     /// Returns a lower bound of the least eigenvalue of S D S, if D is an output and
     /// not the model's; `None` as well if there is none above zero.
     pub(crate) fn least_eigenvalue(&self, scalar: ScalarType) -> Option<f64> {
-        let is_changed = !is_same(self.exact, self.emitted) || !self.sines(scalar).is_empty();
-        if !has_inertia(self.emitted) || !is_changed {
+        // The cheap questions first.
+        let is_changed = || !self.sines(scalar).is_empty() || !is_same(self.exact, self.emitted);
+        if !has_inertia(self.emitted) || !is_changed() {
             return None;
         }
         least_eigenvalue(self.emitted, scalar, self.sines(scalar), self.limits).ok()

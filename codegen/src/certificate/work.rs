@@ -120,7 +120,7 @@ fn admit(place: &str, extent: &Extent) -> Result<(), TooMuch> {
 /// or the factor in front of it.
 type Size = Option<Extent>;
 
-/// Of every step.
+/// The sizes of all steps.
 #[derive(Default)]
 struct Sizes {
     /// The size, and whether the step is that constant itself.

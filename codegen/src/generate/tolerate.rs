@@ -196,8 +196,13 @@ fn chosen(
         None => {
             let found = budget.choose(&tolerances, scalars, &settings, bound_effort);
             let found = found.map_err(fail)?;
-            let shown = budget.shown(&found.program, &found.left_out, scalars, &tolerances);
-            shown.map_err(|why| GenerateError::Variant(function, why))?
+            // A quick search has bounded it so already.
+            match bound_effort == BoundEffort::QUICK {
+                true => found,
+                false => budget
+                    .shown(&found.program, &found.left_out, scalars, &tolerances)
+                    .map_err(|why| GenerateError::Defect(function, None, why.to_string()))?,
+            }
         }
     };
     // Always as fine, so that a plan's variant gets the sines that it got when

@@ -80,7 +80,7 @@ pub struct Entry {
 pub struct Edited {
     /// The program to emit.
     pub program: Program,
-    /// What was left out, for the documentation.
+    /// The values that were left out, for the documentation.
     pub left_out: Vec<Omission>,
 }
 

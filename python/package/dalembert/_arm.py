@@ -117,7 +117,7 @@ class Arm:
 
     @property
     def claim(self) -> dict[str, Any]:
-        """What is claimed of the functions: exact programs, and error bounds under a tolerance."""
+        """The claim about the functions: exact programs, and error bounds under a tolerance."""
         import json
 
         found: dict[str, Any] = json.loads(self._native.claim)
