@@ -286,13 +286,13 @@ impl<'w> Whole<'w> {
         match (&self.tolerance, &own.tolerated) {
             (None, None) => Ok(None),
             (Some(_), None) if own.function == LOAD => Ok(None),
-            (Some(_), None) => Err("nothing is claimed of how far it is off".into()),
+            (Some(_), None) => Err("its claim has no error bounds, and a tolerance is asked for".into()),
             (None, Some(_)) => Err(
-                "it is under a tolerance, and there is none: name its scene, or give one".into(),
+                "its claim has error bounds, and no tolerance is asked for: name its scene, or give one".into(),
             ),
             (Some((each, to)), Some(own)) => match to.is_none_or(|to| to == own.relative_to) {
                 true => Ok(Some((own, each.clone()))),
-                false => Err("its errors are relative to what the scene's are not".into()),
+                false => Err("its T is not the one that the scene's errors are relative to".into()),
             },
         }
     }

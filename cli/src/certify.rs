@@ -92,13 +92,13 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
     let results = |line: &Line| line.result.as_ref().map_or(0, |own| own.results.len());
     report.line(match found.lines.iter().any(|line| results(line) > 0) {
         false => {
-            "Shown: the text is the program that is claimed, its literals rounded once, and that is the robot's in\n\
-             real numbers. What rounding costs is relative to the largest value of each entry, in a matrix of its row\n\
-             or column; u is half an ulp of that value."
+            "Shown: the text is the claimed program, each literal rounded once, and in real numbers that program\n\
+             gives the robot's results. Rounding errors are relative to the largest value of an entry, in a matrix\n\
+             of its row or column; u is half an ulp of that value."
         }
         true => {
-            "Shown: the text is the program that is claimed, its literals rounded once, and at every state of the box\n\
-             each result is within its bound of an exact program, which is the robot's in real numbers. Relative to T."
+            "Shown: the text is the claimed program, each literal rounded once, and at every state of the box each\n\
+             result is within its bound of the robot's. Errors are relative to T."
         }
     });
     if let Some(scene) = scene {
