@@ -12,9 +12,10 @@ use crate::fault::Fault;
 use crate::file::{self, Found};
 use crate::identity::exact::Exact;
 use crate::identity::number::Draws;
+use crate::identity::program::{ARGUMENTS, argument};
 use crate::identity::program::{Operand, Program};
 use crate::identity::setting::Setting;
-use crate::identity::table::{ARGUMENTS, Function, argument, functions, length};
+use crate::identity::table::{Function, functions, length};
 use crate::identity::{Base, Statement, aligned, check, robot};
 use crate::read::{self, Argument, Head, Text, TextError, camel};
 use crate::rounding::Ranges;
@@ -71,6 +72,10 @@ pub fn certify(
     tolerance: Option<f64>,
 ) -> Result<Report, Fault> {
     let document = Claim::read(claim)?;
+    if document.functions.iter().any(|own| own.planned.is_some()) {
+        let why = "a plan for searches, and not what is claimed of a file";
+        return Err(Fault::Claim(why.into()));
+    }
     let of_robot = |why: String| Fault::Robot("file".into(), why);
     let mut file = robot::read(robot).map_err(of_robot)?;
     if let Some(rows) = document.aligned.as_ref().filter(|_| file.is_placed()) {

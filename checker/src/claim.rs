@@ -9,27 +9,31 @@
 //!       "steps": "s1*#0 c1*#1 t1-t2", "returns": "t3 -t1" } ] }
 //! ```
 //!
-//! Under a tolerance the text is another program than the exact one, and both stand there.
+//! Under a tolerance the text is another program than the exact one, and both stand there. A plan
+//! is the same document: of each function, too, what was searched for and how it was found.
 
 use std::collections::HashSet;
 
 use serde::{Deserialize, Serialize};
 
 use crate::fault::Fault;
-use crate::file::whole;
+#[cfg(feature = "certify")]
 use crate::identity::Base;
-use crate::identity::exact::{Exact, Sines};
-use crate::identity::program::{Operand, Program, Step};
-use crate::identity::table::argument;
+use crate::identity::exact::Exact;
+#[cfg(feature = "certify")]
+use crate::identity::exact::Sines;
+use crate::identity::program::{Operand, Program, Step, argument};
 
 /// The version that is read.
 pub const VERSION: u32 = 1;
 /// The longest document.
-const MOST_BYTES: usize = 8 << 20;
+pub const MOST_BYTES: usize = 32 << 20;
 /// The most constants, and the most operations of a function.
 const MOST: usize = 1 << 17;
 /// The most functions, and the most angles that constants have sines of.
-const MOST_FUNCTIONS: usize = 1 << 10;
+const MOST_FUNCTIONS: usize = 1 << 12;
+#[cfg(feature = "certify")]
+const MOST_ANGLES: usize = 1 << 10;
 /// The most operations times quotients: what divides has a degree in each divisor.
 const MOST_DEGREES: usize = 1 << 24;
 
@@ -39,6 +43,12 @@ const MOST_DEGREES: usize = 1 << 24;
 pub struct Claim {
     /// The version of the document.
     pub claim: u32,
+    /// Of a plan: the robot's name.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub robot: String,
+    /// Of a plan: the hash of the robot.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub input: String,
     /// The robot by rows, as generators take it, if its joints are placed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub aligned: Option<String>,
@@ -78,6 +88,38 @@ pub struct Claimed {
     /// The values of these parameters, constants each.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub values: String,
+    /// Of a plan: what was searched for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub planned: Option<Planned>,
+}
+
+/// What a plan keeps beside a program, so that nobody searches again.
+#[derive(Clone, Debug, Deserialize, Eq, Hash, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Planned {
+    /// The function with its parts and frames: `servo=inverse_dynamics+jacobian`.
+    pub asked: String,
+    /// The formulation that was asked for.
+    pub formulation: String,
+    /// The scalar that the program was searched for.
+    pub scalar: String,
+    /// The formulation that the search started from.
+    pub source: String,
+    /// The products, sums, quotients and sines after each pass.
+    pub passes: Vec<(String, [usize; 4])>,
+    /// The number of joints.
+    pub joints: usize,
+    /// The joints that the results are over, from one.
+    pub rows: Vec<usize>,
+    /// The hash of the scene.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub scene: String,
+    /// The number of entries of the load, and their hash, where parameters are arguments.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load: Option<(usize, String)>,
+    /// What a tolerance left out, in words; the operations and sines that come back with each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub left_out: Vec<(String, usize, usize)>,
 }
 
 /// The claim about a function under a tolerance: at every state of the box each result of the
@@ -110,7 +152,7 @@ pub struct Tolerated {
 }
 
 /// The constants of a claim.
-pub struct Constants(Vec<Exact>);
+pub struct Constants<C = Exact>(pub Vec<C>);
 
 impl Claim {
     /// Reads a document.
@@ -140,23 +182,25 @@ impl Claim {
         }
         let mut keys = HashSet::new();
         for own in &claim.functions {
-            if !keys.insert((&own.function, &own.scene)) {
+            if !keys.insert((&own.function, &own.scene, &own.planned)) {
                 return refuse(format!("`{}` stands there twice", own.function));
             }
         }
         Ok(claim)
     }
 
-    /// Writes the document.
+    /// Writes the document, a line for each function.
     pub fn write(&self) -> String {
-        // A struct of strings and lists has a text.
-        serde_json::to_string(self).unwrap_or_default() + "\n"
+        // A struct of strings and lists has a text; no string has a bare quotation mark.
+        let text = serde_json::to_string(self).unwrap_or_default();
+        text.replace("{\"function\":", "\n{\"function\":") + "\n"
     }
 
     /// Reads the constants.
     ///
     /// # Errors
     /// The first that is none.
+    #[cfg(feature = "certify")]
     pub fn constants(&self) -> Result<Constants, Fault> {
         let read = self.constants.iter().map(|text| {
             let why = || Fault::Claim(format!("`{text:.40}` is no constant"));
@@ -166,8 +210,8 @@ impl Claim {
         let mut sines = Sines::new();
         for own in &all {
             own.settle(&mut sines);
-            if sines.len() > MOST_FUNCTIONS {
-                let why = format!("sines of more than {MOST_FUNCTIONS} angles");
+            if sines.len() > MOST_ANGLES {
+                let why = format!("sines of more than {MOST_ANGLES} angles");
                 return Err(Fault::Claim(why));
             }
         }
@@ -175,9 +219,9 @@ impl Claim {
     }
 }
 
-impl Constants {
+impl<C> Constants<C> {
     /// Returns the constant of a word: `#3`.
-    fn of(&self, word: &str) -> Option<&Exact> {
+    fn of(&self, word: &str) -> Option<&C> {
         self.0.get(whole(word.strip_prefix('#')?)?)
     }
 }
@@ -187,7 +231,7 @@ impl Claimed {
     ///
     /// # Errors
     /// The first word that is not of one.
-    pub fn program(&self, constants: &Constants) -> Result<Program<Exact>, Fault> {
+    pub fn program<C: Clone>(&self, constants: &Constants<C>) -> Result<Program<C>, Fault> {
         self.read(&self.steps, &self.returns, constants)
     }
 
@@ -195,7 +239,7 @@ impl Claimed {
     ///
     /// # Errors
     /// The first word that is not of one.
-    pub fn exact(&self, constants: &Constants) -> Result<Option<Program<Exact>>, Fault> {
+    pub fn exact<C: Clone>(&self, constants: &Constants<C>) -> Result<Option<Program<C>>, Fault> {
         let own = self
             .tolerated
             .as_ref()
@@ -204,13 +248,13 @@ impl Claimed {
             .transpose()
     }
 
-    fn read(
+    fn read<C: Clone>(
         &self,
         words: &str,
         returns: &str,
-        constants: &Constants,
-    ) -> Result<Program<Exact>, Fault> {
-        let mut steps: Vec<Step<Exact>> = Vec::new();
+        constants: &Constants<C>,
+    ) -> Result<Program<C>, Fault> {
+        let mut steps: Vec<Step<C>> = Vec::new();
         for word in words.split_ascii_whitespace() {
             let step = self.step(word, steps.len(), constants);
             steps.push(step.ok_or_else(|| self.refused(word))?);
@@ -239,14 +283,24 @@ impl Claimed {
     }
 
     /// Reads an operation before which so many stand.
-    fn step(&self, word: &str, count: usize, constants: &Constants) -> Option<Step<Exact>> {
+    fn step<C: Clone>(
+        &self,
+        word: &str,
+        count: usize,
+        constants: &Constants<C>,
+    ) -> Option<Step<C>> {
         let (place, operation) = word.char_indices().find(|(_, c)| "+-*/×".contains(*c))?;
         let (left, right) = (&word[..place], &word[place + operation.len_utf8()..]);
         let read = |word| self.operand(word, count, constants);
         Some((operation, [read(left)?, read(right)?]))
     }
 
-    fn operand(&self, word: &str, count: usize, constants: &Constants) -> Option<Operand<Exact>> {
+    fn operand<C: Clone>(
+        &self,
+        word: &str,
+        count: usize,
+        constants: &Constants<C>,
+    ) -> Option<Operand<C>> {
         if let Some(constant) = constants.of(word) {
             return Some(Operand::Constant(constant.clone()));
         }
@@ -269,6 +323,7 @@ impl Claimed {
     ///
     /// # Errors
     /// The first word that is no parameter, or no value.
+    #[cfg(feature = "certify")]
     pub fn base(&self, constants: &Constants, links: usize) -> Result<Base, Fault> {
         let term = |word: &str| {
             let (factor, name) = match word.split_once('*') {
@@ -300,7 +355,14 @@ impl Claimed {
     }
 }
 
+/// Returns a whole number as it is printed.
+pub(crate) fn whole(word: &str) -> Option<usize> {
+    let number = word.parse().ok()?;
+    (word == format!("{number}")).then_some(number)
+}
+
 /// Returns the place of a parameter such as `Izz2` among those of links, rotors and friction.
+#[cfg(feature = "certify")]
 fn parameter(name: &str, links: usize) -> Option<usize> {
     const NAMES: [&str; 10] = [
         "m", "mx", "my", "mz", "Ixx", "Iyy", "Izz", "Ixy", "Iyz", "Ixz",

@@ -5,6 +5,7 @@
 //! the kinds that the generator prints, and none of their names can stand for a crate that
 //! a function calls. So the function of a name and module is the one that is found here.
 
+use crate::claim::whole;
 use crate::fault::Fault;
 
 /// The longest file.
@@ -178,12 +179,6 @@ pub(crate) fn is_letter(c: char) -> bool {
 /// Returns what is in a text between its beginning and its end.
 pub(crate) fn between<'t>(text: &'t str, before: &str, behind: &str) -> Option<&'t str> {
     text.strip_prefix(before)?.strip_suffix(behind)
-}
-
-/// Returns a whole number as it is printed.
-pub(crate) fn whole(word: &str) -> Option<usize> {
-    let number = word.parse().ok()?;
-    (word == format!("{number}")).then_some(number)
 }
 
 /// The lines of the stamp that a file begins with: how they begin.

@@ -24,13 +24,13 @@ mod aside;
 mod c99;
 #[cfg(feature = "certify")]
 pub mod certify;
-#[cfg(feature = "certify")]
+#[cfg(feature = "claim")]
 pub mod claim;
 #[cfg(feature = "certify")]
 mod compare;
 #[cfg(feature = "certify")]
 mod cost;
-#[cfg(feature = "certify")]
+#[cfg(feature = "claim")]
 mod fault;
 #[cfg(feature = "certify")]
 pub mod file;
@@ -58,5 +58,5 @@ mod tolerance;
 #[cfg(feature = "certify")]
 mod written;
 
-#[cfg(feature = "certify")]
+#[cfg(feature = "claim")]
 pub use fault::Fault;

@@ -3,9 +3,10 @@
 
 use dalembert_checker::identity::arm::Arm;
 use dalembert_checker::identity::exact::{Exact, Point};
+use dalembert_checker::identity::program::argument;
 use dalembert_checker::identity::program::{Operand, Program};
 use dalembert_checker::identity::state::State;
-use dalembert_checker::identity::table::{argument, functions};
+use dalembert_checker::identity::table::functions;
 use dalembert_checker::identity::{Base, Combination, Statement, check, robot};
 
 use crate::support::file;

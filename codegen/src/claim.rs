@@ -12,7 +12,6 @@ use crate::function::{Argument, Columns, Function, Quantity};
 use crate::generate::{Generated, language};
 use crate::language::Language;
 use crate::language::names::Names;
-use crate::program::text::input_name;
 use crate::program::{Operand, Program, ScalarType, Steps};
 use crate::setup::Setup;
 use crate::task::{Job, Request};
@@ -36,7 +35,7 @@ pub fn claim(
         request,
     }
     .module_name();
-    let mut constants = Constants::default();
+    let mut constants = Written::default();
     let functions = generated.functions.iter().map(|own| {
         // A header of the same functions has the same claim.
         let symbol = |&scalar| Names::new(&name, Language::C, scalar).of(own.function.name());
@@ -44,7 +43,7 @@ pub fn claim(
             symbols: ScalarType::ALL.iter().map(symbol).collect(),
             tolerated: (own.admitted.as_ref())
                 .and_then(|own| tolerated(&own.certificates, &mut constants)),
-            ..claimed(&own.program, setup, &mut constants)
+            ..of_setup(&own.program, setup, &mut constants)
         }
     });
     let functions = functions.collect();
@@ -53,31 +52,29 @@ pub fn claim(
 
 /// Returns the claim about one text that a tolerance admitted.
 pub fn claim_of(robot: &Robot, source: &str, setup: &Setup, own: &Certificate) -> Claim {
-    let mut constants = Constants::default();
+    let mut constants = Written::default();
     let function = Claimed {
         tolerated: tolerated(std::slice::from_ref(own), &mut constants),
-        ..claimed(&own.emitted, setup, &mut constants)
+        ..of_setup(&own.emitted, setup, &mut constants)
     };
     document(robot, source, vec![function], constants)
 }
 
-fn document(robot: &Robot, source: &str, functions: Vec<Claimed>, constants: Constants) -> Claim {
+fn document(robot: &Robot, source: &str, functions: Vec<Claimed>, constants: Written) -> Claim {
     Claim {
-        claim: VERSION,
         aligned: source.contains("placement").then(|| write(robot)),
-        functions,
-        constants: constants.texts,
+        ..constants.document(functions)
     }
 }
 
 /// The constants of all programs, each once.
 #[derive(Default)]
-struct Constants {
+pub(crate) struct Written {
     texts: Vec<String>,
     places: HashMap<String, usize>,
 }
 
-impl Constants {
+impl Written {
     fn place(&mut self, constant: &Exact) -> usize {
         let text = constant.to_string();
         *self.places.entry(text).or_insert_with_key(|text| {
@@ -86,17 +83,29 @@ impl Constants {
         })
     }
 
+    /// Returns the document of functions with these constants.
+    pub(crate) fn document(self, functions: Vec<Claimed>) -> Claim {
+        Claim {
+            claim: VERSION,
+            robot: String::new(),
+            input: String::new(),
+            aligned: None,
+            constants: self.texts,
+            functions,
+        }
+    }
+
     fn word(&mut self, operand: &Operand) -> String {
         match operand {
             Operand::Step(step) => format!("t{}", step + 1),
             Operand::Constant(constant) => format!("#{}", self.place(constant)),
-            Operand::Input(input) => input_name(*input),
+            Operand::Input(input) => input.name(),
         }
     }
 }
 
 /// Returns the operations and the results of a program.
-fn code(program: &Program, constants: &mut Constants) -> [String; 2] {
+pub(crate) fn code(program: &Program, constants: &mut Written) -> [String; 2] {
     let Steps { steps, outputs } = program.dag.steps();
     let steps = steps.iter().map(|step| {
         let [left, right] = [&step.left, &step.right].map(|own| constants.word(own));
@@ -112,7 +121,7 @@ fn code(program: &Program, constants: &mut Constants) -> [String; 2] {
 }
 
 /// Returns the part of a claim about a tolerance, from the certificates of its scalars.
-fn tolerated(certificates: &[Certificate], constants: &mut Constants) -> Option<Tolerated> {
+fn tolerated(certificates: &[Certificate], constants: &mut Written) -> Option<Tolerated> {
     let first = certificates.first()?;
     let program = &first.emitted;
     let exact = Some(&first.exact).filter(|exact| *exact != program);
@@ -151,8 +160,10 @@ fn tolerated(certificates: &[Certificate], constants: &mut Constants) -> Option<
     })
 }
 
-fn claimed(own: &Program, setup: &Setup, constants: &mut Constants) -> Claimed {
-    let [steps, returns] = code(own, constants);
+/// Returns the claim of a program of a robot in a scene.
+fn of_setup(own: &Program, setup: &Setup, constants: &mut Written) -> Claimed {
+    let scene = setup.scene().map(|scene| &*scene.name);
+    let claimed = claimed(own, scene, constants);
     let base = match own.function.columns() {
         Columns::Base(quantity) => setup.base(quantity).ok(),
         Columns::Links | Columns::None => None,
@@ -173,9 +184,18 @@ fn claimed(own: &Program, setup: &Setup, constants: &mut Constants) -> Claimed {
         .iter()
         .map(|own| format!("#{}", constants.place(own)));
     Claimed {
+        values: values.collect::<Vec<String>>().join(" "),
+        base: terms,
+        ..claimed
+    }
+}
+
+/// Returns the claim of a program.
+pub(crate) fn claimed(own: &Program, scene: Option<&str>, constants: &mut Written) -> Claimed {
+    let [steps, returns] = code(own, constants);
+    Claimed {
         function: own.function.name().to_owned(),
-        symbols: Vec::new(),
-        scene: setup.scene().map(|scene| scene.name.clone()),
+        scene: scene.map(str::to_owned),
         arguments: own
             .arguments
             .iter()
@@ -189,9 +209,7 @@ fn claimed(own: &Program, setup: &Setup, constants: &mut Constants) -> Claimed {
             .collect(),
         steps,
         returns,
-        tolerated: None,
-        values: values.collect::<Vec<String>>().join(" "),
-        base: terms,
+        ..Claimed::default()
     }
 }
 

@@ -49,7 +49,6 @@ mod approximate;
 mod ask;
 mod bound;
 mod certificate;
-#[cfg(feature = "claims")]
 mod claim;
 mod dag;
 mod edits;
@@ -92,7 +91,7 @@ pub use generate::{GenerateError, Generated, generate};
 #[doc(inline)]
 pub use language::Language;
 #[doc(inline)]
-pub use plan::{Plan, PlanError};
+pub use plan::Plan;
 #[doc(inline)]
 pub use program::{Counts, Program, ScalarType};
 #[doc(inline)]

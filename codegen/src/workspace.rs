@@ -17,7 +17,6 @@ pub use crate::bound::{
     sensitivity::{BoundEffort, Sensitivity, rounding},
 };
 pub use crate::certificate::{Certificate, Refuted};
-#[cfg(feature = "claims")]
 pub use crate::claim::{claim, claim_of};
 pub use crate::dag::{Dag, Edge, Fingerprint, Folding, Id, Leaves, Node, Points};
 pub use crate::edits::{Edit, EditSite, Omission, Stage, difference, omissions};

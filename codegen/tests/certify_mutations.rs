@@ -514,12 +514,18 @@ fn scenes() {
     assert!(refused >= MUTATIONS / 3, "{refused}");
 }
 
-/// Returns the words of a line, one of them changed by another of `words`.
-fn other_word(line: &str, random: &mut Random, words: &[&str]) -> String {
-    let mut parts: Vec<&str> = line.split(' ').collect();
-    let at = random.below(parts.len());
-    parts[at] = words[random.below(words.len())];
-    parts.join(" ")
+/// Returns a document with one of its words changed into one of `words`.
+fn other_word(text: &str, random: &mut Random, words: &[&str]) -> String {
+    let is_word = |c: char| !c.is_whitespace() && !"\"{}:,".contains(c);
+    let found: Vec<&str> = text
+        .split(|c| !is_word(c))
+        .filter(|own| !own.is_empty())
+        .collect();
+    let old = found[random.below(found.len())];
+    // A part of the text, so that it has a place there.
+    let place = old.as_ptr() as usize - text.as_ptr() as usize;
+    let new = words[random.below(words.len())];
+    format!("{}{new}{}", &text[..place], &text[place + old.len()..])
 }
 
 /// What the command does with a plan: it generates from it, and what it certifies is true.
@@ -527,18 +533,35 @@ fn other_word(line: &str, random: &mut Random, words: &[&str]) -> String {
 fn plans() {
     let (robot, generated) = generated(SinCos::Libm);
     let plan = plan(&robot, &generated);
-    let lines: Vec<&str> = plan.lines().collect();
     let mut random = Random::new(0x91a2);
     let words = [
-        "t1", "t2", "t7", "q[0]", "qd[1]", "s1", "c2", "s3", "#0", "#1/2", "+", "-", "*", "~t1",
-        "left", "edited", "1e-9", "0", "return", "f32", "gravity", "1,2,3", "q",
+        "t1+t2",
+        "t2*#1",
+        "t7-t1",
+        "qd[1]*qd[1]",
+        "s1*#0",
+        "c2-#2",
+        "s3*c2",
+        "#0",
+        "1/2",
+        "2",
+        "-t1",
+        "t2",
+        "t9",
+        "-7",
+        "[]",
+        "0",
+        "f32",
+        "gravity",
+        "q",
+        "load",
+        "planned",
+        "returns",
     ];
     let (mut refused, mut kept) = (0, 0);
     for _ in 0..MUTATIONS {
-        let mut changed: Vec<String> = lines.iter().map(|&line| line.into()).collect();
-        let at = random.below(changed.len());
-        changed[at] = other_word(&changed[at], &mut random, &words);
-        let Ok(plan) = Plan::parse(&changed.join("\n")) else {
+        let changed = other_word(&plan, &mut random, &words);
+        let Ok(plan) = Plan::parse(&changed) else {
             refused += 1;
             continue;
         };
@@ -548,7 +571,7 @@ fn plans() {
             Err(_) => refused += 1,
             Ok(generated) => {
                 let again = judge([Pair::of(certificate(&generated))], ROBOT);
-                assert_eq!(again, 0, "{}", changed.join("\n"));
+                assert_eq!(again, 0, "{changed}");
                 kept += 1;
             }
         }

@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use dalembert_checker::claim::{Claim, Claimed};
 use dalembert_codegen::workspace::{Refuted, keep};
 use dalembert_codegen::{GenerateError, Plan, Request, generate};
 use dalembert_model::number::{Exact, Rational};
@@ -59,58 +60,76 @@ fn bounds_are_found_anew() {
         let (reading, plan) = planned(scene);
         let found = generate(&reading.robot, &request(&reading, scene)).unwrap();
         assert_eq!(generated(&reading, scene, &plan).unwrap(), found.text());
-        let last = plan.rfind("\nreturn ").unwrap();
-        let end = last + 1 + plan[last + 1..].find('\n').unwrap();
-        let count = found.functions[0].program.dag.outputs.len();
-        let other = format!(
-            "{}\nreturn{}{}",
-            &plan[..last],
-            " #0".repeat(count),
-            &plan[end..]
-        );
+        let other = changed(&plan, |own| {
+            let count = own.returns.split(' ').count();
+            own.returns = vec!["#0"; count].join(" ");
+        });
         assert_eq!(generated(&reading, scene, &other).unwrap(), found.text());
     }
 }
 
-/// Returns the plan with other lines in front of the last program.
-fn with_steps(plan: &str, lines: &[String]) -> String {
-    let last = plan.rfind("\nleft ").or(plan.rfind("\nedited")).unwrap();
-    let last = last + plan[last + 1..].find('\n').unwrap() + 2;
-    format!("{}{}\n{}", &plan[..last], lines.join("\n"), &plan[last..])
+/// Returns the plan with another program, or with other words about it.
+fn changed(plan: &str, change: impl FnOnce(&mut Claimed)) -> String {
+    let mut claim = Claim::read(plan).unwrap();
+    assert!(claim.functions[0].tolerated.is_some());
+    change(&mut claim.functions[0]);
+    claim.write()
+}
+
+/// Returns the plan with other operations in front of the variant's: `$0` is the first of these
+/// constants.
+fn with_steps(plan: &str, constants: &[&str], steps: &[String]) -> String {
+    let mut claim = Claim::read(plan).unwrap();
+    let first = claim.constants.len();
+    claim
+        .constants
+        .extend(constants.iter().map(|&own| own.to_owned()));
+    let mut words = steps.join(" ");
+    for place in 0..constants.len() {
+        words = words.replace(&format!("${place} "), &format!("#{} ", first + place));
+        words = words.replace(&format!("${place}*"), &format!("#{}*", first + place));
+    }
+    let own = &mut claim.functions[0].steps;
+    *own = format!("{words}{own}");
+    claim.write()
 }
 
 /// What would take long is refused before anything is computed.
 #[test]
 fn variants_that_grow_without_end() {
     let (reading, plan) = planned(0);
-    let squared = |first: String| {
-        let squares = (1..20).map(|step| format!("t{step} * t{step}"));
-        std::iter::once(first)
-            .chain(squares)
-            .collect::<Vec<String>>()
+    let squared = |first: &str| {
+        let squares = (1..20).map(|step| format!("t{step}*t{step} "));
+        let all = std::iter::once(first.to_owned()).chain(squares);
+        all.collect::<Vec<String>>()
     };
-    let long = format!("#{}/3", "7".repeat(15_001));
-    let factors = (1..5).map(|step| format!("t{step} * {long}"));
+    let long = format!("{}/3", "7".repeat(15_001));
+    let factors = (1..5).map(|step| format!("t{step}*$0 "));
     // Twenty of these multiply out to 2^20 terms.
-    let angles = (1..20).map(|step| format!("t{step} * #1+1*cos(1/{})", 11 + step));
-    for (lines, what) in [
-        (squared("#3/10 * #3/10".into()), "bits of a constant"),
+    let angles: Vec<String> = (10..30).map(|n| format!("1+1*cos(1/{n})")).collect();
+    let angles: Vec<&str> = angles.iter().map(String::as_str).collect();
+    let products = (2..20).map(|n| format!("t{}*${n} ", n - 1));
+    let first = |first: &str| std::iter::once(first.to_owned());
+    for (constants, steps, what) in [
+        (vec!["3/10"], squared("$0*$0 "), "bits of a constant"),
         (
-            std::iter::once(format!("s2 * {long}"))
-                .chain(factors)
-                .collect(),
+            vec![&*long],
+            first("s2*$0 ").chain(factors).collect(),
             "bits of a constant",
         ),
         (
-            std::iter::once("#1+1*cos(1/10) * #1+1*cos(1/11)".into())
-                .chain(angles)
-                .collect(),
+            angles,
+            first("$0*$1 ").chain(products).collect(),
             "of a constant",
         ),
-        (vec!["qd[1] * qd[1]".into(); 60_000], "50000 are the most"),
+        (
+            vec![],
+            vec!["qd[1]*qd[1] ".into(); 60_000],
+            "50000 are the most",
+        ),
     ] {
         let begun = Instant::now();
-        match generated(&reading, 0, &with_steps(&plan, &lines)) {
+        match generated(&reading, 0, &with_steps(&plan, &constants, &steps)) {
             Err(GenerateError::Variant(_, Refuted::Work(much))) => {
                 assert!(much.to_string().contains(what), "{much}");
             }
@@ -131,8 +150,8 @@ fn variants_that_grow_without_end() {
 fn variants_that_are_other_functions() {
     let (reading, plan) = planned(0);
     for input in ["qd[0]", "s1", "q[1]"] {
-        let lines = [format!("{input} * {input}")];
-        let refused = generated(&reading, 0, &with_steps(&plan, &lines));
+        let steps = [format!("{input}*{input} ")];
+        let refused = generated(&reading, 0, &with_steps(&plan, &[], &steps));
         assert!(
             matches!(
                 &refused,
@@ -142,10 +161,13 @@ fn variants_that_are_other_functions() {
         );
     }
     // No bound is known of a quotient.
-    let divided = with_steps(&plan, &["qd[1] / qd[2]".into()]);
+    let divided = with_steps(&plan, &[], &["qd[1]/qd[2] ".into()]);
     let error = Plan::parse(&divided).unwrap_err().to_string();
     assert!(error.contains("a quotient, of which no bound"), "{error}");
-    let hidden = with_steps(&plan, &["left 1 0 */ evil();".into()]);
+    let hidden = changed(&plan, |own| {
+        let planned = own.planned.as_mut().unwrap();
+        planned.left_out.push(("*/ evil();".into(), 1, 0));
+    });
     let error = Plan::parse(&hidden).unwrap_err().to_string();
-    assert!(error.contains("expected what was left out"), "{error}");
+    assert!(error.contains("what was left out"), "{error}");
 }

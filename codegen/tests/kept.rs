@@ -37,22 +37,20 @@ fn refused(text: &str, said: &str) {
 /// A robot file, the lines of a scene, what is asked, and words of the plan's text.
 const ROWS: &str = r#"
 FRAMES := jacobian@camera:local, jacobian_rate@elbow:world, momentum_observer, operational_bias@elbow:linear, task=operational_inertia@camera:linear+consistent_inverse@camera:linear
-coulomb  | | inverse_dynamics | r1 … r2
-planar2r | | gravity, servo=inverse_dynamics+jacobian; scalar: f64 | program servo=inverse_dynamics+jacobian auto f64
-planar2r | | gravity, jacobian; parameters: payload, gravity | parameters payload,gravity
-planar3r | joints = [2, 1]; lock = { 3 = "pi/2" }; velocity = "zero" | inverse_dynamics | program inverse_dynamics
-frames/planar2r | | FRAMES; scalar: f64 | program jacobian@camera:local auto f64 … program task=operational_inertia@camera:linear+
+coulomb  | | inverse_dynamics | r1* … r2*
+planar2r | | gravity, servo=inverse_dynamics+jacobian; scalar: f64 | "servo=inverse_dynamics+jacobian" … "auto" … "f64"
+planar2r | | gravity, jacobian; parameters: payload, gravity | "load" … "g"
+planar3r | joints = [2, 1]; lock = { 3 = "pi/2" }; velocity = "zero" | inverse_dynamics | "scene":"test" … "rows":[2,1]
+frames/planar2r | | FRAMES; scalar: f64 | "jacobian@camera:local" … "task=operational_inertia@camera:linear+
 "#;
 
 #[test]
 fn programs_by_their_request() {
     for [file, scene, asked, words] in rows(ROWS) {
         let text = kept(&Case::in_scene(&file, &scene, &asked));
-        let is_said = |words: &str| match words.contains(' ') {
-            true => text.contains(&format!("\n{words}")),
-            false => text.split_whitespace().any(|word| word == words),
-        };
-        assert!(words.split(" … ").all(is_said), "{text}");
+        for words in words.split(" … ") {
+            assert!(text.contains(words), "{words}: {text}");
+        }
     }
 }
 
@@ -77,21 +75,30 @@ fn arguments_are_told_apart() {
     assert!(!last("gravity; parameters: gravity", &all));
     // Numbers of another load: searched for anew, not refused.
     let text = all.write();
-    let mut lines = text.lines();
-    let line = lines.find(|line| line.starts_with("parameters ")).unwrap();
-    let (rest, _) = line.rsplit_once(' ').unwrap();
-    let other = text.replace(line, &format!("{rest} 0123456789abcdef"));
+    let (before, rest) = text.split_once("\"load\":[").unwrap();
+    let (load, behind) = rest.split_once(']').unwrap();
+    let (count, hash) = load.split_once(',').unwrap();
+    let with = |load: &str| format!("{before}\"load\":[{load}]{behind}");
+    assert_eq!(with(load), text);
+    let other = with(&load.replace(hash, "\"0123456789abcdef\""));
     let other = Plan::parse(&other).unwrap();
     assert!(!last(arguments, &other));
-    for (words, said) in [
-        ("payload,gravity", "expected `payload`"),
-        ("payload,wind 4 0", "expected `payload`"),
-        ("payload,payload 4 0", "expected `payload`"),
-        ("payload -1 0", "expected `payload`"),
-        ("payload 99999999999 0", "expected `payload`"),
-        ("payload 4 0\nparameters gravity 0 0", "once"),
+    for (load, said) in [
+        (count, "expected a tuple of size 2"),
+        ("-1, \"0\"", "expected usize"),
+        ("99999999999, \"0\"", "expected the load's length"),
+        ("4, \"0\"], \"load\":[0, \"0\"", "duplicate field `load`"),
     ] {
-        refused(&text.replace(line, &format!("parameters {words}")), said);
+        refused(&with(load), said);
+    }
+    for (words, said) in [
+        ("\"load\", \"load\"", "expected arguments of the function"),
+        ("\"load\", \"wind\"", "expected arguments of the function"),
+        ("\"q\", \"load\"", "is not of a program"),
+    ] {
+        let list = "[\"q\",\"g\",\"load\"]";
+        assert!(text.contains(list));
+        refused(&text.replace(list, &format!("[{words}]")), said);
     }
 }
 
@@ -102,16 +109,19 @@ fn bundles_are_what_is_in_them() {
     let asked = "outputs: servo=inverse_dynamics+jacobian; scalar: f64";
     let text = kept(&Case::new("planar2r", "", asked));
     let plan = Plan::parse(&text).unwrap();
-    let mut other = Case::in_scene("planar2r", "", "servo=gravity+jacobian; scalar: f64");
+    let other = Case::in_scene("planar2r", "", "servo=gravity+jacobian; scalar: f64");
     assert_eq!(planned(&other, &plan), [false]);
-    let wrong = text.replace("program servo=inverse_dynamics+", "program servo=gravity+");
-    other.request.plan = Some(Plan::parse(&wrong).unwrap());
-    let said = other.refusal();
+    let wrong = kept(&other).replace("servo=gravity+", "servo=inverse_dynamics+");
+    let list = "[\"q\"]";
+    let wrong = wrong.replace(list, "[\"q\", \"qd\", \"qdd\"]");
+    let mut asked = Case::new("planar2r", "", asked);
+    asked.request.plan = Some(Plan::parse(&wrong).unwrap());
+    let said = asked.refusal();
     assert!(said.contains("differs from the formula"), "{said}");
     for (name, said) in [
         ("servo=inverse_dynamics", "two parts"),
         ("gravity=jacobian+inertia", "is an output by itself"),
-        ("servo=jacobian+inertja", "`inertja` is no function"),
+        ("servo=jacobian+inertja", "unknown output `inertja`"),
     ] {
         refused(&text.replace("servo=inverse_dynamics+jacobian", name), said);
     }

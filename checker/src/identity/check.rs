@@ -5,9 +5,10 @@ use super::exact::{Exact, Point};
 use super::number::{Draws, Number};
 use super::outputs::{result, selected};
 use super::program::Program;
+use super::program::argument;
 use super::setting::Setting;
 use super::state::State;
-use super::table::{Function, argument};
+use super::table::Function;
 
 /// The number of points.
 const POINTS: usize = 12;

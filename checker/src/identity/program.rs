@@ -6,8 +6,29 @@ use super::exact::Exact;
 #[cfg(feature = "certify")]
 use super::{exact::Point, number::Number, state::State};
 
+/// The arguments, in the order in which heads have them, and their lengths.
+pub const ARGUMENTS: [(&str, char); 12] = [
+    ("q", 'n'),
+    ("qd", 'n'),
+    ("qdd", 'n'),
+    ("tau", 'n'),
+    ("v", 'n'),
+    ("a", 'n'),
+    ("g", '3'),
+    ("load", '0'),
+    ("payload", 'p'),
+    ("wrench", '6'),
+    ("damping", '1'),
+    ("multiplier", 'n'),
+];
+
 /// A signed sum of joints' angles: joints, each with whether it is subtracted.
 pub type Angle = Vec<(usize, bool)>;
+
+/// Returns the place of an argument.
+pub fn argument(name: &str) -> Option<usize> {
+    ARGUMENTS.iter().position(|own| own.0 == name)
+}
 
 /// An operand of an operation.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,7 +37,7 @@ pub enum Operand<C> {
     Step(usize),
     /// A constant.
     Constant(C),
-    /// An entry of an argument.
+    /// An entry of an argument, whose place among [`ARGUMENTS`] is first.
     Entry(usize, usize),
     /// The sine, or else the cosine, of an angle.
     Sine(Angle, bool),

@@ -10,9 +10,9 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use super::exact::{Angle, Exact, Point, number};
 use super::number::Number;
 use super::program::Operand;
+use super::program::{ARGUMENTS, argument};
 use super::robot::{File, OneOrEach, Row, Scene};
 use super::state::State;
-use super::table::{ARGUMENTS, argument};
 
 /// The most joints.
 const MOST_JOINTS: usize = 64;

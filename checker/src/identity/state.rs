@@ -2,8 +2,9 @@
 
 use super::exact::Point;
 use super::number::Number;
+use super::program::ARGUMENTS;
 use super::setting::Setting;
-use super::table::{ARGUMENTS, length};
+use super::table::length;
 
 /// A state: the arguments, and sine and cosine of every joint.
 #[derive(Clone, Debug)]

@@ -1,5 +1,6 @@
 //! The 35 outputs: what each reads and returns.
 
+use super::program::argument;
 use super::setting::Setting;
 
 /// Every function, its arguments in order, and its results: the field in a struct, what it is where
@@ -45,22 +46,6 @@ const TABLE: &str = "
         d2qdd_dq_dq[nn] d2qdd_dq_dqd[nn] d2qdd_dqd_dqd[nn] d2qdd_dtau_dq[nn]
 ";
 
-/// The arguments, in the order in which heads have them, and their lengths.
-pub const ARGUMENTS: [(&str, char); 12] = [
-    ("q", 'n'),
-    ("qd", 'n'),
-    ("qdd", 'n'),
-    ("tau", 'n'),
-    ("v", 'n'),
-    ("a", 'n'),
-    ("g", '3'),
-    ("load", '0'),
-    ("payload", 'p'),
-    ("wrench", '6'),
-    ("damping", '1'),
-    ("multiplier", 'n'),
-];
-
 /// A result of a function.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
@@ -104,11 +89,6 @@ pub struct Function {
     pub arguments: Vec<usize>,
     /// Its results, in order.
     pub fields: Vec<Field>,
-}
-
-/// Returns the place of an argument.
-pub fn argument(name: &str) -> Option<usize> {
-    ARGUMENTS.iter().position(|own| own.0 == name)
 }
 
 /// Returns the length of an axis over so many joints, or links.

@@ -11,7 +11,6 @@ use super::{Certificate, Refuted, WrongInput};
 use crate::function::Argument;
 use crate::program::Input;
 use crate::program::Program;
-use crate::program::text::input_name;
 use crate::setup::Setup;
 
 /// Checks that all parts of a claim fit the scene and each other.
@@ -65,7 +64,7 @@ impl Checker<'_> {
             None => Ok(()),
             Some(why) => Err(Refuted::Input {
                 program: program.to_owned(),
-                input: input_name(input),
+                input: input.name(),
                 why,
             }),
         }

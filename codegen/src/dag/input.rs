@@ -16,6 +16,16 @@ pub enum Input {
 }
 
 impl Input {
+    /// Returns its name in emitted code.
+    pub(crate) fn name(self) -> String {
+        match self {
+            Input::Sin(joint) => format!("s{}", joint + 1),
+            Input::Cos(joint) => format!("c{}", joint + 1),
+            Input::PerSpeed(joint) => format!("r{}", joint + 1),
+            Input::Entry(argument, index) => format!("{}[{index}]", argument.name()),
+        }
+    }
+
     /// Returns the argument that it is made from.
     pub fn argument(self) -> Argument {
         match self {

@@ -4,7 +4,6 @@ use dalembert_model::number::{Exact, Rounded};
 
 use super::{Edit, EditSite, Stage};
 use crate::dag::Folding;
-use crate::program::text::input_name;
 use crate::program::{Counts, Operand, Operation, Steps};
 
 /// A value that was left out, and what that saves.
@@ -54,7 +53,7 @@ const DEPTH: usize = 2;
 
 fn words(program: &Steps, edit: &Edit) -> String {
     let place = match edit.place {
-        EditSite::Input(input) => input_name(input),
+        EditSite::Input(input) => input.name(),
         EditSite::Step(step) | EditSite::Left(step) | EditSite::Right(step) => {
             expression(program, &Operand::Step(step), DEPTH + 1).0
         }
@@ -78,7 +77,7 @@ enum Strength {
 /// Returns an operand in terms of inputs, `…` for what is too deep.
 fn expression(program: &Steps, operand: &Operand, depth: usize) -> (String, Strength) {
     let step = match operand {
-        Operand::Input(input) => return (input_name(*input), Strength::Atom),
+        Operand::Input(input) => return (input.name(), Strength::Atom),
         Operand::Constant(constant) => return (roughly(constant), Strength::Atom),
         Operand::Step(step) => program.steps.get(*step),
     };

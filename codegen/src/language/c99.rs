@@ -26,7 +26,6 @@ use super::function::reads;
 pub(crate) use super::names::{LONGEST, Names, float};
 use super::{Language, Printed, speed};
 use crate::function::{Argument, Function, Quantity};
-use crate::program::text::input_name;
 use crate::program::{Code, Input, Library, Pair, ScalarType};
 
 impl Dialect {
@@ -275,7 +274,7 @@ fn taken(pair: &Pair) -> impl Iterator<Item = (String, bool)> {
     let sine = pair.need.sin.then_some((Input::Sin(pair.joint), true));
     let cosine = pair.need.cos.then_some((Input::Cos(pair.joint), false));
     let taken = sine.into_iter().chain(cosine);
-    taken.map(|(input, is_sine)| (input_name(input), is_sine))
+    taken.map(|(input, is_sine)| (input.name(), is_sine))
 }
 
 /// Up to this magnitude sines are computed without a library.

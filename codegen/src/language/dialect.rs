@@ -2,7 +2,6 @@
 
 use crate::dag::{Dag, Edge, Id, Node};
 use crate::program::kernel::{Angle, Kernel};
-use crate::program::text::input_name;
 use crate::program::{Code, Input, Literal, Operation, ScalarType};
 
 /// The words of a language for one scalar. In a pattern, `{}` stands for a part.
@@ -97,7 +96,7 @@ impl<'c> Lines<'c, Input> {
             dag: &code.dag,
             numbers: code.dag.numbers(),
             prefix: "t".to_owned(),
-            input: Box::new(|input| input_name(*input)),
+            input: Box::new(|input| input.name()),
         }
     }
 }

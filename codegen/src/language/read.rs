@@ -138,7 +138,7 @@ fn code(read: read::Function, scalar: ScalarType) -> Result<Code, TextError> {
         let kernel = match own.source {
             Source::Polynomial(program) => Some(Kernel {
                 need,
-                dag: graph(&program, |_| Angle),
+                dag: graph(&program, |value| Literal(*value), |_| Angle),
             }),
             _ => None,
         };
@@ -157,25 +157,30 @@ fn code(read: read::Function, scalar: ScalarType) -> Result<Code, TextError> {
         library: first,
         pairs: pairs.collect(),
         speeds: speeds.collect(),
-        dag: graph(&read.program, |operand| match operand {
-            Read::Entry(argument, index) => Input::Entry(Argument::ALL[*argument], *index),
-            Read::Sine(angle, true) => Input::Sin(angle[0].0),
-            Read::Sine(angle, false) => Input::Cos(angle[0].0),
-            Read::Speed(joint) => Input::PerSpeed(*joint),
-            Read::Step(step) => unreachable!("step {step} is no input"),
-            Read::Constant(value) => unreachable!("{value} is no input"),
-        }),
+        dag: graph(&read.program, |value| Literal(*value), input),
     })
 }
 
+/// Returns an operand that is neither a constant nor a step.
+pub(crate) fn input<C>(operand: &Read<C>) -> Input {
+    match operand {
+        Read::Entry(argument, index) => Input::Entry(Argument::ALL[*argument], *index),
+        Read::Sine(angle, true) => Input::Sin(angle[0].0),
+        Read::Sine(angle, false) => Input::Cos(angle[0].0),
+        Read::Speed(joint) => Input::PerSpeed(*joint),
+        Read::Step(_) | Read::Constant(_) => unreachable!("no input"),
+    }
+}
+
 /// Returns the graph of straight-line code.
-fn graph<I: Clone + Eq + Hash>(
-    program: &straight::Program<f64>,
-    input: impl Fn(&Read<f64>) -> I,
-) -> Dag<Literal, I> {
-    let operand = |own: &Read<f64>| match own {
+pub(crate) fn graph<V, C: Clone + Eq + Hash, I: Clone + Eq + Hash>(
+    program: &straight::Program<V>,
+    constant: impl Fn(&V) -> C,
+    input: impl Fn(&Read<V>) -> I,
+) -> Dag<C, I> {
+    let operand = |own: &Read<V>| match own {
         Read::Step(step) => Operand::Step(*step),
-        Read::Constant(value) => Operand::Constant(Literal(*value)),
+        Read::Constant(value) => Operand::Constant(constant(value)),
         other => Operand::Input(input(other)),
     };
     let steps = program.steps.iter().map(|(operation, [left, right])| Step {

@@ -8,14 +8,13 @@
 use std::fmt::Write;
 
 use crate::language::dialect::Dialect;
-use crate::program::text::input_name;
 use crate::program::{Code, Input, Literal, Operation};
 
 /// Prints those that are read. Roots are correctly rounded, whoever computes them.
 pub(super) fn write(text: &mut String, dialect: Dialect, code: &Code, path: &str) {
     let one = dialect.literal(Literal(1.0));
     for own in &code.speeds {
-        let (name, joint) = (input_name(Input::PerSpeed(own.joint)), own.joint);
+        let (name, joint) = (Input::PerSpeed(own.joint).name(), own.joint);
         let square = dialect.literal(own.square);
         let speed = format!("qd[{joint}]");
         let product = dialect.operation(Operation::Mul, &speed, &speed);

@@ -11,7 +11,6 @@ use std::fmt::Write;
 
 use crate::language::dialect::Dialect;
 use crate::language::{angles, sines};
-use crate::program::text::input_name;
 use crate::program::{Code, Input, Library, Need, Pair};
 
 /// Prints them.
@@ -64,8 +63,8 @@ pub(super) fn taken_names(code: &Code) -> [String; 2] {
         names.collect::<Vec<String>>().join(", ")
     };
     [
-        each(&|pair| pair.need.sin.then(|| input_name(Input::Sin(pair.joint)))),
-        each(&|pair| pair.need.cos.then(|| input_name(Input::Cos(pair.joint)))),
+        each(&|pair| pair.need.sin.then(|| Input::Sin(pair.joint).name())),
+        each(&|pair| pair.need.cos.then(|| Input::Cos(pair.joint).name())),
     ]
 }
 

@@ -4,8 +4,9 @@ use std::fs::{self, File};
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
+use dalembert_checker::claim::MOST_BYTES;
+
 use super::Plan;
-use super::parse::MAX_BYTES;
 use crate::words::{Complaint, complaint};
 
 /// Returns where a robot file's plan is: `puma560.plan` beside `puma560.toml`.
@@ -42,7 +43,7 @@ pub fn beside(robot_file: &Path) -> Result<Option<Plan>, Complaint> {
     }
     let mut bytes = Vec::new();
     let read =
-        File::open(&path).and_then(|file| file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes));
+        File::open(&path).and_then(|file| file.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes));
     match read {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(complaint(format!("cannot read `{shown}`: {error}"))),
@@ -51,6 +52,6 @@ pub fn beside(robot_file: &Path) -> Result<Option<Plan>, Complaint> {
     let text =
         String::from_utf8(bytes).map_err(|_| complaint(format!("`{shown}` is not UTF-8")))?;
     let plan = Plan::parse(&text);
-    let plan = plan.map_err(|error| complaint(format!("{shown}:{}: {}", error.line, error.why)))?;
+    let plan = plan.map_err(|why| complaint(format!("{shown}: {why}")))?;
     Ok(Some(plan))
 }

@@ -1,4 +1,4 @@
-//! Plans: final programs as text, beside the robot file they belong to.
+//! Plans: final programs as claims, beside the robot file they belong to.
 //!
 //! A long search is run once; its programs, with exact constants, are kept
 //! in `<robot>.plan` and replayed: read, proved again, printed. A plan says
@@ -7,13 +7,10 @@
 //!
 //! - this file: [`Plan`]: its entries and how one is found
 //! - [`mod@file`]: where it is kept
-//! - [`parse`], [`write`](Plan::write): the text
+//! - `document`: the text
 
+mod document;
 pub mod file;
-pub(crate) mod parse;
-pub(crate) mod write;
-
-use std::fmt;
 
 use crate::edits::Omission;
 use crate::function::Function;
@@ -21,26 +18,8 @@ use crate::program::{Program, ScalarType};
 use crate::search::Pass;
 use crate::seeds::{Source, Start};
 use crate::setup::{ParametersKey, SceneKey};
-use crate::words::Complaint;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::scene::Scene;
-
-/// A mistake in a plan's text.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PlanError {
-    /// One-based line.
-    pub line: usize,
-    /// The mistake, and the expected words.
-    pub why: Complaint,
-}
-
-impl fmt::Display for PlanError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "line {}: {}", self.line, self.why)
-    }
-}
-
-impl std::error::Error for PlanError {}
 
 /// The programs kept for a robot.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,7 +6,7 @@
 //! - [`code`]: the same over literals: each constant rounded once, sines by a
 //!   library or by the polynomials of a [`kernel`]; `difference`: where two differ
 //! - [`library`]: who computes the sines that are called
-//! - [`steps`]: a program as a list of steps; [`text`]: as plans and certificates write it
+//! - [`steps`]: a program as a list of steps
 //! - [`machine`]: floats that run as emitted code does; [`lanes`]: several side by side
 
 pub(crate) mod code;
@@ -19,7 +19,6 @@ pub(crate) mod machine;
 pub(crate) mod scalar_type;
 pub(crate) mod speed;
 pub(crate) mod steps;
-pub(crate) mod text;
 
 use std::collections::BTreeMap;
 

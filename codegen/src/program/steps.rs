@@ -1,5 +1,5 @@
 //! Straight-line code as a list of steps whose operands are inputs, constants or steps: for what
-//! edits single uses of values, and as plans and certificates write it.
+//! edits single uses of values, and as claims write it.
 
 use std::hash::Hash;
 

@@ -1,0 +1,256 @@
+//! A plan as a document: what is claimed of each program, and what was searched for.
+
+use dalembert_checker::Fault;
+use dalembert_checker::claim::{Claim, Claimed, Constants, Planned, Tolerated};
+use dalembert_model::number::Exact;
+use dalembert_model::outputs::RuntimeParameter;
+use dalembert_model::robot::Robot;
+
+use super::{Edited, Entry, Plan};
+use crate::claim::{Written, claimed, code};
+use crate::edits::Omission;
+use crate::function::{Argument, Function};
+use crate::language::read::{graph, input};
+use crate::program::{Counts, Input, Program, ScalarType};
+use crate::search::Pass;
+use crate::seeds::{Source, Start};
+use crate::setup::{ParametersKey, SceneKey};
+use crate::words::{Complaint, Word, complaint};
+
+/// A load has no more numbers: ten of each link, and differences of two of them.
+const MAX_LOAD: usize = 100 * Robot::MAX_JOINTS;
+
+impl Plan {
+    /// Returns the text; [`Plan::parse`] reads it back.
+    pub fn write(&self) -> String {
+        let mut constants = Written::default();
+        let functions = self.entries.iter().map(|own| own.claimed(&mut constants));
+        let functions = functions.collect();
+        let document = Claim {
+            robot: self.robot.clone(),
+            input: self.input.clone(),
+            ..constants.document(functions)
+        };
+        document.write()
+    }
+
+    /// Reads a plan. Whatever it says, its programs are proved before use: reading only makes sure
+    /// that they are such.
+    ///
+    /// # Errors
+    /// The first word that is not as [`Plan::write`] writes it.
+    pub fn parse(text: &str) -> Result<Plan, Complaint> {
+        if text.starts_with("# Programs kept by") {
+            let why = "a plan of an earlier version: delete it, and save it again";
+            return Err(complaint(why));
+        }
+        let document = Claim::read(text).map_err(refused)?;
+        if document.input.is_empty() {
+            return Err(complaint("there is no `input`, the hash of the robot"));
+        }
+        let constant = |text: &String| {
+            let wrong = |error| complaint(format!("`{text:.40}`: {error}"));
+            text.parse::<Exact>().map_err(wrong)
+        };
+        let constants = document.constants.iter().map(constant);
+        let constants = Constants(constants.collect::<Result<_, _>>()?);
+        let entries = document.functions.iter().map(|own| {
+            let wrong = |why: Complaint| complaint(format!("`{}`: {why}", own.function));
+            entry(own, &constants).map_err(wrong)
+        });
+        Ok(Plan {
+            entries: entries.collect::<Result<_, _>>()?,
+            robot: document.robot,
+            input: document.input,
+        })
+    }
+}
+
+fn refused(fault: Fault) -> Complaint {
+    complaint(match fault {
+        Fault::Claim(why) => why,
+        fault => fault.to_string(),
+    })
+}
+
+impl Entry {
+    /// Returns the claim of the program, and of its variant if there is one.
+    fn claimed(&self, constants: &mut Written) -> Claimed {
+        let (exact, edited) = (&self.program, self.edited.as_ref());
+        let emitted = edited.map_or(exact, |edited| &edited.program);
+        let (scene, hash) = match &self.scene {
+            Some(scene) => (Some(&*scene.name), scene.hash.clone()),
+            None => (None, String::new()),
+        };
+        let left_out = edited.map_or(&[][..], |edited| &edited.left_out).iter();
+        let passes = self.passes.iter().map(|pass| {
+            let own = pass.counts;
+            let name = pass.name.to_owned();
+            (name, [own.mul, own.add, own.div, own.sincos])
+        });
+        let planned = Planned {
+            asked: exact.function.text(),
+            formulation: self.start.name().to_owned(),
+            scalar: self.scalar.name().to_owned(),
+            source: self.source.name().to_owned(),
+            passes: passes.collect(),
+            joints: exact.joints,
+            rows: exact.rows.iter().map(|row| row + 1).collect(),
+            scene: hash,
+            load: (self.parameters.as_ref()).map(|own| (own.load, own.hash.clone())),
+            left_out: left_out
+                .map(|own| (own.words.clone(), own.operations, own.sincos))
+                .collect(),
+        };
+        Claimed {
+            planned: Some(planned),
+            tolerated: edited.map(|_| {
+                let [steps, returns] = code(exact, constants);
+                Tolerated {
+                    steps,
+                    returns,
+                    ..Tolerated::default()
+                }
+            }),
+            ..claimed(emitted, scene, constants)
+        }
+    }
+}
+
+/// Reads an entry.
+fn entry(own: &Claimed, constants: &Constants<Exact>) -> Result<Entry, Complaint> {
+    let unknown = |what: &str, word: &str| complaint(format!("`{word:.40}` is no {what}"));
+    let planned = (own.planned.as_ref())
+        .ok_or_else(|| complaint("there is no `planned`: what was searched for"))?;
+    let asked = Function::parse(&planned.asked);
+    let function = asked.map_err(|error| complaint(error.message()))?;
+    if !(1..=Robot::MAX_JOINTS).contains(&planned.joints) {
+        return Err(unknown("number of joints", &planned.joints.to_string()));
+    }
+    // Speeds are the robot's, which a plan does not have.
+    let mut empty = Program::empty(function, planned.joints);
+    let rows = planned.rows.iter().map(|row| {
+        let row = row.checked_sub(1).filter(|row| *row < planned.joints);
+        row.ok_or_else(|| complaint("expected joints such as `[1, 2, 3]`"))
+    });
+    empty.rows = rows.collect::<Result<_, _>>()?;
+    let taken = taken(own, &mut empty)?;
+    let parameters = match (&planned.load, taken.is_empty()) {
+        (None, true) => None,
+        (Some((load, hash)), false) if *load <= MAX_LOAD => Some(ParametersKey {
+            taken,
+            load: *load,
+            hash: hash.clone(),
+        }),
+        _ => {
+            let why = "expected the load's length and hash where parameters are arguments";
+            return Err(complaint(why));
+        }
+    };
+    empty.load = parameters.as_ref().map_or(0, |own| own.load);
+    let emitted = own.program(constants).map_err(refused)?;
+    let exact = own.exact(constants).map_err(refused)?;
+    let program = program(&empty, exact.as_ref().unwrap_or(&emitted))?;
+    let edited = match exact {
+        None => None,
+        Some(_) => Some(edited(&empty, &emitted, planned)?),
+    };
+    Ok(Entry {
+        start: Start::from_name(&planned.formulation)
+            .ok_or_else(|| unknown("formulation", &planned.formulation))?,
+        scalar: ScalarType::from_name(&planned.scalar)
+            .ok_or_else(|| unknown("scalar", &planned.scalar))?,
+        source: Source::from_name(&planned.source)
+            .ok_or_else(|| unknown("source", &planned.source))?,
+        passes: (planned.passes.iter())
+            .map(|own| pass(own).ok_or_else(|| unknown("pass of a search", &own.0)))
+            .collect::<Result<_, _>>()?,
+        scene: own.scene.as_ref().map(|name| SceneKey {
+            name: name.clone(),
+            hash: planned.scene.clone(),
+        }),
+        parameters,
+        program,
+        edited,
+    })
+}
+
+/// Gives a program the arguments of a claim; returns the parameters of the robot among them.
+fn taken(own: &Claimed, empty: &mut Program) -> Result<Vec<RuntimeParameter>, Complaint> {
+    let all = RuntimeParameter::ALL.map(RuntimeParameter::argument);
+    empty.arguments.extend(all);
+    empty.arguments.sort();
+    let is_taken = |argument: Argument| own.arguments.iter().any(|word| word == argument.name());
+    empty.arguments.retain(|argument| is_taken(*argument));
+    if empty.arguments.len() != own.arguments.len() {
+        let why = "expected arguments of the function, each once, `load` or `g`";
+        return Err(complaint(why));
+    }
+    let taken = RuntimeParameter::ALL.into_iter();
+    Ok(taken.filter(|own| is_taken(own.argument())).collect())
+}
+
+/// Returns what is read as a program with the arguments and results of an empty one.
+fn program(
+    empty: &Program,
+    read: &dalembert_checker::identity::program::Program<Exact>,
+) -> Result<Program, Complaint> {
+    let program = Program {
+        dag: graph(read, Exact::clone, input),
+        ..empty.clone()
+    };
+    let sizes = program.sizes();
+    let is_own = |input: &Input| match *input {
+        Input::Sin(joint) | Input::Cos(joint) | Input::PerSpeed(joint) => joint < program.joints,
+        Input::Entry(argument, index) => index < argument.length(sizes),
+    };
+    if let Some(input) = program.dag.inputs().find(|input| !is_own(input)) {
+        let why = format!("`{}` is no input of it", input.name());
+        return Err(complaint(why));
+    }
+    let expected = program.function.outputs(sizes);
+    match program.dag.outputs.len() {
+        found if found == expected => Ok(program),
+        found => Err(complaint(format!(
+            "expected {expected} results, found {found}"
+        ))),
+    }
+}
+
+/// Reads a variant. What was left out goes into documentation, in every language.
+fn edited(
+    empty: &Program,
+    emitted: &dalembert_checker::identity::program::Program<Exact>,
+    planned: &Planned,
+) -> Result<Edited, Complaint> {
+    let program = program(empty, emitted)?;
+    if program.divides() {
+        return Err(complaint("a quotient, of which no bound is known"));
+    }
+    let left_out = planned.left_out.iter().map(|(words, operations, sincos)| {
+        let is_plain = !words.contains("*/") && !words.contains(char::is_control);
+        is_plain.then(|| Omission {
+            words: words.clone(),
+            operations: *operations,
+            sincos: *sincos,
+        })
+    });
+    let left_out = left_out.collect::<Option<_>>();
+    let left_out = left_out.ok_or_else(|| complaint("what was left out, in words of a comment"))?;
+    Ok(Edited { program, left_out })
+}
+
+/// Reads the counts after a pass.
+fn pass((name, [mul, add, div, sincos]): &(String, [usize; 4])) -> Option<Pass> {
+    let name = Pass::NAMES.into_iter().find(|known| known == name)?;
+    Some(Pass {
+        name,
+        counts: Counts {
+            mul: *mul,
+            add: *add,
+            div: *div,
+            sincos: *sincos,
+            ..Counts::default()
+        },
+    })
+}
