@@ -1,71 +1,14 @@
-//! What is claimed of generated functions: the document that the checker compares their text with.
+//! Programs as the document of claims and plans has them.
 
 use std::collections::HashMap;
 
-use dalembert_checker::claim::{Claim, Claimed, Tolerated, VERSION};
+use dalembert_checker::claim::{Claim, Claimed, VERSION};
 use dalembert_model::number::Exact;
-use dalembert_model::robot::{Robot, write};
 use dalembert_model::scalar::Scalar;
 
-use crate::certificate::Certificate;
-use crate::function::{Argument, Columns, Function, Quantity};
-use crate::generate::{Generated, language};
-use crate::language::Language;
-use crate::language::names::Names;
-use crate::program::{Operand, Program, ScalarType, Steps};
+use crate::function::{Columns, Function, Quantity};
+use crate::program::{Operand, Program, Steps};
 use crate::setup::Setup;
-use crate::task::{Job, Request};
-use crate::words::Complaint;
-
-/// Returns the claim about the functions that were generated for the robot of a file.
-///
-/// # Errors
-/// As of [`Request::setup`].
-pub fn claim(
-    robot: &Robot,
-    source: &str,
-    request: &Request,
-    generated: &Generated,
-) -> Result<Claim, Complaint> {
-    let request = &*language::with_short_name(robot, request);
-    let setup = &request.setup(robot)?;
-    let name = Job {
-        robot,
-        setup,
-        request,
-    }
-    .module_name();
-    let mut constants = Written::default();
-    let functions = generated.functions.iter().map(|own| {
-        // A header of the same functions has the same claim.
-        let symbol = |&scalar| Names::new(&name, Language::C, scalar).of(own.function.name());
-        Claimed {
-            symbols: ScalarType::ALL.iter().map(symbol).collect(),
-            tolerated: (own.admitted.as_ref())
-                .and_then(|own| tolerated(&own.certificates, &mut constants)),
-            ..of_setup(&own.program, setup, &mut constants)
-        }
-    });
-    let functions = functions.collect();
-    Ok(document(robot, source, functions, constants))
-}
-
-/// Returns the claim about one text that a tolerance admitted.
-pub fn claim_of(robot: &Robot, source: &str, setup: &Setup, own: &Certificate) -> Claim {
-    let mut constants = Written::default();
-    let function = Claimed {
-        tolerated: tolerated(std::slice::from_ref(own), &mut constants),
-        ..of_setup(&own.emitted, setup, &mut constants)
-    };
-    document(robot, source, vec![function], constants)
-}
-
-fn document(robot: &Robot, source: &str, functions: Vec<Claimed>, constants: Written) -> Claim {
-    Claim {
-        aligned: source.contains("placement").then(|| write(robot)),
-        ..constants.document(functions)
-    }
-}
 
 /// The constants of all programs, each once.
 #[derive(Default)]
@@ -120,48 +63,8 @@ pub(crate) fn code(program: &Program, constants: &mut Written) -> [String; 2] {
     [steps, returns].map(|words| words.join(" "))
 }
 
-/// Returns the part of a claim about a tolerance, from the certificates of its scalars.
-fn tolerated(certificates: &[Certificate], constants: &mut Written) -> Option<Tolerated> {
-    let first = certificates.first()?;
-    let program = &first.emitted;
-    let exact = Some(&first.exact).filter(|exact| *exact != program);
-    let [steps, returns] = exact.map_or_else(Default::default, |own| code(own, constants));
-    let limits = &first.limits;
-    let lists = [&limits.position, &limits.velocity, &limits.acceleration];
-    let given = [
-        Argument::Position,
-        Argument::Velocity,
-        Argument::Acceleration,
-    ]
-    .map(|own| program.arguments.contains(&own));
-    let ranges = [0, 1, 2].map(|place| {
-        let list = lists[place].iter().filter(|_| given[place]);
-        list.map(|range| [range.low(), range.high()]).collect()
-    });
-    let reached = first.reached.iter().map(|at| {
-        let lists = [&at.q, &at.qd, &at.qdd].into_iter().zip(given);
-        let lists = lists.filter(|own| own.1);
-        lists.flat_map(|own| own.0.iter().copied()).collect()
-    });
-    let bounds = |scalar: ScalarType| {
-        let own = certificates.iter().find(|own| own.scalar == scalar);
-        let bounds = own.map_or(&[][..], |own| &own.bounds);
-        bounds.iter().map(|own| own.total()).collect()
-    };
-    Some(Tolerated {
-        steps,
-        returns,
-        relative_to: (first.relative_to).map_or_else(String::new, |own| own.word().to_owned()),
-        ranges,
-        scales: first.scales.clone(),
-        reached: reached.collect(),
-        f64: bounds(ScalarType::F64),
-        f32: bounds(ScalarType::F32),
-    })
-}
-
 /// Returns the claim of a program of a robot in a scene.
-fn of_setup(own: &Program, setup: &Setup, constants: &mut Written) -> Claimed {
+pub(crate) fn of_setup(own: &Program, setup: &Setup, constants: &mut Written) -> Claimed {
     let scene = setup.scene().map(|scene| &*scene.name);
     let claimed = claimed(own, scene, constants);
     let base = match own.function.columns() {

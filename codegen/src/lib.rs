@@ -24,6 +24,7 @@
 //! - `sincos`: sine and cosine by polynomials with proved errors
 //! - `language`: flat Rust, printed and read back
 //! - `verify`: proofs and checks
+//! - `claim`: programs as the document of claims and plans has them
 //! - `plan`: programs kept from a long search
 //! - `task`: what is generated, for which robot in which scene, with which options
 //! - `bound`: rigorous bounds of what was left out and of what rounding costs
@@ -32,7 +33,6 @@
 //! - `approximate`: the lossy search
 //! - `emit`: the module of a robot: header, documentation, functions
 //! - `generate`: the one function that macro, build script and command call
-//! - `claim`: what is claimed of generated functions, for the checker
 //!
 //! And the ways in, which all end in `generate`:
 //! - `robot_file`: a robot file from a path, with errors fit to show

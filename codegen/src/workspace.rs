@@ -17,14 +17,15 @@ pub use crate::bound::{
     sensitivity::{BoundEffort, Sensitivity, rounding},
 };
 pub use crate::certificate::{Certificate, Refuted};
-pub use crate::claim::{claim, claim_of};
 pub use crate::dag::{Dag, Edge, Fingerprint, Folding, Id, Leaves, Node, Points};
 pub use crate::edits::{Edit, EditSite, Omission, Stage, difference, omissions};
 pub use crate::emit::figures::bound_of;
 pub use crate::falsify::{Falsification, falsify};
 pub use crate::function::{Argument, Columns, Quantity, RuntimeParameter, Sizes};
 pub use crate::generate::{
-    MAX_OUTPUTS, ToleranceError, Unbounded, generate_anew,
+    MAX_OUTPUTS, ToleranceError, Unbounded,
+    claim::{claim, claim_of},
+    generate_anew,
     keep::keep,
     search::{Found, replay, search},
     tolerate::admitted,

@@ -2,7 +2,7 @@
 //!
 //! - `search`: a program from the plan, or searched for
 //! - `tolerate`: the cheapest variant that a scene's tolerance admits
-//! - [`mod@keep`]: what was generated, in a plan
+//! - [`mod@keep`]: what was generated, in a plan; [`claim`]: for the checker
 //! - [`early`]: a search that was ended early, and what programs are compared by
 //! - `anew`: plans of a robot or a scene that was edited since
 //! - `contradiction`: what was proved, tried
@@ -12,6 +12,7 @@
 //! - [`error`]: why nothing was generated
 
 mod anew;
+pub(crate) mod claim;
 mod contradiction;
 pub(crate) mod early;
 pub(crate) mod error;
