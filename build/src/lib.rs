@@ -257,8 +257,8 @@ impl Generator {
         let file =
             RobotFile::read(&self.robot).map_err(|error| BuildError(error.messages().to_vec()))?;
         let made = ask(&file, &self.asked, language, &shown).map_err(|problems| {
-            let of = |problem: &dalembert_codegen::Problem| match problem.option.as_str() {
-                "" => format!("{shown}: {}", problem.message),
+            let of = |problem: &dalembert_codegen::Problem| match problem.option {
+                "" => format!("{shown}: {}", problem.complaint.message),
                 _ => problem.to_string(),
             };
             BuildError(problems.iter().map(of).collect())

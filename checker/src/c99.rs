@@ -7,9 +7,9 @@
 
 use crate::compare::is_literal;
 use crate::fault::Fault;
-use crate::file::{Found, Lines, between, fault, is_letter, item};
+use crate::file::{Found, Lines, between, fault, item};
 use crate::identity::exact::Exact;
-use crate::read::Symbols;
+use crate::read::{self, Symbols, has_only};
 use crate::together;
 
 /// How a header begins.
@@ -54,6 +54,10 @@ const GCC: &str = "defined(__GNUC__) && !defined(__clang__)";
 const FUSES: &str = "defined(__GNUC__) && !defined(__clang__) && (defined(__FP_FAST_FMA) || \
      defined(__FP_FAST_FMAF))";
 
+/// How the parameters begin of what is told whether angles are far, and of what takes any number
+/// of states, and what their names end with.
+const KINDS: [(&str, &str); 2] = [("const int far, ", "_any"), ("const size_t n, ", "_batch")];
+
 /// Reads lines that have to be these; what a header does not call, it need not include, and clang
 /// need not be asked to make vectors of loops.
 fn take(lines: &mut Lines, expected: &str) -> Result<(), Fault> {
@@ -73,9 +77,9 @@ fn take(lines: &mut Lines, expected: &str) -> Result<(), Fault> {
 /// # Errors
 /// The first line that the generator would not print.
 pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
-    let lines = code(source).map_err(fault)?;
+    let lines = read::lines(source, true).map_err(|own| Fault::Text(own.line, own.reason))?;
     let mut lines = lines.as_slice();
-    let guard = lines.first().map_or("", |(_, line)| line);
+    let guard = lines.first().map_or("", |own| own.1);
     let why = "CUDA is not checked: `--language c` prints the same functions";
     let is_c = (!guard.ends_with("_CUH")).then_some(());
     is_c.ok_or_else(|| Fault::Text(1, why.into()))?;
@@ -104,31 +108,25 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
         }
         let mut heads = Vec::new();
         let found = item(&mut lines, |head| {
-            let is_struct = head == "typedef struct {";
-            heads.extend(Some(head).filter(|_| !is_struct));
+            if head == "typedef struct {" {
+                return false;
+            }
+            heads.push(head);
             let ends = ["(const size_t n, ", "_in_box(", " pi["];
-            let is_last = ends.iter().any(|end| head.contains(end));
-            !is_struct && (!has_loops || is_last)
+            !has_loops || ends.iter().any(|end| head.contains(end))
         });
         let is_plain = |found: &Found| {
             found.text.ends_with("\n}\n") && !found.text.replacen(LOOP, "", 1).contains('#')
         };
         let mut found = found.filter(is_plain).ok_or_else(|| fault(first))?;
-        let named = heads.iter().map(|head| word(name, head));
-        let named = named.collect::<Option<Vec<_>>>();
+        let named: Option<Vec<_>> = heads.iter().map(|head| word(name, head)).collect();
         let named = named.ok_or_else(|| fault(first))?;
         // Behind the one that is told whether angles are far, and before that of many states.
-        let is_single = |head: &&&str| {
-            let others = ["(const int far, ", "(const size_t n, "];
-            !others.iter().any(|other| head.contains(other))
-        };
-        let single = heads.iter().find(is_single).ok_or_else(|| fault(first))?;
+        let mut symbols = heads.iter().filter_map(|head| symbol(head));
+        let single = symbols.find(|(_, kind)| kind.is_none());
+        (found.name, _) = single.ok_or_else(|| fault(first))?;
         found.module = named.first().map_or("", |own| own.0);
-        let symbol = single
-            .split('(')
-            .next()
-            .and_then(|own| own.rsplit(' ').next());
-        found.name = symbol.unwrap_or_default();
+        found.header = name;
         all.push(found);
     }
     let end = source.lines().count();
@@ -137,53 +135,51 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
 
 /// Returns whether all functions of a text are named after this one, in full or shortened.
 pub(crate) fn are_of(found: &Found, function: &str) -> bool {
-    let header = found.module.strip_suffix("_f32").unwrap_or(found.module);
-    let header = header.to_ascii_uppercase();
-    let heads = found
-        .text
-        .lines()
-        .filter(|line| line.starts_with("static inline "));
-    let mut words = heads.map(|head| word(&header, head));
     let is_own = |(module, word): (&str, &str)| module == found.module && is_short(word, function);
-    words.all(|own| own.is_some_and(is_own))
+    let lines = found.text.lines();
+    let mut heads = lines.filter(|line| line.starts_with("static inline "));
+    heads.all(|head| word(found.header, head).is_some_and(is_own))
 }
 
 /// Returns whether a text is the function of a name that writes these values into `pi`, each the
 /// nearest float.
 pub(crate) fn are_values(found: &Found, name: &str, values: &[Exact]) -> bool {
-    let (module, count) = (found.module, values.len());
-    let (kind, end) = match module.ends_with("_f32") && found.text.contains("(float pi[") {
+    let is_single = found.module.ends_with("_f32") && found.text.contains("(float pi[");
+    let (kind, end) = match is_single {
         true => ("float", "F;"),
         false => ("double", ";"),
     };
-    let header = module.strip_suffix("_f32").unwrap_or(module);
-    let header = header.to_ascii_uppercase();
-    let own = found.name;
-    let head = format!("static inline void {own}({kind} pi[{header}_RESTRICT {count}])");
+    let (header, own, count) = (found.header, found.name, values.len());
+    let expected = format!("static inline void {own}({kind} pi[{header}_RESTRICT {count}])");
     let lines = found.text.lines().filter(|line| !line.is_empty());
     let lines: Vec<&str> = lines.collect();
-    let is_whole = lines.len() == count + 3
-        && lines[0] == head
-        && lines[1] == "{"
-        && lines[count + 2] == "}"
-        && are_of(found, name);
-    let mut all = values.iter().enumerate();
-    is_whole
-        && all.all(|(index, value)| {
-            let literal = between(lines[index + 2], &format!("pi[{index}] = "), end);
-            literal.is_some_and(|own| is_literal(own, value, kind == "float"))
+    let [head, "{", lines @ .., "}"] = lines.as_slice() else {
+        return false;
+    };
+    let mut all = lines.iter().zip(values).enumerate();
+    *head == expected
+        && lines.len() == count
+        && are_of(found, name)
+        && all.all(|(index, (line, value))| {
+            let literal = between(line, &format!("pi[{index}] = "), end);
+            literal.is_some_and(|own| is_literal(own, value, is_single))
         })
+}
+
+/// Returns the name of the function that has this head, and its place among [`KINDS`]: none of one
+/// state.
+fn symbol(head: &str) -> Option<(&str, Option<usize>)> {
+    let (before, list) = head.strip_prefix("static inline ")?.split_once('(')?;
+    let kind = KINDS.iter().position(|(start, _)| list.starts_with(start));
+    Some((before.rsplit(' ').next()?, kind))
 }
 
 /// Returns the module of the function that has this head, and its name there.
 fn word<'t>(header: &str, head: &'t str) -> Option<(&'t str, &'t str)> {
-    let (before, list) = head.strip_prefix("static inline ")?.split_once('(')?;
-    let ends = [("const int far, ", "_any"), ("const size_t n, ", "_batch")];
-    let end = ends.iter().find(|(start, _)| list.starts_with(start));
-    let end = end.map_or("", |(_, end)| end);
-    let named = before.rsplit(' ').next()?.strip_suffix(end)?;
+    let (symbol, kind) = symbol(head)?;
+    let named = symbol.strip_suffix(kind.map_or("", |kind| KINDS[kind].1))?;
     let (base, word) = named.split_at_checked(header.len())?;
-    let is_own = base.to_ascii_uppercase() == header && word.chars().all(is_letter);
+    let is_own = base.to_ascii_uppercase() == header && has_only(word, "");
     let word = word.strip_prefix('_').filter(|_| is_own)?;
     let word = word.strip_prefix("f32_").unwrap_or(word);
     Some((named.strip_suffix(word)?.trim_end_matches('_'), word))
@@ -194,68 +190,30 @@ fn word<'t>(header: &str, head: &'t str) -> Option<(&'t str, &'t str)> {
 fn is_short(word: &str, long: &str) -> bool {
     let long = long.replace("second_derivatives", "derivatives2");
     let mut letters = long.chars();
-    let mut own = word.replace("sec_deriv", "deriv2");
-    own = own.replace("second_derivatives", "derivatives2");
+    let own = word.replace("sec_deriv", "deriv2");
+    let own = own.replace("second_derivatives", "derivatives2");
     let has_all = own.chars().all(|own| letters.any(|c| c == own));
     has_all && word.len() > 1 && long.starts_with(&word[..1])
 }
 
-/// Returns the lines that are neither empty nor comments, with their numbers; or the first line that
-/// is not of the characters that these have.
-fn code(source: &str) -> Result<Vec<(usize, &str)>, (usize, &str)> {
-    let (mut all, mut is_comment) = (Vec::new(), false);
-    for (index, line) in source.split('\n').enumerate() {
-        let words = line.trim_matches(' ');
-        let was_comment = is_comment;
-        is_comment |= words.starts_with("/*");
-        // A line that goes on in the next, and three characters for one, mean something else.
-        let mut good = !line.contains(['\\', '\r']) && !line.contains("??");
-        if is_comment {
-            // The star that opens a comment does not end it.
-            let inside = words.strip_prefix("/*").filter(|_| !was_comment);
-            let before = words.len() - inside.unwrap_or(words).len();
-            let end = inside.unwrap_or(words).find("*/").map(|end| end + before);
-            good &= end.is_none_or(|end| end + 2 == words.len());
-            is_comment = end.is_none();
-        } else if !words.is_empty() {
-            let known = |c: char| is_letter(c) || " .,;()[]{}<>&!?:+-*/=".contains(c);
-            let is_plain = words.chars().all(known) && !words.contains("//");
-            good &= words.starts_with('#') || is_plain && !words.contains("/*");
-            all.push((index + 1, words));
-        }
-        if !good {
-            return Err((index + 1, line));
-        }
-    }
-    Ok(all)
-}
-
 /// Returns the names of a function of a header, by the heads that stand in its text.
-pub(crate) fn symbols(text: &str, is_single: bool) -> Symbols {
+pub(crate) fn symbols(found: &Found, is_single: bool) -> Symbols {
+    let text = &found.text;
     let mut symbols = Symbols::default();
-    let restrict = text.split_once("_RESTRICT ");
-    if let Some((before, _)) = restrict {
-        symbols.macros = before.rsplit('[').next().unwrap_or_default().to_owned();
-    }
-    for line in text.lines() {
-        if let Some((before, list)) = line
-            .strip_prefix("static inline ")
-            .and_then(|head| head.split_once('('))
-        {
-            let name = before.rsplit(' ').next().unwrap_or_default().to_owned();
-            let place = match list {
-                _ if list.starts_with("const int far, ") => &mut symbols.any,
-                _ if list.starts_with("const size_t n, ") => &mut symbols.batch,
-                _ => &mut symbols.single,
-            };
-            *place = name;
-        }
+    for (name, kind) in text.lines().filter_map(symbol) {
+        let place = match kind {
+            None => &mut symbols.single,
+            Some(0) => &mut symbols.any,
+            Some(_) => &mut symbols.batch,
+        };
+        *place = name.to_owned();
     }
     let structure = text.strip_prefix("typedef struct {");
     let structure = structure.and_then(|rest| rest.split_once("\n} ")?.1.split_once(';'));
     symbols.structure = structure.map(|(name, _)| name.to_owned());
-    let base = symbols.macros.to_ascii_lowercase();
-    let own = symbols.single.get(..base.len()).unwrap_or_default();
-    symbols.prefix = format!("{own}{}", if is_single { "_f32" } else { "" });
+    let own = symbols.single.get(..found.header.len());
+    let end = if is_single { "_f32" } else { "" };
+    symbols.prefix = own.unwrap_or_default().to_owned() + end;
+    symbols.macros = found.header.to_owned();
     symbols
 }

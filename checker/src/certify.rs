@@ -3,21 +3,20 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::aside;
+use crate::aside::Known;
 use crate::c99;
-use crate::claim::{Claim, Claimed, Constants, Tolerated};
+use crate::claim::{Claim, Claimed, Tolerated};
 use crate::compare::compare;
 use crate::cost::{cost, ranges};
 use crate::fault::Fault;
 use crate::file::{self, Found};
 use crate::identity::exact::Exact;
 use crate::identity::number::Draws;
-use crate::identity::program::{ARGUMENTS, argument};
-use crate::identity::program::{Operand, Program};
+use crate::identity::program::{ARGUMENTS, Operand, Program, argument};
 use crate::identity::setting::Setting;
-use crate::identity::table::{Function, functions, length};
+use crate::identity::table::{Field, Function, functions, length};
 use crate::identity::{Base, Statement, aligned, check, robot};
-use crate::read::{self, Argument, Head, Text, TextError, camel};
+use crate::read::{self, Argument, Head, Text, TextError};
 use crate::rounding::Ranges;
 use crate::tolerance::Subject;
 
@@ -71,7 +70,7 @@ pub fn certify(
     scene: Option<&str>,
     tolerance: Option<f64>,
 ) -> Result<Report, Fault> {
-    let document = Claim::read(claim)?;
+    let mut document = Claim::read(claim)?;
     if document.functions.iter().any(|own| own.planned.is_some()) {
         let why = "a plan for searches, and not what is claimed of a file";
         return Err(Fault::Claim(why.into()));
@@ -82,7 +81,7 @@ pub fn certify(
         let of_rows = |why: String| Fault::Claim(format!("`aligned`: {why}"));
         let rows = robot::read(rows).map_err(of_rows)?;
         aligned::check(&file, &rows).map_err(of_rows)?;
-        file = rows.in_scenes_of(&mut file);
+        file = rows.in_scenes_of(file);
     }
     let setting = file.setting(scene).map_err(of_robot)?;
     let is_c = source.starts_with(c99::HEAD);
@@ -93,8 +92,10 @@ pub fn certify(
     if items.len() > MOST_ITEMS {
         return Err(Fault::Text(1, format!("more than {MOST_ITEMS} items")));
     }
+    let in_scene = |own: &Claimed| own.scene.as_deref() == scene;
+    document.functions.retain(in_scene);
     let singles = items.iter().filter(|item| item.text.contains("[f32; "));
-    let mut whole = Whole {
+    let whole = Whole {
         seed: Draws::new(&[robot, claim, source]).text(),
         constants: document.constants()?,
         claim: &document,
@@ -107,8 +108,6 @@ pub fn certify(
         scene,
         is_c,
         singles: singles.map(|item| item.module).collect(),
-        found: HashMap::new(),
-        bounded: HashMap::new(),
     };
     // It computes no dynamics: it says where a box is.
     let is_box = |found: &Found| match is_c {
@@ -116,26 +115,23 @@ pub fn certify(
         false => found.name == "in_box",
     };
     let is_other = |found: &&Found| !is_beside(found) && !is_box(found);
-    let mut lines = Vec::new();
+    let line = |found: &Found, name: String, result| Line {
+        module: found.module.to_owned(),
+        name,
+        line: found.line,
+        result,
+    };
+    let (mut lines, mut seen) = (Vec::new(), Seen::new());
     for found in items.iter().filter(is_other) {
-        lines.push(Line {
-            module: found.module.to_owned(),
-            name: whole.name(found),
-            line: found.line,
-            result: whole.shown(found),
-        });
+        let result = whole.shown(found, &mut seen);
+        lines.push(line(found, whole.name(found), result));
     }
-    let beside = whole.beside();
+    let known = whole.known();
     for item in items.iter().filter(|item| is_beside(item)) {
-        if let Err(why) = whole.follows(item, &items, &beside) {
+        if let Err(why) = whole.follows(item, &items, &known) {
             let head = item.text.lines().next().unwrap_or("");
             let name = head.split([':', '{', '(']).next().unwrap_or("").trim();
-            lines.push(Line {
-                module: item.module.to_owned(),
-                name: name.to_owned(),
-                line: item.line,
-                result: Err(why),
-            });
+            lines.push(line(item, name.to_owned(), Err(why)));
         }
     }
     Ok(Report {
@@ -149,17 +145,17 @@ fn is_beside(found: &Found) -> bool {
     found.name.is_empty() || found.text.contains(" pi[")
 }
 
-/// Returns a fault of a text.
-fn fault(own: TextError) -> Fault {
-    Fault::Text(own.line, format!("not of the grammar: {}", own.reason))
-}
+/// The finding about each function of the claim, by its name, since both scalars have one program;
+/// and the times that it was bounded under a tolerance.
+type Seen<'w> = HashMap<&'w str, (Result<(), Fault>, usize)>;
 
 /// A file that is checked.
 struct Whole<'w> {
     /// The seed of all draws, from robot, claim and text.
     seed: String,
+    /// What is claimed in the scene.
     claim: &'w Claim,
-    constants: Constants,
+    constants: Vec<Exact>,
     setting: &'w Setting<'w>,
     ranges: Ranges,
     /// The tolerance of each joint, and the scale that it is relative to, if that is given.
@@ -168,10 +164,6 @@ struct Whole<'w> {
     is_c: bool,
     /// The modules in Rust whose scalar is f32.
     singles: HashSet<&'w str>,
-    /// The finding about each function of the claim: both scalars have one program.
-    found: HashMap<usize, Result<(), Fault>>,
-    /// The times that each was bounded under a tolerance.
-    bounded: HashMap<usize, usize>,
 }
 
 impl<'w> Whole<'w> {
@@ -183,28 +175,23 @@ impl<'w> Whole<'w> {
         }
     }
 
-    /// Returns the function that a text is claimed to be, with its place.
-    fn claimed(&self, found: &Found) -> Option<(usize, &'w Claimed)> {
-        let is_own = |own: &&Claimed| {
-            let named = match self.is_c {
-                true => {
-                    let place = usize::from(self.is_single(found));
-                    let symbol = own.symbols.get(place).map(String::as_str);
-                    symbol == Some(found.name) && c99::are_of(found, &own.function)
-                }
-                false => own.function == found.name,
-            };
-            named && own.scene.as_deref() == self.scene
+    /// Returns the function that a text is claimed to be.
+    fn claimed(&self, found: &Found) -> Option<&'w Claimed> {
+        let is_own = |own: &&Claimed| match self.is_c {
+            true => {
+                let symbol = own.symbols.get(usize::from(self.is_single(found)));
+                symbol.is_some_and(|own| own == found.name) && c99::are_of(found, &own.function)
+            }
+            false => own.function == found.name,
         };
-        let mut all = self.claim.functions.iter().enumerate();
-        all.find(|(_, own)| is_own(own))
+        self.claim.functions.iter().find(is_own)
     }
 
     /// Returns the name of a function; of a name in C that is short also the one that it is for, and
     /// of one that is of nobody's table what it returns.
     fn name(&self, found: &Found) -> String {
         let mut name = found.name.to_owned();
-        let Some((_, own)) = self.claimed(found) else {
+        let Some(own) = self.claimed(found) else {
             return name;
         };
         if !found.name.ends_with(&own.function) {
@@ -218,12 +205,11 @@ impl<'w> Whole<'w> {
     }
 
     /// Shows a function.
-    fn shown(&mut self, found: &Found) -> Result<Shown, Fault> {
-        let Some((place, claimed)) = self.claimed(found) else {
-            let scene = self
-                .scene
-                .map_or_else(String::new, |scene| format!(" in scene `{scene}`"));
-            let why = format!("nothing is claimed of `{}`{scene}", found.name);
+    fn shown(&self, found: &Found, seen: &mut Seen<'w>) -> Result<Shown, Fault> {
+        let Some(claimed) = self.claimed(found) else {
+            let scene = self.scene.map(|scene| format!(" in scene `{scene}`"));
+            let (name, scene) = (found.name, scene.unwrap_or_default());
+            let why = format!("nothing is claimed of `{name}`{scene}");
             return Err(Fault::Claim(why));
         };
         let refused = |why: String| Fault::Claim(format!("`{}`: {why}", claimed.function));
@@ -247,16 +233,14 @@ impl<'w> Whole<'w> {
         let why = |why: String| Fault::Text(found.line, why);
         compare(&read.program, &emitted, head.is_single).map_err(why)?;
         self.sines(&read, head.is_single).map_err(why)?;
-        if !self.found.contains_key(&place) {
-            let identity = self.identity(claimed, &function, exact, &base);
-            self.found.insert(place, identity);
-        }
-        self.found.get(&place).cloned().unwrap_or(Ok(()))?;
+        let identity = || self.identity(claimed, &function, exact, &base);
+        let entry = seen.entry(&claimed.function);
+        let (identity, times) = entry.or_insert_with(|| (identity(), 0));
+        identity.clone()?;
         let results = match self.tolerated(claimed).map_err(refused)? {
             None => Vec::new(),
             Some((own, tolerance)) => {
                 // A file has each in two scalars; it may not ask for the work again and again.
-                let times = self.bounded.entry(place).or_default();
                 *times += 1;
                 if *times > MOST_TIMES {
                     return Err(Fault::Work);
@@ -269,15 +253,14 @@ impl<'w> Whole<'w> {
                     read: &read,
                     is_single: head.is_single,
                     own,
-                    tolerance: &tolerance,
+                    tolerance,
                 };
                 subject.bounded()?
             }
         };
-        if let Some(place) = results.iter().position(|own| !own.is_shown()) {
-            let own = &results[place];
+        let mut all = results.iter().zip(1..);
+        if let Some((own, place)) = all.find(|(own, _)| !own.is_shown()) {
             let [bound, tolerated] = [own.bound(), own.tolerated].map(|size| size / own.unit());
-            let place = place + 1;
             let why = format!("result {place} is within {bound:.3e} of T, not {tolerated:.3e}");
             return Err(refused(why));
         }
@@ -287,19 +270,21 @@ impl<'w> Whole<'w> {
 
     /// Returns the claim under a tolerance, and the tolerance of each joint; none of a function that
     /// needs none.
-    fn tolerated(&self, own: &'w Claimed) -> Result<Option<(&'w Tolerated, Vec<f64>)>, String> {
-        match (&self.tolerance, &own.tolerated) {
-            (None, None) => Ok(None),
-            (Some(_), None) if own.function == LOAD => Ok(None),
-            (Some(_), None) => Err("its claim has no error bounds, and a tolerance is asked for".into()),
-            (None, Some(_)) => Err(
-                "its claim has error bounds, and no tolerance is asked for: name its scene, or give one".into(),
-            ),
-            (Some((each, to)), Some(own)) => match to.is_none_or(|to| to == own.relative_to) {
-                true => Ok(Some((own, each.clone()))),
-                false => Err("its T is not the one that the scene's errors are relative to".into()),
-            },
-        }
+    fn tolerated(&self, own: &'w Claimed) -> Result<Option<(&'w Tolerated, &[f64])>, String> {
+        let why = match (&self.tolerance, &own.tolerated) {
+            (None, None) => return Ok(None),
+            (Some(_), None) if own.function == LOAD => return Ok(None),
+            (Some(_), None) => "its claim has no error bounds, and a tolerance is asked for",
+            (None, Some(_)) => {
+                "its claim has error bounds, and no tolerance is asked for: name its scene, or \
+                 give one"
+            }
+            (Some((_, Some(to))), Some(own)) if *to != own.relative_to => {
+                "its T is not the one that the scene's errors are relative to"
+            }
+            (Some((each, _)), Some(own)) => return Ok(Some((own, each.as_slice()))),
+        };
+        Err(why.into())
     }
 
     /// Returns the head that a function must have.
@@ -317,21 +302,18 @@ impl<'w> Whole<'w> {
         };
         let arguments = function.arguments.iter().map(|&place| {
             let (name, axis) = ARGUMENTS[place];
-            let length = if name == "load" {
-                load
-            } else {
-                length(axis, sizes)
-            };
             Argument {
                 place,
                 name,
-                length,
+                length: match name {
+                    LOAD => load,
+                    _ => length(axis, sizes),
+                },
             }
         });
         let columns = base.combinations.len();
-        let fields = function.fields.iter();
-        let fields = fields.map(|own| (own.name.as_str(), own.lengths(self.setting, columns)));
-        let mut fields: Vec<(&str, Vec<usize>)> = fields.collect();
+        let shape = |own: &'h Field| (own.name.as_str(), own.lengths(self.setting, columns));
+        let mut fields: Vec<_> = function.fields.iter().map(shape).collect();
         if fields.is_empty() {
             fields.push((LOAD, vec![load]));
         }
@@ -339,7 +321,6 @@ impl<'w> Whole<'w> {
             name: &claimed.function,
             is_single,
             arguments: arguments.collect(),
-            structure: None,
             fields,
             joints: sizes[0],
         })
@@ -347,33 +328,28 @@ impl<'w> Whole<'w> {
 
     /// Reads the text of a function.
     fn read(&self, head: &Head, found: &Found) -> Result<read::Function, Fault> {
-        let structure = camel(head.name);
-        let head = &Head {
-            structure: (head.fields.len() > 1).then_some(structure.as_str()),
-            ..head.clone()
-        };
         let text = &found.text;
         let read = match self.is_c {
             true => Text::c(text).and_then(|words| {
-                let symbols = c99::symbols(text, head.is_single);
-                words.c_function(head, &symbols, !symbols.batch.is_empty())
+                let symbols = c99::symbols(found, head.is_single);
+                words.function(head, Some(&symbols), !symbols.batch.is_empty())
             }),
-            false => Text::rust(text).and_then(|words| words.rust_function(head, false)),
+            false => Text::rust(text).and_then(|words| words.function(head, None, false)),
         };
-        match read.map_err(fault)? {
-            (read, true) => Ok(read),
-            _ => Err(Fault::Text(1, "more than the function stands there".into())),
+        match read {
+            Ok((read, true)) => Ok(read),
+            Ok(_) => Err(Fault::Text(1, "more than the function stands there".into())),
+            Err(TextError { line, reason }) => {
+                Err(Fault::Text(line, format!("not of the grammar: {reason}")))
+            }
         }
     }
 
     /// Checks that sines are of joints that turn, and roots of the widths of friction.
     fn sines(&self, read: &read::Function, is_single: bool) -> Result<(), String> {
-        if let Some(own) = read
-            .sines
-            .iter()
-            .find(|own| !self.setting.turns_by(own.joint))
-        {
-            return Err(format!("the sine of joint {}, which slides", own.joint + 1));
+        let mut joints = read.sines.iter().map(|own| own.joint);
+        if let Some(joint) = joints.find(|joint| !self.setting.turns_by(*joint)) {
+            return Err(format!("the sine of joint {}, which slides", joint + 1));
         }
         for &(joint, literal) in &read.speeds {
             let square = self.setting.square_of_width(joint);
@@ -386,8 +362,7 @@ impl<'w> Whole<'w> {
 
     /// Returns the program that computes the load of a payload, if it is claimed.
     fn load(&self) -> Result<Option<Program<Exact>>, Fault> {
-        let mut all = self.claim.functions.iter();
-        let own = all.find(|own| own.function == LOAD && own.scene.as_deref() == self.scene);
+        let own = (self.claim.functions.iter()).find(|own| own.function == LOAD);
         own.map(|own| own.program(&self.constants)).transpose()
     }
 
@@ -417,18 +392,21 @@ impl<'w> Whole<'w> {
 
     /// Returns what items beside functions follow from: the values of base parameters, and the
     /// structs of results in each scalar. Of a function whose claim is none, nothing follows.
-    fn beside(&self) -> Beside {
-        let mut all = Beside::default();
-        let claims = self.claim.functions.iter();
-        for own in claims.filter(|own| own.scene.as_deref() == self.scene) {
-            let (Ok(base), Ok(function)) = (
-                own.base(&self.constants, self.setting.links()),
-                function(own),
-            ) else {
+    fn known(&self) -> Known<'_> {
+        let mut all = Known {
+            setting: self.setting,
+            ranges: &self.ranges,
+            values: Vec::new(),
+            structs: Vec::new(),
+        };
+        for own in &self.claim.functions {
+            let base = own.base(&self.constants, self.setting.links());
+            let (Ok(base), Ok(function)) = (base, function(own)) else {
                 continue;
             };
             let heads = [false, true].map(|is_single| self.head(own, &function, &base, is_single));
-            all.structs.extend(heads.iter().flatten().map(structure));
+            let structs = heads.iter().flatten().filter_map(structure);
+            all.structs.extend(structs);
             let name = function.parameters();
             all.values.extend(name.map(|name| (name, base.values)));
         }
@@ -436,9 +414,9 @@ impl<'w> Whole<'w> {
     }
 
     /// Checks what stands beside functions.
-    fn follows(&self, item: &Found, items: &[Found], beside: &Beside) -> Result<(), Fault> {
+    fn follows(&self, item: &Found, items: &[Found], known: &Known) -> Result<(), Fault> {
         if self.is_c {
-            let mut values = beside.values.iter();
+            let mut values = known.values.iter();
             let are =
                 values.any(|(name, own)| c99::are_values(item, &name.to_ascii_lowercase(), own));
             let why = "its numbers are not the base parameters that are claimed";
@@ -448,21 +426,8 @@ impl<'w> Whole<'w> {
         }
         let own = |other: &&Found| other.module == item.module && !other.name.is_empty();
         let functions: Vec<&Found> = items.iter().filter(own).collect();
-        let known = aside::Known {
-            setting: self.setting,
-            ranges: &self.ranges,
-            values: &beside.values,
-            structs: &beside.structs,
-        };
         known.follows(item, &functions)
     }
-}
-
-/// The values and structs that items beside functions follow from.
-#[derive(Default)]
-struct Beside {
-    values: Vec<(&'static str, Vec<Exact>)>,
-    structs: Vec<Vec<String>>,
 }
 
 /// The function that computes the load of a payload, and its result.
@@ -486,17 +451,11 @@ fn function(claimed: &Claimed) -> Result<Function, String> {
 
 /// Returns the lines of the struct of a function's results in Rust; none if one number or array is
 /// returned.
-fn structure(head: &Head) -> Vec<String> {
-    if head.fields.len() < 2 {
-        return Vec::new();
-    }
-    let scalar = if head.is_single { "f32" } else { "f64" };
-    let fields = head.fields.iter().map(|(name, shape)| {
-        let lengths = shape.iter().rev();
-        let of = lengths.fold(scalar.to_owned(), |of, length| format!("[{of}; {length}]"));
-        format!("pub {name}: {of},")
-    });
-    let first = format!("pub struct {} {{", camel(head.name));
+fn structure(head: &Head) -> Option<Vec<String>> {
+    let name = head.structure()?;
+    let fields = head.fields.iter();
+    let fields = fields.map(|(name, shape)| format!("pub {name}: {},", head.kind(shape)));
+    let first = format!("pub struct {name} {{");
     let lines = [first].into_iter().chain(fields);
-    lines.chain(["}".to_owned()]).collect()
+    Some(lines.chain(["}".to_owned()]).collect())
 }

@@ -19,9 +19,8 @@ use serde::{Deserialize, Serialize};
 use crate::fault::Fault;
 #[cfg(feature = "certify")]
 use crate::identity::Base;
-use crate::identity::exact::Exact;
 #[cfg(feature = "certify")]
-use crate::identity::exact::Sines;
+use crate::identity::exact::{Exact, Sines};
 use crate::identity::program::{Operand, Program, Step, argument};
 
 /// The version that is read.
@@ -38,7 +37,7 @@ const MOST_ANGLES: usize = 1 << 10;
 const MOST_DEGREES: usize = 1 << 24;
 
 /// The functions of a robot, each with what is claimed of it.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Claim {
     /// The version of the document.
@@ -151,9 +150,6 @@ pub struct Tolerated {
     pub f32: Vec<f64>,
 }
 
-/// The constants of a claim.
-pub struct Constants<C = Exact>(pub Vec<C>);
-
 impl Claim {
     /// Reads a document.
     ///
@@ -164,15 +160,12 @@ impl Claim {
         if source.len() > MOST_BYTES {
             return refuse(format!("more than {MOST_BYTES} bytes"));
         }
-        let claim: Claim = match serde_json::from_str(source) {
-            Ok(claim) => claim,
-            Err(error) => return refuse(error.to_string()),
-        };
+        let claim: Result<Claim, _> = serde_json::from_str(source);
+        let claim = claim.or_else(|error| refuse(error.to_string()))?;
         if claim.claim != VERSION {
-            return refuse(format!(
-                "version {} is not known: version {VERSION} is read",
-                claim.claim
-            ));
+            let own = claim.claim;
+            let why = format!("version {own} is not known: version {VERSION} is read");
+            return refuse(why);
         }
         if claim.constants.len() > MOST {
             return refuse(format!("more than {MOST} constants"));
@@ -201,7 +194,7 @@ impl Claim {
     /// # Errors
     /// The first that is none.
     #[cfg(feature = "certify")]
-    pub fn constants(&self) -> Result<Constants, Fault> {
+    pub fn constants(&self) -> Result<Vec<Exact>, Fault> {
         let read = self.constants.iter().map(|text| {
             let why = || Fault::Claim(format!("`{text:.40}` is no constant"));
             Exact::read(text).ok_or_else(why)
@@ -215,15 +208,13 @@ impl Claim {
                 return Err(Fault::Claim(why));
             }
         }
-        Ok(Constants(all))
+        Ok(all)
     }
 }
 
-impl<C> Constants<C> {
-    /// Returns the constant of a word: `#3`.
-    fn of(&self, word: &str) -> Option<&C> {
-        self.0.get(whole(word.strip_prefix('#')?)?)
-    }
+/// Returns the constant of a word: `#3`.
+fn constant<'c, C>(constants: &'c [C], word: &str) -> Option<&'c C> {
+    constants.get(whole(word.strip_prefix('#')?)?)
 }
 
 impl Claimed {
@@ -231,33 +222,33 @@ impl Claimed {
     ///
     /// # Errors
     /// The first word that is not of one.
-    pub fn program<C: Clone>(&self, constants: &Constants<C>) -> Result<Program<C>, Fault> {
-        self.read(&self.steps, &self.returns, constants)
+    pub fn program<C: Clone>(&self, constants: &[C]) -> Result<Program<C>, Fault> {
+        self.read([&self.steps, &self.returns], constants)
     }
 
     /// Returns the exact program, if it is another one.
     ///
     /// # Errors
     /// The first word that is not of one.
-    pub fn exact<C: Clone>(&self, constants: &Constants<C>) -> Result<Option<Program<C>>, Fault> {
-        let own = self
-            .tolerated
-            .as_ref()
-            .filter(|own| !own.returns.is_empty());
-        own.map(|own| self.read(&own.steps, &own.returns, constants))
-            .transpose()
+    pub fn exact<C: Clone>(&self, constants: &[C]) -> Result<Option<Program<C>>, Fault> {
+        let own = self.tolerated.as_ref();
+        let own = own.filter(|own| !own.returns.is_empty());
+        let read = |own: &Tolerated| self.read([&own.steps, &own.returns], constants);
+        own.map(read).transpose()
     }
 
-    fn read<C: Clone>(
-        &self,
-        words: &str,
-        returns: &str,
-        constants: &Constants<C>,
-    ) -> Result<Program<C>, Fault> {
+    fn read<C: Clone>(&self, code: [&str; 2], constants: &[C]) -> Result<Program<C>, Fault> {
+        let [words, returns] = code.map(str::split_ascii_whitespace);
         let mut steps: Vec<Step<C>> = Vec::new();
-        for word in words.split_ascii_whitespace() {
-            let step = self.step(word, steps.len(), constants);
-            steps.push(step.ok_or_else(|| self.refused(word))?);
+        for word in words {
+            let operand = |word| self.operand(word, steps.len(), constants);
+            let step = || {
+                let (left, right) = word.split_once(['+', '-', '*', '/', '×'])?;
+                let operation = word[left.len()..].chars().next()?;
+                Some((operation, [operand(left)?, operand(right)?]))
+            };
+            let step = step().ok_or_else(|| self.refused(word))?;
+            steps.push(step);
             if steps.len() > MOST {
                 return Err(self.refused("more than 131072 operations"));
             }
@@ -266,7 +257,6 @@ impl Claimed {
         if steps.len() * quotients > MOST_DEGREES {
             return Err(self.refused("more quotients than are looked at"));
         }
-        let returns = returns.split_ascii_whitespace();
         let outputs = returns.map(|word| {
             let bare = word.strip_prefix('-').unwrap_or(word);
             let operand = self.operand(bare, steps.len(), constants);
@@ -282,26 +272,9 @@ impl Claimed {
         Fault::Claim(format!("`{own}`: `{word:.40}` is not of a program"))
     }
 
-    /// Reads an operation before which so many stand.
-    fn step<C: Clone>(
-        &self,
-        word: &str,
-        count: usize,
-        constants: &Constants<C>,
-    ) -> Option<Step<C>> {
-        let (place, operation) = word.char_indices().find(|(_, c)| "+-*/×".contains(*c))?;
-        let (left, right) = (&word[..place], &word[place + operation.len_utf8()..]);
-        let read = |word| self.operand(word, count, constants);
-        Some((operation, [read(left)?, read(right)?]))
-    }
-
-    fn operand<C: Clone>(
-        &self,
-        word: &str,
-        count: usize,
-        constants: &Constants<C>,
-    ) -> Option<Operand<C>> {
-        if let Some(constant) = constants.of(word) {
+    /// Reads an operand before which so many operations stand.
+    fn operand<C: Clone>(&self, word: &str, count: usize, constants: &[C]) -> Option<Operand<C>> {
+        if let Some(constant) = constant(constants, word) {
             return Some(Operand::Constant(constant.clone()));
         }
         if let Some((name, index)) = word.strip_suffix(']').and_then(|own| own.split_once('[')) {
@@ -313,7 +286,7 @@ impl Claimed {
         let place = whole(number)?.checked_sub(1)?;
         match letter {
             "t" if place < count => Some(Operand::Step(place)),
-            "s" | "c" => Some(Operand::Sine(vec![(place, false)], letter == "s")),
+            "s" | "c" => Some(Operand::Sine(place, letter == "s")),
             "r" => Some(Operand::Speed(place)),
             _ => None,
         }
@@ -324,10 +297,10 @@ impl Claimed {
     /// # Errors
     /// The first word that is no parameter, or no value.
     #[cfg(feature = "certify")]
-    pub fn base(&self, constants: &Constants, links: usize) -> Result<Base, Fault> {
+    pub fn base(&self, constants: &[Exact], links: usize) -> Result<Base, Fault> {
         let term = |word: &str| {
             let (factor, name) = match word.split_once('*') {
-                Some((factor, name)) => (constants.of(factor)?.clone(), name),
+                Some((factor, name)) => (constant(constants, factor)?.clone(), name),
                 None => (Exact::read("1")?, word),
             };
             Some((parameter(name, links)?, factor))
@@ -335,22 +308,14 @@ impl Claimed {
         let read = |word: &str| term(word).ok_or_else(|| self.refused(word));
         let combination = |text: &String| text.split_ascii_whitespace().map(read).collect();
         let value = |word: &str| {
-            constants
-                .of(word)
-                .cloned()
-                .ok_or_else(|| self.refused(word))
+            let own = constant(constants, word).cloned();
+            own.ok_or_else(|| self.refused(word))
         };
+        let combinations = self.base.iter().map(combination);
+        let values = self.values.split_ascii_whitespace().map(value);
         Ok(Base {
-            combinations: self
-                .base
-                .iter()
-                .map(combination)
-                .collect::<Result<_, _>>()?,
-            values: self
-                .values
-                .split_ascii_whitespace()
-                .map(value)
-                .collect::<Result<_, _>>()?,
+            combinations: combinations.collect::<Result<_, _>>()?,
+            values: values.collect::<Result<_, _>>()?,
         })
     }
 }

@@ -17,24 +17,19 @@ pub fn compare(text: &Program<f64>, exact: &Program<Exact>, is_single: bool) -> 
         let (own, other) = (counts(own[0], own[1]), counts(other[0], other[1]));
         return Err(format!("{own}, not {other} as claimed"));
     }
-    for (index, (own, other)) in text.steps.iter().zip(&exact.steps).enumerate() {
-        let mut pairs = own.1.iter().zip(&other.1);
-        if own.0 != other.0 || !pairs.all(|(own, other)| is_same(own, other, is_single)) {
-            return Err(format!(
-                "operation {} is not the one that is claimed",
-                index + 1
-            ));
-        }
-    }
-    for (index, (own, other)) in text.outputs.iter().zip(&exact.outputs).enumerate() {
-        if own.0 != other.0 || !is_same(&own.1, &other.1, is_single) {
-            return Err(format!(
-                "result {} is not the one that is claimed",
-                index + 1
-            ));
-        }
-    }
-    Ok(())
+    let same = |(own, other): (&Operand<f64>, &Operand<Exact>)| is_same(own, other, is_single);
+    let mut steps = text.steps.iter().zip(&exact.steps);
+    let step =
+        steps.position(|(own, other)| own.0 != other.0 || !own.1.iter().zip(&other.1).all(same));
+    let mut results = text.outputs.iter().zip(&exact.outputs);
+    let result = results.position(|(own, other)| own.0 != other.0 || !same((&own.1, &other.1)));
+    let (what, index) = match (step, result) {
+        (Some(index), _) => ("operation", index),
+        (None, Some(index)) => ("result", index),
+        (None, None) => return Ok(()),
+    };
+    let number = index + 1;
+    Err(format!("{what} {number} is not the one that is claimed"))
 }
 
 /// Returns true for the text of a literal that is the float nearest to a value.
@@ -44,15 +39,13 @@ pub(crate) fn is_literal(text: &str, value: &Exact, is_single: bool) -> bool {
 
 fn is_same(own: &Operand<f64>, other: &Operand<Exact>, is_single: bool) -> bool {
     match (own, other) {
-        (Operand::Constant(literal), Operand::Constant(constant)) => {
-            constant.is_nearest(*literal, is_single)
-        }
-        (Operand::Step(own), Operand::Step(other)) => own == other,
+        (Operand::Constant(own), Operand::Constant(other)) => other.is_nearest(*own, is_single),
         (Operand::Entry(own, index), Operand::Entry(other, at)) => (own, index) == (other, at),
         (Operand::Sine(own, is_sine), Operand::Sine(other, is_other)) => {
             (own, is_sine) == (other, is_other)
         }
-        (Operand::Speed(own), Operand::Speed(other)) => own == other,
+        (Operand::Step(own), Operand::Step(other))
+        | (Operand::Speed(own), Operand::Speed(other)) => own == other,
         _ => false,
     }
 }

@@ -47,13 +47,13 @@ pub(crate) fn cost(read: &Function, head: &Head, ranges: &Ranges, texts: &[&str]
     }
     let rounding = Rounding::new(read, head.is_single, &ranges);
     let mut draws = Draws::new(texts);
-    let over_box = rounding.bounds(&ranges);
+    let over_box = rounding.bounds(&ranges, None);
     let is_bounded = over_box.iter().all(|own| own.error.is_finite());
     let states = if is_bounded { LOOKED_AT } else { STATES };
     let (mut sizes, mut errors) = (vec![0.0; over_box.len()], vec![0.0; over_box.len()]);
     for _ in 0..states {
         let state = drawn(&ranges, &mut draws, head.is_single);
-        for (k, own) in rounding.bounds(&state).iter().enumerate() {
+        for (k, own) in rounding.bounds(&state, None).iter().enumerate() {
             sizes[k] = worse(sizes[k], own.exact.magnitude());
             errors[k] = worse(errors[k], own.error);
         }
@@ -62,14 +62,12 @@ pub(crate) fn cost(read: &Function, head: &Head, ranges: &Ranges, texts: &[&str]
         errors = over_box.iter().map(|own: &Value| own.error).collect();
     }
     let sizes = measures(&sizes, head.fields.iter().map(|own| own.1.as_slice()));
-    let relative = errors
-        .iter()
-        .zip(&sizes)
-        .map(|(error, size)| match *error == 0.0 {
-            true => 0.0,
-            false => error / size,
-        });
-    let (unit, rounding) = (rounding.unit(), relative.fold(0.0, worse));
+    let relative = |(error, size): (&f64, &f64)| match *error == 0.0 {
+        true => 0.0,
+        false => error / size,
+    };
+    let unit = rounding.scalar.unit;
+    let rounding = errors.iter().zip(&sizes).map(relative).fold(0.0, worse);
     let is_polynomial = |own: &read::Sines| matches!(own.source, Source::Polynomial(_));
     Shown {
         rounding,
@@ -111,12 +109,7 @@ fn drawn(ranges: &Ranges, draws: &mut Draws, is_single: bool) -> Ranges {
     let lists = ranges.iter().map(|list| {
         let points = list.iter().map(|[low, high]| {
             let own = low + (high - low) * draws.share();
-            let own = if is_single {
-                f64::from(own as f32)
-            } else {
-                own
-            };
-            [own; 2]
+            [if is_single { (own as f32).into() } else { own }; 2]
         });
         points.collect()
     });

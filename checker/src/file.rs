@@ -7,6 +7,7 @@
 
 use crate::claim::whole;
 use crate::fault::Fault;
+use crate::read::{has_only, is_letter};
 
 /// The longest file.
 pub const MOST_BYTES: usize = 32 << 20;
@@ -16,6 +17,8 @@ pub const MOST_BYTES: usize = 32 << 20;
 pub struct Found<'t> {
     /// The module that it is in; empty where the file is the module.
     pub module: &'t str,
+    /// What the macros of a header in C begin with.
+    pub header: &'t str,
     /// Its name; empty of what is no function.
     pub name: &'t str,
     /// The line of its head, from one.
@@ -53,8 +56,8 @@ pub(crate) fn item<'t>(
     mut is_last: impl FnMut(&'t str) -> bool,
 ) -> Option<Found<'t>> {
     let (mut found, mut depth, mut ends) = (Found::default(), 0usize, 0);
-    let mut head = lines.first()?.1;
-    found.line = lines.first()?.0;
+    let (first, mut head) = *lines.first()?;
+    found.line = first;
     loop {
         let (&(number, line), behind) = lines.split_first()?;
         let count = |brackets: [char; 3]| line.matches(brackets).count();
@@ -68,10 +71,8 @@ pub(crate) fn item<'t>(
             if is_last(head) {
                 return Some(found);
             }
-            head = lines
-                .iter()
-                .find(|(_, line)| !line.starts_with(['#', '_']))?
-                .1;
+            let mut behind = lines.iter().map(|own| own.1);
+            head = behind.find(|line| !line.starts_with(['#', '_']))?;
         }
     }
 }
@@ -81,10 +82,8 @@ pub(crate) fn item<'t>(
 /// # Errors
 /// The first line that the generator would not print.
 pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
-    let numbered = source.split('\n').enumerate();
-    let numbered = numbered.map(|(index, line)| (index + 1, line));
-    let lines: Vec<(usize, &str)> = numbered.filter(|line| !is_plain(*line)).collect();
-    let lines = without_types(lines);
+    let lines = (1..).zip(source.split('\n'));
+    let lines = without_types(lines.filter(|line| !is_plain(*line)).collect());
     let is_known =
         |line: &str| is_code(line.trim_start_matches(' ')) || module_head(line).is_some();
     if let Some(line) = lines.iter().find(|(_, line)| !is_known(line)) {
@@ -137,43 +136,40 @@ Payload([mass, x, y, z, xx, yy, zz, xy, yz, xz])
 fn without_types(lines: Vec<(usize, &str)>) -> Vec<(usize, &str)> {
     let (mut left, mut rest) = (Vec::new(), lines.as_slice());
     while let Some(&first) = rest.first() {
-        let head = first.1.trim_start_matches(' ');
-        let tuple = between(head, "pub struct ", "]);").and_then(|own| own.split_once("(pub ["));
-        let kind = tuple.and_then(|(name, kind)| Some((name, kind.split_once("; ")?)));
-        let known = match kind {
-            Some((name, (real, count)))
-                if ["Gravity", "Load", "Payload"].contains(&name)
-                    && ["f32", "f64"].contains(&real)
-                    && whole(count).is_some() =>
-            {
-                let text = TYPE.replace("NAME", name).replace("REAL", real);
-                text.replace("COUNT", count)
-            }
-            _ if head == "impl Payload {" => {
-                let is_single = rest.get(2).is_some_and(|(_, line)| line.contains(": f32"));
-                NEW.replace("REAL", if is_single { "f32" } else { "f64" })
-            }
-            _ => String::new(),
-        };
-        let mut own = rest.iter().map(|(_, line)| line.trim_start_matches(' '));
-        let is_own = known.lines().all(|line| own.next() == Some(line));
-        let count = known.lines().count();
-        if count == 0 || !is_own {
+        let count = argument_type(rest);
+        if count.is_none() {
             left.push(first);
         }
-        rest = &rest[if is_own { count.max(1) } else { 1 }..];
+        rest = &rest[count.unwrap_or(1)..];
     }
     left
+}
+
+/// Returns how many lines the type of an argument has that stands there; none if there is none, or
+/// another one than is printed.
+fn argument_type(lines: Lines) -> Option<usize> {
+    let head = lines.first()?.1.trim_start_matches(' ');
+    let text = if head == "impl Payload {" {
+        let is_single = lines.get(2)?.1.contains(": f32");
+        NEW.replace("REAL", if is_single { "f32" } else { "f64" })
+    } else {
+        let (name, kind) = between(head, "pub struct ", "]);")?.split_once("(pub [")?;
+        let (real, count) = kind.split_once("; ")?;
+        let is_known = ["Gravity", "Load", "Payload"].contains(&name)
+            && ["f32", "f64"].contains(&real)
+            && whole(count).is_some();
+        is_known.then_some(())?;
+        let text = TYPE.replace("NAME", name).replace("REAL", real);
+        text.replace("COUNT", count)
+    };
+    let mut own = lines.iter().map(|own| own.1.trim_start_matches(' '));
+    let is_printed = text.lines().all(|line| own.next() == Some(line));
+    is_printed.then(|| text.lines().count())
 }
 
 /// Returns a line that the generator would not print.
 pub(crate) fn fault((number, line): (usize, &str)) -> Fault {
     Fault::Text(number, format!("nothing that is generated: `{line}`"))
-}
-
-/// Returns whether a character is one of names.
-pub(crate) fn is_letter(c: char) -> bool {
-    c.is_ascii_alphanumeric() || c == '_'
 }
 
 /// Returns what is in a text between its beginning and its end.
@@ -199,51 +195,42 @@ fn is_plain((number, line): (usize, &str)) -> bool {
 }
 
 fn is_attribute(words: &str) -> bool {
-    let is_list = |head: &&str| {
-        let list = between(words, head, ")]");
-        list.is_some_and(|list| list.chars().all(|c| is_letter(c) || ":, ".contains(c)))
-    };
-    ATTRIBUTES.contains(&words) || LISTS.iter().any(is_list)
+    let mut lists = LISTS.iter().filter_map(|head| between(words, head, ")]"));
+    ATTRIBUTES.contains(&words) || lists.any(|list| has_only(list, ":, "))
 }
 
 /// Returns the name of a module that begins.
 fn module_head(line: &str) -> Option<&str> {
-    let name = between(line, "pub mod ", " {")?;
-    name.chars().all(is_letter).then_some(name)
+    between(line, "pub mod ", " {").filter(|name| has_only(name, ""))
 }
 
 /// Returns whether a line begins an item of a known kind. Types begin with a capital letter: in
 /// Rust a type's name may stand where a crate's stands.
 fn is_item(words: &str) -> bool {
-    let word = |rest: &str| rest.starts_with(|c: char| c.is_ascii_uppercase());
-    let named = |head: &str| words.strip_prefix(head).is_some_and(word);
-    let is_type = ["pub const ", "pub struct ", "pub type "]
-        .into_iter()
-        .any(named);
-    let of = words
-        .strip_prefix("impl ")
-        .and_then(|rest| rest.split_once(" for "));
-    let is_function = words
-        .strip_prefix("pub fn ")
-        .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_lowercase()));
-    is_type || is_function || of.is_some_and(|(_, name)| word(name))
+    let is_type = |name: &str| name.starts_with(|c: char| c.is_ascii_uppercase());
+    let is_function = |name: &str| name.starts_with(|c: char| c.is_ascii_lowercase());
+    let mut kinds = ["pub const ", "pub struct ", "pub type "].iter();
+    let implemented = words.strip_prefix("impl ");
+    let implemented = implemented.and_then(|rest| rest.split_once(" for "));
+    kinds.any(|kind| words.strip_prefix(kind).is_some_and(is_type))
+        || words.strip_prefix("pub fn ").is_some_and(is_function)
+        || implemented.is_some_and(|(_, name)| is_type(name))
 }
 
 /// Returns whether a line has no quotes, comments, macros or attributes, at most one item, and
 /// that at its beginning.
 fn is_code(words: &str) -> bool {
-    let known = |c: char| is_letter(c) || " .,;:()[]{}<>&+-*/=".contains(c);
-    if !words.chars().all(known) || words.contains("//") || words.contains("/*") {
-        return false;
-    }
     let bare = words.strip_prefix("pub ").unwrap_or(words);
     let first = bare.split(' ').next().unwrap_or("");
     let behind = &bare[first.len()..];
     // The one parameter that functions have.
     let behind = behind.replacen("<const L: usize>", "", 1);
-    let all = |text: &str, listed: &[&str]| {
+    let none = |text: &str, listed: &[&str]| {
         let mut words = text.split(|c: char| !is_letter(c));
         !words.any(|word| listed.contains(&word))
     };
-    all(words, &FORBIDDEN) && all(&behind, &ITEMS) && all(&behind, &["pub"])
+    has_only(words, " .,;:()[]{}<>&+-*/=")
+        && none(words, &FORBIDDEN)
+        && none(&behind, &ITEMS)
+        && none(&behind, &["pub"])
 }

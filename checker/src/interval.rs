@@ -45,13 +45,30 @@ impl Interval {
         self.low.abs().max(self.high.abs())
     }
 
+    /// Returns the least magnitude in it.
+    pub(crate) fn least(self) -> f64 {
+        match self.low <= 0.0 && self.high >= 0.0 {
+            true => 0.0,
+            false => self.low.abs().min(self.high.abs()),
+        }
+    }
+
+    /// Returns the sine, or else the cosine, of its angles: of a point its own.
+    pub(crate) fn sine(self, is_sine: bool) -> Interval {
+        if self.low == self.high && self.magnitude() < FARTHEST {
+            let (sin, cos) = sin_cos(self.low);
+            return Interval::around(if is_sine { sin } else { cos }, SINE_ERROR);
+        }
+        Interval::new(-1.0, 1.0)
+    }
+
     /// Returns the numbers of it that are at most so far from zero: all are known to be.
     pub(crate) fn within(self, most: f64) -> Interval {
         Interval::new(self.low.max(-most), self.high.min(most))
     }
 
     /// Returns one step outward: an operation on the ends was rounded to nearest.
-    fn outward(low: f64, high: f64) -> Interval {
+    pub(crate) fn outward(low: f64, high: f64) -> Interval {
         Interval::new(low.next_down(), high.next_up())
     }
 }

@@ -17,6 +17,16 @@ pub(crate) struct Level {
     moves: Vec<(u32, u32)>,
 }
 
+/// Returns the distinct ones in order, and the place of each among them.
+fn distinct<T: Clone + Ord>(each: Vec<T>) -> (Vec<T>, Vec<u32>) {
+    let mut all = each.clone();
+    all.sort_unstable();
+    all.dedup();
+    let place = |own: &T| all.binary_search(own).unwrap_or_default() as u32;
+    let places = each.iter().map(place).collect();
+    (all, places)
+}
+
 /// F, and the coefficients that are left at each level.
 pub(crate) struct Search {
     pub(crate) levels: Vec<Level>,
@@ -77,24 +87,12 @@ impl Search {
                 let taken = key(Variable::Sin, joint) * sin + key(Variable::Cos, joint) * cos;
                 (group, angles - taken)
             };
-            let mut next: Vec<(Key, Key)> = keys.iter().map(without).collect();
-            let targets = next.clone();
-            next.sort_unstable();
-            next.dedup();
-            let mut powers: Vec<[u32; 2]> = keys.iter().map(|key| power(key.1, joint)).collect();
-            let each = powers.clone();
-            powers.sort_unstable();
-            powers.dedup();
-            let place = |found: Result<usize, usize>| found.unwrap_or_default() as u32;
-            let moves = each.iter().zip(&targets);
-            let moves = moves.map(|(own, target)| {
-                let (power, target) = (powers.binary_search(own), next.binary_search(target));
-                (place(power), place(target))
-            });
+            let (next, targets) = distinct(keys.iter().map(without).collect());
+            let (powers, each) = distinct(keys.iter().map(|key| power(key.1, joint)).collect());
             search.levels.push(Level {
                 degree: f64::from(degree(joint, &keys)),
                 range: ring.angles[joint],
-                moves: moves.collect(),
+                moves: each.into_iter().zip(targets).collect(),
                 powers,
             });
             search.values.push(vec![0.0; next.len()]);
@@ -146,12 +144,12 @@ impl Search {
     /// Returns a bound of the second derivative of F by a level's angle, which is not put in.
     pub(crate) fn bend(&self, level: usize) -> f64 {
         let Level { powers, moves, .. } = &self.levels[level];
-        let factors =
-            |&(power, _): &(u32, u32)| f64::from(powers[power as usize].iter().sum::<u32>());
         let each = self.values[level].iter().zip(moves);
-        each.map(|(value, of)| factors(of) * value.abs())
-            .sum::<f64>()
-            * (1.0 + 1e-9)
+        let sizes = each.map(|(value, &(power, _))| {
+            let factors: u32 = powers[power as usize].iter().sum();
+            f64::from(factors) * value.abs()
+        });
+        sizes.sum::<f64>() * (1.0 + 1e-9)
     }
 }
 

@@ -69,21 +69,14 @@ pub fn exponent(key: Key, variable: Variable, joint: usize) -> u32 {
     (key >> (joint * WIDTH + start)) as u32 & ((1 << bits) - 1)
 }
 
-/// Returns these bits of every joint.
-const fn each(bits: Key) -> Key {
-    let (mut all, mut joint) = (0, 0);
-    while joint < MAX_JOINTS {
-        all |= bits << (joint * WIDTH);
-        joint += 1;
-    }
-    all
-}
+/// The first bit of every joint: a geometric series.
+const EACH: Key = ((1 << (WIDTH * MAX_JOINTS)) - 1) / ((1 << WIDTH) - 1);
 /// Bits that are only set by a power that there is no room for.
-const GUARD: Key = each(1 << 5 | 1 << 8 | 1 << 10);
-const ERRORS: Key = each(3 << 11);
-const SINE_SQUARED: Key = each(1 << 1);
+const GUARD: Key = EACH * (1 << 5 | 1 << 8 | 1 << 10);
+const ERRORS: Key = EACH * (3 << 11);
+const SINE_SQUARED: Key = EACH * (1 << 1);
 /// The exponents that angles have, sin and cos.
-pub const ANGLES: Key = each((1 << 6) - 1);
+pub const ANGLES: Key = EACH * ((1 << 6) - 1);
 
 /// A function of the state: the sum of its terms, and at most `rest` more or less.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -107,7 +100,7 @@ impl Polynomial {
     }
 
     /// Returns more than its magnitude anywhere in the box.
-    pub fn norm(&self) -> f64 {
+    fn norm(&self) -> f64 {
         let sum: f64 = self.terms.iter().map(|(_, c)| c.abs()).sum();
         (sum + self.rest) * SLACK
     }
@@ -121,15 +114,13 @@ impl Polynomial {
     #[must_use]
     pub fn negated(&self) -> Polynomial {
         let terms = self.terms.iter().map(|&(key, c)| (key, -c)).collect();
-        let rest = self.rest;
-        Polynomial { terms, rest }
+        Polynomial { terms, ..*self }
     }
 
     /// Returns the sum of two.
     #[must_use]
     pub fn plus(&self, other: &Polynomial) -> Polynomial {
-        let mut terms = [self.terms.as_slice(), &other.terms].concat();
-        sort(&mut terms);
+        let terms = [self.terms.as_slice(), &other.terms].concat();
         merged(terms, self.rest + other.rest)
     }
 
@@ -139,9 +130,13 @@ impl Polynomial {
     /// More than is written out, or more work than is done.
     pub(crate) fn sum(&self, other: &Polynomial, work: &mut Work) -> Result<Polynomial, Fault> {
         work.spend(self.terms.len() + other.terms.len())?;
-        let sum = self.plus(other);
-        let is_short = sum.terms.len() <= MOST_TERMS;
-        is_short.then_some(sum).ok_or(Fault::Large)
+        self.plus(other).short()
+    }
+
+    /// Refuses more terms than are written out.
+    fn short(self) -> Result<Polynomial, Fault> {
+        let is_short = self.terms.len() <= MOST_TERMS;
+        is_short.then_some(self).ok_or(Fault::Large)
     }
 
     /// Returns the product of two.
@@ -173,24 +168,11 @@ impl Polynomial {
                 reduce(left + right, product, &mut terms)?;
             }
             if terms.len() > 8 * MOST_TERMS {
-                sort(&mut terms);
-                let compact = merged(terms, rest);
-                (terms, rest) = (compact.terms, compact.rest);
-                if terms.len() > MOST_TERMS {
-                    return Err(Fault::Large);
-                }
+                Polynomial { terms, rest } = merged(terms, rest).short()?;
             }
         }
-        sort(&mut terms);
-        let product = merged(terms, rest);
-        let is_short = product.terms.len() <= MOST_TERMS;
-        is_short.then_some(product).ok_or(Fault::Large)
+        merged(terms, rest).short()
     }
-}
-
-fn sort(terms: &mut [(Key, f64)]) {
-    // Stable: sums are taken in the order of the products on every machine.
-    terms.sort_by_key(|(key, _)| *key);
 }
 
 /// Pushes a term, every sin² in it replaced by 1 − cos².
@@ -210,7 +192,9 @@ fn reduce(key: Key, coefficient: f64, terms: &mut Vec<(Key, f64)>) -> Result<(),
 }
 
 /// Sums up terms of the same key; what all but cancelled goes into the rest.
-fn merged(terms: Vec<(Key, f64)>, mut rest: f64) -> Polynomial {
+fn merged(mut terms: Vec<(Key, f64)>, mut rest: f64) -> Polynomial {
+    // Stable: sums are taken in the order of the products on every machine.
+    terms.sort_by_key(|(key, _)| *key);
     let mut sums: Vec<(Key, f64)> = Vec::with_capacity(terms.len());
     let mut largest = 0.0f64;
     for (key, coefficient) in terms {

@@ -12,15 +12,13 @@ use crate::identity::exact::Point;
 use crate::identity::program::Operand;
 use crate::identity::setting::Setting;
 use crate::polynomial::{Key, MAX_JOINTS, Polynomial, Variable, Work, exponent};
+use crate::rounding::Ranges;
 
 /// A range of at least so much counts as all angles.
 const WHOLE_TURN: f64 = std::f64::consts::TAU - 1e-9;
-
-/// The ranges of q, q̇ and q̈, of each joint.
-pub type StateBox = [Vec<[f64; 2]>; 3];
+const RATES: [Variable; 2] = [Variable::Velocity, Variable::Acceleration];
 
 /// The variables over a box.
-#[derive(Clone, Debug)]
 pub struct Ring {
     /// Sine, cosine and position of each joint, or what there is of them.
     positions: Vec<[Option<Polynomial>; 3]>,
@@ -40,12 +38,37 @@ fn unit(size: f64) -> f64 {
     f64::from_bits((size.to_bits() + behind) & !behind)
 }
 
+/// Returns a position between two ends: their middle and a cosine's share of half their distance,
+/// whatever the angle.
+fn between([low, high]: [f64; 2], joint: usize) -> Polynomial {
+    let middle = 0.5 * low + 0.5 * high;
+    let half = (high - middle).max(middle - low).next_up();
+    let share = Polynomial::variable(Variable::Cos, joint, half);
+    Polynomial::constant(middle, 0.0).plus(&share)
+}
+
+/// Returns sine and cosine of a joint: sin(φ ∓ ψ) and cos(φ ∓ ψ), ψ being the variable of the
+/// joint before, if the sign of that is given.
+fn pair(joint: usize, sign: Option<f64>, work: &mut Work) -> Result<[Polynomial; 2], Fault> {
+    let own = |joint| [Variable::Sin, Variable::Cos].map(|v| Polynomial::variable(v, joint, 1.0));
+    let [sin, cos] = own(joint);
+    let Some(sign) = sign else {
+        return Ok([sin, cos]);
+    };
+    let [sin_b, cos_b] = own(joint - 1);
+    let sin_b = if sign < 0.0 { sin_b.negated() } else { sin_b };
+    let across = cos.times(&sin_b, work)?.negated();
+    let along = sin.times(&sin_b, work)?;
+    let sum = sin.times(&cos_b, work)?.plus(&across);
+    Ok([sum, cos.times(&cos_b, work)?.plus(&along)])
+}
+
 impl Ring {
-    /// Returns the variables of a robot's joints over a box, which has a range of each.
+    /// Returns the variables of a robot's joints over a box, which has ranges of their q, q̇ and q̈.
     ///
     /// # Errors
     /// More joints than there are variables of, or a robot that the equations do not have.
-    pub fn new(setting: &Setting, ranges: &StateBox, work: &mut Work) -> Result<Ring, Fault> {
+    pub fn new(setting: &Setting, ranges: &Ranges, work: &mut Work) -> Result<Ring, Fault> {
         let of_robot = |why| Fault::Robot("joint".into(), why);
         let count = setting.joints();
         if count > MAX_JOINTS {
@@ -59,12 +82,23 @@ impl Ring {
             angles: Vec::new(),
             units: Default::default(),
         };
-        for (joint, position) in ranges[0].iter().enumerate() {
-            ring.position(setting, &arm, *position, work)?;
-            for (which, variable) in [Variable::Velocity, Variable::Acceleration]
-                .into_iter()
-                .enumerate()
-            {
+        let moves = |joint: usize| setting.turns_by(joint) && !setting.is_locked(joint);
+        for (joint, &position) in ranges[0].iter().enumerate() {
+            let is_whole = position[1] - position[0] >= WHOLE_TURN;
+            let angle = Some(position).filter(|_| moves(joint) && !is_whole);
+            ring.angles.push(angle);
+            ring.positions.push(if setting.is_locked(joint) {
+                // A program of the scene has a number in its place.
+                [None, None, None]
+            } else if !setting.turns_by(joint) {
+                [None, None, Some(between(position, joint))]
+            } else {
+                let before = joint.checked_sub(1).filter(|&own| is_whole && moves(own));
+                let sign = before.and_then(|before| arm.parallel([before, joint]));
+                let [sin, cos] = pair(joint, sign, work)?;
+                [Some(sin), Some(cos), None]
+            });
+            for (which, variable) in RATES.into_iter().enumerate() {
                 let [low, high] = ranges[which + 1][joint];
                 let size = low.abs().max(high.abs());
                 let unit = if size > 0.0 { unit(size) } else { 0.0 };
@@ -76,60 +110,13 @@ impl Ring {
         Ok(ring)
     }
 
-    /// Adds sine and cosine, or the position, of the next joint.
-    fn position(
-        &mut self,
-        setting: &Setting,
-        arm: &Arm,
-        range: [f64; 2],
-        work: &mut Work,
-    ) -> Result<(), Fault> {
-        let joint = self.positions.len();
-        let own =
-            |joint| [Variable::Sin, Variable::Cos].map(|v| Polynomial::variable(v, joint, 1.0));
-        let is_whole = range[1] - range[0] >= WHOLE_TURN;
-        let moves = |joint: usize| setting.turns_by(joint) && !setting.is_locked(joint);
-        self.angles
-            .push(Some(range).filter(|_| moves(joint) && !is_whole));
-        self.positions.push(if setting.is_locked(joint) {
-            // A program of the scene has a number in its place.
-            [None, None, None]
-        } else if !setting.turns_by(joint) {
-            // A position between two ends is their middle and a cosine's share of half
-            // their distance, whatever the angle.
-            let middle = 0.5 * range[0] + 0.5 * range[1];
-            let half = (range[1] - middle).max(middle - range[0]).next_up();
-            let share = Polynomial::variable(Variable::Cos, joint, half);
-            [
-                None,
-                None,
-                Some(Polynomial::constant(middle, 0.0).plus(&share)),
-            ]
-        } else {
-            let [mut sin, mut cos] = own(joint);
-            let before = joint.checked_sub(1).filter(|&before| moves(before));
-            let sign = before.and_then(|before| arm.parallel([before, joint]));
-            if let Some(sign) = sign.filter(|_| is_whole) {
-                // sin(φ ∓ ψ), cos(φ ∓ ψ), ψ being the variable of the joint before.
-                let ([sin_a, cos_a], [sin_b, cos_b]) = (own(joint), own(joint - 1));
-                let sin_b = if sign < 0.0 { sin_b.negated() } else { sin_b };
-                let across = cos_a.times(&sin_b, work)?.negated();
-                sin = sin_a.times(&cos_b, work)?.plus(&across);
-                cos = cos_a.times(&cos_b, work)?.plus(&sin_a.times(&sin_b, work)?);
-            }
-            [Some(sin), Some(cos), None]
-        });
-        Ok(())
-    }
-
     /// Returns a sine, a position that slides or a rate as a polynomial; none of other operands, and of
     /// a joint that is locked.
     pub fn leaf<C>(&self, own: &Operand<C>) -> Option<Polynomial> {
         match own {
-            Operand::Sine(angle, is_sine) => match angle.as_slice() {
-                [(joint, false)] => self.positions.get(*joint)?[usize::from(!is_sine)].clone(),
-                _ => None,
-            },
+            Operand::Sine(joint, is_sine) => {
+                self.positions.get(*joint)?[usize::from(!is_sine)].clone()
+            }
             Operand::Entry(0, joint) => self.positions.get(*joint)?[2].clone(),
             Operand::Entry(place @ (1 | 2), joint) => self.rates[place - 1].get(*joint).cloned(),
             _ => None,
@@ -141,8 +128,7 @@ impl Ring {
     pub fn factor(&self, key: Key) -> (f64, f64) {
         let (mut low, mut high) = (1.0f64, 1.0f64);
         for joint in 0..MAX_JOINTS {
-            let rates = [Variable::Velocity, Variable::Acceleration];
-            for (variable, ranges) in rates.into_iter().zip(&self.units) {
+            for (variable, ranges) in RATES.into_iter().zip(&self.units) {
                 let [a, b] = ranges.get(joint).copied().unwrap_or_default();
                 let power = exponent(key, variable, joint) as i32;
                 let (x, y) = (a.powi(power), b.powi(power));

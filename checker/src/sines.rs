@@ -4,8 +4,6 @@ use crate::identity::program::{Operand, Program};
 use crate::interval::{FARTHEST, Interval, SINE_ERROR, UNIT, sin_cos};
 use crate::polynomial::SLACK;
 
-/// Half an ulp of f32, relative.
-const SINGLE_UNIT: f64 = 5.960_464_477_539_063e-8;
 /// Into how many cells the range of an angle is cut.
 const CELLS: usize = 1 << 14;
 
@@ -24,7 +22,7 @@ impl Scalar {
     /// Returns f32, or else f64.
     pub fn new(is_single: bool) -> Scalar {
         let (unit, least, most) = match is_single {
-            true => (SINGLE_UNIT, 1e-45, f64::from(f32::MAX)),
+            true => (f64::from(f32::EPSILON) / 2.0, 1e-45, f64::from(f32::MAX)),
             false => (UNIT, f64::from_bits(1), f64::MAX),
         };
         Scalar { unit, least, most }
@@ -68,10 +66,10 @@ pub fn error(
             true => (sin, Interval::around(cos, half + SINE_ERROR)),
             false => (cos, Interval::around(-sin, half + SINE_ERROR)),
         };
-        let at = evaluate(polynomials, result, Interval::point(middle), scalar);
-        let around = evaluate(polynomials, result, over, scalar);
-        let off = (at.value + -Interval::around(value, SINE_ERROR)).magnitude();
-        let off = off + (around.slope + -slope).magnitude() * half + around.error;
+        let ([at, _], _) = evaluate(polynomials, result, Interval::point(middle), scalar);
+        let ([_, around], rounding) = evaluate(polynomials, result, over, scalar);
+        let off = (at + -Interval::around(value, SINE_ERROR)).magnitude();
+        let off = off + (around + -slope).magnitude() * half + rounding;
         // So that a result that is no number counts as the worst.
         if !(off <= worst) {
             worst = off;
@@ -83,66 +81,37 @@ pub fn error(
     worst * (1.0 + 1e-12)
 }
 
-/// A value of polynomials over a range of angles: enclosures of it and of its derivative, and
-/// what rounding costs up to it.
-#[derive(Clone, Copy)]
-struct Enclosed {
-    value: Interval,
-    slope: Interval,
-    error: f64,
-}
+/// A value of polynomials and its derivative over a range of angles, and what rounding costs up
+/// to it.
+type Enclosed = ([Interval; 2], f64);
 
 fn evaluate(own: &Program<f64>, result: usize, angle: Interval, scalar: Scalar) -> Enclosed {
-    let leaf = |own: &Operand<f64>| {
-        let (value, slope) = match own {
-            Operand::Constant(literal) => (Interval::point(*literal), 0.0),
-            Operand::Entry(..) => (angle, 1.0),
-            _ => return None,
-        };
-        let (slope, error) = (Interval::point(slope), 0.0);
-        Some(Enclosed {
-            value,
-            slope,
-            error,
-        })
+    let leaf = |own: &Operand<f64>| match own {
+        Operand::Constant(literal) => Some(([*literal, 0.0].map(Interval::point), 0.0)),
+        Operand::Entry(..) => Some(([angle, Interval::point(1.0)], 0.0)),
+        _ => None,
     };
-    let apply = |operation: char, a: Enclosed, b: Enclosed| {
-        let signed = |x: Interval| if operation == '-' { -x } else { x };
-        let (value, slope, inherited) = match operation {
-            '+' | '-' => {
-                let (value, slope) = (a.value + signed(b.value), a.slope + signed(b.slope));
-                (value, slope, a.error + b.error)
-            }
+    let apply = |operation: char, (a, a_error): Enclosed, (b, b_error): Enclosed| {
+        let (both, inherited) = match operation {
+            '+' => ([a[0] + b[0], a[1] + b[1]], a_error + b_error),
+            '-' => ([a[0] + -b[0], a[1] + -b[1]], a_error + b_error),
             '*' | '×' => {
-                let slope = a.slope * b.value + a.value * b.slope;
-                let own = a.error * (b.value.magnitude() + b.error);
-                let inherited = own + b.error * a.value.magnitude();
-                (a.value * b.value, slope, inherited)
+                let own = a_error * (b[0].magnitude() + b_error);
+                let inherited = own + b_error * a[0].magnitude();
+                ([a[0] * b[0], a[1] * b[0] + a[0] * b[1]], inherited)
             }
-            _ => (Interval::NOTHING_KNOWN, Interval::NOTHING_KNOWN, 0.0),
+            _ => ([Interval::NOTHING_KNOWN; 2], 0.0),
         };
         let error = match operation {
             '×' => inherited,
-            _ => scalar.rounded(value.magnitude(), inherited),
+            _ => scalar.rounded(both[0].magnitude(), inherited),
         };
-        Enclosed {
-            value,
-            slope,
-            error,
-        }
+        (both, error)
     };
     let results = own.run(leaf, apply).unwrap_or_default();
     match results.get(result) {
         Some((false, own)) => *own,
-        Some((true, own)) => Enclosed {
-            value: -own.value,
-            slope: -own.slope,
-            ..*own
-        },
-        None => Enclosed {
-            value: Interval::NOTHING_KNOWN,
-            slope: Interval::NOTHING_KNOWN,
-            error: f64::INFINITY,
-        },
+        Some((true, (both, error))) => (both.map(|own| -own), *error),
+        None => ([Interval::NOTHING_KNOWN; 2], f64::INFINITY),
     }
 }

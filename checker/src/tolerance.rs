@@ -8,15 +8,14 @@ use crate::claim::Tolerated;
 use crate::fault::Fault;
 use crate::identity::exact::Exact;
 use crate::identity::number::Draws;
-use crate::identity::program::ARGUMENTS;
-use crate::identity::program::Program;
+use crate::identity::program::{ARGUMENTS, Program};
 use crate::identity::setting::Setting;
-use crate::identity::table::{Field, Function, Measure};
-use crate::interval::{FARTHEST, Interval};
+use crate::identity::table::{Field, Function};
+use crate::interval::FARTHEST;
 use crate::maximum;
 use crate::polynomial::{SLACK, Work};
 use crate::read;
-use crate::ring::{Ring, StateBox};
+use crate::ring::Ring;
 use crate::rounding::{Ranges, Rounding};
 use crate::written::{at, written};
 
@@ -88,6 +87,9 @@ pub(crate) struct Subject<'s> {
     pub(crate) tolerance: &'s [f64],
 }
 
+/// A result: its field and its joints, of a torque its own, of an entry of D two.
+type Entry<'s> = (&'s Field, Vec<usize>);
+
 impl Subject<'_> {
     /// Bounds every result.
     ///
@@ -109,39 +111,35 @@ impl Subject<'_> {
             self.exact.outputs.len() == count,
             "two programs of other results",
         )?;
-        let joints = self.joints();
-        unless(joints.len() == count, "results that are not the function's")?;
-        let ranges = self.ranges()?;
+        let fields = self.results();
+        unless(fields.len() == count, "results that are not the function's")?;
+        let [ranges, file] = &self.ranges()?;
         if self.exact.steps.len() * count > MOST_EVALUATED {
             return Err(Fault::Work);
         }
-        let most = self.attainable(&joints)?;
+        let most = self.attainable(&fields, file)?;
         let work = &mut Work::default();
-        let ring = Ring::new(self.setting, &ranges, work)?;
-        let all: &mut Ranges = &mut ranges.to_vec();
-        all.resize(ARGUMENTS.len(), Vec::new());
-        let rounding = Rounding::new(self.read, self.is_single, all);
+        let ring = Ring::new(self.setting, ranges, work)?;
+        let rounding = Rounding::new(self.read, self.is_single, ranges);
         let (mut sizes, emitted) = written(self.emitted, &ring, Some(&rounding), work)?;
         let (_, exact) = written(self.exact, &ring, None, work)?;
         sizes.iter_mut().for_each(|size| *size *= SLACK);
-        let rounding = rounding.bounds_within(all, Some(&sizes));
+        let rounding = rounding.bounds(ranges, Some(&sizes));
         let largest = own.scales.iter().copied().fold(0.0, f64::max);
         let mut found = Vec::new();
-        for (k, (emitted, exact)) in emitted.iter().zip(&exact).enumerate() {
+        for (k, (_, joints)) in fields.into_iter().enumerate() {
             let (scale, rounding) = (own.scales[k], rounding[k].error);
-            let is_zero = scale == 0.0 && most[k] == 0.0;
-            let claimed = match is_zero {
-                true => ZERO * largest,
-                false => below(errors[k] * scale),
+            let (claimed, tolerated) = match scale == 0.0 && most[k] == 0.0 {
+                true => (ZERO * largest, ZERO * largest),
+                false => (
+                    below(errors[k] * scale),
+                    below(self.held(&joints) * scale.min(most[k])),
+                ),
             };
-            let tolerated = match is_zero {
-                true => claimed,
-                false => below(self.held(&joints[k]) * scale.min(most[k])),
-            };
-            let difference = emitted.plus(&exact.negated());
+            let difference = emitted[k].plus(&exact[k].negated());
             let wanted = (claimed - rounding).next_down().next_down();
             found.push(Bounded {
-                joints: joints[k].clone(),
+                joints,
                 scale,
                 real: maximum::bound(&difference, &ring, wanted),
                 rounding,
@@ -149,25 +147,25 @@ impl Subject<'_> {
                 tolerated,
             });
         }
-        self.tried(&found, &ranges)?;
+        self.tried(&found, ranges)?;
         Ok(found)
     }
 
     /// Refuses an E that is not shown where a state of the box refutes it.
-    fn tried(&self, found: &[Bounded], ranges: &StateBox) -> Result<(), Fault> {
+    fn tried(&self, found: &[Bounded], ranges: &Ranges) -> Result<(), Fault> {
         if found.iter().all(Bounded::holds) {
             return Ok(());
         }
         let mut draws = Draws::new(&["states"]);
         for count in 0..STATES {
-            let given = ranges.each_ref().map(|list| {
-                let drawn = list.iter().map(|[low, high]| {
-                    let share = draws.share();
-                    // Of every second state all are ends of their ranges.
-                    low + (high - low) * if count % 2 == 0 { share } else { share.round() }
-                });
-                drawn.collect::<Vec<f64>>()
-            });
+            let mut point = |[low, high]: &[f64; 2]| {
+                let share = draws.share();
+                // Of every second state all are ends of their ranges.
+                low + (high - low) * if count % 2 == 0 { share } else { share.round() }
+            };
+            let lists = ranges.iter();
+            let given = lists.map(|list| list.iter().map(&mut point).collect());
+            let given: Vec<Vec<f64>> = given.collect();
             let both = [self.emitted, self.exact].map(|own| at(own, &given).unwrap_or_default());
             for (k, (a, b)) in both[0].iter().zip(&both[1]).enumerate() {
                 let off = *a + -*b;
@@ -179,98 +177,83 @@ impl Subject<'_> {
         Ok(())
     }
 
-    /// Returns the joints of every result: of a torque its own, of an entry of D two.
-    fn joints(&self) -> Vec<Vec<usize>> {
-        let rows = &self.setting.rows;
-        let each = self.function.fields.iter().flat_map(|field| {
+    /// Returns every result.
+    fn results(&self) -> Vec<Entry<'_>> {
+        let mut all = Vec::new();
+        for field in &self.function.fields {
             let lengths = field.lengths(self.setting, 0);
-            (0..lengths.iter().product()).map(move |index: usize| {
-                let mut left = index;
-                let axes = field.axes.bytes().zip(&lengths).rev();
-                let digits = axes.map(|(axis, length)| {
-                    let digit = left % length;
+            for index in 0..lengths.iter().product::<usize>() {
+                let (mut left, mut joints) = (index, Vec::new());
+                for (axis, length) in field.axes.bytes().zip(&lengths).rev() {
+                    joints.extend((axis == b'n').then(|| self.setting.rows[left % length]));
                     left /= length;
-                    (axis == b'n').then(|| rows[digit])
-                });
-                let mut own: Vec<usize> = digits.flatten().collect();
-                own.reverse();
-                own
-            })
-        });
-        each.collect()
+                }
+                joints.reverse();
+                all.push((field, joints));
+            }
+        }
+        all
     }
 
     /// Returns the tolerance of a result: of several joints, and of none, the strictest.
     fn held(&self, joints: &[usize]) -> f64 {
-        let all: Vec<usize> = (0..self.tolerance.len()).collect();
-        let rows = &self.setting.rows;
-        let held = match joints.is_empty() {
-            true if rows.is_empty() => &all,
-            true => rows,
-            false => joints,
-        };
-        let each = held.iter().map(|joint| self.tolerance[*joint]);
+        let mut lists = [joints, &self.setting.rows].into_iter();
+        let held = lists.find(|list| !list.is_empty());
+        let is_held = |joint: &usize| held.is_none_or(|list| list.contains(joint));
+        let each = (0..self.tolerance.len()).filter(is_held);
+        let each = each.map(|joint| self.tolerance[joint]);
         each.fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the box of the claim, once it has all states of the file's.
-    fn ranges(&self) -> Result<StateBox, Fault> {
+    /// Returns the box of the claim, once it has all states of the file's, and that one; no ranges
+    /// of what is no argument. Refuses a joint that the file does not limit.
+    fn ranges(&self) -> Result<[Ranges; 2], Fault> {
         let places = &self.function.arguments;
         let is_bounded = places.iter().all(|place| *place < 3);
         unless(is_bounded, "an argument that no box bounds")?;
-        let mut all = StateBox::default();
-        for (place, all) in all.iter_mut().enumerate() {
-            let own = self.file(place)?;
+        let of_robot = |why: String| Fault::Robot("limits".into(), why);
+        let none: Ranges = vec![Vec::new(); ARGUMENTS.len()];
+        let (mut all, mut file) = (none.clone(), none);
+        for place in 0..3 {
             if !places.contains(&place) {
-                all.resize(self.setting.joints(), [0.0; 2]);
+                all[place].resize(self.setting.joints(), [0.0; 2]);
                 continue;
             }
-            all.clone_from(&self.own.ranges[place]);
-            let inside = |(own, claimed): (&[f64; 2], &[f64; 2])| {
-                let slack = slack(*own);
-                claimed[0] - slack <= own[0] && own[1] <= claimed[1] + slack
-            };
+            let name = ARGUMENTS[place].0;
+            let own = self.setting.ranges(name, f64::INFINITY).map_err(of_robot)?;
+            let own = own.unwrap_or_default();
+            if !own.iter().flatten().all(|end| end.is_finite()) {
+                let why = format!("a tolerance needs the range of `{name}` of every joint");
+                return Err(of_robot(why));
+            }
+            let claimed = &self.own.ranges[place];
             let is_range =
                 |own: &[f64; 2]| own[0] <= own[1] && own.iter().all(|end| end.abs() < 1e30);
-            let is_finite = all.iter().all(is_range);
-            let has_all = all.len() == own.len() && own.iter().zip(all.iter()).all(inside);
+            let is_finite = claimed.iter().all(is_range);
+            let mut pairs = own.iter().zip(claimed);
+            let has_all = claimed.len() == own.len()
+                && pairs.all(|(own, claimed)| is_within(*own, *claimed, *own));
             unless(
                 is_finite && has_all,
                 "the box lacks states of the scene, or of the joints' limits",
             )?;
+            all[place].clone_from(claimed);
+            file[place] = own;
         }
         let is_far = |(joint, range): (usize, &[f64; 2])| {
             self.setting.turns_by(joint) && range.iter().any(|end| end.abs() >= FARTHEST)
         };
         let is_near = !all[0].iter().enumerate().any(is_far);
         unless(is_near, "the sine of an angle beyond 1000 rad")?;
-        Ok(all)
-    }
-
-    /// Returns the ranges of an argument's entries; none of what is no argument. Refuses a joint that
-    /// the file does not limit.
-    fn file(&self, place: usize) -> Result<Vec<[f64; 2]>, Fault> {
-        let name = ARGUMENTS[place].0;
-        if !self.function.arguments.contains(&place) {
-            return Ok(Vec::new());
-        }
-        let of_robot = |why: String| Fault::Robot("limits".into(), why);
-        let own = self.setting.ranges(name, f64::INFINITY).map_err(of_robot)?;
-        let own = own.unwrap_or_default();
-        match own.iter().flatten().all(|end| end.is_finite()) {
-            true => Ok(own),
-            false => Err(of_robot(format!(
-                "a tolerance needs the range of `{name}` of every joint"
-            ))),
-        }
+        Ok([all, file])
     }
 
     /// Returns the largest T of each result: the actuators' limits, or what it reaches at a state of
     /// the claim. Refuses a T that is above it: E would look smaller than it is.
-    fn attainable(&self, joints: &[Vec<usize>]) -> Result<Vec<f64>, Fault> {
+    fn attainable(&self, results: &[Entry], file: &Ranges) -> Result<Vec<f64>, Fault> {
         let most = match self.own.relative_to.as_str() {
-            "actuator" => self.actuator(joints)?,
-            "range" => self.reached()?,
+            "actuator" => self.actuator(results)?,
+            "range" => self.reached(file)?,
             _ => {
                 let why = "tolerance: `relative_to` is neither actuator nor range";
                 return Err(Fault::Claim(why.into()));
@@ -286,75 +269,54 @@ impl Subject<'_> {
 
     /// Returns the limits of the actuators; of an entry of D the inertia that takes all of a limit at
     /// the largest acceleration, of h_ikm the coefficient at the largest velocities.
-    fn actuator(&self, joints: &[Vec<usize>]) -> Result<Vec<f64>, Fault> {
+    fn actuator(&self, results: &[Entry]) -> Result<Vec<f64>, Fault> {
         let limit = |joint: usize, name: &str| {
             let own = self.setting.limit(joint, name).filter(|own| *own > 0.0);
             own.unwrap_or(f64::NAN)
         };
         let torque = |joint: usize| limit(joint, "torque");
         let inertia = |i: usize, k: usize| torque(i) / limit(k, "acceleration");
-        let fields = self.function.fields.iter();
-        let fields = fields.flat_map(|field: &Field| {
-            let count = field.lengths(self.setting, 0).iter().product();
-            std::iter::repeat_n(field, count)
-        });
-        let own =
-            fields.zip(joints).map(
-                |(field, joints)| match (field.measure(), joints.as_slice()) {
-                    (Some(Measure::Load), &[i]) => Some(torque(i)),
-                    (Some(Measure::Inertia), &[i, k]) => Some(inertia(i, k).min(inertia(k, i))),
-                    (Some(Measure::Coefficient), &[i, k, m]) => {
-                        Some(torque(i) / (limit(k, "velocity") * limit(m, "velocity")))
-                    }
-                    _ => None,
-                },
-            );
-        own.collect::<Option<_>>().ok_or_else(|| {
-            Fault::Claim("the actuators' limits are no measure of this function".into())
-        })
+        let measure = |(field, joints): &Entry| match *joints.as_slice() {
+            _ if !field.is_measured() => None,
+            [i] => Some(torque(i)),
+            [i, k] => Some(inertia(i, k).min(inertia(k, i))),
+            [i, k, m] => Some(torque(i) / (limit(k, "velocity") * limit(m, "velocity"))),
+            _ => None,
+        };
+        let own = results.iter().map(measure).collect::<Option<_>>();
+        let why = "the actuators' limits are no measure of this function";
+        own.ok_or_else(|| Fault::Claim(why.into()))
     }
 
     /// Returns the least size of each result at its state of the claim, which is one of the file's.
-    fn reached(&self) -> Result<Vec<f64>, Fault> {
+    fn reached(&self, file: &Ranges) -> Result<Vec<f64>, Fault> {
         let (states, count) = (&self.own.reached, self.setting.joints());
+        let places = &self.function.arguments;
         let wrong = "`reached`: expected a state of the box for each result";
         unless(states.len() == self.exact.outputs.len(), wrong)?;
-        let own = [0, 1, 2].map(|place: usize| self.file(place));
-        let [q, qd, qdd] = own;
-        let file = [q?, qd?, qdd?];
-        let (mut all, mut known) = (Vec::new(), None::<(Vec<Vec<f64>>, Vec<Interval>)>);
-        for (result, state) in states.iter().enumerate() {
+        let least = |(result, state): (usize, &Vec<f64>)| {
             let mut given = vec![Vec::new(); 3];
-            let lists = self
-                .function
-                .arguments
-                .iter()
-                .zip(state.chunks(count.max(1)));
-            lists.for_each(|(place, list)| given[*place] = list.to_vec());
-            let is_whole = state.len() == count * self.function.arguments.len();
-            let is_inside = given.iter().zip(&file).all(|(given, own)| {
-                given
-                    .iter()
-                    .zip(own)
-                    .all(|(at, own)| own[0] - slack(*own) <= *at && *at <= own[1] + slack(*own))
-            });
-            unless(is_whole && is_inside, wrong)?;
-            if known.as_ref().is_none_or(|(own, _)| *own != given) {
-                let values = at(self.exact, &given).unwrap_or_default();
-                known = Some((given, values));
+            for (place, list) in places.iter().zip(state.chunks(count.max(1))) {
+                given[*place] = list.to_vec();
             }
-            let found = known.as_ref().and_then(|own| own.1.get(result).copied());
+            let is_whole = state.len() == count * places.len();
+            let mut pairs = given.iter().flatten().zip(file.iter().flatten());
+            let is_inside = pairs.all(|(at, own)| is_within([*at; 2], *own, *own));
+            unless(is_whole && is_inside, wrong)?;
+            let values = at(self.exact, &given).unwrap_or_default();
+            let found = values.get(result);
             let found = found.ok_or_else(|| Fault::Claim(wrong.into()))?;
-            let least = found.low.max(-found.high).max(0.0);
-            all.push(least);
-        }
-        Ok(all)
+            Ok(found.low.max(-found.high).max(0.0))
+        };
+        states.iter().enumerate().map(least).collect()
     }
 }
 
-/// Returns by how much a range of decimals may be another in doubles: of a point by their least.
-fn slack([low, high]: [f64; 2]) -> f64 {
-    BOX_SLACK * (low.abs() + high.abs()) + f64::MIN_POSITIVE
+/// Returns true if a range is within another one, but for what decimals of the file's may be in
+/// doubles: of a point by their least.
+fn is_within([low, high]: [f64; 2], outer: [f64; 2], file: [f64; 2]) -> bool {
+    let slack = BOX_SLACK * (file[0].abs() + file[1].abs()) + f64::MIN_POSITIVE;
+    outer[0] - slack <= low && high <= outer[1] + slack
 }
 
 /// Refuses a claim unless something holds.
@@ -366,9 +328,8 @@ fn unless(holds: bool, why: &str) -> Result<(), Fault> {
 
 /// Returns a number that a rounded one is not below; zero is exact.
 fn below(value: f64) -> f64 {
-    if value > 0.0 {
-        value.next_down()
-    } else {
-        value
+    match value > 0.0 {
+        true => value.next_down(),
+        false => value,
     }
 }

@@ -3,7 +3,7 @@
 use crate::fault::Fault;
 use crate::identity::exact::Exact;
 use crate::identity::program::{Operand, Program};
-use crate::interval::{Interval, SINE_ERROR, sin_cos};
+use crate::interval::Interval;
 use crate::polynomial::{Polynomial, Variable, Work};
 use crate::ring::Ring;
 use crate::rounding::Rounding;
@@ -16,14 +16,10 @@ pub(crate) fn at(program: &Program<Exact>, given: &[Vec<f64>]) -> Option<Vec<Int
             Some(Interval::around(value, radius))
         }
         Operand::Entry(place, joint) => Some(Interval::point(*given.get(*place)?.get(*joint)?)),
-        Operand::Sine(angle, is_sine) => match angle.as_slice() {
-            [(joint, false)] => {
-                let (sin, cos) = sin_cos(*given[0].get(*joint)?);
-                let value = if *is_sine { sin } else { cos };
-                Some(Interval::around(value, SINE_ERROR))
-            }
-            _ => None,
-        },
+        Operand::Sine(joint, is_sine) => {
+            let angle = Interval::point(*given.first()?.get(*joint)?);
+            Some(angle.sine(*is_sine))
+        }
         _ => None,
     };
     let apply = |operation: char, a: Interval, b: Interval| match operation {
@@ -103,14 +99,13 @@ impl Values<'_> {
         };
         let why = "tolerance: it reads an angle as a number, or what is no state";
         let value = value.ok_or_else(|| Fault::Claim(why.into()))?;
-        let Operand::Sine(angle, is_sine) = own else {
+        let Operand::Sine(joint, is_sine) = own else {
             return Ok(value);
         };
-        let joint = angle.first().map_or(0, |own| own.0);
-        let error = self.sines.and_then(|own| own.polynomial(joint, *is_sine));
+        let error = self.sines.and_then(|own| own.polynomial(*joint, *is_sine));
         let variable = [Variable::EvenError, Variable::OddError][usize::from(*is_sine)];
         Ok(match error {
-            Some(error) => value.plus(&Polynomial::variable(variable, joint, error)),
+            Some(error) => value.plus(&Polynomial::variable(variable, *joint, error)),
             None => value,
         })
     }
@@ -119,19 +114,16 @@ impl Values<'_> {
 /// Counts how often each step is read on the way to the results: never, if it is in vain.
 fn uses(program: &Program<Exact>) -> Vec<usize> {
     let mut all = vec![0; program.steps.len()];
-    let count = |all: &mut Vec<usize>, own: &Operand<Exact>| {
-        if let Operand::Step(step) = own {
-            all[*step] += 1;
-        }
+    let step = |own: &Operand<Exact>| match own {
+        Operand::Step(step) => Some(*step),
+        _ => None,
     };
-    for (_, own) in &program.outputs {
-        count(&mut all, own);
-    }
-    for index in (0..program.steps.len()).rev() {
+    let outputs = program.outputs.iter().filter_map(|own| step(&own.1));
+    outputs.for_each(|step| all[step] += 1);
+    for (index, (_, operands)) in program.steps.iter().enumerate().rev() {
         if all[index] > 0 {
-            for own in &program.steps[index].1 {
-                count(&mut all, own);
-            }
+            let own = operands.iter().filter_map(step);
+            own.for_each(|step| all[step] += 1);
         }
     }
     all

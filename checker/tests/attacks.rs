@@ -5,72 +5,55 @@ use dalembert_checker::certify::{Bounded, certify};
 
 use crate::support::file;
 
+fn data(name: &str) -> String {
+    file(&format!("checker/tests/data/attacks/{name}"))
+}
+
 /// Returns the bounds of the results of a variant, or why it is not shown.
 fn found(
     name: &str,
     [robot, scene]: [&str; 2],
     tolerance: Option<f64>,
 ) -> Result<Vec<Bounded>, String> {
-    let data = |name: &str| file(&format!("checker/tests/data/attacks/{name}"));
     // Two claims are made of the text of A.
-    let text = if name == "B" { "A" } else { name };
-    let (text, claim) = (
-        data(&format!("{text}.rs")),
-        data(&format!("{name}.claim.json")),
-    );
-    let report = certify(
-        &text,
-        &claim,
-        &data(&format!("{robot}.toml")),
-        Some(scene),
-        tolerance,
-    );
+    let text = data(&format!("{}.rs", if name == "B" { "A" } else { name }));
+    let claim = data(&format!("{name}.claim.json"));
+    let robot = data(&format!("{robot}.toml"));
+    let report = certify(&text, &claim, &robot, Some(scene), tolerance);
     let line = report.map_err(|fault| fault.to_string())?.lines.remove(0);
     let shown = line.result.map_err(|fault| fault.to_string())?;
     Ok(shown.results)
 }
 
 /// A variant, its robot, its scene, and the refusal.
-const ATTACKS: [[&str; 4]; 13] = [
-    // Multiples of 2⁶¹ − 1 in a constant of the exact program; of the text alone.
-    ["A", "r2", "pick", "result 1 is not that of the robot"],
-    ["B", "r2", "pick", "E of result 1 is refuted at a state"],
-    // Terms that vanish at known points of a known prime.
-    ["C", "r2l", "pick", "result 1 is not that of the robot"],
-    ["C2", "r2l", "pick", "E of result 1 is refuted at a state"],
-    ["pt", "pt", "pick", "result 1 is not that of the robot"],
-    // The function at rest is another one.
-    [
-        "still_bad",
-        "r2_conf",
-        "still",
-        "result 1 is not that of the robot",
-    ],
-    // Inputs that are no values.
-    [
-        "locked_bad",
-        "r2_conf",
-        "locked",
-        "it reads a joint that is locked, or a rate",
-    ],
-    [
-        "pend_bad",
-        "pend_bad",
-        "pick",
-        "it reads an angle as a number",
-    ],
-    // Texts that are not of the grammar.
-    ["t1", "r2l", "pick", "line 3: nothing that is generated"],
-    ["t5", "r2l", "pick", "`libm` expected, not `0.0`"],
-    ["t6", "r2l", "pick", "line 6: nothing that is generated"],
-    // T that nothing reaches, and limits between which nothing is.
-    ["forged", "user", "s", "the largest that is reached"],
-    ["ra", "ru", "s", "the range of `qd` is empty"],
-];
+const ATTACKS: &str = "
+# Multiples of 2⁶¹ − 1 in a constant of the exact program; of the text alone.
+A r2 pick result 1 is not that of the robot
+B r2 pick E of result 1 is refuted at a state
+# Terms that vanish at known points of a known prime.
+C r2l pick result 1 is not that of the robot
+C2 r2l pick E of result 1 is refuted at a state
+pt pt pick result 1 is not that of the robot
+# The function at rest is another one.
+still_bad r2_conf still result 1 is not that of the robot
+# Inputs that are no values.
+locked_bad r2_conf locked it reads a joint that is locked, or a rate
+pend_bad pend_bad pick it reads an angle as a number
+# Texts that are not of the grammar.
+t1 r2l pick line 3: nothing that is generated
+t5 r2l pick `libm` expected, not `0.0`
+t6 r2l pick line 6: nothing that is generated
+# T that nothing reaches, and limits between which nothing is.
+forged user s the largest that is reached
+ra ru s the range of `qd` is empty
+";
 
 #[test]
 fn variants_that_are_not_what_is_claimed() {
-    for [name, robot, scene, words] in ATTACKS {
+    let rows = ATTACKS.trim().lines().filter(|row| !row.starts_with('#'));
+    for row in rows {
+        let mut words = row.splitn(4, ' ');
+        let [name, robot, scene, words] = std::array::from_fn(|_| words.next().unwrap());
         let why = found(name, [robot, scene], None).unwrap_err();
         assert!(why.contains(words), "{name}: {why}");
     }
@@ -100,15 +83,11 @@ fn nothing_of_nothing() {
 /// The multiples of 2⁶¹ − 1 are what is refused: without them the variants are shown.
 #[test]
 fn variants_without_the_planted_number() {
-    let data = |name: &str| file(&format!("checker/tests/data/attacks/{name}"));
-    let claim = data("B.claim.json");
-    let (text, robot) = (data("A.rs"), data("r2.toml"));
+    let [text, claim, robot] = ["A.rs", "B.claim.json", "r2.toml"].map(data);
     let planted = ["230.5843009213694", "2305843009213693951/10000000000000000"];
     assert!(text.contains(planted[0]) && claim.contains(planted[1]));
-    let [text, claim] = [
-        text.replace(planted[0], "0.0"),
-        claim.replace(planted[1], "0"),
-    ];
+    let text = text.replace(planted[0], "0.0");
+    let claim = claim.replace(planted[1], "0");
     let report = certify(&text, &claim, &robot, Some("pick"), None).unwrap();
     assert!(report.is_shown(), "{report:?}");
 }
@@ -119,10 +98,7 @@ fn variants_that_are_checked_in() {
     let robot = file("generated/robots/puma560.toml");
     for (name, tolerance) in [("actuator-1e-3", 1e-3), ("range-1e-2", 1e-2)] {
         let own = format!("generated/variants/puma560-{name}");
-        let (text, claim) = (
-            file(&format!("{own}.rs")),
-            file(&format!("{own}.claim.json")),
-        );
+        let [text, claim] = [".rs", ".claim.json"].map(|end| file(&format!("{own}{end}")));
         let report = certify(&text, &claim, &robot, None, Some(tolerance)).unwrap();
         let results = &report.lines[0].result.as_ref().unwrap().results;
         assert!(

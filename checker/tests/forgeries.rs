@@ -1,6 +1,6 @@
 //! Texts that hide what a compiler calls.
 
-use dalembert_checker::{Fault, file};
+use dalembert_checker::file::{self, Found};
 
 use crate::support::file as read;
 
@@ -15,27 +15,20 @@ fn generated(functions: &str) -> String {
 
 const EVIL: &str = "#[must_use]\npub fn inverse_dynamics(_q: &[f64; 2], _qd: &[f64; 2], _qdd: &[f64; 2]) -> [f64; 2] {\n    [9000000000.0, 9000000000.0]\n}\n";
 
-/// Refuses a file in which a call of the function of a text is not a call of that text.
-fn is_called(text: &str, source: &str) -> Result<(), Fault> {
+/// Returns true for a file in which a call of the function of a text is a call of that text.
+fn is_called(text: &str, source: &str) -> bool {
     let own = text.strip_prefix("#[must_use]\n").unwrap_or(text);
-    let mut is_there = false;
-    for found in file::functions(source)? {
-        if found.name != "inverse_dynamics" {
-            continue;
-        }
-        if found.text.trim_end() != own.trim_end() {
-            return Err(Fault::Text(found.line, found.name.to_owned()));
-        }
-        is_there = true;
-    }
-    is_there.then_some(()).ok_or(Fault::Work)
+    let mut all = file::functions(source).unwrap_or_default();
+    all.retain(|found| found.name == "inverse_dynamics");
+    let is_own = |found: &Found| found.text.trim_end() == own.trim_end();
+    !all.is_empty() && all.iter().all(is_own)
 }
 
 /// The file is what rustc reads, and the function that it would call is the one compared.
 #[test]
 fn certified_text_that_is_not_called() {
     let text = read("checker/tests/data/attacks/C.rs");
-    is_called(&text, &generated(&text)).unwrap();
+    assert!(is_called(&text, &generated(&text)));
     let quoted = text.replace('\n', "\\n");
     let hidden = [
         format!("{EVIL}/*\n{text}*/\n"),
@@ -62,7 +55,7 @@ fn certified_text_that_is_not_called() {
     ];
     for inside in hidden {
         let file = generated(&inside);
-        assert!(is_called(&text, &file).is_err(), "{file}");
+        assert!(!is_called(&text, &file), "{file}");
     }
     // At the top of the file, too.
     for file in [
@@ -72,7 +65,7 @@ fn certified_text_that_is_not_called() {
         format!("#![cfg(any())]\n{}", generated(&text)),
         generated(&text).replace("Do not edit.\n", "Do not edit.\r#[cfg(any())]\n"),
     ] {
-        assert!(is_called(&text, &file).is_err(), "{file}");
+        assert!(!is_called(&text, &file), "{file}");
     }
 }
 

@@ -3,77 +3,32 @@
 
 use dalembert_checker::identity::arm::Arm;
 use dalembert_checker::identity::exact::{Exact, Point};
-use dalembert_checker::identity::program::argument;
-use dalembert_checker::identity::program::{Operand, Program};
+use dalembert_checker::identity::program::{Operand, Program, argument};
 use dalembert_checker::identity::state::State;
 use dalembert_checker::identity::table::functions;
 use dalembert_checker::identity::{Base, Combination, Statement, check, robot};
 
-use crate::support::file;
+use crate::support::{changed, file};
 
 const ROBOT: &str = "generated/robots/planar2r.toml";
 
-/// Words of the robot file, those in their place, and the refusal.
-const ROBOTS: [[&str; 3]; 14] = [
-    ["mass = 1", "mass = nan", "`nan` is no number"],
-    ["\"revolute\"", "\"continuous\"", "joint 1: expected `kind`"],
-    [
-        "a = 1",
-        "a = 1\ncoulomb = 0.3",
-        "joint 1: `coulomb` without a `coulomb_width`",
-    ],
-    [
-        "a = 1",
-        "a = 1\nmimic = { joint = \"elbow\", multiplier = 0.5 }",
-        "joint 1: `multiplier` of an angle is no whole number",
-    ],
-    [
-        "a = 1",
-        "a = 1\nmimic = { joint = \"wrist\" }",
-        "there is no joint `wrist`",
-    ],
-    [
-        "a = 1",
-        "a = 1\nmimic = { joint = 1 }",
-        "joint 1: joints follow each other in a circle",
-    ],
-    [
-        "a = 1",
-        "a = 1\ncoulomb = 1\nmimic = { joint = 2 }",
-        "joint 1: `coulomb` of a joint that follows another",
-    ],
-    [
-        "a = 1",
-        "a = 1\nmimic = { joint = 2, factor = 1 }",
-        "unknown field `factor`",
-    ],
-    [
-        "a = 1",
-        "a = 1\ntheta = 0.1",
-        "joint 1: `theta` of a revolute joint",
-    ],
-    [
-        "a = 1",
-        "a = 1\naxis = [0, 0, 1]",
-        "joint 1: expected `placement` and `axis`",
-    ],
-    [
-        "a = 1",
-        "a = 1\nplacement = {}\naxis = [0, 0, 1]",
-        "joint 1: a placement beside a row",
-    ],
-    [
-        "convention = \"standard\"",
-        "",
-        "expected `convention` and rows, or placements",
-    ],
-    [
-        "com = ",
-        "frame = {}\n# ",
-        "joint 1: expected `com` and `inertia`",
-    ],
-    ["a = 1", "a = 1\nlength = 1", "unknown field `length`"],
-];
+/// Changes of the robot file, and the refusals.
+const ROBOTS: &str = r#"
+mass = 1 | mass = nan | `nan` is no number
+"revolute" | "continuous" | joint 1: expected `kind`
+a = 1 | &; coulomb = 0.3 | joint 1: `coulomb` without a `coulomb_width`
+a = 1 | &; mimic = { joint = "elbow", multiplier = 0.5 } | of an angle is no whole number
+a = 1 | &; mimic = { joint = "wrist" } | there is no joint `wrist`
+a = 1 | &; mimic = { joint = 1 } | joint 1: joints follow each other in a circle
+a = 1 | &; coulomb = 1; mimic = { joint = 2 } | joint 1: `coulomb` of a joint that follows another
+a = 1 | &; mimic = { joint = 2, factor = 1 } | unknown field `factor`
+a = 1 | &; theta = 0.1 | joint 1: `theta` of a revolute joint
+a = 1 | &; axis = [0, 0, 1] | joint 1: expected `placement` and `axis`
+a = 1 | &; placement = {}; axis = [0, 0, 1] | joint 1: a placement beside a row
+convention = "standard" | # & | expected `convention` and rows, or placements
+com = | frame = {}; # & | joint 1: expected `com` and `inertia`
+a = 1 | &; length = 1 | unknown field `length`
+"#;
 
 #[test]
 fn joints_that_the_equations_lack_are_refused() {
@@ -86,10 +41,9 @@ fn joints_that_the_equations_lack_are_refused() {
         State::draw(&point, &setting).map(|_| ())
     };
     assert_eq!(read(&source), Ok(()));
-    for [what, by, words] in ROBOTS {
-        assert!(source.contains(what), "{what}");
-        let why = read(&source.replacen(what, by, 1)).expect_err(by);
-        assert!(why.contains(words), "{by}: {why}");
+    for (robot, words) in changed(&source, ROBOTS) {
+        let why = read(&robot).expect_err(words);
+        assert!(why.contains(words), "{words}: {why}");
     }
     let modified = source.replace("\"standard\"", "\"modified\"");
     let tilted = modified.replacen("a = 1", "a = 1\nbeta = 0.1", 1);
@@ -131,7 +85,7 @@ fn programs_that_do_not_fit_are_refused() {
         Operand::Entry(99, 0),
         Operand::Entry(0, 2),
         Operand::Step(0),
-        Operand::Sine(vec![(2, false)], true),
+        Operand::Sine(2, true),
     ] {
         assert_eq!(refused("gravity", outputs(operand), &[]), missing);
     }

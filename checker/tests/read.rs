@@ -17,7 +17,6 @@ fn read(lines: &str) -> Result<(), String> {
             length: 2,
         }],
         fields: vec![("c", vec![1])],
-        structure: None,
         joints: 2,
     };
     let symbols = Symbols {
@@ -27,7 +26,7 @@ fn read(lines: &str) -> Result<(), String> {
         ..Symbols::default()
     };
     let text = Text::c(&text).unwrap();
-    let read = text.c_function(&head, &symbols, false);
+    let read = text.function(&head, Some(&symbols), false);
     read.map(|_| ()).map_err(|error| error.reason)
 }
 

@@ -2,96 +2,38 @@
 
 use dalembert_checker::certify::certify;
 
-use crate::support::file;
+use crate::support::{changed, file};
 
-/// Words of a robot file, those in their place, and the refusal.
-const ROBOTS: [[&str; 3]; 17] = [
-    [
-        "mass = 1\n",
-        "mass = 1\nsprings = {}\n",
-        "unknown field `springs`",
-    ],
-    [
-        "mass = 1\n",
-        "mass = true\n",
-        "is no number, text, list or table",
-    ],
-    [
-        "[scene.pick]",
-        "[scene.pick]\nwind = 1",
-        "unknown field `wind`",
-    ],
-    ["[scene.pick]", "[scene.other]", "no scene `pick`"],
-    [
-        "relative_to = \"actuator\"",
-        "relative_to = 1, of = 2",
-        "unknown field `of`",
-    ],
-    [
-        "value = 5e-2",
-        "value = [5e-2]",
-        "expected a number, or one a joint",
-    ],
-    [
-        "value = 5e-2",
-        "value = \"much\"",
-        "expected a number, or one a joint",
-    ],
-    [
-        "position = [\"-pi\", \"pi\"]",
-        "position = [\"pi\", \"-pi\"]",
-        "the range of `q` is empty",
-    ],
-    [
-        "position = [\"-pi\", \"pi\"]",
-        "position = [nan, 1]",
-        "the range of `q` is empty",
-    ],
-    [
-        "velocity = 2",
-        "velocity = -2",
-        "the range of `qd` is empty",
-    ],
-    [
-        "acceleration = 10",
-        "acceleration = -10",
-        "the range of `qdd` is empty",
-    ],
-    ["torque = 50", "torque = -50", "the range of `tau` is empty"],
-    [
-        BOX,
-        "box = { position = [[1, -1], [0, 1]] }",
-        "the range of `q` is empty",
-    ],
-    [
-        BOX,
-        "box = { velocity = [-1, 1] }",
-        "the range of `qd` is empty",
-    ],
-    [
-        BOX,
-        "box = { acceleration = [1, -1] }",
-        "the range of `qdd` is empty",
-    ],
-    [BOX, "box = { depth = [1, -1] }", "unknown field `depth`"],
-    ["convention", "name", "duplicate key"],
-];
-const BOX: &str = "outputs";
+/// Changes of a robot file, and the refusals.
+const ROBOTS: &str = r#"
+mass = 1 | &; springs = {} | unknown field `springs`
+mass = 1 | mass = true | is no number, text, list or table
+[scene.pick] | &; wind = 1 | unknown field `wind`
+[scene.pick] | [scene.other] | no scene `pick`
+relative_to = "actuator" | relative_to = 1, of = 2 | unknown field `of`
+value = 5e-2 | value = [5e-2] | expected a number, or one a joint
+value = 5e-2 | value = "much" | expected a number, or one a joint
+position = ["-pi", "pi"] | position = ["pi", "-pi"] | the range of `q` is empty
+position = ["-pi", "pi"] | position = [nan, 1] | the range of `q` is empty
+velocity = 2 | velocity = -2 | the range of `qd` is empty
+acceleration = 10 | acceleration = -10 | the range of `qdd` is empty
+torque = 50 | torque = -50 | the range of `tau` is empty
+[scene.pick] | &; box = { position = [[1, -1], [0, 1]] } | the range of `q` is empty
+[scene.pick] | &; box = { velocity = [-1, 1] } | the range of `qd` is empty
+[scene.pick] | &; box = { acceleration = [1, -1] } | the range of `qdd` is empty
+[scene.pick] | &; box = { depth = [1, -1] } | unknown field `depth`
+convention | name | duplicate key
+"#;
 
 #[test]
 fn robot_files_that_are_none() {
     let source = file("checker/tests/data/attacks/r2_conf.toml");
     let claim = r#"{ "claim": 1, "constants": [], "functions": [] }"#;
     let text = file("checker/tests/data/attacks/C.rs");
-    for [from, to, words] in ROBOTS {
-        let robot = match from == BOX {
-            true => source.replacen("[scene.pick]\n", &format!("[scene.pick]\n{to}\n"), 1),
-            false => source.replacen(from, to, 1),
-        };
-        assert_ne!(robot, source, "{from}");
+    for (robot, words) in changed(&source, ROBOTS) {
         let fault = certify(&text, claim, &robot, Some("pick"), None);
         let why = fault.unwrap_err().to_string();
-        assert!(why.contains(words), "{to}: {why}");
+        assert!(why.contains(words), "{words}: {why}");
     }
     let long = format!("{source}#{}", "#".repeat(1 << 18));
     assert!(certify(&text, claim, &long, None, None).is_err());

@@ -7,3 +7,17 @@ pub fn file(path: &str) -> String {
     let path = format!("{}/../{path}", env!("CARGO_MANIFEST_DIR"));
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
+
+/// Returns a text with each change of a table, and what is expected of it. A line has words of the
+/// text, those in their place, with `&` for the words and `; ` for the end of a line, and what is
+/// expected.
+pub fn changed<'t>(text: &str, table: &'t str) -> Vec<(String, &'t str)> {
+    let change = |row: &'t str| {
+        let mut cells = row.split(" | ");
+        let [from, to, expected] = std::array::from_fn(|_| cells.next().unwrap());
+        assert!(text.contains(from), "{from}");
+        let to = to.replace('&', from).replace("; ", "\n");
+        (text.replacen(from, &to, 1), expected)
+    };
+    table.trim().lines().map(change).collect()
+}

@@ -7,7 +7,6 @@
 
 use dalembert_codegen::workspace::{
     Admitted, BoundEffort, Certificate, ErrorBudget, PruneSettings, TextError, each, falsify,
-    sincos_counts,
 };
 use dalembert_codegen::{Counts, Effort, Program, ScalarType};
 
@@ -51,12 +50,8 @@ impl Point {
 
     /// Counts its operations, those of its sines included.
     pub fn counts(&self) -> Counts {
-        let (trig_mul, trig_add) = sincos_counts(&self.certificate.sines);
-        Counts {
-            trig_mul,
-            trig_add,
-            ..self.certificate.emitted.counts()
-        }
+        let kernels = self.certificate.sines.iter().map(|own| &own.kernel);
+        self.certificate.emitted.counts().with_kernels(kernels)
     }
 
     /// Returns its operations, those of polynomials included.
@@ -194,7 +189,7 @@ impl<'a> Ladder<'a> {
         let from: Vec<Program> = from.into_iter().collect();
         groups
             .map(|scalars| {
-                let found = self.frame.choose_from(
+                let found = self.frame.choose(
                     &from,
                     &tolerances,
                     &scalars,

@@ -148,11 +148,11 @@ pub fn unopened(path: &Path, error: Unopened) -> Failure {
 fn problems_of(problems: &[Problem]) -> String {
     let one = |problem: &Problem| {
         let flag = problem.option.replace('_', "-");
-        let help = match problem.help.as_str() {
+        let help = match problem.complaint.help.as_str() {
             "" => String::new(),
             help => format!("\n  = help: {help}"),
         };
-        format!("error: --{flag}: {}{help}", problem.message)
+        format!("error: --{flag}: {}{help}", problem.complaint.message)
     };
     problems.iter().map(one).collect::<Vec<_>>().join("\n\n")
 }

@@ -9,6 +9,7 @@ use crate::language::Language;
 use crate::robot_file::RobotFile;
 use crate::task::Request;
 use crate::task::options::Problem;
+use crate::words::complaint;
 
 /// The code that was asked of a robot file.
 #[derive(Clone, Debug)]
@@ -65,10 +66,7 @@ impl Problem {
         let (option, item) = match (error, error.function()) {
             (GenerateError::Parameter(..), _) => {
                 let first = request.parameters.first();
-                (
-                    "parameters",
-                    first.map_or("", |first| first.name()).to_owned(),
-                )
+                ("parameters", first.map_or("", |own| own.name()).to_owned())
             }
             (_, Some(function)) if request.functions.contains(&function) => {
                 ("outputs", function.text())
@@ -76,10 +74,9 @@ impl Problem {
             _ => ("", String::new()),
         };
         Problem {
-            option: option.to_owned(),
+            option,
             item,
-            message: error.to_string(),
-            help: String::new(),
+            complaint: complaint(error.to_string()),
         }
     }
 }

@@ -6,7 +6,7 @@ use dalembert_checker::claim::{Claim, Claimed, VERSION};
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
 
-use crate::function::{Columns, Function, Quantity};
+use crate::function::{Function, Quantity};
 use crate::program::{Operand, Program, Steps};
 use crate::setup::Setup;
 
@@ -30,11 +30,9 @@ impl Written {
     pub(crate) fn document(self, functions: Vec<Claimed>) -> Claim {
         Claim {
             claim: VERSION,
-            robot: String::new(),
-            input: String::new(),
-            aligned: None,
             constants: self.texts,
             functions,
+            ..Claim::default()
         }
     }
 
@@ -67,18 +65,14 @@ pub(crate) fn code(program: &Program, constants: &mut Written) -> [String; 2] {
 pub(crate) fn of_setup(own: &Program, setup: &Setup, constants: &mut Written) -> Claimed {
     let scene = setup.scene().map(|scene| &*scene.name);
     let claimed = claimed(own, scene, constants);
-    let base = match own.function.columns() {
-        Columns::Base(quantity) => setup.base(quantity).ok(),
-        Columns::Links | Columns::None => None,
-    };
+    let base = setup.base_of(own.function).ok().flatten();
     let combinations = base.map_or(&[][..], |base| &base.combinations);
     let terms = combinations.iter().map(|terms| {
-        let terms = terms
-            .iter()
-            .map(|(parameter, factor)| match *factor == Exact::one() {
-                true => parameter.to_string(),
-                false => format!("#{}*{parameter}", constants.place(factor)),
-            });
+        let terms = terms.iter();
+        let terms = terms.map(|(parameter, factor)| match factor.is_one() {
+            true => parameter.to_string(),
+            false => format!("#{}*{parameter}", constants.place(factor)),
+        });
         terms.collect::<Vec<String>>().join(" ")
     });
     let terms = terms.collect();
@@ -96,20 +90,13 @@ pub(crate) fn of_setup(own: &Program, setup: &Setup, constants: &mut Written) ->
 /// Returns the claim of a program.
 pub(crate) fn claimed(own: &Program, scene: Option<&str>, constants: &mut Written) -> Claimed {
     let [steps, returns] = code(own, constants);
+    let arguments = own.arguments.iter().map(|own| own.name().to_owned());
+    let results = own.function.quantities().iter().map(|own| result(*own));
     Claimed {
         function: own.function.name().to_owned(),
         scene: scene.map(str::to_owned),
-        arguments: own
-            .arguments
-            .iter()
-            .map(|own| own.name().to_owned())
-            .collect(),
-        results: own
-            .function
-            .quantities()
-            .iter()
-            .map(|own| result(*own))
-            .collect(),
+        arguments: arguments.collect(),
+        results: results.collect(),
         steps,
         returns,
         ..Claimed::default()

@@ -10,6 +10,7 @@ use crate::bound::magnitude::relative;
 use crate::bound::sample::{climb, draw};
 use crate::bound::sensitivity::{Rounding, rounding};
 use crate::certificate::Certificate;
+use crate::interval::Interval;
 use crate::language::read::{Signature, TextError};
 use crate::program::{Code, ScalarType};
 use crate::random::Random;
@@ -108,15 +109,11 @@ struct Falsifier<'c> {
 
 impl<'c> Falsifier<'c> {
     fn new(certificate: &'c Certificate) -> Result<Falsifier<'c>, TextError> {
-        let Certificate { text: printed, .. } = certificate;
-        let program = &certificate.exact;
-        let limits = &certificate.limits;
+        let (program, limits) = (&certificate.exact, &certificate.limits);
+        let signature = Signature::of(&certificate.emitted, certificate.scalar);
         Ok(Falsifier {
             certificate,
-            emitted: Code::parse(
-                printed,
-                &Signature::of(&certificate.emitted, certificate.scalar),
-            )?,
+            emitted: Code::parse(&certificate.text, &signature)?,
             exact: program.in_doubles(),
             granted: rounding(program, ScalarType::F64, &[], limits, 64),
             falsification: Falsification {
@@ -157,7 +154,7 @@ impl<'c> Falsifier<'c> {
         self.falsification.states += states.len();
         let mut all = Vec::with_capacity(emitted.len());
         for (i, (emitted, exact)) in emitted.iter().zip(&exact).enumerate() {
-            let granted = self.granted[i].arithmetic + self.granted[i].sincos;
+            let granted = self.granted[i].total();
             let bound = self.certificate.bounds[i].total();
             let mut errors = Vec::with_capacity(states.len());
             for ((x, y), state) in emitted.iter().zip(exact).zip(&states) {
@@ -215,22 +212,16 @@ pub(crate) fn held(state: &JointState, scalar: ScalarType, limits: &InputBox) ->
     if scalar == ScalarType::F64 {
         return state.clone();
     }
-    let hold = |values: &[f64], ranges: &[crate::interval::Interval]| {
-        let pairs = values.iter().zip(ranges);
-        pairs
-            .map(|(&x, range)| {
-                let near = x as f32;
-                let inside = if f64::from(near) > range.high() {
-                    near.next_down()
-                } else if f64::from(near) < range.low() {
-                    near.next_up()
-                } else {
-                    near
-                };
-                f64::from(inside)
-            })
-            .collect()
+    let inside = |(&x, range): (&f64, &Interval)| {
+        let near = x as f32;
+        f64::from(match f64::from(near) {
+            read if read > range.high() => near.next_down(),
+            read if read < range.low() => near.next_up(),
+            _ => near,
+        })
     };
+    let hold =
+        |values: &[f64], ranges: &[Interval]| values.iter().zip(ranges).map(inside).collect();
     JointState {
         q: hold(&state.q, &limits.position),
         qd: hold(&state.qd, &limits.velocity),

@@ -78,35 +78,21 @@ mod words;
 #[doc(hidden)]
 pub mod workspace;
 
-#[doc(inline)]
 pub use ask::{Made, ask};
 #[doc(inline)]
 pub use dalembert_stamp::Asked;
-#[doc(inline)]
 pub use emit::GeneratedFunction;
 #[doc(inline)]
 pub use function::Function;
-#[doc(inline)]
 pub use generate::{GenerateError, Generated, generate};
-#[doc(inline)]
 pub use language::Language;
-#[doc(inline)]
 pub use plan::Plan;
-#[doc(inline)]
 pub use program::{Counts, Program, ScalarType};
-#[doc(inline)]
 pub use robot_file::{RobotFile, RobotFileError};
-#[doc(inline)]
 pub use search::Effort;
-#[doc(inline)]
 pub use seeds::Start;
-#[doc(inline)]
 pub use sincos::SinCos;
-#[doc(inline)]
 pub use task::options::{OPTIONS, OptionRow, Problem, Purpose};
-#[doc(inline)]
 pub use task::{Fma, Prefer, Request};
-#[doc(inline)]
 pub use watch::Watch;
-#[doc(inline)]
 pub use words::Complaint;

@@ -1,8 +1,9 @@
 //! Work shared out among threads, whose number no result depends on.
 
+use std::cmp::Reverse;
 use std::num::NonZero;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
 use std::thread;
 
 /// The stack of a thread: as much as a program's first thread has, since the others run the
@@ -14,16 +15,15 @@ const STACK: usize = 8 << 20;
 /// with the last: the long outputs come last, and none should be left alone at the end.
 pub fn each<'t, T: Sync, R: Send>(items: &'t [T], function: impl Fn(&'t T) -> R + Sync) -> Vec<R> {
     let next = AtomicUsize::new(0);
-    let results = Mutex::new(Vec::new());
+    let (sender, results) = mpsc::channel();
     let work = || {
         loop {
             let index = next.fetch_add(1, Ordering::Relaxed);
             let Some(item) = items.iter().nth_back(index) else {
                 break;
             };
-            let result = function(item);
-            let mut results = results.lock().unwrap_or_else(|poison| poison.into_inner());
-            results.push((index, result));
+            // The receiver is below.
+            let _ = sender.send((index, function(item)));
         }
     };
     let threads = thread::available_parallelism().map_or(1, NonZero::get);
@@ -36,15 +36,9 @@ pub fn each<'t, T: Sync, R: Send>(items: &'t [T], function: impl Fn(&'t T) -> R 
         }
         work();
     });
-    let mut results = results
-        .into_inner()
-        .unwrap_or_else(|poison| poison.into_inner());
-    results.sort_by_key(|(index, _)| *index);
-    results
-        .into_iter()
-        .rev()
-        .map(|(_, result)| result)
-        .collect()
+    let mut results: Vec<(usize, R)> = results.try_iter().collect();
+    results.sort_by_key(|(index, _)| Reverse(*index));
+    results.into_iter().map(|(_, result)| result).collect()
 }
 
 #[cfg(test)]

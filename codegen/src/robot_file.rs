@@ -1,8 +1,8 @@
 //! A robot file from a path, with errors fit to show.
 
 use std::fmt;
-use std::fs::{self, File};
-use std::io::{ErrorKind, Read};
+use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 
 use dalembert_model::read::{self, Diagnostic, Options, closest};
@@ -43,7 +43,8 @@ impl RobotFile {
     /// # Errors
     /// As [`RobotFile::read`].
     pub fn read_as(path: &Path, shown: &str) -> Result<RobotFile, RobotFileError> {
-        let bytes = bytes(path).map_err(|error| RobotFileError::of_system(path, shown, &error))?;
+        let bytes = plan::file::bytes(path, read::MAX_BYTES);
+        let bytes = bytes.map_err(|error| RobotFileError::of_system(path, shown, &error))?;
         let plan = plan::file::beside(path);
         let plan = plan.map_err(|why| RobotFileError::new(why.to_string()))?;
         let file = Self::parse_bytes(&bytes, shown)?;
@@ -80,16 +81,6 @@ impl RobotFile {
             }
         }
     }
-}
-
-/// Reads at most one byte more than a robot file may have, which is enough for the reader to say
-/// so; the path may be a device without end.
-fn bytes(path: &Path) -> std::io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    File::open(path)?
-        .take(read::MAX_BYTES as u64 + 1)
-        .read_to_end(&mut bytes)?;
-    Ok(bytes)
 }
 
 /// Why there is no robot: every error by itself, those of the text with their line. Never empty.

@@ -5,15 +5,13 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use dalembert_model::equations::Formulation;
-use dalembert_model::number::Exact;
-use dalembert_model::outputs::Motion;
 use dalembert_model::scalar::Scalar;
 
 use crate::dag::symbol::Symbol;
 use crate::dag::{Builder, Dag, Folding, Node};
 use crate::function::Argument;
 use crate::program::{Counts, Input};
-use crate::setup::{Setup, Task};
+use crate::setup::Task;
 
 /// A traced function.
 #[derive(Clone, Debug)]
@@ -24,21 +22,12 @@ pub struct Trace {
     pub traced: Counts,
 }
 
-/// Returns the motion of a robot in its scene in symbols. Of the arguments that are no part of a
-/// state only these are inputs: a search pairs whatever a graph has, and what
-/// nothing reads would only be in its way.
-pub(crate) fn symbols(
-    setup: &Setup,
+/// Reads inputs of a state or of these arguments as symbols, others as zero: a search pairs
+/// whatever a graph has, and what nothing reads would only be in its way.
+pub(crate) fn reader(
     arguments: &[Argument],
     builder: &Rc<RefCell<Builder>>,
-) -> Motion<Symbol> {
-    setup.motion(reader(arguments, builder), |constant| {
-        Symbol::from(constant.clone())
-    })
-}
-
-/// Inputs of a state or of these arguments in symbols, others zero.
-fn reader(arguments: &[Argument], builder: &Rc<RefCell<Builder>>) -> impl Fn(Input) -> Symbol {
+) -> impl Fn(Input) -> Symbol {
     let is_read = |argument| Argument::STATE.contains(&argument) || arguments.contains(&argument);
     move |input: Input| match is_read(input.argument()) {
         true => Symbol::input(builder, input),
@@ -49,8 +38,7 @@ fn reader(arguments: &[Argument], builder: &Rc<RefCell<Builder>>) -> impl Fn(Inp
 /// Returns whether a function of a robot in its scene depends on what Coulomb friction reads of
 /// speeds.
 pub(crate) fn depends_on_coulomb(task: Task<'_>) -> bool {
-    let Task { setup, function: _ } = task;
-    if !setup.has_coulomb() {
+    if !task.setup.has_coulomb() {
         return false;
     }
     let graph = trace(task, Formulation::NewtonEulerLink).graph;
@@ -62,18 +50,16 @@ pub(crate) fn depends_on_coulomb(task: Task<'_>) -> bool {
 pub fn trace(task: Task<'_>, formulation: Formulation) -> Trace {
     let Task { setup, function } = task;
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
-    let constant = |constant: &Exact| Symbol::from(constant.clone());
     // As the textbook has it, a payload is a body and no load.
     let mut arguments = setup.arguments(function);
     arguments.push(Argument::Payload);
-    let leaves = (constant, reader(&arguments, &builder));
+    let leaves = (Symbol::constant, reader(&arguments, &builder));
     let outputs = task.textbook(formulation, &leaves);
-    let outputs: Vec<_> = outputs
-        .iter()
-        .map(|output| output.edge(&mut builder.borrow_mut()))
-        .collect();
-    let traced = builder.borrow().asked();
-    let graph = std::mem::replace(&mut *builder.borrow_mut(), Builder::new(Folding::Syntactic))
-        .finish(outputs);
-    Trace { graph, traced }
+    let mut builder = builder.replace(Builder::new(Folding::Syntactic));
+    let outputs = outputs.iter().map(|output| output.edge(&mut builder));
+    let outputs = outputs.collect();
+    Trace {
+        traced: builder.asked(),
+        graph: builder.finish(outputs),
+    }
 }

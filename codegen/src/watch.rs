@@ -85,10 +85,7 @@ impl Watch {
 
     /// Returns the watch over the search for one function.
     pub fn over(&self, function: Function) -> FunctionWatch<'_> {
-        FunctionWatch {
-            observer: self.0.as_deref(),
-            function,
-        }
+        FunctionWatch(Some((self, function)))
     }
 }
 
@@ -98,19 +95,16 @@ impl fmt::Debug for Watch {
     }
 }
 
-/// The watch over the search for one function.
-#[derive(Clone, Copy)]
-pub struct FunctionWatch<'a> {
-    observer: Option<&'a dyn Observer>,
-    function: Function,
-}
+/// The watch over the search for one function; by default nobody's.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FunctionWatch<'a>(Option<(&'a Watch, Function)>);
 
 impl FunctionWatch<'_> {
     /// Tells the observer.
     pub fn step(&self, part: Part, [round, rounds]: [usize; 2], best: Option<Counts>) {
-        if let Some(observer) = self.observer {
+        if let Some((Watch(Some(observer)), function)) = self.0 {
             observer.step(&Progress {
-                function: self.function,
+                function,
                 part,
                 round,
                 rounds,
@@ -121,12 +115,6 @@ impl FunctionWatch<'_> {
 
     /// Returns whether the observer wants the search to end.
     pub fn is_over(&self) -> bool {
-        self.observer.is_some_and(Observer::stop)
-    }
-}
-
-impl fmt::Debug for FunctionWatch<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "FunctionWatch({})", self.function)
+        self.0.is_some_and(|(watch, _)| watch.is_over())
     }
 }

@@ -12,18 +12,18 @@ pub use crate::bound::{
     definite::{Indefinite, least_eigenvalue},
     input_box::InputBox,
     magnitude::{BoxEffort, magnitudes},
-    ranges::{Overflow, overflows},
+    ranges::Overflow,
     sample::{climb, draw},
     sensitivity::{BoundEffort, Sensitivity, rounding},
 };
-pub use crate::certificate::{Certificate, Refuted};
+pub use crate::certificate::Certificate;
 pub use crate::dag::{Dag, Edge, Fingerprint, Folding, Id, Leaves, Node, Points};
 pub use crate::edits::{Edit, EditSite, Omission, Stage, difference, omissions};
 pub use crate::emit::figures::bound_of;
 pub use crate::falsify::{Falsification, falsify};
 pub use crate::function::{Argument, Columns, Quantity, RuntimeParameter, Sizes};
 pub use crate::generate::{
-    MAX_OUTPUTS, ToleranceError, Unbounded,
+    MAX_OUTPUTS, ToleranceError,
     claim::{claim, claim_of},
     generate_anew,
     keep::keep,
@@ -50,16 +50,16 @@ pub use crate::seeds::{Source, skeleton, skeleton_for, trace_chain};
 pub use crate::setup::{
     Posed, SceneKey, Setup, Task,
     base::{BaseParameters, Parameter},
-    input_hash, motion,
+    input_hash,
 };
-pub use crate::sincos::{AngleKernel, Sines, choose::Candidates, counts as sincos_counts, stated};
+pub use crate::sincos::{AngleKernel, Sines, choose::Candidates, stated};
 pub use crate::split::ErrorByCause;
 pub use crate::states::{JointState, SEED, STATES, State, positions, seeded};
 pub use crate::task::Job;
 pub use crate::trace::{Trace, trace};
 pub use crate::verify::{
     exact::{Disproof, Proof, prove, prove_same},
-    measure::{BOUND, Emitted, Granted, LEAST_PART, Runtime},
+    measure::{Emitted, Granted, LEAST_PART, Runtime},
     parameters::prove_base,
     rounding::Rounding,
     truth::{Reference, TrueValue},

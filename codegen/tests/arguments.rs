@@ -65,7 +65,7 @@ fn check(case: &Case, count: usize) {
             let expected = runtime.run(function, &state);
             (run(&generated, emitted, &state), expected, granted)
         });
-        hold(emitted, &compared.collect::<Vec<_>>());
+        hold(emitted, &compared.collect::<Vec<_>>(), "");
     }
 }
 

@@ -1,18 +1,21 @@
 //! Generated files and their claims, shown by the checker; and none that says something else.
 
 use dalembert_checker::Fault;
-use dalembert_checker::certify::{Report, certify};
+use dalembert_checker::certify::{Bounded, Report, Shown, certify};
 use dalembert_codegen::Plan;
-use dalembert_codegen::workspace::claim;
+use dalembert_codegen::workspace::{Certificate, Setup, claim, claim_of};
 
-use crate::support::{Case, dose, every_output, in_scene, path, rows, source};
+use crate::support::{
+    self, Case, changes, dose, every_line_counts, every_output, in_scene, path, rows, source,
+};
 
 /// A file, its claim and its robot.
+#[derive(Clone)]
 pub struct Certified {
     pub text: String,
     pub claim: String,
     pub robot: String,
-    pub scene: Option<&'static str>,
+    pub scene: Option<String>,
 }
 
 impl Certified {
@@ -25,11 +28,11 @@ impl Certified {
     }
 
     /// Generates what is asked of a robot file.
-    pub fn of(robot: &str, scene: Option<&'static str>, asked: &str) -> Vec<Certified> {
+    pub fn of(robot: &str, scene: Option<&str>, asked: &str) -> Vec<Certified> {
         Certified::from(&Case::read(robot, asked), robot, scene)
     }
 
-    fn from(case: &Case, robot: &str, scene: Option<&'static str>) -> Vec<Certified> {
+    fn from(case: &Case, robot: &str, scene: Option<&str>) -> Vec<Certified> {
         let generated = case.generated();
         let claim = claim(case.robot(), robot, &case.request, &generated).unwrap();
         let files = generated.files(&case.request, "robot.toml", robot);
@@ -37,113 +40,122 @@ impl Certified {
             text,
             claim: claim.write(),
             robot: robot.to_owned(),
-            scene,
+            scene: scene.map(str::to_owned),
         });
         files.collect()
     }
 
+    /// Returns the text that a tolerance admitted, by its certificate.
+    pub fn variant(robot: &str, own: &Certificate) -> Certified {
+        let reading = support::read(robot);
+        let scene = own.scene.as_ref().map(|scene| scene.name.clone());
+        let mut scenes = reading.scenes.iter();
+        let found = scenes.find(|own| Some(&own.name) == scene.as_ref());
+        let setup = Setup::in_scene(&reading.robot, found).unwrap();
+        Certified {
+            text: own.text.clone(),
+            claim: claim_of(&reading.robot, robot, &setup, own).write(),
+            robot: robot.to_owned(),
+            scene,
+        }
+    }
+
+    /// Returns another text with the same claim.
+    pub fn with(&self, text: &str) -> Certified {
+        Certified {
+            text: text.to_owned(),
+            ..self.clone()
+        }
+    }
+
     /// Has the checker look at it.
     pub fn report(&self) -> Result<Report, Fault> {
-        self.with(&self.text)
+        let scene = self.scene.as_deref();
+        certify(&self.text, &self.claim, &self.robot, scene, None)
     }
 
-    /// Has the checker look at another text.
-    pub fn with(&self, text: &str) -> Result<Report, Fault> {
-        certify(text, &self.claim, &self.robot, self.scene, None)
-    }
-
-    /// Asserts that nothing is shown with a line of code taken away or with one of these changes in
-    /// it, of which every so manyth is tried; returns how many were.
-    #[track_caller]
-    pub fn changed(&self, step: usize, changes: &[[&str; 2]], is_code: fn(&str) -> bool) -> usize {
-        let lines: Vec<&str> = self.text.lines().collect();
-        let places = (0..lines.len()).filter(|&index| is_code(lines[index]));
-        let others = places.flat_map(|index| {
-            let line = lines[index];
-            let changed = changes.iter().map(|[from, to]| line.replacen(from, to, 1));
-            let others = changed.chain([String::new()]);
-            let others = others.filter(move |other| other != line);
-            others.map(move |other| (index, other))
-        });
-        let mut count = 0;
-        for (index, other) in others.step_by(step) {
-            count += 1;
-            let mut changed = lines.clone();
-            changed[index] = &other;
-            let found = refusal(self.with(&(changed.join("\n") + "\n")));
-            assert!(found.is_some(), "{} -> {other}", lines[index]);
+    /// Returns why something of it is not shown; none if all is.
+    pub fn refusal(&self) -> Option<String> {
+        let lines = match self.report() {
+            Err(fault) => return Some(fault.to_string()),
+            Ok(report) => report.lines,
+        };
+        if lines.is_empty() {
+            return Some("there is no function".into());
         }
-        count
+        let fault = lines.into_iter().find_map(|line| line.result.err());
+        fault.map(|fault| fault.to_string())
     }
 
-    /// Asserts that all functions are shown to be within their tolerance, with so many results, and of
-    /// how many at least E is.
+    /// Returns what is shown of its functions: all of them are.
     #[track_caller]
-    fn holds(&self, count: usize, held: usize, what: &str) {
-        let report = self
-            .report()
-            .unwrap_or_else(|fault| panic!("{what}: {fault}"));
-        let lines = report.lines.iter();
-        let lines = lines.map(|line| {
-            line.result
-                .as_ref()
-                .unwrap_or_else(|_| panic!("{what}: {line:?}"))
+    fn shown(&self, what: &str) -> Vec<Shown> {
+        let report = self.report();
+        let report = report.unwrap_or_else(|fault| panic!("{what}: {fault}"));
+        let shown = report.lines.into_iter().map(|line| {
+            let result = line.result;
+            result.unwrap_or_else(|fault| panic!("{what}: `{}`: {fault}", line.name))
         });
-        let results: Vec<_> = lines.flat_map(|own| &own.results).collect();
-        assert_eq!(results.len(), count, "{what}");
-        let found = results.iter().filter(|own| own.holds()).count();
-        assert!(found >= held, "{what}: {results:?}");
+        shown.collect()
     }
 
     /// Asserts that all of so many functions are shown.
     #[track_caller]
     pub fn is_shown(&self, count: usize, what: &str) {
-        let report = self
-            .report()
-            .unwrap_or_else(|fault| panic!("{what}: {fault}"));
-        for line in &report.lines {
-            assert!(line.result.is_ok(), "{what}: {line:?}");
-        }
-        assert_eq!(report.lines.len(), count, "{what}");
+        assert_eq!(self.shown(what).len(), count, "{what}");
     }
-}
 
-/// Returns why something of a file is not shown; none if all is.
-pub fn refusal(found: Result<Report, Fault>) -> Option<String> {
-    match found {
-        Err(fault) => Some(fault.to_string()),
-        Ok(report) if report.lines.is_empty() => Some("there is no function".into()),
-        Ok(report) => report
-            .lines
-            .into_iter()
-            .find_map(|line| line.result.err())
-            .map(|fault| fault.to_string()),
+    /// Asserts that all functions are shown to be within their tolerance, with so many results, and
+    /// of how many at least E is.
+    #[track_caller]
+    fn holds(&self, count: usize, held: usize, what: &str) {
+        let results = self.shown(what).into_iter().flat_map(|own| own.results);
+        let results: Vec<Bounded> = results.collect();
+        assert_eq!(results.len(), count, "{what}");
+        let found = results.iter().filter(|own| own.holds()).count();
+        assert!(found >= held, "{what}: {results:?}");
+    }
+
+    /// Asserts that the text is not shown with any one of these changes.
+    #[track_caller]
+    pub fn refuses(&self, table: &str) {
+        for [from, to] in changes(table) {
+            assert!(self.text.contains(&from), "{from}");
+            let other = self.with(&self.text.replacen(&from, &to, 1));
+            assert!(other.refusal().is_some(), "{from} → {to}");
+        }
+    }
+
+    /// Asserts that nothing is shown with a line of code taken away or with one of these changes in
+    /// it, of which every so manyth is tried; returns how many were.
+    #[track_caller]
+    pub fn every_line_counts(&self, step: usize, table: &str, is_code: fn(&str) -> bool) -> usize {
+        let changes = changes(table);
+        let others = |_, line: &str| {
+            let changed = changes.iter().map(|[from, to]| line.replacen(from, to, 1));
+            match is_code(line) {
+                true => changed.chain([String::new()]).collect(),
+                false => Vec::new(),
+            }
+        };
+        let is_refused = |text: &str| self.with(text).refusal().is_some();
+        every_line_counts(&self.text, step, others, is_refused)
     }
 }
 
 /// Arms of two and three joints, one of them with a base and a tool at odd angles, one of placed
 /// joints, then larger ones for optimised tests: of ten joints, with joints that follow, of
 /// general angles.
-const ROBOTS: [&str; 10] = [
-    "planar2r",
-    "base_and_tool",
-    "scara_placed",
-    "planar3r",
-    "scara",
-    "stanford",
-    "puma560",
-    "open_manipulator",
-    "panda",
-    "general6r",
-];
+const ROBOTS: &str = "planar2r base_and_tool scara_placed planar3r scara stanford puma560 \
+    open_manipulator panda general6r";
 
 #[test]
 fn every_function_is_shown_in_both_scalars_and_languages() {
-    for name in dose(&ROBOTS, 3) {
-        for language in ["rust", "c"] {
+    let robots: Vec<&str> = ROBOTS.split(' ').collect();
+    for name in dose(&robots, 3) {
+        for (language, count) in [("rust", 35), ("c", 70)] {
             let asked = format!("{}; scalar: f64, f32; language: {language}", every_output());
             let files = Certified::all(name, "", &asked);
-            let count = if language == "c" { 70 } else { 35 };
             for own in &files {
                 own.is_shown(count, &format!("{name} {language}"));
             }
@@ -237,97 +249,63 @@ fn variants_of_plans_are_shown() {
     }
 }
 
-/// Another robot, scene or frame is seen in what it changes, and in nothing else.
+/// Another robot, scene or frame is seen in what it changes, and in nothing else: words of a robot
+/// file, those in their place, and a function that is the same.
 #[test]
 fn robots_that_are_others() {
-    const HAND: &str = "../checker/tests/data/hand.toml";
-    let robot = std::fs::read_to_string(path(HAND)).unwrap();
-    let files = Certified::of(
-        &robot,
-        None,
-        &format!("outputs: {}; scalar: f64", every_output()),
-    );
-    files[0].is_shown(35, HAND);
-    for (from, to, kept) in [
-        ("0, 0.107]", "0, 0.1071]", "inertia"),
-        ("[0, 0, -0.2]", "[0, 0, -0.21]", "forward_kinematics"),
-        ("0.1, 0.2, 0.8]", "0.1, 0.2, 0.81]", "inertia"),
-        ("viscous = 0.4", "viscous = 0.41", "gravity"),
-        (
-            "viscous = 0.4",
-            "viscous = 0.4000000000000000001",
-            "gravity",
-        ),
-    ] {
-        assert!(robot.contains(from), "{from}");
-        let other = robot.replacen(from, to, 1);
-        let report = certify(&files[0].text, &files[0].claim, &other, None, None).unwrap();
-        let is_kept = |name: &str| {
-            let line = report.lines.iter().find(|line| line.name == name);
-            line.unwrap().result.is_ok()
-        };
-        assert!(!report.is_shown() && is_kept(kept), "{to}: {report:?}");
+    let robot = std::fs::read_to_string(path("../checker/tests/data/hand.toml")).unwrap();
+    let asked = format!("outputs: {}; scalar: f64", every_output());
+    let own = &Certified::of(&robot, None, &asked)[0];
+    own.is_shown(35, "hand");
+    for [from, to, kept] in rows(
+        "
+0, 0.107]      | 0, 0.1071]                      | inertia
+[0, 0, -0.2]   | [0, 0, -0.21]                   | forward_kinematics
+0.1, 0.2, 0.8] | 0.1, 0.2, 0.81]                 | inertia
+viscous = 0.4  | viscous = 0.41                  | gravity
+viscous = 0.4  | viscous = 0.4000000000000000001 | gravity
+",
+    ) {
+        assert!(robot.contains(&from), "{from}");
+        let mut other = own.clone();
+        other.robot = robot.replacen(&from, &to, 1);
+        let report = other.report().unwrap();
+        let mut lines = report.lines.iter();
+        let is_kept = lines.any(|line| line.name == kept && line.result.is_ok());
+        assert!(!report.is_shown() && is_kept, "{to}: {report:?}");
     }
 }
 
 /// Rows that stand for placed joints, of which one is another.
 #[test]
 fn rows_that_are_not_those_of_the_robot_file() {
-    let robot = source("open_manipulator", "");
-    let own = &Certified::of(&robot, None, "outputs: gravity; scalar: f64")[0];
+    let own = &Certified::all("open_manipulator", "", "gravity; scalar: f64")[0];
     own.is_shown(1, "placed");
-    for (from, to, words) in [
-        ("mass = 0.0984", "mass = 0.0985", "mass of joint 1"),
-        ("velocity = 4.8", "viscous = 1", "aligned"),
-        (
-            "name = \\\"joint2\\\"",
-            "name = \\\"joint3\\\"",
-            "other joints",
-        ),
-    ] {
-        assert!(own.claim.contains(from), "{from}: {}", own.claim);
-        let claim = own.claim.replacen(from, to, 1);
-        let why = refusal(certify(&own.text, &claim, &own.robot, None, None)).unwrap();
-        assert!(why.contains(words), "{why}");
+    for [from, to, words] in rows(
+        r#"
+mass = 0.0984       | mass = 0.0985       | mass of joint 1
+velocity = 4.8      | viscous = 1         | aligned
+name = \"joint2\" | name = \"joint3\" | other joints
+"#,
+    ) {
+        assert!(own.claim.contains(&from), "{from}: {}", own.claim);
+        let mut other = own.clone();
+        other.claim = own.claim.replacen(&from, &to, 1);
+        let why = other.refusal().unwrap();
+        assert!(why.contains(&words), "{why}");
     }
 }
 
 /// Words of a line of a function, and others in their place: what is computed is then another, or
 /// a compiler sees the same as before.
-const CHANGES: [[&str; 2]; 32] = [
-    [" + ", " - "],
-    [" - ", " + "],
-    [" * ", " + "],
-    [" * ", " / "],
-    [" / ", " * "],
-    ["t1 ", "t2 "],
-    ["t1;", "t2;"],
-    ["s1", "s2"],
-    ["c1", "s1"],
-    ["q[0]", "q[1]"],
-    ["qd[0]", "qd[1]"],
-    ["qd", "q"],
-    ["[t", "[-t"],
-    [", t", ", -t"],
-    ["-t", "t"],
-    ["(s1, c1)", "(c1, s1)"],
-    ["sincos", "cossin"],
-    ["libm", "evil"],
-    ["libm::sincos", "dalembert_sines::sincos"],
-    [";", " + 0.0;"],
-    [";", " * 1.0;"],
-    [".", ".0"],
-    ["5", "6"],
-    ["9", "8"],
-    ["0.", "1."],
-    ["f64", "f32"],
-    ["double", "float"],
-    ["; 2]", "; 3]"],
-    ["]", ", 0.0]"],
-    ["const ", "const volatile "],
-    ["{", "{ let x = 0.0;"],
-    ["[0] = ", "[1] = "],
-];
+const CHANGES: &str = "
+·+· → ·-· … ·-· → ·+· … ·*· → ·+· … ·*· → ·/· … ·/· → ·*· … ; → ·+ 0.0; … ; → ·* 1.0;
+t1· → t2· … t1; → t2; … s1 → s2 … c1 → s1 … q[0] → q[1] … qd[0] → qd[1] … qd → q
+[t → [-t … , t → , -t … -t → t … (s1, c1) → (c1, s1) … [0] =· → [1] =· … ] → , 0.0]
+sincos → cossin … libm → evil … libm::sincos → dalembert_sines::sincos
+. → .0 … 5 → 6 … 9 → 8 … 0. → 1. … f64 → f32 … double → float … ; 2] → ; 3]
+const· → const volatile· … { → { let x = 0.0;
+";
 
 /// Each line changed in each way, or taken away: nothing is shown then.
 #[test]
@@ -339,7 +317,7 @@ fn no_line_of_a_function_can_say_something_else() {
             let asked = format!("{name}; scalar: f64; name: p; language: {language}");
             let own = &Certified::all("planar2r", "", &asked)[0];
             own.is_shown(1, &asked);
-            count += own.changed(step, &CHANGES, is_code);
+            count += own.every_line_counts(step, CHANGES, is_code);
         }
     }
     assert!(count > 18_000 / step, "{count}");
@@ -348,8 +326,7 @@ fn no_line_of_a_function_can_say_something_else() {
 /// Returns whether a line is neither a comment nor a brace.
 fn is_code(line: &str) -> bool {
     let words = line.trim();
-    let comments = ["//", "/*", "*", "#"];
-    let is_comment = comments.iter().any(|start| words.starts_with(start));
-    let is_end = ["", "}"].contains(&words);
-    !is_end && !is_comment && !words.starts_with("pub const N")
+    let others = ["//", "/*", "*", "#", "pub const N"];
+    let is_other = others.iter().any(|start| words.starts_with(start));
+    !is_other && !["", "}"].contains(&words)
 }

@@ -1,17 +1,20 @@
-//! No certificate is violated, and none is much too large: pruned variants of
-//! four robots, run at corners, random states and where a climb ends. The
-//! whole campaign is in `src/certificate/README.md`; this is its smaller dose.
+//! No certificate is violated, and none is much too large: pruned variants of four robots, and of
+//! robots that nobody chose, run at corners, random states and where a climb ends. The whole
+//! campaign is in `src/certificate/README.md`; this is its smaller dose. And bars of the PUMA's
+//! certified trade, which only ever go down.
 
 use dalembert_codegen::workspace::{
-    BoundEffort, BoxEffort, Certificate, ErrorBudget, PruneSettings, Setup, falsify,
+    BoundEffort, BoxEffort, Certificate, ErrorBudget, InputBox, PruneSettings, Setup,
+    least_eigenvalue, scale,
 };
-use dalembert_codegen::{Function, Request, ScalarType, generate};
+use dalembert_codegen::{Function, Program, Request, ScalarType, generate};
+use dalembert_model::number::{Angle, Rational};
+use dalembert_model::robot::{JointKind, Position, Robot};
 use dalembert_model::scene::{Scale, Scene};
 
-use crate::support;
-
-const SAMPLES: usize = 20_000;
-const CLIMBS: usize = 6;
+use crate::certify_certificate::{Exact, certified, tried};
+use crate::support::draw::{Draw, robots};
+use crate::support::{self, largest};
 
 /// Between a glance and a certificate.
 const FINENESS: BoundEffort = BoundEffort {
@@ -20,40 +23,28 @@ const FINENESS: BoundEffort = BoundEffort {
     ..BoundEffort::QUICK
 };
 
-/// Returns the largest E and the largest error that was seen.
-fn falsified(certificate: &Certificate) -> (f64, f64) {
-    let falsification = falsify(certificate, SAMPLES, CLIMBS, 11).unwrap();
-    assert_eq!(
-        falsification.violation, None,
-        "{:?}",
-        falsification.observed
-    );
-    assert!(falsification.states > SAMPLES);
-    let certified = certificate.bounds.iter().map(|bound| bound.total());
-    let certified = certified.fold(0.0, f64::max);
-    (
-        certified,
-        falsification.observed.into_iter().fold(0.0, f64::max),
-    )
+/// Returns the largest E, and how many times the largest error it is that is seen.
+#[track_caller]
+fn looseness(certificate: &Certificate, samples: usize, climbs: usize, seed: u64) -> [f64; 2] {
+    let most = certified(certificate);
+    let seen = largest(&tried(certificate, samples, climbs, seed));
+    [most, most / seen]
 }
 
 /// Certifies a robot in the scene of its file, at another tolerance; without guesses nothing is
 /// left out.
 fn campaign(name: &str, tolerance: f64, scalars: &[ScalarType], guesses: usize) {
-    let reading = support::reading(name);
+    let reading = support::reading_with(name, "");
     let bare = reading.scenes.first().map(Scene::without_tolerance);
     let request = Request {
         scalars: vec![ScalarType::F64],
         scene: bare.clone(),
         ..Request::new(&[Function::InverseDynamics])
     };
-    let exact = generate(&reading.robot, &request)
-        .unwrap()
-        .functions
-        .remove(0)
-        .program;
+    let generated = generate(&reading.robot, &request).unwrap();
+    let exact = &generated.functions[0].program;
     let setup = Setup::in_scene(&reading.robot, bare.as_ref()).unwrap();
-    let frame = ErrorBudget::new(&setup, &exact, Scale::Range).unwrap();
+    let frame = ErrorBudget::new(&setup, exact, Scale::Range).unwrap();
     let settings = PruneSettings {
         samples: 24,
         guesses,
@@ -63,21 +54,17 @@ fn campaign(name: &str, tolerance: f64, scalars: &[ScalarType], guesses: usize) 
         ..PruneSettings::default()
     };
     let tolerances = vec![tolerance; frame.scales.len()];
-    let admitted = frame
-        .choose(&tolerances, scalars, &settings, FINENESS)
-        .unwrap();
+    let admitted = frame.choose(&[], &tolerances, scalars, &settings, FINENESS);
+    let admitted = admitted.unwrap();
     let is_pruned = admitted.is_other();
     assert_eq!(is_pruned, guesses > 0);
     for certificate in &admitted.certificates {
-        let (certified, observed) = falsified(certificate);
-        assert!(certified <= tolerance, "{certified}");
-        assert!(
-            !is_pruned || certified <= 3.0 * observed,
-            "{certified} {observed}"
-        );
+        let [most, loose] = looseness(certificate, 20_000, 6, 11);
+        assert!(most <= tolerance, "{most}");
+        assert!(!is_pruned || loose <= 3.0, "{loose}");
         if certificate.scalar == ScalarType::F32 {
-            let (certified, observed) = falsified(&certificate.of_rounding());
-            assert!(certified <= 12.0 * observed, "{certified} {observed}");
+            let [_, loose] = looseness(&certificate.of_rounding(), 20_000, 6, 11);
+            assert!(loose <= 12.0, "{loose}");
         }
     }
 }
@@ -104,4 +91,110 @@ fn ur10_at_a_tenth() {
 #[cfg_attr(debug_assertions, ignore = "half a minute without optimisation")]
 fn panda_at_a_billionth() {
     campaign("panda", 1e-9, &[ScalarType::F64], 0);
+}
+
+/// Returns a robot with limits: the whole circle or a part of it, and rates.
+fn limited(mut robot: Robot, draw: &mut Draw) -> Robot {
+    for joint in &mut robot.joints {
+        joint.limits.position = Some(match joint.kind {
+            JointKind::Prismatic => [-300, 500].map(|milli: i64| {
+                let metres = Rational::new(milli.into(), 1000.into());
+                Position::Length(metres)
+            }),
+            JointKind::Revolute => {
+                let part = if draw.chance(2) { 1 } else { 3 };
+                [-1, 1].map(|sign: i64| {
+                    let turns = Rational::new(sign.into(), part.into());
+                    Position::Angle(Angle::PiTimes(turns))
+                })
+            }
+        });
+        joint.limits.velocity = Some(draw.milli(500, 3000));
+        joint.limits.acceleration = Some(draw.milli(2000, 20_000));
+    }
+    robot
+}
+
+/// Robots of 1 to 4 joints, sliding ones and parts of the circle among them: in single precision as
+/// they are, and with what a tolerance leaves out, where that takes no longer than a test may.
+#[test]
+fn bounds_of_robots_that_nobody_chose() {
+    let small = robots(12, 0xb0).filter(|(_, robot, _)| robot.joints.len() <= 4);
+    for (seed, robot, mut draw) in small {
+        let n = robot.joints.len();
+        let range = |robot: &Robot, program: &Program| {
+            let setup = Setup::whole(robot);
+            let frame = ErrorBudget::new(&setup, program, Scale::Range);
+            frame.unwrap().scales
+        };
+        let robot = limited(robot, &mut draw);
+        let exact = Exact::new(robot, Function::InverseDynamics, range);
+        let rounded = exact.certificate(&exact.program, ScalarType::F32);
+        assert!(rounded.bounds.iter().all(|bound| bound.model == 0.0));
+        let [_, loose] = looseness(&rounded, 4000, 3, seed);
+        assert!(loose <= 30.0, "seed {seed}, {n} joints: {loose}");
+        if n < 4 {
+            let settings = PruneSettings {
+                samples: 10,
+                guesses: 2,
+                retries: 0,
+                stages: 1,
+                ..PruneSettings::default()
+            };
+            let pruned = exact.pruned(0.05, &settings);
+            assert!(!pruned.stages.is_empty(), "seed {seed}, {n} joints");
+            let variant = exact.certificate(&pruned.program, ScalarType::F64);
+            let [_, loose] = looseness(&variant, 4000, 3, seed);
+            assert!(loose <= 1.5, "seed {seed}, {n} joints: {loose}");
+        }
+    }
+}
+
+/// Asserts that what a part of the actuators' limits leaves of the PUMA's torques has so many
+/// operations at most, is within it, and is certified closely.
+fn bar(tolerance: f64, operations: usize) {
+    let exact = Exact::new(
+        support::robot("puma560"),
+        Function::InverseDynamics,
+        |robot, program| scale::actuator(robot, program).unwrap(),
+    );
+    let settings = PruneSettings {
+        retries: 4,
+        ..PruneSettings::default()
+    };
+    let pruned = exact.pruned(tolerance, &settings);
+    let counts = pruned.program.counts();
+    assert!(counts.operations() <= operations, "{counts}");
+    let certificate = exact.certificate(&pruned.program, ScalarType::F64);
+    let seen = largest(&tried(&certificate, 20_000, 4, 7));
+    let models: Vec<f64> = certificate.bounds.iter().map(|bound| bound.model).collect();
+    // A claim that is made with no tolerance to show exceeds what is reached by some hundredths.
+    assert!(largest(&models) <= 3.0 * seen, "{models:?} {seen}");
+    let mut shown = pruned.errors.iter().zip(&exact.scales);
+    assert!(shown.all(|(error, t)| *error <= t * tolerance));
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "minutes without optimisation")]
+fn puma_at_five_percent() {
+    bar(5e-2, 77);
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "minutes without optimisation")]
+fn puma_at_one_percent() {
+    bar(1e-2, 117);
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "minutes without optimisation")]
+fn pumas_inertia_is_positive_definite_over_the_whole_box() {
+    let robot = support::robot("puma560");
+    let program = support::one(&robot, Function::Inertia).program;
+    let limits = InputBox::of(&robot).unwrap();
+    for scalar in ScalarType::ALL {
+        let least = least_eigenvalue(&program, scalar, &[], &limits).unwrap();
+        // Sampled: 0.187. Any bound above zero is a proof; how near it comes is a matter of cells.
+        assert!((0.09..0.187).contains(&least), "{least}");
+    }
 }

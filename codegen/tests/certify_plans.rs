@@ -3,14 +3,13 @@
 use std::time::{Duration, Instant};
 
 use dalembert_checker::claim::{Claim, Claimed};
-use dalembert_codegen::workspace::{Refuted, keep};
-use dalembert_codegen::{GenerateError, Plan, Request, generate};
+use dalembert_codegen::workspace::keep;
+use dalembert_codegen::{GenerateError, Generated, Plan, Request, generate};
 use dalembert_model::number::{Exact, Rational};
-use dalembert_model::read::Reading;
 
-use crate::support;
+use crate::support::Case;
 
-/// Two joints that need little, so that a search is quick.
+/// Two joints that need little, so that a search is quick; and D.
 const SCENES: &str = r#"
 [scene.pick]
 outputs = ["inverse_dynamics"]
@@ -25,46 +24,48 @@ tolerance = { value = 0.15, relative_to = "range" }
 scalar = "f64"
 "#;
 
-fn request(reading: &Reading, scene: usize) -> Request {
-    Request::default().in_scene(&reading.scenes[scene])
-}
-
-/// Returns the arm, and the text of the plan that `--save-plan` would write for a scene.
-fn planned(scene: usize) -> (Reading, String) {
-    let mut reading = support::reading_with("planar3r", SCENES);
-    if scene == 1 {
+/// Returns the arm in a scene, what is generated, and the text of the plan that `--save-plan` would
+/// write.
+fn planned(scene: &str) -> (Case, Generated, String) {
+    let mut case = Case::new("planar3r", SCENES, &format!("scene: {scene}"));
+    if scene == "push" {
         // Rotors, beside which D can bear that something is left out.
-        for joint in &mut reading.robot.joints {
+        for joint in &mut case.reading.robot.joints {
             joint.armature = Rational::from_integer(1.into());
         }
     }
-    let request = request(&reading, scene);
-    let generated = generate(&reading.robot, &request).unwrap();
-    let kept = keep(&reading.robot, &request, &generated, None);
-    (reading, kept.plan.write())
+    let generated = case.generated();
+    let plan = keep(case.robot(), &case.request, &generated, None).plan;
+    (case, generated, plan.write())
 }
 
-fn generated(reading: &Reading, scene: usize, plan: &str) -> Result<String, GenerateError> {
+fn by(case: &Case, plan: &str) -> Result<Generated, GenerateError> {
     let request = Request {
         plan: Some(Plan::parse(plan).unwrap()),
-        ..request(reading, scene)
+        ..case.request.clone()
     };
-    generate(&reading.robot, &request).map(|generated| generated.text())
+    generate(case.robot(), &request)
 }
 
-/// A variant of a plan is the one that was found, in every byte; one that is not within the tolerance
-/// is searched for anew.
+/// A variant of a plan is the one that was found, in every byte, with the same claim, and D positive
+/// definite; one that is not within the tolerance is searched for anew.
 #[test]
 fn bounds_are_found_anew() {
-    for scene in 0..2 {
-        let (reading, plan) = planned(scene);
-        let found = generate(&reading.robot, &request(&reading, scene)).unwrap();
-        assert_eq!(generated(&reading, scene, &plan).unwrap(), found.text());
+    for scene in ["pick", "push"] {
+        let (case, found, plan) = planned(scene);
+        let again = by(&case, &plan).unwrap();
+        assert!(again.functions[0].planned);
+        assert_eq!(again.text(), found.text());
+        let [first, again] = [&found, &again].map(|own| own.functions[0].admitted.as_ref());
+        let [first, again] = [first, again].map(|own| &own.unwrap().certificates);
+        assert_eq!(again, first);
+        let is_definite = first[0].lambda_min.is_some_and(|least| least > 0.0);
+        assert_eq!(is_definite, scene == "push");
         let other = changed(&plan, |own| {
             let count = own.returns.split(' ').count();
             own.returns = vec!["#0"; count].join(" ");
         });
-        assert_eq!(generated(&reading, scene, &other).unwrap(), found.text());
+        assert_eq!(by(&case, &other).unwrap().text(), found.text());
     }
 }
 
@@ -78,60 +79,50 @@ fn changed(plan: &str, change: impl FnOnce(&mut Claimed)) -> String {
 
 /// Returns the plan with other operations in front of the variant's: `$0` is the first of these
 /// constants.
-fn with_steps(plan: &str, constants: &[&str], steps: &[String]) -> String {
+fn with_steps(plan: &str, constants: &[String], steps: &[String]) -> String {
     let mut claim = Claim::read(plan).unwrap();
     let first = claim.constants.len();
-    claim
-        .constants
-        .extend(constants.iter().map(|&own| own.to_owned()));
-    let mut words = steps.join(" ");
-    for place in 0..constants.len() {
-        words = words.replace(&format!("${place} "), &format!("#{} ", first + place));
-        words = words.replace(&format!("${place}*"), &format!("#{}*", first + place));
+    claim.constants.extend(constants.iter().cloned());
+    let mut words = steps.join(" ") + " ";
+    // From the last on: `$1` begins `$10`, too.
+    for place in (0..constants.len()).rev() {
+        words = words.replace(&format!("${place}"), &format!("#{}", first + place));
     }
-    let own = &mut claim.functions[0].steps;
-    *own = format!("{words}{own}");
+    claim.functions[0].steps.insert_str(0, &words);
     claim.write()
 }
 
 /// What would take long is refused before anything is computed.
 #[test]
 fn variants_that_grow_without_end() {
-    let (reading, plan) = planned(0);
-    let squared = |first: &str| {
-        let squares = (1..20).map(|step| format!("t{step}*t{step} "));
-        let all = std::iter::once(first.to_owned()).chain(squares);
-        all.collect::<Vec<String>>()
-    };
-    let long = format!("{}/3", "7".repeat(15_001));
-    let factors = (1..5).map(|step| format!("t{step}*$0 "));
+    let (case, _, plan) = planned("pick");
+    let first = |first: &str, rest: Vec<String>| [vec![first.to_owned()], rest].concat();
+    let squares = (1..20).map(|step| format!("t{step}*t{step}")).collect();
+    let factors = (1..5).map(|step| format!("t{step}*$0")).collect();
     // Twenty of these multiply out to 2^20 terms.
     let angles: Vec<String> = (10..30).map(|n| format!("1+1*cos(1/{n})")).collect();
-    let angles: Vec<&str> = angles.iter().map(String::as_str).collect();
-    let products = (2..20).map(|n| format!("t{}*${n} ", n - 1));
-    let first = |first: &str| std::iter::once(first.to_owned());
+    let products = (2..20).map(|n| format!("t{}*${n}", n - 1)).collect();
+    let long = format!("{}/3", "7".repeat(15_001));
     for (constants, steps, what) in [
-        (vec!["3/10"], squared("$0*$0 "), "bits of a constant"),
         (
-            vec![&*long],
-            first("s2*$0 ").chain(factors).collect(),
+            vec!["3/10".into()],
+            first("$0*$0", squares),
             "bits of a constant",
         ),
-        (
-            angles,
-            first("$0*$1 ").chain(products).collect(),
-            "of a constant",
-        ),
+        (vec![long], first("s2*$0", factors), "bits of a constant"),
+        (angles, first("$0*$1", products), "of a constant"),
         (
             vec![],
-            vec!["qd[1]*qd[1] ".into(); 60_000],
+            vec!["qd[1]*qd[1]".into(); 60_000],
             "50000 are the most",
         ),
     ] {
         let begun = Instant::now();
-        match generated(&reading, 0, &with_steps(&plan, &constants, &steps)) {
-            Err(GenerateError::Variant(_, Refuted::Work(much))) => {
-                assert!(much.to_string().contains(what), "{much}");
+        match by(&case, &with_steps(&plan, &constants, &steps)) {
+            Err(GenerateError::Variant(_, much)) => {
+                let much = much.to_string();
+                let is_limit = much.ends_with("the most that is checked");
+                assert!(is_limit && much.contains(what), "{much}");
             }
             other => panic!("{what}: {other:?}"),
         }
@@ -139,35 +130,35 @@ fn variants_that_grow_without_end() {
         assert!(begun.elapsed() < Duration::from_secs(20), "{what}");
     }
     // A text that reading alone would multiply out is none.
-    let squares: String = (10..200)
-        .map(|n| format!("*sin(1/{n})*sin(1/{n})"))
-        .collect();
+    let squares = (10..200).map(|n| format!("*sin(1/{n})*sin(1/{n})"));
+    let squares: String = squares.collect();
     assert!(format!("1{squares}").parse::<Exact>().is_err());
 }
 
 /// Inputs that a variant may not read, and words that would end a comment.
 #[test]
 fn variants_that_are_other_functions() {
-    let (reading, plan) = planned(0);
+    let (case, _, plan) = planned("pick");
     for input in ["qd[0]", "s1", "q[1]"] {
-        let steps = [format!("{input}*{input} ")];
-        let refused = generated(&reading, 0, &with_steps(&plan, &[], &steps));
+        let steps = [format!("{input}*{input}")];
+        let refused = by(&case, &with_steps(&plan, &[], &steps)).unwrap_err();
+        assert!(matches!(refused, GenerateError::Variant(..)));
         assert!(
-            matches!(
-                &refused,
-                Err(GenerateError::Variant(_, Refuted::Input { .. }))
-            ),
-            "{input}: {refused:?}"
+            refused.to_string().contains(" reads `"),
+            "{input}: {refused}"
         );
     }
     // No bound is known of a quotient.
-    let divided = with_steps(&plan, &[], &["qd[1]/qd[2] ".into()]);
-    let error = Plan::parse(&divided).unwrap_err().to_string();
-    assert!(error.contains("a quotient, of which no bound"), "{error}");
+    let divided = with_steps(&plan, &[], &["qd[1]/qd[2]".into()]);
     let hidden = changed(&plan, |own| {
         let planned = own.planned.as_mut().unwrap();
         planned.left_out.push(("*/ evil();".into(), 1, 0));
     });
-    let error = Plan::parse(&hidden).unwrap_err().to_string();
-    assert!(error.contains("what was left out"), "{error}");
+    for (text, words) in [
+        (divided, "a quotient, of which no bound"),
+        (hidden, "what was left out"),
+    ] {
+        let error = Plan::parse(&text).unwrap_err().to_string();
+        assert!(error.contains(words), "{error}");
+    }
 }

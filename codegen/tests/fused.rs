@@ -7,7 +7,7 @@ use dalembert_codegen::workspace::{
 };
 use dalembert_codegen::{Function, Generated, ScalarType};
 
-use crate::shown::shown;
+use crate::certified::Certified;
 use crate::support::{self, Case};
 
 /// Every sum with a product that nobody else reads takes one: so many operations
@@ -103,15 +103,6 @@ pub fn gravity(q: &[f64; 2]) -> [f64; 2] {
     assert!(twice > 5, "{twice}");
 }
 
-/// A function that is cut into blocks has no cut between a product and its sum: it is read back
-/// where it is generated.
-#[test]
-fn no_cut_between_a_product_and_its_sum() {
-    let case = Case::in_scene("panda", "", "dynamic_coefficients; fma: on");
-    let text = case.generated().text();
-    assert!(text.contains("let (t") && text.contains(".mul_add("));
-}
-
 /// Returns the certificates of the first function.
 fn certificates(generated: &Generated) -> &[Certificate] {
     let admitted = generated.functions[0].admitted.as_ref();
@@ -137,7 +128,7 @@ fn certificates_bound_one_rounding() {
             smaller += usize::from(own.rounding < other.rounding);
         }
         assert!(smaller > 0);
-        shown(&support::source("puma560", scene), certificate);
+        Certified::variant(&support::source("puma560", scene), certificate).is_shown(1, "fused");
     }
     let kept = |case: &Case, own: &Generated| keep(case.robot(), &case.request, own, None).plan;
     assert_eq!(kept(&on, &found).write(), kept(&off, &plain).write());
@@ -153,7 +144,7 @@ fn certificates_name_the_library() {
     assert!(generated.text().contains("dalembert_sines::sincos(&["));
     let certificate = &certificates(&generated)[0];
     assert_eq!(certificate.library, Library::Together);
-    shown(&support::source("planar2r", scene), certificate);
+    Certified::variant(&support::source("planar2r", scene), certificate).is_shown(1, "together");
 
     let alone = certificate.calling(Library::Libm);
     assert!(alone.text.contains("libm::sincos("));

@@ -35,11 +35,11 @@ impl Shown {
 /// Generates all functions of a robot.
 fn all(name: &str) -> Vec<Shown> {
     let asked = format!("{}; scalar: f64", every_output());
-    let own = &Certified::all(name, "", &asked)[0];
-    let (source, claim) = (own.robot.clone(), Claim::read(&own.claim).unwrap());
+    let file = &Certified::all(name, "", &asked)[0];
+    let claim = Claim::read(&file.claim).unwrap();
     let constants = claim.constants().unwrap();
     let shown = claim.functions.iter().map(|own| Shown {
-        source: source.clone(),
+        source: file.robot.clone(),
         function: Function::named(&own.function, &own.arguments, &own.results).unwrap(),
         program: own.program(&constants).unwrap(),
         base: own.base(&constants, 2).unwrap(),
@@ -56,17 +56,11 @@ fn every_mutant_of_a_program_is_refused() {
         let steps = own.program.steps.len();
         for index in (0..steps).step_by(steps / most + 1) {
             for kind in 0..4 {
-                let Some(mutant) = mutant(&own.program, index, kind) else {
-                    continue;
-                };
-                count += 1;
-                let found = own.check(&mutant);
-                assert!(
-                    found.is_err(),
-                    "{}: t{} {kind}",
-                    own.function.name,
-                    index + 1
-                );
+                if let Some(mutant) = mutant(&own.program, index, kind) {
+                    count += 1;
+                    let name = &own.function.name;
+                    assert!(own.check(&mutant).is_err(), "{name}: step {index} {kind}");
+                }
             }
         }
     }
@@ -87,12 +81,11 @@ fn mutant(program: &Straight<Exact>, index: usize, kind: usize) -> Option<Straig
             }
         }
         (3, _) => {
-            let constants = operands.iter_mut().find_map(|own| match own {
+            let own = operands.iter_mut().find_map(|own| match own {
                 Checked::Constant(own) => Some(own),
                 _ => None,
-            });
-            let own = constants?;
-            *own = Exact::read(&format!("{}+1/100000000000000000", own.text()?))?;
+            })?;
+            *own = Exact::read(&format!("{}+1/100000000000000000", own.fraction()?))?;
         }
         _ => return None,
     }

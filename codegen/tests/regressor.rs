@@ -2,14 +2,14 @@
 //! as few columns as there can be; and what a wrong combination is refused with.
 
 use dalembert_codegen::workspace::{
-    BOUND, BaseParameters, Disproof, Parameter, Runtime, Setup, prove_base,
+    BaseParameters, Disproof, Parameter, Runtime, Setup, prove_base,
 };
 use dalembert_codegen::{Function, Language};
 use dalembert_model::equations::Arm;
 use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::scalar::Scalar;
 
-use crate::support::{self, Case, rows};
+use crate::support::{self, BOUND, Case, is_close, rows};
 
 /// A regressor, what Y π is, and the constant with π.
 type Linear = (Function, Function, &'static str);
@@ -26,8 +26,8 @@ const PASSIVITY: Linear = (
 );
 
 /// A robot, the lines of a scene, the regressors, how many columns there are, or by how many there
-/// are more than the rank of Y over all links' parameters, and the most operations of a quick search,
-/// whose sum only ever goes down; words of the text.
+/// are more than the rank of Y over all links' parameters, and the most operations of a quick
+/// search, whose sum only ever goes down; words of the text.
 ///
 /// Known numbers of base parameters are 36 of the PUMA (Gautier, Khalil 1990), 43 of the Panda (Gaz
 /// et al. 2019), and 3 a link in the plane. What one velocity more costs has no more columns. Other
@@ -78,34 +78,23 @@ fn case((regressor, ..): Linear, robot: &str, scene: &str, options: &str) -> Cas
     Case::read(&source, &asked)
 }
 
-/// Returns the constants with π of the text, a module each.
+/// Returns the values of π in a text, a scalar each: of a constant in Rust, or those that functions
+/// of a header write.
 fn printed((.., constant): Linear, text: &str) -> Vec<Vec<f64>> {
     let declared = format!("pub const {constant}: [");
-    let constants = text.split(&declared).skip(1);
-    let constants = constants.map(|rest| {
-        let (_, rest) = rest.split_once("= [\n").unwrap();
-        let (values, _) = rest.split_once("];").unwrap();
-        let values = values.split(',').map(str::trim);
-        let values = values.filter(|value| !value.is_empty());
-        values.map(|value| value.parse().unwrap()).collect()
+    let (start, end) = match text.contains(&declared) {
+        true => (declared.as_str(), "];"),
+        false => ("pi[0] = ", "}"),
+    };
+    let all = text.split(start).skip(1).map(|rest| {
+        let (lines, _) = rest.split_once(end).unwrap();
+        let values = lines.lines().filter_map(|line| {
+            let value = line.rsplit(' ').next()?;
+            value.trim_end_matches([',', ';', 'F']).parse().ok()
+        });
+        values.collect()
     });
-    constants.collect()
-}
-
-/// Returns the values of π that functions of a header write, a scalar each.
-fn printed_in_c(text: &str) -> Vec<Vec<f64>> {
-    let mut all: Vec<Vec<f64>> = Vec::new();
-    let lines = text.lines();
-    let lines = lines.filter_map(|line| line.trim().strip_prefix("pi[")?.split_once("] = "));
-    for (index, value) in lines {
-        if index == "0" {
-            all.push(Vec::new());
-        }
-        let own = all.last_mut().unwrap();
-        assert_eq!(own.len().to_string(), index);
-        own.push(value.trim_end_matches([';', 'F']).parse().unwrap());
-    }
-    all
+    all.collect()
 }
 
 /// A header has the values that a module has, in both scalars, by a name that its text says.
@@ -119,7 +108,7 @@ fn headers_have_the_same_parameters() {
             for language in [Language::C, Language::Cuda] {
                 case.request.language = language;
                 let text = case.generated().text();
-                assert_eq!(printed_in_c(&text), expected, "{name}");
+                assert_eq!(printed(linear, &text), expected, "{name}");
                 let said = format!("and `{name}_{}` is", constant.to_lowercase());
                 assert!(text.contains(&said) && !text.contains(constant));
             }
@@ -137,12 +126,8 @@ fn rank(runtime: &Runtime, setup: &Setup) -> usize {
     let values: Vec<f64> = values.collect();
     let length = |column: &[f64]| column.iter().map(|x| x * x).sum::<f64>().sqrt();
     let scaled = |column: usize| {
-        let entries: Vec<f64> = values
-            .iter()
-            .skip(column)
-            .step_by(columns)
-            .copied()
-            .collect();
+        let entries = values.iter().skip(column).step_by(columns).copied();
+        let entries: Vec<f64> = entries.collect();
         // What is dust stays dust.
         let length = length(&entries).max(1e-3);
         entries.iter().map(|x| x / length).collect()
@@ -189,10 +174,8 @@ fn columns_times_parameters_are_the_torques() {
                 "{what}: {rank}"
             );
             let found = generated.functions[0].counts().operations();
-            assert!(
-                found <= most.next().unwrap_or(usize::MAX),
-                "{what}: {found}"
-            );
+            let most = most.next().unwrap_or(usize::MAX);
+            assert!(found <= most, "{what}: {found}");
             let text = generated.text();
             assert!(words.split(" … ").all(|word| text.contains(word)), "{text}");
             let parameters = printed(linear, &text);
@@ -204,15 +187,14 @@ fn columns_times_parameters_are_the_torques() {
                     let state = state.in_scalar(emitted.scalar);
                     let (y, tau) = (emitted.run(&state), runtime.run(linear.1, &state));
                     assert_eq!(y.len(), tau.len() * base);
-                    let mut errors = Vec::new();
-                    let mut size = 0.0f64;
-                    for (row, tau) in y.chunks(base.max(1)).zip(&tau) {
+                    let (mut sums, mut size) = (Vec::new(), 0.0f64);
+                    for row in y.chunks(base.max(1)) {
                         let terms = || row.iter().zip(pi).map(|(y, pi)| y * pi);
-                        errors.push((terms().sum::<f64>() - tau).abs());
+                        sums.push(terms().sum::<f64>());
                         size = size.max(terms().map(f64::abs).sum());
                     }
-                    let is_close = errors.iter().all(|error| *error <= BOUND * u * size);
-                    assert!(is_close, "{what} {}: {errors:?}", emitted.scalar);
+                    let is_close = is_close(&sums, &tau, BOUND * u * size);
+                    assert!(is_close, "{what} {}: {sums:?}", emitted.scalar);
                 }
             }
         }
@@ -228,12 +210,9 @@ fn wrong_combinations_are_refused() {
     let base = setup.base(Function::Regressor.quantities()[0]).unwrap();
     assert_eq!(prove_base(setup.task(Function::Regressor), base), Ok(()));
     let arm = Arm::from_robot(&robot, &mut Exact::clone);
-    let printed = &printed(
-        TORQUES,
-        &case(TORQUES, "puma560", "", "").generated().text(),
-    )[0];
+    let text = case(TORQUES, "puma560", "", "").generated().text();
     let values: Vec<f64> = base.values(&arm).iter().map(f64::nearest).collect();
-    assert_eq!(*printed, values);
+    assert_eq!(printed(TORQUES, &text)[0], values);
 
     let refused = |wrong: &BaseParameters, parameter: Parameter| {
         let parameter = parameter.to_string();

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use dalembert_codegen::{Language, RobotFile, ask};
+use dalembert_codegen::{Complaint, Language, RobotFile, ask};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote, quote_spanned};
 
@@ -37,11 +37,12 @@ pub(crate) fn texts(
         }
         Err(problems) => {
             for problem in problems {
-                let at = match problem.option.as_str() {
+                let Complaint { message, help } = &problem.complaint;
+                let at = match problem.option {
                     "" => quote::ToTokens::to_token_stream(&invocation.robot),
-                    option => invocation.word(option, &problem.item, &problem.message),
+                    option => invocation.word(option, &problem.item, message),
                 };
-                errors.say(at, &problem.message, &problem.help);
+                errors.say(at, message, help);
             }
             Default::default()
         }

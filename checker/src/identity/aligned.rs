@@ -5,11 +5,10 @@
 use std::array::from_fn;
 
 use num_bigint::BigInt;
-use num_rational::BigRational as Rational;
 use num_traits::{Signed, Zero};
 
-use super::exact::{Angle, number};
-use super::robot::{File, Placement, Row};
+use super::exact::{Angle, fixed};
+use super::robot::{File, Placement, Row, number_of};
 
 /// Bits behind the point.
 const BITS: u32 = 256;
@@ -39,19 +38,14 @@ fn cross(a: &Vector, b: &Vector) -> Vector {
     })
 }
 
-fn fixed(own: &Rational) -> Fixed {
-    (own * Rational::from_integer(BigInt::from(1) << BITS)).to_integer()
-}
-
 fn read(text: Option<&String>) -> Result<Fixed, String> {
-    let text = text.map_or("0", String::as_str);
-    let own = number(text).ok_or_else(|| format!("`{text}` is no number"))?;
-    Ok(fixed(&own))
+    Ok(fixed(&number_of(text)?, BITS))
 }
 
-fn vector(list: Option<&[String; 3]>) -> Result<Vector, String> {
-    let [x, y, z] = from_fn(|k| read(list.map(|list| &list[k])));
-    Ok([x?, y?, z?])
+fn list<const K: usize>(list: Option<&[String; K]>) -> Result<[Fixed; K], String> {
+    let all = (0..K).map(|k| read(list.map(|list| &list[k])));
+    let all = all.collect::<Result<Vec<Fixed>, String>>()?;
+    Ok(from_fn(|k| all[k].clone()))
 }
 
 /// A turn by its columns, and a shift.
@@ -92,7 +86,7 @@ impl Pose {
     }
 
     fn placed(own: Option<&Placement>) -> Result<Pose, String> {
-        let mut pose = Pose::shift(vector(own.and_then(|own| own.xyz.as_ref()))?);
+        let mut pose = Pose::shift(list(own.and_then(|own| own.xyz.as_ref()))?);
         let rpy = own.and_then(|own| own.rpy.as_ref());
         for axis in [2, 1, 0] {
             pose = pose.then(&Pose::turn(axis, rpy.map(|rpy| &rpy[axis]))?);
@@ -131,26 +125,23 @@ impl Row {
     /// Returns mass, first moment and tensor about the base's origin, in base axes.
     fn fixed_body(&self, frame: &Pose) -> Result<Vec<Fixed>, String> {
         let mass = read(Some(&self.mass))?;
-        let centre = sum(&frame.rotate(&vector(self.com.as_ref())?), &frame.origin);
-        let entry = |k: usize| read(self.inertia.as_ref().map(|list| &list[k]));
-        let [xx, yy, zz, xy, yz, xz] = [0, 1, 2, 3, 4, 5].map(entry);
-        let (xx, yy, zz, xy, yz, xz) = (xx?, yy?, zz?, xy?, yz?, xz?);
+        let centre = sum(&frame.rotate(&list(self.com.as_ref())?), &frame.origin);
+        let [xx, yy, zz, xy, yz, xz] = list(self.inertia.as_ref())?;
         let rows = [
             [xx, xy.clone(), xz.clone()],
             [xy, yy, yz.clone()],
             [xz, yz, zz],
         ];
         let half: [Vector; 3] = rows.each_ref().map(|row| frame.rotate(row));
+        let turned: [Vector; 3] = from_fn(|k| frame.rotate(&from_fn(|j| half[j][k].clone())));
         let square = dot(&centre, &centre);
         let mut all = vec![mass.clone()];
         all.extend(centre.iter().map(|own| times(&mass, own)));
         for i in 0..3 {
             for k in i..3 {
-                let column: Vector = from_fn(|j| half[j][k].clone());
-                let row: Vector = from_fn(|j| frame.axes[j][i].clone());
                 let steiner = times(&centre[i], &centre[k]);
                 let steiner = if i == k { &square - steiner } else { -steiner };
-                all.push(dot(&row, &column) + times(&mass, &steiner));
+                all.push(&turned[k][i] + times(&mass, &steiner));
             }
         }
         Ok(all)
@@ -162,7 +153,7 @@ type Parts = Vec<(String, Vec<Fixed>)>;
 
 /// Returns axes, masses and frames of a robot file.
 fn parts(file: &File) -> Result<Parts, String> {
-    let mut all = vec![("gravity".to_owned(), vector(Some(&file.gravity))?.to_vec())];
+    let mut all = vec![("gravity".to_owned(), list(Some(&file.gravity))?.to_vec())];
     let mut frame = Pose::placed(file.base.as_ref())?;
     let mut links = Vec::new();
     for (index, row) in file.joint.iter().enumerate() {
@@ -171,7 +162,7 @@ fn parts(file: &File) -> Result<Parts, String> {
         let at = frame.then(&before);
         frame = at.then(&behind);
         let along = match &row.axis {
-            Some(axis) => at.rotate(&vector(Some(axis))?),
+            Some(axis) => at.rotate(&list(Some(axis))?),
             None => at.axes[2].clone(),
         };
         let moment = cross(&at.origin, &along);
@@ -196,11 +187,7 @@ fn parts(file: &File) -> Result<Parts, String> {
     all.push(("payload_frame".to_owned(), payload.numbers()));
     for own in &file.frame {
         let link = &links[file.row(&own.link)?];
-        let placement = Placement {
-            xyz: own.xyz.clone(),
-            rpy: own.rpy.clone(),
-        };
-        let at = link.then(&Pose::placed(Some(&placement))?);
+        let at = link.then(&Pose::placed(Some(&own.placement()))?);
         all.push((format!("frame `{}`", own.name), at.numbers()));
     }
     Ok(all)
@@ -211,28 +198,24 @@ fn parts(file: &File) -> Result<Parts, String> {
 /// # Errors
 /// The first axis, mass or frame that is another.
 pub fn check(file: &File, aligned: &File) -> Result<(), String> {
-    let kinds = |file: &File| {
-        let joints = file.joint.iter();
-        joints
-            .map(|row| (row.turns(), row.name.clone()))
-            .collect::<Vec<_>>()
+    let kinds = |file: &File| -> Vec<(bool, Option<String>)> {
+        let rows = file.joint.iter();
+        rows.map(|row| (row.turns(), row.name.clone())).collect()
     };
     let follows = |file: &File| {
         let rows = 0..file.joint.len();
         let own = rows.map(|row| {
             let own = file.follows(row)?;
-            own.map_or(Ok(None), |own| {
-                let mut sum = Fixed::zero();
-                for (factor, text) in &own.offsets {
-                    let angle = file.joint[row].turns().then(|| Angle::read(text)).flatten();
-                    let offset = match angle {
-                        Some(angle) => angle.scaled(BITS),
-                        None => read(Some(*text))?,
-                    };
-                    sum += times(&fixed(factor), &offset);
-                }
-                Ok(Some((own.row, own.times, sum)))
-            })
+            let mut sum = Fixed::zero();
+            for (factor, text) in &own.offsets {
+                let angle = file.joint[row].turns().then(|| Angle::read(text)).flatten();
+                let offset = match angle {
+                    Some(angle) => angle.scaled(BITS),
+                    None => read(Some(*text))?,
+                };
+                sum += times(&fixed(factor, BITS), &offset);
+            }
+            Ok((own.row, own.times, sum))
         });
         own.collect::<Result<Vec<_>, String>>()
     };
@@ -241,12 +224,8 @@ pub fn check(file: &File, aligned: &File) -> Result<(), String> {
     }
     let (own, other) = (parts(file)?, parts(aligned)?);
     for ((name, own), (same, other)) in own.iter().zip(&other) {
-        let most = own
-            .iter()
-            .chain(other)
-            .map(Signed::abs)
-            .max()
-            .unwrap_or_default();
+        let sizes = own.iter().chain(other).map(Signed::abs);
+        let most = sizes.max().unwrap_or_default();
         let slack = most / BigInt::from(10).pow(DIGITS) + 1;
         let mut pairs = own.iter().zip(other);
         if name != same || pairs.any(|(own, other)| (own - other).abs() > slack) {

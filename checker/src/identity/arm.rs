@@ -6,9 +6,9 @@ use std::array::from_fn;
 use num_rational::BigRational as Rational;
 use num_traits::{ToPrimitive, Zero};
 
-use super::exact::{Angle, Point, number};
+use super::exact::Point;
 use super::number::Number;
-use super::robot::{Placement, Row};
+use super::robot::{Placement, Row, angle_of, number_of};
 use super::screw::{Body, Pose, Screw, Vector, cross, dot, opposite, scaled};
 use super::setting::Setting;
 use super::state::State;
@@ -40,6 +40,9 @@ pub struct Joint {
     pub armature: Number,
 }
 
+/// The name of the frame that is meant where none is named.
+pub(super) const HAND: &str = "hand";
+
 /// A frame of a link, at q = 0.
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
@@ -60,8 +63,7 @@ pub struct Arm {
     pub(super) free: Vec<usize>,
     /// The acceleration of gravity, m/s².
     pub(super) gravity: Vector,
-    /// The hand, and the frames that have names.
-    pub(super) hand: Frame,
+    /// The hand, then the frames that have names.
     pub(super) frames: Vec<Frame>,
     /// One half, in this field.
     pub half: Number,
@@ -86,17 +88,13 @@ impl Point {
     fn list<const K: usize>(&self, list: [Option<&String>; K]) -> Result<[Number; K], String> {
         let mut all = [Number::default(); K];
         for (one, text) in all.iter_mut().zip(list) {
-            if let Some(text) = text {
-                *one = self.number(&number(text).ok_or_else(|| format!("`{text}` is no number"))?);
-            }
+            *one = self.number(&number_of(text)?);
         }
         Ok(all)
     }
 
     fn turn(&self, axis: usize, text: Option<&String>) -> Result<Pose, String> {
-        let text = text.map_or("0", String::as_str);
-        let angle = Angle::read(text).ok_or_else(|| format!("`{text}` is no angle"))?;
-        Ok(Pose::turn(axis, self.angle(&angle)))
+        Ok(Pose::turn(axis, self.angle(&angle_of(text)?)))
     }
 
     fn placement(&self, own: Option<&Placement>) -> Result<Pose, String> {
@@ -125,23 +123,19 @@ impl Point {
 
     /// Returns the joint that moves a row, and along which line.
     fn line(&self, setting: &Setting, row: usize) -> Result<Line, String> {
-        let place = |row: usize| setting.movers.iter().position(|own| *own == row);
-        let Some(own) = &setting.follows[row] else {
-            let still = [0.into(), 1.into()];
-            return Ok(((place(row).unwrap_or(row), 1.into()), (1, still, 0.into())));
-        };
+        let own = &setting.follows[row];
         let whole = |times: &Rational| times.to_i64().unwrap_or_default();
         let (mut pair, mut length) = ([0.into(), 1.into()], Number::from(0));
         for (factor, text) in &own.offsets {
             if setting.file.joint[row].turns() {
-                let angle = Angle::read(text).ok_or_else(|| format!("`{text}` is no angle"))?;
-                pair = turned(pair, times(self.angle(&angle), whole(factor)));
+                let angle = self.angle(&angle_of(Some(*text))?);
+                pair = turned(pair, times(angle, whole(factor)));
             } else {
-                let [offset] = self.list([Some(*text)])?;
-                length = length + offset * self.number(factor);
+                length = length + self.number(&(number_of(Some(*text))? * factor));
             }
         }
-        let leader = place(own.row).ok_or("a joint follows one that does not move")?;
+        let leader = setting.movers.iter().position(|row| *row == own.row);
+        let leader = leader.ok_or("a joint follows one that does not move")?;
         let line = (whole(&own.times), pair, length);
         Ok(((leader, self.number(&own.times)), line))
     }
@@ -177,8 +171,8 @@ impl Row {
     /// Refuses a joint that the equations do not have, or with a key that they would not read.
     fn check(&self, convention: Option<&str>) -> Result<(), &'static str> {
         let is_zero = |text: &Option<String>| {
-            let value = text.as_ref().map(|text| number(text));
-            value.is_none_or(|value| value.is_some_and(|value| value.is_zero()))
+            let value = number_of(text.as_ref());
+            value.is_ok_and(|value| value.is_zero())
         };
         let turns = self.turns();
         let variable = if turns { &self.theta } else { &self.d };
@@ -231,8 +225,9 @@ impl Arm {
                 return Err(in_joint("`axis` is no unit vector in the digits given"));
             }
             let turns = row.turns();
-            let given = point.body(Some(&row.mass), row.com.as_ref(), row.inertia.as_ref())?;
-            let given = (given.0, frame.then(&given.1));
+            let (body, centre) =
+                point.body(Some(&row.mass), row.com.as_ref(), row.inertia.as_ref())?;
+            let given = (body, frame.then(&centre));
             let drive = [&row.viscous, &row.coulomb, &row.armature];
             let [viscous, coulomb, armature] = point.list(drive.map(Option::as_ref))?;
             let (leader, line) = point.line(setting, index)?;
@@ -250,40 +245,38 @@ impl Arm {
                 },
                 link: frame,
                 shown: frame.then(&point.placement(row.frame.as_ref())?),
-                body: given.0.moved(&given.1),
+                body: body.moved(&given.1),
                 given,
                 viscous,
                 coulomb,
                 armature,
             });
         }
-        let gravity = scene.and_then(|scene| scene.gravity.as_ref());
-        let named = file.frame.iter().map(|own| {
+        let gravity = scene.gravity.as_ref().unwrap_or(&file.gravity);
+        let mut frames = vec![Frame {
+            name: HAND.into(),
+            row: joints.len().saturating_sub(1),
+            pose: frame.then(&point.placement(file.tool.as_ref())?),
+        }];
+        for own in &file.frame {
             let row = file.row(&own.link)?;
-            let placement = Placement {
-                xyz: own.xyz.clone(),
-                rpy: own.rpy.clone(),
-            };
-            let pose = joints[row].link.then(&point.placement(Some(&placement))?);
-            let name = own.name.clone();
-            Ok(Frame { name, row, pose })
-        });
-        let frames = named.collect::<Result<_, String>>()?;
+            let placed = point.placement(Some(&own.placement()))?;
+            frames.push(Frame {
+                name: own.name.clone(),
+                row,
+                pose: joints[row].link.then(&placed),
+            });
+        }
         let free = (0..setting.joints()).filter(|&own| setting.locks[own].is_none());
         let mut arm = Arm {
             movers: setting.movers.clone(),
             free: free.collect(),
-            gravity: point.list(entries(Some(gravity.unwrap_or(&file.gravity))))?,
-            hand: Frame {
-                name: "hand".into(),
-                row: joints.len().saturating_sub(1),
-                pose: frame.then(&point.placement(file.tool.as_ref())?),
-            },
+            gravity: point.list(entries(Some(gravity)))?,
             frames,
             joints,
             half: point.half(),
         };
-        if let Some(own) = scene.and_then(|scene| scene.payload.as_ref()) {
+        if let Some(own) = &scene.payload {
             let carried = point.body(Some(&own.mass), Some(&own.com), own.inertia.as_ref())?;
             arm.carry(carried, &point.placement(file.payload_frame.as_ref())?);
         }
@@ -311,13 +304,11 @@ impl Arm {
         point: &Point,
         own: &[Number],
     ) -> Result<Arm, String> {
-        let &[mass, x, y, z, xx, yy, zz, xy, yz, xz] = own else {
-            return Err("a payload is ten numbers".into());
-        };
-        let none = Number::default();
-        let body = Body::new([mass, none, none, none, xx, yy, zz, xy, yz, xz]);
+        let own: [Number; 10] = own.try_into().map_err(|_| "a payload is ten numbers")?;
+        let mut body = Body::new(own);
+        let centre = Pose::shift(std::mem::take(&mut body.first));
         let frame = point.placement(setting.file.payload_frame.as_ref())?;
-        self.carry((body, Pose::shift([x, y, z])), &frame);
+        self.carry((body, centre), &frame);
         Ok(self)
     }
 
@@ -325,49 +316,24 @@ impl Arm {
     /// of its frame, then armature and viscous friction of each row.
     pub(super) fn parameters(&self) -> Vec<Number> {
         let links = self.joints.iter().flat_map(|own| {
-            let Body {
-                mass,
-                first,
-                tensor,
-            } = own.body.moved(&own.link.inverse());
-            let [x, y, z] = first;
-            let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = tensor;
-            [mass, x, y, z, xx, yy, zz, xy, yz, xz]
+            let body = own.body.moved(&own.link.inverse());
+            let [x, y, z] = body.first;
+            let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = body.tensor;
+            [body.mass, x, y, z, xx, yy, zz, xy, yz, xz]
         });
         let armatures = self.joints.iter().map(|own| own.armature);
         let viscous = self.joints.iter().map(|own| own.viscous);
         links.chain(armatures).chain(viscous).collect()
     }
 
-    /// Returns the arm in another gravity.
-    pub(super) fn in_gravity(mut self, own: &[Number]) -> Arm {
-        for (axis, own) in self.gravity.iter_mut().zip(own) {
-            *axis = *own;
-        }
-        self
-    }
-
     /// Returns 1 where the axes of two joints that turn are parallel at q = 0, −1 where they point
     /// against each other, and none of others.
     pub(crate) fn parallel(&self, joints: [usize; 2]) -> Option<f64> {
         let [a, b] = joints.map(|own| self.joints[self.movers[own]].axis.0);
-        let is_zero = |own: &Number| !own.is_nonzero();
-        let along = dot(a, b);
-        cross(a, b).iter().all(is_zero).then_some(())?;
-        Some(if is_zero(&(along - Number::from(1))) {
-            1.0
-        } else {
-            -1.0
-        })
-    }
-
-    /// Returns the arm with other bodies.
-    pub(super) fn with(&self, body: impl Fn(usize, &Joint) -> Body) -> Arm {
-        let mut arm = self.clone();
-        for (k, own) in arm.joints.iter_mut().enumerate() {
-            own.body = body(k, own);
-        }
-        arm
+        let is_zero = |own: Number| !own.is_nonzero();
+        cross(a, b).into_iter().all(is_zero).then_some(())?;
+        let is_same = is_zero(dot(a, b) - Number::from(1));
+        Some(if is_same { 1.0 } else { -1.0 })
     }
 
     /// Returns the arm at the sines and cosines, or the lengths, of its joints.
@@ -417,25 +383,16 @@ pub(super) struct Placed {
 }
 
 impl Placed {
-    /// Returns the velocity and the acceleration of each link, from that of the base.
-    pub(super) fn motions(&self, qd: &[Number], qdd: &[Number], base: Vector) -> Vec<[Screw; 2]> {
-        let (mut v, mut a) = (Screw::default(), Screw(Vector::default(), base));
-        let rates = self.axes.iter().zip(qd).zip(qdd);
-        let motions = rates.map(|((axis, qd), qdd)| {
-            let own = axis.times(*qd);
-            a = a.plus(axis.times(*qdd)).plus(v.across(own));
-            v = v.plus(own);
-            [v, a]
-        });
-        motions.collect()
-    }
-
     /// Returns the wrench that each joint passes on, by the equations of Newton and Euler.
     pub(super) fn wrenches(&self, qd: &[Number], qdd: &[Number], gravity: Vector) -> Vec<Screw> {
         // A base that is accelerated upward feels what one in gravity does.
-        let motions = self.motions(qd, qdd, opposite(gravity));
-        let links = self.bodies.iter().zip(motions);
-        let wrenches = links.map(|(body, [v, a])| {
+        let mut a = Screw(Vector::default(), opposite(gravity));
+        let mut v = Screw::default();
+        let rates = self.axes.iter().zip(qd).zip(qdd);
+        let wrenches = rates.zip(&self.bodies).map(|(((axis, qd), qdd), body)| {
+            let own = axis.times(*qd);
+            a = a.plus(axis.times(*qdd)).plus(v.across(own));
+            v = v.plus(own);
             let turned = v.across_momentum(body.momentum(v));
             body.momentum(a).plus(turned)
         });

@@ -4,8 +4,7 @@ use super::arm::Arm;
 use super::exact::{Exact, Point};
 use super::number::{Draws, Number};
 use super::outputs::{result, selected};
-use super::program::Program;
-use super::program::argument;
+use super::program::{Program, argument};
 use super::setting::Setting;
 use super::state::State;
 use super::table::Function;
@@ -48,25 +47,18 @@ pub struct Statement<'s> {
 /// # Errors
 /// The first result that differs, by its number.
 pub fn check(own: Statement, texts: &[&str]) -> Result<(), String> {
-    let Statement {
-        setting,
-        function,
-        program,
-        load,
-        ..
-    } = own;
     // Own formulas are quotients of polynomials of a degree below 200 n²: D's entries are of 4 n,
     // its determinant of 4 n², and what is derived twice or inverted twice of a small multiple of
     // that. What follows a joint several times as far is of as many times its degree.
-    let n = setting.links() as f64;
-    let own_degree = 200.0 * n * n * setting.turns();
-    let load_degree = load.map_or(1.0, |own| own.degree().max(1.0));
-    let degree = (program.degree() * load_degree + own_degree) * (2.0 * n + 1.0);
+    let n = own.setting.links() as f64;
+    let own_degree = 200.0 * n * n * own.setting.turns();
+    let load_degree = own.load.map_or(1.0, |load| load.degree().max(1.0));
+    let degree = (own.program.degree() * load_degree + own_degree) * (2.0 * n + 1.0);
     // No number counts as too large.
     if !(degree <= MOST_DEGREE) {
         return Err("the degree is too large for a few points to decide".into());
     }
-    let mut draws = Draws::new(&[texts, &[&function.name]].concat());
+    let mut draws = Draws::new(&[texts, &[&own.function.name]].concat());
     for _ in 0..POINTS {
         at_point(own, &Point::draw(&mut draws))?;
     }
@@ -87,30 +79,27 @@ fn at_point(own: Statement, point: &Point) -> Result<(), String> {
     let place = |name: &str| argument(name).unwrap_or_default();
     let takes = |name: &str| function.arguments.contains(&place(name));
     if takes("g") {
-        arm = arm.in_gravity(&state.given[place("g")]);
+        arm.gravity.copy_from_slice(&state.given[place("g")]);
     }
     if takes("load") {
         let computed = load.and_then(|load| load.residues(point, &state));
-        let payload = state.given[place("payload")].clone();
         state.given[place("load")] = computed.ok_or("nothing computes its `load`")?;
-        arm = arm.carrying(setting, point, &payload)?;
+        arm = arm.carrying(setting, point, &state.given[place("payload")])?;
     }
     let found = program.residues(point, &state);
     let mut found = found.ok_or("the program reads what is not there")?;
     let mut expected = Vec::new();
     for field in &function.fields {
         let values = result(&arm, &state, field).ok_or("no such result")?;
-        let is_over_base = field.axes.contains('b');
         let values = selected(field, setting, values);
-        if is_over_base {
+        if field.axes.contains('b') {
             let rows = setting.rows.len().max(1);
-            let own = rows * base.combinations.len();
-            let columns = found.get(expected.len()..expected.len() + own);
-            let spread = columns.and_then(|own| {
-                spread(own, &base.combinations, point, [rows, values.len() / rows])
-            });
+            let own = expected.len()..expected.len() + rows * base.combinations.len();
+            let sizes = [rows, values.len() / rows];
+            let columns = found.get(own.clone());
+            let spread = columns.and_then(|own| spread(own, &base.combinations, point, sizes));
             let spread = spread.ok_or("the base parameters do not fit the results")?;
-            found.splice(expected.len()..expected.len() + own, spread);
+            found.splice(own, spread);
         }
         expected.extend(values);
     }

@@ -7,7 +7,7 @@ use std::sync::{Arc, OnceLock};
 
 use num_bigint::BigInt;
 use num_rational::BigRational as Rational;
-use num_traits::{One, Pow, Signed, ToPrimitive, Zero};
+use num_traits::{Euclid, One, Pow, Signed, ToPrimitive, Zero};
 
 use super::number::{Draws, Number};
 
@@ -32,19 +32,13 @@ pub enum Angle {
 
 /// Reads a decimal, or a fraction of two.
 pub fn number(text: &str) -> Option<Rational> {
-    match text.split_once('/') {
-        Some((over, under)) => {
-            let under = decimal(under).filter(|under| under.is_positive())?;
-            Some(decimal(over)? / under)
-        }
-        None => decimal(text),
-    }
+    let (over, under) = text.split_once('/').unwrap_or((text, "1"));
+    let under = decimal(under).filter(|under| under.is_positive())?;
+    Some(decimal(over)? / under)
 }
 
 fn decimal(text: &str) -> Option<Rational> {
-    if text.len() > MOST_DIGITS {
-        return None;
-    }
+    (text.len() <= MOST_DIGITS).then_some(())?;
     let (digits, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
     let (whole, behind) = digits.split_once('.').unwrap_or((digits, ""));
     let plain = format!("{whole}{behind}").replace('_', "");
@@ -57,15 +51,18 @@ fn decimal(text: &str) -> Option<Rational> {
     Some(Rational::from_integer(plain.parse().ok()?) * Pow::pow(ten, places as i32))
 }
 
+/// Returns a fraction in units of 2 to the power of −`bits`, rounded towards zero.
+pub(super) fn fixed(value: &Rational, bits: u32) -> BigInt {
+    (value.numer() << bits) / value.denom()
+}
+
 impl Angle {
     /// Reads `0.3`, `"pi/2"`, `"-3*pi/4"`, `"90deg"`, or `1*pi/5` of a program. A decimal within 4
     /// ulp of a quarter turn, up to a whole one, is that.
     pub fn read(text: &str) -> Option<Angle> {
         let text = text.trim();
         if let Some(degrees) = text.strip_suffix("deg") {
-            return Some(Angle::Pi(
-                number(degrees.trim())? / Rational::from_integer(180.into()),
-            ));
+            return Some(Angle::Pi(number(degrees.trim())? / BigInt::from(180)));
         }
         if let Some((factor, under)) = text.split_once("pi") {
             let factor = match factor.trim() {
@@ -83,14 +80,12 @@ impl Angle {
         let value = radians.to_f64()?;
         let quarters = (value / std::f64::consts::FRAC_PI_2).round();
         let turn = quarters * std::f64::consts::FRAC_PI_2;
-        let is_turn =
-            (turn - value).abs() <= (4.0 * (turn.abs().next_up() - turn.abs())).min(2e-15);
-        Some(
-            match radians.is_zero() || is_turn && (1.0..=4.0).contains(&quarters.abs()) {
-                true => Angle::Pi(Rational::new((quarters as i64).into(), 2.into())),
-                false => Angle::Radians(radians),
-            },
-        )
+        let slack = (4.0 * (turn.abs().next_up() - turn.abs())).min(2e-15);
+        let is_turn = (turn - value).abs() <= slack && (1.0..=4.0).contains(&quarters.abs());
+        Some(match is_turn || radians.is_zero() {
+            true => Angle::Pi(Rational::new((quarters as i64).into(), 2.into())),
+            false => Angle::Radians(radians),
+        })
     }
 
     /// Returns the nearest double of its radians, to two ulps; none beyond doubles.
@@ -101,75 +96,33 @@ impl Angle {
         }
     }
 
-    /// Returns sine and cosine, by those of an angle up to an eighth of a turn or of positive
-    /// radians, so that angles share theirs.
-    fn pair(&self, drawn: impl FnOnce(&Angle) -> [Number; 2]) -> [Number; 2] {
-        let half = Rational::new(1.into(), 2.into());
-        let (quarters, [sin, cos]) = match self {
-            Angle::Radians(radians) if radians.is_negative() => {
-                let [sin, cos] = drawn(&Angle::Radians(-radians));
-                (0, [-sin, cos])
-            }
-            Angle::Radians(_) => (0, drawn(self)),
-            Angle::Pi(multiple) => {
-                let halves = multiple / &half;
-                let whole = halves.floor().to_integer();
-                let quarters: BigInt = (&whole % 4 + 4) % 4;
-                let quarters = quarters.to_u8().unwrap_or(0);
-                let rest = &halves - Rational::from_integer(whole);
-                let pair = if rest.is_zero() {
-                    [0.into(), 1.into()]
-                } else if rest > half || rest == half && quarters % 2 == 1 {
-                    let [sin, cos] = drawn(&Angle::Pi((Rational::one() - rest) * &half));
-                    [cos, sin]
-                } else {
-                    drawn(&Angle::Pi(rest * &half))
-                };
-                (quarters, pair)
-            }
-        };
-        match quarters {
-            0 => [sin, cos],
-            1 => [cos, -sin],
-            2 => [-sin, -cos],
-            _ => [-cos, sin],
-        }
-    }
-
     /// Returns the radians, in units of 2 to the power of −`bits`.
     pub(super) fn scaled(&self, bits: u32) -> BigInt {
-        let one = BigInt::one() << bits;
-        let scaled = |x: &Rational| (x * Rational::from_integer(one.clone())).to_integer();
         let arc = |under: u32| {
             // arctan 1/n
-            let (mut power, mut sum, mut k) = (&one / under, BigInt::zero(), 1u32);
+            let (mut power, mut sum, mut k) =
+                ((BigInt::one() << bits) / under, BigInt::zero(), 1u32);
             while !power.is_zero() {
                 let part = &power / k;
-                sum = if k % 4 == 1 { sum + part } else { sum - part };
+                sum += if k % 4 == 1 { part } else { -part };
                 (power, k) = (power / (under * under), k + 2);
             }
             sum
         };
         match self {
-            Angle::Radians(x) => scaled(x),
-            Angle::Pi(x) => (scaled(x) * (16 * arc(5) - 4 * arc(239))) >> bits,
+            Angle::Radians(x) => fixed(x, bits),
+            Angle::Pi(x) => (fixed(x, bits) * (16 * arc(5) - 4 * arc(239))) >> bits,
         }
     }
 
-    /// Returns sine and cosine to 2⁻³⁰⁰, in units of 2⁻³²⁰; none of angles beyond 8 rad, whose series loses more bits.
+    /// Returns sine and cosine to 2⁻³⁰⁰, in units of 2⁻³²⁰; none of angles beyond 8 rad, whose
+    /// series loses more bits.
     pub(super) fn rounded(&self) -> Option<[BigInt; 2]> {
         let (one, radians) = (BigInt::one() << BITS, self.scaled(BITS));
-        if radians.abs() > BigInt::from(8) << BITS {
-            return None;
-        }
+        (radians.abs() <= BigInt::from(8) << BITS).then_some(())?;
         let (mut sums, mut term, mut k) = ([BigInt::zero(), BigInt::zero()], one.clone(), 0u32);
         while !term.is_zero() {
-            let sum = &mut sums[1 - k as usize % 2];
-            *sum = if k % 4 < 2 {
-                &*sum + &term
-            } else {
-                &*sum - &term
-            };
+            sums[1 - k as usize % 2] += if k % 4 < 2 { term.clone() } else { -&term };
             k += 1;
             // Towards zero, so that it ends.
             term = &term * &radians / (&one * k);
@@ -245,48 +198,43 @@ impl Exact {
         terms.map(Exact::new)
     }
 
-    /// Returns a constant without angles as text.
-    pub fn text(&self) -> Option<String> {
+    /// Returns a constant without angles.
+    pub fn fraction(&self) -> Option<&Rational> {
         match self.0.terms.as_slice() {
-            [(factor, powers)] if powers.is_empty() => Some(factor.to_string()),
+            [(factor, powers)] if powers.is_empty() => Some(factor),
             _ => None,
         }
     }
 
-    /// Rounds the constant with the sines that are known, to which it adds its own.
-    pub fn settle(&self, known: &mut Sines) {
-        self.0.rounded.get_or_init(|| self.rounded(known));
+    /// Returns a fraction, and how far the constant is from it at most, by the sines that are
+    /// known, to which it adds its own; none if an angle is too far.
+    pub fn settle(&self, known: &mut Sines) -> Option<&[Rational; 2]> {
+        let rounded = &self.0.rounded;
+        rounded.get_or_init(|| self.rounded(known)).as_ref()
     }
 
     /// Returns a double, and how far the constant is from it at most; none if an angle is too far.
     pub fn double(&self) -> Option<[f64; 2]> {
-        *self.0.double.get_or_init(|| self.nearest())
+        *self.0.double.get_or_init(|| {
+            let [sum, slack] = self.settle(&mut Sines::new())?;
+            let value = sum.to_f64().filter(|value| value.is_finite())?;
+            let off = (sum - Rational::from_float(value)?).abs() + slack;
+            let radius = if off.is_zero() {
+                0.0
+            } else {
+                off.to_f64()?.next_up()
+            };
+            Some([value, radius])
+        })
     }
 
-    fn nearest(&self) -> Option<[f64; 2]> {
-        let own = || self.rounded(&mut Sines::new());
-        let [sum, slack] = self.0.rounded.get_or_init(own).as_ref()?;
-        let value = sum.to_f64().filter(|value| value.is_finite())?;
-        let off = (sum - Rational::from_float(value)?).abs() + slack;
-        let radius = if off.is_zero() {
-            0.0
-        } else {
-            off.to_f64()?.next_up()
-        };
-        Some([value, radius])
-    }
-
-    /// Returns a fraction, and how far it is off at most; none if an angle is too far.
     fn rounded(&self, known: &mut Sines) -> Option<[Rational; 2]> {
-        if let [(factor, powers)] = self.0.terms.as_slice()
-            && powers.is_empty()
-        {
-            return Some([factor.clone(), Rational::zero()]);
+        if let Some(own) = self.fraction() {
+            return Some([own.clone(), Rational::zero()]);
         }
-        let one = BigInt::one() << PLACES;
         let (mut sum, mut slack) = (BigInt::zero(), BigInt::one());
         for (factor, powers) in &self.0.terms {
-            let factor = factor.numer() * &one / factor.denom();
+            let factor = fixed(factor, PLACES);
             let mut product = factor.clone();
             for (angle, powers) in powers {
                 let own = known
@@ -300,25 +248,19 @@ impl Exact {
             slack += (factor.abs() >> 280u32) + 128;
             sum += product;
         }
-        let own = |scaled| Rational::new(scaled, one.clone());
-        Some([own(sum), own(slack)])
+        Some([sum, slack].map(|scaled| Rational::new(scaled, BigInt::one() << PLACES)))
     }
 
     /// Compares a literal with the nearest float; between two as near, the even one counts.
     pub fn is_nearest(&self, literal: f64, is_single: bool) -> bool {
-        // Printed code has no zero with a sign.
-        if literal == 0.0 && literal.is_sign_negative() {
-            return false;
-        }
-        let own = || self.rounded(&mut Sines::new());
-        let Some([sum, slack]) = self.0.rounded.get_or_init(own) else {
+        let Some([sum, slack]) = self.settle(&mut Sines::new()) else {
             return false;
         };
-        // A number that is not zero does not vanish: others could be as large as it is small.
-        if literal == 0.0 && !(sum.is_zero() && slack.is_zero()) {
-            return false;
+        // Printed code has no zero with a sign. A number that is not zero does not vanish: others
+        // could be as large as it is small.
+        if literal == 0.0 {
+            return literal.is_sign_positive() && sum.is_zero() && slack.is_zero();
         }
-        let float = |x: f64| Rational::from_float(x);
         let own = literal as f32;
         if is_single && f64::from(own) != literal {
             return false;
@@ -331,7 +273,8 @@ impl Exact {
             ),
             false => (literal.next_down(), literal.next_up(), literal.to_bits()),
         };
-        let (Some(own), Some(below), Some(above)) = (float(literal), float(below), float(above))
+        let [Some(own), Some(below), Some(above)] =
+            [literal, below, above].map(Rational::from_float)
         else {
             return false;
         };
@@ -389,28 +332,47 @@ impl Point {
     /// Returns the residue of a fraction.
     pub fn number(&self, value: &Rational) -> Number {
         let prime = BigInt::from(self.prime);
-        let part = |x: &BigInt| {
-            let value = ((x % &prime + &prime) % &prime).to_u64().unwrap_or(0);
-            Number::new(value, self.prime)
-        };
+        let part = |x: &BigInt| Number::new(x.rem_euclid(&prime).to_u64().unwrap_or(0), self.prime);
         part(value.numer()) / part(value.denom())
     }
 
-    /// Returns sine and cosine of a constant angle: a point of the circle, drawn once.
+    /// Returns sine and cosine of a constant angle: a point of the circle, drawn once for an angle
+    /// up to an eighth of a turn or of positive radians, so that angles share theirs.
     pub fn angle(&self, angle: &Angle) -> [Number; 2] {
-        let drawn = |key: &Angle| {
+        let drawn = |angle: Angle| {
             let mut angles = self.angles.borrow_mut();
-            *angles.entry(key.clone()).or_insert_with(|| self.pair())
+            *angles.entry(angle).or_insert_with(|| self.pair())
         };
-        angle.pair(drawn)
+        let multiple = match angle {
+            Angle::Pi(multiple) => multiple,
+            Angle::Radians(radians) => {
+                let [sin, cos] = drawn(Angle::Radians(radians.abs()));
+                return [if radians.is_negative() { -sin } else { sin }, cos];
+            }
+        };
+        let half = Rational::new(1.into(), 2.into());
+        let halves = multiple / &half;
+        let whole = halves.floor().to_integer();
+        let quarters = whole.rem_euclid(&4.into()).to_u8().unwrap_or(0);
+        let rest = halves - whole;
+        let [sin, cos] = if rest.is_zero() {
+            [0.into(), 1.into()]
+        } else if rest > half || rest == half && quarters % 2 == 1 {
+            let [sin, cos] = drawn(Angle::Pi((Rational::one() - rest) * half));
+            [cos, sin]
+        } else {
+            drawn(Angle::Pi(rest * half))
+        };
+        match quarters {
+            0 => [sin, cos],
+            1 => [cos, -sin],
+            2 => [-sin, -cos],
+            _ => [-cos, sin],
+        }
     }
 
     /// Returns the residue of a constant.
     pub fn constant(&self, constant: &Exact) -> Number {
-        let key = Arc::as_ptr(&constant.0);
-        if let Some((_, known)) = self.constants.borrow().get(&key) {
-            return *known;
-        }
         let term = |(factor, powers): &Term| {
             let mut product = self.number(factor);
             for (angle, powers) in powers {
@@ -420,11 +382,12 @@ impl Point {
             }
             product
         };
-        let own = constant.0.terms.iter().map(term);
-        let own = own.fold(0.into(), |a, b| a + b);
-        // Kept with the constant, whose place is no other's as long as it is there.
         let mut known = self.constants.borrow_mut();
-        known.insert(key, (constant.clone(), own));
-        own
+        let (_, own) = known.entry(Arc::as_ptr(&constant.0)).or_insert_with(|| {
+            let terms = constant.0.terms.iter().map(term);
+            // Kept with the constant, whose place is no other's as long as it is there.
+            (constant.clone(), terms.fold(0.into(), |a, b| a + b))
+        });
+        *own
     }
 }

@@ -10,8 +10,8 @@ pub(super) fn product(a: &[Number], b: &[Number]) -> Number {
     products.fold(0.into(), |a, b| a + b)
 }
 
-pub(super) fn plus(a: Vec<Number>, b: impl IntoIterator<Item = Number>) -> Vec<Number> {
-    a.into_iter().zip(b).map(|(a, b)| a + b).collect()
+pub(super) fn plus(a: &[Number], b: &[Number]) -> Vec<Number> {
+    a.iter().zip(b).map(|(a, b)| *a + *b).collect()
 }
 
 pub(super) fn minus(a: &[Number], b: &[Number]) -> Vec<Number> {
@@ -38,8 +38,8 @@ pub(super) fn transposed(matrix: &Matrix) -> Matrix {
 }
 
 /// Returns M⁻¹ x of each x, by Gauss: M is symmetric, and no pivot is zero but by chance.
-pub(super) fn solve(mut m: Matrix, right: &[Vec<Number>]) -> Matrix {
-    let (n, mut right) = (m.len(), right.to_vec());
+pub(super) fn solve(mut m: Matrix, mut right: Matrix) -> Matrix {
+    let n = m.len();
     for k in 0..n {
         for i in k + 1..n {
             let factor = m[i][k] / m[k][k];

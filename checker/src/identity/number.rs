@@ -1,6 +1,7 @@
 //! Residues modulo a prime that a hash draws, each with two slopes and what both have together: so
 //! every derivative is that of the equations themselves.
 
+use std::array::from_fn;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use hmac_sha256::Hash;
@@ -62,7 +63,7 @@ impl Number {
         let prime = self.prime.max(other.prime);
         let parts = |own: Number| match own.prime == prime {
             true => own.parts,
-            false => [0, 1, 2, 3].map(|part| own.entry(part, prime)),
+            false => from_fn(|part| own.entry(part, prime)),
         };
         Number {
             prime,
@@ -111,23 +112,18 @@ fn plus(prime: u64, a: u64, b: u64) -> u64 {
 impl Add for Number {
     type Output = Number;
     fn add(self, other: Number) -> Number {
-        self.with(other, |p, a, b| {
-            let sum = |k: usize| plus(p, a[k], b[k]);
-            [sum(0), sum(1), sum(2), sum(3)]
-        })
+        self.with(other, |p, a, b| from_fn(|k| plus(p, a[k], b[k])))
     }
 }
 
 impl Neg for Number {
     type Output = Number;
     fn neg(self) -> Number {
-        let opposite = |x: u64| match (self.prime, x) {
+        let parts = self.parts.map(|x| match (self.prime, x) {
             (0, x) => x.wrapping_neg(),
             (_, 0) => 0,
             (prime, x) => prime - x,
-        };
-        let [a, b, c, d] = self.parts;
-        let parts = [opposite(a), opposite(b), opposite(c), opposite(d)];
+        });
         Number { parts, ..self }
     }
 }
@@ -146,16 +142,11 @@ impl Mul for Number {
             if a[1] | a[2] | a[3] | b[1] | b[2] | b[3] == 0 {
                 return [times(p, a[0], b[0]), 0, 0, 0];
             }
-            let sum = |pairs: &[(usize, usize)]| {
-                let products = pairs.iter().map(|&(i, k)| times(p, a[i], b[k]));
-                products.fold(0, |all, own| plus(p, all, own))
-            };
-            [
-                times(p, a[0], b[0]),
-                sum(&[(0, 1), (1, 0)]),
-                sum(&[(0, 2), (2, 0)]),
-                sum(&[(0, 3), (1, 2), (2, 1), (3, 0)]),
-            ]
+            // The bits of a part's number are the slopes that it has: those of i and of the rest.
+            from_fn(|k| {
+                let pairs = (0..=k).filter(|i| i & k == *i);
+                pairs.fold(0, |all, i| plus(p, all, times(p, a[i], b[k - i])))
+            })
         })
     }
 }
@@ -166,10 +157,7 @@ impl Div for Number {
         let prime = self.prime.max(other.prime);
         let own = other.entry(0, prime);
         if prime == 0 || prime == LOST || own == 0 {
-            return Number {
-                prime: LOST,
-                parts: [0; 4],
-            };
+            return Number::new(0, LOST);
         }
         // 1/(x + e) is y (2 − (x + e) y), twice, with y = 1/x: squares of slopes vanish.
         let mut inverse = Number::new(own, prime).power(prime - 2);
@@ -178,11 +166,6 @@ impl Div for Number {
         }
         self * inverse
     }
-}
-
-/// Returns the first 64 bits of a hash.
-pub(crate) fn first_bits(hash: &[u8; 32]) -> u64 {
-    u64::from_be_bytes(std::array::from_fn(|k| hash[k]))
 }
 
 /// Numbers that follow from a statement: whoever changes a digit of it gets others.
@@ -223,7 +206,8 @@ impl Draws {
 
     /// Returns the next number of 64 bits.
     fn next(&mut self) -> u64 {
-        first_bits(&self.next_hash())
+        let hash = self.next_hash();
+        u64::from_be_bytes(from_fn(|k| hash[k]))
     }
 
     /// Returns the next number from zero to one.

@@ -1,7 +1,7 @@
 //! Every result by the equations of Newton and Euler in base axes. Slopes are those of the numbers,
 //! so that no derivative is written out.
 
-use super::arm::{Arm, Joint, Placed};
+use super::arm::{Arm, HAND, Joint, Placed};
 use super::matrix::{Matrix, minus, plus, product, solve, times, transposed, units};
 use super::number::Number;
 use super::program::argument;
@@ -47,48 +47,42 @@ impl<'a> At<'a> {
         vec![0.into(); self.count()]
     }
 
-    /// Returns D q̈ + h, and c if gravity is asked for, without friction.
-    fn loads(&self, qd: &[Number], qdd: &[Number], has_gravity: bool) -> Vec<Number> {
-        let gravity = if has_gravity {
-            self.arm.gravity
-        } else {
-            Vector::default()
-        };
-        let rates = [qd, qdd].map(|rates| self.arm.spread(rates));
-        let wrenches = self.placed.wrenches(&rates[0], &rates[1], gravity);
+    /// Returns the wrench that each joint passes on.
+    fn wrenches(&self, qd: &[Number], qdd: &[Number], gravity: Vector) -> Vec<Screw> {
+        let [qd, qdd] = [qd, qdd].map(|rates| self.arm.spread(rates));
+        self.placed.wrenches(&qd, &qdd, gravity)
+    }
+
+    /// Returns D q̈ + h, and c if there is gravity, without friction.
+    fn loads(&self, qd: &[Number], qdd: &[Number], gravity: Vector) -> Vec<Number> {
+        let wrenches = self.wrenches(qd, qdd, gravity);
         let torques = self.placed.axes.iter().zip(wrenches);
         let torques = torques.map(|(axis, wrench)| axis.power(wrench));
-        let torques = self.arm.gathered(torques);
-        self.with_drives(torques, |own| own.armature, qdd)
+        let drives = self.drives(|own| own.armature, qdd);
+        plus(&self.arm.gathered(torques), &drives)
     }
 
-    fn with_friction(&self, loads: Vec<Number>, rates: &[Number]) -> Vec<Number> {
-        let loads = self.with_drives(loads, |own| own.viscous, rates);
+    fn with_friction(&self, loads: &[Number], rates: &[Number]) -> Vec<Number> {
         let joints = self.arm.movers.iter().zip(&self.state.speeds).zip(rates);
         let dry = joints.map(|((row, speed), rate)| self.arm.joints[*row].coulomb * *speed * *rate);
-        plus(loads, dry)
+        let viscous = self.drives(|own| own.viscous, rates);
+        plus(&plus(loads, &viscous), &dry.collect::<Vec<Number>>())
     }
 
-    /// Adds a number of each joint times its rate.
-    fn with_drives(
-        &self,
-        loads: Vec<Number>,
-        number: fn(&Joint) -> Number,
-        rates: &[Number],
-    ) -> Vec<Number> {
-        let rates = self.arm.spread(rates).into_iter();
-        let rows = self.arm.joints.iter().zip(rates);
+    /// Returns a number of each row times its rate, over joints.
+    fn drives(&self, number: fn(&Joint) -> Number, rates: &[Number]) -> Vec<Number> {
+        let rows = self.arm.joints.iter().zip(self.arm.spread(rates));
         let drives = rows.map(|(own, rate)| number(own) * rate);
-        plus(loads, self.arm.gathered(drives))
+        self.arm.gathered(drives)
     }
 
     fn torques(&self, qdd: &[Number]) -> Vec<Number> {
         let qd = self.given("qd");
-        self.with_friction(self.loads(qd, qdd, true), qd)
+        self.with_friction(&self.loads(qd, qdd, self.arm.gravity), qd)
     }
 
     fn gravity(&self) -> Vec<Number> {
-        self.loads(&self.zeros(), &self.zeros(), true)
+        self.loads(&self.zeros(), &self.zeros(), self.arm.gravity)
     }
 
     fn inertia(&self) -> Matrix {
@@ -117,16 +111,21 @@ impl<'a> At<'a> {
             free.iter().zip(own).for_each(|(&k, own)| all[k] = own);
             all
         };
-        solve(own, &right).into_iter().map(spread).collect()
+        solve(own, right).into_iter().map(spread).collect()
     }
 
     fn coriolis(&self, qd: &[Number]) -> Vec<Number> {
-        self.loads(qd, &self.zeros(), false)
+        self.loads(qd, &self.zeros(), Vector::default())
+    }
+
+    /// Returns D q̇.
+    fn momentum(&self) -> Vec<Number> {
+        self.loads(&self.zeros(), self.given("qd"), Vector::default())
     }
 
     /// Returns C(v) w: h is quadratic, so it is half of h(v + w) − h(v) − h(w).
     fn across(&self, v: &[Number], w: &[Number]) -> Vec<Number> {
-        let both = self.coriolis(&plus(v.to_vec(), w.iter().copied()));
+        let both = self.coriolis(&plus(v, w));
         let twice = minus(&minus(&both, &self.coriolis(v)), &self.coriolis(w));
         twice.into_iter().map(|own| own * self.arm.half).collect()
     }
@@ -150,12 +149,11 @@ impl<'a> At<'a> {
     /// Returns the row of the link that has the hand, or the frame in its place, and its pose; of a
     /// frame that is not there nothing.
     fn hand(&self) -> Option<(usize, Pose)> {
-        let is_hand = self.view.frame.is_empty() || self.view.frame == self.arm.hand.name;
-        let mut frames = self.arm.frames.iter();
-        let own = match is_hand {
-            true => Some(&self.arm.hand),
-            false => frames.find(|own| own.name == self.view.frame),
-        }?;
+        let name = match self.view.frame.as_str() {
+            "" => HAND,
+            name => name,
+        };
+        let own = self.arm.frames.iter().find(|own| own.name == name)?;
         let pose = self.placed.poses.get(own.row)?;
         Some((own.row, pose.then(&own.pose)))
     }
@@ -169,11 +167,7 @@ impl<'a> At<'a> {
             "local" => [linear, motion.0].map(|own| hand.back(own)),
             _ => [linear, motion.0],
         };
-        self.picked(six.concat())
-    }
-
-    /// Returns the components that are asked for, of six.
-    fn picked(&self, six: Vec<Number>) -> Vec<Number> {
+        let six = six.concat();
         match self.view.rows.as_slice() {
             [] => six,
             rows => rows.iter().map(|&row| six[row]).collect(),
@@ -197,33 +191,26 @@ impl<'a> At<'a> {
     /// Returns J of what moves.
     fn moving_jacobian(&self) -> Matrix {
         let mut j = self.jacobian();
-        for row in &mut j {
-            for (k, own) in row.iter_mut().enumerate() {
-                if !self.arm.free.contains(&k) {
-                    *own = 0.into();
-                }
-            }
+        for joint in (0..self.count()).filter(|joint| !self.arm.free.contains(joint)) {
+            j.iter_mut().for_each(|row| row[joint] = 0.into());
         }
         j
     }
 
-    /// Returns J̇q̇: the acceleration of the hand without q̈.
+    /// Returns the slopes of numbers by each entry of an argument, a column each.
+    fn slopes(&self, by: usize, of: impl Fn(&At) -> Vec<Number>) -> Matrix {
+        let column = |joint: usize| {
+            let moved = self.state.moving(by, joint, 1);
+            let values = of(&At::new(self.arm, &moved, self.view)).into_iter();
+            values.map(|own| own.slope(1)).collect()
+        };
+        transposed(&(0..self.count()).map(column).collect())
+    }
+
+    /// Returns J̇q̇: the slope of J q̇ along q̇.
     fn rate(&self) -> Vec<Number> {
-        let rates = [self.given("qd"), &self.zeros()].map(|rates| self.arm.spread(rates));
-        let motions = self.placed.motions(&rates[0], &rates[1], Vector::default());
-        let Some((last, hand)) = self.hand() else {
-            return Vec::new();
-        };
-        let [v, a] = motions.get(last).copied().unwrap_or_default();
-        let velocity = sum(v.1, cross(v.0, hand.origin));
-        let mixed = sum(sum(a.1, cross(a.0, hand.origin)), cross(v.0, velocity));
-        let six = match self.view.axes.as_str() {
-            "world" => [a.1, a.0],
-            // The frame's axes turn as well.
-            "local" => [sum(mixed, cross(velocity, v.0)), a.0].map(|own| hand.back(own)),
-            _ => [mixed, a.0],
-        };
-        self.picked(six.concat())
+        let qd = self.given("qd");
+        times(&self.slopes(0, |own| times(&own.jacobian(), qd)), qd)
     }
 
     /// Returns Jᵀw.
@@ -250,71 +237,63 @@ impl<'a> At<'a> {
     /// Returns J̄ = D⁻¹ Jᵀ Λ.
     fn consistent(&self) -> Matrix {
         let [driven, mobility] = self.mobility();
-        solve(self.damped(mobility), &transposed(&driven))
+        solve(self.damped(mobility), transposed(&driven))
     }
 
-    /// Returns the torques of an arm that has one parameter alone, parameter by parameter of each
-    /// link.
+    /// Returns the torques of an arm that has one parameter alone, parameter by parameter: ten of
+    /// each link, then armature and viscous friction of the rows that have some.
     fn columns(&self, torques: impl Fn(&At) -> Vec<Number>) -> Matrix {
-        let mut bare = self.arm.with(|_, _| Body::default());
+        let mut bare = self.arm.clone();
         for own in &mut bare.joints {
+            own.body = Body::default();
             (own.viscous, own.armature, own.coulomb) = (0.into(), 0.into(), 0.into());
         }
+        let rows = bare.joints.len();
+        let unit = |is_one: bool| Number::from(i64::from(is_one));
         let column = |place: usize| {
-            let one = |k: usize| Number::from(i64::from(k == place % 10));
-            let unit = Body::new(std::array::from_fn(one));
             let mut arm = bare.clone();
-            let joint = &mut arm.joints[place / 10];
-            joint.body = unit.moved(&joint.link);
+            if place < 10 * rows {
+                let joint = &mut arm.joints[place / 10];
+                let body = Body::new(std::array::from_fn(|k| unit(k == place % 10)));
+                joint.body = body.moved(&joint.link);
+            } else {
+                let own = &self.arm.joints[place % rows];
+                let joint = &mut arm.joints[place % rows];
+                match place < 11 * rows {
+                    true => joint.armature = unit(own.armature.is_nonzero()),
+                    false => joint.viscous = unit(own.viscous.is_nonzero()),
+                }
+            }
             torques(&self.with(&arm))
         };
-        (0..10 * self.arm.joints.len()).map(column).collect()
-    }
-
-    /// Returns the columns of all parameters that base parameters add up: those of links, then
-    /// armature and friction of the joints that have some.
-    fn base_columns(
-        &self,
-        rates: [&[Number]; 2],
-        torques: impl Fn(&At) -> Vec<Number>,
-    ) -> Vec<Number> {
-        let mut columns = self.columns(torques);
-        let units = units(self.arm.joints.len());
-        for (place, rates) in rates.into_iter().enumerate() {
-            let rates = self.arm.spread(rates);
-            for (k, own) in self.arm.joints.iter().enumerate() {
-                let has = [own.armature, own.viscous][place].is_nonzero();
-                let rate = if has { rates[k] } else { 0.into() };
-                let column = units[k].iter().map(|one| *one * rate);
-                columns.push(self.arm.gathered(column));
-            }
-        }
-        transposed(&columns).concat()
+        (0..12 * rows).map(column).collect()
     }
 
     /// Returns D a + C v + c + b∘v.
     fn passivity(&self) -> Vec<Number> {
         let v = self.given("v");
-        let loads = self.loads(&self.zeros(), self.given("a"), true);
+        let loads = self.loads(&self.zeros(), self.given("a"), self.arm.gravity);
         let across = self.across(self.given("qd"), v);
-        self.with_friction(plus(loads, across), v)
+        self.with_friction(&plus(&loads, &across), v)
     }
 
     /// Returns the arm with the tensors of its links alone, or with their masses alone.
     fn with_tensors_or_masses(&self, has_tensors: bool) -> Arm {
-        self.arm.with(|_, own| {
+        let mut arm = self.arm.clone();
+        for own in &mut arm.joints {
             let (mut body, centre) = own.given;
             match has_tensors {
                 true => body.mass = 0.into(),
                 false => body.tensor = Default::default(),
             }
-            body.moved(&centre)
-        })
+            own.body = body.moved(&centre);
+        }
+        arm
     }
 
     /// Returns a result that is no slope.
     fn value(&self, is: &str) -> Vec<Number> {
-        let (n, qd, zeros) = (self.count(), self.given("qd"), self.zeros());
+        let (n, qd) = (self.count(), self.given("qd"));
         match is {
             "tau" => self.torques(self.given("qdd")),
             "c" => self.gravity(),
@@ -333,35 +312,28 @@ impl<'a> At<'a> {
                 let column = |at: usize| self.across(&units[at / n], &units[at % n]);
                 transposed(&(0..n * n).map(column).collect()).concat()
             }
-            "kinetic" => vec![product(qd, &self.loads(&zeros, qd, false)) * self.arm.half],
+            "kinetic" => vec![product(qd, &self.momentum()) * self.arm.half],
             "potential" => {
                 let first = self.placed.bodies.iter().map(|own| own.first);
                 vec![-dot(self.arm.gravity, first.fold(Vector::default(), sum))]
             }
-            "p" => self.loads(&zeros, qd, false),
+            "p" => self.momentum(),
             "ct_qd" => self.slope(),
-            "drift" => minus(&self.slope(), &self.with_friction(self.gravity(), qd)),
+            "drift" => minus(&self.slope(), &self.with_friction(&self.gravity(), qd)),
             "c_matrix" => transposed(&self.columns_of_coriolis()).concat(),
             "pose" => self.hand().map_or_else(Vec::new, |(_, hand)| hand.rows()),
             "poses" => {
                 let links = self.placed.poses.iter().zip(&self.arm.joints);
-                links
-                    .flat_map(|(pose, own)| pose.then(&own.shown).rows())
-                    .collect()
+                let rows = links.flat_map(|(pose, own)| pose.then(&own.shown).rows());
+                rows.collect()
             }
             "jacobian" => self.jacobian().concat(),
             "jacobian_rate" => self.rate(),
             "wrenches" => {
-                let rates = [qd, self.given("qdd")].map(|rates| self.arm.spread(rates));
-                let [qd, qdd] = &rates;
-                let wrenches = self.placed.wrenches(qd, qdd, self.arm.gravity);
+                let wrenches = self.wrenches(qd, self.given("qdd"), self.arm.gravity);
                 let about = |(k, own): (usize, Screw)| {
                     let (origin, is_moved) = self.arm.joints[k].origin;
-                    let all = if is_moved {
-                        &self.placed.poses
-                    } else {
-                        &self.placed.before
-                    };
+                    let all = [&self.placed.before, &self.placed.poses][usize::from(is_moved)];
                     [own.1, sum(own.0, cross(own.1, all[k].apply(origin)))].concat()
                 };
                 wrenches.into_iter().enumerate().flat_map(about).collect()
@@ -370,47 +342,42 @@ impl<'a> At<'a> {
             "qdd" => self.accelerations(self.given("tau")),
             "d_inv" => self.driven(&units(n)).concat(),
             "tau_wrench" => minus(&self.torques(self.given("qdd")), &self.of_wrench()),
-            "qdd_wrench" => {
-                let tau = plus(self.of_wrench(), self.given("tau").iter().copied());
-                self.accelerations(&tau)
-            }
+            "qdd_wrench" => self.accelerations(&plus(&self.of_wrench(), self.given("tau"))),
             "contact_wrench" => {
                 let j = self.moving_jacobian();
                 let square = j.iter().map(|row| times(&j, row)).collect();
-                solve(self.damped(square), &[times(&j, self.given("tau"))]).concat()
+                solve(self.damped(square), vec![times(&j, self.given("tau"))]).concat()
             }
             "mobility" => self.mobility()[1].concat(),
             "operational_inertia" => {
                 let [_, mobility] = self.mobility();
                 let units = units(mobility.len());
-                solve(self.damped(mobility), &units).concat()
+                solve(self.damped(mobility), units).concat()
             }
             "consistent_inverse" => self.consistent().concat(),
             "operational_bias" => {
                 let [driven, mobility] = self.mobility();
-                let driven = times(&driven, &self.loads(qd, &zeros, true));
-                solve(self.damped(mobility), &[minus(&driven, &self.rate())]).concat()
+                let driven = times(&driven, &self.loads(qd, &self.zeros(), self.arm.gravity));
+                solve(self.damped(mobility), vec![minus(&driven, &self.rate())]).concat()
             }
             "null_space" => {
                 let j = transposed(&self.moving_jacobian());
-                // What is locked is in no space.
-                let unit = |k: usize, mut unit: Vec<Number>| {
-                    unit[k] = if self.arm.free.contains(&k) { 1 } else { 0 }.into();
-                    unit
+                let rows = self.consistent().into_iter().zip(units(n)).enumerate();
+                let row = |(k, (own, mut unit)): (usize, (Vec<Number>, Vec<Number>))| {
+                    // What is locked is in no space.
+                    unit[k] = i64::from(self.arm.free.contains(&k)).into();
+                    minus(&unit, &times(&j, &own))
                 };
-                let units = units(n).into_iter().enumerate();
-                let rows = self.consistent().into_iter().zip(units);
-                rows.flat_map(|(row, (k, own))| minus(&unit(k, own), &times(&j, &row)))
-                    .collect()
+                rows.flat_map(row).collect()
             }
-            "y" => transposed(&self.columns(|own| own.torques(own.given("qdd")))).concat(),
-            "y_base" => {
-                self.base_columns([self.given("qdd"), qd], |own| own.torques(own.given("qdd")))
+            "y" | "y_base" => {
+                let mut columns = self.columns(|own| own.torques(own.given("qdd")));
+                if is == "y" {
+                    columns.truncate(10 * self.arm.joints.len());
+                }
+                transposed(&columns).concat()
             }
-            "y_passivity" => {
-                let rates = [self.given("a"), self.given("v")];
-                self.base_columns(rates, |own| own.passivity())
-            }
+            "y_passivity" => transposed(&self.columns(|own| own.passivity())).concat(),
             _ => Vec::new(),
         }
     }
@@ -422,21 +389,12 @@ pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
     let n = arm.movers.len();
     let mut words = field.is.split('_');
     let first = words.next()?;
-    let of = first
-        .strip_prefix("d2")
-        .or(first.strip_prefix('d'))
-        .unwrap_or("");
+    let of = first.trim_start_matches('d').trim_start_matches('2');
     let by = words.map(|word| argument(word.strip_prefix('d')?));
     let by = by.collect::<Option<Vec<usize>>>().unwrap_or_default();
+    let own = At::new(arm, state, &field.view);
     Some(match *by.as_slice() {
-        [by] => {
-            let column = |joint: usize| {
-                let moved = state.moving(by, joint, 1);
-                let values = At::new(arm, &moved, &field.view).value(of).into_iter();
-                values.map(|own| own.slope(1)).collect()
-            };
-            transposed(&(0..n).map(column).collect()).concat()
-        }
+        [by] => own.slopes(by, |own| own.value(of)).concat(),
         [one, other] => {
             let bend = |at: usize| {
                 // Of a motion that is solved for, what is locked has none.
@@ -447,11 +405,11 @@ pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
                 let moved = state.moving(one, at / n, 1).moving(other, at % n, 2);
                 let values = At::new(arm, &moved, &field.view).value(of).into_iter();
                 let bends: Vec<Number> = values.map(|own| own.slope(3)).collect();
-                product(&bends, &state.given[argument("multiplier").unwrap_or(0)])
+                product(&bends, own.given("multiplier"))
             };
             (0..n * n).map(bend).collect()
         }
-        _ => At::new(arm, state, &field.view).value(field.is),
+        _ => own.value(field.is),
     })
 }
 

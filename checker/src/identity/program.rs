@@ -1,7 +1,5 @@
 //! Straight-line code, over exact constants or over literals; its residues and its degree.
 
-use std::cell::RefCell;
-
 use super::exact::Exact;
 #[cfg(feature = "certify")]
 use super::{exact::Point, number::Number, state::State};
@@ -22,9 +20,6 @@ pub const ARGUMENTS: [(&str, char); 12] = [
     ("multiplier", 'n'),
 ];
 
-/// A signed sum of joints' angles: joints, each with whether it is subtracted.
-pub type Angle = Vec<(usize, bool)>;
-
 /// Returns the place of an argument.
 pub fn argument(name: &str) -> Option<usize> {
     ARGUMENTS.iter().position(|own| own.0 == name)
@@ -39,8 +34,8 @@ pub enum Operand<C> {
     Constant(C),
     /// An entry of an argument, whose place among [`ARGUMENTS`] is first.
     Entry(usize, usize),
-    /// The sine, or else the cosine, of an angle.
-    Sine(Angle, bool),
+    /// The sine, or else the cosine, of a joint's angle.
+    Sine(usize, bool),
     /// 1/√(q̇² + w²) of a joint.
     Speed(usize),
 }
@@ -49,7 +44,7 @@ pub enum Operand<C> {
 pub type Step<C> = (char, [Operand<C>; 2]);
 
 /// A function; results may be negated.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Program<C> {
     /// The operations, in order.
     pub steps: Vec<Step<C>>,
@@ -69,7 +64,7 @@ impl<C> Program<C> {
     pub fn run<V: Clone>(
         &self,
         leaf: impl Fn(&Operand<C>) -> Option<V>,
-        apply: impl Fn(char, V, V) -> V,
+        mut apply: impl FnMut(char, V, V) -> V,
     ) -> Option<Vec<(bool, V)>> {
         let mut values: Vec<V> = Vec::with_capacity(self.steps.len());
         let read = |values: &[V], own: &Operand<C>| match own {
@@ -80,10 +75,9 @@ impl<C> Program<C> {
             let value = apply(*operation, read(&values, left)?, read(&values, right)?);
             values.push(value);
         }
-        self.outputs
-            .iter()
-            .map(|(negative, own)| Some((*negative, read(&values, own)?)))
-            .collect()
+        let outputs = self.outputs.iter();
+        let outputs = outputs.map(|(negative, own)| Some((*negative, read(&values, own)?)));
+        outputs.collect()
     }
 }
 
@@ -94,15 +88,7 @@ impl Program<Exact> {
         let leaf = |own: &Operand<Exact>| match own {
             Operand::Constant(constant) => Some(point.constant(constant)),
             Operand::Entry(argument, index) => state.given.get(*argument)?.get(*index).copied(),
-            Operand::Sine(angle, is_sine) => {
-                let mut pair = [Number::from(0), Number::from(1)];
-                for &(joint, negative) in angle {
-                    let [sin, cos] = *state.pairs.get(joint)?;
-                    let sin = if negative { -sin } else { sin };
-                    pair = [pair[0] * cos + pair[1] * sin, pair[1] * cos - pair[0] * sin];
-                }
-                Some(pair[usize::from(!is_sine)])
-            }
+            Operand::Sine(joint, is_sine) => Some(state.pairs.get(*joint)?[usize::from(!is_sine)]),
             Operand::Speed(joint) => state.speeds.get(*joint).copied(),
             Operand::Step(_) => None,
         };
@@ -112,11 +98,9 @@ impl Program<Exact> {
             '*' | '×' => a * b,
             _ => a / b,
         })?;
-        Some(
-            all.into_iter()
-                .map(|(negative, own)| if negative { -own } else { own })
-                .collect(),
-        )
+        let signed = all.into_iter();
+        let signed = signed.map(|(negative, own)| if negative { -own } else { own });
+        Some(signed.collect())
     }
 
     /// Returns at least the degrees of numerator and denominator of its results, in inputs and
@@ -126,7 +110,7 @@ impl Program<Exact> {
     /// it: a list of degrees. Multiplied by each divisor as often as it occurs, the last first, it
     /// has none.
     pub fn degree(&self) -> f64 {
-        let divisors = RefCell::new(Vec::<Vec<f64>>::new());
+        let mut divisors = Vec::<Vec<f64>>::new();
         let zip = |a: Vec<f64>, b: Vec<f64>, pick: fn(f64, f64) -> f64| {
             let at = |list: &[f64], k: usize| list.get(k).copied().unwrap_or(0.0);
             let both = (0..a.len().max(b.len())).map(|k| pick(at(&a, k), at(&b, k)));
@@ -134,21 +118,18 @@ impl Program<Exact> {
         };
         let leaf = |own: &Operand<Exact>| match own {
             Operand::Constant(_) => Some(vec![0.0]),
-            Operand::Sine(angle, _) => Some(vec![angle.len() as f64]),
             _ => Some(vec![1.0]),
         };
         let all = self.run(leaf, |operation, a, b| match operation {
             '+' | '-' => zip(a, b, f64::max),
             '*' | '×' => zip(a, b, |a, b| a + b),
             _ => {
-                let mut known = divisors.borrow_mut();
-                known.push(b);
-                let mut inverse = vec![0.0; known.len()];
+                divisors.push(b);
+                let mut inverse = vec![0.0; divisors.len()];
                 inverse.push(1.0);
                 zip(a, inverse, |a, b| a + b)
             }
         });
-        let divisors = divisors.into_inner();
         let largest = |(_, mut own): (bool, Vec<f64>)| {
             let mut under = 0.0;
             for (index, divisor) in divisors.iter().enumerate().rev() {

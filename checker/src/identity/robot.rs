@@ -3,18 +3,18 @@
 
 use std::collections::BTreeMap;
 
+use num_rational::BigRational as Rational;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::Value;
 use toml::de::{DeTable, DeValue};
 
+use super::exact::{Angle, number};
+
 /// A robot file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-#[allow(
-    dead_code,
-    reason = "keys that the equations do not read are known all the same"
-)]
+#[allow(dead_code, reason = "keys that the equations do not read")]
 pub struct File {
     pub(super) convention: Option<String>,
     pub(super) gravity: [String; 3],
@@ -26,6 +26,9 @@ pub struct File {
     pub(super) frame: Vec<NamedFrame>,
     #[serde(default)]
     pub(super) scene: BTreeMap<String, Scene>,
+    /// The scene of who names none.
+    #[serde(skip)]
+    pub(super) bare: Scene,
     name: IgnoredAny,
     allow: Option<IgnoredAny>,
     outputs: Option<IgnoredAny>,
@@ -34,10 +37,7 @@ pub struct File {
 /// The positions that a scene fixes, the payload that it carries and the results that it asks for.
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-#[allow(
-    dead_code,
-    reason = "keys that the equations do not read are known all the same"
-)]
+#[allow(dead_code, reason = "keys that the equations do not read")]
 pub(super) struct Scene {
     pub(super) joints: Option<Vec<String>>,
     pub(super) lock: BTreeMap<String, String>,
@@ -98,10 +98,6 @@ pub(super) struct Placement {
 /// A frame that is fixed to a link.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-#[allow(
-    dead_code,
-    reason = "keys that the equations do not read are known all the same"
-)]
 pub(super) struct NamedFrame {
     pub(super) name: String,
     pub(super) link: String,
@@ -109,6 +105,15 @@ pub(super) struct NamedFrame {
     pub(super) xyz: Option<[String; 3]>,
     #[serde(default)]
     pub(super) rpy: Option<[String; 3]>,
+}
+
+impl NamedFrame {
+    pub(super) fn placement(&self) -> Placement {
+        Placement {
+            xyz: self.xyz.clone(),
+            rpy: self.rpy.clone(),
+        }
+    }
 }
 
 #[derive(Default, Deserialize)]
@@ -160,19 +165,13 @@ impl File {
         self.joint.iter().any(|row| row.placement.is_some())
     }
 
-    /// Returns this robot with the scenes of another file.
-    pub fn in_scenes_of(self, other: &mut File) -> File {
-        let scene = std::mem::take(&mut other.scene);
-        let limits = other
-            .joint
-            .iter_mut()
-            .map(|row| std::mem::take(&mut row.limits));
-        let mut file = File { scene, ..self };
-        file.joint
-            .iter_mut()
-            .zip(limits)
-            .for_each(|(own, limits)| own.limits = limits);
-        file
+    /// Returns this robot with the scenes and the limits of another file.
+    pub fn in_scenes_of(mut self, other: File) -> File {
+        self.scene = other.scene;
+        for (own, other) in self.joint.iter_mut().zip(other.joint) {
+            own.limits = other.limits;
+        }
+        self
     }
 }
 
@@ -189,6 +188,18 @@ pub fn read(source: &str) -> Result<File, String> {
     serde_json::from_value(value).map_err(|error| format!("robot file: {error}"))
 }
 
+/// Reads a number; one that is missing is zero.
+pub(super) fn number_of(text: Option<&String>) -> Result<Rational, String> {
+    let text = text.map_or("0", String::as_str);
+    number(text).ok_or_else(|| format!("`{text}` is no number"))
+}
+
+/// Reads an angle; one that is missing is zero.
+pub(super) fn angle_of(text: Option<&String>) -> Result<Angle, String> {
+    let text = text.map_or("0", String::as_str);
+    Angle::read(text).ok_or_else(|| format!("`{text}` is no angle"))
+}
+
 /// Returns a value with its numbers as text.
 fn plain(value: &DeValue) -> Result<Value, String> {
     Ok(match value {
@@ -199,13 +210,10 @@ fn plain(value: &DeValue) -> Result<Value, String> {
             .iter()
             .map(|item| plain(item.get_ref()))
             .collect::<Result<_, _>>()?,
-        DeValue::Table(table) => {
-            let entry = |(key, value): (_, &toml::Spanned<DeValue>)| {
-                let key: &toml::Spanned<std::borrow::Cow<str>> = key;
-                Ok((key.get_ref().to_string(), plain(value.get_ref())?))
-            };
-            Value::Object(table.iter().map(entry).collect::<Result<_, String>>()?)
-        }
+        DeValue::Table(table) => table
+            .iter()
+            .map(|(key, value)| Ok((key.get_ref().to_string(), plain(value.get_ref())?)))
+            .collect::<Result<_, String>>()?,
         other => {
             return Err(format!(
                 "robot file: {other:?} is no number, text, list or table"

@@ -150,12 +150,10 @@ pub(super) struct Body {
 impl Body {
     /// Returns a body of m, m x, m y, m z, xx, yy, zz, xy, yz and xz.
     pub(super) fn new([mass, x, y, z, xx, yy, zz, xy, yz, xz]: [Number; 10]) -> Body {
-        let tensor = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-        let first = [x, y, z];
         Body {
             mass,
-            first,
-            tensor,
+            first: [x, y, z],
+            tensor: [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]],
         }
     }
 

@@ -3,15 +3,13 @@
 
 use std::f64::consts::PI;
 
-use num_bigint::BigInt;
 use num_rational::BigRational as Rational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::exact::{Angle, Exact, Point, number};
 use super::number::Number;
-use super::program::Operand;
-use super::program::{ARGUMENTS, argument};
-use super::robot::{File, OneOrEach, Row, Scene};
+use super::program::{ARGUMENTS, Operand, argument};
+use super::robot::{File, OneOrEach, Row, Scene, angle_of, number_of};
 use super::state::State;
 
 /// The most joints.
@@ -22,9 +20,9 @@ const MOST_TURNS: i64 = 16;
 /// A robot in a scene, or by itself.
 pub struct Setting<'f> {
     pub(super) file: &'f File,
-    pub(super) scene: Option<&'f Scene>,
-    /// The line along which each row of the table follows another, if it does.
-    pub(super) follows: Vec<Option<Follows<'f>>>,
+    pub(super) scene: &'f Scene,
+    /// The line along which each row of the table follows another, or itself.
+    pub(super) follows: Vec<Follows<'f>>,
     /// The rows whose joints move by themselves: joints are numbered by their places here.
     pub(super) movers: Vec<usize>,
     /// The positions that joints are locked at.
@@ -35,7 +33,7 @@ pub struct Setting<'f> {
     pub rows: Vec<usize>,
 }
 
-/// The line along which a joint follows another, which moves by itself.
+/// The line along which a joint follows another, which moves by itself; or itself, once.
 pub(super) struct Follows<'f> {
     /// The row of the other.
     pub row: usize,
@@ -56,37 +54,34 @@ impl File {
             return Err(format!("1 to {MOST_JOINTS} joints are read, not {count}"));
         }
         let missing = |name: &str| format!("the robot file has no scene `{name}`");
-        let scene = name.map(|name| self.scene.get(name).ok_or(missing(name)));
-        let scene = scene.transpose()?;
+        let scene = match name {
+            Some(name) => self.scene.get(name).ok_or_else(|| missing(name))?,
+            None => &self.bare,
+        };
         let follows = (0..count).map(|row| self.follows(row));
         let follows = follows.collect::<Result<Vec<_>, String>>()?;
-        let movers = (0..count).filter(|&row| follows[row].is_none());
+        let movers = (0..count).filter(|&row| self.joint[row].mimic.is_none());
         let movers: Vec<usize> = movers.collect();
         let joint = |word: &str| find(word, movers.iter().map(|row| &self.joint[*row]));
         let mut locks = vec![None; movers.len()];
-        for (word, position) in scene.into_iter().flat_map(|scene| &scene.lock) {
+        for (word, position) in &scene.lock {
             locks[joint(word)?] = Some(position);
         }
-        let rows = match scene.and_then(|scene| scene.joints.as_ref()) {
+        let free = (0..movers.len()).filter(|&own| locks[own].is_none());
+        let rows = match &scene.joints {
             Some(list) => list
                 .iter()
                 .map(|word| joint(word))
                 .collect::<Result<_, _>>()?,
-            None => (0..movers.len())
-                .filter(|&own| locks[own].is_none())
-                .collect(),
+            None => free.collect(),
         };
-        let is_still = |of: fn(&Scene) -> bool| scene.is_some_and(of);
         Ok(Setting {
             file: self,
             scene,
             follows,
             movers,
             locks,
-            still: [
-                is_still(|scene| scene.velocity.is_some()),
-                is_still(|scene| scene.acceleration.is_some()),
-            ],
+            still: [scene.velocity.is_some(), scene.acceleration.is_some()],
             rows,
         })
     }
@@ -97,38 +92,32 @@ impl File {
     }
 
     /// Finds the row that a row follows in the end, over all that stand between.
-    pub(super) fn follows(&self, row: usize) -> Result<Option<Follows<'_>>, String> {
+    pub(super) fn follows(&self, row: usize) -> Result<Follows<'_>, String> {
+        let in_joint = |why: &str| format!("joint {}: {why}", row + 1);
         let (mut at, mut times, mut offsets) = (row, Rational::one(), Vec::new());
         for _ in 0..=self.joint.len() {
             let Some(mimic) = &self.joint[at].mimic else {
-                let found = Follows {
+                return Ok(Follows {
                     row: at,
                     times,
                     offsets,
-                };
-                return Ok((at != row).then_some(found));
+                });
             };
             offsets.extend(mimic.offset.as_ref().map(|text| (times.clone(), text)));
-            let in_joint = |why: &str| format!("joint {}: {why}", row + 1);
-            let read = mimic.multiplier.as_ref().map(|text| number(text));
-            let own = read.unwrap_or_else(|| Some(Rational::one()));
-            times *= own.ok_or_else(|| in_joint("`multiplier` is no number"))?;
+            let factor = mimic.multiplier.as_ref().map_or("1", String::as_str);
+            times *= number(factor).ok_or_else(|| in_joint("`multiplier` is no number"))?;
             let leader = self.row(&mimic.joint)?;
             if self.joint[leader].kind != self.joint[row].kind {
-                return Err(in_joint(
-                    "it turns and what it follows slides, or otherwise",
-                ));
+                let why = "it turns and what it follows slides, or otherwise";
+                return Err(in_joint(why));
             }
-            let most = Rational::from_integer(BigInt::from(MOST_TURNS));
+            let most = Rational::from_integer(MOST_TURNS.into());
             if self.joint[row].turns() && !(times.is_integer() && times.abs() <= most) {
                 return Err(in_joint("`multiplier` of an angle is no whole number"));
             }
             at = leader;
         }
-        Err(format!(
-            "joint {}: joints follow each other in a circle",
-            row + 1
-        ))
+        Err(in_joint("joints follow each other in a circle"))
     }
 }
 
@@ -169,48 +158,40 @@ impl Setting<'_> {
 
     /// Returns by how much the degree in a joint's sines grows for those that follow it.
     pub(super) fn turns(&self) -> f64 {
-        let follows = self.follows.iter().flatten();
-        let turns = follows.map(|own| own.times.abs().to_f64().unwrap_or(f64::INFINITY));
+        let rows = self.file.joint.iter().zip(&self.follows);
+        let followers = rows.filter(|(row, _)| row.mimic.is_some());
+        let turns = followers.map(|(_, own)| own.times.abs().to_f64().unwrap_or(f64::INFINITY));
         turns.fold(1.0, |all, own| all + own)
     }
 
-    /// Puts what the scene fixes in the place of what was drawn.
+    /// Draws velocities of which 1/√(q̇² + w²) is a residue too: q̇ = (u − w²/u)/2, and the root is
+    /// (u + w²/u)/2. Then puts what the scene fixes in the place of what was drawn.
     pub(super) fn fix(&self, state: &mut State, point: &Point) -> Result<(), String> {
+        for joint in 0..self.joints() {
+            let width = self.width(point, joint)?;
+            if width.is_nonzero() {
+                let (u, half) = (point.residue(), point.half());
+                let rest = width * width / u;
+                state.given[1][joint] = (u - rest) * half;
+                let is_still = self.is_locked(joint) || self.still[0];
+                let root = if is_still { width } else { (u + rest) * half };
+                state.speeds[joint] = Number::from(1) / root;
+            }
+        }
         let rates = ["qd", "qdd", "tau", "v", "a", "multiplier"];
         let rates = rates.map(|name| argument(name).unwrap_or_default());
-        for (joint, lock) in self.locks.iter().enumerate() {
-            let Some(text) = lock else { continue };
-            match self.file.joint[self.movers[joint]].turns() {
-                true => {
-                    let angle = Angle::read(text).ok_or_else(|| format!("`{text}` is no angle"))?;
-                    state.pairs[joint] = point.angle(&angle);
-                }
-                false => {
-                    let at = number(text).ok_or_else(|| format!("`{text}` is no number"))?;
-                    state.given[0][joint] = point.number(&at);
-                }
+        for joint in (0..self.joints()).filter(|joint| self.is_locked(*joint)) {
+            let lock = self.locks[joint];
+            match self.turns_by(joint) {
+                true => state.pairs[joint] = point.angle(&angle_of(lock)?),
+                false => state.given[0][joint] = point.number(&number_of(lock)?),
             }
             for place in rates {
                 state.given[place][joint] = 0.into();
             }
-            self.rest(state, point, joint)?;
         }
-        for (place, is_still) in [1, 2].into_iter().zip(self.still) {
-            if is_still {
-                state.given[place].fill(0.into());
-            }
-        }
-        if self.still[0] {
-            (0..self.joints()).try_for_each(|joint| self.rest(state, point, joint))?;
-        }
-        Ok(())
-    }
-
-    /// Puts 1/w in the place of 1/√(q̇² + w²).
-    fn rest(&self, state: &mut State, point: &Point, joint: usize) -> Result<(), String> {
-        let width = self.width(point, joint)?;
-        if width.is_nonzero() {
-            state.speeds[joint] = Number::from(1) / width;
+        for place in [1, 2].into_iter().filter(|place| self.still[place - 1]) {
+            state.given[place].fill(0.into());
         }
         Ok(())
     }
@@ -218,33 +199,16 @@ impl Setting<'_> {
     /// Returns the speed over which Coulomb friction is smoothed; zero of a joint without.
     fn width(&self, point: &Point, joint: usize) -> Result<Number, String> {
         let row = &self.file.joint[self.movers[joint]];
-        let [force, width] = [&row.coulomb, &row.coulomb_width].map(|text| match text {
-            Some(text) => number(text).ok_or_else(|| format!("`{text}` is no number")),
-            None => Ok(Rational::zero()),
-        });
-        match (force?.is_zero(), width?) {
+        let force = number_of(row.coulomb.as_ref())?;
+        let width = number_of(row.coulomb_width.as_ref())?;
+        match (force.is_zero(), width.is_positive()) {
             (true, _) => Ok(0.into()),
-            (false, width) if width.is_positive() => Ok(point.number(&width)),
+            (false, true) => Ok(point.number(&width)),
             _ => Err(format!(
                 "joint {}: `coulomb` without a `coulomb_width`",
                 joint + 1
             )),
         }
-    }
-
-    /// Draws velocities of which 1/√(q̇² + w²) is a residue too: q̇ = (u − w²/u)/2, and the root is
-    /// (u + w²/u)/2.
-    pub(super) fn draw_speeds(&self, state: &mut State, point: &Point) -> Result<(), String> {
-        for joint in 0..self.joints() {
-            let width = self.width(point, joint)?;
-            if width.is_nonzero() {
-                let (u, half) = (point.residue(), point.half());
-                let rest = width * width / u;
-                state.given[1][joint] = (u - rest) * half;
-                state.speeds[joint] = Number::from(1) / ((u + rest) * half);
-            }
-        }
-        Ok(())
     }
 
     /// Returns the ranges of an argument's entries: the scene's, else the limits of the joints,
@@ -254,55 +218,47 @@ impl Setting<'_> {
     /// # Errors
     /// A range that is empty, or no range.
     pub fn ranges(&self, name: &str, rate: f64) -> Result<Option<Vec<[f64; 2]>>, String> {
-        let given = self.scene.map(|scene| &scene.r#box);
-        let mut all = Vec::new();
-        for (joint, &row) in self.movers.iter().enumerate() {
-            let own = &self.file.joint[row];
-            let is_empty = || format!("joint {}: the range of `{name}` is empty", joint + 1);
-            let limit = match name {
-                "q" => {
-                    let own_limits = own.limits.position.clone();
-                    let given =
-                        given.and_then(|given| given.position.as_ref()?.get(joint).cloned());
-                    let ends = match (self.locks[joint], given.or(own_limits)) {
-                        (Some(at), _) => [own.position(at), own.position(at)],
-                        (None, Some(ends)) => ends.each_ref().map(|end| own.position(end)),
-                        (None, None) if own.turns() => [Some(-PI), Some(PI)],
-                        // A joint that slides without an end: a metre either way, unless every
-                        // state counts.
-                        (None, None) => [-1.0, 1.0]
-                            .map(|end| Some(if rate.is_finite() { end } else { end * rate })),
-                    };
-                    let [Some(low), Some(high)] = ends else {
-                        return Err(is_empty());
-                    };
-                    if !(low <= high) {
-                        return Err(is_empty());
-                    }
-                    all.push([low, high]);
-                    continue;
+        let (limit, is_still) = match name {
+            "q" => ("position", false),
+            "qd" => ("velocity", self.still[0]),
+            "qdd" => ("acceleration", self.still[1]),
+            "v" => ("velocity", false),
+            "a" => ("acceleration", false),
+            "tau" => ("torque", false),
+            _ => return Ok(None),
+        };
+        let range = |joint: usize| {
+            let range = match limit {
+                "position" => self.positions(joint, rate),
+                _ if self.is_locked(joint) || is_still => Some([0.0; 2]),
+                _ => {
+                    let text = self.limit_text(joint, limit);
+                    let most = text.map_or(Some(rate), |text| number(text)?.to_f64());
+                    most.map(|most| [-most, most])
                 }
-                "qd" | "v" => "velocity",
-                "qdd" | "a" => "acceleration",
-                "tau" => "torque",
-                _ => return Ok(None),
             };
-            let is_still = match name {
-                "qd" => self.still[0],
-                "qdd" => self.still[1],
-                _ => false,
-            };
-            let most = match self.limit_text(joint, limit) {
-                Some(text) => number(text).and_then(|most| most.to_f64()),
-                None => Some(rate),
-            };
-            match most.filter(|most| *most >= 0.0) {
-                _ if self.locks[joint].is_some() || is_still => all.push([0.0; 2]),
-                Some(most) => all.push([-most, most]),
-                None => return Err(is_empty()),
-            }
+            let range = range.filter(|[low, high]| low <= high);
+            range.ok_or_else(|| format!("joint {}: the range of `{name}` is empty", joint + 1))
+        };
+        let all = (0..self.joints()).map(range);
+        Ok(Some(all.collect::<Result<_, String>>()?))
+    }
+
+    /// Returns the range of a joint's position; none if an end of it is no number.
+    fn positions(&self, joint: usize, rate: f64) -> Option<[f64; 2]> {
+        let own = &self.file.joint[self.movers[joint]];
+        if let Some(at) = self.locks[joint] {
+            return Some([own.position(at)?; 2]);
         }
-        Ok(Some(all))
+        let given = self.scene.r#box.position.as_ref();
+        let given = given.and_then(|list| list.get(joint));
+        match given.or(own.limits.position.as_ref()) {
+            Some([low, high]) => Some([own.position(low)?, own.position(high)?]),
+            None if own.turns() => Some([-PI, PI]),
+            // A joint that slides without an end: a metre either way, unless every state counts.
+            None if rate.is_finite() => Some([-1.0, 1.0]),
+            None => Some([-rate, rate]),
+        }
     }
 
     /// Returns how far the results of each joint may be off, and relative to which scale; none where
@@ -311,8 +267,9 @@ impl Setting<'_> {
     /// # Errors
     /// A text that is no number, or a list that has not one for each joint.
     pub fn tolerance(&self) -> Result<Option<(Vec<f64>, &str)>, String> {
-        let own = self.scene.and_then(|scene| scene.tolerance.as_ref());
-        let Some(own) = own else { return Ok(None) };
+        let Some(own) = &self.scene.tolerance else {
+            return Ok(None);
+        };
         let each = match &own.value {
             OneOrEach::One(one) => vec![one; self.links()],
             OneOrEach::Each(each) => each.iter().collect(),
@@ -332,27 +289,26 @@ impl Setting<'_> {
 
     /// Returns the text of a limit: the box's, else that of the joint.
     fn limit_text(&self, joint: usize, name: &str) -> Option<&String> {
-        let given = self.scene.map(|scene| &scene.r#box);
+        let given = &self.scene.r#box;
         let limits = &self.file.joint[*self.movers.get(joint)?].limits;
         let (given, limit) = match name {
-            "velocity" => (given.map(|own| &own.velocity), &limits.velocity),
-            "acceleration" => (given.map(|own| &own.acceleration), &limits.acceleration),
+            "velocity" => (given.velocity.as_ref(), &limits.velocity),
+            "acceleration" => (given.acceleration.as_ref(), &limits.acceleration),
             _ => (None, &limits.torque),
         };
-        let given = given.and_then(|list| list.as_ref()?.get(joint));
-        given.or(limit.as_ref())
+        given.and_then(|list| list.get(joint)).or(limit.as_ref())
     }
 
     /// Returns true for an operand that the scene fixes: whoever calls a function may give another
     /// number for it.
     pub fn is_fixed<C>(&self, own: &Operand<C>) -> bool {
         match own {
-            Operand::Sine(angle, _) => angle.iter().any(|own| self.is_locked(own.0)),
+            Operand::Sine(joint, _) => self.is_locked(*joint),
             Operand::Speed(joint) => self.is_locked(*joint) || self.still[0],
             Operand::Entry(place, joint) => {
                 let is_of_joints = ARGUMENTS.get(*place).is_some_and(|own| own.1 == 'n');
-                let is_still = [1, 2].map(|rate| *place == rate && self.still[rate - 1]);
-                is_of_joints && self.is_locked(*joint) || is_still.contains(&true)
+                let is_still = matches!(place, 1 | 2) && self.still[place - 1];
+                is_of_joints && self.is_locked(*joint) || is_still
             }
             Operand::Step(_) | Operand::Constant(_) => false,
         }
@@ -378,12 +334,9 @@ impl Setting<'_> {
 
     /// Returns true if rates of some joint have no limit.
     pub fn is_unlimited(&self) -> bool {
-        let given = self.scene.map(|scene| &scene.r#box);
-        let [rates, more] = [
-            given.is_some_and(|own| own.velocity.is_some()),
-            given.is_some_and(|own| own.acceleration.is_some()),
-        ];
+        let given = &self.scene.r#box;
+        let [rates, more] = [given.velocity.is_none(), given.acceleration.is_none()];
         let mut rows = self.movers.iter().map(|&row| &self.file.joint[row].limits);
-        rows.any(|own| !rates && own.velocity.is_none() || !more && own.acceleration.is_none())
+        rows.any(|own| rates && own.velocity.is_none() || more && own.acceleration.is_none())
     }
 }

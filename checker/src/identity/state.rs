@@ -30,7 +30,6 @@ impl State {
             pairs: (0..sizes[0]).map(|_| point.pair()).collect(),
             speeds: vec![0.into(); sizes[0]],
         };
-        setting.draw_speeds(&mut state, point)?;
         setting.fix(&mut state, point)?;
         Ok(state)
     }

@@ -59,17 +59,6 @@ pub struct Field {
     pub(super) view: View,
 }
 
-/// The limit of an actuator that a result is measured by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Measure {
-    /// That of torques.
-    Load,
-    /// Torque by acceleration.
-    Inertia,
-    /// Torque by two velocities.
-    Coefficient,
-}
-
 /// A frame, and what is asked of its motion.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct View {
@@ -106,12 +95,11 @@ impl Field {
     fn read(word: &'static str) -> Option<Field> {
         let (names, axes) = word.strip_suffix(']')?.split_once('[')?;
         let (name, is) = names.split_once('=').unwrap_or((names, names));
-        let (name, view) = (name.to_owned(), View::default());
         Some(Field {
-            name,
+            name: name.to_owned(),
             is,
             axes,
-            view,
+            view: View::default(),
         })
     }
 
@@ -135,39 +123,28 @@ impl Field {
                 }
             }
         }
-        own.rows
-            .windows(2)
-            .all(|two| two[0] < two[1])
-            .then_some(())?;
+        own.rows.is_sorted_by(|a, b| a < b).then_some(())?;
         self.name = format!("{}_{}", self.name, view.replace(':', "_"));
         self.view = own;
         Some(self)
     }
 
-    /// Returns the limit of an actuator that is a measure of it, if one is.
-    pub(crate) fn measure(&self) -> Option<Measure> {
-        match self.is {
-            "tau" | "c" | "h" | "h_rot" | "h_tran" => Some(Measure::Load),
-            "d" | "d_rot" | "d_tran" => Some(Measure::Inertia),
-            "symbols" => Some(Measure::Coefficient),
-            _ => None,
-        }
+    /// Returns true if actuators' limits are a measure of it: it is a torque of each joint, D of
+    /// each two, or a coefficient of each three.
+    pub(crate) fn is_measured(&self) -> bool {
+        let known = "tau c h h_rot h_tran d d_rot d_tran symbols";
+        known.split(' ').any(|own| own == self.is)
     }
 
     /// Returns the lengths of its axes, `base` being the number of base parameters.
     pub fn lengths(&self, setting: &Setting, base: usize) -> Vec<usize> {
-        let components = match self.view.rows.len() {
-            0 => 6,
-            some => some,
-        };
-        let axes = self.axes.chars();
-        axes.map(|axis| match axis {
+        let of = |axis: char| match axis {
             'n' => setting.rows.len(),
             'b' => base,
-            '6' => components,
+            '6' if !self.view.rows.is_empty() => self.view.rows.len(),
             axis => length(axis, [setting.joints(), setting.links()]),
-        })
-        .collect()
+        };
+        self.axes.chars().map(of).collect()
     }
 }
 
@@ -198,12 +175,9 @@ impl Function {
     /// The first result that is not of the table, or a known name with other results.
     pub fn named(name: &str, arguments: &[String], results: &[String]) -> Result<Function, String> {
         let all = functions();
-        let place = |name: &String| {
-            let unknown = || format!("there is no argument `{name}`");
-            argument(name).ok_or_else(unknown)
-        };
-        let arguments = arguments.iter().map(place);
-        let arguments = arguments.collect::<Result<Vec<usize>, String>>()?;
+        let place =
+            |name: &String| argument(name).ok_or_else(|| format!("there is no argument `{name}`"));
+        let arguments: Vec<usize> = arguments.iter().map(place).collect::<Result<_, _>>()?;
         if !arguments.is_sorted_by(|one, next| one < next) {
             return Err("its arguments are in another order".into());
         }
@@ -219,10 +193,7 @@ impl Function {
         };
         let found =
             |result: &String| of(result).ok_or_else(|| format!("there is no result `{result}`"));
-        let fields = results
-            .iter()
-            .map(found)
-            .collect::<Result<Vec<_>, String>>()?;
+        let fields: Vec<Field> = results.iter().map(found).collect::<Result<_, _>>()?;
         let is_same = |own: &Function| {
             let words = |fields: &[Field]| fields.iter().map(|field| field.is).collect::<Vec<_>>();
             let has_frame = fields.iter().any(|field| !field.view.frame.is_empty());

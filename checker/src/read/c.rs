@@ -11,8 +11,8 @@
 //! }
 //! ```
 
-use super::reader::{Read, Reader};
-use super::{Function, Source, TextError};
+use super::reader::{Read, Reader, joint_of};
+use super::{Source, TextError};
 
 /// The names of a function in a header.
 #[derive(Clone, Debug, Default)]
@@ -33,68 +33,56 @@ pub struct Symbols {
     pub is_cuda: bool,
 }
 
-/// Up to here, in f64 and in f32, sines need no library.
-const LARGEST: [f64; 2] = [8192.0, 100.0];
-
 impl<'r> Reader<'r> {
     /// Reads the function: its struct, itself, and those that call it.
-    pub(super) fn c(&mut self, has_batch: bool) -> Read<Function> {
-        let Some(symbols) = self.symbols else {
-            return self.refuse("names in C expected");
-        };
+    pub(super) fn c(&mut self, symbols: &Symbols, has_batch: bool) -> Read<()> {
         let is_told = self.find_c(symbols)?;
         self.c_structure(symbols)?;
-        let inline = if symbols.is_cuda {
-            "static __host__ __device__ inline"
-        } else {
-            "static inline"
+        let inline = match symbols.is_cuda {
+            true => "static __host__ __device__ inline",
+            false => "static inline",
         };
-        let returned = if self.is_number() {
-            self.float()
-        } else {
-            "void"
+        let (returned, back) = match self.is_number() {
+            true => (self.head.float(), "return "),
+            false => ("void", ""),
+        };
+        let (own, far) = match is_told {
+            true => (&symbols.any, "const int far, "),
+            false => (&symbols.single, ""),
         };
         let (parameters, passed) = self.parameters(symbols);
-        let list = parameters.join(", ");
-        let own = if is_told {
-            &symbols.any
-        } else {
-            &symbols.single
-        };
-        let far = if is_told { "const int far, " } else { "" };
-        self.expect_all(&format!("{inline} {returned} {own}({far}{list})"))?;
-        self.expect_all(&format!("{{ {}_UNFUSED", symbols.macros))?;
+        let (list, macros) = (parameters.join(", "), &symbols.macros);
+        self.expect_all(&format!(
+            "{inline} {returned} {own}({far}{list}) {{ {macros}_UNFUSED"
+        ))?;
         self.c_statements(symbols, is_told)?;
         self.c_results(symbols)?;
         self.expect("}")?;
         if is_told {
-            let back = if self.is_number() { "return " } else { "" };
-            let passed = passed.join(", ");
+            let (single, passed) = (&symbols.single, passed.join(", "));
             self.expect_all(&format!(
-                "{inline} {returned} {}({list}) {{ {back}{own}(1, {passed}); }}",
-                symbols.single
+                "{inline} {returned} {single}({list}) {{ {back}{own}(1, {passed}); }}"
             ))?;
         }
         if has_batch {
             let text = self.batch(symbols, is_told, &passed);
             self.expect_all(&text)?;
         }
-        Ok(self.function.clone())
+        Ok(())
     }
 
     /// Goes to the first of the function's parts; returns whether it is told that an angle may be far.
     fn find_c(&mut self, symbols: &Symbols) -> Read<bool> {
-        let before = ["void", self.float()];
+        let before = ["void", self.head.float()];
         let any = self.find(&before, &symbols.any)?;
         let single = self.find(&before, &symbols.single)?;
         let missing = || TextError::new(1, format!("there is no function `{}`", symbols.single));
         let place = any.or(single).ok_or_else(missing)?;
+        // `typedef struct { double tau[2]; … } name;`, and what stands before the name.
+        let structure = symbols.structure.as_ref();
+        let structure = structure.map_or(0, |_| 6 + 6 * self.head.fields.len());
         let before = if symbols.is_cuda { 4 } else { 2 };
-        self.at = place.saturating_sub(before);
-        if symbols.structure.is_some() {
-            // `typedef struct { double tau[2]; … } name;`
-            self.at = self.at.saturating_sub(6 + 6 * self.head.fields.len());
-        }
+        self.at = place.saturating_sub(structure + before);
         self.first = self.at;
         Ok(any.is_some())
     }
@@ -104,20 +92,11 @@ impl<'r> Reader<'r> {
         let Some(name) = &symbols.structure else {
             return Ok(());
         };
-        let (float, mut text) = (self.float(), String::from("typedef struct { "));
+        let (float, mut text) = (self.head.float(), String::from("typedef struct { "));
         for (field, length) in self.head.lengths() {
             text += &format!("{float} {field}[{length}]; ");
         }
         self.expect_all(&format!("{text} }} {name};"))
-    }
-
-    /// Returns the scalar's type.
-    fn float(&self) -> &'static str {
-        if self.head.is_single {
-            "float"
-        } else {
-            "double"
-        }
     }
 
     /// Returns whether the function returns its only number.
@@ -128,32 +107,27 @@ impl<'r> Reader<'r> {
 
     /// Returns the parameters of the function of one state, and what they are called.
     fn parameters(&self, symbols: &Symbols) -> (Vec<String>, Vec<String>) {
-        let (float, restrict) = (self.float(), format!("{}_RESTRICT", symbols.macros));
+        let (float, restrict) = (self.head.float(), format!("{}_RESTRICT", symbols.macros));
         let array = |kind: &str, name: &str, length: usize| {
-            (
-                format!("{kind} {name}[{restrict} {length}]"),
-                name.to_owned(),
-            )
+            let parameter = format!("{kind} {name}[{restrict} {length}]");
+            (parameter, name.to_owned())
         };
+        let constant = format!("const {float}");
         let given = self.head.arguments.iter();
-        let mut all: Vec<(String, String)> = given
-            .map(|own| array(&format!("const {float}"), own.name, own.length))
-            .collect();
-        match &symbols.structure {
-            Some(kind) => all.push(array(kind, "result", 1)),
-            None if self.is_number() => {}
-            None => all.extend(
-                self.head
-                    .lengths()
-                    .map(|(name, length)| array(float, name, length)),
-            ),
-        }
-        all.into_iter().unzip()
+        let given = given.map(|own| array(&constant, own.name, own.length));
+        let results = self.head.lengths();
+        let results = results.map(|(name, length)| array(float, name, length));
+        let written: Vec<(String, String)> = match &symbols.structure {
+            Some(kind) => vec![array(kind, "result", 1)],
+            None if self.is_number() => Vec::new(),
+            None => results.collect(),
+        };
+        given.chain(written).unzip()
     }
 
     /// Reads all statements up to the results.
     fn c_statements(&mut self, symbols: &Symbols, is_told: bool) -> Read<()> {
-        let (float, far) = (self.float(), if is_told { "far" } else { "1" });
+        let (float, far) = (self.head.float(), if is_told { "far" } else { "1" });
         // The angles of a list, those of the call that was read, and the one of the last pair.
         let (mut angles, mut called, mut pair) = (Vec::new(), Vec::new(), None);
         let kind = format!("{}_sincos_t", symbols.prefix);
@@ -161,15 +135,15 @@ impl<'r> Reader<'r> {
             if self.peek(0) == float {
                 let count = self.peek(3);
                 self.expect_all(&format!(
-                    "{float} sines[{count}]; {float} cosines[{count}];"
+                    "{float} sines[{count}]; {float} cosines[{count}]; {}_sines_{count}(",
+                    symbols.prefix
                 ))?;
-                self.expect_all(&format!("{}_sines_{count} (", symbols.prefix))?;
                 let length = count.parse().unwrap_or(usize::MAX);
-                called = match self.take("&") {
-                    true => (self.angle()?..self.head.joints).take(length).collect(),
-                    false => self
-                        .expect("angles")
-                        .map(|()| std::mem::take(&mut angles))?,
+                called = if self.take("&") {
+                    (self.angle()?..self.head.joints).take(length).collect()
+                } else {
+                    self.expect("angles")?;
+                    std::mem::take(&mut angles)
                 };
                 self.expect_all(", sines, cosines);")?;
                 if called.len() != length {
@@ -212,7 +186,7 @@ impl<'r> Reader<'r> {
     fn c_angles(&mut self) -> Read<Vec<usize>> {
         let count = self.peek(1);
         self.expect_all(&format!("[{count}] = {{"))?;
-        let angles = self.angles("}")?;
+        let angles = self.list("}", Self::angle)?;
         match angles.len().to_string() == count {
             true => Ok(angles),
             false => self.refuse("as many angles as in the array expected"),
@@ -222,61 +196,35 @@ impl<'r> Reader<'r> {
     /// Takes a value, whose name was read: by its letter a sine, a cosine, an operation of an angle's
     /// polynomials, a root or an operation.
     fn c_value(&mut self, name: &'r str, called: &[usize], pair: Option<usize>) -> Read<()> {
-        let (letter, rest) = name.split_at_checked(1).unwrap_or_default();
-        let (number, _) = rest.split_once('_').unwrap_or((rest, ""));
-        let joint = number
-            .parse::<usize>()
-            .ok()
-            .and_then(|own| own.checked_sub(1));
-        let (joint, is_sine) = (joint.unwrap_or(usize::MAX), letter == "s");
-        let before = format!("x{number}_");
-        match letter {
-            "x" => self.polynomial_step(name, &before, joint),
-            "r" => self.speed(name, &[]),
-            "s" | "c" => {
-                let source = self.c_sine(joint, is_sine, called, pair)?;
-                self.name_sine(name, joint, is_sine, source)
-            }
-            _ => self.operation(name),
-        }
-    }
-
-    /// Takes the sine, or else the cosine, of a joint's angle.
-    fn c_sine(
-        &mut self,
-        joint: usize,
-        is_sine: bool,
-        called: &[usize],
-        pair: Option<usize>,
-    ) -> Read<Source> {
-        let number = joint.wrapping_add(1);
-        let function = if is_sine { "sin" } else { "cos" };
-        if pair == Some(joint) && self.peek(0) == format!("p{number}") {
-            self.expect_all(&format!("p{number}.{function}"))?;
-            return Ok(Source::Together);
-        }
-        let array = if is_sine { "sines" } else { "cosines" };
+        // What has no number is of no joint.
+        let joint = joint_of(name).unwrap_or(self.head.joints);
+        let (is_sine, function, array) = match name.chars().next() {
+            Some('s') => (true, "sin", "sines"),
+            Some('c') => (false, "cos", "cosines"),
+            Some('x') => return self.polynomial_step(name, joint),
+            Some('r') => return self.speed(name, &[]),
+            _ => return self.operation(name),
+        };
+        let of_pair = format!("p{}.{function}", joint + 1);
+        let mut is_called = pair == Some(joint) && self.take_all(&of_pair)?;
         if let Some(place) = called.iter().position(|own| *own == joint)
-            && self.peek(0) == array
+            && !is_called
         {
-            self.expect_all(&format!("{array}[{place}]"))?;
-            return Ok(Source::Together);
+            is_called = self.take_all(&format!("{array}[{place}]"))?;
         }
-        let library = format!("{function}{}", self.suffix());
-        if self.peek(0) == library {
-            self.expect_all(&format!("{library}(q[{joint}])"))?;
-            return Ok(Source::Libm);
-        }
-        self.polynomial_result(&format!("x{number}_"), joint)
+        let source = if is_called {
+            Source::Together
+        } else if self.take_all(&format!("{function}{}(q[{joint}])", self.suffix()))? {
+            Source::Libm
+        } else {
+            self.polynomial_result(joint)?
+        };
+        self.name_sine(name, joint, is_sine, source)
     }
 
     /// Reads the results: what is returned, or written entry by entry.
     fn c_results(&mut self, symbols: &Symbols) -> Read<()> {
-        let before = if symbols.structure.is_some() {
-            "result->"
-        } else {
-            ""
-        };
+        let before = symbols.structure.as_ref().map_or("", |_| "result->");
         let mut targets = Vec::new();
         for (field, length) in self.head.lengths() {
             targets.extend((0..length).map(|index| format!("{before}{field}[{index}] =")));
@@ -296,7 +244,7 @@ impl<'r> Reader<'r> {
     /// Returns the function of any number of states: entry i of state s is at `i * n + s`. What is
     /// told that no angle is far is called once more where one may be.
     fn batch(&self, symbols: &Symbols, is_told: bool, passed: &[String]) -> String {
-        let (float, macros) = (self.float(), &symbols.macros);
+        let (float, macros) = (self.head.float(), &symbols.macros);
         let place = |index: usize| match index {
             0 => "s".to_owned(),
             1 => "n + s".to_owned(),
@@ -338,8 +286,7 @@ impl<'r> Reader<'r> {
         let passed: Vec<String> = passed.iter().map(|name| format!("{name}_s")).collect();
         let passed = passed.join(", ");
         let each = |when: &str, call: &str| format!("{state}{when}{to}{call}{passed}); {stored}");
-        let single = format!("{}(", symbols.single);
-        let batch = &symbols.batch;
+        let (single, batch) = (format!("{}(", symbols.single), &symbols.batch);
         if symbols.is_cuda {
             let first = "((size_t)blockIdx.x * blockDim.x) + threadIdx.x";
             let body = each("", &single);
@@ -349,23 +296,23 @@ impl<'r> Reader<'r> {
                 for (s = {first}; s < n; s += threads) {{ {body} }} }}"
             );
         }
-        let near = match is_told {
-            true => each("", &format!("{}(0, ", symbols.any)),
-            false => each("", &single),
+        let looped = |when: &str, call: &str| {
+            let body = each(when, call);
+            format!("for (s = 0U; s < n; ++s) {{ {body} }}")
         };
-        let mut loops = format!("for (s = 0U; s < n; ++s) {{ {near} }}");
+        let mut loops = looped("", &single);
         if is_told {
-            let joints = self.head.joints;
-            let most =
-                LARGEST[usize::from(self.head.is_single)] / joints.next_power_of_two() as f64;
-            let (f, end) = (self.suffix(), if self.head.is_single { "F" } else { "" });
-            let is_near = |joint| format!("(fabs{f}(q_s[{joint}]) <= {most:?}{end})");
-            let all = (0..joints)
-                .map(is_near)
-                .collect::<Vec<String>>()
-                .join(" && ");
-            let far = each(&format!("if ({all}) {{ continue; }} "), &single);
-            loops += &format!("for (s = 0U; s < n; ++s) {{ {far} }}");
+            let (f, joints) = (self.suffix(), self.head.joints);
+            // Up to here sines need no library.
+            let (largest, end) = match self.head.is_single {
+                true => (100.0, "F"),
+                false => (8192.0, ""),
+            };
+            let most = largest / joints.next_power_of_two() as f64;
+            let near = (0..joints).map(|k| format!("(fabs{f}(q_s[{k}]) <= {most:?}{end})"));
+            let near = near.collect::<Vec<String>>().join(" && ");
+            loops = looped("", &format!("{}(0, ", symbols.any));
+            loops += &looped(&format!("if ({near}) {{ continue; }} "), &single);
         }
         format!(
             "\n#if defined(__GNUC__)\n__attribute__((flatten))\n#endif\n

@@ -24,7 +24,10 @@ use crate::identity::program::Program;
 
 pub use self::c::Symbols;
 #[cfg(feature = "certify")]
-pub(crate) use self::{reader::number, rust::camel};
+pub(crate) use self::{
+    reader::number,
+    tokens::{has_only, is_letter, lines},
+};
 
 /// A text that is not what it should be.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -72,8 +75,6 @@ pub struct Head<'h> {
     pub arguments: Vec<Argument<'h>>,
     /// The results, in order: their names and the lengths of their axes.
     pub fields: Vec<(&'h str, Vec<usize>)>,
-    /// The struct that holds the results in Rust, if one does.
-    pub structure: Option<&'h str>,
     /// The number of joints.
     pub joints: usize,
 }
@@ -82,6 +83,23 @@ impl Head<'_> {
     /// Returns the scalar in Rust.
     fn scalar(&self) -> &'static str {
         if self.is_single { "f32" } else { "f64" }
+    }
+
+    /// Returns the struct that holds the results in Rust, if there are several.
+    pub(crate) fn structure(&self) -> Option<String> {
+        (self.fields.len() > 1).then(|| rust::camel(self.name))
+    }
+
+    /// Returns the scalar in C.
+    fn float(&self) -> &'static str {
+        if self.is_single { "float" } else { "double" }
+    }
+
+    /// Returns the type in Rust of a result whose axes have these lengths.
+    pub(crate) fn kind(&self, shape: &[usize]) -> String {
+        let lengths = shape.iter().rev();
+        let array = |kind: String, length: &usize| format!("[{kind}; {length}]");
+        lengths.fold(self.scalar().to_owned(), array)
     }
 
     /// Returns how many numbers there are in each result.
@@ -114,7 +132,7 @@ pub struct Sines {
 }
 
 /// A function as its text computes it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Function {
     /// Sines and cosines, in the order of the text.
     pub sines: Vec<Sines>,
@@ -147,33 +165,24 @@ impl<'t> Text<'t> {
         tokens::read(source, true).map(|tokens| Text { tokens })
     }
 
-    /// Reads a function in Rust, and that of any number of states if it has one; returns as well
-    /// whether nothing else stands in the text. A compiler compares the struct of its results.
+    /// Reads a function, and that of any number of states if it has one: in C or CUDA by its names
+    /// and with its struct, in Rust without names. Returns as well whether nothing else stands in
+    /// the text. A compiler compares the struct of results in Rust.
     ///
     /// # Errors
     /// The first thing that is not of such a function.
-    pub fn rust_function(
+    pub fn function(
         &self,
         head: &Head<'_>,
-        has_columns: bool,
+        symbols: Option<&Symbols>,
+        has_many: bool,
     ) -> Result<(Function, bool), TextError> {
-        let mut reader = Reader::new(&self.tokens, head, None);
-        let function = reader.rust(has_columns)?;
-        Ok((function, reader.has_all()))
-    }
-
-    /// Reads a function in C or CUDA with its struct, as [`Text::rust_function`] does in Rust.
-    ///
-    /// # Errors
-    /// As [`Text::rust_function`].
-    pub fn c_function(
-        &self,
-        head: &Head<'_>,
-        symbols: &Symbols,
-        has_batch: bool,
-    ) -> Result<(Function, bool), TextError> {
-        let mut reader = Reader::new(&self.tokens, head, Some(symbols));
-        let function = reader.c(has_batch)?;
-        Ok((function, reader.has_all()))
+        let mut reader = Reader::new(&self.tokens, head, symbols);
+        match symbols {
+            None => reader.rust(has_many)?,
+            Some(symbols) => reader.c(symbols, has_many)?,
+        }
+        let is_whole = reader.has_all();
+        Ok((reader.function, is_whole))
     }
 }

@@ -31,11 +31,11 @@ pub(super) struct Reader<'r> {
     pub has_of: bool,
     names: HashMap<&'r str, Operand<f64>>,
     /// The names, in the order in which they were given.
-    order: Vec<&'r str>,
+    pub order: Vec<&'r str>,
     pub function: Function,
-    /// The operations of the polynomials of an angle, so far, and what their names begin with: of
-    /// another angle's, nothing is known.
-    polynomial: (String, Vec<Step<f64>>),
+    /// A joint, and the operations of the polynomials of its angle so far: of another angle's,
+    /// nothing is known.
+    polynomial: (usize, Vec<Step<f64>>),
 }
 
 impl<'r> Reader<'r> {
@@ -55,15 +55,8 @@ impl<'r> Reader<'r> {
             has_of: false,
             names: HashMap::new(),
             order: Vec::new(),
-            function: Function {
-                sines: Vec::new(),
-                speeds: Vec::new(),
-                program: Program {
-                    steps: Vec::new(),
-                    outputs: Vec::new(),
-                },
-            },
-            polynomial: (String::new(), Vec::new()),
+            function: Function::default(),
+            polynomial: (0, Vec::new()),
         }
     }
 
@@ -105,11 +98,7 @@ impl<'r> Reader<'r> {
             return Ok(());
         }
         // Where a line should have ended, it is that line.
-        let place = if word == ";" {
-            self.at.wrapping_sub(1)
-        } else {
-            self.at
-        };
+        let place = self.at.wrapping_sub(usize::from(word == ";"));
         let token = self.tokens.get(place).or(self.tokens.last());
         let (line, found) = (token.map_or(1, |token| token.line), self.peek(0));
         let why = format!("`{word}` expected, not `{found}`");
@@ -122,13 +111,14 @@ impl<'r> Reader<'r> {
         words.iter().try_for_each(|token| self.expect(token.text))
     }
 
-    /// Takes the name of an argument or of a list's entry, which has an underscore if nothing
-    /// reads it.
-    pub(super) fn expect_name(&mut self, name: &str) -> Read<()> {
-        match self.peek(0).strip_prefix('_') == Some(name) {
-            true => self.expect(self.peek(0)),
-            false => self.expect(name),
+    /// Takes the words of a text, which have to be these, if the first of them is next.
+    pub(super) fn take_all(&mut self, text: &str) -> Read<bool> {
+        let words = tokens::read(text, self.symbols.is_some())?;
+        let is_next = words.first().is_some_and(|own| own.text == self.peek(0));
+        if is_next {
+            self.expect_all(text)?;
         }
+        Ok(is_next)
     }
 
     /// Returns the place of the function of a name, behind a word of these; none if there is none.
@@ -155,30 +145,17 @@ impl<'r> Reader<'r> {
         self.names.insert(name, value).is_none()
     }
 
-    /// Returns how many names there are.
-    pub(super) fn count_names(&self) -> usize {
-        self.order.len()
-    }
-
-    /// Forgets all names that were given after so many.
-    pub(super) fn forget_names(&mut self, count: usize) -> HashMap<&'r str, Operand<f64>> {
+    /// Forgets the names that were given after so many, but for those that are handed on.
+    pub(super) fn forget_names(&mut self, count: usize, handed_on: &[&'r str]) -> Read<()> {
         let names = self.order.split_off(count).into_iter();
-        names
+        let mut inside: HashMap<&str, Operand<f64>> = names
             .filter_map(|name| self.names.remove_entry(name))
-            .collect()
-    }
-
-    /// Gives names that were forgotten back to their values.
-    pub(super) fn hand_on(
-        &mut self,
-        names: &[&'r str],
-        mut inside: HashMap<&'r str, Operand<f64>>,
-    ) -> Read<()> {
-        for &name in names {
-            match inside.remove(name) {
-                Some(value) => self.name(name, value),
-                None => return self.refuse("a part hands on what is not there"),
+            .collect();
+        for &name in handed_on {
+            let Some(value) = inside.remove(name) else {
+                return self.refuse("a part hands on what is not there");
             };
+            self.name(name, value);
         }
         Ok(())
     }
@@ -188,18 +165,12 @@ impl<'r> Reader<'r> {
         if self.head.is_single { "f" } else { "" }
     }
 
-    /// Returns whether products are a macro's.
-    fn is_cuda(&self) -> bool {
-        self.symbols.is_some_and(|symbols| symbols.is_cuda)
-    }
-
     /// Takes a number in brackets, below a length, as it is printed.
     pub(super) fn index(&mut self, length: usize) -> Read<usize> {
         self.expect("[")?;
         let word = self.next();
         let index = word.parse::<usize>().ok();
-        let index = index.filter(|k| *k < length && k.to_string() == word);
-        match index {
+        match index.filter(|k| *k < length && k.to_string() == word) {
             Some(index) => self.expect("]").map(|()| index),
             None => self.refuse("no index"),
         }
@@ -211,16 +182,20 @@ impl<'r> Reader<'r> {
         self.index(self.head.joints)
     }
 
-    /// Takes positions of joints up to a bracket.
-    pub(super) fn angles(&mut self, close: &str) -> Read<Vec<usize>> {
-        let mut angles = Vec::new();
+    /// Takes a list up to a bracket, whose entries a reader takes.
+    pub(super) fn list<T>(
+        &mut self,
+        close: &str,
+        entry: impl Fn(&mut Self) -> Read<T>,
+    ) -> Read<Vec<T>> {
+        let mut entries = Vec::new();
         while !self.take(close) {
-            if !angles.is_empty() {
+            if !entries.is_empty() {
                 self.expect(",")?;
             }
-            angles.push(self.angle()?);
+            entries.push(entry(self)?);
         }
-        Ok(angles)
+        Ok(entries)
     }
 
     /// Returns whether a literal follows.
@@ -233,20 +208,15 @@ impl<'r> Reader<'r> {
     /// Takes a literal of the scalar, printed as it is: another one of the same value is refused.
     pub(super) fn literal(&mut self) -> Read<f64> {
         if self.is_vectors {
-            ["of", ".", "all", "("]
-                .iter()
-                .try_for_each(|word| self.expect(word))?;
-        }
-        if self.is_vectors && !self.has_of {
-            return self.refuse("`of` is not there");
+            self.expect_all("of.all(")?;
+            if !self.has_of {
+                return self.refuse("`of` is not there");
+            }
         }
         let is_negative = self.take("-");
-        let word = self.next();
-        let end = match (self.symbols.is_some(), self.head.is_single) {
-            (true, true) => "F",
-            _ => "",
-        };
-        let digits = word.strip_suffix(end).unwrap_or("");
+        let is_float = self.symbols.is_some() && self.head.is_single;
+        let end = if is_float { "F" } else { "" };
+        let digits = self.next().strip_suffix(end).unwrap_or("");
         let Some(value) = number(digits, self.head.is_single) else {
             return self.refuse("no literal of this scalar");
         };
@@ -281,26 +251,15 @@ impl<'r> Reader<'r> {
         Ok((is_negative, self.operand()?))
     }
 
-    /// Takes an operator between operands.
-    fn operator(&mut self) -> Read<char> {
-        match self.next() {
-            "+" => Ok('+'),
-            "-" => Ok('-'),
-            "/" => Ok('/'),
-            "*" if !self.is_cuda() => Ok('*'),
-            _ => self.refuse("no operation"),
-        }
-    }
-
     /// Takes one operation on operands that a reader takes.
     fn binary(&mut self, operand: &dyn Fn(&mut Self) -> Read<Operand<f64>>) -> Read<Step<f64>> {
-        let product = if self.head.is_single {
-            "DALEMBERT_MULF"
-        } else {
-            "DALEMBERT_MUL"
+        // Products are a macro's in CUDA.
+        let is_cuda = self.symbols.is_some_and(|symbols| symbols.is_cuda);
+        let product = match self.head.is_single {
+            true => "DALEMBERT_MULF(",
+            false => "DALEMBERT_MUL(",
         };
-        if self.is_cuda() && self.take(product) {
-            self.expect("(")?;
+        if is_cuda && self.take_all(product)? {
             let left = operand(self)?;
             self.expect(",")?;
             let right = operand(self)?;
@@ -308,7 +267,13 @@ impl<'r> Reader<'r> {
             return Ok(('*', [left, right]));
         }
         let left = operand(self)?;
-        let operation = self.operator()?;
+        let operation = match self.next() {
+            "+" => '+',
+            "-" => '-',
+            "/" => '/',
+            "*" if !is_cuda => '*',
+            _ => return self.refuse("no operation"),
+        };
         Ok((operation, [left, operand(self)?]))
     }
 
@@ -319,12 +284,11 @@ impl<'r> Reader<'r> {
             true => self.peek(0).strip_suffix(self.suffix()) == Some("fma"),
             false => self.calls_mul_add(),
         };
-        match is_fused {
-            true => self.fused(is_c)?,
-            false => {
-                let step = self.binary(&Self::operand)?;
-                self.function.program.steps.push(step);
-            }
+        if is_fused {
+            self.fused(is_c)?;
+        } else {
+            let step = self.binary(&Self::operand)?;
+            self.function.program.steps.push(step);
         }
         let count = self.function.program.steps.len();
         if count > MOST_STEPS {
@@ -342,34 +306,28 @@ impl<'r> Reader<'r> {
     /// Returns whether a statement calls the method of fused products.
     fn calls_mul_add(&self) -> bool {
         let rest = self.tokens.get(self.at..).unwrap_or_default();
-        let words = rest.iter().map(|token| token.text);
-        words
-            .take_while(|word| *word != ";")
-            .any(|word| word == "mul_add")
+        let mut words = rest.iter().map(|token| token.text);
+        words.find(|word| [";", "mul_add"].contains(word)) == Some("mul_add")
     }
 
     /// Takes `a.mul_add(b, c)` or `fma(a, b, c)`: a product that is not rounded, and the sum.
     fn fused(&mut self, is_called: bool) -> Read<()> {
-        let (is_negative, left) = match is_called {
-            true => {
-                self.next();
-                self.expect("(")?;
-                let left = self.signed()?;
-                self.expect(",")?;
-                left
-            }
-            false => {
-                let is_negative = self.take("(");
-                if is_negative {
-                    self.expect("-")?;
-                }
-                let left = self.operand()?;
-                if is_negative {
-                    self.expect(")")?;
-                }
-                self.expect_all(". mul_add (")?;
-                (is_negative, left)
-            }
+        let (is_negative, left) = if is_called {
+            self.next();
+            self.expect("(")?;
+            let left = self.signed()?;
+            self.expect(",")?;
+            left
+        } else {
+            let is_negative = self.take("(");
+            self.expect_all(if is_negative { "-" } else { "" })?;
+            let left = self.operand()?;
+            self.expect_all(if is_negative {
+                ").mul_add("
+            } else {
+                ".mul_add("
+            })?;
+            (is_negative, left)
         };
         if matches!(left, Operand::Constant(_)) {
             return self.refuse("a value expected before the factor");
@@ -406,18 +364,18 @@ impl<'r> Reader<'r> {
             }
             self.expect("::")?;
         }
-        let (end, velocity) = (self.suffix(), |own: &&super::Argument| own.name == "qd");
-        self.expect_all(&format!("sqrt{end} ("))?;
+        self.expect_all(&format!("sqrt{} (", self.suffix()))?;
         let square = self.binary(&Self::operand)?;
         self.expect("+")?;
         let width = self.literal()?;
         self.expect(")")?;
-        let place = self.head.arguments.iter().find(velocity);
-        let joint = match &square {
+        let mut arguments = self.head.arguments.iter();
+        let place = arguments.find(|own| own.name == "qd").map(|own| own.place);
+        let joint = match square {
             ('*', [Operand::Entry(a, i), Operand::Entry(b, k)])
-                if (a, i) == (b, k) && place.is_some_and(|own| own.place == *a) =>
+                if (a, i) == (b, k) && place == Some(a) =>
             {
-                *i
+                i
             }
             _ => return self.refuse("the square of a velocity expected under a root"),
         };
@@ -443,68 +401,74 @@ impl<'r> Reader<'r> {
             return self.refuse(&format!("`{letter}{}` expected for `{name}`", joint + 1));
         }
         let all = &mut self.function.sines;
-        let is_first = all.iter().all(|own| own.joint != joint);
-        if is_first {
+        let is_good = if all.iter().all(|own| own.joint != joint) {
+            let needs = [is_sine, !is_sine];
             all.push(Sines {
                 joint,
-                needs: [false; 2],
-                source: match &source {
-                    Source::Polynomial(own) => Source::Polynomial(Program {
-                        steps: own.steps.clone(),
-                        outputs: Vec::new(),
-                    }),
-                    other => other.clone(),
-                },
+                needs,
+                source,
             });
-        }
-        let mut is_good = false;
-        if let Some(own) = all.last_mut().filter(|own| own.joint == joint) {
-            is_good = !own.needs[usize::from(!is_sine)] && !own.needs[1];
-            own.needs[usize::from(!is_sine)] = true;
-            is_good &= match (&mut own.source, source) {
+            true
+        } else if let Some(own) = all.last_mut()
+            && own.joint == joint
+            && own.needs == [true, false]
+            && !is_sine
+        {
+            // The cosine stands behind the sine, and is computed in the same way.
+            own.needs[1] = true;
+            match (&mut own.source, source) {
                 (Source::Polynomial(all), Source::Polynomial(new)) => {
                     all.outputs.extend(new.outputs);
                     all.steps == new.steps
                 }
                 (own, new) => *own == new,
-            };
-        }
-        let value = Operand::Sine(vec![(joint, false)], is_sine);
+            }
+        } else {
+            false
+        };
+        let value = Operand::Sine(joint, is_sine);
         match is_good && self.name(name, value) {
             true => Ok(()),
             false => self.refuse("the sine of an angle stands there twice"),
         }
     }
 
-    /// Takes an operation of the polynomials of a joint's angle, and its name, which begins with
-    /// `before` and ends with its number.
-    pub(super) fn polynomial_step(&mut self, name: &str, before: &str, joint: usize) -> Read<()> {
-        if name == format!("{before}1") {
-            self.begin_polynomial(before);
+    /// Returns what an operation of the polynomials of a joint's angle is called.
+    fn polynomial_name(&self, joint: usize, number: usize) -> String {
+        match self.symbols {
+            Some(_) => format!("x{}_{number}", joint + 1),
+            None => format!("x{number}"),
         }
-        let operand = |own: &mut Self| own.polynomial_operand(before, joint);
-        let step = self.binary(&operand)?;
+    }
+
+    /// Takes an operation of the polynomials of a joint's angle, for a name that has been read.
+    pub(super) fn polynomial_step(&mut self, name: &str, joint: usize) -> Read<()> {
+        if name == self.polynomial_name(joint, 1) {
+            self.begin_polynomial(joint);
+        }
+        let step = self.binary(&|own| own.polynomial_operand(joint))?;
         if step.0 == '/' {
             return self.refuse("no operation of a polynomial");
         }
         let (known, steps) = &mut self.polynomial;
         steps.push(step);
-        if steps.len() > MOST_OF_ANGLE {
+        let (is_known, count) = (*known == joint, steps.len());
+        if count > MOST_OF_ANGLE {
             return self.refuse("more than 256 operations of a polynomial");
         }
-        match known == before && name == format!("{before}{}", steps.len()) {
+        match is_known && name == self.polynomial_name(joint, count) {
             true => Ok(()),
             false => self.refuse(&format!("`{name}` is not the next name")),
         }
     }
 
-    /// Begins with the polynomials of an angle, whose names begin so.
-    pub(super) fn begin_polynomial(&mut self, before: &str) {
-        self.polynomial = (before.to_owned(), Vec::new());
+    /// Begins with the polynomials of a joint's angle.
+    pub(super) fn begin_polynomial(&mut self, joint: usize) {
+        self.polynomial = (joint, Vec::new());
     }
 
     /// Takes an operand of polynomials: the angle, an operation before, or a literal.
-    fn polynomial_operand(&mut self, before: &str, joint: usize) -> Read<Operand<f64>> {
+    fn polynomial_operand(&mut self, joint: usize) -> Read<Operand<f64>> {
         if self.is_literal() {
             return self.literal().map(Operand::Constant);
         }
@@ -515,24 +479,23 @@ impl<'r> Reader<'r> {
             };
         }
         let word = self.next();
-        let number = word
-            .strip_prefix(before)
-            .and_then(|n| n.parse::<usize>().ok());
+        let number = word.rsplit(['x', '_']).next();
+        let number = number.and_then(|own| own.parse::<usize>().ok());
         let (known, steps) = &self.polynomial;
-        let is_known = |n: &usize| known == before && (1..=steps.len()).contains(n);
-        match number.filter(|n| is_known(n) && word == format!("{before}{n}")) {
+        let is_known = |n: &usize| *known == joint && (1..=steps.len()).contains(n);
+        match number.filter(|n| is_known(n) && word == self.polynomial_name(joint, *n)) {
             Some(number) => Ok(Operand::Step(number - 1)),
             None => self.refuse("neither the angle, a value nor a literal"),
         }
     }
 
     /// Takes a result of the polynomials, which may be negated.
-    pub(super) fn polynomial_result(&mut self, before: &str, joint: usize) -> Read<Source> {
+    pub(super) fn polynomial_result(&mut self, joint: usize) -> Read<Source> {
         let is_negative = !self.is_literal() && self.take("-");
-        if self.polynomial.0 != before {
-            self.begin_polynomial(before);
+        if self.polynomial.0 != joint {
+            self.begin_polynomial(joint);
         }
-        let value = self.polynomial_operand(before, joint)?;
+        let value = self.polynomial_operand(joint)?;
         Ok(Source::Polynomial(Program {
             steps: self.polynomial.1.clone(),
             outputs: vec![(is_negative, value)],
@@ -540,18 +503,18 @@ impl<'r> Reader<'r> {
     }
 }
 
+/// Returns the joint whose number stands behind a name's first letter: 0 for `s1` and for `x1_3`.
+pub(super) fn joint_of(name: &str) -> Option<usize> {
+    let number = name.get(1..)?.split('_').next()?;
+    number.parse::<usize>().ok()?.checked_sub(1)
+}
+
 /// Reads a number of a scalar as it is printed: another text of the same value is refused.
 pub(crate) fn number(text: &str, is_single: bool) -> Option<f64> {
-    let digits = text.strip_prefix('-').unwrap_or(text);
-    let value = match is_single {
-        true => printed::<f32>(digits)?,
-        false => printed::<f64>(digits)?,
-    };
-    Some(if digits.len() < text.len() {
-        -value
-    } else {
-        value
-    })
+    match is_single {
+        true => printed::<f32>(text),
+        false => printed::<f64>(text),
+    }
 }
 
 /// Returns a number as it is printed.

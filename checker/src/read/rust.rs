@@ -9,35 +9,32 @@
 //! }
 //! ```
 
-use super::reader::{Read, Reader};
-use super::{Function, Source, TextError};
+use super::reader::{Read, Reader, joint_of};
+use super::{Argument, Function, Source, TextError};
 
 /// Arguments that have a type of their own.
 const TYPES: [(&str, &str); 3] = [("g", "Gravity"), ("load", "Load"), ("payload", "Payload")];
 
 impl<'r> Reader<'r> {
     /// Reads the function, and that of any number of states.
-    pub(super) fn rust(&mut self, has_columns: bool) -> Read<Function> {
+    pub(super) fn rust(&mut self, has_columns: bool) -> Read<()> {
         self.find_rust()?;
         self.rust_head()?;
         self.statements(false)?;
         self.results()?;
         self.expect("}")?;
-        if has_columns {
-            self.columns()?;
+        match has_columns {
+            true => self.columns(),
+            false => Ok(()),
         }
-        Ok(self.function.clone())
     }
 
     /// Goes to the function of the name.
     fn find_rust(&mut self) -> Read<()> {
         let missing = || TextError::new(1, format!("there is no function `{}`", self.head.name));
         let place = self.find(&["fn"], self.head.name)?.ok_or_else(missing)?;
-        let words = self.tokens[..place].iter().rev().map(|own| own.text);
-        let attribute = ["pub", "]", "must_use", "[", "#"];
-        let has_attribute = words.take(5).eq(attribute);
         self.at = place.saturating_sub(1);
-        self.first = if has_attribute { place - 5 } else { self.at };
+        self.first = self.at;
         Ok(())
     }
 
@@ -45,25 +42,15 @@ impl<'r> Reader<'r> {
     fn rust_head(&mut self) -> Read<()> {
         let (head, scalar) = (self.head, self.head.scalar());
         self.expect_all(&format!("pub fn {} (", head.name))?;
-        for (index, argument) in head.arguments.iter().enumerate() {
-            if index > 0 {
-                self.expect(",")?;
-            }
-            self.expect_name(argument.name)?;
+        self.arguments(|argument| {
             let own = TYPES.iter().find(|(name, _)| *name == argument.name);
-            let array = || format!("[{scalar}; {}]", argument.length);
-            let kind = own.map_or_else(array, |(_, kind)| (*kind).to_owned());
-            self.expect_all(&format!(": & {kind}"))?;
-        }
-        let returned = match (head.structure, head.fields.as_slice()) {
-            (Some(name), _) => name.to_owned(),
+            let array = || format!(": &[{scalar}; {}]", argument.length);
+            own.map_or_else(array, |(_, kind)| format!(": &{kind}"))
+        })?;
+        let returned = match (head.structure(), head.fields.as_slice()) {
+            (Some(name), _) => name,
             (None, [("load", _)]) => "Load".to_owned(),
-            (None, [(_, shape)]) => {
-                let lengths = shape.iter().rev();
-                lengths.fold(scalar.to_owned(), |kind, length| {
-                    format!("[{kind}; {length}]")
-                })
-            }
+            (None, [(_, shape)]) => head.kind(shape),
             _ => return self.refuse("a struct of the results expected"),
         };
         self.expect_all(&format!(") -> {returned} {{"))
@@ -111,44 +98,35 @@ impl<'r> Reader<'r> {
             [(_, false)] => ("cos", "each"),
             _ => ("sincos", "both"),
         };
-        let joint = match self.is_vectors {
-            true => {
-                let joint = self.angle()?;
-                self.expect_all(&format!(". {method} (libm :: {called}{end})"))?;
-                joint
-            }
-            false => {
-                self.expect_all(&format!("libm :: {called}{end} ("))?;
-                let joint = self.angle()?;
-                self.expect(")")?;
-                joint
-            }
+        let library = format!("libm::{called}{end}");
+        let (before, behind) = match self.is_vectors {
+            true => (String::new(), format!(".{method}({library})")),
+            false => (format!("{library}("), ")".to_owned()),
         };
+        self.expect_all(&before)?;
+        let joint = self.angle()?;
+        self.expect_all(&behind)?;
         let mut names = names.iter();
         names.try_for_each(|(name, is_sine)| self.name_sine(name, joint, *is_sine, Source::Libm))
     }
 
     /// Reads the block of an angle's polynomials.
     fn polynomials(&mut self, names: &[(&'r str, bool)]) -> Read<()> {
-        let number = names[0]
-            .0
-            .get(1..)
-            .and_then(|own| own.parse::<usize>().ok());
-        let Some(joint) = number.and_then(|number| number.checked_sub(1)) else {
+        let Some(joint) = joint_of(names[0].0) else {
             return self.refuse("the name of a sine expected");
         };
-        self.begin_polynomial("x");
+        self.begin_polynomial(joint);
         while self.take("let") {
             let name = self.next();
             self.expect("=")?;
-            self.polynomial_step(name, "x", joint)?;
+            self.polynomial_step(name, joint)?;
             self.expect(";")?;
         }
         for (index, (name, is_sine)) in names.iter().enumerate() {
             if names.len() > 1 {
                 self.expect(if index == 0 { "(" } else { "," })?;
             }
-            let source = self.polynomial_result("x", joint)?;
+            let source = self.polynomial_result(joint)?;
             self.name_sine(name, joint, *is_sine, source)?;
         }
         self.expect_all(if names.len() > 1 { ") }" } else { "}" })
@@ -162,7 +140,7 @@ impl<'r> Reader<'r> {
         let cosines = self.listed()?;
         let end = self.suffix();
         self.expect_all(&format!(") = dalembert_sines :: sincos{end} (& ["))?;
-        let angles = self.angles("]")?;
+        let angles = self.list("]", Self::angle)?;
         self.expect(")")?;
         self.name_together(&angles, [&sines, &cosines])
     }
@@ -170,17 +148,7 @@ impl<'r> Reader<'r> {
     /// Takes names in brackets.
     fn listed(&mut self) -> Read<Vec<&'r str>> {
         self.expect("[")?;
-        let mut names = Vec::new();
-        while !self.take("]") {
-            if !names.is_empty() {
-                self.expect(",")?;
-            }
-            names.push(self.next());
-            if self.at == self.tokens.len() {
-                return self.refuse("`]` expected");
-            }
-        }
-        Ok(names)
+        self.list("]", |own| Ok(own.next()))
     }
 
     /// Names sines and cosines that one call gives; what nothing reads has no name.
@@ -207,14 +175,13 @@ impl<'r> Reader<'r> {
     fn part(&mut self) -> Read<()> {
         let names = self.part_names()?;
         self.expect_all("= {")?;
-        let before = self.count_names();
+        let before = self.order.len();
         self.statements(true)?;
         if self.part_names()? != names {
             return self.refuse("other names than those before the part");
         }
         self.expect("}")?;
-        let inside = self.forget_names(before);
-        self.hand_on(&names, inside)
+        self.forget_names(before, &names)
     }
 
     /// Takes the names that a part hands on: `(t1, t2,)`.
@@ -231,7 +198,7 @@ impl<'r> Reader<'r> {
     /// Reads the array or the struct that a function ends with.
     fn results(&mut self) -> Read<()> {
         let head = self.head;
-        if let Some(name) = head.structure {
+        if let Some(name) = head.structure() {
             self.expect_all(&format!("{name} {{"))?;
             for (field, shape) in &head.fields {
                 self.expect_all(&format!("{field} :"))?;
@@ -273,23 +240,18 @@ impl<'r> Reader<'r> {
     /// and what follows from the head.
     fn columns(&mut self) -> Read<()> {
         let (head, scalar, n) = (self.head, self.head.scalar(), self.head.joints);
-        let single = self.function.clone();
-        let is_together = |own: &&super::Sines| own.source == Source::Together;
-        let taken: Vec<usize> = single
-            .sines
-            .iter()
-            .filter(is_together)
-            .map(|own| own.joint)
-            .collect();
+        let single = std::mem::take(&mut self.function);
+        let taken = single.sines.iter();
+        let taken = taken.filter(|own| own.source == Source::Together);
+        let taken: Vec<usize> = taken.map(|own| own.joint).collect();
         let (count, k) = (head.arguments.len(), taken.len());
         let entries = single.program.outputs.len();
         let kind = format!("{}Batch", camel(head.name));
         let sizes = format!("{count}, {n}, {entries}, {k}");
         let is_fused = single.program.steps.iter().any(|step| step.0 == '×') && k > 0;
-        let fused = if is_fused {
-            "const FUSED: bool = true;"
-        } else {
-            ""
+        let fused = match is_fused {
+            true => "const FUSED: bool = true;",
+            false => "",
         };
         self.expect_all(&format!(
             "#[derive(Clone, Copy, Debug)] pub struct {kind};
@@ -297,17 +259,15 @@ impl<'r> Reader<'r> {
             type Scalar = {scalar}; {fused}
             #[inline(always)] fn angles<V: dalembert_batch::Floats<{scalar}>>(["
         ))?;
-        self.argument_names()?;
+        self.arguments(|_| String::new())?;
         let list: Vec<String> = taken.iter().map(|joint| format!("q[{joint}]")).collect();
         self.expect_all(&format!(
             "]: &[[V; {n}]; {count}]) -> [V; {k}] {{ [{}] }}
             #[inline(always)] fn vectors<V: dalembert_batch::Vector<{scalar}>>([",
             list.join(", ")
         ))?;
-        self.argument_names()?;
-        self.forget_names(0);
-        (self.function.sines, self.function.speeds) = (Vec::new(), Vec::new());
-        (self.function.program.steps, self.function.program.outputs) = (Vec::new(), Vec::new());
+        self.arguments(|_| String::new())?;
+        self.forget_names(0, &[])?;
         self.expect_all(&format!("]: &[[V; {n}]; {count}], &"))?;
         let sines = self.listed()?;
         self.expect_all(&format!(": &[V; {k}], &"))?;
@@ -332,37 +292,35 @@ impl<'r> Reader<'r> {
         if sorted(vectors) != sorted(single) {
             return self.refuse("other operations over vectors than of one state");
         }
-        let columns: Vec<String> = head
-            .arguments
-            .iter()
-            .map(|own| format!("{}: &[&[{scalar}]; {n}], ", own.name))
-            .collect();
         let names: Vec<&str> = head.arguments.iter().map(|own| own.name).collect();
+        let columns = names
+            .iter()
+            .map(|own| format!("{own}: &[&[{scalar}]; {n}], "));
+        let (name, columns, names) = (head.name, columns.collect::<String>(), names.join(", "));
         self.expect_all(&format!(
-            "}} }} pub fn {name}_columns({}results: &mut [&mut [{scalar}]; {entries}])
+            "}} }} pub fn {name}_columns({columns}results: &mut [&mut [{scalar}]; {entries}])
             -> Result<(), dalembert_batch::Unequal> {{
-            dalembert_batch::columns::<{kind}, {sizes}>([{}], results) }}",
-            columns.concat(),
-            names.join(", "),
-            name = head.name,
+            dalembert_batch::columns::<{kind}, {sizes}>([{names}], results) }}"
         ))
     }
 
-    /// Takes the names of all arguments.
-    fn argument_names(&mut self) -> Read<()> {
+    /// Takes the names of all arguments, each with the words behind it.
+    fn arguments(&mut self, behind: impl Fn(&Argument) -> String) -> Read<()> {
         let head = self.head;
         for (index, argument) in head.arguments.iter().enumerate() {
-            if index > 0 {
-                self.expect(",")?;
-            }
-            self.expect_name(argument.name)?;
+            self.expect_all(if index > 0 { "," } else { "" })?;
+            // It has an underscore if nothing reads it.
+            let (word, name) = (self.peek(0), argument.name);
+            let is_unread = word.strip_prefix('_') == Some(name);
+            self.expect(if is_unread { word } else { name })?;
+            self.expect_all(&behind(argument))?;
         }
         Ok(())
     }
 }
 
 /// Returns a name as those of types are.
-pub(crate) fn camel(name: &str) -> String {
+pub(super) fn camel(name: &str) -> String {
     let words = name.split('_').filter_map(|word| word.split_at_checked(1));
     let words = words.map(|(first, rest)| first.to_ascii_uppercase() + rest);
     words.collect()

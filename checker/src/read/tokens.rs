@@ -1,4 +1,4 @@
-//! Words, numbers and signs of a text in Rust or in C, without comments.
+//! Lines of a text in Rust or in C without comments; their words, numbers and signs.
 
 use super::TextError;
 
@@ -13,68 +13,83 @@ pub(super) struct Token<'t> {
 
 /// Signs of two characters.
 const PAIRS: [&str; 7] = ["::", "->", "<=", "==", "!=", "&&", "++"];
+/// All signs; in C, a directive begins with one more.
+const SIGNS: &str = "+-*/=.,;:()[]{}<>&!? ";
+const RUST_SIGNS: &str = "+-*/=.,;:()[]{}<>&!? #";
 
-/// Reads a text.
+/// Returns whether a character is one of names.
+pub(crate) fn is_letter(c: char) -> bool {
+    c.is_ascii_alphanumeric() || c == '_'
+}
+
+/// Returns whether a text has letters and these signs alone, and no comment.
+pub(crate) fn has_only(text: &str, signs: &str) -> bool {
+    let known = |c: char| is_letter(c) || signs.contains(c);
+    text.chars().all(known) && !text.contains("//") && !text.contains("/*")
+}
+
+/// Returns the lines that are neither empty nor comments, with their numbers.
 ///
 /// # Errors
-/// The first character that is none of generated code: a compiler might read it otherwise.
-pub(super) fn read(source: &str, is_c: bool) -> Result<Vec<Token<'_>>, TextError> {
+/// The first line that is none of generated code: a compiler might read it otherwise.
+pub(crate) fn lines(source: &str, is_c: bool) -> Result<Vec<(usize, &str)>, TextError> {
     let (mut all, mut is_comment) = (Vec::new(), false);
-    for (index, whole) in source.split('\n').enumerate() {
-        let line = index + 1;
-        let strange = || TextError::new(line, format!("nothing that is generated: `{whole}`"));
-        let mut rest = whole.trim_start_matches(' ');
-        // A line that goes on in the next, and three characters for one, mean something else.
-        if whole.contains('\r') || is_c && (whole.contains('\\') || whole.contains("??")) {
-            return Err(strange());
+    for (number, line) in (1..).zip(source.split('\n')) {
+        let words = line.trim_matches(' ');
+        // A line that goes on in the next, and three characters for one, mean something else in C.
+        let is_strange = is_c && (line.contains('\\') || line.contains("??"));
+        let mut is_good = !line.contains('\r') && !is_strange;
+        // The star that opens a comment does not end it.
+        let comment = match is_comment {
+            true => Some(words),
+            false => words.strip_prefix("/*").filter(|_| is_c),
+        };
+        if let Some(comment) = comment {
+            let end = comment.split_once("*/");
+            is_good &= end.is_none_or(|(_, behind)| behind.is_empty());
+            is_comment = end.is_none();
+        } else if !words.is_empty() && (is_c || !words.starts_with("//")) {
+            is_good &= match is_c {
+                true => words.starts_with('#') || has_only(words, SIGNS),
+                false => has_only(words, RUST_SIGNS),
+            };
+            all.push((number, words));
         }
-        if is_c && !is_comment && rest.starts_with('#') {
-            let text = rest.trim_end_matches(' ');
-            all.push(Token { text, line });
-            continue;
-        }
-        if !is_c && rest.starts_with("//") {
-            continue;
-        }
-        while !rest.is_empty() {
-            if is_comment {
-                match rest.split_once("*/") {
-                    Some((_, behind)) => (rest, is_comment) = (behind, false),
-                    None => break,
-                }
-            } else if is_c && rest.starts_with("/*") {
-                // The star that opens a comment does not end it.
-                (rest, is_comment) = (&rest[2..], true);
-            } else {
-                let text = &rest[..length(rest).ok_or_else(strange)?];
-                all.push(Token { text, line });
-                rest = &rest[text.len()..];
-            }
-            rest = rest.trim_start_matches(' ');
+        if !is_good {
+            let why = format!("nothing that is generated: `{line}`");
+            return Err(TextError::new(number, why));
         }
     }
     Ok(all)
 }
 
-/// Returns the length of the token that a text begins with.
-fn length(text: &str) -> Option<usize> {
-    let first = text.chars().next()?;
-    let is_letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
-    if first.is_ascii_digit() {
-        let goes_on = |(place, c): (usize, char)| {
-            let is_exponent = text[..place].ends_with('e') && ['+', '-'].contains(&c);
-            !(is_letter(c) || c == '.' || is_exponent)
-        };
-        let mut characters = text.char_indices();
-        return Some(characters.position(goes_on).unwrap_or(text.len()));
+/// Reads a text.
+///
+/// # Errors
+/// As [`lines`].
+pub(super) fn read(source: &str, is_c: bool) -> Result<Vec<Token<'_>>, TextError> {
+    let mut all = Vec::new();
+    for (line, mut rest) in lines(source, is_c)? {
+        while !rest.is_empty() {
+            let (text, behind) = rest.split_at(length(rest, is_c));
+            all.push(Token { text, line });
+            rest = behind.trim_start_matches(' ');
+        }
     }
-    if is_letter(first) {
-        return Some(text.find(|c| !is_letter(c)).unwrap_or(text.len()));
+    Ok(all)
+}
+
+/// Returns the length of the token that a line begins with.
+fn length(line: &str, is_c: bool) -> usize {
+    let is_number = line.starts_with(|c: char| c.is_ascii_digit());
+    let ends = |(place, c): (usize, char)| {
+        let is_exponent = line[..place].ends_with('e') && ['+', '-'].contains(&c);
+        !(is_letter(c) || is_number && (c == '.' || is_exponent))
+    };
+    let is_pair = PAIRS.iter().any(|pair| line.starts_with(pair));
+    match line.char_indices().position(ends) {
+        _ if is_c && line.starts_with('#') => line.len(),
+        Some(0) => 1 + usize::from(is_pair),
+        end => end.unwrap_or(line.len()),
     }
-    if text.starts_with("//") || text.starts_with("/*") {
-        return None;
-    }
-    let is_pair = PAIRS.iter().any(|pair| text.starts_with(pair));
-    let is_sign = "+-*/=.,;:()[]{}<>&#!?".contains(first);
-    is_sign.then_some(if is_pair { 2 } else { 1 })
 }

@@ -87,7 +87,7 @@ fn code(file: &RobotFile) -> Result<String, Failure> {
     let made = ask(file, &asked, Language::Rust, name).map_err(|problems| {
         let each = problems
             .iter()
-            .map(|problem| format!("error: {}", problem.message));
+            .map(|problem| format!("error: {}", problem.complaint.message));
         Failure::Input(each.collect::<Vec<String>>().join("\n\n"))
     })?;
     let files = made

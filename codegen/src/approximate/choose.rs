@@ -6,13 +6,14 @@
 //! the tolerance, more is set aside, and in the end nothing is left out.
 
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use dalembert_model::scene::{Scale, Tolerance};
 
 use crate::approximate::admitted::{Admitted, within};
-use crate::approximate::error::{ToleranceError, Unbounded};
-use crate::approximate::prune::{PruneSettings, Pruned};
+use crate::approximate::error::{ToleranceError, unbounded_by};
+use crate::approximate::prune::{PruneSettings, Pruned, Target};
 use crate::approximate::regrouping;
 use crate::approximate::sines;
 use crate::approximate::starts::Starts;
@@ -23,8 +24,8 @@ use crate::bound::sensitivity::BoundEffort;
 use crate::bound::sensitivity::Sensitivity;
 use crate::bound::turns::sine_positions;
 use crate::bound::work::Meter;
+use crate::certificate::Certificate;
 use crate::certificate::subject::Subject;
-use crate::certificate::{Certificate, Refuted};
 use crate::edits::{Omission, omissions};
 use crate::program::{Library, Program, ScalarType, has_inertia};
 use crate::setup::Setup;
@@ -47,12 +48,11 @@ pub struct ErrorBudget<'a> {
     pub relative_to: Scale,
     /// If it is the range, states at which the outputs reach it.
     reached: Vec<JointState>,
-    /// Who waits, if anybody does.
-    watch: Option<FunctionWatch<'a>>,
+    watch: FunctionWatch<'a>,
     /// Of the programs asked for last.
     sensitivities: RefCell<Vec<Rc<Sensitivity>>>,
     /// Whether the exact D can be shown to be positive definite, in the scalars asked for.
-    definite: RefCell<Vec<(ScalarType, Result<f64, Indefinite>)>>,
+    definite: RefCell<BTreeMap<ScalarType, Result<f64, Indefinite>>>,
 }
 
 /// The exact program's sensitivity and a variant's or two.
@@ -62,18 +62,18 @@ impl<'a> ErrorBudget<'a> {
     /// Returns the box of a robot in its scene, and T over it.
     ///
     /// # Errors
-    /// [`ToleranceError::Missing`] limits, or a program that cannot be read back.
+    /// [`ToleranceError::Refused`].
     pub fn new(
         setup: &'a Setup,
         exact: &'a Program,
         relative_to: Scale,
     ) -> Result<ErrorBudget<'a>, ToleranceError> {
-        Unbounded::find(exact).map_or(Ok(()), |why| Err(ToleranceError::Function(why)))?;
-        let limits = InputBox::within(setup, exact.function).map_err(ToleranceError::Missing)?;
+        unbounded_by(exact).map_or(Ok(()), |why| Err(ToleranceError::Refused(why)))?;
+        let limits = InputBox::within(setup, exact.function).map_err(ToleranceError::Refused)?;
         let (scales, reached) = match relative_to {
             Scale::Actuator => {
                 let scales = scale::actuator(setup.robot(), exact);
-                (scales.map_err(ToleranceError::Scale)?, Vec::new())
+                (scales.map_err(ToleranceError::Refused)?, Vec::new())
             }
             Scale::Range => scale::range(exact, &limits).into_iter().unzip(),
         };
@@ -84,7 +84,7 @@ impl<'a> ErrorBudget<'a> {
             scales,
             relative_to,
             reached,
-            watch: None,
+            watch: FunctionWatch::default(),
             sensitivities: RefCell::default(),
             definite: RefCell::default(),
         })
@@ -92,10 +92,7 @@ impl<'a> ErrorBudget<'a> {
 
     /// Returns the same under a watch: where it is over, a search ends with its best.
     pub fn watched(self, watch: FunctionWatch<'a>) -> ErrorBudget<'a> {
-        ErrorBudget {
-            watch: Some(watch),
-            ..self
-        }
+        ErrorBudget { watch, ..self }
     }
 
     /// Returns the tolerance of each output.
@@ -129,21 +126,10 @@ impl<'a> ErrorBudget<'a> {
         if !has_inertia(self.exact) {
             return Ok(());
         }
+        let mut known = self.definite.borrow_mut();
         for &scalar in scalars {
-            let known = self
-                .definite
-                .borrow()
-                .iter()
-                .find(|(of, _)| *of == scalar)
-                .copied();
-            let found = match known {
-                Some((_, found)) => found,
-                None => {
-                    let found = least_eigenvalue(self.exact, scalar, &[], &self.limits);
-                    self.definite.borrow_mut().push((scalar, found));
-                    found
-                }
-            };
+            let find = || least_eigenvalue(self.exact, scalar, &[], &self.limits);
+            let found = *known.entry(scalar).or_insert_with(find);
             found.map_err(ToleranceError::Indefinite)?;
         }
         Ok(())
@@ -180,16 +166,15 @@ impl<'a> ErrorBudget<'a> {
     ) -> Admitted {
         // What the scalars share, then each of them.
         let tell = |done| {
-            if let Some(watch) = self.watch {
-                let rounds = [done, 1 + scalars.len()];
-                watch.step(Part::Bounds, rounds, Some(emitted.counts()));
-            }
+            let rounds = [done, 1 + scalars.len()];
+            self.watch
+                .step(Part::Bounds, rounds, Some(emitted.counts()));
         };
         tell(0);
         let subject = self.subject(emitted);
         let sensitivity = self.sensitivity(emitted, bound_effort);
         let limits = self.left(&subject, scalars, tolerances, &sensitivity);
-        let model = subject.model_within(&limits, bound_effort);
+        let model = subject.model(&limits, bound_effort);
         let certificate = |(index, &scalar)| {
             tell(1 + index);
             Certificate {
@@ -237,11 +222,8 @@ impl<'a> ErrorBudget<'a> {
         left_out: &[Omission],
         scalars: &[ScalarType],
         tolerances: &[f64],
-    ) -> Result<Admitted, Refuted> {
-        let subject = self.subject(emitted);
-        subject
-            .claim(ScalarType::F64, Vec::new())
-            .check(self.setup)?;
+    ) -> Result<Admitted, Complaint> {
+        self.subject(emitted).check()?;
         let certified = |effort| self.certified(emitted, left_out, scalars, tolerances, effort);
         let coarse = certified(BoundEffort::QUICK);
         Ok(
@@ -253,27 +235,13 @@ impl<'a> ErrorBudget<'a> {
     }
 
     /// Returns the cheapest variant found of which every output in every scalar is
-    /// certified to stay within its tolerance.
+    /// certified to stay within its tolerance. `from` are programs that others found for smaller
+    /// tolerances: it is never dearer than the first of them.
     ///
     /// # Errors
     /// [`ToleranceError::Above`] if the exact program is not;
     /// [`ToleranceError::Indefinite`] if its D cannot be shown to be positive definite.
     pub fn choose(
-        &self,
-        tolerances: &[f64],
-        scalars: &[ScalarType],
-        settings: &PruneSettings,
-        bound_effort: BoundEffort,
-    ) -> Result<Admitted, ToleranceError> {
-        self.choose_from(&[], tolerances, scalars, settings, bound_effort)
-    }
-
-    /// Returns the same, of what comes of these programs as well, which others found for smaller
-    /// tolerances: never dearer than the first of them.
-    ///
-    /// # Errors
-    /// As [`ErrorBudget::choose`].
-    pub fn choose_from(
         &self,
         from: &[Program],
         tolerances: &[f64],
@@ -283,10 +251,15 @@ impl<'a> ErrorBudget<'a> {
     ) -> Result<Admitted, ToleranceError> {
         let meter = Meter::new(settings.work);
         let spent = || match settings.work {
-            Some(limit) if meter.is_over() => Err(ToleranceError::Work {
-                limit,
-                scene: (self.setup.scene()).map_or(String::new(), |scene| scene.name.clone()),
-            }),
+            Some(limit) if meter.is_over() => {
+                let scene = self.setup.scene().map_or("", |scene| &scene.name);
+                Err(ToleranceError::Refused(complaint(format!(
+                    "the search for a program within the tolerance was stopped: it takes too long \
+                     for a compilation (more than {limit} units of work). Run `dalembert generate \
+                     ROBOT.toml --scene {scene} --effort thorough --save-plan` once: macro and \
+                     build script then take the program from its plan"
+                ))))
+            }
             _ => Ok(()),
         };
         let unedited = self.unedited(scalars, bound_effort);
@@ -299,18 +272,18 @@ impl<'a> ErrorBudget<'a> {
             let Some(allowances) = self.allowances(tolerances, scalars, aside, bound_effort) else {
                 break;
             };
-            let (exact, limits, watch) = (self.exact, &self.limits, self.watch);
-            let start = start.get_or_insert_with(|| {
-                regrouping::descend(self.setup, exact, limits, &allowances, settings, watch)
-            });
-            let starts = Starts {
-                setup: self.setup,
-                exact,
-                equal: start.as_ref(),
-                limits,
+            let target = Target {
+                exact: self.exact,
+                limits: &self.limits,
                 allowances: &allowances,
                 settings,
-                watch,
+                watch: self.watch,
+            };
+            let start = start.get_or_insert_with(|| regrouping::descend(self.setup, target));
+            let starts = Starts {
+                setup: self.setup,
+                target,
+                equal: start.as_ref(),
             };
             let found = starts.pruned(from, &mut models);
             spent()?;
@@ -328,7 +301,7 @@ impl<'a> ErrorBudget<'a> {
                     return Ok(variant);
                 }
             }
-            if watch.is_some_and(|watch| watch.is_over()) {
+            if self.watch.is_over() {
                 break;
             }
         }
@@ -410,7 +383,7 @@ impl<'a> ErrorBudget<'a> {
         for &scalar in scalars {
             let costs = sensitivity.rounding(scalar, &[]);
             for ((left, whole), cost) in allowances.iter_mut().zip(&whole).zip(&costs) {
-                let rest = whole - aside * (cost.arithmetic + cost.sincos);
+                let rest = whole - aside * cost.total();
                 *left = left.min(rest).max(0.0);
             }
         }

@@ -23,6 +23,8 @@ pub(super) struct Motions {
     /// Joints that may have a velocity, and its largest magnitude.
     velocities: Vec<(usize, f64)>,
     accelerations: Vec<(usize, f64)>,
+    /// Of velocities, by their places.
+    pairs: Vec<(usize, usize)>,
     joints: usize,
 }
 
@@ -33,8 +35,13 @@ impl Motions {
             let sizes = ranges.iter().map(|range| range.magnitude()).enumerate();
             sizes.filter(|(_, size)| used && *size > 0.0).collect()
         };
+        let velocities: Vec<_> = of(Argument::Velocity, &limits.velocity);
+        let v = velocities.len();
         Motions {
-            velocities: of(Argument::Velocity, &limits.velocity),
+            pairs: (0..v)
+                .flat_map(|k| (k + 1..v).map(move |l| (k, l)))
+                .collect(),
+            velocities,
             accelerations: of(Argument::Acceleration, &limits.acceleration),
             joints: limits.joints(),
         }
@@ -42,8 +49,7 @@ impl Motions {
 
     /// Returns how many motions there are at a position.
     pub(super) fn len(&self) -> usize {
-        let v = self.velocities.len();
-        1 + self.accelerations.len() + 2 * v + v * v.saturating_sub(1) / 2
+        1 + self.accelerations.len() + 2 * self.velocities.len() + self.pairs.len()
     }
 
     /// Returns the motions at each position.
@@ -69,10 +75,9 @@ impl Motions {
                 push(&|state| state.qd[joint] = size);
                 push(&|state| state.qd[joint] = -size);
             }
-            for (k, &(first, a)) in self.velocities.iter().enumerate() {
-                for &(second, b) in &self.velocities[k + 1..] {
-                    push(&|state| (state.qd[first], state.qd[second]) = (a, b));
-                }
+            for &(k, l) in &self.pairs {
+                let [(first, a), (second, b)] = [self.velocities[k], self.velocities[l]];
+                push(&|state| (state.qd[first], state.qd[second]) = (a, b));
             }
         }
         states
@@ -86,13 +91,8 @@ impl Motions {
         for block in values.chunks_exact_mut(self.len()) {
             let (single, products) = block.split_at_mut(1 + a + 2 * v);
             let rest = single[0];
-            let mut next = products.iter_mut();
-            for k in 0..v {
-                for l in k + 1..v {
-                    if let Some(product) = next.next() {
-                        *product += rest - single[1 + a + 2 * k] - single[1 + a + 2 * l];
-                    }
-                }
+            for (product, &(k, l)) in products.iter_mut().zip(&self.pairs) {
+                *product += rest - single[1 + a + 2 * k] - single[1 + a + 2 * l];
             }
             for x in &mut single[1..=a] {
                 *x -= rest;
@@ -139,11 +139,8 @@ impl Motions {
             for (k, pair) in pairs.enumerate() {
                 *corners.of(0, 1 + k) = pair[0];
             }
-            let mut next = products.iter();
-            for k in 0..v {
-                for l in k + 1..v {
-                    *corners.of(1 + k, 1 + l) = next.next().copied().unwrap_or_default();
-                }
+            for (product, &(k, l)) in products.iter().zip(&self.pairs) {
+                *corners.of(1 + k, 1 + l) = *product;
             }
             (least, greatest) = corners.extremes();
         }

@@ -10,14 +10,14 @@
 use dalembert_model::equations::chain::Regrouping;
 use dalembert_model::number::Exact;
 
-use crate::approximate::prune::{PruneSettings, appraise};
-use crate::bound::input_box::InputBox;
+use crate::approximate::prune::{PruneSettings, Target, appraise};
 use crate::parallel;
 use crate::program::Program;
 use crate::search::{Effort, search};
 use crate::seeds;
+use crate::seeds::start::Problem;
 use crate::setup::Setup;
-use crate::watch::{FunctionWatch, Part};
+use crate::watch::Part;
 
 /// What a look at every regrouping and the closer one at a few take: samples, and
 /// how much of the allowances their errors may use. The fewer the samples, the
@@ -29,88 +29,76 @@ const CLOSER: usize = 12;
 
 /// Returns an exact program that pruning is about to leave less of than of the given
 /// one; `None` if none was found.
-pub(super) fn descend(
-    setup: &Setup,
-    program: &Program,
-    limits: &InputBox,
-    allowances: &[f64],
-    settings: &PruneSettings,
-    watch: Option<FunctionWatch<'_>>,
-) -> Option<Program> {
-    let (function, effort) = (program.function, Effort::Thorough);
+pub(super) fn descend(setup: &Setup, target: Target<'_>) -> Option<Program> {
+    let Target {
+        exact,
+        settings,
+        watch,
+        ..
+    } = target;
     if settings.sweeps == 0 || seeds::skeleton(setup).links.is_empty() {
         return None;
     }
     let quick = |operations| Effort::Quick.limits(operations);
-    let descent = Descent {
-        limits,
-        allowances,
-        settings,
+    let (task, forms) = (setup.task(exact.function), exact.function.forms());
+    let problem = Problem {
         watch,
+        ..Problem::new(task, Effort::Thorough)
     };
-    let (task, forms) = (setup.task(function), function.forms());
-    let tuned = seeds::tuned(task, &forms, effort, None, &[], watch);
+    let tuned = seeds::tuned(&problem, &forms);
     let mut best: Option<(Regrouping<Exact>, Program)> = None;
-    let mut price = descent.price(program, LOOKS[1]);
+    let mut least = price(target, exact, LOOKS[1]);
     for round in 0..settings.sweeps {
-        if let Some(watch) = watch {
-            let counts = best.as_ref().map(|(_, program)| program.counts());
-            watch.step(Part::Omissions, [round, settings.sweeps], counts);
-        }
+        let counts = best.as_ref().map(|(_, program)| program.counts());
+        watch.step(Part::Omissions, [round, settings.sweeps], counts);
         let from = best
             .as_ref()
             .map_or(&tuned.regrouping, |(regrouping, _)| regrouping);
-        let mut regroupings = seeds::regroupings(task, from);
+        let mut regroupings = seeds::neighbours(task, from);
         if round == 0 {
             regroupings.insert(0, from.clone());
         }
         let looks = parallel::each(&regroupings, |regrouping| {
-            if descent.is_over() {
+            if watch.is_over() {
                 return None;
             }
             let graph = seeds::in_regrouping(task, regrouping, tuned.form);
             let graph = search(&[graph], &[], &quick, &|_| true, &|_, _| true)?.graph;
-            let program = program.with_graph(&graph);
-            Some((descent.price(&program, LOOKS[0]), regrouping, program))
+            let program = exact.with_graph(&graph);
+            Some((price(target, &program, LOOKS[0]), regrouping, program))
         });
         let mut looks: Vec<_> = looks.into_iter().flatten().collect();
         looks.sort_by_key(|look| look.0);
         looks.truncate(CLOSER);
-        let prices = parallel::each(&looks, |(_, _, program)| descent.price(program, LOOKS[1]));
+        let prices = parallel::each(&looks, |(_, _, program)| price(target, program, LOOKS[1]));
         let pairs = prices.into_iter().zip(looks);
         let Some((found, (_, regrouping, program))) = pairs.min_by_key(|pair| pair.0) else {
             break;
         };
-        if found >= price {
+        if found >= least {
             break;
         }
-        (price, best) = (found, Some((regrouping.clone(), program)));
+        (least, best) = (found, Some((regrouping.clone(), program)));
     }
     best.map(|(_, program)| program)
 }
 
-struct Descent<'a> {
-    limits: &'a InputBox,
-    allowances: &'a [f64],
-    settings: &'a PruneSettings,
-    watch: Option<FunctionWatch<'a>>,
-}
-
-impl Descent<'_> {
-    fn is_over(&self) -> bool {
-        self.watch.is_some_and(|watch| watch.is_over())
+/// Estimates by a look what pruning would leave of an exact program.
+fn price(target: Target<'_>, exact: &Program, (samples, share): (usize, f64)) -> u32 {
+    if target.watch.is_over() {
+        return u32::MAX;
     }
-
-    fn price(&self, program: &Program, (samples, share): (usize, f64)) -> u32 {
-        if self.is_over() {
-            return u32::MAX;
-        }
-        let allowances: Vec<f64> = self.allowances.iter().map(|a| share * a).collect();
-        let settings = PruneSettings {
-            samples,
-            alike: 0,
-            ..*self.settings
-        };
-        appraise(program, program, self.limits, &allowances, &settings)
-    }
+    let allowances: Vec<f64> = target.allowances.iter().map(|a| share * a).collect();
+    let settings = PruneSettings {
+        samples,
+        alike: 0,
+        ..*target.settings
+    };
+    let target = Target {
+        exact,
+        allowances: &allowances,
+        settings: &settings,
+        ..target
+    };
+    appraise(target, exact)
 }

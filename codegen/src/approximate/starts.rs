@@ -6,13 +6,11 @@
 //! and again, the best two programs found so far. Long programs gain more by the first, short
 //! ones by the second, which is quicker the shorter they are.
 
-use crate::approximate::prune::{self, PruneSettings, Pruned, cost};
+use crate::approximate::prune::{self, PruneSettings, Pruned, Target, cost};
 use crate::approximate::reduce;
-use crate::bound::input_box::InputBox;
 use crate::parallel;
 use crate::program::Program;
 use crate::setup::Setup;
-use crate::watch::FunctionWatch;
 
 /// Starts that are about to leave this much more than the best are not edited.
 const NEAR: f64 = 1.15;
@@ -23,14 +21,9 @@ const AGAIN: usize = 2;
 /// The programs to start from, and the errors that edits may cost.
 pub(super) struct Starts<'a> {
     pub setup: &'a Setup,
-    /// The exact program.
-    pub exact: &'a Program,
-    /// An equal one to edit in its place.
+    pub target: Target<'a>,
+    /// An equal program to edit in the exact one's place.
     pub equal: Option<&'a Program>,
-    pub limits: &'a InputBox,
-    pub allowances: &'a [f64],
-    pub settings: &'a PruneSettings,
-    pub watch: Option<FunctionWatch<'a>>,
 }
 
 impl Starts<'_> {
@@ -41,23 +34,19 @@ impl Starts<'_> {
         from: &[Program],
         models: &mut Option<Vec<Program>>,
     ) -> Vec<Pruned> {
+        let settings = self.target.settings;
         let mut starts: Vec<Option<&Program>> = vec![None];
         starts.extend(from.iter().map(Some));
         // Where nothing may go, no smaller model is near enough.
-        if self.settings.models > 0 && self.price(None) < self.cost(None) {
-            let models = models.get_or_insert_with(|| {
-                let (exact, limits) = (self.exact, self.limits);
-                reduce::programs(self.setup, exact, limits, self.allowances, self.watch)
-            });
+        if settings.models > 0 && self.price(None) < self.cost(None) {
+            let models = models.get_or_insert_with(|| reduce::programs(self.setup, self.target));
             starts = self.promising(starts, models);
         }
         let mut found = self.started(&starts);
         if let Some(first) = from.first().filter(|first| least(&found) > cost(first)) {
-            let (limits, allowances) = (self.limits, self.allowances);
-            let kept = prune::unedited(self.exact, first, limits, allowances, self.settings);
-            add(&mut found, kept);
+            add(&mut found, prune::unedited(self.target, first));
         }
-        for round in 1..=self.settings.rounds(least(&found)) {
+        for round in 1..=settings.rounds(least(&found)) {
             let best = found.iter().take(AGAIN);
             let best: Vec<Program> = best.map(|found| found.program.clone()).collect();
             add(&mut found, self.edited(best.iter().map(Some), round));
@@ -67,7 +56,6 @@ impl Starts<'_> {
 
     /// Returns what is left of each start, of the best ones with other samples as well.
     fn started(&self, starts: &[Option<&Program>]) -> Vec<Pruned> {
-        let steps = self.exact.dag.operations().count();
         let mut found = Vec::new();
         let edited = self.edited(starts.iter().copied(), 0);
         let mut ranked: Vec<_> = edited
@@ -77,11 +65,11 @@ impl Starts<'_> {
             .collect();
         ranked.sort_by_key(|(left, _)| *left);
         add(&mut found, edited);
-        let rounds = match found.is_empty() {
-            true => 0,
-            false => self.settings.again(steps, least(&found)),
-        };
-        for round in 1..=rounds {
+        if found.is_empty() {
+            return found;
+        }
+        let settings = self.target.settings;
+        for round in 1..=settings.again(self.target.steps(), least(&found)) {
             let best = ranked.iter().take(AGAIN).map(|(_, start)| **start);
             add(&mut found, self.edited(best, round));
         }
@@ -94,27 +82,27 @@ impl Starts<'_> {
         mut starts: Vec<Option<&'p Program>>,
         models: &'p [Program],
     ) -> Vec<Option<&'p Program>> {
+        let others = starts.len();
         starts.extend(models.iter().map(Some));
-        let others = starts.len() - models.len();
         let prices = parallel::each(&starts, |start| self.price(*start));
-        let is_model = (0..starts.len()).map(|index| index >= others);
-        let mut all: Vec<_> = prices.into_iter().zip(starts).zip(is_model).collect();
-        all.sort_by_key(|((price, _), _)| *price);
-        let most = all
+        let mut places = Vec::from_iter(0..starts.len());
+        places.sort_by_key(|&place| prices[place]);
+        let most = places
             .first()
-            .map_or(0.0, |((price, _), _)| NEAR * *price as f64);
+            .map_or(0.0, |&best| NEAR * prices[best] as f64);
         let mut models = 0;
-        all.retain(|((price, _), is_model)| {
-            models += usize::from(*is_model);
-            *price as f64 <= most && !(*is_model && models > self.settings.models)
+        places.retain(|&place| {
+            let is_model = place >= others;
+            models += usize::from(is_model);
+            prices[place] as f64 <= most && !(is_model && models > self.target.settings.models)
         });
-        let mut starts: Vec<_> = all.into_iter().map(|((_, start), _)| start).collect();
+        let mut starts: Vec<_> = places.into_iter().map(|place| starts[place]).collect();
         starts.sort_by_key(|start| self.cost(*start));
         starts
     }
 
     fn program<'p>(&'p self, start: Option<&'p Program>) -> &'p Program {
-        start.or(self.equal).unwrap_or(self.exact)
+        start.or(self.equal).unwrap_or(self.target.exact)
     }
 
     fn cost(&self, start: Option<&Program>) -> usize {
@@ -123,8 +111,7 @@ impl Starts<'_> {
 
     /// Estimates what pruning would leave of a start.
     fn price(&self, start: Option<&Program>) -> usize {
-        let (program, limits, allowances) = (self.program(start), self.limits, self.allowances);
-        prune::appraise(self.exact, program, limits, allowances, self.settings) as usize
+        prune::appraise(self.target, self.program(start)) as usize
     }
 
     /// Returns what is left of each start, with the samples of a round.
@@ -134,15 +121,16 @@ impl Starts<'_> {
         round: u64,
     ) -> Vec<Pruned> {
         let starts: Vec<_> = starts.collect();
+        let settings = self.target.settings;
         let settings = PruneSettings {
-            seed: self.settings.seed + round,
-            ..*self.settings
+            seed: settings.seed + round,
+            ..*settings
         };
-        parallel::each(&starts, |start| {
-            let (limits, allowances) = (self.limits, self.allowances);
-            let start = start.or(self.equal);
-            prune::watched(self.exact, start, limits, allowances, &settings, self.watch)
-        })
+        let target = Target {
+            settings: &settings,
+            ..self.target
+        };
+        parallel::each(&starts, |start| prune::pruned(target, start.or(self.equal)))
     }
 }
 

@@ -124,10 +124,8 @@ fn shown(
     let n = program.rows.len();
     let first = start(program).ok_or(Indefinite::Unproved)?;
     // No box has the values of parameters that are arguments.
-    if [Argument::Load, Argument::Gravity]
-        .iter()
-        .any(|parameter| program.arguments.contains(parameter))
-    {
+    let mut parameters = [Argument::Load, Argument::Gravity].iter();
+    if parameters.any(|parameter| program.arguments.contains(parameter)) {
         return Err(Indefinite::Unproved);
     }
     let entry = |i: usize, j: usize| first + i * n + j;
@@ -160,8 +158,7 @@ fn shown(
         for (_, x) in polynomial {
             *x = *x * Interval::point(scale);
         }
-        let cost = &costs[entry(i, j)];
-        errors.push((cost.arithmetic + cost.sincos) * scale);
+        errors.push(costs[entry(i, j)].total() * scale);
     }
     let sliding = grid::sliding(&graph, limits.joints());
     grid::least_eigenvalue(&entries, &errors, limits, &sliding, POINTS, wanted)
@@ -233,15 +230,10 @@ fn at_rest(q: Vec<f64>) -> JointState {
 
 /// Returns where D starts among the outputs.
 fn start(program: &Program) -> Option<usize> {
-    let sizes = program.sizes();
-    let mut start = 0;
-    for quantity in program.function.quantities() {
-        if quantity.is_definite() {
-            return Some(start);
-        }
-        start += quantity.len(sizes);
-    }
-    None
+    let quantities = program.function.quantities();
+    let place = quantities.iter().position(|own| own.is_definite())?;
+    let before = quantities[..place].iter();
+    Some(before.map(|own| own.len(program.sizes())).sum())
 }
 
 /// Returns the diagonal of S: powers of two.

@@ -51,9 +51,7 @@ pub(super) fn expand(graph: &Dag, limits: &InputBox) -> Option<Vec<Polynomial>> 
     let outputs = graph.outputs.iter().map(|edge| {
         let mut value = found[edge.index()].clone();
         if edge.negative {
-            for (_, coefficient) in &mut value {
-                *coefficient = -*coefficient;
-            }
+            value.iter_mut().for_each(|term| term.1 = -term.1);
         }
         value
     });
@@ -161,23 +159,10 @@ fn leaf(input: Input, limits: &InputBox) -> Option<Polynomial> {
     let cosine = |joint: usize| 1u128 << shift(joint);
     let sine = |joint: usize| 16u128 << shift(joint);
     Some(match input {
-        Input::PerSpeed(_) => return None,
         Input::Entry(Argument::Velocity, joint) => vec![(joint as u128 + 1, Interval::ONE)],
         Input::Entry(Argument::Acceleration, joint) => {
             vec![((n + joint) as u128 + 1, Interval::ONE)]
         }
-        Input::Entry(
-            Argument::Torque
-            | Argument::ReferenceVelocity
-            | Argument::ReferenceAcceleration
-            | Argument::Gravity
-            | Argument::Load
-            | Argument::Payload
-            | Argument::Wrench
-            | Argument::Damping
-            | Argument::Multiplier,
-            _,
-        ) => return None,
         Input::Entry(Argument::Position, joint) => {
             let q = limits.position[joint];
             let middle = (0, Interval::point(q.mid()));
@@ -185,6 +170,8 @@ fn leaf(input: Input, limits: &InputBox) -> Option<Polynomial> {
         }
         Input::Sin(joint) => vec![(sine(joint), Interval::ONE)],
         Input::Cos(joint) => vec![(cosine(joint), Interval::ONE)],
+        // No box bounds it.
+        Input::PerSpeed(_) | Input::Entry(..) => return None,
     })
 }
 
@@ -233,15 +220,22 @@ fn product(a: &Polynomial, b: &Polynomial) -> Option<Polynomial> {
             }
         }
     }
-    terms.sort_by_key(|term| term.0);
-    let mut out: Polynomial = Vec::new();
-    for (key, coefficient) in terms {
-        match out.last_mut() {
-            Some(last) if last.0 == key => last.1 = last.1 + coefficient,
-            _ => out.push((key, coefficient)),
+    Some(added_up(terms))
+}
+
+/// Adds equal keys' coefficients up, in the order that they come in.
+pub(super) fn added_up(mut terms: Polynomial) -> Polynomial {
+    // Stable: the sums are rounded in that order.
+    terms.sort_by_key(|&(key, _)| key);
+    terms.dedup_by(|next, sum| {
+        let same = next.0 == sum.0;
+        if same {
+            sum.1 = sum.1 + next.1;
         }
-    }
-    Some(out)
+        same
+    });
+    terms.shrink_to_fit();
+    terms
 }
 
 /// Returns the product of two monomials: each squared sine splits it in two.
@@ -293,12 +287,7 @@ mod tests {
     /// sin q₁ − q₁ is no polynomial in the sine and cosine of one angle.
     #[test]
     fn an_angle_that_is_read_as_a_number_is_not_written_out() {
-        let half_turn = Interval::symmetric(3.2);
-        let limits = InputBox {
-            position: vec![half_turn; 2],
-            velocity: vec![Interval::ZERO; 2],
-            acceleration: vec![Interval::ZERO; 2],
-        };
+        let limits = InputBox::symmetric(&[3.2; 2], &[0.0; 2], &[0.0; 2]);
         let written = |slides: usize| {
             let mut builder = Builder::new(Folding::Syntactic);
             let sine = builder.input(Input::Sin(0));

@@ -1,7 +1,6 @@
 //! The states for which a bound holds.
 
 use std::collections::BTreeMap;
-use std::fmt;
 
 use dalembert_model::number::{Rational, Rounded};
 use dalembert_model::robot::{Joint, JointKind, Limits, Position, Robot};
@@ -10,6 +9,7 @@ use crate::function::{Argument, Function};
 use crate::interval::Interval;
 use crate::program::Input;
 use crate::setup::Setup;
+use crate::words::{Complaint, complaint};
 
 /// Intervals of joint positions, velocities and accelerations, one a joint.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,44 +22,21 @@ pub struct InputBox {
     pub acceleration: Vec<Interval>,
 }
 
-/// Limits that a bound needs and the robot does not have, or has as zero
-/// where errors are to be relative to them.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct MissingLimit {
-    /// Keys of the robot file, each with the zero-based joints that lack it.
-    pub limits: Vec<(&'static str, Vec<usize>)>,
-    /// Whether it is there, but zero.
-    pub zero: bool,
-}
-
-impl fmt::Display for MissingLimit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let of = |(limit, joints): &(&str, Vec<usize>)| {
-            let numbers: Vec<String> = joints.iter().map(|joint| (joint + 1).to_string()).collect();
-            let (joints, have) = match numbers.len() {
-                1 => ("joint", "has"),
-                _ => ("joints", "have"),
-            };
-            let numbers = numbers.join(", ");
-            match self.zero {
-                false => format!("{joints} {numbers} {have} no limit `{limit}`"),
-                true => format!("the limit `{limit}` of {joints} {numbers} is 0"),
-            }
+/// Complains of limits that a bound needs, by their keys of the robot file, each with the
+/// zero-based joints that lack it.
+pub(super) fn missing(limits: impl IntoIterator<Item = (&'static str, Vec<usize>)>) -> Complaint {
+    let of = |(limit, joints): (&str, Vec<usize>)| {
+        let numbers: Vec<String> = joints.iter().map(|joint| (joint + 1).to_string()).collect();
+        let (joints, have) = match numbers.len() {
+            1 => ("joint", "has"),
+            _ => ("joints", "have"),
         };
-        let limits: Vec<String> = self.limits.iter().map(of).collect();
-        let limits = limits.join("; ");
-        match self.zero {
-            false => write!(f, "a bound needs a box: {limits}"),
-            true => write!(
-                f,
-                "{limits}: errors relative to the actuators need \
-                 one above 0; give that, or make them relative to the range"
-            ),
-        }
-    }
+        let numbers = numbers.join(", ");
+        format!("{joints} {numbers} {have} no limit `{limit}`")
+    };
+    let limits: Vec<String> = limits.into_iter().map(of).collect();
+    complaint(format!("a bound needs a box: {}", limits.join("; ")))
 }
-
-impl std::error::Error for MissingLimit {}
 
 impl InputBox {
     /// Returns the robot's limits. A revolute joint without limits of position may
@@ -67,7 +44,7 @@ impl InputBox {
     ///
     /// # Errors
     /// A limit of motion that the robot does not have.
-    pub fn of(robot: &Robot) -> Result<InputBox, MissingLimit> {
+    pub fn of(robot: &Robot) -> Result<InputBox, Complaint> {
         InputBox::reading(&Setup::whole(robot), &Function::InverseDynamics.arguments())
     }
 
@@ -77,22 +54,22 @@ impl InputBox {
     ///
     /// # Errors
     /// As [`InputBox::of`].
-    pub fn within(setup: &Setup, function: Function) -> Result<InputBox, MissingLimit> {
+    pub fn within(setup: &Setup, function: Function) -> Result<InputBox, Complaint> {
         InputBox::reading(setup, &setup.arguments(function))
     }
 
-    fn reading(setup: &Setup, arguments: &[Argument]) -> Result<InputBox, MissingLimit> {
+    fn reading(setup: &Setup, arguments: &[Argument]) -> Result<InputBox, Complaint> {
         let mut limits = InputBox {
             position: Vec::new(),
             velocity: Vec::new(),
             acceleration: Vec::new(),
         };
-        let mut missing: BTreeMap<&'static str, Vec<usize>> = BTreeMap::new();
+        let mut lacking: BTreeMap<&'static str, Vec<usize>> = BTreeMap::new();
         for (joint, row) in setup.robot().joints.iter().enumerate() {
             // Where a limit is missing, the box is not returned.
             let mut or_missing = |found: Option<Interval>, limit| {
                 found.unwrap_or_else(|| {
-                    missing.entry(limit).or_default().push(joint);
+                    lacking.entry(limit).or_default().push(joint);
                     Interval::ZERO
                 })
             };
@@ -120,12 +97,9 @@ impl InputBox {
             let acceleration = rate(Argument::Acceleration, acceleration, "acceleration");
             limits.acceleration.push(acceleration);
         }
-        match missing.is_empty() {
+        match lacking.is_empty() {
             true => Ok(limits),
-            false => Err(MissingLimit {
-                limits: missing.into_iter().rev().collect(),
-                zero: false,
-            }),
+            false => Err(missing(lacking.into_iter().rev())),
         }
     }
 
@@ -142,6 +116,17 @@ impl InputBox {
     /// Returns the number of joints.
     pub fn joints(&self) -> usize {
         self.position.len()
+    }
+
+    /// Returns the values that a rate of a polynomial takes: 0 is none, then velocities, then
+    /// accelerations.
+    pub(super) fn rate(&self, rate: u8) -> Interval {
+        let (n, index) = (self.joints(), usize::from(rate));
+        match index {
+            0 => Interval::ONE,
+            _ if index <= n => self.velocity[index - 1],
+            _ => self.acceleration[index - 1 - n],
+        }
     }
 
     /// Returns the values that an input takes.
@@ -177,6 +162,19 @@ fn position(joint: &Joint) -> Option<Interval> {
         (Some([low, high]), _) => Interval::new(value(low), value(high)),
         (None, JointKind::Revolute) => Some(Interval::symmetric(std::f64::consts::PI)),
         (None, JointKind::Prismatic) => None,
+    }
+}
+
+#[cfg(test)]
+impl InputBox {
+    /// Returns the box of every coordinate between a number and its negative.
+    pub(crate) fn symmetric(position: &[f64], velocity: &[f64], acceleration: &[f64]) -> InputBox {
+        let of = |ends: &[f64]| ends.iter().map(|&end| Interval::symmetric(end)).collect();
+        InputBox {
+            position: of(position),
+            velocity: of(velocity),
+            acceleration: of(acceleration),
+        }
     }
 }
 

@@ -32,7 +32,7 @@ impl fmt::Display for Overflow {
 
 /// Returns the steps that may overflow over a box, from at most `boxes` sub-boxes; sines are
 /// libm's where there are no polynomials for them.
-pub fn overflows(
+pub(crate) fn overflows(
     program: &Program,
     scalar: ScalarType,
     sines: &[AngleKernel],

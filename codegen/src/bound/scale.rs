@@ -1,72 +1,46 @@
 //! T: what errors are relative to, and how large they may be against it.
 
-use std::fmt;
-
 use dalembert_model::number::{Rational, Rounded};
 use dalembert_model::robot::{Limits, Robot};
 use dalembert_model::scene::Tolerance;
 
-use crate::bound::input_box::{InputBox, MissingLimit};
+use crate::bound::input_box::{InputBox, missing};
 use crate::bound::sample::{climb, draw};
 use crate::bound::sensitivity::rounding;
-use crate::function::{ErrorScale, Quantity};
+use crate::function::ErrorScale;
 use crate::program::{Program, ScalarType};
 use crate::random::Random;
 use crate::states::JointState;
-
-/// Why there is no T that the actuators give.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum NoScale {
-    /// A joint without a limit that it needs, or with one of zero.
-    Limit(MissingLimit),
-    /// Torque limits are no measure of such a quantity.
-    Quantity(Quantity),
-}
-
-impl fmt::Display for NoScale {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            NoScale::Limit(missing) => missing.fmt(f),
-            NoScale::Quantity(quantity) => write!(
-                f,
-                "the actuators' limits are no measure of {}: make its errors relative to the range",
-                quantity.symbol()
-            ),
-        }
-    }
-}
-
-impl std::error::Error for NoScale {}
-
-impl From<MissingLimit> for NoScale {
-    fn from(missing: MissingLimit) -> NoScale {
-        NoScale::Limit(missing)
-    }
-}
+use crate::words::{Complaint, complaint};
 
 /// Returns the torque limits of the actuators. For an entry of D the inertia, for one
 /// of h_ikm the coefficient, that alone takes the whole limit at the largest
 /// rates, of the smaller of D_ik and D_ki: then D's scales are symmetric.
 ///
 /// # Errors
-/// `NoScale`.
-pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, NoScale> {
+/// A joint without a limit that it needs, or with one of zero; a quantity of which torque limits
+/// are no measure.
+pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, Complaint> {
     let read = |joint: usize, limit: &'static str, value: fn(&Limits) -> &Option<Rational>| {
         let value = robot.joints.get(joint).map(|row| value(&row.limits));
-        let value = value.and_then(Option::as_ref).map(f64::nearest_rational);
-        let zero = value.is_some();
-        let above = value.filter(|&value| value > 0.0);
-        let limits = vec![(limit, vec![joint])];
-        above.ok_or(MissingLimit { limits, zero })
+        match value.and_then(Option::as_ref).map(f64::nearest_rational) {
+            Some(value) if value > 0.0 => Ok(value),
+            Some(_) => Err(complaint(format!(
+                "the limit `{limit}` of joint {} is 0: errors relative to the actuators need \
+                 one above 0; give that, or make them relative to the range",
+                joint + 1
+            ))),
+            None => Err(missing([(limit, vec![joint])])),
+        }
     };
     // Down, so that an error relative to it is rounded up.
-    let torque = |joint| -> Result<f64, MissingLimit> {
+    let torque = |joint| -> Result<f64, Complaint> {
         Ok(read(joint, "torque", |limits| &limits.torque)?.next_down())
     };
     let velocity = |joint| read(joint, "velocity", |limits| &limits.velocity);
     let acceleration = |joint| read(joint, "acceleration", |limits| &limits.acceleration);
     let inertia =
-        |i, k| -> Result<f64, MissingLimit> { Ok((torque(i)? / acceleration(k)?).next_down()) };
+        |i, k| -> Result<f64, Complaint> { Ok((torque(i)? / acceleration(k)?).next_down()) };
     let (rows, sizes) = (&program.rows, program.sizes());
     let mut scales = Vec::new();
     for quantity in program.function.quantities() {
@@ -79,7 +53,13 @@ pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, NoScale> {
                     let rates = (velocity(k)? * velocity(m)?).next_up();
                     (torque(i)? / rates).next_down()
                 }
-                _ => return Err(NoScale::Quantity(*quantity)),
+                _ => {
+                    return Err(complaint(format!(
+                        "the actuators' limits are no measure of {}: make its errors relative to \
+                         the range",
+                        quantity.symbol()
+                    )));
+                }
             });
         }
     }
@@ -129,8 +109,7 @@ pub fn range(program: &Program, limits: &InputBox) -> Vec<(f64, JointState)> {
                 (most, at) = (found, state);
             }
         }
-        let lost = granted.arithmetic + granted.sincos;
-        reached.push(((most - lost).next_down().max(0.0), at));
+        reached.push(((most - granted.total()).next_down().max(0.0), at));
     }
     reached
 }

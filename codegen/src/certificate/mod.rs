@@ -8,11 +8,9 @@
 //! exact programs; the two add up by the triangle inequality.
 //!
 //! - this file: the claim, and how it is made
-//! - `shape` and `work`: a variant that a plan kept fits the scene, and is bounded in bounded time;
-//!   `refuted`: why not
+//! - `shape` and `work`: a variant that a plan kept fits the scene, and is bounded in bounded time
 //! - [`subject`]: what a claim is about, and how its bounds are found
 
-mod refuted;
 mod shape;
 pub(crate) mod subject;
 mod work;
@@ -21,18 +19,14 @@ use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scale;
 
 use crate::bound::input_box::InputBox;
-use crate::bound::sensitivity::BoundEffort;
-use crate::bound::sensitivity::Sensitivity;
+use crate::bound::sensitivity::{BoundEffort, Sensitivity};
 use crate::bound::turns::turns_freely;
 use crate::interval::Interval;
 use crate::program::{Library, Program, ScalarType};
-use crate::setup::SceneKey;
-use crate::setup::Setup;
-use crate::sincos::Sines;
+use crate::setup::{SceneKey, Setup};
+use crate::sincos::{AngleKernel, Sines};
 use crate::split::ErrorByCause;
 use crate::states::JointState;
-pub use refuted::Refuted;
-pub(crate) use refuted::WrongInput;
 use subject::{Subject, printed};
 
 /// A claim about one emitted function.
@@ -70,16 +64,6 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// Checks that the programs are of this robot and scene, and take bounded work.
-    pub(crate) fn check(&self, setup: &Setup) -> Result<(), Refuted> {
-        let mut programs = [&self.exact, &self.emitted].into_iter();
-        if !programs.all(|program| program.dag.is_straight()) {
-            return Err(Refuted::Shape);
-        }
-        work::check(self).map_err(Refuted::Work)?;
-        shape::check(self, setup)
-    }
-
     /// Returns the positions of a joint of this robot for which it holds; `None` for all.
     ///
     /// Where a joint [turns freely](turns_freely), one turn is certified and its
@@ -117,11 +101,10 @@ impl Certificate {
             library: Library::Libm,
         };
         let bound_effort = BoundEffort::CERTIFY;
-        let sensitivity = subject.sensitivity(bound_effort);
-        let bounds = subject.bounds(scalar, &subject.model(bound_effort), &sensitivity);
-        let lambda_min = subject.least_eigenvalue(scalar);
+        let sensitivity = Sensitivity::new(emitted, limits, bound_effort);
+        let bounds = subject.bounds(scalar, &subject.model(&[], bound_effort), &sensitivity);
         Certificate {
-            lambda_min,
+            lambda_min: subject.least_eigenvalue(scalar),
             ..subject.claim(scalar, bounds)
         }
     }
@@ -149,12 +132,10 @@ impl Certificate {
         sines: &Sines,
         sensitivity: &Sensitivity,
     ) -> Certificate {
-        let sines = [(self.scalar, sines.clone())];
-        let subject = self.subject(setup, &sines);
-        let scaled = self.bounds.iter().map(|bound| bound.model);
-        let mut bounds = subject.bounds(self.scalar, &vec![0.0; self.scales.len()], sensitivity);
-        for (bound, model) in bounds.iter_mut().zip(scaled) {
-            bound.model = model;
+        let subject = self.subject(setup, sines);
+        let mut bounds = subject.rounding(self.scalar, sensitivity);
+        for (bound, known) in bounds.iter_mut().zip(&self.bounds) {
+            bound.model = known.model;
         }
         Certificate {
             // Sines that are off move D.
@@ -172,25 +153,19 @@ impl Certificate {
         emitted: Program,
         sensitivity: &Sensitivity,
     ) -> Certificate {
-        let other = Certificate {
-            emitted,
-            ..self.clone()
-        };
-        other.with_sines(setup, &self.sines, sensitivity)
+        let own = self.clone();
+        Certificate { emitted, ..own }.with_sines(setup, &self.sines, sensitivity)
     }
 
     /// Returns the claim about the text that calls this library, unless polynomials give its
     /// sines. The bounds stay: the sines of every library are taken to be within one ulp.
     #[must_use]
     pub fn calling(&self, library: Library) -> Certificate {
-        if !self.sines.is_empty() || self.library == library {
-            return self.clone();
+        let own = self.clone();
+        match self.sines.is_empty() && self.library != library {
+            true => Certificate { library, ..own }.printed(),
+            false => own,
         }
-        let other = Certificate {
-            library,
-            ..self.clone()
-        };
-        other.printed()
     }
 
     /// Returns the same claim with the text of its program.
@@ -209,7 +184,7 @@ impl Certificate {
             .collect()
     }
 
-    fn subject<'a>(&'a self, setup: &'a Setup, sines: &'a [(ScalarType, Sines)]) -> Subject<'a> {
+    fn subject<'a>(&'a self, setup: &'a Setup, sines: &'a [AngleKernel]) -> Subject<'a> {
         Subject {
             setup,
             exact: &self.exact,
@@ -220,7 +195,7 @@ impl Certificate {
             reached: &self.reached,
             sines,
             // Polynomials call nothing.
-            library: match sines.iter().all(|(_, sines)| sines.is_empty()) {
+            library: match sines.is_empty() {
                 true => self.library,
                 false => Library::Libm,
             },

@@ -7,94 +7,81 @@
 
 use dalembert_model::robot::JointKind;
 
-use super::{Certificate, Refuted, WrongInput};
+use super::subject::Subject;
 use crate::function::Argument;
-use crate::program::Input;
-use crate::program::Program;
-use crate::setup::Setup;
+use crate::program::{Input, Program};
+use crate::words::{Complaint, complaint};
 
-/// Checks that all parts of a claim fit the scene and each other.
-pub(super) fn check(certificate: &Certificate, setup: &Setup) -> Result<(), Refuted> {
-    let Certificate {
-        emitted, limits, ..
-    } = certificate;
-    let (n, outputs) = (setup.joints(), emitted.dag.outputs.len());
+/// Returns whether the lists of a variant are as long as they should be.
+pub(super) fn has_lists(subject: &Subject<'_>) -> bool {
+    let (limits, n) = (subject.limits, subject.setup.joints());
     let lists = [&limits.position, &limits.velocity, &limits.acceleration];
-    let fits = lists.iter().all(|list| list.len() == n) && certificate.scales.len() == outputs;
-    if !fits {
-        return Err(Refuted::Shape);
-    }
-    let checker = Checker { setup, emitted };
-    checker.program("the exact program", &certificate.exact)?;
-    checker.program("the emitted program", emitted)
+    let outputs = subject.emitted.dag.outputs.len();
+    lists.iter().all(|list| list.len() == n) && subject.scales.len() == outputs
 }
 
-struct Checker<'a> {
-    setup: &'a Setup,
-    emitted: &'a Program,
+/// Checks that a program is of the function in the scene, and reads what that has.
+pub(super) fn check(name: &str, program: &Program, subject: &Subject<'_>) -> Result<(), Complaint> {
+    let (setup, function) = (subject.setup, subject.emitted.function);
+    let signature = [
+        ("function", program.function == function),
+        ("number of joints", program.joints == setup.joints()),
+        ("list of rows", program.rows == setup.rows()),
+        (
+            "list of arguments",
+            program.arguments == setup.arguments(function),
+        ),
+        (
+            "number of results",
+            program.dag.outputs.len() == function.outputs(setup.sizes(function)),
+        ),
+    ];
+    if let Some((what, _)) = signature.into_iter().find(|(_, same)| !same) {
+        return Err(complaint(format!(
+            "the {what} of {name} is not that of the function in this scene"
+        )));
+    }
+    let mut inputs = program.dag.inputs();
+    inputs.try_for_each(|input| match wrong(subject, *input) {
+        None => Ok(()),
+        Some(why) => Err(complaint(format!("{name} reads `{}`: {why}", input.name()))),
+    })
 }
 
-impl Checker<'_> {
-    fn program(&self, name: &str, program: &Program) -> Result<(), Refuted> {
-        let function = self.emitted.function;
-        let rows = self.setup.rows();
-        let signature = [
-            ("function", program.function == function),
-            ("number of joints", program.joints == self.setup.joints()),
-            ("list of rows", program.rows == rows),
-            (
-                "list of arguments",
-                program.arguments == self.setup.arguments(function),
-            ),
-            (
-                "number of results",
-                program.dag.outputs.len() == function.outputs(self.setup.sizes(function)),
-            ),
-        ];
-        if let Some((what, _)) = signature.into_iter().find(|(_, same)| !same) {
-            let program = name.to_owned();
-            return Err(Refuted::Signature { program, what });
+/// Returns why a program may not read an input.
+fn wrong(subject: &Subject<'_>, input: Input) -> Option<&'static str> {
+    let setup = subject.setup;
+    let of = |joint: usize, kind: Option<JointKind>| match setup.robot().joints.get(joint) {
+        None => Some("the robot has no such joint"),
+        Some(_) if setup.lock(joint).is_some() => {
+            Some("the joint is locked: its entries may not be read")
         }
-        let mut inputs = program.dag.inputs();
-        inputs.try_for_each(|input| self.input(name, *input))
-    }
-
-    fn input(&self, program: &str, input: Input) -> Result<(), Refuted> {
-        match self.wrong(input) {
-            None => Ok(()),
-            Some(why) => Err(Refuted::Input {
-                program: program.to_owned(),
-                input: input.name(),
-                why,
-            }),
+        Some(row) => match (kind, row.kind) {
+            (Some(JointKind::Revolute), JointKind::Prismatic) => {
+                Some("the joint slides: it has no sine or cosine")
+            }
+            (Some(JointKind::Prismatic), JointKind::Revolute) => {
+                Some("the joint turns: only its sine and cosine may be read")
+            }
+            _ => None,
+        },
+    };
+    let (argument, wrong) = match input {
+        Input::Sin(joint) | Input::Cos(joint) => {
+            let wrong = of(joint, Some(JointKind::Revolute));
+            (Argument::Position, wrong)
         }
-    }
-
-    fn wrong(&self, input: Input) -> Option<WrongInput> {
-        let joints = &self.setup.robot().joints;
-        let of = |joint: usize, kind: Option<JointKind>| match joints.get(joint) {
-            None => Some(WrongInput::NoJoint),
-            Some(_) if self.setup.lock(joint).is_some() => Some(WrongInput::Locked),
-            Some(row) => match (kind, row.kind) {
-                (Some(JointKind::Revolute), JointKind::Prismatic) => Some(WrongInput::Slides),
-                (Some(JointKind::Prismatic), JointKind::Revolute) => Some(WrongInput::Turns),
-                _ => None,
-            },
-        };
-        let (argument, wrong) = match input {
-            Input::Sin(joint) | Input::Cos(joint) => {
-                let wrong = of(joint, Some(JointKind::Revolute));
-                (Argument::Position, wrong)
-            }
-            // No bound is known of what its root costs.
-            Input::PerSpeed(_) => (Argument::Velocity, Some(WrongInput::Friction)),
-            Input::Entry(argument, joint) => {
-                let slides = argument == Argument::Position;
-                let kind = slides.then_some(JointKind::Prismatic);
-                (argument, of(joint, kind))
-            }
-        };
-        let missing = !self.emitted.arguments.contains(&argument);
-        wrong.or(missing.then_some(WrongInput::NoArgument))
-    }
+        // It rounds more than is bounded.
+        Input::PerSpeed(_) => {
+            let why = "no bound is known of what Coulomb friction reads of speeds";
+            (Argument::Velocity, Some(why))
+        }
+        Input::Entry(argument, joint) => {
+            let slides = argument == Argument::Position;
+            let kind = slides.then_some(JointKind::Prismatic);
+            (argument, of(joint, kind))
+        }
+    };
+    let missing = !subject.emitted.arguments.contains(&argument);
+    wrong.or(missing.then_some("the function has no such argument in this scene"))
 }

@@ -2,7 +2,7 @@
 
 use dalembert_model::scene::Scale;
 
-use super::Certificate;
+use super::{Certificate, shape, work};
 use crate::bound::definite::least_eigenvalue;
 use crate::bound::input_box::InputBox;
 use crate::bound::magnitude::{magnitudes, magnitudes_within, relative};
@@ -12,10 +12,11 @@ use crate::edits::deviation;
 use crate::language::{Printed, function};
 use crate::program::{Library, Program, ScalarType, has_inertia};
 use crate::setup::{SceneKey, Setup};
-use crate::sincos::{self, AngleKernel, Sines};
+use crate::sincos::AngleKernel;
 use crate::split::ErrorByCause;
 use crate::states::JointState;
 use crate::verify::exact::prove_same;
+use crate::words::{Complaint, complaint};
 
 /// A bound that exceeds its limit by more than this factor is not tried at the limit.
 const NEAR: f64 = 1.07;
@@ -37,22 +38,47 @@ pub(crate) struct Subject<'a> {
     pub relative_to: Option<Scale>,
     /// States at which the outputs reach them, if they are ranges.
     pub reached: &'a [JointState],
-    /// The polynomials for sines in each scalar; the library's where there are none.
-    pub sines: &'a [(ScalarType, Sines)],
+    /// The polynomials for sines; none if they are the library's.
+    pub sines: &'a [AngleKernel],
     /// Who computes the sines that are called.
     pub library: Library,
 }
 
 impl Subject<'_> {
-    /// Returns the largest errors of the edits, one an output, in its unit: the part
-    /// of the bounds that every scalar shares, and the longest to find.
-    pub(crate) fn model(&self, bound_effort: BoundEffort) -> Vec<f64> {
-        self.model_within(&[], bound_effort)
+    /// Checks that the programs of a variant are of the function in this scene, and take bounded
+    /// work.
+    ///
+    /// # Errors
+    /// Why the variant is none.
+    pub(crate) fn check(&self) -> Result<(), Complaint> {
+        let programs = [
+            ("the exact program", self.exact),
+            ("the emitted program", self.emitted),
+        ];
+        let malformed = complaint(
+            "the variant is malformed: a list has the wrong length, or a step reads a step that \
+             does not come before it",
+        );
+        if !programs.iter().all(|(_, own)| own.dag.is_straight()) {
+            return Err(malformed);
+        }
+        for (name, program) in programs {
+            work::check(name, program)?;
+        }
+        if !shape::has_lists(self) {
+            return Err(malformed);
+        }
+        for (name, program) in programs {
+            shape::check(name, program, self)?;
+        }
+        Ok(())
     }
 
-    /// Returns the same; an output that is a little above its limit is shown to be at most that, if
-    /// it can be: bounds by themselves exceed what is reached by some hundredths.
-    pub(crate) fn model_within(&self, limits: &[f64], bound_effort: BoundEffort) -> Vec<f64> {
+    /// Returns the largest errors of the edits, one an output, in its unit: the part
+    /// of the bounds that every scalar shares, and the longest to find. If there are limits, an
+    /// output that is a little above its own is shown to be at most that, if it can be: bounds by
+    /// themselves exceed what is reached by some hundredths.
+    pub(crate) fn model(&self, limits: &[f64], bound_effort: BoundEffort) -> Vec<f64> {
         if is_same(self.exact, self.emitted) {
             return vec![0.0; self.scales.len()];
         }
@@ -62,9 +88,8 @@ impl Subject<'_> {
         let pairs = || found.iter().zip(limits);
         let is_above = |(x, limit): (&f64, &f64)| x > limit;
         if pairs().all(|(x, limit)| *x <= NEAR * limit) && pairs().any(is_above) {
-            let above: Vec<usize> = (0..limits.len())
-                .filter(|&i| found[i] > limits[i])
-                .collect();
+            let mut above = Vec::from_iter(0..limits.len());
+            above.retain(|&i| found[i] > limits[i]);
             let above_limits: Vec<f64> = above.iter().map(|&i| limits[i]).collect();
             let error = Dag {
                 outputs: above.iter().map(|&i| error.outputs[i]).collect(),
@@ -86,19 +111,11 @@ impl Subject<'_> {
         model: &[f64],
         sensitivity: &Sensitivity,
     ) -> Vec<ErrorByCause> {
-        let model = self.relative(model).into_iter();
-        let pairs = model.zip(self.rounding(scalar, sensitivity));
-        pairs
-            .map(|(model, rounding)| ErrorByCause { model, ..rounding })
-            .collect()
-    }
-
-    /// Returns the edits' errors relative to the scales.
-    pub(super) fn relative(&self, model: &[f64]) -> Vec<f64> {
-        let pairs = model.iter().zip(self.scales);
-        pairs
-            .map(|(&error, &scale)| relative(error, scale))
-            .collect()
+        let mut bounds = self.rounding(scalar, sensitivity);
+        for ((bound, &error), &scale) in bounds.iter_mut().zip(model).zip(self.scales) {
+            bound.model = relative(error, scale);
+        }
+        bounds
     }
 
     /// Returns what sines and rounding cost, relative to the scales.
@@ -107,7 +124,7 @@ impl Subject<'_> {
         scalar: ScalarType,
         sensitivity: &Sensitivity,
     ) -> Vec<ErrorByCause> {
-        let found = sensitivity.rounding(scalar, self.sines(scalar));
+        let found = sensitivity.rounding(scalar, self.sines);
         let pairs = found.iter().zip(self.scales);
         pairs
             .map(|(rounding, &scale)| ErrorByCause {
@@ -118,20 +135,15 @@ impl Subject<'_> {
             .collect()
     }
 
-    /// Returns what bounds of the emitted program's rounding need.
-    pub(crate) fn sensitivity(&self, bound_effort: BoundEffort) -> Sensitivity {
-        Sensitivity::new(self.emitted, self.limits, bound_effort)
-    }
-
     /// Returns a lower bound of the least eigenvalue of S D S, if D is an output and
     /// not the model's; `None` as well if there is none above zero.
     pub(crate) fn least_eigenvalue(&self, scalar: ScalarType) -> Option<f64> {
         // The cheap questions first.
-        let is_changed = || !self.sines(scalar).is_empty() || !is_same(self.exact, self.emitted);
+        let is_changed = || !self.sines.is_empty() || !is_same(self.exact, self.emitted);
         if !has_inertia(self.emitted) || !is_changed() {
             return None;
         }
-        least_eigenvalue(self.emitted, scalar, self.sines(scalar), self.limits).ok()
+        least_eigenvalue(self.emitted, scalar, self.sines, self.limits).ok()
     }
 
     /// Returns the claim for a scalar with these bounds, whether they hold or not;
@@ -146,17 +158,12 @@ impl Subject<'_> {
             reached: self.reached.to_vec(),
             exact: self.exact.clone(),
             emitted: self.emitted.clone(),
-            text: printed(self.emitted, scalar, self.library, self.sines(scalar)),
+            text: printed(self.emitted, scalar, self.library, self.sines),
             library: self.library,
-            sines: self.sines(scalar).to_vec(),
+            sines: self.sines.to_vec(),
             bounds,
             lambda_min: None,
         }
-    }
-
-    /// Returns the polynomials for sines in a scalar.
-    pub(crate) fn sines(&self, scalar: ScalarType) -> &[AngleKernel] {
-        sincos::of(self.sines, scalar)
     }
 }
 

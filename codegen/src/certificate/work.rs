@@ -5,17 +5,15 @@
 //! become follows from how large its operands can, so a program that would
 //! take long is refused before anything of it is computed.
 
-use std::fmt;
-
 use dalembert_model::number::{Exact, Extent};
 
-use super::Certificate;
 use crate::program::{Operand, Operation, Program, Steps};
+use crate::words::{Complaint, complaint};
 
 /// The most steps of a program.
-const MAX_STEPS: usize = 50_000;
+const MAX_STEPS: u64 = 50_000;
 /// The most angles whose sine or cosine a program reads.
-const MAX_ANGLES: usize = 256;
+const MAX_ANGLES: u64 = 256;
 /// The most bits of a constant's coefficient.
 const MAX_BITS: u64 = 1 << 16;
 /// The most monomials of a constant.
@@ -26,62 +24,11 @@ const MAX_DEGREE: u64 = 256;
 /// times bits.
 const MAX_COST: u64 = 1 << 30;
 
-/// What would take too long.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TooMuch {
-    /// Where.
-    pub place: String,
-    /// What there is too much of.
-    pub what: &'static str,
-    /// How much there is, or can become.
-    pub found: u64,
-    /// The most that is checked.
-    pub most: u64,
-}
-
-impl fmt::Display for TooMuch {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let TooMuch {
-            place,
-            what,
-            found,
-            most,
-        } = self;
-        write!(
-            f,
-            "{place}: {found} {what}, of which {most} are the most that is checked"
-        )
-    }
-}
-
-impl std::error::Error for TooMuch {}
-
-/// Checks that a variant can be bounded with bounded work.
-pub(super) fn check(certificate: &Certificate) -> Result<(), TooMuch> {
-    program("the exact program", &certificate.exact)?;
-    program("the emitted program", &certificate.emitted)
-}
-
-fn within(place: &str, what: &'static str, found: usize, most: usize) -> Result<(), TooMuch> {
-    limit(place, what, found as u64, most as u64)
-}
-
-fn limit(place: &str, what: &'static str, found: u64, most: u64) -> Result<(), TooMuch> {
-    if found <= most {
-        return Ok(());
-    }
-    Err(TooMuch {
-        place: place.to_owned(),
-        what,
-        found,
-        most,
-    })
-}
-
-fn program(place: &str, program: &Program) -> Result<(), TooMuch> {
+/// Checks that a program can be bounded with bounded work.
+pub(super) fn check(place: &str, program: &Program) -> Result<(), Complaint> {
     let steps = program.dag.steps();
-    within(place, "steps", steps.steps.len(), MAX_STEPS)?;
-    within(place, "angles", program.trig().len(), MAX_ANGLES)?;
+    limit(place, "steps", steps.steps.len() as u64, MAX_STEPS)?;
+    limit(place, "angles", program.trig().len() as u64, MAX_ANGLES)?;
     let mut cost = 0u64;
     for constant in constants(&steps) {
         let extent = constant.extent();
@@ -89,7 +36,26 @@ fn program(place: &str, program: &Program) -> Result<(), TooMuch> {
         cost = cost.saturating_add(work(&extent));
     }
     limit(place, "units of work for its constants", cost, MAX_COST)?;
-    Sizes::default().steps(place, &steps)
+    // The size of each step, and whether the step is that constant itself.
+    let mut sizes: Vec<(Size, bool)> = Vec::new();
+    for (index, step) in steps.steps.iter().enumerate() {
+        let [left, right] = [&step.left, &step.right].map(|operand| read(&sizes, operand));
+        let value = operate(step.operation, left, right);
+        if let (Some(extent), _) = &value {
+            admit(&format!("{place}, t{}", index + 1), extent)?;
+        }
+        sizes.push(value);
+    }
+    Ok(())
+}
+
+fn limit(place: &str, what: &str, found: u64, most: u64) -> Result<(), Complaint> {
+    if found <= most {
+        return Ok(());
+    }
+    Err(complaint(format!(
+        "{place}: {found} {what}, of which {most} are the most that is checked"
+    )))
 }
 
 fn constants(program: &Steps) -> impl Iterator<Item = &Exact> {
@@ -110,7 +76,7 @@ fn work(extent: &Extent) -> u64 {
     size.saturating_mul(64 + extent.bits)
 }
 
-fn admit(place: &str, extent: &Extent) -> Result<(), TooMuch> {
+fn admit(place: &str, extent: &Extent) -> Result<(), Complaint> {
     limit(place, "bits of a constant", extent.bits, MAX_BITS)?;
     limit(place, "terms of a constant", extent.terms, MAX_TERMS)?;
     limit(place, "degrees of a constant", extent.degree, MAX_DEGREE)
@@ -120,33 +86,11 @@ fn admit(place: &str, extent: &Extent) -> Result<(), TooMuch> {
 /// or the factor in front of it.
 type Size = Option<Extent>;
 
-/// The sizes of all steps.
-#[derive(Default)]
-struct Sizes {
-    /// The size, and whether the step is that constant itself.
-    steps: Vec<(Size, bool)>,
-}
-
-impl Sizes {
-    fn steps(&mut self, place: &str, program: &Steps) -> Result<(), TooMuch> {
-        for (index, step) in program.steps.iter().enumerate() {
-            let (left, right) = (self.read(&step.left), self.read(&step.right));
-            let value = operate(step.operation, left, right);
-            if let (Some(extent), _) = &value {
-                let place = format!("{place}, t{}", index + 1);
-                admit(&place, extent)?;
-            }
-            self.steps.push(value);
-        }
-        Ok(())
-    }
-
-    fn read(&self, operand: &Operand) -> (Size, bool) {
-        match operand {
-            Operand::Constant(constant) => (Some(constant.extent()), true),
-            Operand::Input(_) => (None, false),
-            Operand::Step(index) => self.steps.get(*index).copied().unwrap_or_default(),
-        }
+fn read(steps: &[(Size, bool)], operand: &Operand) -> (Size, bool) {
+    match operand {
+        Operand::Constant(constant) => (Some(constant.extent()), true),
+        Operand::Input(_) => (None, false),
+        Operand::Step(index) => steps.get(*index).copied().unwrap_or_default(),
     }
 }
 

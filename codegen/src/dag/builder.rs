@@ -4,7 +4,7 @@ use dalembert_model::number::{Exact, Rational};
 use dalembert_model::scalar::Scalar;
 use rustc_hash::FxHashMap;
 
-use super::{Dag, Edge, Fingerprint, Id, Node, Points};
+use super::{Dag, Edge, Fingerprint, Id, Node, Points, signed};
 use crate::dag::{Counts, Input, Operation};
 
 /// Products of constants with more monomials stay two operations: polynomials in odd angles would
@@ -61,28 +61,14 @@ impl Builder {
 
     /// Returns the fingerprint of an edge.
     pub(crate) fn print(&self, edge: Edge) -> Fingerprint {
-        self.prints[edge.index()].negate_if(edge.negative)
+        signed(&self.prints[edge.index()], edge.negative)
     }
 
     /// Returns a constant; its sign is the edge's.
     pub(crate) fn constant(&mut self, constant: &Exact) -> Edge {
         let negative = constant.leads_negative();
-        let size = match negative {
-            true => constant.neg(),
-            false => constant.clone(),
-        };
-        let node = Node::Constant(size);
-        let edge = match self.known.get(&node) {
-            Some(&node) => Edge {
-                node,
-                negative: false,
-            },
-            None => {
-                let print = node.leaf_print();
-                self.intern(node, print)
-            }
-        };
-        edge.negated_if(negative)
+        let size = signed(constant, negative);
+        self.leaf(Node::Constant(size)).negated_if(negative)
     }
 
     /// Returns zero.
@@ -92,9 +78,17 @@ impl Builder {
 
     /// Returns an input.
     pub(crate) fn input(&mut self, input: Input) -> Edge {
-        let node = Node::Input(input);
-        let print = node.leaf_print();
-        self.intern(node, print)
+        self.leaf(Node::Input(input))
+    }
+
+    fn leaf(&mut self, node: Node) -> Edge {
+        match self.known.get(&node) {
+            Some(&known) => known.into(),
+            None => {
+                let print = node.leaf_print();
+                self.intern(node, print)
+            }
+        }
     }
 
     /// Applies an operation. A divisor vanishes in no state in which the program has values.
@@ -109,11 +103,7 @@ impl Builder {
 
     /// Returns the constant that an edge leads to.
     pub(crate) fn exact(&self, edge: Edge) -> Option<Exact> {
-        let size = self.size(edge)?;
-        Some(match edge.negative {
-            true => size.neg(),
-            false => size.clone(),
-        })
+        Some(signed(self.size(edge)?, edge.negative))
     }
 
     /// Returns the constant that an edge leads to, up to sign.
@@ -192,10 +182,7 @@ impl Builder {
             return self.scale(x.neg(), node).negated_if(true);
         }
         if x.is_one() {
-            return Edge {
-                node,
-                negative: false,
-            };
+            return node.into();
         }
         // c·(d·y) = (c·d)·y: one operation, and the inner one may die.
         if let Node::Apply(Operation::Mul, [a, b]) = *self.dag.node(node) {
@@ -239,14 +226,10 @@ impl Builder {
 
     fn operation(&mut self, operation: Operation, a: Id, b: Id) -> Edge {
         let node = Node::Apply(operation, [a, b]);
-        if let Some(&node) = self.known.get(&node) {
-            return Edge {
-                node,
-                negative: false,
-            };
+        if let Some(&known) = self.known.get(&node) {
+            return known.into();
         }
-        let (x, y) = (&self.prints[a as usize], &self.prints[b as usize]);
-        let print = Fingerprint::apply(operation, x, y);
+        let print = operation.apply(&self.prints[a as usize], &self.prints[b as usize]);
         if self.folding == Folding::Semantic {
             if print == Fingerprint::zero() {
                 return self.zero();
@@ -300,20 +283,16 @@ impl Builder {
         operation.exactly(x?, y?)
     }
 
+    /// Adds a node that there is not.
     fn intern(&mut self, node: Node, print: Fingerprint) -> Edge {
-        let next = self.dag.nodes.len() as Id;
-        let id = *self.known.entry(node.clone()).or_insert(next);
-        if id == next {
-            self.dag.nodes.push(node);
-            self.prints.push(print);
-            let (canonical, negative) = print.canonical();
-            let own = Edge { node: id, negative };
-            self.by_print.entry(canonical).or_insert(own);
-        }
-        Edge {
-            node: id,
-            negative: false,
-        }
+        let own = Edge::from(self.dag.nodes.len() as Id);
+        self.known.insert(node.clone(), own.node);
+        self.dag.nodes.push(node);
+        self.prints.push(print);
+        let (canonical, negative) = print.canonical();
+        let canonical = self.by_print.entry(canonical);
+        canonical.or_insert(own.negated_if(negative));
+        own
     }
 
     /// Copies the live nodes of a graph; returns the edges of its nodes, zero of dead ones.

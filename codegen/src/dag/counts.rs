@@ -45,12 +45,11 @@ impl Counts {
 
     /// Returns the counts with what so many r = 1/√(q̇² + w²) of Coulomb friction take.
     pub(crate) fn with_speeds(self, speeds: usize) -> Counts {
-        let [mul, add, sqrt, div] = [speeds; 4];
         Counts {
-            mul: self.mul + mul,
-            add: self.add + add,
-            div: self.div + div,
-            sqrt: self.sqrt + sqrt,
+            mul: self.mul + speeds,
+            add: self.add + speeds,
+            div: self.div + speeds,
+            sqrt: self.sqrt + speeds,
             ..self
         }
     }
@@ -72,14 +71,9 @@ impl<C, I> Dag<C, I> {
 impl fmt::Display for Counts {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} mul, {} add", self.mul, self.add)?;
-        if self.fma > 0 {
-            write!(f, ", {} fma", self.fma)?;
-        }
-        if self.div > 0 {
-            write!(f, ", {} div", self.div)?;
-        }
-        if self.sqrt > 0 {
-            write!(f, ", {} sqrt", self.sqrt)?;
+        let others = [(self.fma, "fma"), (self.div, "div"), (self.sqrt, "sqrt")];
+        for (count, name) in others.into_iter().filter(|(count, _)| *count > 0) {
+            write!(f, ", {count} {name}")?;
         }
         write!(f, ", {} sincos", self.sincos)?;
         if self.trig_mul + self.trig_add > 0 {

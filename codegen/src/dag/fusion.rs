@@ -6,10 +6,10 @@
 //! rounding out; and only machines, which cannot hold the exact product, compute the two nodes as
 //! one.
 
-use dalembert_model::number::{Exact, Rounded};
+use dalembert_model::number::Rounded;
 use dalembert_model::scalar::Scalar;
 
-use super::{Dag, Edge, Id, Input, Node, Operation, Writer};
+use super::{Dag, Edge, Id, Node, Operation, signed};
 
 /// A sum or a difference with the fused product that it takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,14 +28,7 @@ impl Fusion {
     /// Computes the sum in a scalar, from the values of the factors and the addend.
     #[inline]
     pub fn apply<S: Scalar>(&self, [left, right]: [&S; 2], addend: &S) -> S {
-        let addend = match self.minus {
-            true => addend.neg(),
-            false => addend.clone(),
-        };
-        match self.negative {
-            true => left.neg().mul_add(right, &addend),
-            false => left.mul_add(right, &addend),
-        }
+        signed(left, self.negative).mul_add(right, &signed(addend, self.minus))
     }
 }
 
@@ -92,15 +85,6 @@ impl<C, I> Dag<C, I> {
     }
 }
 
-/// A product that a sum may take.
-struct Candidate {
-    /// The operations of the longest chain that ends in a factor.
-    chain: usize,
-    product: Id,
-    factors: [Id; 2],
-    addend: Id,
-}
-
 impl Dag {
     /// Returns the code with its products fused: each that a single sum or difference reads, and
     /// nothing else, one a sum. Of two, the sum takes the one with the longer chain of operations
@@ -112,38 +96,39 @@ impl Dag {
     #[must_use]
     pub fn fused(&self) -> Dag {
         let taken = self.taken();
-        let is_taken = |id: Id| taken.contains(&Some(id));
-        let mut writer: Writer<Exact, Input> = Writer::default();
+        let mut nodes: Vec<Node> = Vec::with_capacity(self.nodes.len());
         let mut places: Vec<Id> = vec![0; self.nodes.len()];
-        let place = |id: Id, places: &[Id], writer: &mut Writer<Exact, Input>| {
-            let node = self.node(id);
-            match node {
-                Node::Apply(..) => places[id as usize],
-                leaf => writer.leaf(leaf.clone()),
+        for (node, id) in self.nodes.iter().zip(0..) {
+            if taken.contains(&Some(id)) {
+                continue;
             }
-        };
-        for (id, operation, operands) in self.operations().filter(|own| !is_taken(own.0)) {
-            let mut own = operands;
-            if let Some(product) = taken[id as usize]
-                && let Node::Apply(_, [x, y]) = *self.node(product)
-            {
-                // `mul_add` is a method of the left factor: a literal stands on the right.
-                let factors = if self.is_constant(x) { [y, x] } else { [x, y] };
-                let factors = factors.map(|id| place(id, &places, &mut writer));
-                places[product as usize] = writer.apply(Operation::Fused, factors);
-                if operation == Operation::Add && operands[1] == product {
-                    own.reverse();
+            let node = match *node {
+                Node::Apply(operation, mut operands) => {
+                    if let Some(product) = taken[id as usize]
+                        && let Node::Apply(_, [x, y]) = *self.node(product)
+                    {
+                        // `mul_add` is a method of the left factor: a literal stands on the right.
+                        let factors = if self.is_constant(x) { [y, x] } else { [x, y] };
+                        let factors = factors.map(|id| places[id as usize]);
+                        places[product as usize] = nodes.len() as Id;
+                        nodes.push(Node::Apply(Operation::Fused, factors));
+                        if operation == Operation::Add && operands[1] == product {
+                            operands.reverse();
+                        }
+                    }
+                    Node::Apply(operation, operands.map(|id| places[id as usize]))
                 }
-            }
-            let own = own.map(|id| place(id, &places, &mut writer));
-            places[id as usize] = writer.apply(operation, own);
+                ref leaf => leaf.clone(),
+            };
+            places[id as usize] = nodes.len() as Id;
+            nodes.push(node);
         }
         let outputs = self.outputs.iter().map(|edge| Edge {
-            node: place(edge.node, &places, &mut writer),
+            node: places[edge.index()],
             ..*edge
         });
         let outputs = outputs.collect();
-        writer.finish(outputs)
+        Dag { nodes, outputs }
     }
 
     fn is_constant(&self, id: Id) -> bool {
@@ -157,35 +142,31 @@ impl Dag {
         // The operations of the longest chain that ends in each node.
         let mut chain = vec![0usize; self.nodes.len()];
         for (id, operation, [a, b]) in self.operations() {
-            let longest = |ends: &[Id]| ends.iter().map(|id| chain[*id as usize]).max();
+            let longest = |ends: &[Id]| {
+                let chains = ends.iter().map(|id| chain[*id as usize]);
+                chains.max().unwrap_or(0)
+            };
+            // The operations behind its factors, those behind the sum that takes it, the product.
             let candidate = |product: Id, addend: Id| match *self.node(product) {
-                Node::Apply(Operation::Mul | Operation::Fused, factors)
+                Node::Apply(Operation::Mul | Operation::Fused, [x, y])
                     if reads[product as usize] == 1
                         && !self.is_negative(addend)
-                        && !factors.iter().all(|&factor| self.is_constant(factor)) =>
+                        && !(self.is_constant(x) && self.is_constant(y)) =>
                 {
-                    Some(Candidate {
-                        chain: longest(&factors).unwrap_or(0),
-                        product,
-                        factors,
-                        addend,
-                    })
+                    Some((longest(&[x, y]), longest(&[x, y, addend]), product))
                 }
                 _ => None,
             };
             let found = match operation {
                 Operation::Add | Operation::Sub => match (candidate(a, b), candidate(b, a)) {
-                    (Some(left), Some(right)) if right.chain > left.chain => Some(right),
+                    (Some(left), Some(right)) if right.0 > left.0 => Some(right),
                     (left, right) => left.or(right),
                 },
                 Operation::Mul | Operation::Fused | Operation::Div => None,
             };
-            let before = match &found {
-                None => longest(&[a, b]),
-                Some(own) => longest(&[own.factors[0], own.factors[1], own.addend]),
-            };
-            taken[id as usize] = found.map(|own| own.product);
-            chain[id as usize] = 1 + before.unwrap_or(0);
+            let before = found.map_or_else(|| longest(&[a, b]), |(_, before, _)| before);
+            taken[id as usize] = found.map(|(.., product)| product);
+            chain[id as usize] = 1 + before;
         }
         taken
     }

@@ -5,6 +5,7 @@
 //! - `operation`: the operations in any scalar; [`counts`]: what they cost
 //! - [`builder`]: folds and shares as a graph grows
 //! - [`print`]: fingerprints, values at random points of a prime field
+//! - [`lanes`]: values at several points or states side by side
 //! - [`symbol`]: the scalar that traces the equations into a builder
 //! - [`schedule`](Dag::scheduled): the order in which code is printed
 //! - [`writer`]: code in a given order
@@ -18,6 +19,7 @@ pub(crate) mod builder;
 pub(crate) mod counts;
 pub(crate) mod fusion;
 pub(crate) mod input;
+pub(crate) mod lanes;
 mod operation;
 #[cfg(test)]
 pub(crate) mod pattern;
@@ -37,6 +39,7 @@ pub(crate) use builder::Builder;
 pub use builder::Folding;
 pub use counts::Counts;
 pub use input::Input;
+pub(crate) use lanes::Lanes;
 pub use operation::Operation;
 pub use print::{Fingerprint, Points};
 pub(crate) use writer::Writer;
@@ -116,6 +119,13 @@ impl<C, I> Node<C, I> {
     }
 }
 
+impl From<Id> for Edge {
+    fn from(node: Id) -> Edge {
+        let negative = false;
+        Edge { node, negative }
+    }
+}
+
 impl Edge {
     /// Returns the edge to the same node, reversed if `negative`.
     #[must_use]
@@ -129,6 +139,15 @@ impl Edge {
     /// Returns the index of its node.
     pub fn index(self) -> usize {
         self.node as usize
+    }
+}
+
+/// Returns a value, negated if `negative`.
+#[inline]
+pub(crate) fn signed<S: Scalar>(value: &S, negative: bool) -> S {
+    match negative {
+        true => value.neg(),
+        false => value.clone(),
     }
 }
 
@@ -167,13 +186,8 @@ impl<C, I> Dag<C, I> {
         I: Copy,
     {
         let values = self.values(leaves);
-        let outputs = self.outputs.iter().map(|edge| {
-            let value = &values[edge.index()];
-            match edge.negative {
-                true => value.neg(),
-                false => value.clone(),
-            }
-        });
+        let outputs = self.outputs.iter();
+        let outputs = outputs.map(|edge| signed(&values[edge.index()], edge.negative));
         outputs.collect()
     }
 

@@ -1,149 +1,91 @@
-//! Patterns read and evaluated over anything that adds and multiplies: how the
-//! tests hold every rule against the field, and against the code that applies it.
+//! Patterns in a builder: how the tests hold folds and rules against the code that applies them.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use dalembert_model::number::{Exact, Rational};
+use egg::{RecExpr, SymbolLang};
 
-use crate::dag::Input;
-use crate::dag::{Builder, Dag, Edge, Folding};
+use super::{Builder, Dag, Edge, Folding, Input, Operation};
 use crate::function::Argument;
 
-/// A pattern.
-#[derive(Clone, Debug)]
-pub(crate) enum Pattern {
+/// A leaf of a pattern; variables by their place in the alphabet.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Leaf {
     /// A number.
-    Number(u64),
-    /// `?a`: any value; `?k` and `?m`: a constant.
-    Variable(char),
-    /// An operation on patterns.
-    Operation(&'static str, Vec<Pattern>),
+    Number(u32),
+    /// `?k` or `?m`: a constant.
+    Constant(u32),
+    /// Another variable: any value.
+    Value(u32),
 }
 
-/// The values that patterns are evaluated over.
-pub(crate) trait Algebra {
-    /// A value.
-    type Value: Clone;
-    /// Returns a number.
-    fn number(&mut self, number: u64) -> Self::Value;
-    /// Returns −a
-    fn neg(&mut self, a: &Self::Value) -> Self::Value;
-    /// Returns a + b, a − b, a · b or a / b.
-    fn operate(&mut self, symbol: &str, a: &Self::Value, b: &Self::Value) -> Self::Value;
-}
-
-impl Pattern {
-    /// Reads a pattern.
-    ///
-    /// # Panics
-    /// On anything but a pattern: tables are the project's own.
-    pub(crate) fn parse(text: &str) -> Pattern {
-        let spaced = text.replace('(', " ( ").replace(')', " ) ");
-        let mut words = spaced.split_whitespace();
-        let pattern = Pattern::read(&mut words);
-        assert!(words.next().is_none(), "more than one pattern in `{text}`");
-        pattern
-    }
-
-    fn read<'a>(words: &mut impl Iterator<Item = &'a str>) -> Pattern {
-        let word = words.next().expect("a pattern ends too early");
-        if word != "(" {
-            return match word.strip_prefix('?') {
-                Some(name) => Pattern::Variable(name.chars().next().expect("a nameless variable")),
-                None => Pattern::Number(word.parse().expect("a number")),
-            };
-        }
-        let name = words.next().expect("an operation");
-        let known = ["+", "-", "±", "*", "neg"]
-            .into_iter()
-            .find(|known| *known == name);
-        let name = known.unwrap_or_else(|| panic!("`{name}` is no operation"));
-        let count = if name == "neg" { 1 } else { 2 };
-        let operands = (0..count).map(|_| Pattern::read(words)).collect();
-        assert_eq!(words.next(), Some(")"), "`{name}` has {count} operands");
-        Pattern::Operation(name, operands)
-    }
-
-    /// Returns the variables, each once, in alphabetical order.
-    pub(crate) fn variables(&self) -> Vec<char> {
-        let mut found = Vec::new();
-        self.collect(&mut found);
-        found.sort_unstable();
-        found.dedup();
-        found
-    }
-
-    fn collect(&self, found: &mut Vec<char>) {
-        match self {
-            Pattern::Number(_) => {}
-            Pattern::Variable(name) => found.push(*name),
-            Pattern::Operation(_, operands) => operands.iter().for_each(|o| o.collect(found)),
+impl Leaf {
+    fn read(text: &str) -> Leaf {
+        let place = |name: &str| name.chars().next().expect("a name") as u32 - 'a' as u32;
+        match text.strip_prefix('?') {
+            Some(name @ ("k" | "m")) => Leaf::Constant(place(name)),
+            Some(name) => Leaf::Value(place(name)),
+            None => Leaf::Number(text.parse().expect("a number")),
         }
     }
 
-    /// Returns its value.
-    pub(crate) fn evaluate<A: Algebra>(
-        &self,
-        algebra: &mut A,
-        variables: &HashMap<char, A::Value>,
-    ) -> A::Value {
-        match self {
-            Pattern::Number(number) => algebra.number(*number),
-            Pattern::Variable(name) => variables[name].clone(),
-            Pattern::Operation(name, operands) => {
-                let values: Vec<A::Value> = operands
-                    .iter()
-                    .map(|o| o.evaluate(algebra, variables))
-                    .collect();
-                match values.as_slice() {
-                    [a] => algebra.neg(a),
-                    [a, b] => algebra.operate(name, a, b),
-                    _ => unreachable!("an operation has one or two operands"),
-                }
+    /// Returns it in a builder: a decimal for a constant, a velocity for another variable.
+    pub(crate) fn edge(self, builder: &mut Builder) -> Edge {
+        let number = match self {
+            Leaf::Number(number) => Rational::from_integer(number.into()),
+            Leaf::Constant(place) => Rational::new((31 + 4 * place).into(), 7.into()),
+            Leaf::Value(place) => {
+                return builder.input(Input::Entry(Argument::Velocity, place as usize));
             }
-        }
+        };
+        builder.constant(&Exact::from(number))
     }
 }
 
-/// Returns whether a variable stands for a constant.
-pub(crate) fn is_constant(variable: char) -> bool {
-    matches!(variable, 'k' | 'm')
+/// Returns the value of a pattern in a builder, from that of its leaves; variables come first, in
+/// alphabetical order.
+///
+/// # Panics
+/// On anything but a pattern: tables are the project's own.
+pub(crate) fn evaluate(
+    pattern: &str,
+    builder: &mut Builder,
+    mut leaf: impl FnMut(Leaf, &mut Builder) -> Edge,
+) -> Edge {
+    let pattern: RecExpr<SymbolLang> = pattern.parse().expect("a pattern");
+    let names = pattern.iter().map(|node| node.op.as_str());
+    let names: BTreeSet<&str> = names.filter(|name| name.starts_with('?')).collect();
+    let variables = names.into_iter();
+    let variables = variables.map(|name| (name, leaf(Leaf::read(name), builder)));
+    let variables: BTreeMap<&str, Edge> = variables.collect();
+    let mut values: Vec<Edge> = Vec::new();
+    for node in pattern.iter() {
+        let operands = node.children.iter().map(|id| values[usize::from(*id)]);
+        let operands: Vec<Edge> = operands.collect();
+        let value = match (node.op.as_str(), operands.as_slice()) {
+            (name, []) => match variables.get(name) {
+                Some(value) => *value,
+                None => leaf(Leaf::read(name), builder),
+            },
+            ("neg", [a]) => a.negated_if(true),
+            (symbol, [a, b]) => {
+                let operation = Operation::from_symbol(symbol).expect("an operation");
+                builder.apply(operation, *a, *b)
+            }
+            other => panic!("{other:?}"),
+        };
+        values.push(value);
+    }
+    values.pop().expect("a value")
 }
 
-/// Values of a builder.
-pub(crate) struct InBuilder<'a>(pub &'a mut Builder);
-
-impl Algebra for InBuilder<'_> {
-    type Value = Edge;
-    fn number(&mut self, number: u64) -> Edge {
-        let number = Rational::from_integer(number.into());
-        self.0.constant(&Exact::from(number))
-    }
-    fn neg(&mut self, a: &Edge) -> Edge {
-        a.negated_if(true)
-    }
-    fn operate(&mut self, symbol: &str, a: &Edge, b: &Edge) -> Edge {
-        match symbol {
-            "+" => self.0.add(*a, *b),
-            "-" => self.0.sub(*a, *b),
-            _ => self.0.mul(*a, *b),
-        }
-    }
-}
-
-/// Returns a graph with these outputs, folded by shape: `?a` is the first joint's
-/// velocity, `?b` the second's, and so on.
+/// Returns a graph with these outputs, folded by shape: `?a` is the first joint's velocity, `?b`
+/// the second's, and so on.
 pub(crate) fn graph(outputs: &[&str]) -> Dag {
     let mut builder = Builder::new(Folding::Syntactic);
-    let mut values = Vec::new();
-    for output in outputs {
-        let pattern = Pattern::parse(output);
-        let mut variables = HashMap::new();
-        for name in pattern.variables() {
-            let joint = name as usize - 'a' as usize;
-            variables.insert(name, builder.input(Input::Entry(Argument::Velocity, joint)));
-        }
-        values.push(pattern.evaluate(&mut InBuilder(&mut builder), &variables));
-    }
+    let values = outputs
+        .iter()
+        .map(|output| evaluate(output, &mut builder, Leaf::edge));
+    let values = values.collect();
     builder.finish(values)
 }

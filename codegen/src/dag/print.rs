@@ -15,14 +15,15 @@ use dalembert_model::number::{Angle, Exact, Rational};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Modulo};
 
-use crate::dag::{Input, Operation};
+use super::{Input, Lanes};
+use crate::random::Random;
 
 /// The points of a fingerprint.
 pub(crate) const POINTS: usize = 3;
 
-/// The values of one node at every point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Fingerprint(pub [Field; POINTS]);
+/// The values of one node at every point. A divisor that is zero at a point has a chance of
+/// 2⁻⁶¹ if it is not zero everywhere.
+pub type Fingerprint = Lanes<Field, POINTS>;
 
 /// By its first value, which is as good as random: equal prints have the same, and
 /// others hardly ever.
@@ -33,34 +34,6 @@ impl Hash for Fingerprint {
 }
 
 impl Fingerprint {
-    /// Returns the print of zero.
-    pub fn zero() -> Self {
-        Fingerprint([Field::zero(); POINTS])
-    }
-    /// Returns that of an operation's result. A divisor that is zero at a point has a chance of
-    /// 2⁻⁶¹ if it is not zero everywhere.
-    #[inline]
-    pub fn apply(operation: Operation, a: &Fingerprint, b: &Fingerprint) -> Fingerprint {
-        // Plain loops: compilers make calls of arrays' own `map` and `from_fn` here.
-        let mut print = *a;
-        for (x, y) in print.0.iter_mut().zip(&b.0) {
-            *x = operation.apply(x, y);
-        }
-        print
-    }
-    /// Returns that of the negated node.
-    #[inline]
-    pub fn neg(&self) -> Fingerprint {
-        let mut print = *self;
-        for x in &mut print.0 {
-            *x = x.neg();
-        }
-        print
-    }
-    /// Returns that of the node, negated if `negative`.
-    pub fn negate_if(&self, negative: bool) -> Fingerprint {
-        if negative { self.neg() } else { *self }
-    }
     /// Returns the print up to sign, and whether it had to be negated.
     #[inline]
     pub fn canonical(&self) -> (Fingerprint, bool) {
@@ -95,7 +68,7 @@ impl Points {
 
     /// Returns the print of an input.
     pub fn input(&self, input: Input) -> Fingerprint {
-        Fingerprint(core::array::from_fn(|point| self.input_at(input, point)))
+        Lanes(core::array::from_fn(|point| self.input_at(input, point)))
     }
 
     /// Returns the value of an input at a point.
@@ -123,27 +96,15 @@ impl Points {
     /// Returns the print of a constant; `None` if a denominator is divisible by the
     /// prime (no decimal's is).
     pub fn constant(&self, value: &Exact) -> Option<Fingerprint> {
-        if let Some(rational) = value.as_rational() {
-            return Field::from_rational(rational).map(|x| Fingerprint([x; POINTS]));
-        }
-        let mut print = [Field::zero(); POINTS];
-        // Coefficients are the same at every point.
-        let mut residues = Vec::new();
-        for (point, x) in print.iter_mut().enumerate() {
-            let shared = if point == 1 { 0 } else { point };
-            let mut known = residues.clone().into_iter();
-            let mut coefficient = |value: &Rational| {
-                known.next().or_else(|| {
-                    let residue = Field::from_rational(value)?;
-                    residues.push(residue);
-                    Some(residue)
-                })
-            };
-            *x = value.map(&mut coefficient, &mut |angle| {
-                circle(mix([self.seed, shared as u64, 5, hash_angle(angle)]))
-            })?;
-        }
-        Some(Fingerprint(print))
+        let coefficient = &mut |x: &Rational| Some(Lanes([Field::from_rational(x)?; POINTS]));
+        value.map(coefficient, &mut |angle| {
+            // Points 0 and 1 share the constant angles.
+            let pairs = [0, 0, 2].map(|point| self.constant_angle(angle, point));
+            SinCosPair {
+                sin: Lanes(pairs.each_ref().map(|pair| pair.sin)),
+                cos: Lanes(pairs.each_ref().map(|pair| pair.cos)),
+            }
+        })
     }
 
     /// Returns the value of a constant at a point, which has its own constant angles; `None` if
@@ -153,9 +114,12 @@ impl Points {
         value: &Exact,
         point: usize,
     ) -> Option<Modulo<P>> {
-        value.map(&mut |x: &Rational| Modulo::from_rational(x), &mut |angle| {
-            circle(mix([self.seed, point as u64, 5, hash_angle(angle)]))
-        })
+        let coefficient = &mut |x: &Rational| Modulo::from_rational(x);
+        value.map(coefficient, &mut |angle| self.constant_angle(angle, point))
+    }
+
+    fn constant_angle<const P: u64>(&self, angle: &Angle, point: usize) -> SinCosPair<Modulo<P>> {
+        circle(mix([self.seed, point as u64, 5, hash_angle(angle)]))
     }
 
     /// Returns whether a field cannot tell a constant from zero: its prime divides
@@ -177,14 +141,10 @@ fn circle<const P: u64>(parameter: u64) -> SinCosPair<Modulo<P>> {
 
 /// Returns one well-mixed word from several (SplitMix64 over the words).
 fn mix(words: [u64; 4]) -> u64 {
-    words
-        .into_iter()
-        .fold(0x9e37_79b9_7f4a_7c15, |state, word| {
-            let mut z = (state ^ word).wrapping_add(0x9e37_79b9_7f4a_7c15);
-            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-            z ^ (z >> 31)
-        })
+    let words = words.into_iter();
+    words.fold(0x9e37_79b9_7f4a_7c15, |state, word| {
+        Random::new(state ^ word).bits()
+    })
 }
 
 /// Returns the same on every machine: over the digits of the exact value.

@@ -61,11 +61,7 @@ mod tests {
     use Operation::{Add, Mul};
 
     fn operations(dag: &Dag) -> Vec<Operation> {
-        let operation = |node: &Node| match node {
-            Node::Apply(operation, _) => Some(*operation),
-            _ => None,
-        };
-        dag.nodes.iter().filter_map(operation).collect()
+        dag.operations().map(|own| own.1).collect()
     }
 
     /// The longer operand is computed first, whichever side it stands on, so that

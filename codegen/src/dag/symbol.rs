@@ -6,8 +6,7 @@ use std::rc::Rc;
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::scalar::{Divide, Scalar};
 
-use super::{Builder, Edge};
-use crate::dag::Input;
+use super::{Builder, Edge, Input, Operation};
 
 /// A constant, which needs no context, or a node of a shared builder.
 ///
@@ -25,6 +24,11 @@ pub(crate) enum Symbol {
 }
 
 impl Symbol {
+    /// Returns a constant.
+    pub(crate) fn constant(constant: &Exact) -> Symbol {
+        Symbol::Constant(constant.clone())
+    }
+
     /// Returns an input of the traced program.
     pub(crate) fn input(builder: &Rc<RefCell<Builder>>, input: Input) -> Symbol {
         let edge = builder.borrow_mut().input(input);
@@ -61,55 +65,47 @@ impl Symbol {
         }
     }
 
-    fn combine(
-        &self,
-        other: &Symbol,
-        constants: impl Fn(&Exact, &Exact) -> Option<Exact>,
-        fractions: impl Fn([Exact; 2], [Exact; 2]) -> [Exact; 2],
-        nodes: impl Fn(&mut Builder, Edge, Edge) -> Edge,
-    ) -> Symbol {
+    fn combine(&self, operation: Operation, other: &Symbol) -> Symbol {
         let builder = match (self, other) {
             (Symbol::Node(builder, _), _) | (_, Symbol::Node(builder, _)) => builder,
-            _ => {
-                if let (Symbol::Constant(a), Symbol::Constant(b)) = (self, other)
-                    && let Some(constant) = constants(a, b)
-                {
-                    return Symbol::Constant(constant);
-                }
-                let both = self.fraction().zip(other.fraction());
-                let result = both.map(|(x, y)| fractions(x, y));
-                return result.map_or_else(Symbol::zero, |[a, b]| Symbol::quotient(a, b));
-            }
+            _ => return self.without_nodes(operation, other),
         };
         let mut shared = builder.borrow_mut();
         let [a, b] = [self, other].map(|symbol| symbol.edge(&mut shared));
-        let edge = nodes(&mut shared, a, b);
+        let edge = shared.apply(operation, a, b);
         match shared.exact(edge) {
             Some(constant) => Symbol::Constant(constant),
             None => Symbol::Node(builder.clone(), edge),
         }
     }
-}
 
-/// Returns a/b ± c/d; whole numbers stay whole.
-fn sum([a, b]: [Exact; 2], [c, d]: [Exact; 2], of: fn(&Exact, &Exact) -> Exact) -> [Exact; 2] {
-    match b == d {
-        true => [of(&a, &c), b],
-        false => [of(&a.mul(&d), &c.mul(&b)), b.mul(&d)],
-    }
-}
-
-impl From<Exact> for Symbol {
-    fn from(constant: Exact) -> Self {
-        Symbol::Constant(constant)
+    fn without_nodes(&self, operation: Operation, other: &Symbol) -> Symbol {
+        if let (Symbol::Constant(a), Symbol::Constant(b)) = (self, other)
+            && let Some(constant) = operation.exactly(a, b)
+        {
+            return Symbol::Constant(constant);
+        }
+        let Some(([a, b], [c, d])) = self.fraction().zip(other.fraction()) else {
+            return Symbol::zero();
+        };
+        // Whole numbers stay whole.
+        let sum = |of: fn(&Exact, &Exact) -> Exact| match b == d {
+            true => [of(&a, &c), b.clone()],
+            false => [of(&a.mul(&d), &c.mul(&b)), b.mul(&d)],
+        };
+        let [dividend, divisor] = match operation {
+            Operation::Add => sum(Exact::add),
+            Operation::Sub => sum(Exact::sub),
+            Operation::Mul | Operation::Fused => [a.mul(&c), b.mul(&d)],
+            Operation::Div => [a.mul(&d), b.mul(&c)],
+        };
+        Symbol::quotient(dividend, divisor)
     }
 }
 
 impl Divide for Symbol {
     fn div(&self, other: &Self) -> Self {
-        let upside_down = |[a, b]: [Exact; 2], [c, d]: [Exact; 2]| [a.mul(&d), b.mul(&c)];
-        let constants = |a: &Exact, b: &Exact| b.as_rational().and_then(|b| a.divide(b));
-        self.combine(other, constants, upside_down, Builder::div)
+        self.combine(Operation::Div, other)
     }
 }
 
@@ -121,24 +117,13 @@ impl Scalar for Symbol {
         Symbol::Constant(Exact::one())
     }
     fn add(&self, other: &Self) -> Self {
-        self.combine(
-            other,
-            |a, b| Some(a.add(b)),
-            |x, y| sum(x, y, Exact::add),
-            Builder::add,
-        )
+        self.combine(Operation::Add, other)
     }
     fn sub(&self, other: &Self) -> Self {
-        self.combine(
-            other,
-            |a, b| Some(a.sub(b)),
-            |x, y| sum(x, y, Exact::sub),
-            Builder::sub,
-        )
+        self.combine(Operation::Sub, other)
     }
     fn mul(&self, other: &Self) -> Self {
-        let product = |[a, b]: [Exact; 2], [c, d]: [Exact; 2]| [a.mul(&c), b.mul(&d)];
-        self.combine(other, |a, b| Some(a.mul(b)), product, Builder::mul)
+        self.combine(Operation::Mul, other)
     }
     fn neg(&self) -> Self {
         match self {
@@ -164,7 +149,6 @@ impl Scalar for Symbol {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dag::Operation;
     use crate::dag::{Fingerprint, Folding, Points};
     use crate::function::Argument;
     use dalembert_model::number::Angle;
@@ -175,7 +159,7 @@ mod tests {
     fn quotients_of_constants_wait_for_a_builder() {
         let angle = Angle::Radians(Rational::new(1.into(), 3.into()));
         let cosine = Exact::sincos(&angle).cos;
-        let inverse = Symbol::one().div(&Symbol::from(cosine.clone()));
+        let inverse = Symbol::one().div(&Symbol::constant(&cosine));
         assert!(matches!(inverse, Symbol::Quotient(..)));
         let twice = inverse
             .add(&inverse)
@@ -187,7 +171,7 @@ mod tests {
         let points = Points::SEARCH;
         let known = |print: Option<Fingerprint>| print.unwrap_or_else(Fingerprint::zero);
         let rate = points.input(Input::Entry(Argument::Velocity, 0));
-        let expected = Fingerprint::apply(Operation::Div, &rate, &known(points.constant(&cosine)));
+        let expected = rate.div(&known(points.constant(&cosine)));
         assert_eq!(print, expected);
         let half = Symbol::one().div(&Symbol::one().double());
         assert!(matches!(half, Symbol::Constant(x) if x.as_rational().is_some()));

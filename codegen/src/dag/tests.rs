@@ -1,16 +1,11 @@
 //! The folds of builders, as tables of patterns; derivatives backwards and forwards.
 
-use std::collections::HashMap;
-
-use dalembert_model::number::{Exact, Rational};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::dual::Dual;
 use dalembert_model::scalar::field::Field;
 
-use super::pattern::{InBuilder, Pattern, is_constant};
+use super::pattern::{Leaf, evaluate};
 use super::{Builder, Dag, Edge, Folding, Id, Node, Operation};
-use crate::dag::Input;
-use crate::function::Argument;
 use crate::random::Random;
 
 /// Every builder folds these.
@@ -55,24 +50,12 @@ pub(crate) const BY_FINGERPRINT: &[(&str, &str)] = &[
     ("(- (+ ?a ?k) (+ ?a ?m))", "(- ?k ?m)"),
 ];
 
-/// Both sides of a row in a builder: an input for each variable, a decimal for each
-/// constant. The right side first: by fingerprint it is the value that is known.
+/// Both sides of a row in a builder. The right side first: by fingerprint it is the value that is
+/// known.
 fn sides((from, to): &(&str, &str), folding: Folding) -> [Edge; 2] {
-    let (from, to) = (Pattern::parse(from), Pattern::parse(to));
     let mut builder = Builder::new(folding);
-    let mut values = HashMap::new();
-    for (place, name) in from.variables().into_iter().enumerate() {
-        let value = match is_constant(name) {
-            true => {
-                let number = Rational::new((31 + 4 * place as i64).into(), 7.into());
-                builder.constant(&Exact::from(number))
-            }
-            false => builder.input(Input::Entry(Argument::Velocity, place)),
-        };
-        values.insert(name, value);
-    }
-    let to = to.evaluate(&mut InBuilder(&mut builder), &values);
-    [from.evaluate(&mut InBuilder(&mut builder), &values), to]
+    let [to, from] = [to, from].map(|side| evaluate(side, &mut builder, Leaf::edge));
+    [from, to]
 }
 
 #[test]

@@ -24,12 +24,11 @@ impl Stage {
         let mut run = Run::new(self, Builder::new(folding));
         run.steps();
         let outputs = std::mem::take(&mut run.program.outputs);
-        let outputs = outputs.iter().map(|output| {
-            let value = run.after(&output.value);
-            value.negated_if(output.negative)
-        });
-        let outputs = outputs.collect();
-        run.builder.finish(outputs)
+        let values = outputs
+            .iter()
+            .map(|own| run.after(&own.value).negated_if(own.negative));
+        let values = values.collect();
+        run.builder.finish(values)
     }
 
     /// Returns the edited program.
@@ -58,10 +57,9 @@ pub fn difference(stages: &[Stage]) -> Dag {
         let mut run = Run::new(stage, builder);
         run.steps();
         let outputs = std::mem::take(&mut run.program.outputs);
-        let deltas = outputs.iter().map(|output| {
-            let delta = run.delta(&output.value);
-            delta.negated_if(output.negative)
-        });
+        let deltas = outputs
+            .iter()
+            .map(|own| run.delta(&own.value).negated_if(own.negative));
         let deltas: Vec<Edge> = deltas.collect();
         builder = run.builder;
         sums = if sums.is_empty() {
@@ -122,8 +120,7 @@ impl<'a> Run<'a> {
     }
 
     fn replacement(&mut self, edit: &Edit) -> Edge {
-        let value = self.after(&edit.value);
-        value.negated_if(edit.negative)
+        self.after(&edit.value).negated_if(edit.negative)
     }
 
     /// Returns replacement after − operand before
@@ -172,24 +169,17 @@ impl<'a> Run<'a> {
                     let edited = self.replacement(edit);
                     // s·r' − x = s·Δr + (s·r − x); for an operand of the sum
                     // the second part is the other operand.
-                    let right = if step.operation == Operation::Sub {
-                        b.negated_if(true)
-                    } else {
-                        b
-                    };
-                    let sum = matches!(step.operation, Operation::Add | Operation::Sub);
                     let minus = step.operation == Operation::Sub;
+                    let sum = minus || step.operation == Operation::Add;
                     let rest = if sum && edit.value == step.left && !edit.negative {
-                        right.negated_if(true)
+                        b.negated_if(!minus)
                     } else if sum && edit.value == step.right && edit.negative == minus {
                         a.negated_if(true)
                     } else {
-                        let before = self.before(&edit.value);
-                        let before = before.negated_if(edit.negative);
+                        let before = self.before(&edit.value).negated_if(edit.negative);
                         self.builder.sub(before, exact)
                     };
-                    let moved = self.delta(&edit.value);
-                    let moved = moved.negated_if(edit.negative);
+                    let moved = self.delta(&edit.value).negated_if(edit.negative);
                     (edited, self.builder.add(moved, rest))
                 }
             };

@@ -1,13 +1,8 @@
 //! Edits: values in other values' places.
 
-use std::collections::BTreeSet;
-
 use dalembert_model::number::Exact;
-use dalembert_model::scalar::Scalar;
 
-use crate::function::Function;
 use crate::program::{Input, Operand, Program};
-use crate::words::{Complaint, complaint};
 
 /// What an edit replaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -58,11 +53,6 @@ impl Edit {
         matches!(self.place, EditSite::Left(_) | EditSite::Right(_))
             && matches!(self.value, Operand::Constant(_))
     }
-
-    /// Puts zero in place of a value: its term is dropped.
-    pub fn zero(place: EditSite) -> Edit {
-        Edit::constant(place, Exact::zero())
-    }
 }
 
 impl Stage {
@@ -72,43 +62,6 @@ impl Stage {
             program,
             edits: Vec::new(),
         }
-    }
-
-    /// Checks that every replacement exists before its place.
-    ///
-    /// # Errors
-    /// The first edit that cannot be applied.
-    pub fn check(&self) -> Result<(), Complaint> {
-        let steps = self.program.dag.operations().count();
-        let mut places = BTreeSet::new();
-        for (index, edit) in self.edits.iter().enumerate() {
-            let early = match (&edit.value, edit.place) {
-                (Operand::Constant(_), _) => true,
-                (_, EditSite::Input(_)) => false,
-                (Operand::Input(_), _) => true,
-                (
-                    Operand::Step(value),
-                    EditSite::Step(at) | EditSite::Left(at) | EditSite::Right(at),
-                ) => *value < at,
-            };
-            let known = match edit.place {
-                EditSite::Step(step) | EditSite::Left(step) | EditSite::Right(step) => step < steps,
-                EditSite::Input(_) => true,
-            };
-            let twice = !places.insert(edit.place);
-            if !early || !known || twice {
-                return Err(complaint(format!(
-                    "edit {} replaces a value twice, or by one that is not computed before it",
-                    index + 1
-                )));
-            }
-        }
-        Ok(())
-    }
-
-    /// Returns the function that is computed.
-    pub fn function(&self) -> Function {
-        self.program.function
     }
 }
 

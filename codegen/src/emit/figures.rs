@@ -1,23 +1,15 @@
 //! Numbers in documentation: short, and rounded to the side on which what they
 //! say stays true.
 
-/// Where a figure may be, seen from the number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
-    /// Not below it.
-    Above,
-    /// Not above it.
-    Below,
-}
+/// Where a figure may be, seen from the number: in units of its last digit.
+const ABOVE: i64 = 1;
+const BELOW: i64 = -1;
 
 /// Returns a number of so many digits, on one side of another and next to it.
-fn rounded(x: f64, digits: usize, side: Side) -> f64 {
+fn rounded(x: f64, digits: usize, side: i64) -> f64 {
     let near = format!("{x:.*e}", digits.saturating_sub(1));
     let read = near.parse().unwrap_or(x);
-    let good = match side {
-        Side::Above => read >= x,
-        Side::Below => read <= x,
-    };
+    let good = if side == ABOVE { read >= x } else { read <= x };
     let parts = near.split_once('e');
     let parts = parts.map(|(digits, power)| (digits.replace('.', ""), power.parse::<i32>()));
     let (false, Some((mantissa, Ok(power)))) = (good, parts) else {
@@ -25,11 +17,7 @@ fn rounded(x: f64, digits: usize, side: Side) -> f64 {
     };
     // In units of the last digit, one further.
     let last = power - digits.saturating_sub(1) as i32;
-    let step = match side {
-        Side::Above => 1,
-        Side::Below => -1,
-    };
-    let mantissa = mantissa.parse::<i64>().map(|units| units + step);
+    let mantissa = mantissa.parse::<i64>().map(|units| units + side);
     let moved = mantissa.map(|units| format!("{units}e{last}").parse());
     moved.ok().and_then(Result::ok).unwrap_or(x)
 }
@@ -45,7 +33,7 @@ fn plain(x: f64) -> String {
 
 /// Writes five digits, not below: an error relative to it stays a bound.
 pub(crate) fn at_least(x: f64) -> String {
-    plain(rounded(x, 5, Side::Above))
+    plain(rounded(x, 5, ABOVE))
 }
 
 /// Returns a decimal as the robot file would have it; a fraction if it is none.
@@ -67,20 +55,17 @@ pub(crate) fn bound(x: f64) -> String {
 
 /// Writes so many digits, not below.
 pub fn bound_of(x: f64, digits: usize) -> String {
-    match x == 0.0 || !x.is_finite() {
-        true => format!("{x}"),
-        false => format!(
-            "{:.*e}",
-            digits.saturating_sub(1),
-            rounded(x, digits, Side::Above)
-        ),
+    if x == 0.0 || !x.is_finite() {
+        return format!("{x}");
     }
+    let above = rounded(x, digits, ABOVE);
+    format!("{above:.*e}", digits.saturating_sub(1))
 }
 
 /// Returns a range of seven digits inside a range, or all its digits if it is that
 /// narrow.
 pub(crate) fn inside(low: f64, high: f64) -> String {
-    let ends = (rounded(low, 7, Side::Above), rounded(high, 7, Side::Below));
+    let ends = (rounded(low, 7, ABOVE), rounded(high, 7, BELOW));
     let (low, high) = if ends.0 < ends.1 { ends } else { (low, high) };
     format!("{} to {}", plain(low), plain(high))
 }

@@ -59,11 +59,7 @@ impl GeneratedFunction {
 
     /// Returns its counts with the polynomials of its sines in a scalar.
     pub fn counts_in(&self, scalar: ScalarType) -> Counts {
-        let (trig_mul, trig_add) = sincos::counts(self.sines(scalar));
-        Counts {
-            trig_mul,
-            trig_add,
-            ..self.counts()
-        }
+        let kernels = self.sines(scalar).iter().map(|own| &own.kernel);
+        self.counts().with_kernels(kernels)
     }
 }

@@ -66,7 +66,7 @@ pub(crate) fn write(
         setup,
         request,
     } = *job;
-    let name = job.module_name();
+    let name = request.module_name(robot);
     let names = Names::new(&name, request.language, ScalarType::F64);
     let mut text = String::new();
     let guard = names.constant(match request.language {

@@ -1,15 +1,16 @@
 //! Polynomials for sines, in the words of a function's documentation.
 
 use super::figures::bound_of;
-use crate::program::ScalarType;
-use crate::sincos::{AngleKernel, counts};
+use crate::program::{Counts, ScalarType};
+use crate::sincos::AngleKernel;
 
 /// Returns what a function's documentation says about its sines.
 pub(super) fn doc(sines: &[AngleKernel], scalar: ScalarType) -> Vec<String> {
     if sines.is_empty() {
         return Vec::new();
     }
-    let (mul, add) = counts(sines);
+    let counts = Counts::default().with_kernels(sines.iter().map(|own| &own.kernel));
+    let (mul, add) = (counts.trig_mul, counts.trig_add);
     let mut lines = vec![
         String::new(),
         format!("Sines and cosines are polynomials, {mul} mul, {add} add, with proved errors:"),

@@ -11,7 +11,6 @@ use crate::function::Argument;
 use crate::interval::Interval;
 use crate::program::ScalarType;
 use crate::setup::Setup;
-use crate::split::ErrorByCause;
 
 /// Returns a line each: the bounds, the box, what was left out.
 pub(super) fn describe(admitted: &Admitted, setup: &Setup, scalar: ScalarType) -> Vec<String> {
@@ -19,12 +18,13 @@ pub(super) fn describe(admitted: &Admitted, setup: &Setup, scalar: ScalarType) -
     let Some(certificate) = all.find(|certificate| certificate.scalar == scalar) else {
         return Vec::new();
     };
-    let mut lines = vec![String::new()];
-    lines.push(
-        "Certified: inside the box, |this code - the full model| ≤ E·T. The last three columns"
-            .into(),
-    );
-    lines.push("split E by cause. [`in_box`] says whether a state is inside.".into());
+    let mut lines = [
+        "",
+        "Certified: inside the box, |this code - the full model| ≤ E·T. The last three columns",
+        "split E by cause. [`in_box`] says whether a state is inside.",
+    ]
+    .map(String::from)
+    .to_vec();
     let quantities = certificate.emitted.function.quantities();
     lines.extend(scale::sentences(certificate.relative_to, quantities));
     lines.push(String::new());
@@ -83,19 +83,12 @@ fn bounds(certificate: &Certificate, setup: &Setup) -> Vec<String> {
     ];
     let bounds = certificate.bounds.iter().zip(&certificate.scales);
     for (index, ((bound, scale), unit)) in bounds.zip(units).enumerate() {
-        let ErrorByCause {
-            model,
-            sincos,
-            rounding,
-        } = bound;
+        let errors = [bound.total(), bound.model, bound.sincos, bound.rounding];
         lines.push(format!(
-            "| {} | {} {unit} | {} | {} | {} | {} |",
+            "| {} | {} {unit} | {} |",
             certificate.emitted.entry(index),
             at_least(*scale),
-            up(bound.total()),
-            up(*model),
-            up(*sincos),
-            up(*rounding)
+            errors.map(up).join(" | ")
         ));
     }
     lines

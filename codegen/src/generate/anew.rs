@@ -15,11 +15,8 @@ pub fn generate_anew(
     request: &Request,
     shown: &str,
 ) -> Result<Generated, GenerateError> {
-    let (what, scene) = match generate(robot, request) {
-        Err(GenerateError::StalePlan { robot }) => (format!("`{robot}`"), request.scene.as_ref()),
-        Err(GenerateError::StaleScene { scene }) => {
-            (format!("the scene `{scene}`"), request.scene.as_ref())
-        }
+    let what = match generate(robot, request) {
+        Err(GenerateError::Stale(what, _)) => what,
         other => return other,
     };
     let without = Request {
@@ -27,6 +24,7 @@ pub fn generate_anew(
         ..request.clone()
     };
     let mut generated = generate(robot, &without)?;
+    let scene = request.scene.as_ref();
     let scene = scene.map(|scene| format!("--scene {} ", scene.name));
     generated.warnings.push(format!(
         "the plan beside {shown} no longer fits {what}, which was edited since: a search took its \

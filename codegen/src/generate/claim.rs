@@ -11,7 +11,7 @@ use crate::language::Language;
 use crate::language::names::Names;
 use crate::program::ScalarType;
 use crate::setup::Setup;
-use crate::task::{Job, Request};
+use crate::task::Request;
 use crate::words::Complaint;
 
 /// Returns the claim about the functions that were generated for the robot of a file.
@@ -26,12 +26,7 @@ pub fn claim(
 ) -> Result<Claim, Complaint> {
     let request = &*language::with_short_name(robot, request);
     let setup = &request.setup(robot)?;
-    let name = Job {
-        robot,
-        setup,
-        request,
-    }
-    .module_name();
+    let name = request.module_name(robot);
     let mut constants = Written::default();
     let functions = generated.functions.iter().map(|own| {
         // A header of the same functions has the same claim.
@@ -70,22 +65,15 @@ fn tolerated(certificates: &[Certificate], constants: &mut Written) -> Option<To
     let program = &first.emitted;
     let exact = Some(&first.exact).filter(|exact| *exact != program);
     let [steps, returns] = exact.map_or_else(Default::default, |own| code(own, constants));
-    let limits = &first.limits;
-    let lists = [&limits.position, &limits.velocity, &limits.acceleration];
-    let given = [
-        Argument::Position,
-        Argument::Velocity,
-        Argument::Acceleration,
-    ]
-    .map(|own| program.arguments.contains(&own));
-    let ranges = [0, 1, 2].map(|place| {
-        let list = lists[place].iter().filter(|_| given[place]);
-        list.map(|range| [range.low(), range.high()]).collect()
+    let is_given = |own: &Argument| program.arguments.contains(own);
+    let ranges = Argument::STATE.map(|own| {
+        let ranges = first.limits.of_argument(own).iter();
+        let ranges = ranges.filter(|_| is_given(&own));
+        ranges.map(|range| [range.low(), range.high()]).collect()
     });
     let reached = first.reached.iter().map(|at| {
-        let lists = [&at.q, &at.qd, &at.qdd].into_iter().zip(given);
-        let lists = lists.filter(|own| own.1);
-        lists.flat_map(|own| own.0.iter().copied()).collect()
+        let given = Argument::STATE.iter().filter(|own| is_given(own));
+        given.flat_map(|own| at.entries(*own)).copied().collect()
     });
     let bounds = |scalar: ScalarType| {
         let own = certificates.iter().find(|own| own.scalar == scalar);

@@ -3,11 +3,10 @@
 use std::fmt;
 
 use crate::approximate::error::ToleranceError;
-use crate::certificate::Refuted;
 use crate::function::{Argument, Function};
 use crate::program::ScalarType;
 use crate::verify::exact::Disproof;
-use crate::words::Complaint;
+use crate::words::{Complaint, complaint};
 
 /// Why nothing was generated.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,35 +16,15 @@ pub enum GenerateError {
     Refused(Option<Function>, Complaint),
     /// A parameter cannot be an argument, of a function if it is about one.
     Parameter(Option<Function>, Complaint),
-    /// The plan is for another robot, or for this one before an edit.
-    StalePlan {
-        /// The robot that the plan names.
-        robot: String,
-    },
-    /// The plan's program is for the scene before an edit. A plan keeps the
-    /// scene's hash alone, so what was edited is not known.
-    StaleScene {
-        /// The scene.
-        scene: String,
-    },
+    /// The plan is for another robot, or for this robot or scene, which is named, before an edit. It
+    /// keeps hashes alone, so what was edited is not known.
+    Stale(String, Complaint),
     /// A constant is beyond the scalar's range, or rounds to zero.
-    Constant {
-        /// The function that needs it.
-        function: Function,
-        /// The scalar that cannot hold it.
-        scalar: ScalarType,
-        /// Its value, roughly.
-        value: String,
-    },
+    Constant(Function, Complaint),
     /// No polynomial gives a sine as exactly as was wanted.
     SinCos(Function, Complaint),
     /// D has no inverse in any state.
-    Singular {
-        /// Which function needs one.
-        function: Function,
-        /// The joint that moves no inertia, as messages name it.
-        joint: String,
-    },
+    Singular(Function, Complaint),
     /// The program is not the formula: a defect of this library, a plan's
     /// program of something else, or parameters that cannot be proved with.
     Disproved(Function, Disproof),
@@ -58,7 +37,7 @@ pub enum GenerateError {
     /// No variant meets the scene's tolerance.
     Tolerance(Function, ToleranceError),
     /// The plan's variant is none of the plan's program.
-    Variant(Function, Refuted),
+    Variant(Function, Complaint),
 }
 
 impl GenerateError {
@@ -75,6 +54,26 @@ impl GenerateError {
     pub fn empty() -> GenerateError {
         let help = "name an output and a scalar";
         GenerateError::refused(None, "nothing to generate", help)
+    }
+
+    /// Refuses a plan of this robot before an edit.
+    pub(super) fn stale_plan(robot: &str) -> GenerateError {
+        let message = format!(
+            "the plan beside the robot file no longer fits `{robot}`: a parameter, a limit or a name \
+             was changed since; make it anew with `dalembert generate ROBOT --save-plan` and the \
+             effort that it was made with, or delete it"
+        );
+        GenerateError::Stale(format!("`{robot}`"), complaint(message))
+    }
+
+    /// Refuses a plan's program of this scene before an edit.
+    pub(super) fn stale_scene(scene: &str) -> GenerateError {
+        let message = format!(
+            "the plan no longer fits the scene `{scene}`: the scene was edited, the robot was not; \
+             make its program anew with `dalembert generate ROBOT --scene {scene} --save-plan` and \
+             the effort that it was made with, or delete the plan"
+        );
+        GenerateError::Stale(format!("the scene `{scene}`"), complaint(message))
     }
 
     /// Refuses what has something of each link, of a robot whose joints follow others.
@@ -100,12 +99,12 @@ impl GenerateError {
     /// Returns the function that it is about, if it is about one.
     pub fn function(&self) -> Option<Function> {
         match self {
-            GenerateError::StalePlan { .. } | GenerateError::StaleScene { .. } => None,
+            GenerateError::Stale(..) => None,
             GenerateError::Refused(function, _) | GenerateError::Parameter(function, _) => {
                 *function
             }
-            GenerateError::Constant { function, .. }
-            | GenerateError::Singular { function, .. }
+            GenerateError::Constant(function, _)
+            | GenerateError::Singular(function, _)
             | GenerateError::Base(function, _)
             | GenerateError::Defect(function, ..)
             | GenerateError::SinCos(function, _)
@@ -126,38 +125,10 @@ impl From<Complaint> for GenerateError {
 impl fmt::Display for GenerateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            GenerateError::Refused(_, why) | GenerateError::Parameter(_, why) => why.fmt(f),
-            GenerateError::StalePlan { robot } => write!(
-                f,
-                "the plan beside the robot file no longer fits `{robot}`: a parameter, a limit or a \
-                 name was changed since; make it anew with `dalembert generate ROBOT --save-plan` \
-                 and the effort that it was made with, or delete it"
-            ),
-            GenerateError::StaleScene { scene } => write!(
-                f,
-                "the plan no longer fits the scene `{scene}`: the scene was edited, the robot was \
-                 not; make its program anew with `dalembert generate ROBOT --scene {scene} \
-                 --save-plan` and the effort that it was made with, or delete the plan"
-            ),
-            GenerateError::Constant {
-                function,
-                scalar,
-                value,
-            } => write!(
-                f,
-                "`{function}` needs the constant {value}, which {scalar} cannot hold: \
-                 choose other units{}",
-                match scalar {
-                    ScalarType::F32 => " or a wider scalar",
-                    ScalarType::F64 => "",
-                }
-            ),
-            GenerateError::Singular { function, joint } => write!(
-                f,
-                "`{function}`: D is singular in every state, since {joint} moves no inertia while \
-                 the joints after it are free: give what it moves mass or inertia, or the joint \
-                 an `armature`, or lock it in a scene"
-            ),
+            GenerateError::Refused(_, why)
+            | GenerateError::Parameter(_, why)
+            | GenerateError::Stale(_, why)
+            | GenerateError::Constant(_, why) => why.fmt(f),
             GenerateError::Disproved(function, disproof) => write!(f, "`{function}`: {disproof}"),
             GenerateError::Defect(function, scalar, why) => {
                 let scalar = scalar.map_or(String::new(), |scalar| format!(" in {scalar}"));
@@ -166,9 +137,9 @@ impl fmt::Display for GenerateError {
                     "`{function}`{scalar}: {why}; please report this defect of dalembert"
                 )
             }
-            GenerateError::SinCos(function, why) | GenerateError::Base(function, why) => {
-                write!(f, "`{function}`: {why}")
-            }
+            GenerateError::SinCos(function, why)
+            | GenerateError::Base(function, why)
+            | GenerateError::Singular(function, why) => write!(f, "`{function}`: {why}"),
             GenerateError::Tolerance(function, why) => write!(f, "`{function}`: {why}"),
             GenerateError::Variant(function, why) => {
                 write!(

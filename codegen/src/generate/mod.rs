@@ -31,13 +31,14 @@ use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 use dalembert_stamp::{Comment, Stamp};
 
-pub use crate::approximate::error::{ToleranceError, Unbounded};
+pub use crate::approximate::error::ToleranceError;
+use crate::approximate::error::{FOLLOWS, FRICTION, unbounded};
 use crate::bound::definite::is_definite;
 use crate::bound::input_box::InputBox;
 use crate::emit::GeneratedFunction;
 use crate::emit::header;
 use crate::emit::module;
-use crate::function::{Columns, Function};
+use crate::function::Function;
 use crate::language::Language;
 use crate::language::c99::Names;
 use crate::language::read::{Signature, TextError};
@@ -143,7 +144,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     if job.tolerance().is_some() {
         let mut functions = request.functions.iter();
         if let Some(&function) = functions.find(|&&f| depends_on_coulomb(setup.task(f))) {
-            let why = ToleranceError::Function(Unbounded::Friction);
+            let why = ToleranceError::Refused(complaint(FRICTION));
             return Err(GenerateError::Tolerance(function, why));
         }
     }
@@ -236,17 +237,18 @@ fn check(robot: &Robot, request: &Request) -> Result<(), GenerateError> {
     if let Some(plan) = &request.plan
         && plan.input != input_hash(robot)
     {
-        let robot = plan.robot.clone();
-        return Err(GenerateError::StalePlan { robot });
+        return Err(GenerateError::stale_plan(&plan.robot));
     }
     let scene = request.scene.as_ref();
     let has_tolerance = scene.is_some_and(|scene| scene.tolerance.is_some());
-    let mut unbounded = request.functions.iter();
-    let follows = (!robot.followers.is_empty()).then_some(Unbounded::Follows);
-    let refusal = unbounded.find_map(|&f| Some((f, follows.or_else(|| Unbounded::of(f))?)));
-    match refusal.filter(|_| has_tolerance) {
+    let refused = |&function: &Function| match robot.followers.is_empty() {
+        true => Some((function, unbounded(function)?)),
+        false => Some((function, complaint(FOLLOWS))),
+    };
+    let mut functions = request.functions.iter();
+    match functions.find_map(refused).filter(|_| has_tolerance) {
         Some((function, why)) => {
-            let why = ToleranceError::Function(why);
+            let why = ToleranceError::Refused(why);
             Err(GenerateError::Tolerance(function, why))
         }
         None => Ok(()),
@@ -293,11 +295,7 @@ fn attempt(job: &Job<'_>) -> Result<Found, GenerateError> {
 /// Returns a function with its program, from the plan or searched for, and the program's proof.
 fn proved(job: &Job<'_>, function: Function) -> Result<GeneratedFunction, GenerateError> {
     let setup = job.setup;
-    let base = match function.columns() {
-        Columns::Base(quantity) => Some(setup.base(quantity)),
-        Columns::Links | Columns::None => None,
-    };
-    let base = base.transpose();
+    let base = setup.base_of(function);
     let base = base.map_err(|why| GenerateError::Base(function, why.clone()))?;
     let outputs = function.outputs(setup.sizes(function));
     if outputs > MAX_OUTPUTS {
@@ -312,8 +310,15 @@ fn proved(job: &Job<'_>, function: Function) -> Result<GeneratedFunction, Genera
     if function.inverts_inertia()
         && let Some(joint) = without_inertia(setup.task(function))
     {
-        let joint = setup.robot().joint_label(joint);
-        return Err(GenerateError::Singular { function, joint });
+        let message = format!(
+            "D is singular in every state, since {} moves no inertia while the joints after it are \
+             free",
+            setup.robot().joint_label(joint)
+        );
+        let help = "give what it moves mass or inertia, or the joint an `armature`, or lock it in a \
+                    scene";
+        let why = Complaint::new(message, help);
+        return Err(GenerateError::Singular(function, why));
     }
     let entry = replay(job, job.request.plan.as_ref(), function)?;
     let (source, passes, program, refused) = match entry {
@@ -412,13 +417,8 @@ fn read_back(
     let scalar = code.scalar;
     let fail = |why| GenerateError::Defect(generated.function, Some(scalar), why);
     let signature = Signature::of(&generated.program, scalar);
-    let read = match request.language {
-        Language::Rust => Code::read_rust(text, &signature, request.batch),
-        Language::C | Language::Cuda => {
-            let names = Names::new(&job.module_name(), request.language, scalar);
-            Code::read_c(text, &signature, &names, request.batch)
-        }
-    };
+    let names = Names::new(&request.module_name(job.robot), request.language, scalar);
+    let read = Code::read(text, &signature, &names, request.batch);
     let read = read.map_err(|error| fail(error.to_string()))?;
     if let Some(difference) = read.difference(code) {
         return Err(fail(difference.to_string()));

@@ -3,7 +3,7 @@
 use dalembert_model::outputs::{PayloadDependence, RuntimeParameter};
 
 use super::GenerateError;
-use crate::approximate::error::Unbounded;
+use crate::approximate::error::reads;
 use crate::function::Function;
 use crate::language::Language;
 use crate::seeds::Start;
@@ -28,7 +28,7 @@ pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
             Some((function, parameter.argument()))
         });
         if let Some((function, argument)) = taking {
-            let why = Unbounded::Reads(argument);
+            let why = reads(argument);
             return Err(refused(Some(function), format!("`{function}`: {why}"), ""));
         }
     }
@@ -40,8 +40,9 @@ pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
         );
         return Err(refused(None, message, "leave `batch` out"));
     }
-    let given = scene.filter(|scene| scene.gravity.is_some());
-    if let (true, Some(scene)) = (setup.has(RuntimeParameter::Gravity), given) {
+    if let Some(scene) = scene.filter(|scene| scene.gravity.is_some())
+        && setup.has(RuntimeParameter::Gravity)
+    {
         let message = format!(
             "the scene `{}` says what gravity is, so it is no argument",
             scene.name
@@ -72,11 +73,9 @@ pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
             format!("generate `{function}` without `payload`, or give the payload in a scene");
         return Err(refused(Some(function), message, &help));
     }
-    match setup.load().is_some_and(|load| !load.rows.is_empty()) {
-        true => Ok(()),
-        false => {
-            let message = "no joint that moves feels a payload".to_owned();
-            Err(refused(None, message, "leave it out of the parameters"))
-        }
+    if setup.load().is_none_or(|load| load.rows.is_empty()) {
+        let message = "no joint that moves feels a payload".to_owned();
+        return Err(refused(None, message, "leave it out of the parameters"));
     }
+    Ok(())
 }

@@ -13,6 +13,7 @@ use crate::dag::{Node, Points};
 use crate::function::Argument;
 use crate::program::{Program, ScalarType};
 use crate::setup::Setup;
+use crate::words::Complaint;
 
 /// Returns a parameter that the search or the proof cannot tell from zero.
 pub(super) fn vanishing(setup: &Setup) -> Option<Exact> {
@@ -46,11 +47,17 @@ pub(super) fn check_constants(
             continue;
         }
         if !rounded.is_finite() || (rounded == 0.0 && !constant.is_zero()) {
-            return Err(GenerateError::Constant {
-                function: program.function,
-                scalar,
-                value: roughly(constant),
-            });
+            let message = format!(
+                "`{}` needs the constant {:e}, which {scalar} cannot hold",
+                program.function,
+                f64::nearest(constant)
+            );
+            let help = match scalar {
+                ScalarType::F32 => "choose other units or a wider scalar",
+                ScalarType::F64 => "choose other units",
+            };
+            let why = Complaint::new(message, help);
+            return Err(GenerateError::Constant(program.function, why));
         }
         if rounded != 0.0 && rounded.abs() < scalar.least_normal() {
             warnings.push(format!(
@@ -86,8 +93,4 @@ pub(super) fn warn_of_overflow(
             overflows.len() - 1
         ));
     }
-}
-
-fn roughly(constant: &Exact) -> String {
-    format!("{:e}", f64::nearest(constant))
 }

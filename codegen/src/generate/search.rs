@@ -12,6 +12,7 @@ use crate::search::{self, Effort, Pass, Searched};
 use crate::seeds::start::{Approach, Problem};
 use crate::seeds::{Limit, Seed, Source, Tuned};
 use crate::setup::{ParametersKey, SceneKey, Task, input_hash};
+use crate::task::Prefer;
 use crate::verify::accuracy::{AccuracyFilter, Refused};
 use crate::verify::exact::prove;
 use crate::watch::{FunctionWatch, Part};
@@ -23,13 +24,10 @@ pub fn replay<'a>(
     function: Function,
 ) -> Result<Option<&'a Entry>, GenerateError> {
     let Job { setup, request, .. } = *job;
-    let Some(plan) = plan else {
+    // A load is its definition: nothing was searched for.
+    let Some(plan) = plan.filter(|_| function != Function::Load) else {
         return Ok(None);
     };
-    // Its definition: nothing was searched for.
-    if function == Function::Load {
-        return Ok(None);
-    }
     let scene = setup.scene();
     let parameters = ParametersKey::find(setup.task(function));
     let find = |scene| {
@@ -49,9 +47,7 @@ pub fn replay<'a>(
     match (found, scene) {
         // A program of the scene as it was is a program of another scene.
         (Some(entry), Some(scene)) if entry.scene != Some(SceneKey::new(scene)) => {
-            Err(GenerateError::StaleScene {
-                scene: scene.name.clone(),
-            })
+            Err(GenerateError::stale_scene(&scene.name))
         }
         _ => Ok(found),
     }
@@ -116,34 +112,33 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     fn new(job: &Job<'a>, function: Function) -> Search<'a> {
         let task = job.setup.task(function);
+        let is_lenient = job.request.prefer == Prefer::Operations;
         Search {
             job: *job,
             task,
-            judge: match job.is_lenient() {
-                true => AccuracyFilter::lenient(task),
-                false => AccuracyFilter::new(task),
-            },
+            judge: AccuracyFilter::new(task, is_lenient),
         }
     }
 
     fn cheapest(&self) -> Result<Found, GenerateError> {
         let request = self.job.request;
         let watch = request.watch.over(self.task.function);
+        let nobody = FunctionWatch::default();
         // Who wants an end before a function's turn gets the quick search for it.
         if watch.is_over() {
-            return self.quick(None);
+            return self.quick(nobody);
         }
         let tell = |part, best| watch.step(part, [0, 1], best);
         tell(Part::Formulations, None);
         // Nobody ends the quick search inside a thorough one: that is at least as good.
         let is_quick = request.effort == Effort::Quick;
-        let quick = self.quick(is_quick.then_some(watch))?;
+        let quick = self.quick(if is_quick { watch } else { nobody })?;
         if is_quick || watch.is_over() {
             tell(Part::Proof, Some(quick.searched.graph.counts()));
             return Ok(quick);
         }
         tell(Part::Formulations, Some(quick.searched.graph.counts()));
-        let mut found = self.run(Effort::Thorough, true, &[], Some(watch))?;
+        let mut found = self.run(Effort::Thorough, true, &[], watch)?;
         if found.cost() > quick.cost() {
             found = quick;
         } else {
@@ -179,13 +174,13 @@ impl<'a> Search<'a> {
             helpers: vec![found.searched.graph.clone()],
         };
         let watch = self.job.request.watch.over(self.task.function);
-        self.search_from(again, self.job.request.effort, true, Some(watch))
+        self.search_from(again, self.job.request.effort, true, watch)
     }
 
     /// Returns the quick search: without a limit first, since most robots need none.
     /// Where that costs too many digits, again within the limit, also from
     /// where the other one ended.
-    fn quick(&self, watch: Option<FunctionWatch<'_>>) -> Result<Found, GenerateError> {
+    fn quick(&self, watch: FunctionWatch<'_>) -> Result<Found, GenerateError> {
         let free = self.run(Effort::Quick, false, &[], watch)?;
         if self.judge.accepts(&free.searched.graph) {
             return Ok(free);
@@ -236,7 +231,7 @@ impl<'a> Search<'a> {
         effort: Effort,
         limited: bool,
         from: &[Regrouping<Exact>],
-        watch: Option<FunctionWatch<'_>>,
+        watch: FunctionWatch<'_>,
     ) -> Result<Found, GenerateError> {
         let start = self.job.request.start;
         let excess = |graph: &Dag, bound| self.judge.excess(graph, bound);
@@ -263,7 +258,7 @@ impl<'a> Search<'a> {
         approach: Approach,
         effort: Effort,
         limited: bool,
-        watch: Option<FunctionWatch<'_>>,
+        watch: FunctionWatch<'_>,
     ) -> Option<Found> {
         let Approach {
             tuned,
@@ -273,11 +268,8 @@ impl<'a> Search<'a> {
         let graphs: Vec<Dag> = seeds.iter().map(|seed| seed.graph.clone()).collect();
         let accept = |graph: &Dag| !limited || self.judge.accepts(graph);
         let goes_on = |rounds: [usize; 2], best: &Dag| {
-            let is_over = watch.is_some_and(|watch| {
-                watch.step(Part::Search, rounds, Some(best.counts()));
-                watch.is_over()
-            });
-            !is_over
+            watch.step(Part::Search, rounds, Some(best.counts()));
+            !watch.is_over()
         };
         Some(Found {
             tuned,

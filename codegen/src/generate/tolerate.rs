@@ -183,18 +183,15 @@ fn chosen(
     };
     let tolerances = budget.tolerances(tolerance);
     let bound_effort = bound_effort(job);
-    let settings = match request.effort {
+    let mut settings = match request.effort {
         Effort::Thorough if !over => thorough(request),
         _ => PruneSettings::QUICK,
     };
-    let settings = PruneSettings {
-        work: request.work.map(|work| work.saturating_sub(meter.done())),
-        ..settings
-    };
-    let admitted = match planned {
+    settings.work = request.work.map(|work| work.saturating_sub(meter.done()));
+    let mut admitted = match planned {
         Some(planned) => planned,
         None => {
-            let found = budget.choose(&tolerances, scalars, &settings, bound_effort);
+            let found = budget.choose(&[], &tolerances, scalars, &settings, bound_effort);
             let found = found.map_err(fail)?;
             // A quick search has bounded it so already.
             match bound_effort == BoundEffort::QUICK {
@@ -210,45 +207,36 @@ fn chosen(
     let with = |certificate: &Certificate| {
         budget.with_polynomials(certificate, &tolerances, BoundEffort::QUICK)
     };
-    let all = |admitted: &Admitted| -> Result<Vec<Certificate>, Complaint> {
-        admitted.certificates.iter().map(with).collect()
-    };
-    let mut admitted = match request.sincos {
-        SinCos::Libm | SinCos::Together => admitted,
+    match request.sincos {
+        SinCos::Libm | SinCos::Together => {}
         SinCos::Auto => {
-            let or_called = |c: &Certificate| with(c).unwrap_or_else(|_| c.clone());
-            let certificates = admitted.certificates.iter().map(or_called).collect();
-            Admitted {
-                certificates,
-                ..admitted
+            for certificate in &mut admitted.certificates {
+                if let Ok(found) = with(certificate) {
+                    *certificate = found;
+                }
             }
         }
         SinCos::Polynomial { .. } => {
+            let all = |admitted: &Admitted| -> Result<Vec<Certificate>, Complaint> {
+                admitted.certificates.iter().map(with).collect()
+            };
             // What was left out may have used up what polynomials need.
-            let found = all(&admitted).map(|certificates| (admitted, certificates));
-            let found = found.or_else(|_| {
-                let exact = budget.unedited(scalars, bound_effort);
-                all(&exact).map(|certificates| (exact, certificates))
+            let found = all(&admitted).or_else(|_| {
+                admitted = budget.unedited(scalars, bound_effort);
+                all(&admitted)
             });
-            let fail = |why| {
+            admitted.certificates = found.map_err(|why| {
                 let message = format!("no polynomials for its sines within the tolerance: {why}");
                 GenerateError::SinCos(function, complaint(message))
-            };
-            let (admitted, certificates) = found.map_err(fail)?;
-            Admitted {
-                certificates,
-                ..admitted
-            }
+            })?;
         }
-    };
+    }
     let finished = job.finished(&admitted.program);
     if finished != admitted.program {
-        let with = |certificate: &Certificate| {
+        for certificate in &mut admitted.certificates {
             let found = budget.with_emitted(certificate, &finished, &tolerances, bound_effort);
-            found.map_err(fail)
-        };
-        let all: Result<_, GenerateError> = admitted.certificates.iter().map(with).collect();
-        admitted.certificates = all?;
+            *certificate = found.map_err(fail)?;
+        }
     }
     for certificate in &mut admitted.certificates {
         *certificate = certificate.calling(request.library());
@@ -258,12 +246,9 @@ fn chosen(
 
 /// Another regrouping may be looked for only where the start may be any.
 fn thorough(request: &Request) -> PruneSettings {
-    let sweeps = match request.start == Start::Auto {
-        true => PruneSettings::THOROUGH.sweeps,
-        false => 0,
-    };
-    PruneSettings {
-        sweeps,
-        ..PruneSettings::THOROUGH
+    let mut settings = PruneSettings::THOROUGH;
+    if request.start != Start::Auto {
+        settings.sweeps = 0;
     }
+    settings
 }

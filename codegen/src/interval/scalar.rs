@@ -3,6 +3,7 @@
 use dalembert_model::scalar::{Divide, Scalar};
 
 use super::Interval;
+use super::doubles::around;
 
 impl Scalar for Interval {
     fn zero() -> Self {
@@ -21,7 +22,7 @@ impl Scalar for Interval {
         *self * *other
     }
     fn neg(&self) -> Self {
-        self.negated()
+        -*self
     }
     fn half(&self) -> Self {
         *self * Interval::point(0.5)
@@ -38,14 +39,12 @@ impl Divide for Interval {
             return Interval::ALL;
         }
         // Correctly rounded like products: one double outward encloses.
-        let ends = [self.low(), self.high()].map(|x| [other.low(), other.high()].map(|y| x / y));
-        let [[a, b], [c, d]] = ends;
-        if (a + b + c + d).is_nan() {
-            return Interval::ALL;
-        }
-        let least = a.min(b).min(c.min(d)).next_down();
-        let most = a.max(b).max(c.max(d)).next_up();
-        Interval::new(least, most).unwrap_or(Interval::ALL)
+        around([
+            self.low() / other.low(),
+            self.low() / other.high(),
+            self.high() / other.low(),
+            self.high() / other.high(),
+        ])
     }
 }
 

@@ -8,6 +8,7 @@ use dalembert_checker::read::{self, Head, Source, Text};
 
 use crate::dag::Dag;
 use crate::function::{Argument, Function, Sizes};
+use crate::language::Language;
 use crate::language::names::Names;
 use crate::program::kernel::{Angle, Kernel, Need};
 use crate::program::{
@@ -56,48 +57,36 @@ impl<'a> Signature<'a> {
             is_single: self.scalar == ScalarType::F32,
             arguments: arguments.collect(),
             fields: fields.collect(),
-            structure: self.function.structure(),
             joints: self.sizes.joints,
         }
     }
 }
 
 impl Code {
-    /// Reads a function out of a module's text in Rust, and its function of columns if it has one.
-    ///
-    /// # Errors
-    /// The first line that is not of such a function, or not of its columns.
-    pub fn read_rust(
-        text: &Text<'_>,
-        signature: &Signature<'_>,
-        has_columns: bool,
-    ) -> Result<Code, TextError> {
-        let (read, _) = text.rust_function(&signature.head(), has_columns)?;
-        code(read, signature.scalar)
-    }
-
-    /// Reads a function out of the text of a header in C or CUDA, and its function of any number of
-    /// states if it has one.
+    /// Reads a function out of a module's text, by its names in C or CUDA, and its function of any
+    /// number of states if it has one.
     ///
     /// # Errors
     /// The first line that is not of such a function.
-    pub fn read_c(
+    pub fn read(
         text: &Text<'_>,
         signature: &Signature<'_>,
         names: &Names,
-        has_batch: bool,
+        has_many: bool,
     ) -> Result<Code, TextError> {
-        let symbols = names.symbols(signature.function);
-        let (read, _) = text.c_function(&signature.head(), &symbols, has_batch)?;
+        let is_c = names.language() != Language::Rust;
+        let symbols = is_c.then(|| names.symbols(signature.function));
+        let (read, _) = text.function(&signature.head(), symbols.as_ref(), has_many)?;
         code(read, signature.scalar)
     }
 
     /// Reads a function out of a text in Rust.
     ///
     /// # Errors
-    /// As [`Code::read_rust`].
+    /// As [`Code::read`].
     pub fn parse(text: &str, signature: &Signature<'_>) -> Result<Code, TextError> {
-        Code::read_rust(&Text::rust(text)?, signature, false)
+        let names = Names::new("", Language::Rust, signature.scalar);
+        Code::read(&Text::rust(text)?, signature, &names, false)
     }
 
     /// Compares with the program and its sines, in the text's scalar: every
@@ -165,8 +154,8 @@ fn code(read: read::Function, scalar: ScalarType) -> Result<Code, TextError> {
 pub(crate) fn input<C>(operand: &Read<C>) -> Input {
     match operand {
         Read::Entry(argument, index) => Input::Entry(Argument::ALL[*argument], *index),
-        Read::Sine(angle, true) => Input::Sin(angle[0].0),
-        Read::Sine(angle, false) => Input::Cos(angle[0].0),
+        Read::Sine(joint, true) => Input::Sin(*joint),
+        Read::Sine(joint, false) => Input::Cos(*joint),
         Read::Speed(joint) => Input::PerSpeed(*joint),
         Read::Step(_) | Read::Constant(_) => unreachable!("no input"),
     }

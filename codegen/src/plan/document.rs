@@ -1,7 +1,7 @@
 //! A plan as a document: what is claimed of each program, and what was searched for.
 
 use dalembert_checker::Fault;
-use dalembert_checker::claim::{Claim, Claimed, Constants, Planned, Tolerated};
+use dalembert_checker::claim::{Claim, Claimed, Planned, Tolerated};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
@@ -53,7 +53,7 @@ impl Plan {
             text.parse::<Exact>().map_err(wrong)
         };
         let constants = document.constants.iter().map(constant);
-        let constants = Constants(constants.collect::<Result<_, _>>()?);
+        let constants = constants.collect::<Result<Vec<Exact>, Complaint>>()?;
         let entries = document.functions.iter().map(|own| {
             let wrong = |why: Complaint| complaint(format!("`{}`: {why}", own.function));
             entry(own, &constants).map_err(wrong)
@@ -118,7 +118,7 @@ impl Entry {
 }
 
 /// Reads an entry.
-fn entry(own: &Claimed, constants: &Constants<Exact>) -> Result<Entry, Complaint> {
+fn entry(own: &Claimed, constants: &[Exact]) -> Result<Entry, Complaint> {
     let unknown = |what: &str, word: &str| complaint(format!("`{word:.40}` is no {what}"));
     let planned = (own.planned.as_ref())
         .ok_or_else(|| complaint("there is no `planned`: what was searched for"))?;

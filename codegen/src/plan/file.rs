@@ -28,6 +28,15 @@ pub fn announce(robot_file: &Path) -> std::io::Result<()> {
     file.set_modified(std::time::SystemTime::now())
 }
 
+/// Reads at most one byte more than a file may have, which is enough for its reader to say so; the
+/// path may be a device without end.
+pub(crate) fn bytes(path: &Path, most: usize) -> std::io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let file = File::open(path)?;
+    file.take(most as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
 /// Reads the plan beside a robot file; there need not be one.
 ///
 /// # Errors
@@ -41,14 +50,11 @@ pub fn beside(robot_file: &Path) -> Result<Option<Plan>, Complaint> {
             "cannot read `{shown}`: a plan is a file"
         )));
     }
-    let mut bytes = Vec::new();
-    let read =
-        File::open(&path).and_then(|file| file.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes));
-    match read {
+    let bytes = match bytes(&path, MOST_BYTES) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(complaint(format!("cannot read `{shown}`: {error}"))),
-        Ok(_) => {}
-    }
+        Ok(bytes) => bytes,
+    };
     let text =
         String::from_utf8(bytes).map_err(|_| complaint(format!("`{shown}` is not UTF-8")))?;
     let plan = Plan::parse(&text);

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 
 use dalembert_model::number::Exact;
+use dalembert_model::scalar::Divide;
 
 use super::kernel::{Kernel, Need};
-use super::lanes::{LANES, Lanes};
 use super::machine::Machine;
 use super::{Counts, Input, Library, Literal, Program, ScalarType, Speed};
+use crate::dag::lanes::{LANES, Lanes};
 use crate::dag::{Dag, Leaves};
 use crate::function::Argument;
 use crate::states::{JointState, State};
@@ -96,29 +97,26 @@ impl Code {
 
     /// Counts the operations, with those of the polynomials for sines.
     pub fn counts(&self) -> Counts {
-        let kernels = self.pairs.iter().filter_map(|pair| pair.kernel.as_ref());
-        let trig = kernels.map(Kernel::counts);
-        let (trig_mul, trig_add) = trig.fold((0, 0), |(m, a), (mul, add)| (m + mul, a + add));
         let own = Counts {
             sincos: self.pairs.len(),
-            trig_mul,
-            trig_add,
             ..self.dag.arithmetic()
         };
-        own.with_speeds(self.speeds.len())
+        let kernels = self.pairs.iter().filter_map(|pair| pair.kernel.as_ref());
+        own.with_speeds(self.speeds.len()).with_kernels(kernels)
     }
 
     /// Runs the code bit for bit at a state; none if the state lacks an entry that is read.
-    pub fn run<T: Machine>(&self, state: &State<T>) -> Option<Vec<T>> {
-        let inputs = Inputs::new(self, std::slice::from_ref(state))?;
-        Some(self.dag.run(&First(inputs)))
+    fn run<T: Machine>(&self, state: &State<T>) -> Option<Vec<T>> {
+        let inputs = self.inputs(std::slice::from_ref(state))?;
+        Some(self.dag.run(&leaves(inputs, |lanes| lanes.0[0])))
     }
 
-    /// Runs the code at many states, with the bits of [`Code::run`]; returns a column a result.
+    /// Runs the code bit for bit at many states; returns a column a result, none if a state lacks
+    /// an entry that is read.
     pub fn run_many<T: Machine>(&self, states: &[State<T>]) -> Option<Vec<Vec<T>>> {
         let mut columns = vec![Vec::with_capacity(states.len()); self.dag.outputs.len()];
         for states in states.chunks(LANES) {
-            let results = self.dag.run(&Inputs::new(self, states)?);
+            let results = self.dag.run(&leaves(self.inputs(states)?, |lanes| lanes));
             for (column, Lanes(lanes)) in columns.iter_mut().zip(results) {
                 column.extend(&lanes[..states.len()]);
             }
@@ -138,102 +136,78 @@ impl Code {
 
     /// Runs the code at many states, as [`Code::run_at`]; returns a column a result.
     pub fn run_at_many(&self, states: &[JointState]) -> Vec<Vec<f64>> {
-        let states = states.iter();
-        let results = match self.scalar {
-            ScalarType::F64 => {
-                let states: Vec<State<f64>> = states.map(JointState::numbers).collect();
-                self.run_many(&states)
-            }
-            ScalarType::F32 => {
-                let states: Vec<State<f32>> = states.map(JointState::numbers).collect();
-                let columns = self.run_many(&states);
-                columns.map(|columns| columns.into_iter().map(widened).collect())
-            }
-        };
-        results.unwrap_or_default()
+        fn columns<T: Machine>(code: &Code, states: &[JointState]) -> Vec<Vec<f64>> {
+            let states: Vec<State<T>> = states.iter().map(JointState::numbers).collect();
+            let columns = code.run_many(&states).unwrap_or_default();
+            columns.into_iter().map(widened).collect()
+        }
+        match self.scalar {
+            ScalarType::F64 => columns::<f64>(self, states),
+            ScalarType::F32 => columns::<f32>(self, states),
+        }
     }
-}
 
-impl Code {
     /// Returns the value of each node at a state, in doubles; none where the state lacks an entry
     /// that is read.
     pub(crate) fn values_at(&self, state: &JointState) -> Vec<f64> {
-        let inputs = Inputs::new(self, &[state.numbers()]);
-        inputs.map_or_else(Vec::new, |inputs| self.dag.values(&First(inputs)))
+        let inputs = self.inputs::<f64>(&[state.numbers()]);
+        let values = inputs.map(|inputs| self.dag.values(&leaves(inputs, |lanes| lanes.0[0])));
+        values.unwrap_or_default()
     }
-}
 
-fn widened(numbers: Vec<f32>) -> Vec<f64> {
-    numbers.into_iter().map(f64::from).collect()
-}
-
-impl Program {
-    /// Returns the program in f64, with libm's sines.
-    pub fn in_doubles(&self) -> Code {
-        Code::new(self, ScalarType::F64, Library::Libm, |_| None)
-    }
-}
-
-/// The inputs of code at a few states.
-struct Inputs<T>(BTreeMap<Input, Lanes<T>>);
-
-/// The inputs at the first of them.
-struct First<T>(Inputs<T>);
-
-impl<T: Machine> Inputs<T> {
-    /// Reads what the code reads; none if a state lacks an entry of it.
-    fn new(code: &Code, states: &[State<T>]) -> Option<Inputs<T>> {
+    /// Reads what the code reads at a few states; none if a state lacks an entry of it.
+    fn inputs<T: Machine>(&self, states: &[State<T>]) -> Option<BTreeMap<Input, Lanes<T>>> {
         let lanes = |argument: Argument, of: &dyn Fn(&[T]) -> Option<T>| {
             let values = states.iter().map(|state| of(&state[argument.index()]));
             Lanes::new(&values.collect::<Option<Vec<T>>>()?)
         };
         let mut inputs = BTreeMap::new();
-        for &input in code.dag.inputs() {
+        for &input in self.dag.inputs() {
             if let Input::Entry(argument, index) = input {
                 let entries = lanes(argument, &|entries| entries.get(index).copied())?;
                 inputs.insert(input, entries);
             }
         }
-        for pair in &code.pairs {
+        for pair in &self.pairs {
             let both = |state: &State<T>| {
                 let angle = state[Argument::Position.index()].get(pair.joint)?;
-                Some(pair.run(code.library, *angle))
+                Some(pair.run(self.library, *angle))
             };
             let both = states.iter().map(both).collect::<Option<Vec<_>>>()?;
             let (sines, cosines): (Vec<T>, Vec<T>) = both.into_iter().unzip();
             inputs.insert(Input::Sin(pair.joint), Lanes::new(&sines)?);
             inputs.insert(Input::Cos(pair.joint), Lanes::new(&cosines)?);
         }
-        for speed in &code.speeds {
+        for speed in &self.speeds {
             let value = lanes(Argument::Velocity, &|qd| speed.run(qd))?;
             inputs.insert(Input::PerSpeed(speed.joint), value);
         }
-        Some(Inputs(inputs))
+        Some(inputs)
     }
 }
 
-impl<T: Machine> Leaves<Literal, Input> for Inputs<T> {
-    type Value = Lanes<T>;
-
-    fn constant(&self, constant: &Literal) -> Lanes<T> {
-        Lanes([T::literal(constant.0); LANES])
-    }
-
-    fn input(&self, input: Input) -> Lanes<T> {
-        let known = self.0.get(&input).copied();
-        known.unwrap_or(Lanes([T::literal(f64::NAN); LANES]))
-    }
+/// Returns the leaves of code at a few states, or what is wanted of them.
+fn leaves<T: Machine, S: Divide>(
+    inputs: BTreeMap<Input, Lanes<T>>,
+    wanted: impl Fn(Lanes<T>) -> S + Copy,
+) -> impl Leaves<Literal, Input, Value = S> {
+    let number = move |x: f64| wanted(Lanes([T::literal(x); LANES]));
+    let constant = move |constant: &Literal| number(constant.0);
+    let input = move |input: Input| match inputs.get(&input) {
+        Some(lanes) => wanted(*lanes),
+        None => number(f64::NAN),
+    };
+    (constant, input)
 }
 
-impl<T: Machine> Leaves<Literal, Input> for First<T> {
-    type Value = T;
+fn widened<T: Machine>(numbers: Vec<T>) -> Vec<f64> {
+    numbers.into_iter().map(T::to_f64).collect()
+}
 
-    fn constant(&self, constant: &Literal) -> T {
-        T::literal(constant.0)
-    }
-
-    fn input(&self, input: Input) -> T {
-        self.0.input(input).0[0]
+impl Program {
+    /// Returns the program in f64, with libm's sines.
+    pub fn in_doubles(&self) -> Code {
+        Code::new(self, ScalarType::F64, Library::Libm, |_| None)
     }
 }
 

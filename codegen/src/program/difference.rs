@@ -7,27 +7,21 @@ impl Code {
     /// Returns the first difference from other code; none if they compute the same, operation by
     /// operation, in whatever order their constants and inputs stand.
     pub fn difference(&self, other: &Code) -> Option<Complaint> {
-        let counts = [self, other].map(|code| code.dag.operations().count());
-        let results = [self, other].map(|code| code.dag.outputs.len());
+        let (a, b) = (self, other);
+        let counts = [a, b].map(|code| code.dag.operations().count());
+        let results = [a, b].map(|code| code.dag.outputs.len());
         let parts = [
-            (self.scalar == other.scalar, "the scalars differ"),
-            (
-                self.library == other.library,
-                "the libraries of sines differ",
-            ),
-            (self.pairs == other.pairs, "the sines and cosines differ"),
-            (
-                self.speeds == other.speeds,
-                "what is read of speeds differs",
-            ),
+            (a.scalar == b.scalar, "the scalars differ"),
+            (a.library == b.library, "the libraries of sines differ"),
+            (a.pairs == b.pairs, "the sines and cosines differ"),
+            (a.speeds == b.speeds, "what is read of speeds differs"),
             (counts[0] == counts[1], "the number of operations differs"),
             (results[0] == results[1], "the number of results differs"),
         ];
-        let differs = parts.iter().find(|(is_equal, _)| !is_equal);
-        let differs = differs.map(|(_, what)| (*what).to_owned());
-        differs
-            .or_else(|| self.first_difference(other))
-            .map(complaint)
+        let differs = parts.into_iter().find(|(is_equal, _)| !is_equal);
+        let differs = differs.map(|(_, what)| what.to_owned());
+        let differs = differs.or_else(|| self.first_difference(other));
+        differs.map(complaint)
     }
 
     /// Compares operations and results one by one: equal operations read equal ones before them.

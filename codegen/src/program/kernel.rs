@@ -4,8 +4,8 @@
 //! Its kind of polynomial does not matter to any of these.
 
 use super::machine::Machine;
-use super::{Literal, Operation};
-use crate::dag::{Dag, Edge, Id, Leaves, Node, Writer};
+use super::{Counts, Literal, Operation};
+use crate::dag::{Dag, Edge, Id, Node, Writer};
 
 /// The one input of a kernel: its angle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -101,18 +101,17 @@ impl KernelWriter {
     }
 }
 
-/// An angle of a machine's numbers.
-struct At<T>(T);
-
-impl<T: Machine> Leaves<Literal, Angle> for At<T> {
-    type Value = T;
-
-    fn constant(&self, constant: &Literal) -> T {
-        T::literal(constant.0)
-    }
-
-    fn input(&self, _: Angle) -> T {
-        self.0
+impl Counts {
+    /// Returns the counts with those of polynomials for sines.
+    #[must_use]
+    pub fn with_kernels<'k>(mut self, kernels: impl Iterator<Item = &'k Kernel>) -> Counts {
+        for (_, operation, _) in kernels.flat_map(|kernel| kernel.dag.operations()) {
+            match operation {
+                Operation::Mul => self.trig_mul += 1,
+                _ => self.trig_add += 1,
+            }
+        }
+        self
     }
 }
 
@@ -123,22 +122,14 @@ impl Kernel {
     }
 
     /// Counts multiplications and additions.
-    pub fn counts(&self) -> (usize, usize) {
-        let operations = self.dag.operations();
-        operations.fold((0, 0), |(mul, add), (_, operation, _)| match operation {
-            Operation::Mul => (mul + 1, add),
-            _ => (mul, add + 1),
-        })
-    }
-
-    /// Counts multiplications and additions together.
     pub fn operations(&self) -> usize {
         self.dag.operations().count()
     }
 
     /// Runs it bit for bit. A result that is not wanted is the angle.
     pub fn run<T: Machine>(&self, angle: T) -> (T, T) {
-        let results = self.dag.run(&At(angle));
+        let literal = |literal: &Literal| T::literal(literal.0);
+        let results = self.dag.run(&(literal, |_: Angle| angle));
         let [sin, cos] = self.need.each(results);
         (sin.unwrap_or(angle), cos.unwrap_or(angle))
     }

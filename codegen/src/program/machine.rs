@@ -22,7 +22,7 @@ pub trait Machine: Divide + Copy {
     const SCALAR: ScalarType;
     /// Returns the literal's value: exact, since it was parsed in this type.
     fn literal(value: f64) -> Self;
-    /// Returns Exact.
+    /// Returns its value, which a double holds exactly.
     fn to_f64(self) -> f64;
     /// Returns the sine that emitted code calls when it needs no cosine.
     fn sin(self) -> Self;
@@ -38,9 +38,9 @@ pub trait Machine: Divide + Copy {
 }
 
 macro_rules! machine {
-    ($t:ty, $scalar:expr, $root:path, $sin:path, $cos:path, $sincos:path, $together:path) => {
+    ($t:ident, $scalar:ident, $root:ident, $sin:ident, $cos:ident, $sincos:ident) => {
         impl Machine for $t {
-            const SCALAR: ScalarType = $scalar;
+            const SCALAR: ScalarType = ScalarType::$scalar;
             fn literal(value: f64) -> Self {
                 value as $t
             }
@@ -48,39 +48,23 @@ macro_rules! machine {
                 self.into()
             }
             fn root(self) -> Self {
-                $root(self)
+                libm::$root(self)
             }
             fn sin(self) -> Self {
-                $sin(self)
+                libm::$sin(self)
             }
             fn cos(self) -> Self {
-                $cos(self)
+                libm::$cos(self)
             }
             fn sincos(self) -> (Self, Self) {
-                $sincos(self)
+                libm::$sincos(self)
             }
             fn together(self) -> (Self, Self) {
-                let ([sin], [cos]) = $together(&[self]);
+                let ([sin], [cos]) = dalembert_sines::$sincos(&[self]);
                 (sin, cos)
             }
         }
     };
 }
-machine!(
-    f64,
-    ScalarType::F64,
-    libm::sqrt,
-    libm::sin,
-    libm::cos,
-    libm::sincos,
-    dalembert_sines::sincos
-);
-machine!(
-    f32,
-    ScalarType::F32,
-    libm::sqrtf,
-    libm::sinf,
-    libm::cosf,
-    libm::sincosf,
-    dalembert_sines::sincosf
-);
+machine!(f64, F64, sqrt, sin, cos, sincos);
+machine!(f32, F32, sqrtf, sinf, cosf, sincosf);

@@ -7,12 +7,11 @@
 //!   library or by the polynomials of a [`kernel`]; `difference`: where two differ
 //! - [`library`]: who computes the sines that are called
 //! - [`steps`]: a program as a list of steps
-//! - [`machine`]: floats that run as emitted code does; [`lanes`]: several side by side
+//! - [`machine`]: floats that run as emitted code does
 
 pub(crate) mod code;
 mod difference;
 pub(crate) mod kernel;
-pub(crate) mod lanes;
 pub(crate) mod library;
 mod literal;
 pub(crate) mod machine;
@@ -98,10 +97,7 @@ impl Program {
         for edge in &mut graph.outputs {
             if let (true, Node::Constant(constant)) = (edge.negative, &graph.nodes[edge.index()]) {
                 let constant = Node::Constant(constant.neg());
-                *edge = Edge {
-                    negative: false,
-                    node: graph.nodes.len() as Id,
-                };
+                *edge = Edge::from(graph.nodes.len() as Id);
                 graph.nodes.push(constant);
             }
         }

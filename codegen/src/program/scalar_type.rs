@@ -19,28 +19,26 @@ words! {
 }
 
 impl ScalarType {
+    fn of<T>(self, double: T, single: T) -> T {
+        match self {
+            ScalarType::F64 => double,
+            ScalarType::F32 => single,
+        }
+    }
+
     /// Returns the suffix of libm's functions for this scalar.
     pub fn math_suffix(self) -> &'static str {
-        match self {
-            ScalarType::F64 => "",
-            ScalarType::F32 => "f",
-        }
+        self.of("", "f")
     }
 
     /// Returns u: half an ulp of 1.
     pub fn unit_roundoff(self) -> f64 {
-        match self {
-            ScalarType::F64 => f64::EPSILON / 2.0,
-            ScalarType::F32 => f64::from(f32::EPSILON) / 2.0,
-        }
+        self.of(f64::EPSILON, f32::EPSILON.into()) / 2.0
     }
 
     /// Returns the least number with a full significand.
     pub fn least_normal(self) -> f64 {
-        match self {
-            ScalarType::F64 => f64::MIN_POSITIVE,
-            ScalarType::F32 => f64::from(f32::MIN_POSITIVE),
-        }
+        self.of(f64::MIN_POSITIVE, f32::MIN_POSITIVE.into())
     }
 
     /// Returns the constant, rounded once from its exact value, as a double that
@@ -54,10 +52,7 @@ impl ScalarType {
 
     /// Returns the nearest number of the type, as a double that holds it exactly.
     pub fn nearest(self, value: f64) -> f64 {
-        match self {
-            ScalarType::F64 => value,
-            ScalarType::F32 => f64::from(value as f32),
-        }
+        self.of(value, f64::from(value as f32))
     }
 
     /// Returns the least number of the type that is not below a value, as a double
@@ -95,9 +90,6 @@ impl JointState {
 
 /// Returns half the least subnormal.
 pub(crate) fn underflow(scalar: ScalarType) -> f64 {
-    match scalar {
-        // Half of 2^−1074 is no double: the whole.
-        ScalarType::F64 => f64::from_bits(1),
-        ScalarType::F32 => f64::from(f32::from_bits(1)) / 2.0,
-    }
+    // Half of 2^−1074 is no double: the whole.
+    scalar.of(f64::from_bits(1), f64::from(f32::from_bits(1)) / 2.0)
 }

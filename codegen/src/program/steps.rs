@@ -48,15 +48,6 @@ pub struct Output<C = Exact, I = Input> {
     pub value: Operand<C, I>,
 }
 
-impl<C, I> Default for Steps<C, I> {
-    fn default() -> Self {
-        Steps {
-            steps: Vec::new(),
-            outputs: Vec::new(),
-        }
-    }
-}
-
 impl<C: Clone, I: Clone> Steps<C, I> {
     /// Lists the operations of a graph whose operands come before their users.
     pub fn new<D, J>(

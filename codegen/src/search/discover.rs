@@ -8,7 +8,7 @@ use dalembert_model::scalar::field::Field;
 use egg::Id as Class;
 use rustc_hash::FxHashMap;
 
-use super::egraph::{Classes, Kind, Way, way};
+use super::egraph::{Classes, Kind, PRODUCT, SUM, Way, way};
 use crate::program::Operation;
 
 /// Keys that were noted, by some of their bits: small enough to stay in a processor's cache.
@@ -120,21 +120,20 @@ pub(super) fn resubstitute(classes: &mut Classes, pool: &[Class]) {
     };
     for &(key, (op, [y, c])) in &pairs {
         if op != Operation::Mul && y != c {
-            meet(key, y, c, Kind::Sum);
-            meet(key, c, y, Kind::Sum);
+            meet(key, y, c, SUM);
+            meet(key, c, y, SUM);
         }
     }
     quotients(&mut |key, y, c| {
         if again.passes(key) {
-            meet(key, y, c, Kind::Product);
+            meet(key, y, c, PRODUCT);
         }
     });
     found.sort_unstable();
     for (y, c, outer, (op, ends)) in found {
-        let inner = if op == Operation::Mul {
-            Kind::Product
-        } else {
-            Kind::Sum
+        let inner = match op {
+            Operation::Mul => PRODUCT,
+            _ => SUM,
         };
         classes.nest(y, outer, c, inner, ends);
     }

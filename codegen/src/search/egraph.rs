@@ -117,7 +117,7 @@ impl Analysis<ENode> for Prints {
 impl Prints {
     fn way_print(&self, (operation, ends): Way) -> Fingerprint {
         let print = |id: Class| &self.prints[usize::from(id)];
-        Fingerprint::apply(operation, print(ends[0]), print(ends[1]))
+        operation.apply(print(ends[0]), print(ends[1]))
     }
 }
 
@@ -309,13 +309,9 @@ impl Classes {
         self.outputs = outputs
             .map(|e| flip(values[e.node as usize], e.negative))
             .collect();
-        let mut own: Vec<Class> = Vec::new();
+        let mut own: Vec<Class> = values.into_iter().flatten().map(|value| value.0).collect();
         let mut seen = vec![false; self.bound()];
-        for (class, _) in values.into_iter().flatten() {
-            if !std::mem::replace(&mut seen[usize::from(class)], true) {
-                own.push(class);
-            }
-        }
+        own.retain(|class| !std::mem::replace(&mut seen[usize::from(*class)], true));
         (own, choice)
     }
 
@@ -359,22 +355,10 @@ impl Classes {
     }
 }
 
-/// Operations up to sign: a sum and a difference are one kind.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) enum Kind {
-    Sum,
-    Product,
-}
-
-impl Kind {
-    /// Returns its operations.
-    pub(super) fn operations(self) -> &'static [Operation] {
-        match self {
-            Kind::Sum => &[Operation::Add, Operation::Sub],
-            Kind::Product => &[Operation::Mul],
-        }
-    }
-}
+/// Operations that differ in signs alone.
+pub(super) type Kind = &'static [Operation];
+pub(super) const SUM: Kind = &[Operation::Add, Operation::Sub];
+pub(super) const PRODUCT: Kind = &[Operation::Mul];
 
 impl Classes {
     /// Adds (b ∘ c) ∘ a as a way of a class, with those signs that give it; the inner value may
@@ -387,11 +371,11 @@ impl Classes {
         inner: Kind,
         [b, c]: [Class; 2],
     ) {
-        for &op in inner.operations() {
+        for &op in inner {
             let inner = way(op, [b, c]);
             let value = self.way_print(inner).canonical().0;
-            for &op in outer.operations() {
-                let whole = Fingerprint::apply(op, &value, self.print(a)).canonical().0;
+            for &op in outer {
+                let whole = op.apply(&value, self.print(a)).canonical().0;
                 if whole == *self.print(class)
                     && let Some((middle, _)) = self.add(inner)
                 {

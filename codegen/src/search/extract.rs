@@ -47,7 +47,7 @@ const NONE: u32 = u32::MAX;
 
 /// A way as the search sees it: leaves have one that costs nothing; a sine and a cosine read their
 /// angle, which costs their evaluation.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Step {
     cost: u64,
     reads: [u32; 2],
@@ -76,39 +76,35 @@ pub(super) struct Extraction<'a> {
 impl<'a> Extraction<'a> {
     /// Starts from a choice without circles that is complete below the outputs.
     pub(super) fn new(classes: &'a Classes, seed: &Choice) -> Self {
-        let (ids, mut places) = (classes.ids(), vec![NONE; classes.bound()]);
-        ids.iter()
-            .enumerate()
-            .for_each(|(at, id)| places[usize::from(*id)] = at as u32 + 1);
-        let angle = |id| match classes.leaf(id) {
-            Some(Node::Input(input)) => input.angle(),
-            _ => None,
-        };
+        let ids = classes.ids();
+        let mut places = vec![NONE; classes.bound()];
+        // Nothing, the classes, then the angles.
+        let mut ways: Vec<Vec<Step>> = vec![Vec::new(); 1 + ids.len()];
         let mut angles = BTreeMap::new();
-        for angle in ids.iter().filter_map(|&id| angle(id)) {
-            let next = (ids.len() + 1 + angles.len()) as u32;
-            angles.entry(angle).or_insert(next);
-        }
-        // Nothing, the classes, the angles.
-        let count = 1 + ids.len() + angles.len();
-        let mut ways: Vec<Vec<Step>> = vec![Vec::new(); count];
-        let free = |read| Step {
-            cost: 0,
-            reads: [read; 2],
-            way: None,
-        };
-        for (at, &id) in ids.iter().enumerate() {
-            let read = angle(id).map_or(NOTHING, |angle| angles[&angle]);
-            if classes.leaf(id).is_some() {
-                ways[at + 1].push(free(read));
+        for (place, &id) in (1usize..).zip(ids) {
+            places[usize::from(id)] = place as u32;
+            let Some(leaf) = classes.leaf(id) else {
+                continue;
+            };
+            let mut reads = [NOTHING; 2];
+            if let Node::Input(input) = leaf
+                && let Some(angle) = input.angle()
+            {
+                let place = angles.entry(angle).or_insert_with(|| {
+                    ways.push(vec![Step {
+                        cost: price::SINCOS,
+                        ..Step::default()
+                    }]);
+                    ways.len() as u32 - 1
+                });
+                reads = [*place; 2];
             }
-        }
-        for &at in angles.values() {
-            ways[at as usize].push(Step {
-                cost: price::SINCOS,
-                ..free(NOTHING)
+            ways[place].push(Step {
+                reads,
+                ..Step::default()
             });
         }
+        let count = ways.len();
         for (class, way) in classes.ways() {
             let reads = way.1.map(|id| places[usize::from(id)]);
             let step = Step {
@@ -145,16 +141,11 @@ impl<'a> Extraction<'a> {
     /// Chooses the seed's ways, then, until nothing changes, ways of other classes that read what
     /// has one.
     fn seed(&mut self, seed: &Choice, places: &[u32]) {
-        for (id, way) in seed
-            .iter()
-            .enumerate()
-            .filter_map(|(id, way)| Some((id, (*way)?)))
-        {
-            let own = places[id];
-            if own != NONE {
+        for (&own, way) in places.iter().zip(seed) {
+            if own != NONE && way.is_some() {
                 let found = self
                     .ways(own)
-                    .find(|&w| self.steps[w as usize].way == Some(way));
+                    .find(|&at| self.steps[at as usize].way == *way);
                 self.chosen[own as usize] = found.unwrap_or(NONE);
             }
         }

@@ -2,8 +2,7 @@
 //! there is time, from the start again, by other random numbers.
 //!
 //! - this file: [`search`], and one round of it
-//! - [`effort`]: how much a search may do; [`price`]: what it minimises; [`pass`]: what each step
-//!   left
+//! - [`effort`]: how much a search may do; [`price`]: what it minimises
 //! - `egraph`: values up to sign by fingerprint, and the ways to compute each
 //! - `rules`: identities of algebra, applied by pattern
 //! - `discover`: ways that only the fingerprints show
@@ -14,7 +13,6 @@ mod effort;
 mod egraph;
 mod extract;
 mod order;
-mod pass;
 mod price;
 mod rules;
 #[cfg(test)]
@@ -23,18 +21,32 @@ mod tests;
 use egg::Id as Class;
 
 use crate::dag::{Dag, Folding};
+use crate::program::Counts;
 use crate::random::Random;
 pub use effort::{Effort, Limits};
 use egraph::{Classes, Printed};
 use extract::Extraction;
 pub use extract::Schedule;
-pub use pass::Pass;
 pub use price::{cost, price};
 
 /// The most values of a program that are paired with each other in every search.
 const MAX_OWN: usize = 1_500;
 /// The e-nodes, for each one that was there, at which rules stop.
 const GROWTH: usize = 20;
+
+/// The counts after one step of a search.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pass {
+    /// The step.
+    pub name: &'static str,
+    /// The counts after it.
+    pub counts: Counts,
+}
+
+impl Pass {
+    /// Every step's name, in order.
+    pub const NAMES: [&'static str; 4] = ["traced", "folded", "fingerprints", "search"];
+}
 
 /// The result of a search.
 #[derive(Clone, Debug)]
@@ -85,14 +97,12 @@ pub fn search(
             if !goes_on([walk * limits.rounds + number, rounds], &best) {
                 break 'walks;
             }
-            let schedule = limits.schedules[number % 2];
-            let found = round(&own, &offers, &limits, schedule, &mut random);
+            let found = round(number, &own, &offers, &limits, &mut random);
             let (before, after) = (cost(&own), cost(&found));
             let is_taken = after <= before && (!is_strict || accept(&found));
-            idle = if is_taken && after < before {
-                0
-            } else {
-                idle + 1
+            idle = match is_taken && after < before {
+                true => 0,
+                false => idle + 1,
             };
             if is_taken {
                 own = found;
@@ -112,22 +122,16 @@ pub fn search(
 
 /// Estimates what the search would make of a program, by one short round.
 pub(crate) fn glance(program: &Dag) -> Dag {
-    round(
-        program,
-        &[],
-        &Limits::GLANCE,
-        Schedule::cool(0),
-        &mut Random::new(1),
-    )
+    round(0, program, &[], &Limits::GLANCE, &mut Random::new(1))
 }
 
 /// Runs one round from a program: what rules, other graphs and the fingerprints offer, then
 /// extraction.
 fn round(
+    number: usize,
     program: &Dag,
     offers: &[Printed],
     limits: &Limits,
-    schedule: Schedule,
     random: &mut Random,
 ) -> Dag {
     let mut classes = Classes::default();
@@ -147,7 +151,7 @@ fn round(
     }
     let mut extraction = Extraction::new(&classes, &choice);
     extraction.climb();
-    extraction.anneal(schedule, random);
+    extraction.anneal(limits.schedules[number % 2], random);
     extraction.climb();
     classes.graph(&extraction.choice())
 }

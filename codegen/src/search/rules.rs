@@ -8,57 +8,44 @@ use std::sync::LazyLock;
 
 use egg::{Language, Pattern, PatternAst, Var};
 
-use super::egraph::{Classes, ENode, Kind};
+use super::egraph::{Classes, ENode, Kind, PRODUCT, SUM};
 
 /// Name, left side, and the kinds of the outer and the inner operation of the right side.
 pub(super) const RULES: &[(&str, &str, Kind, Kind)] = &[
-    (
-        "factor",
-        "(± (* ?a ?b) (* ?a ?c))",
-        Kind::Product,
-        Kind::Sum,
-    ),
-    (
-        "mul-associates",
-        "(* (* ?a ?b) ?c)",
-        Kind::Product,
-        Kind::Product,
-    ),
-    ("add-associates", "(± (± ?a ?b) ?c)", Kind::Sum, Kind::Sum),
+    ("factor", "(± (* ?a ?b) (* ?a ?c))", PRODUCT, SUM),
+    ("mul-associates", "(* (* ?a ?b) ?c)", PRODUCT, PRODUCT),
+    ("add-associates", "(± (± ?a ?b) ?c)", SUM, SUM),
 ];
+
+/// Returns a left side with every choice of signs.
+pub(super) fn signed(left: &str) -> Vec<String> {
+    let mut texts = vec![left.to_owned()];
+    for _ in left.matches('±') {
+        let signed = |text: &String| ["+", "-"].map(|sign| text.replacen('±', sign, 1));
+        texts = texts.iter().flat_map(signed).collect();
+    }
+    texts
+}
 
 /// The rows with every choice of signs and every order of operands on the left.
 static READ: LazyLock<Vec<(Pattern<ENode>, Kind, Kind)>> = LazyLock::new(|| {
     let mut read = Vec::new();
     for &(name, left, outer, inner) in RULES {
-        let mut texts = vec![left.to_owned()];
-        for _ in left.matches('±') {
-            let signed = |text: &String| ["+", "-"].map(|sign| text.replacen('±', sign, 1));
-            texts = texts.iter().flat_map(signed).collect();
-        }
-        for text in texts {
+        for text in signed(left) {
             let pattern = text.parse::<PatternAst<ENode>>();
             let pattern = pattern.unwrap_or_else(|why| unreachable!("{name}: {why}"));
             let mut orders = vec![pattern];
-            for place in 0..orders[0].len() {
-                let mut swapped = orders.clone();
-                let node = |order: &mut PatternAst<ENode>| {
-                    order[egg::Id::from(place)].children_mut().reverse();
-                };
-                swapped.iter_mut().for_each(node);
-                orders.extend(
-                    swapped
-                        .into_iter()
-                        .filter(|order| *order != orders[0])
-                        .collect::<Vec<_>>(),
-                );
-                orders.dedup();
+            for place in (0..orders[0].len()).map(egg::Id::from) {
+                if !orders[0][place].is_leaf() {
+                    let mut swapped = orders.clone();
+                    for order in &mut swapped {
+                        order[place].children_mut().reverse();
+                    }
+                    orders.append(&mut swapped);
+                }
             }
-            read.extend(
-                orders
-                    .into_iter()
-                    .map(|left| (Pattern::new(left), outer, inner)),
-            );
+            let orders = orders.into_iter();
+            read.extend(orders.map(|left| (Pattern::new(left), outer, inner)));
         }
     }
     read
@@ -81,7 +68,7 @@ pub(super) fn saturate(classes: &mut Classes, iterations: usize, growth: usize) 
                 .flat_map(|f| f.substs.iter().map(|s| (f.eclass, s)))
             {
                 if classes.bound() < most {
-                    classes.nest(class, *outer, bound[a], *inner, [bound[b], bound[c]]);
+                    classes.nest(class, outer, bound[a], inner, [bound[b], bound[c]]);
                 }
             }
         }

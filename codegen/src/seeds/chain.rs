@@ -1,6 +1,7 @@
 //! Functions by the chain formulas, traced in a regrouping and a form.
 
 use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use dalembert_model::equations::chain::composite::Composite;
@@ -12,13 +13,13 @@ use dalembert_model::number::Exact;
 use dalembert_model::outputs::{Motion, Regrouped, RuntimeParameter, Shared, Written};
 
 use super::numbers::Numbers;
-use super::{Form, MAX_QUICK_LINKS, Seed, Source, Tuned, tune};
+use super::{Form, Seed, Source, Tuned};
 use crate::dag::symbol::Symbol;
 use crate::dag::{Builder, Dag, Folding};
 use crate::function::{Argument, Quantity};
 use crate::program::{Counts, Input};
 use crate::setup::{Setup, Task};
-use crate::trace::symbols;
+use crate::trace::reader;
 
 /// Traces a function by the chain formulas; also the operations as executed.
 pub fn trace_chain(
@@ -33,22 +34,23 @@ pub fn trace_chain(
     let mut chain = chain.map(|constant| numbers.symbol(constant));
     let mut gravity = None;
     if setup.takes(function, RuntimeParameter::Gravity) {
-        let taken: Vector<Symbol> = core::array::from_fn(|axis| {
-            Symbol::input(&builder, Input::Entry(Argument::Gravity, axis))
-        });
-        chain.gravity = scaled(&chain.per_unit, &in_frame_0(setup, &taken));
+        let entry = |axis| Symbol::input(&builder, Input::Entry(Argument::Gravity, axis));
+        let taken = [0, 1, 2].map(entry);
+        let in_frame_0 = setup.arm(Symbol::constant).with_gravity(&taken).gravity;
+        chain.gravity = scaled(&chain.per_unit, &in_frame_0);
         gravity = Some(taken);
     }
     drop(numbers);
-    let whole = symbols(setup, &function.arguments(), &builder);
+    let arguments = function.arguments();
+    let whole = setup.motion(reader(&arguments, &builder), Symbol::constant);
     let rows = &setup.chained_rows();
-    let following = &setup.following(|x: &Exact| Symbol::from(x.clone()));
+    let following = &setup.following(Symbol::constant);
     let motion = &whole.of_joints(rows);
     let chain = chain.at_speeds(&motion.per_speed);
     let (chain, at) = &chain.posed(&motion.q);
     let composite = Composite::new(chain, at);
     let of_frame = |quantity: &Quantity| quantity.is_regrouped() && quantity.is_of_frame();
-    let arm = (function.quantities().iter().any(of_frame)).then(|| arm(setup, None, &whole));
+    let arm = (function.quantities().iter().any(of_frame)).then(|| moving(setup, None, &whole));
     let position = arm.as_ref().map_or_else(Vec::new, |arm| arm.at(&whole.q));
     let regrouped = Regrouped {
         chain,
@@ -64,39 +66,30 @@ pub fn trace_chain(
             .collect::<Vec<_>>(),
         shared: Shared::default(),
     };
+    let sizes = setup.sizes(function);
     let mut outputs = Vec::new();
     for &quantity in function.quantities() {
         let (rows, values) = match quantity.regrouped(&regrouped) {
             Some(values) => (rows.clone(), values),
-            None => (
-                (0..whole.q.len()).collect(),
-                written(setup, quantity, &whole, gravity.as_ref()),
-            ),
+            // By the recursion in link axes.
+            None => {
+                let arm = moving(setup, gravity.as_ref(), &whole);
+                let values = quantity.written(&textbook(&arm, &arm.at(&whole.q), &whole));
+                ((0..whole.q.len()).collect(), values)
+            }
         };
-        let selected = setup.select_of(quantity, &rows, following, values);
+        let selected = setup.select(quantity, sizes, &rows, following, values);
         let mut builder = builder.borrow_mut();
         outputs.extend(selected.iter().map(|output| output.edge(&mut builder)));
     }
-    let traced = builder.borrow().asked();
-    let graph = std::mem::replace(&mut *builder.borrow_mut(), Builder::new(folding));
-    (graph.finish(outputs), traced)
-}
-
-/// Returns a quantity that the chain formulas do not give, by the recursion in link
-/// axes.
-fn written(
-    setup: &Setup,
-    quantity: Quantity,
-    motion: &Motion<Symbol>,
-    gravity: Option<&Vector<Symbol>>,
-) -> Vec<Symbol> {
-    let arm = arm(setup, gravity, motion);
-    quantity.written(&textbook(&arm, &arm.at(&motion.q), motion))
+    let builder = builder.replace(Builder::new(folding));
+    let traced = builder.asked();
+    (builder.finish(outputs), traced)
 }
 
 /// Returns the whole arm in motion.
-fn arm(setup: &Setup, gravity: Option<&Vector<Symbol>>, motion: &Motion<Symbol>) -> Arm<Symbol> {
-    let arm = setup.arm(|x: &Exact| Symbol::from(x.clone()));
+fn moving(setup: &Setup, gravity: Option<&Vector<Symbol>>, motion: &Motion<Symbol>) -> Arm<Symbol> {
+    let arm = setup.arm(Symbol::constant);
     let arm = match gravity {
         Some(gravity) => arm.with_gravity(gravity),
         None => arm,
@@ -123,12 +116,6 @@ fn textbook<'a>(
 /// Returns the moving links, with exact parameters, the base folded.
 pub fn skeleton(setup: &Setup) -> Skeleton<Exact> {
     with_columns(setup, &[])
-}
-
-/// Returns a vector of base axes in those of frame 0.
-fn in_frame_0(setup: &Setup, vector: &Vector<Symbol>) -> Vector<Symbol> {
-    let arm = setup.arm(|x: &Exact| Symbol::from(x.clone()));
-    arm.with_gravity(vector).gravity
 }
 
 /// Returns the same for a function: if it is a regressor, with its columns; if it takes a
@@ -167,19 +154,17 @@ const MAX_SEEDS: usize = 16;
 pub(crate) fn regrouped(task: Task<'_>, forms: &[Form], tuned: &Tuned) -> Vec<Seed> {
     let mut chain = Chain::new(&skeleton_for(task), &tuned.regrouping);
     let axes = axes(&chain);
-    let others = || forms.iter().filter(|form| **form != tuned.form);
-    let mut chosen: Vec<(&Vec<i32>, Form)> = Vec::new();
-    let own = axes.first().into_iter();
-    chosen.extend(own.flat_map(|own| forms.iter().map(move |form| (own, *form))));
-    chosen.extend(axes.iter().skip(1).map(|axes| (axes, tuned.form)));
-    let rest = axes.iter().skip(1);
-    chosen.extend(rest.flat_map(|axes| others().map(move |form| (axes, *form))));
+    let own = forms.iter().map(|form| (0, *form));
+    let others = 1..axes.len();
+    let cheapest = others.clone().map(|place| (place, tuned.form));
+    let dearer = forms.iter().filter(|form| **form != tuned.form);
+    let rest = others.flat_map(|place| dearer.clone().map(move |form| (place, *form)));
     let mut seeds: Vec<Seed> = Vec::new();
-    for (axes, form) in chosen {
+    for (place, form) in own.chain(cheapest).chain(rest) {
         if seeds.len() == MAX_SEEDS {
             break;
         }
-        for (link, axes) in chain.links.iter_mut().zip(axes) {
+        for (link, axes) in chain.links.iter_mut().zip(&axes[place]) {
             link.axes = *axes;
         }
         let (graph, traced) = trace_chain(task, &chain, form, Folding::Syntactic);
@@ -193,25 +178,6 @@ pub(crate) fn regrouped(task: Task<'_>, forms: &[Form], tuned: &Tuned) -> Vec<Se
         }
     }
     seeds
-}
-
-/// Returns whether axes meet at the base, so that the forms that need it differ from the others.
-pub(crate) fn has_shoulder(task: Task<'_>) -> bool {
-    let arm = skeleton_for(task);
-    Chain::new(&arm, &Regrouping::base(&arm)).has_shoulder()
-}
-
-/// Returns the regroupings that differ from one in one link; none of chains too long to
-/// look at each.
-pub(crate) fn regroupings(
-    task: Task<'_>,
-    regrouping: &Regrouping<Exact>,
-) -> Vec<Regrouping<Exact>> {
-    let arm = skeleton_for(task);
-    match arm.links.len() <= MAX_QUICK_LINKS {
-        true => tune::neighbours(&arm, regrouping),
-        false => Vec::new(),
-    }
 }
 
 /// Returns a function in a regrouping and a form, merged by fingerprint.
@@ -243,11 +209,7 @@ fn axes(chain: &Chain<Exact>) -> Vec<Vec<i32>> {
             }
         }
     }
-    let mut different: Vec<Vec<i32>> = Vec::new();
-    for choice in all {
-        if !different.contains(&choice) {
-            different.push(choice);
-        }
-    }
-    different
+    let mut seen = BTreeSet::new();
+    all.retain(|choice| seen.insert(choice.clone()));
+    all
 }

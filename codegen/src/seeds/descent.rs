@@ -7,12 +7,13 @@ use dalembert_model::number::Exact;
 use dalembert_model::outputs::RuntimeParameter;
 
 use super::chain::{merged, skeleton_for};
+use super::start::Problem;
 use super::tune::{self, Tuned};
 use super::{Form, MAX_QUICK_LINKS};
 use crate::dag::Dag;
 use crate::search::{Effort, cost, glance};
 use crate::setup::Task;
-use crate::watch::{FunctionWatch, Part};
+use crate::watch::Part;
 
 /// The starts of longer chains are compared without a round of the search.
 const MAX_TRIED: usize = 3;
@@ -43,42 +44,31 @@ fn price(graph: &Dag, limit: Option<Limit<'_>>, below: u64) -> u64 {
 }
 
 /// Returns the regrouping that is cheapest for a function in one of these forms within a limit,
-/// if there is one; the best so far where the watch is over. `from` are regroupings to
-/// start from, besides those that every robot has.
-pub(crate) fn tuned(
-    task: Task<'_>,
-    forms: &[Form],
-    effort: Effort,
-    limit: Option<Limit<'_>>,
-    from: &[Regrouping<Exact>],
-    watch: Option<FunctionWatch<'_>>,
-) -> Tuned {
+/// if there is one; the best so far where the watch is over.
+pub(crate) fn tuned(problem: &Problem<'_>, forms: &[Form]) -> Tuned {
+    let (task, effort, limit) = (problem.task, problem.effort, problem.limit);
     let Task { setup, function } = task;
     let arm = skeleton_for(task);
     let tried = Cell::new(0);
     let is_over = || {
         tried.set(tried.get() + 1);
-        watch.is_some_and(|watch| {
-            watch.step(Part::Formulations, [tried.get(), 0], None);
-            watch.is_over()
-        })
+        let tried = [tried.get(), 0];
+        problem.watch.step(Part::Formulations, tried, None);
+        problem.watch.is_over()
     };
-    let merged = |chain: &Chain<Exact>, form| merged(task, chain, form);
+    let traced = |chain: &Chain<Exact>, form: Form, below: u64| {
+        price(&merged(task, chain, form), limit, below)
+    };
     // The cheapest regrouping before a search need not be the cheapest after it.
     let quick = |chain: &Chain<Exact>, form: Form, below: u64| match is_over() {
         true => u64::MAX,
-        false => price(&glance(&merged(chain, form)), limit, below),
+        false => price(&glance(&merged(task, chain, form)), limit, below),
     };
     if setup.takes(function, RuntimeParameter::Payload)
         && let Some(load) = setup.load()
     {
         // The numbers of the load are those of one regrouping, for all functions.
-        return tune::form(
-            &arm,
-            load.regrouping.clone(),
-            forms,
-            |chain, form, below| price(&merged(chain, form), limit, below),
-        );
+        return tune::tune(&arm, load.regrouping.clone(), forms, 0, traced);
     }
     let start = tune::start(&arm);
     let with = |axes: Vec<i32>| {
@@ -99,12 +89,12 @@ pub(crate) fn tuned(
             let chain = Chain::new(&arm, from);
             match arm.links.len() <= MAX_TRIED {
                 true => quick(&chain, forms[0], u64::MAX),
-                false => price(&merged(&chain, forms[0]), limit, u64::MAX),
+                false => traced(&chain, forms[0], u64::MAX),
             }
         });
         starts.truncate(1);
     }
-    starts.extend_from_slice(from);
+    starts.extend_from_slice(problem.from);
     let mut tuned: Option<Tuned> = None;
     for from in starts {
         let mut found = tune::tune(
@@ -114,7 +104,7 @@ pub(crate) fn tuned(
             effort.regrouping_rounds(),
             |chain, form, below| match is_over() {
                 true => u64::MAX,
-                false => price(&merged(chain, form), limit, below),
+                false => traced(chain, form, below),
             },
         );
         if arm.links.len() <= MAX_QUICK_LINKS {

@@ -10,6 +10,7 @@ use dalembert_model::outputs::RuntimeParameter;
 use super::chain::{skeleton_for, trace_chain};
 use super::descent::tuned;
 use super::numbers::Numbers;
+use super::start::Problem;
 use crate::dag::{Builder, Folding, Node};
 use crate::function::{Argument, Function};
 use crate::program::Input;
@@ -26,14 +27,15 @@ pub(crate) fn chosen(setup: Setup) -> Setup {
     if !setup.has(RuntimeParameter::Payload) {
         return setup;
     }
-    let (full, function) = (setup.in_full_motion(), Function::InverseDynamics);
-    let forms = function.forms();
-    let best = tuned(full.task(function), &forms, Effort::Quick, None, &[], None);
-    let chain = Chain::new(&skeleton_for(full.task(function)), &best.regrouping);
-    let (graph, _) = trace_chain(full.task(function), &chain, best.form, Folding::Semantic);
+    let full = setup.in_full_motion();
+    let task = full.task(Function::InverseDynamics);
+    let forms = task.function.forms();
+    let best = tuned(&Problem::new(task, Effort::Quick), &forms);
+    let chain = Chain::new(&skeleton_for(task), &best.regrouping);
+    let (graph, _) = trace_chain(task, &chain, best.form, Folding::Semantic);
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
     // As the trace meets them.
-    let mut numbers = Numbers::new(full.task(function), &builder);
+    let mut numbers = Numbers::new(task, &builder);
     chain.map(|number| numbers.symbol(number));
     let met = numbers.met();
     let is_read = |index: usize| {

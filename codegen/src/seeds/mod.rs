@@ -21,11 +21,11 @@ use crate::dag::Dag;
 use crate::program::Counts;
 use crate::setup::Task;
 use crate::trace::trace;
-pub(crate) use chain::{has_shoulder, in_regrouping, regrouped, regroupings};
+pub(crate) use chain::{in_regrouping, regrouped};
 pub use chain::{skeleton, skeleton_for, trace_chain};
 pub(crate) use descent::{Limit, tuned};
 pub use start::Start;
-pub(crate) use tune::Tuned;
+pub(crate) use tune::{Tuned, neighbours};
 
 pub(crate) use dalembert_model::equations::chain::Form;
 

@@ -7,8 +7,8 @@ use dalembert_model::number::Exact;
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::scalar::Scalar;
 
-use crate::dag::Builder;
 use crate::dag::symbol::Symbol;
+use crate::dag::{Builder, signed};
 use crate::function::Argument;
 use crate::program::Input;
 use crate::setup::Task;
@@ -44,7 +44,7 @@ impl<'a> Numbers<'a> {
     pub(super) fn symbol(&mut self, number: &Exact) -> Symbol {
         let is_unknown = |unknowns: &Unknowns| unknowns.occur_in(number);
         if !self.unknowns.as_ref().is_some_and(is_unknown) {
-            return Symbol::from(number.clone());
+            return Symbol::constant(number);
         }
         let found = match self.chosen {
             // A number that no torque depends on may have any value.
@@ -55,10 +55,7 @@ impl<'a> Numbers<'a> {
             return Symbol::zero();
         };
         let entry = Symbol::input(self.builder, Input::Entry(Argument::Load, index));
-        match is_negative {
-            true => entry.neg(),
-            false => entry,
-        }
+        signed(&entry, is_negative)
     }
 
     fn meet(&mut self, number: &Exact) -> (usize, bool) {
@@ -66,10 +63,7 @@ impl<'a> Numbers<'a> {
             return known;
         }
         let is_negative = number.leads_negative();
-        self.met.push(match is_negative {
-            true => number.neg(),
-            false => number.clone(),
-        });
+        self.met.push(signed(number, is_negative));
         (self.met.len() - 1, is_negative)
     }
 }

@@ -1,11 +1,11 @@
 //! The starts of a function's search, by the formulation that was asked for.
 
 use dalembert_model::equations::Formulation;
-use dalembert_model::equations::chain::Regrouping;
+use dalembert_model::equations::chain::{Chain, Regrouping};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::RuntimeParameter;
 
-use super::{Form, Limit, Seed, Source, Tuned, has_shoulder, regrouped, textbook, tuned};
+use super::{Form, Limit, Seed, Source, Tuned, regrouped, skeleton_for, textbook, tuned};
 use crate::dag::Dag;
 use crate::function::Function;
 use crate::search::Effort;
@@ -53,13 +53,11 @@ impl Start {
         let function = task.function;
         let mut quantities = function.quantities().iter();
         match self {
-            Start::Only(form) => vec![Approach::of_one(textbook(task, form))],
+            Start::Only(form) => vec![Approach::of(vec![textbook(task, form)])],
             Start::Auto if function == Function::Load => {
-                let definition = textbook(task, Formulation::NewtonEulerLink);
-                vec![Approach::of_one(Seed {
-                    source: Source::Definition,
-                    ..definition
-                })]
+                let mut definition = textbook(task, Formulation::NewtonEulerLink);
+                definition.source = Source::Definition;
+                vec![Approach::of(vec![definition])]
             }
             Start::Auto if quantities.any(|quantity| quantity.is_regrouped()) => {
                 vec![by_chain(problem)]
@@ -88,10 +86,10 @@ pub(crate) struct Approach {
 }
 
 impl Approach {
-    fn of_one(seed: Seed) -> Approach {
+    fn of(seeds: Vec<Seed>) -> Approach {
         Approach {
             tuned: None,
-            seeds: vec![seed],
+            seeds,
             helpers: Vec::new(),
         }
     }
@@ -106,7 +104,20 @@ pub(crate) struct Problem<'a> {
     pub limit: Option<Limit<'a>>,
     /// Regroupings to start from, besides those that every robot has.
     pub from: &'a [Regrouping<Exact>],
-    pub watch: Option<FunctionWatch<'a>>,
+    pub watch: FunctionWatch<'a>,
+}
+
+impl<'a> Problem<'a> {
+    /// Creates a problem without a limit, which nobody watches.
+    pub(crate) fn new(task: Task<'a>, effort: Effort) -> Problem<'a> {
+        Problem {
+            task,
+            effort,
+            limit: None,
+            from: &[],
+            watch: FunctionWatch::default(),
+        }
+    }
 }
 
 /// Starts functions that the chain formulas lack: from the recursion or Lagrange–Euler, whichever
@@ -128,31 +139,23 @@ fn by_textbook(problem: &Problem<'_>) -> Vec<Approach> {
     others.dedup_by(|second, first| second.graph == first.graph);
     let others = others.into_iter().map(|seed| Approach {
         helpers: helpers.clone(),
-        ..Approach::of_one(seed)
+        ..Approach::of(vec![seed])
     });
-    let both = Approach {
-        tuned: None,
-        seeds: vec![recursion, products],
-        helpers: Vec::new(),
-    };
+    let both = Approach::of(vec![recursion, products]);
     [both].into_iter().chain(others).collect()
 }
 
 /// Returns the chain formulas in all of their forms, in the regrouping that is cheapest, with the
 /// recursion's values at hand.
 fn by_chain(problem: &Problem<'_>) -> Approach {
-    let Problem {
-        task,
-        effort,
-        limit,
-        from,
-        watch,
-    } = *problem;
+    let task = problem.task;
     let Task { setup, function } = task;
-    let has_shoulder = has_shoulder(task);
+    // Where no axes meet at the base, the forms that need it are the others.
+    let arm = skeleton_for(task);
+    let has_shoulder = Chain::new(&arm, &Regrouping::base(&arm)).has_shoulder();
     let mut forms = function.forms();
     forms.retain(|form| has_shoulder || !form.shoulder);
-    let tuned = tuned(task, &forms, effort, limit, from, watch);
+    let tuned = tuned(problem, &forms);
     // Seen in other axes the hand has hardly a value in common.
     forms.retain(|form: &Form| form.hand == tuned.form.hand);
     let mut seeds = regrouped(task, &forms, &tuned);
@@ -166,7 +169,6 @@ fn by_chain(problem: &Problem<'_>) -> Approach {
     }
     Approach {
         tuned: Some(tuned),
-        seeds,
-        helpers: Vec::new(),
+        ..Approach::of(seeds)
     }
 }

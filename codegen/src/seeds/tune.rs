@@ -14,7 +14,9 @@ use dalembert_model::number::Exact;
 use dalembert_model::robot::JointKind;
 use dalembert_model::scalar::Scalar;
 
-use super::Form;
+use super::{Form, MAX_QUICK_LINKS, skeleton_for};
+use crate::dag::signed;
+use crate::setup::Task;
 
 /// Constants of a tuned chain with more monomials than this are not formed:
 /// regrouping through many different odd angles would multiply them.
@@ -95,16 +97,6 @@ pub(crate) fn tune(
     descent.best
 }
 
-/// Returns the cheapest of the forms in a regrouping that is given.
-pub(crate) fn form(
-    arm: &Skeleton<Exact>,
-    regrouping: Regrouping<Exact>,
-    forms: &[Form],
-    price: impl Fn(&Chain<Exact>, Form, u64) -> u64,
-) -> Tuned {
-    tune(arm, regrouping, forms, 0, price)
-}
-
 struct Descent<'a, P> {
     arm: &'a Skeleton<Exact>,
     price: P,
@@ -155,11 +147,7 @@ impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
         let chain = Chain::new(self.arm, &metres);
         let mut units = vec![Exact::one()];
         for length in chain.links.iter().flat_map(|link| &link.offset) {
-            let length = if length.leads_negative() {
-                length.neg()
-            } else {
-                length.clone()
-            };
+            let length = signed(length, length.leads_negative());
             if !length.is_zero() && !units.contains(&length) {
                 units.push(length);
             }
@@ -183,22 +171,20 @@ impl<P: Fn(&Chain<Exact>, Form, u64) -> u64> Descent<'_, P> {
     }
 }
 
-/// Regroupings that differ in one link. What the joints before a link feel does
-/// not depend on its regrouping, so the search can mix these link by link.
-pub(crate) fn neighbours(
-    arm: &Skeleton<Exact>,
-    regrouping: &Regrouping<Exact>,
-) -> Vec<Regrouping<Exact>> {
+/// Returns the regroupings that differ from one in one link; none of chains too long to look at
+/// each.
+pub(crate) fn neighbours(task: Task<'_>, regrouping: &Regrouping<Exact>) -> Vec<Regrouping<Exact>> {
+    let arm = skeleton_for(task);
     let mut found: Vec<Regrouping<Exact>> = Vec::new();
-    if arm.links.len() > MAX_TUNED {
+    if arm.links.len() > MAX_QUICK_LINKS {
         return found;
     }
     for i in 0..arm.links.len() {
-        for link in alternatives(arm, regrouping, i) {
+        for link in alternatives(&arm, regrouping, i) {
             let mut other = regrouping.clone();
             other.links[i] = link;
             let is_new = other != *regrouping && !found.contains(&other);
-            if is_new && !is_large(&Chain::new(arm, &other)) {
+            if is_new && !is_large(&Chain::new(&arm, &other)) {
                 found.push(other);
             }
         }
@@ -253,6 +239,14 @@ fn quotient(a: &Exact, b: &Exact) -> Option<Exact> {
     a.divide(b.as_rational()?)
 }
 
+/// A moment about its axis that a revolute link may keep: of its regrouping, of a body, and how
+/// much of it besides nothing.
+type Moment = (
+    fn(&mut LinkRegrouping<Exact>) -> &mut Exact,
+    fn(&mut Body<Exact>) -> &mut Exact,
+    Vec<Exact>,
+);
+
 fn revolute(
     arm: &Skeleton<Exact>,
     chain: &Chain<Exact>,
@@ -260,34 +254,36 @@ fn revolute(
     i: usize,
 ) -> Vec<LinkRegrouping<Exact>> {
     let link = &chain.links[i];
-    let [mass, first, second] = &link.free;
-    let zero = Exact::zero();
     let body = &link.body;
-    let mut masses = vec![zero.clone(), mass.clone()];
-    let mut firsts = vec![zero.clone(), first.clone()];
-    let mut seconds = vec![
-        zero.clone(),
-        second.clone(),
-        body.second.xx.neg(),
-        body.second.yy.neg(),
+    let [mass, first, second] = link.free.clone();
+    let seconds = vec![second, body.second.xx.neg(), body.second.yy.neg()];
+    let moments: [Moment; 3] = [
+        (|link| &mut link.mass, |body| &mut body.mass, vec![mass]),
+        (
+            |link| &mut link.first,
+            |body| &mut body.first[2],
+            vec![first],
+        ),
+        (|link| &mut link.second, |body| &mut body.second.zz, seconds),
     ];
-    if i > 0 {
-        // Moments that a link keeps do not arrive at the parent.
-        let parent = &chain.links[i - 1].body;
-        for (kept, list, effect) in [
-            (&now.mass, &mut masses, unit_body(1, 0, 0)),
-            (&now.first, &mut firsts, unit_body(0, 1, 0)),
-            (&now.second, &mut seconds, unit_body(0, 0, 1)),
-        ] {
-            let effect = effect.carried(&link.rotation, &link.offset);
-            for (entry, slope) in costly(parent).into_iter().zip(costly(&effect)) {
-                if let Some(more) = quotient(&entry, &slope) {
-                    list.push(kept.add(&more));
-                }
-            }
+    let mut links = Vec::new();
+    for (kept, of_body, own) in moments {
+        let mut amounts = vec![Exact::zero()];
+        amounts.extend(own);
+        if i > 0 {
+            // Moments that a link keeps do not arrive at the parent.
+            let parent = costly(&chain.links[i - 1].body);
+            let mut unit = Body::zero();
+            *of_body(&mut unit) = Exact::one();
+            let effect = costly(&unit.carried(&link.rotation, &link.offset));
+            let needed = parent.iter().zip(&effect);
+            let needed = needed.filter_map(|(entry, slope)| quotient(entry, slope));
+            amounts.extend(needed.map(|more| kept(&mut now.clone()).add(&more)));
         }
+        let amounts = amounts.into_iter();
+        links.extend(amounts.map(|x| changed(now, |link| *kept(link) = x)));
     }
-    let mut origins = vec![zero, arm.links[i].d.clone()];
+    let mut origins = vec![Exact::zero(), arm.links[i].d.clone()];
     for (moment, slope) in [
         (&body.second.xz, &body.first[0]),
         (&body.second.yz, &body.first[1]),
@@ -299,17 +295,11 @@ fn revolute(
     if let Some(next) = chain.links.get(i + 1) {
         origins.push(now.origin[2].add(&next.offset[2]));
     }
-    let masses = masses.into_iter();
-    let masses = masses.map(|x| changed(now, |link| link.mass = x));
-    let firsts = firsts.into_iter();
-    let firsts = firsts.map(|x| changed(now, |link| link.first = x));
-    let seconds = seconds.into_iter();
-    let seconds = seconds.map(|x| changed(now, |link| link.second = x));
-    let origins = origins.into_iter();
-    let origins =
-        origins.map(|z| changed(now, |link| link.origin = [Exact::zero(), Exact::zero(), z]));
-    let candidates = masses.chain(firsts).chain(seconds).chain(origins);
-    candidates.collect()
+    let origins = origins
+        .into_iter()
+        .map(|z| [Exact::zero(), Exact::zero(), z]);
+    links.extend(origins.map(|origin| changed(now, |link| link.origin = origin)));
+    links
 }
 
 fn prismatic(
@@ -352,14 +342,4 @@ fn costly(body: &Body<Exact>) -> Vec<Exact> {
     ];
     let difference = second.xx.sub(&second.yy);
     all.into_iter().cloned().chain([difference]).collect()
-}
-
-/// Returns a unit mass, first or second moment on the axis.
-fn unit_body(mass: i64, first: i64, second: i64) -> Body<Exact> {
-    let number = |n: i64| if n == 0 { Exact::zero() } else { Exact::one() };
-    let mut body = Body::zero();
-    body.mass = number(mass);
-    body.first[2] = number(first);
-    body.second.zz = number(second);
-    body
 }

@@ -2,8 +2,8 @@
 
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
+use dalembert_model::robot::values::short_hash;
 use dalembert_model::scene::Scene;
-use hmac_sha256::Hash;
 
 use super::Task;
 
@@ -53,16 +53,11 @@ impl ParametersKey {
             .load()
             .filter(|_| taken.contains(&RuntimeParameter::Payload));
         let numbers = load.map_or(&[][..], |load| &load.numbers);
-        let mut hash = Hash::new();
-        for number in numbers {
-            hash.update(number.to_string());
-            hash.update("\n");
-        }
-        let hash = hash.finalize();
+        let lines = numbers.iter().map(|number| format!("{number}\n"));
         Some(ParametersKey {
             taken,
             load: numbers.len(),
-            hash: hash[..8].iter().map(|byte| format!("{byte:02x}")).collect(),
+            hash: short_hash(&lines.collect::<String>()),
         })
     }
 }

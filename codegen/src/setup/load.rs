@@ -76,37 +76,32 @@ impl Setup {
         let taken = self.constant_angles();
         let candidates =
             (1_000_003..).map(|n: i64| Angle::Radians(Rational::from_integer(n.into())));
-        let free = candidates.filter(|angle| {
-            !taken
-                .iter()
-                .any(|(own, opposite)| own == angle || opposite == angle)
-        });
+        let free = candidates.filter(|angle| !taken.contains(angle));
         Unknowns {
             angles: free.take(LinkParameter::COUNT).collect(),
         }
     }
 
     /// Returns the angles of the table, the frames and the locks, with their opposites.
-    fn constant_angles(&self) -> Vec<(Angle, Angle)> {
+    fn constant_angles(&self) -> Vec<Angle> {
         let robot = self.robot();
         let rows = robot.rows().into_iter();
         let rows = rows.flat_map(|joint| [&joint.alpha, &joint.beta, &joint.theta]);
-        let offsets = robot.followers.iter().filter_map(|own| match &own.offset {
-            Position::Angle(angle) => Some(angle),
-            Position::Length(_) => None,
-        });
+        let offsets = robot.followers.iter().map(|own| &own.offset);
         let frames = robot
             .placements()
             .into_iter()
             .filter_map(|(.., frame)| frame);
         let frames = frames.flat_map(|Placement { rpy, .. }| rpy);
         let locks = self.scene().into_iter().flat_map(|scene| &scene.lock);
-        let locks = locks.filter_map(|(_, at)| match at {
+        let positions = offsets.chain(locks.map(|(_, at)| at));
+        let positions = positions.filter_map(|at| match at {
             Position::Angle(angle) => Some(angle),
             Position::Length(_) => None,
         });
-        let all = rows.chain(offsets).chain(frames).chain(locks);
-        all.map(|angle| (angle.clone(), angle.negate())).collect()
+        let all = rows.chain(positions).chain(frames);
+        all.flat_map(|angle| [angle.clone(), angle.negate()])
+            .collect()
     }
 }
 

@@ -24,19 +24,18 @@ pub(crate) mod base;
 mod friction;
 mod key;
 pub(crate) mod load;
-mod motion;
 mod states;
 mod task;
 
 use std::sync::OnceLock;
 
-use dalembert_model::equations::JointPosition;
 use dalembert_model::equations::chain::Body;
 use dalembert_model::equations::following::Following;
 use dalembert_model::equations::regressor::{Column, of_links};
+use dalembert_model::equations::{JointPosition, SinCosPair};
 use dalembert_model::number::Exact;
-use dalembert_model::outputs::{Axis, Columns, Motion, RuntimeParameter, Sizes};
-use dalembert_model::robot::{Finding, Position, Robot};
+use dalembert_model::outputs::{Columns, Motion, RuntimeParameter, Sizes};
+use dalembert_model::robot::{Finding, JointKind, Position, Robot};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scene::Scene;
 
@@ -44,7 +43,6 @@ use base::BaseParameters;
 pub(crate) use key::ParametersKey;
 pub use key::{SceneKey, input_hash};
 use load::LoadParameters;
-pub use motion::motion;
 pub use task::{Posed, Task};
 
 use crate::function::{Argument, Function, Quantity};
@@ -57,6 +55,8 @@ pub struct Setup {
     robot: Robot,
     scene: Option<Scene>,
     rows: Vec<usize>,
+    /// The joints that a chain needs: those that move, and locked ones whose torque is asked for
+    /// (what their brakes hold).
     chained: Vec<usize>,
     /// An entry a joint.
     locks: Vec<Option<JointPosition<Exact>>>,
@@ -102,11 +102,14 @@ impl Setup {
         }
     }
 
-    /// Returns a robot in a scene.
+    /// Returns a robot in a scene, if there is one.
     ///
     /// # Errors
     /// Returns the findings of [`Scene::validate`], but for warnings.
-    pub fn new(robot: &Robot, scene: &Scene) -> Result<Setup, Complaint> {
+    pub fn in_scene(robot: &Robot, scene: Option<&Scene>) -> Result<Setup, Complaint> {
+        let Some(scene) = scene else {
+            return Ok(Setup::whole(robot));
+        };
         let mut findings = scene.validate(robot);
         findings.retain(Finding::is_error);
         if !findings.is_empty() {
@@ -117,27 +120,14 @@ impl Setup {
         let n = robot.joints.len();
         let locks: Vec<_> = (0..n).map(|i| scene.locked(i).map(position)).collect();
         let rows = scene.rows(n);
+        let is_chained = |i: &usize| locks[*i].is_none() || rows.contains(i);
         Ok(Setup {
-            robot: scene.apply(robot),
             scene: Some(scene.clone()),
-            chained: (0..n)
-                .filter(|i| locks[*i].is_none() || rows.contains(i))
-                .collect(),
+            chained: (0..n).filter(is_chained).collect(),
             rows,
             locks,
-            parameters: Vec::new(),
-            base: no_bases(),
-            load: None,
-            fitted: None,
+            ..Setup::whole(&scene.apply(robot))
         })
-    }
-
-    /// Returns a robot in a scene, if there is one.
-    ///
-    /// # Errors
-    /// As [`Setup::new`].
-    pub fn in_scene(robot: &Robot, scene: Option<&Scene>) -> Result<Setup, Complaint> {
-        scene.map_or_else(|| Ok(Setup::whole(robot)), |scene| Setup::new(robot, scene))
     }
 
     /// Returns the robot with these parameters as arguments of its functions.
@@ -228,12 +218,6 @@ impl Setup {
         &self.rows
     }
 
-    /// Returns the joints that a chain needs: those that move, and locked ones whose
-    /// torque is asked for (what their brakes hold).
-    pub fn chained(&self) -> &[usize] {
-        &self.chained
-    }
-
     /// Returns the joints that follow others, multipliers sent through `scalar`.
     pub fn following<S>(&self, mut scalar: impl FnMut(&Exact) -> S) -> Vec<Following<S>> {
         Following::of(&self.robot, &mut scalar)
@@ -299,30 +283,25 @@ impl Setup {
     ) -> Motion<S> {
         let mut motion = motion(&self.robot, input);
         for (joint, lock) in self.locks.iter().enumerate() {
-            let Some(lock) = lock else { continue };
-            motion.q[joint] = match lock {
-                JointPosition::Revolute(pair) => JointPosition::Revolute(pair.map(&mut constant)),
-                JointPosition::Prismatic(q) => JointPosition::Prismatic(constant(q)),
-            };
-            motion.moves[joint] = false;
-            motion.per_speed[joint] = self.per_speed_at_rest(joint).map(|x| constant(&x));
+            match lock {
+                None => {}
+                Some(JointPosition::Revolute(pair)) => {
+                    motion.q[joint] = JointPosition::Revolute(pair.map(&mut constant));
+                }
+                Some(JointPosition::Prismatic(q)) => {
+                    motion.q[joint] = JointPosition::Prismatic(constant(q));
+                }
+            }
+            motion.moves[joint] = lock.is_none();
             // Zero by structure: what it multiplies is gone.
-            for argument in Argument::ALL {
+            let is_zero = |argument| lock.is_some() || self.has_zero(argument);
+            if is_zero(Argument::Velocity) {
+                motion.per_speed[joint] = self.per_speed_at_rest(joint).map(|x| constant(&x));
+            }
+            for argument in Argument::ALL.into_iter().filter(|own| is_zero(*own)) {
                 if let Some(entries) = motion.of_mut(argument) {
                     entries[joint] = S::zero();
                 }
-            }
-        }
-        if self.has_zero(Argument::Velocity) {
-            let rest = 0..self.joints();
-            let rest = rest.map(|joint| self.per_speed_at_rest(joint).map(|x| constant(&x)));
-            motion.per_speed = rest.collect();
-        }
-        for argument in Argument::ALL {
-            if self.has_zero(argument)
-                && let Some(entries) = motion.of_mut(argument)
-            {
-                entries.fill(S::zero());
             }
         }
         motion.of_rows(&self.following(constant))
@@ -339,6 +318,17 @@ impl Setup {
         let place = quantity.index().unwrap_or_default();
         let found = self.base[place].get_or_init(|| BaseParameters::find(self, quantity));
         found.as_ref()
+    }
+
+    /// Returns the base parameters that a function is over, if it is over any.
+    ///
+    /// # Errors
+    /// As of [`Setup::base`].
+    pub fn base_of(&self, function: Function) -> Result<Option<&BaseParameters>, &Complaint> {
+        match function.columns() {
+            Columns::Base(quantity) => self.base(quantity).map(Some),
+            Columns::Links | Columns::None => Ok(None),
+        }
     }
 
     /// Returns the robot with the numbers of the chain that a payload changes.
@@ -363,32 +353,20 @@ impl Setup {
         function: Function,
         mut constant: impl FnMut(&Exact) -> S,
     ) -> Vec<Column<S>> {
-        match function.columns() {
-            Columns::None => Vec::new(),
-            Columns::Links => of_links(self.robot.rows().len()),
-            Columns::Base(quantity) => {
-                let columns = self.base(quantity).map_or(&[][..], |base| &base.columns);
-                columns.iter().map(|c| c.map(&mut constant)).collect()
-            }
+        if function.columns() == Columns::Links {
+            return of_links(self.robot.rows().len());
         }
+        let base = self.base_of(function).ok().flatten();
+        let columns = base.map_or(&[][..], |base| &base.columns).iter();
+        columns.map(|c| c.map(&mut constant)).collect()
     }
 
     /// Returns the numbers that the lengths of a function's results follow from.
     pub fn sizes(&self, function: Function) -> Sizes {
+        let base = self.base_of(function).ok().flatten();
         let is_loaded =
             function == Function::Load || self.takes(function, RuntimeParameter::Payload);
-        let over_base = match function.columns() {
-            Columns::Base(quantity) => Some(quantity),
-            Columns::Links | Columns::None => None,
-        };
-        self.sizes_of(over_base, is_loaded)
-    }
-
-    /// Returns the sizes with a quantity that is over base parameters, if there is one.
-    fn sizes_of(&self, over_base: Option<Quantity>, is_loaded: bool) -> Sizes {
-        let base = over_base.and_then(|quantity| self.base(quantity).ok());
-        let is_loaded = is_loaded && self.has(RuntimeParameter::Payload);
-        let load = is_loaded.then(|| self.load()).flatten();
+        let load = self.load().filter(|_| is_loaded);
         Sizes {
             rows: self.rows.len(),
             joints: self.joints(),
@@ -397,36 +375,16 @@ impl Setup {
         }
     }
 
-    /// Returns the results over the scene's joints, from results over these rows; both flat, in the
-    /// order of the function's quantities. Loads of joints that follow are gathered.
+    /// Returns the entries of one quantity over the scene's joints, from those over these rows. Loads
+    /// of joints that follow are gathered.
     pub fn select<S: Scalar>(
         &self,
-        function: Function,
-        rows: &[usize],
-        following: &[Following<S>],
-        mut outputs: Vec<S>,
-    ) -> Vec<S> {
-        let sizes = self.sizes(function);
-        let mut selected = Vec::with_capacity(function.outputs(sizes));
-        for &quantity in function.quantities() {
-            let rest = outputs.split_off(quantity.len(sizes.over(rows.len())));
-            selected.extend(self.select_of(quantity, rows, following, outputs));
-            outputs = rest;
-        }
-        selected
-    }
-
-    /// Returns the entries of one quantity over the scene's joints, from those over these rows.
-    pub fn select_of<S: Scalar>(
-        &self,
         quantity: Quantity,
+        sizes: Sizes,
         rows: &[usize],
         following: &[Following<S>],
         values: Vec<S>,
     ) -> Vec<S> {
-        let shape = quantity.shape();
-        let over_base = shape.is_over_base().then_some(quantity);
-        let sizes = self.sizes_of(over_base, shape.0.contains(&Axis::Load));
         let own = self.rows.iter().map(|&joint| self.robot.row_of(joint));
         let own: Vec<usize> = own.collect();
         quantity.selected(values, [rows, &own], following, sizes)
@@ -435,6 +393,32 @@ impl Setup {
 
 fn no_bases() -> Bases {
     [const { OnceLock::new() }; Quantity::ALL.len()]
+}
+
+/// Returns the motion of a robot's joints from the values of a program's inputs.
+fn motion<S>(robot: &Robot, mut input: impl FnMut(Input) -> S) -> Motion<S> {
+    let joints = || robot.joints.iter().enumerate();
+    let q = joints().map(|(i, joint)| match joint.kind {
+        JointKind::Revolute => JointPosition::Revolute(SinCosPair {
+            sin: input(Input::Sin(i)),
+            cos: input(Input::Cos(i)),
+        }),
+        JointKind::Prismatic => {
+            JointPosition::Prismatic(input(Input::Entry(Argument::Position, i)))
+        }
+    });
+    let q = q.collect();
+    let speeds = joints().map(|(i, joint)| joint.has_coulomb().then(|| input(Input::PerSpeed(i))));
+    let per_speed = speeds.collect();
+    let sizes = Sizes::whole(robot.joints.len());
+    let entries = |argument: Argument| {
+        let entries = 0..argument.length(sizes);
+        entries.map(|i| input(Input::Entry(argument, i))).collect()
+    };
+    Motion {
+        per_speed,
+        ..Motion::new(q, entries)
+    }
 }
 
 fn position(at: &Position) -> JointPosition<Exact> {

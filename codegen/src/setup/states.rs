@@ -3,7 +3,7 @@
 
 use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::outputs::RuntimeParameter;
-use num_traits::Zero;
+use dalembert_model::scalar::Scalar;
 
 use super::Setup;
 use crate::function::Argument;
@@ -51,14 +51,15 @@ impl Setup {
 
     /// Returns the load that a payload is, each number rounded once.
     pub fn load_at(&self, payload: &[f64]) -> Vec<f64> {
-        let entry = |input| match input {
-            Input::Entry(_, index) => {
-                let number = payload.get(index).and_then(|x| Rational::from_float(*x));
-                Exact::from(number.unwrap_or_else(Rational::zero))
-            }
-            Input::Sin(_) | Input::Cos(_) | Input::PerSpeed(_) => Exact::from(Rational::zero()),
+        let entry = |input| {
+            let number = match input {
+                Input::Entry(_, index) => payload.get(index),
+                Input::Sin(_) | Input::Cos(_) | Input::PerSpeed(_) => None,
+            };
+            let number = number.and_then(|x| Rational::from_float(*x));
+            number.map_or_else(Exact::zero, Exact::from)
         };
-        let load = self.load_of(entry, Exact::clone);
+        let load = self.loading(entry, Exact::clone).load();
         load.iter().map(f64::nearest).collect()
     }
 

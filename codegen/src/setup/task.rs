@@ -1,13 +1,12 @@
 //! A function of a robot in its scene: its formula in any scalar, with the arm and the motion that
 //! it takes, and its program.
 
-use dalembert_model::equations::following::gather;
-use dalembert_model::equations::load::{Loading, carried};
+use dalembert_model::equations::load::{Loading, PAYLOAD, carried};
 use dalembert_model::equations::matrix::Columns;
 use dalembert_model::equations::regressor::Column;
 use dalembert_model::equations::{Arm, DhVariables, Formulation, exact_pose};
 use dalembert_model::number::Exact;
-use dalembert_model::outputs::{Motion, RuntimeParameter, Written};
+use dalembert_model::outputs::{Motion, RuntimeParameter, Sizes, Written};
 use dalembert_model::scalar::{Divide, Scalar};
 
 use super::Setup;
@@ -97,7 +96,7 @@ impl<'a> Task<'a> {
             motion.loading = Some(setup.loading(input, constant));
         } else if setup.takes(function, RuntimeParameter::Payload) {
             let frame = setup.payload_frame(constant);
-            let link = carried(&setup.payload(input), frame.as_ref());
+            let link = carried(&payload(input), frame.as_ref());
             arm = arm.with_link(link);
             motion = motion.with_still_link();
             rows.push(rows.len());
@@ -126,31 +125,15 @@ impl Setup {
         Arm::from_robot(self.robot(), &mut constant)
     }
 
-    /// Returns the numbers of a payload.
-    fn payload<S>(&self, mut input: impl FnMut(Input) -> S) -> Vec<S> {
-        let length = Argument::Payload.length(self.sizes(Function::Load));
-        let entry = |index| input(Input::Entry(Argument::Payload, index));
-        (0..length).map(entry).collect()
-    }
-
-    /// Returns the numbers of the load that a payload is.
-    pub fn load_of<S: Scalar>(
-        &self,
-        input: impl FnMut(Input) -> S,
-        constant: impl FnMut(&Exact) -> S,
-    ) -> Vec<S> {
-        self.loading(input, constant).load()
-    }
-
     /// Returns a payload, and what turns it into a load.
-    fn loading<S: Scalar>(
+    pub(crate) fn loading<S: Scalar>(
         &self,
         input: impl FnMut(Input) -> S,
         mut constant: impl FnMut(&Exact) -> S,
     ) -> Loading<S> {
         let rows = self.load().map_or(&[][..], |load| &load.rows);
         Loading {
-            payload: self.payload(input),
+            payload: payload(input),
             rows: rows.iter().map(|row| row.map(&mut constant)).collect(),
             frame: self.payload_frame(constant),
         }
@@ -161,6 +144,12 @@ impl Setup {
         let frame = self.robot().payload_frame.as_ref()?;
         Some(exact_pose(frame).map(constant))
     }
+}
+
+/// Returns the numbers of a payload.
+fn payload<S>(mut input: impl FnMut(Input) -> S) -> Vec<S> {
+    let entry = |index| input(Input::Entry(Argument::Payload, index));
+    (0..PAYLOAD).map(entry).collect()
 }
 
 impl<S: Divide> Posed<'_, S> {
@@ -188,16 +177,16 @@ impl<S: Divide> Posed<'_, S> {
         columns: &[Column<S>],
     ) -> Vec<Vec<S>> {
         let at = self.arm.at(&self.motion.q);
-        let mut entries = quantity.written(&self.written(by, &at, columns));
+        let entries = quantity.written(&self.written(by, &at, columns));
+        let (setup, following) = (self.task.setup, &self.arm.following);
         let rows: Vec<usize> = (0..self.arm.links.len()).collect();
-        gather(&self.arm.following, &rows, columns.len(), &mut entries);
-        let rows: Vec<&[S]> = entries.chunks(columns.len().max(1)).collect();
-        let setup = self.task.setup;
-        let own = setup
-            .rows()
-            .iter()
-            .map(|&joint| setup.robot().row_of(joint));
-        own.map(|row| rows[row].to_vec()).collect()
+        let base = columns.len();
+        let sizes = Sizes {
+            base,
+            ..Sizes::whole(setup.joints())
+        };
+        let own = setup.select(quantity, sizes, &rows, following, entries);
+        own.chunks(base.max(1)).map(<[S]>::to_vec).collect()
     }
 
     /// Returns the results over all joints there are.
@@ -219,7 +208,15 @@ impl<S: Divide> Posed<'_, S> {
     /// Returns the results over the scene's rows, from those over all.
     pub fn select(&self, all: Vec<S>) -> Vec<S> {
         let Task { setup, function } = self.task;
-        setup.select(function, &self.rows, &self.arm.following, all)
+        let (rows, following) = (&self.rows, &self.arm.following);
+        let sizes = setup.sizes(function);
+        let mut all = all.into_iter();
+        let mut selected = Vec::with_capacity(function.outputs(sizes));
+        for &quantity in function.quantities() {
+            let own = all.by_ref().take(quantity.len(sizes.over(rows.len())));
+            selected.extend(setup.select(quantity, sizes, rows, following, own.collect()));
+        }
+        selected
     }
 
     /// Returns the results over the scene's rows.

@@ -114,10 +114,7 @@ impl Form {
         // Over narrow ranges a result may be a constant, whose sign is a literal's: as
         // such it is read back.
         let mut value = |negative, node| match *kernel.node(node) {
-            Node::Constant(Literal(x)) if negative => Edge {
-                node: kernel.literal(-x),
-                negative: false,
-            },
+            Node::Constant(Literal(x)) if negative => Edge::from(kernel.literal(-x)),
             _ => Edge { node, negative },
         };
         let results = match turned {

@@ -257,9 +257,3 @@ impl Program {
         })
     }
 }
-
-/// Multiplications and additions of the angles' polynomials.
-pub fn counts(sines: &[AngleKernel]) -> (usize, usize) {
-    let counts = sines.iter().map(|angle| angle.kernel.counts());
-    counts.fold((0, 0), |(m, a), (mul, add)| (m + mul, a + add))
-}

@@ -130,15 +130,11 @@ pub(crate) fn split(kernel: &Kernel, scalar: ScalarType) -> Option<([f64; 3], Ke
 
 /// Returns the kernel whose sine is this value, as it stands.
 pub(crate) fn alone(kernel: KernelWriter, node: Id) -> Kernel {
-    let result = Edge {
-        node,
-        negative: false,
-    };
     let need = Need {
         sin: true,
         cos: false,
     };
-    kernel.kernel(need, [result; 2])
+    kernel.kernel(need, [Edge::from(node); 2])
 }
 
 /// Returns what is left of angles in a range; `None` if there are too many turns for

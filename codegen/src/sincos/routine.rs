@@ -36,10 +36,7 @@ pub(crate) fn routine(scalar: ScalarType) -> Kernel {
         ScalarType::F64 => rest::<f64, Rounded, _>(angle),
         ScalarType::F32 => rest::<f32, Rounded, _>(angle),
     };
-    let results = [sin, cos].map(|result| Edge {
-        node: result.node(&mut tape.borrow_mut()),
-        negative: false,
-    });
+    let results = [sin, cos].map(|result| Edge::from(result.node(&mut tape.borrow_mut())));
     let need = Need {
         sin: true,
         cos: true,

@@ -2,22 +2,17 @@
 //! fill in, and that every stage of a generation reads.
 //!
 //! - this file: [`Job`]
-//! - `choices`: choices of two words
-//! - [`request`]: what somebody wants of a robot; [`options`]: the table of its options
-//! - [`in_scene`]: a file's scenes by name, and what they ask for
+//! - `request`: what somebody wants of a robot; [`options`]: the table of its options
 
-mod choices;
-pub(crate) mod in_scene;
 pub(crate) mod options;
-pub(crate) mod request;
+mod request;
 
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Tolerance;
 
 use crate::program::Program;
 use crate::setup::Setup;
-pub use choices::{Fma, Prefer};
-pub use request::Request;
+pub use request::{Fma, Prefer, Request};
 
 /// A request for a robot in its scene.
 #[derive(Clone, Copy, Debug)]
@@ -52,15 +47,5 @@ impl<'a> Job<'a> {
             Fma::On => program.fused(),
             Fma::Off => program.clone(),
         }
-    }
-
-    /// Returns whether cheaper programs may round as they like.
-    pub(crate) fn is_lenient(&self) -> bool {
-        self.request.prefer == Prefer::Operations
-    }
-
-    /// Returns the module's name.
-    pub fn module_name(&self) -> String {
-        self.request.module_name(self.robot)
     }
 }

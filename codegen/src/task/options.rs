@@ -9,9 +9,7 @@ use dalembert_model::read::for_bundle;
 use dalembert_model::scene::Scene;
 use dalembert_stamp::Asked;
 
-use super::choices::{Fma, Prefer};
-use super::in_scene::find;
-use super::request::Request;
+use super::request::{Fma, Prefer, Request};
 use crate::function::Function;
 use crate::program::ScalarType;
 use crate::sincos::SinCos;
@@ -49,28 +47,16 @@ pub enum Purpose {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
     /// The option.
-    pub option: String,
+    pub option: &'static str,
     /// The item of its value; empty where it is about the option as a whole.
     pub item: String,
-    /// The mistake, in a sentence.
-    pub message: String,
-    /// The likely fix.
-    pub help: String,
+    /// The mistake and the likely fix.
+    pub complaint: Complaint,
 }
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Problem {
-            option,
-            message,
-            help,
-            ..
-        } = self;
-        write!(f, "{option}: {message}")?;
-        match help.as_str() {
-            "" => Ok(()),
-            help => write!(f, ": {help}"),
-        }
+        write!(f, "{}: {}", self.option, self.complaint)
     }
 }
 
@@ -83,7 +69,6 @@ struct Draft {
     scalars: Option<Vec<ScalarType>>,
     scene: Option<String>,
     error: Option<f64>,
-    has_no_plan: bool,
     request: Request,
 }
 
@@ -109,6 +94,20 @@ fn output(draft: &mut Draft, item: &str) -> Result<(), Complaint> {
     })?;
     let name = function.name();
     add(outputs, function, |a, b| a.is_namesake(*b), name)
+}
+
+/// Returns the scene of a name.
+///
+/// # Errors
+/// The name that was probably meant.
+fn find<'s>(scenes: &'s [Scene], name: &str) -> Result<&'s Scene, Complaint> {
+    let found = scenes.iter().find(|scene| scene.name == name);
+    found.ok_or_else(|| {
+        let known: Vec<&str> = scenes.iter().map(|scene| scene.name.as_str()).collect();
+        let message = format!("the robot has no scene `{name}`");
+        let none = format!("its file has none: add a table [scene.{name}]");
+        Complaint::unknown(message, name, &known, &none)
+    })
 }
 
 fn sincos_error(draft: &mut Draft, item: &str) -> Result<(), Complaint> {
@@ -260,7 +259,7 @@ pub static OPTIONS: [OptionRow; 13] = [
               is one",
         words: || vec!["on", "off"],
         is_list: false,
-        set: |draft, item| parse::<bool>(item).map(|value| draft.has_no_plan = !value),
+        set: |draft, item| parse::<bool>(item).map(|value| draft.request.has_no_plan = !value),
     },
     OptionRow {
         name: "name",
@@ -289,12 +288,11 @@ impl Request {
         let mut draft = Draft::default();
         draft.request.scalars = scalars.to_vec();
         let mut problems = Vec::new();
-        let mut report = |option: &str, item: &str, Complaint { message, help }: Complaint| {
+        let mut report = |option, item: &str, complaint| {
             problems.push(Problem {
-                option: option.to_owned(),
+                option,
                 item: item.to_owned(),
-                message,
-                help,
+                complaint,
             });
         };
         for row in &OPTIONS {
@@ -322,14 +320,11 @@ impl Request {
             }
             (_, None) => {}
         }
-        match problems.is_empty() {
-            true => {
-                draft.request.has_no_plan = draft.has_no_plan;
-                let request = draft.request.for_file(outputs);
-                Ok(request.choose(draft.outputs, draft.scalars, scene))
-            }
-            false => Err(problems),
+        if !problems.is_empty() {
+            return Err(problems);
         }
+        let request = draft.request.for_file(outputs);
+        Ok(request.choose(draft.outputs, draft.scalars, scene))
     }
 
     /// Returns the options that ask for this request; outputs and scalars are named.
@@ -367,34 +362,10 @@ impl Request {
 
 #[cfg(test)]
 mod tests {
-    use std::fmt::Debug;
-
     use super::*;
-    use crate::language::Language;
-    use crate::search::Effort;
-    use crate::seeds::Start;
 
     fn read(text: &str) -> Result<Request, Vec<Problem>> {
         Request::parse(&text.parse().unwrap(), &ScalarType::ALL, &[], &[])
-    }
-
-    #[test]
-    fn every_word_reads_back() {
-        fn check<W: Word + PartialEq + Debug>() {
-            for (name, value) in W::all() {
-                assert_eq!(parse(name), Ok(value));
-            }
-        }
-        check::<Function>();
-        check::<ScalarType>();
-        check::<Effort>();
-        check::<Prefer>();
-        check::<RuntimeParameter>();
-        check::<Start>();
-        check::<SinCos>();
-        check::<Fma>();
-        check::<Language>();
-        check::<bool>();
     }
 
     /// Each row sets what it says and refuses what it does not know; the table's names and
@@ -422,7 +393,7 @@ mod tests {
             let problems = read(&format!("{}: non?sense", row.name)).unwrap_err();
             assert_eq!(problems.len(), 1, "{problems:?}");
             assert_eq!(
-                (&*problems[0].option, &*problems[0].item),
+                (problems[0].option, &*problems[0].item),
                 (row.name, "non?sense")
             );
         }
@@ -450,7 +421,7 @@ mod tests {
         let nested =
             read("outputs: hold = inertia + gravity, servo = hold + jacobian").unwrap_err();
         assert!(
-            nested[0].message.contains("`hold` is a bundle itself"),
+            nested[0].to_string().contains("`hold` is a bundle itself"),
             "{nested:?}"
         );
     }

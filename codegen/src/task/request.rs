@@ -2,7 +2,7 @@
 
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
-use dalembert_model::scene::Scene;
+use dalembert_model::scene::{Float, Scene};
 
 use crate::function::Function;
 use crate::language::Language;
@@ -13,12 +13,36 @@ use crate::seeds::{Start, load};
 use crate::setup::Setup;
 use crate::sincos::SinCos;
 use crate::watch::Watch;
-use crate::words::Complaint;
-
-use super::choices::{Fma, Prefer};
+use crate::words::{Complaint, words};
 
 /// Some minutes where nothing is optimised.
 const WORK_WHILE_COMPILING: u64 = 400_000_000;
+
+words! {
+    /// The preference among programs. It decides about one whose estimated rounding error is
+    /// more than 4 times that of the textbook form.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Prefer: "preference" {
+        /// Take the cheapest that is not that much worse.
+        #[default]
+        Accuracy = "accuracy",
+        /// Take the cheapest.
+        Operations = "operations",
+    }
+}
+
+words! {
+    /// Fusing a product with the sum that alone reads it, or not.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub enum Fma: "choice" {
+        /// Every operation is rounded.
+        #[default]
+        Off = "off",
+        /// A product and its sum are one operation, `mul_add`, and rounded once. It
+        /// needs `std`, and a processor that has it.
+        On = "on",
+    }
+}
 
 /// A request for code.
 #[derive(Clone, Debug)]
@@ -134,5 +158,52 @@ impl Request {
             (None, Some(scene)) => format!("{}_{}", robot.name, scene.name),
             (None, None) => robot.name.clone(),
         }
+    }
+
+    /// Returns the request with the outputs and scalars that somebody chose, if any, and
+    /// in a scene, if any: it takes the scene's outputs where none were chosen,
+    /// and the same for its scalar. With a tolerance and no scalar chosen, the
+    /// cheapest that it admits is taken.
+    #[must_use]
+    pub fn choose(
+        mut self,
+        outputs: Option<Vec<Function>>,
+        scalars: Option<Vec<ScalarType>>,
+        scene: Option<&Scene>,
+    ) -> Request {
+        if let Some(scene) = scene {
+            if !scene.outputs.is_empty() {
+                self.functions = scene.outputs.clone();
+            }
+            match scene.scalar {
+                Some(Float::F64) => self.scalars = vec![ScalarType::F64],
+                Some(Float::F32) => self.scalars = vec![ScalarType::F32],
+                None => {}
+            }
+            self.cheapest_scalar = scalars.is_none() && scene.scalar.is_none();
+            if self.cheapest_scalar && scene.tolerance.is_some() {
+                self.scalars = ScalarType::ALL.to_vec();
+            }
+            self.scene = Some(scene.clone());
+        }
+        self.functions = outputs.unwrap_or(self.functions);
+        self.scalars = scalars.unwrap_or(self.scalars);
+        self
+    }
+
+    /// Takes the outputs that a robot file names, where it names any; a scene's and those
+    /// that somebody chose come after them.
+    #[must_use]
+    pub fn for_file(mut self, outputs: &[Function]) -> Request {
+        if !outputs.is_empty() {
+            self.functions = outputs.to_vec();
+        }
+        self
+    }
+
+    /// Returns the request in a scene, with its outputs and its scalar.
+    #[must_use]
+    pub fn in_scene(self, scene: &Scene) -> Request {
+        self.choose(None, None, Some(scene))
     }
 }

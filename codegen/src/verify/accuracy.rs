@@ -39,39 +39,26 @@ pub struct Refused {
 #[derive(Clone, Debug)]
 pub(crate) struct AccuracyFilter<'a> {
     task: Task<'a>,
-    reference_formulation: Option<Rounding>,
+    /// The textbook form's error; none where whatever a program costs is admitted.
+    reference: Option<Rounding>,
     /// The chunk of states that refused the last program: it may refuse the next one, too.
     worst_states: Cell<usize>,
 }
 
 impl<'a> AccuracyFilter<'a> {
-    /// Measures the textbook form: the link-frame recursion; for h_ikm, which
-    /// it gives only by differences, Lagrange–Euler.
-    pub(crate) fn new(task: Task<'a>) -> Self {
-        let Task { setup, function } = task;
-        let n = setup.joints();
-        let mut quantities = function.quantities().iter();
-        let formulation = if quantities.any(|quantity| quantity.by_differences()) {
-            (n <= MAX_WRITTEN).then_some(Formulation::LagrangeEuler)
-        } else {
-            (n <= MAX_MEASURED).then_some(Formulation::NewtonEulerLink)
+    /// Measures the textbook form, unless programs are admitted whatever they cost: the link-frame
+    /// recursion; for h_ikm, which it gives only by differences, Lagrange–Euler.
+    pub(crate) fn new(task: Task<'a>, is_lenient: bool) -> Self {
+        let mut quantities = task.function.quantities().iter();
+        let (most, by) = match quantities.any(|quantity| quantity.by_differences()) {
+            true => (MAX_WRITTEN, Formulation::LagrangeEuler),
+            false => (MAX_MEASURED, Formulation::NewtonEulerLink),
         };
-        let reference_formulation = formulation.map(|formulation| {
-            let textbook = seeds::textbook(task, formulation).graph;
-            estimate(task, &textbook)
-        });
+        let is_measured = !is_lenient && task.setup.joints() <= most;
+        let textbook = is_measured.then(|| seeds::textbook(task, by).graph);
         AccuracyFilter {
             task,
-            reference_formulation,
-            worst_states: Cell::default(),
-        }
-    }
-
-    /// Admits a program whatever it costs.
-    pub(crate) fn lenient(task: Task<'a>) -> Self {
-        AccuracyFilter {
-            task,
-            reference_formulation: None,
+            reference: textbook.map(|textbook| estimate(task, &textbook)),
             worst_states: Cell::default(),
         }
     }
@@ -84,18 +71,14 @@ impl<'a> AccuracyFilter<'a> {
     /// Returns the program's error over the largest that is accepted; zero where
     /// nothing is measured. An error at or above the bound need not be exact.
     pub(crate) fn excess(&self, graph: &Dag, bound: f64) -> f64 {
-        let Some(reference_formulation) = &self.reference_formulation else {
+        let Some(reference) = &self.reference else {
             return 0.0;
         };
-        let excess = |own: &Rounding| own.factor(reference_formulation, FLOOR) / WORSE;
-        let program = self.task.program(graph);
+        let excess = |own: &Rounding| own.factor(reference, FLOOR) / WORSE;
         let reaches = |own: &Rounding| excess(own) >= bound;
-        excess(&Rounding::until(
-            self.task.setup,
-            &program,
-            &self.worst_states,
-            reaches,
-        ))
+        let (task, first) = (&self.task, &self.worst_states);
+        let program = task.program(graph);
+        excess(&Rounding::until(task.setup, &program, first, reaches))
     }
 
     /// Returns the program's largest normwise error, in units of u.
@@ -105,6 +88,5 @@ impl<'a> AccuracyFilter<'a> {
 }
 
 fn estimate(task: Task<'_>, graph: &Dag) -> Rounding {
-    let program = task.program(graph);
-    Rounding::estimate(task.setup, &program)
+    Rounding::estimate(task.setup, &task.program(graph))
 }

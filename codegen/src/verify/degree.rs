@@ -14,14 +14,18 @@ use dalembert_model::number::{Angle, Exact};
 use dalembert_model::scalar::sparse::Sparse;
 use dalembert_model::scalar::{Divide, Scalar};
 
+use super::exact::Disproof;
 use crate::dag::Leaves;
 use crate::program::Input;
+
+/// The largest degree for which a miss is as unlikely as is said.
+const MAX_DEGREE: f64 = (1u64 << 30) as f64;
 
 /// The degree of a polynomial over powers of divisors; infinite beyond a double's range.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Degree {
     top: f64,
-    /// The degree of each divisor and its power, ordered by address.
+    /// The degree of each divisor, which its address tells from others, and its power.
     under: Vec<(Rc<f64>, f64)>,
 }
 
@@ -35,21 +39,19 @@ impl Degree {
 
     /// Returns each divisor of either value with its power in both.
     fn powers(&self, other: &Degree) -> Vec<(Rc<f64>, f64, f64)> {
-        let (mut own, mut others) = (self.under.iter().peekable(), other.under.iter().peekable());
-        let address = |entry: Option<&&(Rc<f64>, f64)>| entry.map(|(d, _)| Rc::as_ptr(d).addr());
-        let mut all = Vec::new();
-        loop {
-            let (a, b) = (address(own.peek()), address(others.peek()));
-            let Some(least) = a.into_iter().chain(b).min() else {
-                return all;
-            };
-            let a = own.next_if(|_| a == Some(least));
-            let b = others.next_if(|_| b == Some(least));
-            let power = |entry: Option<&(Rc<f64>, f64)>| entry.map_or(0.0, |(_, power)| *power);
-            if let Some((divisor, _)) = a.or(b) {
-                all.push((divisor.clone(), power(a), power(b)));
+        let own = self.under.iter().map(|(d, e)| (d.clone(), *e, 0.0));
+        let others = other.under.iter().map(|(d, e)| (d.clone(), 0.0, *e));
+        let mut all: Vec<_> = own.chain(others).collect();
+        // Stable: of two of a divisor the own one is first.
+        all.sort_by_key(|(divisor, ..)| Rc::as_ptr(divisor).addr());
+        all.dedup_by(|second, first| {
+            let is_same = Rc::ptr_eq(&second.0, &first.0);
+            if is_same {
+                first.2 = second.2;
             }
-        }
+            is_same
+        });
+        all
     }
 }
 
@@ -108,7 +110,6 @@ impl Divide for Degree {
         }
         if other.top > 0.0 {
             under.push((Rc::new(other.top), 1.0));
-            under.sort_by_key(|(divisor, _)| Rc::as_ptr(divisor).addr());
         }
         Degree { top, under }
     }
@@ -119,23 +120,22 @@ impl Divide for Degree {
 pub(super) struct Degrees(RefCell<Vec<Angle>>);
 
 impl Degrees {
-    /// Returns a bound of the degree of the differences between two lists of values in the
-    /// parameters that are drawn, for an arm of `joints` joints.
-    pub(super) fn of_differences(
+    /// Refuses two lists of values of an arm of `joints` joints if the degree of a difference in the
+    /// parameters that are drawn is so large that a miss is not unlikely.
+    pub(super) fn bound(
         &self,
         own: &[Sparse<Degree>],
         others: &[Sparse<Degree>],
         joints: usize,
-    ) -> f64 {
-        let differences = own.iter().zip(others).map(|(a, b)| a.add(b));
-        let tops = differences.map(|value| value.value().map_or(f64::INFINITY, |x| x.top));
+    ) -> Result<(), Disproof> {
         let pairs = joints + self.0.borrow().len();
-        // A sum of infinities of both signs is no number, and must not pass for a small one.
-        let most = tops.fold(0.0, |most: f64, top| match top.is_nan() {
-            true => f64::INFINITY,
-            false => most.max(top),
-        });
-        (2 * pairs + 1) as f64 * most
+        // Infinities of both signs make no number, which is not small.
+        let is_small = |degree: Degree| (2 * pairs + 1) as f64 * degree.top <= MAX_DEGREE;
+        let mut differences = own.iter().zip(others).map(|(a, b)| a.add(b).value());
+        match differences.all(|degree| degree.is_some_and(is_small)) {
+            true => Ok(()),
+            false => Err(Disproof::Large),
+        }
     }
 }
 

@@ -28,15 +28,12 @@ use super::points::{POINTS, Point, Residue, integers, points, written};
 use crate::dag::Leaves;
 use crate::function::{Argument, Function};
 use crate::program::{Input, Program};
-use crate::setup::{Setup, Task};
+use crate::setup::Setup;
 use dalembert_model::number::Exact;
 
 /// The most joints for which Lagrange–Euler itself is the reference: its cost
 /// grows with n⁴ to n⁵.
 const WRITTEN_LIMIT: usize = 10;
-
-/// The largest degree for which a miss is as unlikely as is said.
-const MAX_DEGREE: f64 = (1u64 << 30) as f64;
 
 /// Returns the formulation that is the reference for an arm.
 pub(super) fn reference_formulation(setup: &Setup) -> Formulation {
@@ -55,8 +52,6 @@ pub struct Proof {
 }
 
 impl Proof {
-    /// The number of random points.
-    pub const POINTS: usize = POINTS;
     /// A wrong program passes with a probability below 10 to the power of this.
     pub const FAILURE_EXPONENT: i32 = -36;
 }
@@ -64,13 +59,8 @@ impl Proof {
 /// Why a program is not the formula.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Disproof {
-    /// An output differs at a point.
-    Output {
-        /// The index of the output in the flat list.
-        index: usize,
-        /// Its name, one-based.
-        entry: String,
-    },
+    /// The output of this name, one-based, differs at a point.
+    Output(String),
     /// The formula does not solve its own equation of motion: a defect of this library.
     Equation,
     /// The base parameters do not give what a parameter takes of torque: a
@@ -106,9 +96,7 @@ impl fmt::Display for Proof {
 impl fmt::Display for Disproof {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Disproof::Output { entry, .. } => {
-                write!(f, "{entry} differs from the formula as written")
-            }
+            Disproof::Output(entry) => write!(f, "{entry} differs from the formula as written"),
             Disproof::Equation => f.write_str("the formula does not solve its own equation"),
             Disproof::Dependence { parameter } => write!(
                 f,
@@ -141,22 +129,25 @@ pub fn prove(setup: &Setup, program: &Program) -> Result<Proof, Disproof> {
     compare(
         &["program", &written(setup), &format!("{program:?}")],
         |point| {
-            let (results, residuals) = solving(task, formulation, point);
+            let posed = task.posed(point);
+            let all = posed.all(formulation);
+            // Of the equations that the results solve, such as D D⁻¹ − 1; none if they solve none.
+            let residuals = function.residual(formulation, &posed.arm, &posed.motion, &all);
             match integers(&residuals) {
                 None => Ok(None),
-                Some(all) if all.iter().all(|residual| !residual.divides()) => Ok(Some(results)),
-                Some(_) => Err(Disproof::Equation),
+                Some(own) if own.iter().any(|residual| residual.divides()) => {
+                    Err(Disproof::Equation)
+                }
+                Some(_) => Ok(Some(posed.select(all))),
             }
         },
         |point| run(Some(setup), program, point),
-        |index| differs(program, index),
+        |index| Disproof::Output(program.entry(index)),
     )?;
     let degrees = Degrees::default();
-    let (own, others) = (
-        run(Some(setup), program, &degrees).ok_or(Disproof::Shape)?,
-        task.textbook(formulation, &degrees),
-    );
-    bounded(degrees.of_differences(&own, &others, program.joints))?;
+    let own = run(Some(setup), program, &degrees).ok_or(Disproof::Shape)?;
+    let others = task.textbook(formulation, &degrees);
+    degrees.bound(&own, &others, program.joints)?;
     Ok(Proof {
         reference_formulation: (function != Function::Load).then_some(formulation),
     })
@@ -174,25 +165,12 @@ pub fn prove_same(a: &Program, b: &Program) -> Result<(), Disproof> {
         &["two programs", &format!("{a:?}"), &format!("{b:?}")],
         |point| Ok(run(None, a, point)),
         |point| run(None, b, point),
-        |index| differs(b, index),
+        |index| Disproof::Output(b.entry(index)),
     )?;
     let degrees = Degrees::default();
     let both = run(None, a, &degrees).zip(run(None, b, &degrees));
-    let (a_degrees, b_degrees) = both.ok_or(Disproof::Shape)?;
-    bounded(degrees.of_differences(&a_degrees, &b_degrees, a.joints.max(b.joints)))
-}
-
-/// Evaluates a task's formula: returns the results over the scene's rows, and the residuals of the
-/// equations that the results over all joints solve, such as D D⁻¹ − 1; none if they solve none.
-fn solving<L: Leaves>(
-    task: Task<'_>,
-    by: Formulation,
-    leaves: &L,
-) -> (Vec<L::Value>, Vec<L::Value>) {
-    let posed = task.posed(leaves);
-    let all = posed.all(by);
-    let residuals = (task.function).residual(by, &posed.arm, &posed.motion, &all);
-    (posed.select(all), residuals)
+    let (own, others) = both.ok_or(Disproof::Shape)?;
+    degrees.bound(&own, &others, a.joints.max(b.joints))
 }
 
 /// Compares values with the expected ones at [`POINTS`] points where both exist; `differs` names
@@ -227,19 +205,6 @@ pub(super) fn compare(
     Err(Disproof::Unfit)
 }
 
-fn differs(program: &Program, index: usize) -> Disproof {
-    let entry = program.entry(index);
-    Disproof::Output { index, entry }
-}
-
-/// Refuses degrees for which a miss is not unlikely.
-pub(super) fn bounded(degree: f64) -> Result<(), Disproof> {
-    match degree <= MAX_DEGREE {
-        true => Ok(()),
-        false => Err(Disproof::Large),
-    }
-}
-
 /// Returns a program's outputs; `None` if a step reads a later one. Where a robot is given, a load
 /// that the program takes is that of a payload, whose ten numbers are variables of the proof.
 pub(super) fn run<L: Leaves>(
@@ -249,7 +214,8 @@ pub(super) fn run<L: Leaves>(
 ) -> Option<Vec<L::Value>> {
     let load = match setup {
         Some(setup) if program.arguments.contains(&Argument::Load) => {
-            setup.load_of(|input| leaves.input(input), |x| leaves.constant(x))
+            let loading = setup.loading(|input| leaves.input(input), |x| leaves.constant(x));
+            loading.load()
         }
         _ => Vec::new(),
     };

@@ -1,10 +1,5 @@
-//! The measured rounding error: the emitted text, run bit for bit, against the generic
-//! runtime in f64.
-//!
-//! The error of a quantity is normwise, max_i |error_i| / max_i |reference_i|,
-//! the worst over the states. f32 code is compared at the f32-rounded state,
-//! so that only the rounding of its own arithmetic and constants counts. What
-//! inverts D may err as many times more as D's condition at the state is.
+//! What emitted text is compared with when it is run bit for bit: the generic runtime in f64, and
+//! how many times more than others a quantity may err.
 
 use dalembert_model::equations::factor::submatrix;
 use dalembert_model::equations::forward::free;
@@ -22,9 +17,6 @@ use crate::program::{Code, Input, Literal, Pair, ScalarType};
 use crate::setup::{Posed, Setup};
 use crate::states::JointState;
 
-/// The bound on the normwise error against the runtime, in units of u.
-pub const BOUND: f64 = 100.0;
-
 /// A seeded state counts relative to at least this part of the largest
 /// reference met. Next to balance, where every torque passes through zero,
 /// an error relative to the torque says nothing about the code.
@@ -41,27 +33,6 @@ pub struct Emitted {
     pub sizes: Sizes,
     /// Its text.
     pub text: Code,
-}
-
-/// The worst normwise error of one quantity of one function.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measure {
-    /// The function.
-    pub function: Function,
-    /// Its scalar.
-    pub scalar: ScalarType,
-    /// The quantity.
-    pub quantity: Quantity,
-    /// The worst error, over the condition of D where the quantity inverts it;
-    /// infinite if a result is not a number.
-    pub error: f64,
-}
-
-impl Measure {
-    /// Returns the error in units of the scalar's u.
-    pub fn in_units(&self) -> f64 {
-        self.error / self.scalar.unit_roundoff()
-    }
 }
 
 /// The factors by which the results at a state may err more than others: for what inverts D, the
@@ -115,18 +86,13 @@ impl Runtime {
         let posed = self.posed(function, state);
         let (arm, motion) = (&posed.arm, &posed.motion);
         let d = Formulation::NewtonEulerLink.gathered_inertia(arm, &arm.at(&motion.q));
-        let of_inertia = floats(&submatrix(&d, &free(&motion.moves)).concat());
-        let of_inertia = match of_inertia.is_empty() {
-            true => 1.0,
-            false => scaled_condition(&of_inertia).max(1.0),
-        };
+        let d = submatrix(&d, &free(&motion.moves)).concat();
+        // A matrix without entries has the condition zero.
+        let of_inertia = scaled_condition(&floats(&d)).max(1.0);
         let divisors = posed.divisors();
         let quantities = function.quantities().iter().zip(&divisors);
         let factors = quantities.map(|(quantity, divisor)| {
-            let own = match divisor.is_empty() {
-                true => 1.0,
-                false => condition(&floats(divisor)).max(1.0),
-            };
+            let own = condition(&floats(divisor)).max(1.0);
             match quantity.inverts_inertia() {
                 true => (*quantity, of_inertia * own),
                 false => (*quantity, own),
@@ -138,24 +104,19 @@ impl Runtime {
     /// Returns the arm and its motion at a state.
     fn posed(&self, function: Function, state: &JointState) -> Posed<'_, Sparse<f64>> {
         let input = |input: Input| Sparse::Value(self.setup.input_at(input, state));
-        let arm = self.arm_of(function).clone();
-        self.setup.task(function).posed_arm(arm, &(constant, input))
+        let mut quantities = function.quantities().iter();
+        let arm = match quantities.any(|quantity| quantity.depends_on_base()) {
+            true => &self.whole,
+            false => &self.arm,
+        };
+        let task = self.setup.task(function);
+        task.posed_arm(arm.clone(), &(constant, input))
     }
 
     /// Returns the results of a function at a state, flat.
     pub fn run(&self, function: Function, state: &JointState) -> Vec<f64> {
         let posed = self.posed(function, state);
-        let formulation = Formulation::NewtonEulerLink;
-        floats(&posed.results(formulation))
-    }
-
-    /// Returns the arm that a function is of.
-    fn arm_of(&self, function: Function) -> &Arm<Sparse<f64>> {
-        let mut quantities = function.quantities().iter();
-        match quantities.any(|quantity| quantity.depends_on_base()) {
-            true => &self.whole,
-            false => &self.arm,
-        }
+        floats(&posed.results(Formulation::NewtonEulerLink))
     }
 }
 
@@ -193,38 +154,6 @@ impl Emitted {
         outputs.map(|output| *dag.node(output.node) == Node::Constant(Literal(0.0)))
     }
 
-    /// Returns the errors against the runtime, a quantity each. Sines are libm's on
-    /// both sides: how far polynomials are from them is
-    /// [measured apart](Emitted::sines).
-    pub fn against_runtime(&self, runtime: &Runtime, states: &[JointState]) -> Vec<Measure> {
-        let own = self.with_libm();
-        let mut cases = Vec::with_capacity(states.len());
-        for state in states {
-            let state = state.in_scalar(self.scalar);
-            let mut reference = runtime.run(self.function, &state);
-            for (value, vanishes) in reference.iter_mut().zip(self.vanishing()) {
-                if vanishes {
-                    *value = 0.0;
-                }
-            }
-            let granted = runtime.granted(self.function, &state);
-            cases.push((own.run(&state), reference, granted));
-        }
-        let mut measures = Vec::new();
-        let mut start = 0;
-        for &quantity in self.function.quantities() {
-            let range = start..start + quantity.len(self.sizes);
-            start = range.end;
-            let part = |values: &'_ [f64]| values[range.clone()].to_vec();
-            let cases = cases.iter();
-            let cases = cases.map(|(a, b, granted)| (part(a), part(b), granted.factor(quantity)));
-            let cases: Vec<Case> = cases.collect();
-            let least = LEAST_PART * cases.iter().map(|(_, b, _)| largest(b)).fold(0.0, f64::max);
-            measures.push(self.measure(quantity, worst(&cases, least)));
-        }
-        measures
-    }
-
     /// Returns the largest |polynomial − libm's f64| of each joint over the states, in
     /// the order of the text; none for angles that are libm's.
     pub fn sines(&self, states: &[JointState]) -> Vec<(usize, f64)> {
@@ -240,15 +169,6 @@ impl Emitted {
         })
         .collect()
     }
-
-    fn measure(&self, quantity: Quantity, error: f64) -> Measure {
-        Measure {
-            function: self.function,
-            scalar: self.scalar,
-            quantity,
-            error,
-        }
-    }
 }
 
 /// Returns the distance of an angle's polynomials from libm at a state.
@@ -263,35 +183,4 @@ fn off<T: Machine>(pair: &Pair, kernel: &Kernel, state: &JointState) -> f64 {
         false => 0.0,
     };
     off(pair.need.sin, sin, true_sin).max(off(pair.need.cos, cos, true_cos))
-}
-
-/// Actual and expected values, and how many times more than others they may
-/// differ.
-type Case = (Vec<f64>, Vec<f64>, f64);
-
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |most, x| most.max(x.abs()))
-}
-
-/// Returns max|a − b| / max|b| of the worst case; absolute where b vanishes.
-fn worst(cases: &[Case], least: f64) -> f64 {
-    let mut worst = 0.0f64;
-    for (actual, expected, granted) in cases {
-        let size = largest(expected).max(least);
-        let differences = actual.iter().zip(expected).map(|(a, b)| (a - b).abs());
-        for difference in differences {
-            let error = if size > 0.0 {
-                difference / size / granted
-            } else {
-                difference / granted
-            };
-            // A NaN loses every comparison: it must not go unnoticed.
-            worst = if error.is_nan() {
-                f64::INFINITY
-            } else {
-                worst.max(error)
-            };
-        }
-    }
-    worst
 }

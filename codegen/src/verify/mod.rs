@@ -8,7 +8,7 @@
 //! - [`singular`]: whether D has an inverse, and which joint it lacks one for
 //! - [`condition`]: how close D is to singular at a state
 //! - [`truth`]: true values, to 60 digits
-//! - [`measure`]: what rounding costs: against the runtime and given states
+//! - [`measure`]: the generic runtime, and how many times more than others a quantity may err
 
 pub(crate) mod accuracy;
 pub(crate) mod condition;

@@ -10,15 +10,13 @@
 //!
 //! [`BaseParameters`]: crate::setup::base::BaseParameters
 
-use std::collections::BTreeMap;
-
-use dalembert_model::equations::Formulation;
 use dalembert_model::equations::regressor::{Column, LinkParameter, of_drives, of_links};
 use dalembert_model::number::Exact;
+use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
 
 use super::degree::Degrees;
-use super::exact::{Disproof, bounded, compare, reference_formulation};
+use super::exact::{Disproof, compare, reference_formulation};
 use super::points::{Residue, written};
 use crate::dag::Leaves;
 use crate::function::{Columns, Quantity};
@@ -34,85 +32,70 @@ pub fn prove_base(task: Task<'_>, base: &BaseParameters) -> Result<(), Disproof>
     let Columns::Base(quantity) = function.columns() else {
         return Err(Disproof::Shape);
     };
+    let parameters = parameters(setup.robot());
+    let place = |own: &Parameter| parameters.iter().position(|other| other == own);
+    let combinations = base.combinations.iter().map(|terms| {
+        let terms = terms.iter();
+        let terms = terms.map(|(own, factor)| Some((place(own)?, factor)));
+        terms.collect()
+    });
+    let combinations: Option<Vec<Vec<_>>> = combinations.collect();
     let statement = Statement {
         task,
         quantity,
-        base,
-        formulation: reference_formulation(setup),
+        columns: &base.columns,
+        combinations: combinations.ok_or(Disproof::Unfit)?,
     };
-    let combinations = statement.combinations().ok_or(Disproof::Unfit)?;
-    let parameters = statement.parameters();
     let length = setup.rows().len() * parameters.len();
     let base = format!("{function} {:?} {:?}", base.columns, base.combinations);
     compare(
         &["base parameters", &written(setup), &base],
         |_| Ok(Some(vec![Residue::zero(); length])),
-        |point| Some(statement.differences(&combinations, point)),
+        |point| Some(statement.differences(point)),
         |wrong| Disproof::Dependence {
             parameter: parameters[wrong % parameters.len()].to_string(),
         },
     )?;
     let degrees = Degrees::default();
-    let differences = statement.differences(&combinations, &degrees);
+    let differences = statement.differences(&degrees);
     let zeros = vec![Scalar::zero(); length];
-    bounded(degrees.of_differences(&differences, &zeros, setup.joints()))
+    degrees.bound(&differences, &zeros, setup.joints())
+}
+
+/// Returns all parameters of a robot file, in the order of the full columns.
+fn parameters(robot: &Robot) -> Vec<Parameter> {
+    let links = (0..robot.rows().len()).flat_map(|joint| {
+        let all = LinkParameter::ALL.into_iter();
+        all.map(move |own| Parameter::Link(joint, own))
+    });
+    let drives = of_drives::<Exact>(robot);
+    links
+        .chain(drives.iter().map(Parameter::of_drive))
+        .collect()
 }
 
 struct Statement<'a> {
     task: Task<'a>,
     quantity: Quantity,
-    base: &'a BaseParameters,
-    formulation: Formulation,
+    columns: &'a [Column<Exact>],
+    /// Each base parameter's terms: the place of a parameter, and its factor.
+    combinations: Vec<Vec<(usize, &'a Exact)>>,
 }
 
 impl Statement<'_> {
-    /// Returns all parameters of the robot file, in the order of the full columns.
-    fn parameters(&self) -> Vec<Parameter> {
-        let rows = 0..self.task.setup.robot().rows().len();
-        let links = rows.flat_map(|joint| {
-            let all = LinkParameter::ALL.into_iter();
-            all.map(move |own| Parameter::Link(joint, own))
-        });
-        let drives = of_drives::<Exact>(self.task.setup.robot()).into_iter();
-        let drives = drives.map(|column| match column {
-            Column::Viscous(joint) => Parameter::Viscous(joint),
-            Column::Armature(joint) | Column::Body { joint, .. } => Parameter::Armature(joint),
-        });
-        links.chain(drives).collect()
-    }
-
-    /// Returns each base parameter's terms: the place of a parameter, and its factor. None if
-    /// there is no such parameter.
-    fn combinations(&self) -> Option<Vec<Vec<(usize, &Exact)>>> {
-        let places: BTreeMap<Parameter, usize> = (self.parameters().into_iter())
-            .enumerate()
-            .map(|(place, parameter)| (parameter, place))
-            .collect();
-        let combinations = self.base.combinations.iter().map(|terms| {
-            let terms = terms.iter();
-            let terms = terms.map(|(own, factor)| Some((*places.get(own)?, factor)));
-            terms.collect()
-        });
-        combinations.collect()
-    }
-
     /// Returns Y_full − Y B over the rows, row by row.
-    fn differences<L: Leaves>(
-        &self,
-        combinations: &[Vec<(usize, &Exact)>],
-        leaves: &L,
-    ) -> Vec<L::Value> {
-        let robot = self.task.setup.robot();
+    fn differences<L: Leaves>(&self, leaves: &L) -> Vec<L::Value> {
+        let setup = self.task.setup;
+        let by = reference_formulation(setup);
         let posed = self.task.posed(leaves);
         let constant = |x: &Exact| leaves.constant(x);
-        let mut all = of_links(robot.rows().len());
-        all.extend(of_drives(robot));
-        let own: Vec<_> = self.base.columns.iter().map(|c| c.map(constant)).collect();
-        let [whole, own] =
-            [all, own].map(|columns| posed.regressor(self.formulation, self.quantity, &columns));
+        let mut all = of_links(setup.robot().rows().len());
+        all.extend(of_drives(setup.robot()));
+        let own: Vec<_> = self.columns.iter().map(|c| c.map(constant)).collect();
+        let [whole, own] = [all, own].map(|columns| posed.regressor(by, self.quantity, &columns));
         let mut found = Vec::new();
         for (mut differences, own) in whole.into_iter().zip(own) {
-            for (entry, terms) in own.iter().zip(combinations) {
+            for (entry, terms) in own.iter().zip(&self.combinations) {
                 for (place, factor) in terms {
                     let part = entry.mul(&constant(factor));
                     differences[*place] = differences[*place].sub(&part);

@@ -8,15 +8,14 @@
 //! depend on how the last digits of its parameters happen to fall.
 
 use std::cell::Cell;
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 use dalembert_model::number::{Exact, Rounded};
 use dalembert_model::scalar::{Divide, Scalar};
 use num_traits::Signed;
 
-use crate::dag::{Dag, Edge, Id, Leaves, Node};
-use crate::program::lanes::{LANES, Lanes};
+use crate::dag::lanes::{LANES, Lanes};
+use crate::dag::{Dag, Edge, Id, Node};
 use crate::program::{Input, Operation, Program};
 use crate::setup::Setup;
 use crate::states::JointState;
@@ -50,23 +49,18 @@ impl Rounding {
         first: &Cell<usize>,
         is_enough: impl Fn(&Rounding) -> bool,
     ) -> Rounding {
-        let graph = &program.dag;
-        let is_exact: Vec<bool> = graph
-            .nodes
-            .iter()
-            .map(|node| is_exact(graph, node))
-            .collect();
+        let dag = &program.dag;
+        let is_exact: Vec<bool> = dag.nodes.iter().map(|node| is_exact(dag, node)).collect();
         let states = setup.states(STATES, SEED);
         let runs = states
             .chunks(LANES)
-            .map(|states| graph.values(&AtStates::new(setup, graph, states)));
+            .map(|states| values(setup, dag, states));
         let mut runs: Vec<(usize, Vec<Lanes<Sticky>>)> = runs.enumerate().collect();
-        let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
         let size = |output: &Edge| {
             let values = runs.iter().flat_map(|(_, values)| values[output.index()].0);
-            largest(&mut values.map(|value| value.0.abs()))
+            largest(values.map(|value| value.0.abs()))
         };
-        let sizes: Vec<f64> = graph.outputs.iter().map(size).collect();
+        let sizes: Vec<f64> = dag.outputs.iter().map(size).collect();
         let mut ranges = Vec::new();
         for quantity in program.function.quantities() {
             let start = ranges.last().map_or(0, |range: &Range<usize>| range.end);
@@ -80,30 +74,24 @@ impl Rounding {
         runs.sort_by_key(|(index, _)| *index != first.get());
         let mut adjoints = Vec::new();
         for (index, values) in runs {
-            let outputs = graph.outputs.iter();
+            let outputs = dag.outputs.iter();
             let errors =
-                outputs.map(|output| error(graph, *output, &values, &is_exact, &mut adjoints));
+                outputs.map(|output| error(dag, *output, &values, &is_exact, &mut adjoints));
             let errors: Vec<[f64; LANES]> = errors.collect();
             for (quantity, range) in ranges.iter().enumerate() {
-                let (outputs, own) = (&graph.outputs[range.clone()], &errors[range.clone()]);
-                let normwise = largest(&mut (0..LANES).map(|lane| {
-                    let results = outputs
-                        .iter()
-                        .map(|output| values[output.index()].0[lane].0);
-                    let size = largest(&mut results.map(f64::abs));
-                    ratio(largest(&mut own.iter().map(|error| error[lane])), size)
-                }));
-                let each = own.iter().zip(&sizes[range.clone()]);
-                let per_output = largest(
-                    &mut each.flat_map(|(error, size)| error.map(|error| ratio(error, *size))),
-                );
-                let worst = [
-                    &mut rounding.normwise[quantity],
-                    &mut rounding.per_output[quantity],
-                ];
-                for (worst, own) in worst.into_iter().zip([normwise, per_output]) {
-                    *worst = worst.max(own);
-                }
+                let normwise = (0..LANES).map(|lane| {
+                    let results = dag.outputs[range.clone()].iter();
+                    let size = results.map(|output| values[output.index()].0[lane].0.abs());
+                    let error = errors[range.clone()].iter().map(|error| error[lane]);
+                    ratio(largest(error), largest(size))
+                });
+                let worst = &mut rounding.normwise[quantity];
+                *worst = worst.max(largest(normwise));
+                let each = errors[range.clone()].iter().zip(&sizes[range.clone()]);
+                let per_output =
+                    each.map(|(error, size)| ratio(largest(error.iter().copied()), *size));
+                let worst = &mut rounding.per_output[quantity];
+                *worst = worst.max(largest(per_output));
             }
             if is_enough(&rounding) {
                 first.set(index);
@@ -127,7 +115,7 @@ impl Rounding {
 
     /// Returns the largest normwise error of a quantity.
     pub fn worst(&self) -> f64 {
-        self.normwise.iter().copied().fold(0.0, f64::max)
+        largest(self.normwise.iter().copied())
     }
 }
 
@@ -184,49 +172,32 @@ impl Divide for Sticky {
     }
 }
 
-/// The inputs of a program at a few states.
-struct AtStates(BTreeMap<Input, Lanes<Sticky>>);
-
-impl AtStates {
-    /// Reads the inputs; lanes beyond the states repeat the last of them.
-    fn new(setup: &Setup, graph: &Dag, states: &[JointState]) -> AtStates {
-        let lanes = |input: Input| {
-            let values = states
-                .iter()
-                .map(|state| Sticky(setup.input_at(input, state)));
-            Lanes::new(&values.collect::<Vec<_>>())
-        };
-        let inputs = graph.inputs();
-        AtStates(
-            inputs
-                .filter_map(|input| Some((*input, lanes(*input)?)))
-                .collect(),
-        )
-    }
+/// Returns the value of every node at a few states; lanes beyond them repeat the last one.
+fn values(setup: &Setup, dag: &Dag, states: &[JointState]) -> Vec<Lanes<Sticky>> {
+    let constant = |constant: &Exact| Lanes([Sticky(f64::nearest(constant)); LANES]);
+    let input = |input: Input| {
+        let values = states
+            .iter()
+            .map(|state| Sticky(setup.input_at(input, state)));
+        let lanes = Lanes::new(&values.collect::<Vec<_>>());
+        lanes.unwrap_or(Lanes([Sticky(f64::NAN); LANES]))
+    };
+    dag.values(&(constant, input))
 }
 
-impl Leaves for AtStates {
-    type Value = Lanes<Sticky>;
-
-    fn constant(&self, constant: &Exact) -> Lanes<Sticky> {
-        Lanes([Sticky(f64::nearest(constant)); LANES])
-    }
-
-    fn input(&self, input: Input) -> Lanes<Sticky> {
-        let known = self.0.get(&input).copied();
-        known.unwrap_or(Lanes([Sticky(f64::NAN); LANES]))
-    }
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, f64::max)
 }
 
 /// Returns the root of the sum of squares of all errors as they reach an output, in units of u.
 fn error(
-    graph: &Dag,
+    dag: &Dag,
     output: Edge,
     values: &[Lanes<Sticky>],
     is_exact: &[bool],
     adjoints: &mut Vec<Lanes<Sticky>>,
 ) -> [f64; LANES] {
-    graph.adjoints(output.node, values, adjoints);
+    dag.adjoints(output.node, values, adjoints);
     let mut squares = Lanes::<Sticky>::zero();
     for ((adjoint, value), is_exact) in adjoints.iter().zip(values).zip(is_exact) {
         if !is_exact && !adjoint.is_zero() {
@@ -239,8 +210,8 @@ fn error(
 
 /// Returns whether a node loses no digit: a power of two, a product with one, a fused product, an
 /// entry of an argument. Sines are rounded.
-fn is_exact(graph: &Dag, node: &Node) -> bool {
-    let is_power = |id: &Id| matches!(graph.node(*id), Node::Constant(c) if is_power_of_two(c));
+fn is_exact(dag: &Dag, node: &Node) -> bool {
+    let is_power = |id: &Id| matches!(dag.node(*id), Node::Constant(c) if is_power_of_two(c));
     match node {
         Node::Constant(constant) => is_power_of_two(constant),
         Node::Input(input) => input.angle().is_none(),

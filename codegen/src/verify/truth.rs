@@ -3,7 +3,7 @@
 //!
 //! They share nothing with what is emitted but the robot and the state: no graph, no search, no
 //! proof, no printer. What a program gives in 256 bits is beside them, to be compared. The error of
-//! either is bounded along with it, by `Known`.
+//! either is bounded along with it.
 
 use std::cell::RefCell;
 
@@ -28,7 +28,7 @@ const LOST: f64 = 6.3e-61;
 #[derive(Clone, Debug)]
 pub struct Reference {
     setup: Setup,
-    arm: Arm<Known>,
+    arm: Arm<TrueValue>,
     /// The pairs of angles already computed, by their bits: several functions are run at the
     /// same states.
     pairs: RefCell<FxHashMap<u64, SinCosPair<Wide>>>,
@@ -37,32 +37,29 @@ pub struct Reference {
 /// Pairs that are kept, about a megabyte.
 const MAX_PAIRS: usize = 1 << 13;
 
-/// A true value, and how far it may be off.
+/// A true value, and how far it may be off, by Wilkinson's running error analysis: what the operands
+/// are off, carried through the operation, and what that rounds itself.
 #[derive(Clone, Debug)]
 pub struct TrueValue {
     value: Wide,
+    /// |value|, rounded up.
+    size: f64,
+    /// In units of [`LOST`].
     lost: f64,
 }
 
 impl TrueValue {
-    fn new(known: Known) -> TrueValue {
-        TrueValue {
-            value: known.value,
-            lost: known.lost * LOST,
-        }
-    }
-
     /// Returns the distance to another true value; zero where the errors of both may explain it.
     pub(crate) fn difference(&self, other: &TrueValue) -> f64 {
-        let off = other.value.sub(&self.value).magnitude() - self.lost - other.lost;
-        off.max(0.0)
+        let off = other.value.sub(&self.value).magnitude();
+        (off - self.lost * LOST - other.lost * LOST).max(0.0)
     }
 
     /// |x − value| and no less, less what the reference itself may be off;
     /// infinite if `x` is no number.
     pub fn error(&self, x: f64) -> f64 {
         match Wide::from_f64(x) {
-            Some(x) => (x.sub(&self.value).magnitude() - self.lost).max(0.0),
+            Some(x) => (x.sub(&self.value).magnitude() - self.lost * LOST).max(0.0),
             None => f64::INFINITY,
         }
     }
@@ -72,7 +69,7 @@ impl TrueValue {
         self.value.to_f64()
     }
 
-    /// |value|, rounded up.
+    /// Returns |value|, rounded up.
     pub fn magnitude(&self) -> f64 {
         self.value.magnitude()
     }
@@ -80,7 +77,7 @@ impl TrueValue {
     /// Returns the same; zero of what cannot be told from zero.
     pub fn size(&self) -> f64 {
         match self.magnitude() {
-            size if size <= self.lost => 0.0,
+            size if size <= self.lost * LOST => 0.0,
             size => size,
         }
     }
@@ -90,7 +87,7 @@ impl Reference {
     /// Creates the reference of a robot in its scene.
     pub fn new(setup: &Setup) -> Reference {
         Reference {
-            arm: setup.arm(Known::constant),
+            arm: setup.arm(TrueValue::constant),
             setup: setup.clone(),
             pairs: RefCell::default(),
         }
@@ -106,8 +103,7 @@ impl Reference {
     pub fn run(&self, function: Function, state: &JointState) -> Vec<TrueValue> {
         let task = self.setup.task(function);
         let posed = task.posed_arm(self.arm.clone(), &self.leaves(state));
-        let results = posed.results(Formulation::NewtonEulerLink);
-        results.into_iter().map(TrueValue::new).collect()
+        posed.results(Formulation::NewtonEulerLink)
     }
 
     /// Returns the results of a program with its exact constants at a state of finite numbers,
@@ -118,8 +114,7 @@ impl Reference {
         program: &Program,
         state: &JointState,
     ) -> Option<Vec<TrueValue>> {
-        let results = exact::run(Some(&self.setup), program, &self.leaves(state))?;
-        Some(results.into_iter().map(TrueValue::new).collect())
+        exact::run(Some(&self.setup), program, &self.leaves(state))
     }
 
     fn leaves<'r>(&'r self, state: &'r JointState) -> AtState<'r> {
@@ -151,45 +146,34 @@ struct AtState<'r> {
 }
 
 impl Leaves for AtState<'_> {
-    type Value = Known;
+    type Value = TrueValue;
 
-    fn input(&self, input: Input) -> Known {
+    fn input(&self, input: Input) -> TrueValue {
         let finite = |argument, index| {
             let entry = Wide::from_f64(self.state.entry(argument, index));
-            Known::exact(entry.unwrap_or_else(Wide::zero))
+            TrueValue::exact(entry.unwrap_or_else(Wide::zero))
         };
         match input {
-            Input::Sin(joint) => Known::rounded(self.pairs[joint].sin, 1.0),
-            Input::Cos(joint) => Known::rounded(self.pairs[joint].cos, 1.0),
+            Input::Sin(joint) => TrueValue::rounded(self.pairs[joint].sin, 1.0),
+            Input::Cos(joint) => TrueValue::rounded(self.pairs[joint].cos, 1.0),
             Input::PerSpeed(joint) => {
                 let qd = finite(Argument::Velocity, joint);
                 self.setup
-                    .per_speed(joint, &qd, Known::constant, Known::sqrt)
+                    .per_speed(joint, &qd, TrueValue::constant, TrueValue::sqrt)
             }
             Input::Entry(argument, index) => finite(argument, index),
         }
     }
 
-    fn constant(&self, constant: &Exact) -> Known {
-        Known::constant(constant)
+    fn constant(&self, constant: &Exact) -> TrueValue {
+        TrueValue::constant(constant)
     }
 }
 
-/// A value, and how far it may be off, by Wilkinson's running error analysis: what the operands are
-/// off, carried through the operation, and what that rounds itself.
-#[derive(Clone, Debug)]
-struct Known {
-    value: Wide,
-    /// |value|, rounded up.
-    size: f64,
-    /// In units of [`LOST`].
-    lost: f64,
-}
-
-impl Known {
-    fn exact(value: Wide) -> Known {
+impl TrueValue {
+    fn exact(value: Wide) -> TrueValue {
         let size = value.magnitude();
-        Known {
+        TrueValue {
             value,
             size,
             lost: 0.0,
@@ -197,33 +181,33 @@ impl Known {
     }
 
     /// Returns it rounded itself, with what its operands' errors make of it.
-    fn rounded(value: Wide, carried: f64) -> Known {
+    fn rounded(value: Wide, carried: f64) -> TrueValue {
         let size = value.magnitude();
-        Known {
+        TrueValue {
             value,
             size,
             lost: carried + size,
         }
     }
 
-    fn constant(constant: &Exact) -> Known {
-        let rational = &mut |x: &Rational| Some(Known::rounded(Wide::from_rational(x), 0.0));
+    fn constant(constant: &Exact) -> TrueValue {
+        let rational = &mut |x: &Rational| Some(TrueValue::rounded(Wide::from_rational(x), 0.0));
         // Sines and cosines, within 2⁻²⁵⁵.
         let value = constant.map(rational, &mut |angle| {
-            Wide::sincos(angle).map(|x| Known::rounded(*x, 1.0))
+            Wide::sincos(angle).map(|x| TrueValue::rounded(*x, 1.0))
         });
-        value.unwrap_or_else(|| Known::rounded(Wide::from_exact(constant), f64::INFINITY))
+        value.unwrap_or_else(|| TrueValue::rounded(Wide::from_exact(constant), f64::INFINITY))
     }
 
     /// Returns the root of what is above zero: what x is off moves it by Δx/(2 √x); the
     /// whole Δx/√x, since x is off itself.
-    fn sqrt(&self) -> Known {
+    fn sqrt(&self) -> TrueValue {
         let value = self.value.sqrt();
         let carried = match value.magnitude() {
             0.0 => f64::INFINITY,
             root => self.lost / root.next_down(),
         };
-        Known::rounded(value, carried)
+        TrueValue::rounded(value, carried)
     }
 }
 
@@ -235,33 +219,33 @@ fn times(size: f64, lost: f64) -> f64 {
     }
 }
 
-impl Scalar for Known {
+impl Scalar for TrueValue {
     fn zero() -> Self {
-        Known::exact(Wide::zero())
+        TrueValue::exact(Wide::zero())
     }
     fn one() -> Self {
-        Known::exact(Wide::one())
+        TrueValue::exact(Wide::one())
     }
     fn add(&self, other: &Self) -> Self {
-        Known::rounded(self.value.add(&other.value), self.lost + other.lost)
+        TrueValue::rounded(self.value.add(&other.value), self.lost + other.lost)
     }
     fn sub(&self, other: &Self) -> Self {
-        Known::rounded(self.value.sub(&other.value), self.lost + other.lost)
+        TrueValue::rounded(self.value.sub(&other.value), self.lost + other.lost)
     }
     fn mul(&self, other: &Self) -> Self {
         let carried = times(self.size, other.lost)
             + times(other.size, self.lost)
             + times(self.lost, other.lost) * LOST;
-        Known::rounded(self.value.mul(&other.value), carried)
+        TrueValue::rounded(self.value.mul(&other.value), carried)
     }
     fn neg(&self) -> Self {
-        Known {
+        TrueValue {
             value: self.value.neg(),
             ..*self
         }
     }
     fn half(&self) -> Self {
-        Known {
+        TrueValue {
             value: self.value.half(),
             size: 0.5 * self.size,
             lost: 0.5 * self.lost,
@@ -269,7 +253,7 @@ impl Scalar for Known {
     }
 }
 
-impl Divide for Known {
+impl Divide for TrueValue {
     /// Errors of x and y move x/y by (Δx + |x/y| Δy)/(|y| − Δy): at most twice that with |y|
     /// below, unless Δy is more than half of y, and nothing is known.
     fn div(&self, other: &Self) -> Self {
@@ -279,7 +263,7 @@ impl Divide for Known {
             true => 2.0 * (self.lost + times(value.magnitude(), other.lost)) / divisor,
             false => f64::INFINITY,
         };
-        Known::rounded(value, carried)
+        TrueValue::rounded(value, carried)
     }
 }
 
@@ -301,7 +285,7 @@ mod tests {
                 for state in setup.states(3, 5) {
                     let truth = reference.run(function, &state);
                     let largest = truth.iter().map(TrueValue::magnitude).fold(0.0, f64::max);
-                    let lost = truth.iter().map(|x| x.lost).fold(0.0, f64::max);
+                    let lost = truth.iter().map(|x| x.lost * LOST).fold(0.0, f64::max);
                     assert!(
                         lost <= 1e-45 * largest,
                         "{name} {function}: {lost:e} of {largest:e}"
@@ -318,7 +302,7 @@ mod tests {
     /// The bound holds of what is exact, and grows with what cancels.
     #[test]
     fn what_cancels_is_known_less_well() {
-        let known = |n: Rational| Known::constant(&Exact::from(n.recip()));
+        let known = |n: Rational| TrueValue::constant(&Exact::from(n.recip()));
         let (third, tiny) = (known(int(3)), known(int(7).pow(60)));
         let rest = third.add(&tiny).sub(&third);
         let off = rest.value.sub(&tiny.value).magnitude();

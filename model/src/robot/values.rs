@@ -72,7 +72,7 @@ pub fn table<'k>(keys: impl IntoIterator<Item = (&'k str, Option<String>)>) -> O
 }
 
 /// Returns the first 16 hexadecimal digits of the SHA-256 of a text.
-pub(crate) fn short_hash(text: &str) -> String {
+pub fn short_hash(text: &str) -> String {
     let hash = &hmac_sha256::Hash::hash(text.as_bytes())[..8];
     hash.iter().map(|byte| format!("{byte:02x}")).collect()
 }

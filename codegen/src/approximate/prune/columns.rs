@@ -6,7 +6,7 @@
 //! which lie over them: so a candidate is tried by running again what depends
 //! on one node, and nothing else, and is taken back as quickly.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 use super::side_by_side::Column;
 use crate::edits::{Edit, EditSite};
@@ -49,17 +49,14 @@ pub(super) struct Nodes {
 
 impl Nodes {
     pub(super) fn new(program: &Program, states: &[JointState]) -> Nodes {
-        let mut inputs: BTreeMap<Input, usize> =
-            program.dag.inputs().map(|own| (*own, 0)).collect();
-        for (index, place) in inputs.values_mut().enumerate() {
-            *place = index;
-        }
-        let Steps { steps, outputs } =
-            Steps::new(&program.dag, f64::nearest, |input| inputs[input]);
+        let inputs: BTreeSet<Input> = program.dag.inputs().copied().collect();
+        let inputs = Vec::from_iter(inputs);
+        let place = |input: &Input| inputs.binary_search(input).unwrap_or_default();
+        let Steps { steps, outputs } = Steps::new(&program.dag, f64::nearest, place);
         let mut nodes = Nodes {
             steps,
             outputs,
-            inputs: inputs.into_keys().collect(),
+            inputs,
             samples: 0,
             columns: Vec::new(),
         };
@@ -159,9 +156,8 @@ impl Nodes {
             }
             None => {
                 let step = &self.steps[node - self.inputs.len()];
-                let read = |operand| self.column(operand, before);
-                step.operation
-                    .at_each(read(&step.left), read(&step.right), out);
+                let read = [&step.left, &step.right].map(|operand| self.column(operand, before));
+                step.operation.at_each(read, out);
             }
         }
     }
@@ -171,7 +167,7 @@ impl Nodes {
         &self,
         operand: &Operand<f64, usize>,
         before: &'c [f64],
-    ) -> Column<'c, f64> {
+    ) -> Column<'c> {
         let m = self.samples;
         match operand {
             Operand::Input(place) => Column::Each(&before[place * m..][..m]),

@@ -35,6 +35,7 @@ use crate::random::Random;
 use crate::search::Effort;
 use crate::verify::exact::prove_same;
 use crate::watch::FunctionWatch;
+pub(super) use fit::dot;
 use search::Search;
 pub(crate) use search::cost;
 use tally::Tally;
@@ -63,8 +64,6 @@ pub struct PruneSettings {
     pub budget: BoxEffort,
     /// How much the simplifier may do between stages.
     pub effort: Effort,
-    /// Whether constants are corrected for what is left out.
-    pub refit: bool,
     /// The last guesses whose worst positions stay among the samples.
     pub worst: usize,
     /// Smaller models to start from as well; none where work is limited, of which a
@@ -82,22 +81,7 @@ pub struct PruneSettings {
 
 impl Default for PruneSettings {
     fn default() -> Self {
-        PruneSettings {
-            samples: 40,
-            guesses: 4,
-            retries: 6,
-            stages: 3,
-            alike: 4,
-            sweeps: 0,
-            budget: BoxEffort::QUICK,
-            effort: Effort::Quick,
-            refit: true,
-            worst: usize::MAX,
-            models: 3,
-            restarts: 3,
-            seed: 0,
-            work: None,
-        }
+        PruneSettings::DEFAULT
     }
 }
 
@@ -113,40 +97,40 @@ pub struct Pruned {
 }
 
 impl PruneSettings {
-    /// For who waits: seconds for a six-joint arm.
-    pub const QUICK: PruneSettings = PruneSettings {
-        samples: 24,
+    const DEFAULT: PruneSettings = PruneSettings {
+        samples: 40,
         guesses: 4,
-        retries: 0,
+        retries: 6,
         stages: 3,
-        alike: 2,
+        alike: 4,
         sweeps: 0,
         budget: BoxEffort::QUICK,
         effort: Effort::Quick,
-        refit: true,
         worst: usize::MAX,
-        models: 0,
-        restarts: 0,
+        models: 3,
+        restarts: 3,
         seed: 0,
         work: None,
     };
 
+    /// For who waits: seconds for a six-joint arm.
+    pub const QUICK: PruneSettings = PruneSettings {
+        samples: 24,
+        retries: 0,
+        alike: 2,
+        models: 0,
+        restarts: 0,
+        ..PruneSettings::DEFAULT
+    };
+
     /// The most that a search may take: minutes for a six-joint arm.
     pub const THOROUGH: PruneSettings = PruneSettings {
-        samples: 40,
-        guesses: 4,
-        retries: 6,
         stages: 4,
-        alike: 4,
         sweeps: 2,
-        budget: BoxEffort::QUICK,
         effort: Effort::Thorough,
-        refit: true,
-        worst: usize::MAX,
         models: 5,
         restarts: 10,
-        seed: 0,
-        work: None,
+        ..PruneSettings::DEFAULT
     };
 
     /// Returns the settings for the effort of a command that reports on variants.
@@ -156,7 +140,7 @@ impl PruneSettings {
             Effort::Quick => PruneSettings {
                 samples: 24,
                 worst: WORST,
-                ..PruneSettings::default()
+                ..PruneSettings::DEFAULT
             },
             Effort::Thorough => PruneSettings::THOROUGH,
         }
@@ -170,13 +154,11 @@ impl PruneSettings {
     /// Returns how often the best starts of a program of so many steps are edited again, the
     /// best being left with such a cost.
     pub(crate) fn again(&self, steps: usize, best: usize) -> u64 {
-        match self.restarts {
-            0 => 0,
-            _ if self.hurries(steps) => 0,
-            restarts => {
-                ((best as u64).saturating_mul(restarts) / 300).clamp(2.min(restarts), restarts)
-            }
+        if self.hurries(steps) {
+            return 0;
         }
+        let restarts = self.restarts;
+        ((best as u64).saturating_mul(restarts) / 300).clamp(2.min(restarts), restarts)
     }
 
     /// Returns the positions that may be sampled after a guess, of so many outputs.
@@ -191,10 +173,8 @@ impl PruneSettings {
 
     /// Returns what a stage may use of the allowances.
     fn part(&self, stage: usize) -> f64 {
-        match stage + 1 < self.stages {
-            true => RAMP.get(stage).copied().unwrap_or(1.0),
-            false => 1.0,
-        }
+        let ramp = RAMP.get(stage).filter(|_| stage + 1 < self.stages);
+        ramp.copied().unwrap_or(1.0)
     }
 
     /// Guesses in a stage. Of long programs, of which one takes a while, the first stages
@@ -215,11 +195,8 @@ impl PruneSettings {
 
     /// Parts are taken back only where no later stage would find them anyway.
     fn retries(&self, stage: usize) -> usize {
-        if self.part(stage) < 1.0 {
-            0
-        } else {
-            self.retries
-        }
+        let is_last = self.part(stage) >= 1.0;
+        if is_last { self.retries } else { 0 }
     }
 }
 
@@ -249,6 +226,27 @@ fn leaves(best: &Pruned, allowances: &[f64]) -> bool {
     has_edits(&best.stages) && pairs.all(|(error, allowance)| *error <= MUCH * allowance)
 }
 
+/// What a variant is looked for.
+#[derive(Clone, Copy)]
+pub(crate) struct Target<'a> {
+    /// The exact program.
+    pub exact: &'a Program,
+    /// Where errors count.
+    pub limits: &'a InputBox,
+    /// The largest error of each output, in its unit.
+    pub allowances: &'a [f64],
+    pub settings: &'a PruneSettings,
+    /// Where it is over, the search ends with its best.
+    pub watch: FunctionWatch<'a>,
+}
+
+impl Target<'_> {
+    /// Returns the number of operations of the exact program.
+    pub(super) fn steps(&self) -> usize {
+        self.exact.dag.operations().count()
+    }
+}
+
 /// Returns the cheapest variant found of which every output is certified to stay
 /// within its allowance (in the output's unit) over the box.
 pub fn prune(
@@ -257,23 +255,23 @@ pub fn prune(
     allowances: &[f64],
     settings: &PruneSettings,
 ) -> Pruned {
-    watched(program, None, limits, allowances, settings, None)
+    let target = Target {
+        exact: program,
+        limits,
+        allowances,
+        settings,
+        watch: FunctionWatch::default(),
+    };
+    pruned(target, None)
 }
 
-/// Returns [`prune`] under a watch: where it is over, the search ends with its best.
-/// `start` is another program to edit in its place. If it is equal, the first stage has no
-/// edits and leads there; if not, the result is bounded against `program` directly, and
-/// has no stages but that one.
-pub(crate) fn watched(
-    program: &Program,
-    start: Option<&Program>,
-    limits: &InputBox,
-    allowances: &[f64],
-    settings: &PruneSettings,
-    watch: Option<FunctionWatch<'_>>,
-) -> Pruned {
+/// Returns the cheapest variant found, as [`prune`] does. `start` is another program to edit in
+/// the exact one's place. If it is equal, the first stage has no edits and leads there; if not,
+/// the result is bounded against the exact program directly, and has no stages but that one.
+pub(crate) fn pruned(target: Target<'_>, start: Option<&Program>) -> Pruned {
+    let (program, settings) = (target.exact, target.settings);
     let is_direct = start.is_some_and(|start| prove_same(start, program).is_err());
-    let tally = Tally::new(settings, program.dag.operations().count(), watch);
+    let tally = Tally::new(&target);
     let nothing = Pruned {
         stages: Vec::new(),
         program: program.clone(),
@@ -288,33 +286,32 @@ pub(crate) fn watched(
         },
     };
     let mut random = Random::new(SEED + settings.seed);
-    let motions = Motions::new(program, limits);
-    let mut positions = motions::positions(limits, settings.samples, &mut random);
+    let motions = Motions::new(program, target.limits);
+    let mut positions = motions::positions(target.limits, settings.samples, &mut random);
     // What a model errs is no guess.
-    let mut share = if is_direct {
-        search::CLOSE
-    } else {
-        search::SHARE
+    let mut share = match is_direct {
+        true => search::CLOSE,
+        false => search::SHARE,
     };
     let mut edited = |best: &Pruned, stage: usize, spares: bool| {
         // What a smaller model left may be used at once.
         let part = if is_direct { 1.0 } else { settings.part(stage) };
-        let allowances: Vec<f64> = allowances.iter().map(|a| a * part).collect();
+        let allowances: Vec<f64> = target.allowances.iter().map(|a| a * part).collect();
         let mut base = best.clone();
         if spares {
             let states = motions.states(&positions);
             base.program = spares::spared(&base.program, &motions, &states);
         }
         let search = Search {
-            full: program,
+            target: Target {
+                allowances: &allowances,
+                ..target
+            },
             base,
             paid: search::cost(&best.program),
-            limits,
-            allowances: &allowances,
-            settings,
             motions: &motions,
             tally: &tally,
-            guesses: settings.guesses(stage, program.dag.operations().count()),
+            guesses: settings.guesses(stage, target.steps()),
             retries: settings.retries(stage),
             is_direct,
         };
@@ -322,7 +319,7 @@ pub(crate) fn watched(
     };
     for stage in 0..settings.stages + MAX_MORE {
         // What is left of the allowances may do for one more.
-        if stage >= settings.stages && !leaves(&best, allowances) {
+        if stage >= settings.stages && !leaves(&best, target.allowances) {
             break;
         }
         match edited(&best, stage, false) {
@@ -339,7 +336,7 @@ pub(crate) fn watched(
         }
     }
     if is_direct {
-        return direct(program, best, limits, allowances, settings).unwrap_or(nothing);
+        return direct(target, best).unwrap_or(nothing);
     }
     match has_edits(&best.stages) && search::cost(&best.program) < search::cost(program) {
         true => best,
@@ -348,36 +345,25 @@ pub(crate) fn watched(
 }
 
 /// Returns another program as it is, if it is cheaper and certified to be within the allowances.
-pub(crate) fn unedited(
-    program: &Program,
-    start: &Program,
-    limits: &InputBox,
-    allowances: &[f64],
-    settings: &PruneSettings,
-) -> Option<Pruned> {
+pub(crate) fn unedited(target: Target<'_>, start: &Program) -> Option<Pruned> {
     let start = Pruned {
-        stages: vec![Stage::unedited(program.clone())],
+        stages: vec![Stage::unedited(target.exact.clone())],
         program: start.clone(),
         errors: Vec::new(),
     };
-    direct(program, start, limits, allowances, settings)
+    direct(target, start)
 }
 
 /// Returns a program that is no edit of the exact one, if it is cheaper and certified to be
 /// within the allowances.
-fn direct(
-    program: &Program,
-    mut best: Pruned,
-    limits: &InputBox,
-    allowances: &[f64],
-    settings: &PruneSettings,
-) -> Option<Pruned> {
-    if search::cost(&best.program) >= search::cost(program) {
+fn direct(target: Target<'_>, mut best: Pruned) -> Option<Pruned> {
+    if search::cost(&best.program) >= search::cost(target.exact) {
         return None;
     }
     if !has_edits(&best.stages) {
-        let error = deviation(program, &best.program);
-        best.errors = magnitudes_within(&error, limits, allowances, settings.budget)?;
+        let error = deviation(target.exact, &best.program);
+        let (limits, budget) = (target.limits, target.settings.budget);
+        best.errors = magnitudes_within(&error, limits, target.allowances, budget)?;
     }
     best.stages.truncate(1);
     Some(best)
@@ -385,29 +371,20 @@ fn direct(
 
 /// Estimates what [`prune`] would leave of a program: operations, sines and cosines weighed.
 /// Errors at so many samples decide, nothing is certified.
-pub(crate) fn appraise(
-    full: &Program,
-    program: &Program,
-    limits: &InputBox,
-    allowances: &[f64],
-    settings: &PruneSettings,
-) -> u32 {
+pub(crate) fn appraise(target: Target<'_>, program: &Program) -> u32 {
     let mut random = Random::new(SEED);
-    let motions = Motions::new(full, limits);
-    let positions = motions::positions(limits, settings.samples, &mut random);
+    let motions = Motions::new(target.exact, target.limits);
+    let positions = motions::positions(target.limits, target.settings.samples, &mut random);
     let search = Search {
-        full,
+        target,
         base: Pruned {
             stages: Vec::new(),
             program: program.clone(),
             errors: Vec::new(),
         },
         paid: 0,
-        limits,
-        allowances,
-        settings,
         motions: &motions,
-        tally: &Tally::new(settings, program.dag.operations().count(), None),
+        tally: &Tally::new(&target),
         guesses: 1,
         retries: 0,
         is_direct: false,

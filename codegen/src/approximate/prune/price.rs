@@ -156,70 +156,34 @@ fn fold(nodes: &Nodes, node: usize, folded: &[Folded]) -> Folded {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::HashMap;
-
     use super::*;
-    use crate::dag::pattern::{Algebra, Pattern, is_constant};
+    use crate::dag::pattern::{Leaf, evaluate};
     use crate::dag::tests::BY_SHAPE;
-    use crate::dag::{Builder, Edge, Folding};
+    use crate::dag::{Builder, Folding};
     use crate::function::{Argument, Function};
     use crate::program::Program;
 
-    /// Numbers as inputs, which edits replace by their values.
-    struct Unfolded {
-        builder: Builder,
-        known: Vec<(Input, f64)>,
-    }
-
-    impl Unfolded {
-        fn constant(&mut self, value: f64) -> Edge {
-            let input = Input::Entry(Argument::Acceleration, self.known.len());
-            self.known.push((input, value));
-            self.builder.input(input)
-        }
-    }
-
-    impl Algebra for Unfolded {
-        type Value = Edge;
-        fn number(&mut self, number: u64) -> Edge {
-            self.constant(number as f64)
-        }
-        fn neg(&mut self, a: &Edge) -> Edge {
-            a.negated_if(true)
-        }
-        fn operate(&mut self, symbol: &str, a: &Edge, b: &Edge) -> Edge {
-            match symbol {
-                "+" => self.builder.add(*a, *b),
-                "-" => self.builder.sub(*a, *b),
-                _ => self.builder.mul(*a, *b),
-            }
-        }
-    }
-
-    /// Returns the price of a pattern whose constants come from edits.
+    /// Returns the price of a pattern whose constants come from edits: they are inputs, which edits
+    /// replace by their values.
     fn price_of(pattern: &str) -> u32 {
-        let pattern = Pattern::parse(pattern);
-        let mut unfolded = Unfolded {
-            builder: Builder::new(Folding::Syntactic),
-            known: Vec::new(),
-        };
-        let mut values = HashMap::new();
-        for (joint, name) in pattern.variables().into_iter().enumerate() {
-            let value = match is_constant(name) {
-                true => unfolded.constant(3.5 + joint as f64),
-                false => unfolded
-                    .builder
-                    .input(Input::Entry(Argument::Velocity, joint)),
+        let mut builder = Builder::new(Folding::Syntactic);
+        let mut replaced: Vec<(Input, f64)> = Vec::new();
+        let value = evaluate(pattern, &mut builder, |leaf, builder| {
+            let value = match leaf {
+                Leaf::Number(number) => f64::from(number),
+                Leaf::Constant(place) => 3.5 + f64::from(place),
+                Leaf::Value(_) => return leaf.edge(builder),
             };
-            values.insert(name, value);
-        }
-        let value = pattern.evaluate(&mut unfolded, &values);
-        let graph = unfolded.builder.finish(vec![value]);
+            let input = Input::Entry(Argument::Acceleration, replaced.len());
+            replaced.push((input, value));
+            builder.input(input)
+        });
+        let graph = builder.finish(vec![value]);
         let program = Program::new(Function::Gravity, 9, &graph);
         let nodes = Nodes::new(&program, &[]);
         let mut edits = vec![None; nodes.len()];
         for (edit, input) in edits.iter_mut().zip(&nodes.inputs) {
-            let known = unfolded.known.iter().find(|(known, _)| known == input);
+            let known = replaced.iter().find(|(known, _)| known == input);
             *edit = known.map(|&(_, value)| Value::Known(value));
         }
         price(&nodes, &edits, &mut Scratch::default())

@@ -4,7 +4,7 @@ use super::columns::Nodes;
 use super::greedy::{Greedy, State};
 use super::price::SINCOS;
 use super::tally::Tally;
-use super::{PruneSettings, Pruned};
+use super::{Pruned, Target};
 use crate::approximate::motions::Motions;
 use crate::bound::definite::is_definite;
 use crate::bound::input_box::InputBox;
@@ -40,14 +40,11 @@ const SINGULAR: f64 = 4.0;
 
 /// One program to edit.
 pub(super) struct Search<'a> {
-    pub full: &'a Program,
+    pub target: Target<'a>,
     /// What was edited before.
     pub base: Pruned,
     /// What its program costs.
     pub paid: usize,
-    pub limits: &'a InputBox,
-    pub allowances: &'a [f64],
-    pub settings: &'a PruneSettings,
     pub motions: &'a Motions,
     pub tally: &'a Tally<'a>,
     /// Guesses of how far sampled and certified errors are apart.
@@ -70,15 +67,10 @@ impl Search<'_> {
     /// Returns what would stay if errors at the samples decided, weighed as by
     /// [`cost`]; nothing is certified.
     pub(super) fn appraise(&self, positions: &[Vec<f64>], share: f64, random: &mut Random) -> u32 {
-        let prices = vec![1.0; self.allowances.len()];
-        let states = self.motions.states(positions);
-        let original = Nodes::new(&self.base.program, &states);
-        let truth = outputs(self.full, &states);
+        let prices = vec![1.0; self.target.allowances.len()];
+        let (original, truth) = self.sampled(&self.motions.states(positions));
         let mut greedy = self.greedy(&original, &truth, &vec![share; prices.len()], &prices);
-        let mut state = State {
-            edits: vec![None; original.len()],
-            nodes: original,
-        };
+        let mut state = State::unedited(original);
         greedy.drop_all(&mut state, 0.0, random);
         greedy.price(&state)
     }
@@ -96,10 +88,10 @@ impl Search<'_> {
             return None;
         }
         // Outputs that use up their allowance are dear.
-        let mut prices = vec![1.0; self.allowances.len()];
+        let mut prices = vec![1.0; self.target.allowances.len()];
         let found = self.guess(positions, *share, &mut prices, random)?;
         if self.hurries() {
-            let used = found.pruned.errors.iter().zip(self.allowances);
+            let used = found.pruned.errors.iter().zip(self.target.allowances);
             let used = used.fold(0.0, |most, (&e, &a)| {
                 f64::max(most, magnitude::relative(e, a))
             });
@@ -107,7 +99,7 @@ impl Search<'_> {
             *share = (least / used.clamp(0.1, 1.0).sqrt()).min(SHARE);
         }
         let mut best = self.again(found, positions, &prices, random);
-        best.program = finish(&best.stages, self.settings.effort, true);
+        best.program = finish(&best.stages, Some(self.target.settings.effort));
         (cost(&best.program) < self.paid).then_some(best)
     }
 
@@ -118,7 +110,7 @@ impl Search<'_> {
         prices: &mut [f64],
         random: &mut Random,
     ) -> Option<Found> {
-        let mut shares = vec![share; self.allowances.len()];
+        let mut shares = vec![share; self.target.allowances.len()];
         let mut best: Option<Found> = None;
         // The first guess at a long program tries most of what cannot be, and the others
         // need not.
@@ -131,16 +123,11 @@ impl Search<'_> {
             }
             let so_far = best.as_ref().map(|found| &found.pruned.program);
             self.tally.round(so_far.unwrap_or(&self.base.program));
-            let states = self.motions.states(positions);
-            let original = Nodes::new(&self.base.program, &states);
-            let truth = outputs(self.full, &states);
+            let (original, truth) = self.sampled(&self.motions.states(positions));
             let greedy = self.greedy(&original, &truth, &shares, prices);
             never.resize(original.len(), Vec::new());
             let mut greedy = greedy.knowing(std::mem::take(&mut never));
-            let mut state = State {
-                edits: vec![None; original.len()],
-                nodes: original.clone(),
-            };
+            let mut state = State::unedited(original.clone());
             greedy.drop_all(&mut state, 0.0, random);
             greedy.settle(&mut state, &original, POLISH);
             if self.hurries() {
@@ -151,9 +138,10 @@ impl Search<'_> {
             }
             let (pruned, ratios) = self.certify(&original, &state, &mut greedy);
             self.adversaries(&pruned.stages, positions, random);
-            let (steps, outputs) = (self.full.dag.operations().count(), self.allowances.len());
-            let old = (positions.len()).saturating_sub(self.settings.positions(steps, outputs));
-            positions.drain(self.settings.samples..self.settings.samples + old);
+            let settings = self.target.settings;
+            let most = settings.positions(self.target.steps(), self.target.allowances.len());
+            let old = positions.len().saturating_sub(most);
+            positions.drain(settings.samples..settings.samples + old);
             let cheaper = best
                 .as_ref()
                 .is_none_or(|b| cost(&pruned.program) < cost(&b.pruned.program));
@@ -195,8 +183,7 @@ impl Search<'_> {
             mut shares,
         } = found;
         let states = self.motions.states(positions);
-        let original = Nodes::new(&self.base.program, &states);
-        let truth = outputs(self.full, &states);
+        let (original, truth) = self.sampled(&states);
         state.nodes.move_to(&states);
         // The samples have grown since: what is certified must rank as within.
         let whole = vec![1.0; shares.len()];
@@ -223,18 +210,25 @@ impl Search<'_> {
             greedy.drop_all(&mut trial, noise, random);
             greedy.settle(&mut trial, &original, POLISH / 3);
             let price = greedy.price(&trial);
-            if price <= paid && trial.edits != state.edits {
-                let certified = self.certified(&original, &trial, &mut greedy);
-                if let Some(certified) = certified {
-                    (state, paid, pruned) = (trial, price, certified);
-                }
+            if price <= paid
+                && trial.edits != state.edits
+                && let Some(certified) = self.certified(&original, &trial, &mut greedy)
+            {
+                (state, paid, pruned) = (trial, price, certified);
             }
         }
         pruned
     }
 
+    /// Returns the program to edit at states, and the exact program's outputs there, output after
+    /// output.
+    fn sampled(&self, states: &[JointState]) -> (Nodes, Vec<f64>) {
+        let truth = self.target.exact.in_doubles().run_at_many(states);
+        (Nodes::new(&self.base.program, states), truth.concat())
+    }
+
     fn hurries(&self) -> bool {
-        self.settings.hurries(self.full.dag.operations().count())
+        self.target.settings.hurries(self.target.steps())
     }
 
     fn greedy<'t>(
@@ -244,16 +238,10 @@ impl Search<'_> {
         shares: &[f64],
         prices: &[f64],
     ) -> Greedy<'t> {
-        let pairs = self.allowances.iter().zip(shares);
+        let pairs = self.target.allowances.iter().zip(shares);
         let allowances = pairs.map(|(allowance, share)| allowance * share).collect();
-        Greedy::new(
-            nodes,
-            self.motions,
-            truth,
-            allowances,
-            prices.to_vec(),
-            self.settings,
-        )
+        let (prices, settings) = (prices.to_vec(), self.target.settings);
+        Greedy::new(nodes, self.motions, truth, allowances, prices, settings)
     }
 
     /// Returns the variant, and the certified error of each output against its
@@ -265,9 +253,11 @@ impl Search<'_> {
         greedy: &mut Greedy<'_>,
     ) -> (Pruned, Vec<f64>) {
         let (mut pruned, error) = self.variant(original, state, greedy);
-        let budget = self.settings.budget;
-        pruned.errors = magnitude::judged(&error, self.limits, self.allowances, budget);
-        let pairs = pruned.errors.iter().zip(self.allowances);
+        let Target {
+            limits, allowances, ..
+        } = self.target;
+        pruned.errors = magnitude::judged(&error, limits, allowances, self.target.settings.budget);
+        let pairs = pruned.errors.iter().zip(allowances);
         let mut ratios: Vec<f64> = pairs.map(|(&e, &a)| magnitude::relative(e, a)).collect();
         // Too much went as well if D may become singular: the next guess
         // leaves out less.
@@ -285,8 +275,9 @@ impl Search<'_> {
         greedy: &mut Greedy<'_>,
     ) -> Option<Pruned> {
         let (mut pruned, error) = self.variant(original, state, greedy);
-        let budget = self.settings.budget;
-        pruned.errors = magnitude::magnitudes_within(&error, self.limits, self.allowances, budget)?;
+        let (limits, budget) = (self.target.limits, self.target.settings.budget);
+        let allowances = self.target.allowances;
+        pruned.errors = magnitude::magnitudes_within(&error, limits, allowances, budget)?;
         self.is_definite(&pruned.program).then_some(pruned)
     }
 
@@ -297,9 +288,9 @@ impl Search<'_> {
             program: self.base.program.clone(),
             edits: greedy.edits(original, state),
         });
-        let program = finish(&stages, Effort::Quick, false);
+        let program = finish(&stages, None);
         let error = match self.is_direct {
-            true => deviation(self.full, &program),
+            true => deviation(self.target.exact, &program),
             false => difference(&stages),
         };
         let pruned = Pruned {
@@ -312,23 +303,19 @@ impl Search<'_> {
 
     /// Returns whether D, if it is an output, is positive definite.
     fn is_definite(&self, program: &Program) -> bool {
-        !has_inertia(program) || is_definite(program, ScalarType::F64, &[], self.limits)
+        !has_inertia(program) || is_definite(program, ScalarType::F64, &[], self.target.limits)
     }
 
     /// Positions where the error is large join the samples.
     fn adversaries(&self, stages: &[Stage], positions: &mut Vec<Vec<f64>>, random: &mut Random) {
         let Some(last) = stages.last() else { return };
         let edited = last.program(Folding::Syntactic);
-        let middle: Vec<f64> = self
-            .limits
-            .position
-            .iter()
-            .map(|range| range.mid())
-            .collect();
+        let limits = self.target.limits;
+        let middle: Vec<f64> = limits.position.iter().map(|range| range.mid()).collect();
         let motions = self.motions.states(&[middle]);
-        let mut both = [self.full, &edited].map(|program| Nodes::new(program, &motions));
+        let mut both = [self.target.exact, &edited].map(|program| Nodes::new(program, &motions));
         let unedited = both.each_ref().map(|nodes| vec![None; nodes.len()]);
-        for output in 0..self.allowances.len() {
+        for output in 0..self.target.allowances.len() {
             let mut error = |state: &JointState| {
                 let [x, y] = [0, 1].map(|which| {
                     both[which].turn_to(state);
@@ -339,10 +326,10 @@ impl Search<'_> {
                 self.motions.monomials(&mut error);
                 self.motions.largest(&error)
             };
-            let from = sample::draw(self.limits, random);
+            let from = sample::draw(limits, random);
             let still = vec![Interval::ZERO; from.q.len()];
             let still = InputBox {
-                position: self.limits.position.clone(),
+                position: limits.position.clone(),
                 velocity: still.clone(),
                 acceleration: still,
             };
@@ -357,31 +344,16 @@ fn within(ratios: &[f64]) -> bool {
     ratios.iter().all(|ratio| *ratio <= 1.0)
 }
 
-/// Returns a program's outputs at states, output after output.
-fn outputs(program: &Program, states: &[JointState]) -> Vec<f64> {
-    let code = program.in_doubles();
-    code.run_at_many(states).concat()
-}
-
-/// Returns the last stage's edited program, simplified if asked.
-fn finish(stages: &[Stage], effort: Effort, is_searched: bool) -> Program {
+/// Returns the last stage's edited program, simplified by an effort if there is one.
+fn finish(stages: &[Stage], effort: Option<Effort>) -> Program {
     let last = &stages[stages.len() - 1];
-    let graph = last.edited(Folding::Semantic);
-    let program = |graph: &Dag| last.program.with_graph(graph);
-    if !is_searched {
-        return program(&graph);
-    }
-    let limits = |operations| effort.limits(operations);
-    match search(
-        std::slice::from_ref(&graph),
-        &[],
-        &limits,
-        &|_| true,
-        &|_, _| true,
-    ) {
-        Some(found) => program(&found.graph),
-        None => program(&graph),
-    }
+    let graph = [last.edited(Folding::Semantic)];
+    let found = effort.and_then(|effort| {
+        let limits = |operations| effort.limits(operations);
+        search(&graph, &[], &limits, &|_| true, &|_, _| true)
+    });
+    let graph = found.as_ref().map_or(&graph[0], |found| &found.graph);
+    last.program.with_graph(graph)
 }
 
 /// Operations, and a few more for each sine and cosine: what

@@ -2,76 +2,46 @@
 //! has alone.
 
 use crate::program::Operation;
-use crate::program::machine::Machine;
 
 /// An operand of an operation over columns.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::approximate::prune) enum Column<'c, T> {
+pub(in crate::approximate::prune) enum Column<'c> {
     /// A value of each state.
-    Each(&'c [T]),
+    Each(&'c [f64]),
     /// One for all.
-    All(T),
+    All(f64),
 }
 
 impl Operation {
     /// Computes the operation at every state, in one loop: no state waits for another.
-    pub(in crate::approximate::prune) fn at_each<T: Machine>(
-        self,
-        left: Column<'_, T>,
-        right: Column<'_, T>,
-        out: &mut [T],
-    ) {
+    pub(in crate::approximate::prune) fn at_each(self, operands: [Column<'_>; 2], out: &mut [f64]) {
+        let out = out.iter_mut();
         match self {
-            Operation::Add => zip(out, left, right, |x, y| x.add(&y)),
-            Operation::Sub => zip(out, left, right, |x, y| x.sub(&y)),
-            Operation::Mul | Operation::Fused => zip(out, left, right, |x, y| x.mul(&y)),
-            Operation::Div => zip(out, left, right, |x, y| x.div(&y)),
+            Operation::Add => zip(out, operands, |out, x, y| *out = x + y),
+            Operation::Sub => zip(out, operands, |out, x, y| *out = x - y),
+            Operation::Mul | Operation::Fused => zip(out, operands, |out, x, y| *out = x * y),
+            Operation::Div => zip(out, operands, |out, x, y| *out = x / y),
         }
     }
-}
 
-#[inline]
-fn zip<T: Machine>(
-    out: &mut [T],
-    left: Column<'_, T>,
-    right: Column<'_, T>,
-    f: impl Fn(T, T) -> T,
-) {
-    match (left, right) {
-        (Column::Each(left), Column::Each(right)) => {
-            for ((out, &x), &y) in out.iter_mut().zip(left).zip(right) {
-                *out = f(x, y);
-            }
-        }
-        (Column::Each(left), Column::All(y)) => {
-            for (out, &x) in out.iter_mut().zip(left) {
-                *out = f(x, y);
-            }
-        }
-        (Column::All(x), Column::Each(right)) => {
-            for (out, &y) in out.iter_mut().zip(right) {
-                *out = f(x, y);
-            }
-        }
-        (Column::All(x), Column::All(y)) => out.fill(f(x, y)),
-    }
-}
-
-impl Operation {
     /// Computes [`Operation::parts`] at every state, that of one side added to `sums`.
-    pub(in crate::approximate::prune) fn add_parts<T: Machine>(
+    pub(in crate::approximate::prune) fn add_parts(
         self,
         side: usize,
-        adjoints: &[T],
-        operands: [Column<'_, T>; 2],
-        sums: &mut [T],
+        adjoints: &[f64],
+        operands: [Column<'_>; 2],
+        sums: &mut [f64],
     ) {
         // A loop an operation: what its derivative does not read, none reads.
         macro_rules! add {
             ($operation:expr) => {
-                add_each(adjoints, operands, sums, |adjoint, left, right| {
-                    $operation.parts(&adjoint, &left, &right)[side & 1]
-                })
+                zip(
+                    sums.iter_mut().zip(adjoints),
+                    operands,
+                    |(sum, adjoint), x, y| {
+                        *sum += $operation.parts(adjoint, &x, &y)[side & 1];
+                    },
+                )
             };
         }
         match self {
@@ -83,33 +53,28 @@ impl Operation {
     }
 }
 
+/// Shows each state's item with its operands.
 #[inline]
-fn add_each<T: Machine>(
-    adjoints: &[T],
-    operands: [Column<'_, T>; 2],
-    sums: &mut [T],
-    part: impl Fn(T, T, T) -> T,
-) {
-    let pairs = sums.iter_mut().zip(adjoints);
+fn zip<T>(items: impl Iterator<Item = T>, operands: [Column<'_>; 2], show: impl Fn(T, f64, f64)) {
     match operands {
         [Column::Each(left), Column::Each(right)] => {
-            for (((sum, &adjoint), &x), &y) in pairs.zip(left).zip(right) {
-                *sum = sum.add(&part(adjoint, x, y));
+            for ((item, &x), &y) in items.zip(left).zip(right) {
+                show(item, x, y);
             }
         }
         [Column::Each(left), Column::All(y)] => {
-            for ((sum, &adjoint), &x) in pairs.zip(left) {
-                *sum = sum.add(&part(adjoint, x, y));
+            for (item, &x) in items.zip(left) {
+                show(item, x, y);
             }
         }
         [Column::All(x), Column::Each(right)] => {
-            for ((sum, &adjoint), &y) in pairs.zip(right) {
-                *sum = sum.add(&part(adjoint, x, y));
+            for (item, &y) in items.zip(right) {
+                show(item, x, y);
             }
         }
         [Column::All(x), Column::All(y)] => {
-            for (sum, &adjoint) in pairs {
-                *sum = sum.add(&part(adjoint, x, y));
+            for item in items {
+                show(item, x, y);
             }
         }
     }
@@ -129,7 +94,7 @@ mod tests {
         let each = [Column::Each(&left), Column::Each(&right)];
         let one = [Column::All(0.3), Column::All(-0.7)];
         let all = [each, one, [each[0], one[1]], [one[0], each[1]]];
-        let at = |column: Column<'_, f64>, state: usize| match column {
+        let at = |column: Column<'_>, state: usize| match column {
             Column::Each(values) => values[state],
             Column::All(value) => value,
         };

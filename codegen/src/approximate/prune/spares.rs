@@ -81,7 +81,6 @@ mod tests {
     use crate::bound::input_box::InputBox;
     use crate::dag::{Builder, Folding};
     use crate::function::Function;
-    use crate::interval::Interval;
     use crate::program::Input;
     use crate::random::Random;
     use crate::verify::exact::prove_same;
@@ -103,11 +102,7 @@ mod tests {
         let small = builder.mul(eighth, sine);
         let sum = builder.add(large, small);
         let program = Program::new(Function::Gravity, 1, &builder.finish(vec![sum]));
-        let limits = InputBox {
-            position: vec![Interval::symmetric(3.0)],
-            velocity: vec![Interval::ZERO],
-            acceleration: vec![Interval::ZERO],
-        };
+        let limits = InputBox::symmetric(&[3.0], &[0.0], &[0.0]);
         let motions = Motions::new(&program, &limits);
         let states = motions.states(&positions(&limits, 40, &mut Random::new(1)));
         let spared = spared(&program, &motions, &states);

@@ -2,27 +2,24 @@
 
 use std::cell::Cell;
 
-use super::PruneSettings;
+use super::Target;
 use crate::bound::work::Meter;
 use crate::program::Program;
 use crate::watch::{FunctionWatch, Part};
 
 /// How far a search for omissions has come.
 pub(super) struct Tally<'a> {
-    watch: Option<FunctionWatch<'a>>,
+    watch: FunctionWatch<'a>,
     done: Cell<usize>,
     rounds: usize,
     meter: Meter,
 }
 
 impl<'a> Tally<'a> {
-    pub(super) fn new(
-        settings: &PruneSettings,
-        steps: usize,
-        watch: Option<FunctionWatch<'a>>,
-    ) -> Tally<'a> {
+    pub(super) fn new(target: &Target<'a>) -> Tally<'a> {
+        let (settings, steps) = (target.settings, target.steps());
         Tally {
-            watch,
+            watch: target.watch,
             done: Cell::new(0),
             rounds: (0..settings.stages)
                 .map(|stage| settings.guesses(stage, steps) + settings.retries(stage))
@@ -34,15 +31,14 @@ impl<'a> Tally<'a> {
     /// Tells that a round begins, with the best program so far.
     pub(super) fn round(&self, best: &Program) {
         let done = self.done.get();
-        if let Some(watch) = self.watch {
-            let rounds = [done, self.rounds.max(done + 1)];
-            watch.step(Part::Omissions, rounds, Some(best.counts()));
-        }
+        let rounds = [done, self.rounds.max(done + 1)];
+        self.watch
+            .step(Part::Omissions, rounds, Some(best.counts()));
         self.done.set(done + 1);
     }
 
     /// Returns whether the one who watches wants an end, or the work is done.
     pub(super) fn is_over(&self) -> bool {
-        self.meter.is_over() || self.watch.is_some_and(|watch| watch.is_over())
+        self.meter.is_over() || self.watch.is_over()
     }
 }

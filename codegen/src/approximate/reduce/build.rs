@@ -10,6 +10,7 @@ use super::terms::{Model, Terms, nothing};
 use crate::dag::{Builder as GraphBuilder, Dag, Folding};
 use crate::program::Program;
 use crate::search::{Effort, cost, search};
+use crate::seeds::start::Problem;
 use crate::seeds::{self, regrouped, skeleton, trace_chain, tuned};
 use crate::setup::{FittedLink, Setup};
 
@@ -44,11 +45,12 @@ impl Builder<'_> {
         let fitted = self.fitted(&model.terms, &model.factors);
         let (function, effort) = (self.exact.function, Effort::Quick);
         let forms = self.forms();
-        let tuned = tuned(fitted.task(function), &forms, effort, None, &[], None);
-        let seeds = regrouped(fitted.task(function), &forms, &tuned);
+        let task = fitted.task(function);
+        let tuned = tuned(&Problem::new(task, effort), &forms);
+        let seeds = regrouped(task, &forms, &tuned);
         let graphs: Vec<Dag> = seeds.into_iter().map(|seed| seed.graph).collect();
         let found = search(&graphs, &[], &|n| effort.limits(n), &|_| true, &|_, _| true)?;
-        let small = fitted.task(function).program(&found.graph);
+        let small = task.program(&found.graph);
         let mut builder = GraphBuilder::new(Folding::Semantic);
         let values = builder.results(&small.dag);
         let mut outputs = vec![builder.zero(); self.exact.dag.outputs.len()];

@@ -6,6 +6,7 @@
 //! error is a sum of magnitudes, each row by the inverse of its own.
 
 use super::terms::Terms;
+use crate::approximate::prune::dot;
 
 /// Iterations, if they are needed.
 const ROUGH: usize = 12;
@@ -77,8 +78,7 @@ impl<'t> Fit<'t> {
 
     /// Returns whether a term does anything at all.
     pub(super) fn is_something(&self, term: usize) -> bool {
-        let largest = self.sizes.iter().copied().fold(0.0, f64::max);
-        self.sizes[term] > 1e-9 * largest
+        self.sizes[term] > 1e-9 * largest(&self.sizes)
     }
 
     /// Fits terms so that the largest error is small; ends as soon as it is at most
@@ -90,7 +90,7 @@ impl<'t> Fit<'t> {
         for _ in 0..ROUGH {
             let solution = self.weighed(of, &weights);
             let errors = self.errors(of, &solution.factors);
-            let error = errors.iter().copied().fold(0.0, f64::max);
+            let error = largest(&errors);
             if best.as_ref().is_none_or(|best| error < best.error) {
                 best = Some(Solution { error, ..solution });
             }
@@ -117,11 +117,11 @@ impl<'t> Fit<'t> {
             }
             let residual = self.residual(of, &now);
             let errors = self.of_blocks(&residual);
-            let error = errors.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+            let error = largest(&errors).max(f64::MIN_POSITIVE);
             for (weight, own) in weights.iter_mut().zip(&errors) {
                 *weight *= 0.02 + own / error;
             }
-            let most = weights.iter().copied().fold(0.0, f64::max);
+            let most = largest(&weights);
             weights.iter_mut().for_each(|weight| *weight /= most);
             let rows = residual.chunks_exact(self.block).zip(&weights).zip(&errors);
             let rows = rows.flat_map(|((rows, weight), own)| {
@@ -132,7 +132,7 @@ impl<'t> Fit<'t> {
             });
             let rows: Vec<f64> = rows.collect();
             now = self.least_squares(of, &rows);
-            let error = self.errors(of, &now).into_iter().fold(0.0, f64::max);
+            let error = largest(&self.errors(of, &now));
             if error < best.error {
                 best = Solution {
                     factors: now.clone(),
@@ -157,10 +157,8 @@ impl<'t> Fit<'t> {
     }
 
     fn of_blocks(&self, residual: &[f64]) -> Vec<f64> {
-        let blocks = residual.chunks_exact(self.block);
-        blocks
-            .map(|block| self.terms.motions.largest(block))
-            .collect()
+        let error = |block| self.terms.motions.largest(block);
+        residual.chunks_exact(self.block).map(error).collect()
     }
 
     fn errors(&self, of: &[usize], factors: &[f64]) -> Vec<f64> {
@@ -222,28 +220,14 @@ impl<'t> Fit<'t> {
     }
 }
 
+fn largest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(0.0, f64::max)
+}
+
 /// Returns the place of a pair in a triangle.
 fn at(a: usize, b: usize) -> usize {
     let (a, b) = (a.max(b), a.min(b));
     a * (a + 1) / 2 + b
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    // In eight sums: a fixed order, and no chain of additions.
-    let mut sums = [0.0; 8];
-    let (a_chunks, b_chunks) = (a.chunks_exact(8), b.chunks_exact(8));
-    let rest: f64 = a_chunks
-        .remainder()
-        .iter()
-        .zip(b_chunks.remainder())
-        .map(|(a, b)| a * b)
-        .sum();
-    for (a, b) in a_chunks.zip(b_chunks) {
-        for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
-            *sum += a * b;
-        }
-    }
-    sums.iter().sum::<f64>() + rest
 }
 
 /// Factors a symmetric matrix, given by its lower triangle, row by row, into L Lᵀ.

@@ -23,12 +23,11 @@ mod path;
 mod terms;
 
 use crate::approximate::motions;
-use crate::bound::input_box::InputBox;
+use crate::approximate::prune::Target;
 use crate::parallel;
 use crate::program::Program;
 use crate::random::Random;
 use crate::setup::Setup;
-use crate::watch::FunctionWatch;
 use build::Builder;
 use terms::Terms;
 
@@ -44,27 +43,19 @@ const USES: [f64; 8] = [0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.8, 0.93];
 /// Returns programs of smaller models than the exact program's, from those that leave most
 /// of the allowances to the smallest; none for a function that is not linear in the links'
 /// moments, or where nothing may go.
-pub(super) fn programs(
-    setup: &Setup,
-    exact: &Program,
-    limits: &InputBox,
-    allowances: &[f64],
-    watch: Option<FunctionWatch<'_>>,
-) -> Vec<Program> {
-    let is_over = || watch.is_some_and(|watch| watch.is_over());
-    let positions = motions::positions(limits, POSITIONS, &mut Random::new(SEED));
-    let Some(terms) = Terms::new(setup, exact, limits, allowances, &positions) else {
+pub(super) fn programs(setup: &Setup, target: Target<'_>) -> Vec<Program> {
+    let positions = motions::positions(target.limits, POSITIONS, &mut Random::new(SEED));
+    let terms = Terms::new(setup, target, &positions);
+    let Some(terms) = terms.filter(|terms| !terms.outputs.is_empty()) else {
         return Vec::new();
     };
-    if terms.outputs.is_empty() {
-        return Vec::new();
-    }
     let builder = Builder {
         setup,
-        exact,
+        exact: target.exact,
         terms: &terms,
     };
-    let models = path::eliminate(&terms, &builder, &is_over);
+    let is_over = || target.watch.is_over();
+    let models = path::eliminate(&builder, &is_over);
     // The smallest that leaves so much.
     let of = |most: &f64| models.iter().rposition(|model| model.error <= *most);
     let mut places: Vec<usize> = USES.iter().filter_map(of).collect();

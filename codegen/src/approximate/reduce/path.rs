@@ -19,11 +19,8 @@ const COUNTED: usize = 8;
 const TRIED: usize = 5;
 
 /// Returns the models on the way from all terms to few.
-pub(super) fn eliminate(
-    terms: &Terms,
-    builder: &Builder<'_>,
-    is_over: &dyn Fn() -> bool,
-) -> Vec<Model> {
+pub(super) fn eliminate(builder: &Builder<'_>, is_over: &dyn Fn() -> bool) -> Vec<Model> {
+    let terms = builder.terms;
     let fit = Fit::new(terms);
     let singles = terms.all.iter().enumerate();
     let singles = singles.filter(|(_, term)| term.stands_for.is_none());
@@ -53,11 +50,7 @@ pub(super) fn eliminate(
         });
         let Some(next) = next else { break };
         (now, solution) = next;
-        models.push(Model {
-            terms: now.clone(),
-            factors: solution.factors.clone(),
-            error: solution.error,
-        });
+        models.push(model_of(&now, &solution));
     }
     models
 }
@@ -67,10 +60,14 @@ pub(super) fn refined(terms: &Terms, model: &Model) -> Model {
     let fit = Fit::new(terms);
     let from = fit.solve(&model.terms, 0.0);
     let found = fit.refine(&model.terms, from, 0.0);
+    model_of(&model.terms, &found)
+}
+
+fn model_of(terms: &[usize], solution: &Solution) -> Model {
     Model {
-        terms: model.terms.clone(),
-        factors: found.factors,
-        error: found.error,
+        terms: terms.to_vec(),
+        factors: solution.factors.clone(),
+        error: solution.error,
     }
 }
 

@@ -1,12 +1,12 @@
 //! The parameters that torques are linear in: a column for each of each link.
 
 use dalembert_model::equations::chain::{Body, Chain, Regrouping, Skeleton};
-use dalembert_model::number::Exact;
+use dalembert_model::number::{Exact, Rational};
 use dalembert_model::robot::{Inertia, JointKind};
 use dalembert_model::scalar::Scalar;
 
 use crate::approximate::motions::Motions;
-use crate::bound::input_box::InputBox;
+use crate::approximate::prune::Target;
 use crate::dag::Folding;
 use crate::program::Program;
 use crate::seeds::{skeleton, trace_chain};
@@ -51,13 +51,10 @@ pub(super) struct Model {
 impl Terms {
     /// Computes the columns at sampled positions; `None` where results are no linear
     /// function of the links' parameters, one a row.
-    pub(super) fn new(
-        setup: &Setup,
-        exact: &Program,
-        limits: &InputBox,
-        allowances: &[f64],
-        positions: &[Vec<f64>],
-    ) -> Option<Terms> {
+    pub(super) fn new(setup: &Setup, target: Target<'_>, positions: &[Vec<f64>]) -> Option<Terms> {
+        let Target {
+            exact, allowances, ..
+        } = target;
         let function = exact.function;
         let mut quantities = function.quantities().iter();
         let is_regrouped = quantities.all(|quantity| quantity.is_regrouped());
@@ -65,7 +62,7 @@ impl Terms {
         if exact.dag.outputs.len() != exact.rows.len() || !is_regrouped || !is_plain {
             return None;
         }
-        let motions = Motions::new(exact, limits);
+        let motions = Motions::new(exact, target.limits);
         let states = motions.states(positions);
         let mut terms = Terms {
             all: Vec::new(),
@@ -123,35 +120,25 @@ impl Terms {
 
 /// Returns links without mass, drives without inertia or friction.
 pub(super) fn nothing(skeleton: &Skeleton<Exact>) -> Vec<FittedLink> {
-    let nothing = |_| FittedLink {
+    skeleton.links.iter().map(|_| zero()).collect()
+}
+
+fn zero() -> FittedLink {
+    FittedLink {
         body: Body::zero(),
         armature: Exact::zero(),
         viscous: Exact::zero(),
-    };
-    skeleton.links.iter().map(nothing).collect()
+    }
 }
 
 /// Returns the terms of every link: about a point on its axis what cannot move to the link
 /// before, and ties of the two squares across the axis: a disc, and its opposite.
 fn units(skeleton: &Skeleton<Exact>) -> Vec<(usize, FittedLink, Option<[usize; 2]>)> {
     let mut all: Vec<(usize, FittedLink, Option<[usize; 2]>)> = Vec::new();
-    let zero = || FittedLink {
-        body: Body::zero(),
-        armature: Exact::zero(),
-        viscous: Exact::zero(),
-    };
-    let second = |entries: &[(usize, usize, i64)]| {
-        let value = |i: usize, j: usize| {
-            let found = entries.iter().find(|(a, b, _)| (*a, *b) == (i, j));
-            found.map_or(Exact::zero(), |(_, _, sign)| match sign {
-                1 => Exact::one(),
-                _ => Exact::one().neg(),
-            })
-        };
-        Body {
-            second: Inertia::symmetric(value),
-            ..Body::zero()
-        }
+    // By its entries xx, yy, zz, xy, yz and xz.
+    let second = |entries: [i64; 6]| Body {
+        second: Inertia::of(entries.map(|x| Exact::from(Rational::from_integer(x.into())))),
+        ..Body::zero()
     };
     let first = |axis: usize| {
         let mut body = Body::zero();
@@ -164,13 +151,13 @@ fn units(skeleton: &Skeleton<Exact>) -> Vec<(usize, FittedLink, Option<[usize; 2
             JointKind::Revolute => {
                 let about = [Exact::zero(), Exact::zero(), segment.d.clone()];
                 let bodies = vec![
-                    second(&[(0, 0, 1)]),
-                    second(&[(1, 1, 1)]),
-                    second(&[(0, 0, 1), (1, 1, 1)]),
-                    second(&[(0, 0, 1), (1, 1, -1)]),
-                    second(&[(0, 1, 1)]),
-                    second(&[(0, 2, 1)]),
-                    second(&[(1, 2, 1)]),
+                    second([1, 0, 0, 0, 0, 0]),
+                    second([0, 1, 0, 0, 0, 0]),
+                    second([1, 1, 0, 0, 0, 0]),
+                    second([1, -1, 0, 0, 0, 0]),
+                    second([0, 0, 0, 1, 0, 0]),
+                    second([0, 0, 0, 0, 0, 1]),
+                    second([0, 0, 0, 0, 1, 0]),
                     first(0),
                     first(1),
                 ];

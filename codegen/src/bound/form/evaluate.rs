@@ -13,7 +13,7 @@ impl Forms {
         values.clear();
         values.resize(self.coefficients, Interval::ZERO);
         factors.clear();
-        factors.extend(self.factors.iter().map(|rest| self.range(rest, sub)));
+        factors.extend(self.factors.iter().map(|rest| range(rest, sub)));
         for work in &self.work {
             match *work {
                 Work::Add(out, x) => {
@@ -36,53 +36,18 @@ impl Forms {
                     accumulate(&mut values[out as usize], product);
                 }
                 Work::Constant(out, value) => values[out as usize] = value,
-                Work::Leaf(out, input) => self.evaluate_leaf(out as usize, input, sub, values),
+                Work::Leaf(out, input) => {
+                    values[out as usize] = match input {
+                        // As a variable its coefficient is one.
+                        Input::Entry(Argument::Velocity | Argument::Acceleration, _)
+                            if self.rates =>
+                        {
+                            Interval::ONE
+                        }
+                        _ => sub.input(input),
+                    }
+                }
             }
-        }
-    }
-
-    fn evaluate_leaf(&self, out: usize, input: Input, sub: &InputBox, values: &mut [Interval]) {
-        match input {
-            Input::Entry(Argument::Velocity | Argument::Acceleration, _) => {
-                // As a variable its coefficient is one.
-                values[out] = if self.rates {
-                    Interval::ONE
-                } else {
-                    sub.input(input)
-                };
-            }
-            _ => values[out] = sub.input(input),
-        }
-    }
-
-    /// Returns the range of a product of variables.
-    fn range(&self, variables: &[u8], sub: &InputBox) -> Interval {
-        let mut product = Interval::ONE;
-        let mut at = 0;
-        while at < variables.len() {
-            let variable = variables[at];
-            let power = variables[at..]
-                .iter()
-                .take_while(|&&v| v == variable)
-                .count();
-            let x = self.variable(variable, sub);
-            for _ in 0..power / 2 {
-                product = product * x.square();
-            }
-            if power % 2 == 1 {
-                product = product * x;
-            }
-            at += power;
-        }
-        product
-    }
-
-    fn variable(&self, variable: u8, sub: &InputBox) -> Interval {
-        let (n, index) = (self.joints, usize::from(variable));
-        match index {
-            0 => Interval::ONE,
-            _ if index <= n => sub.velocity[index - 1],
-            _ => sub.acceleration[index - 1 - n],
         }
     }
 
@@ -95,7 +60,7 @@ impl Forms {
                 for &(rates, x) in terms {
                     let mut term = scratch.values[x as usize];
                     if rates[1] != 0 {
-                        term = term * self.range(&rates, sub);
+                        term = term * range(&rates, sub);
                     }
                     accumulate(&mut sum, term);
                 }
@@ -103,6 +68,21 @@ impl Forms {
             })
             .collect()
     }
+}
+
+/// Returns the range of a product of variables, sorted.
+fn range(variables: &[u8], sub: &InputBox) -> Interval {
+    let mut product = Interval::ONE;
+    for power in variables.chunk_by(|a, b| a == b) {
+        let x = sub.rate(power[0]);
+        for _ in 0..power.len() / 2 {
+            product = product * x.square();
+        }
+        if power.len() % 2 == 1 {
+            product = product * x;
+        }
+    }
+    product
 }
 
 /// Adds to a sum; one that starts from zero stays exact.

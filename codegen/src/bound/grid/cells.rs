@@ -78,6 +78,12 @@ impl<'a> Cells<'a> {
         Some((self.ranges[level], whole))
     }
 
+    /// Returns where the joint's angles begin, and how far they reach.
+    pub(super) fn span(&self, level: usize) -> (f64, f64) {
+        self.part(level)
+            .map_or((0.0, 2.0 * PI), |(range, _)| (range.low(), range.width()))
+    }
+
     /// Returns the values before a joint, those of the angles put in last.
     pub(super) fn values(&self, level: usize) -> &[f64] {
         let buffer = &self.buffers[level];
@@ -128,19 +134,16 @@ impl<'a> Cells<'a> {
         }
         let degree = f64::from(self.layout.degrees[level]);
         let part = self.part(level);
-        let (from, width) = match part {
-            Some((range, _)) => {
-                for end in [range.low(), range.high()] {
-                    self.charge(level);
-                    self.place(level, end);
-                    if !self.below(level + 1, bound) {
-                        return false;
-                    }
+        if let Some((range, _)) = part {
+            for end in [range.low(), range.high()] {
+                self.charge(level);
+                self.place(level, end);
+                if !self.below(level + 1, bound) {
+                    return false;
                 }
-                (range.low(), range.width())
             }
-            None => (0.0, 2.0 * PI),
-        };
+        }
+        let (from, width) = self.span(level);
         let rounded = 4.0 * f64::EPSILON * (from.abs() + width);
         let lost = |half: f64| {
             // Half widths and middles are rounded; a little more covers that.

@@ -135,10 +135,7 @@ fn sampled(cells: &mut Cells<'_>, matrix: &dyn Fn(&[f64]) -> Vec<f64>, n: usize,
     let (last, mut least) = (cells.layout.joints.len(), most);
     for _ in 0..SAMPLES {
         for level in 0..last {
-            let (low, width) = match cells.part(level) {
-                Some((range, _)) => (range.low(), range.width()),
-                None => (0.0, 2.0 * std::f64::consts::PI),
-            };
+            let (low, width) = cells.span(level);
             let angle = low + width * random.unit();
             cells.place(level, angle);
         }

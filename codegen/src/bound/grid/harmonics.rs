@@ -8,7 +8,7 @@
 //!
 //! **Soundness.** Identities, in coefficients that are dyadic and exact.
 
-use crate::bound::expand::{Key, Polynomial, powers, shift};
+use crate::bound::expand::{Key, Polynomial, added_up, powers, shift};
 use crate::interval::Interval;
 
 /// Reads of a key whose joints have multiples in place of powers the multiple k of a joint's
@@ -58,20 +58,6 @@ pub(in crate::bound) fn harmonics(polynomial: &Polynomial, joints: usize) -> Opt
         terms = added_up(next);
     }
     Some(terms)
-}
-
-/// Adds equal keys' coefficients up, in the order that they come in.
-fn added_up(mut terms: Polynomial) -> Polynomial {
-    // Stable: the sums are rounded as they were.
-    terms.sort_by_key(|&(key, _)| key);
-    terms.dedup_by(|next, sum| {
-        let same = next.0 == sum.0;
-        if same {
-            sum.1 = sum.1 + next.1;
-        }
-        same
-    });
-    terms
 }
 
 /// Returns cos^c·sin^s, s at most 1, as Σ part·cos kθ, or Σ part·sin kθ if s is 1.

@@ -38,8 +38,6 @@ mod harmonics;
 mod layout;
 mod narrow;
 
-use std::f64::consts::PI;
-
 use crate::bound::expand::{Key, Polynomial, rates};
 use crate::bound::input_box::InputBox;
 use crate::dag::{Dag, Node};
@@ -109,14 +107,17 @@ pub(super) fn sliding(graph: &Dag, joints: usize) -> Vec<bool> {
 /// depend on it: what was shown for one aim is shown again for another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Aim {
-    /// As small as can be shown, but no smaller than this.
-    Least(f64),
+    /// As small as can be shown.
+    Least,
     /// At most this, or it does not matter.
     Within(f64),
-    /// At most the second, which need not be smaller than the first; or, where that cannot
-    /// be shown, about the largest value that is taken, as a number above the second.
-    Judged(f64, f64),
+    /// At most this, which need not be smaller than [`ENOUGH`] of it; or, where that cannot
+    /// be shown, about the largest value that is taken, as a number above it.
+    Judged(f64),
 }
+
+/// The part of a limit below which no bound need be.
+const ENOUGH: f64 = 0.85;
 
 /// Returns the largest magnitude over a box of a polynomial in multiples of its angles
 /// ([`harmonics`]).
@@ -150,10 +151,12 @@ pub(super) fn magnitude(
 fn bound(layout: &Layout, limits: &InputBox, aim: Aim, closeness: GridEffort) -> f64 {
     let points = closeness.points;
     let crude = layout.crude(0, &layout.coefficients).most;
-    let enough = match aim {
-        Aim::Least(goal) | Aim::Within(goal) | Aim::Judged(goal, _) => crude <= goal,
+    let goal = match aim {
+        Aim::Least => 0.0,
+        Aim::Within(most) => most,
+        Aim::Judged(most) => ENOUGH * most,
     };
-    if points == 0 || enough {
+    if points == 0 || crude <= goal {
         return crude;
     }
     let accept = |values: &[f64], bound| layout.is_below(values, bound);
@@ -167,20 +170,16 @@ fn bound(layout: &Layout, limits: &InputBox, aim: Aim, closeness: GridEffort) ->
         cells.points = points;
         least <= bound && bound < crude && cells.below(0, bound)
     };
-    let start = |goal: f64| tries.iter().position(|&bound| bound >= goal);
+    let mut ascending = tries.iter().copied();
     let (first, most) = match aim {
-        Aim::Least(goal) => {
-            let start = start(goal).unwrap_or(tries.len().saturating_sub(1));
-            return match tries.get(start).filter(|&&bound| shown(bound)) {
-                Some(&bound) => bound,
-                None => least_shown(&tries, start, &mut shown).unwrap_or(crude),
+        Aim::Least => {
+            return match ascending.next().filter(|&bound| shown(bound)) {
+                Some(bound) => bound,
+                None => least_shown(&tries, &mut shown).unwrap_or(crude),
             };
         }
-        Aim::Judged(goal, most) => (start(goal).map(|start| tries[start]), most),
-        Aim::Within(most) => (
-            tries.iter().rev().copied().find(|&bound| bound <= most),
-            most,
-        ),
+        Aim::Judged(most) => (ascending.find(|&bound| bound >= goal), most),
+        Aim::Within(most) => (ascending.rfind(|&bound| bound <= most), most),
     };
     // Between two of them, what is asked for may be shown where the smaller one is not.
     let first = first.filter(|&bound| bound < most);
@@ -207,10 +206,10 @@ fn tries(taken: f64, slack: f64, crude: f64, close: f64) -> Vec<f64> {
     tries
 }
 
-/// Returns the least of the bounds after one that was not shown: a larger one takes
+/// Returns the least of the bounds after the first, which was not shown: a larger one takes
 /// fewer points, so halving finds it.
-fn least_shown(tries: &[f64], not: usize, shown: &mut dyn FnMut(f64) -> bool) -> Option<f64> {
-    let (mut failed, mut held) = (not, tries.len());
+fn least_shown(tries: &[f64], shown: &mut dyn FnMut(f64) -> bool) -> Option<f64> {
+    let (mut failed, mut held) = (0, tries.len());
     while held > failed + 1 {
         let middle = (failed + held) / 2;
         if shown(tries[middle]) {
@@ -225,10 +224,6 @@ fn least_shown(tries: &[f64], not: usize, shown: &mut dyn FnMut(f64) -> bool) ->
 /// Returns a value that is taken: the largest of some places, each climbed from.
 fn climb(cells: &mut Cells<'_>, starts: usize, value: &dyn Fn(&[f64]) -> f64) -> f64 {
     let count = cells.layout.joints.len();
-    let span = |level: usize, cells: &Cells<'_>| match cells.part(level) {
-        Some((range, _)) => (range.low(), range.high()),
-        None => (0.0, 2.0 * PI),
-    };
     // The first angles of which the values are still there need not be put in;
     // they count all the same: points say where a climb ends, not how it is done.
     let at = |angles: &[f64], known: usize, cells: &mut Cells<'_>| {
@@ -245,8 +240,8 @@ fn climb(cells: &mut Cells<'_>, starts: usize, value: &dyn Fn(&[f64]) -> f64) ->
     for _ in 0..starts {
         let mut angles: Vec<f64> = (0..count)
             .map(|level| {
-                let (low, high) = span(level, cells);
-                low + (high - low) * random.unit()
+                let (low, width) = cells.span(level);
+                low + width * random.unit()
             })
             .collect();
         let (mut highest, mut known) = (at(&angles, 0, cells), count);
@@ -254,11 +249,10 @@ fn climb(cells: &mut Cells<'_>, starts: usize, value: &dyn Fn(&[f64]) -> f64) ->
         while step > 1e-3 && cells.points > 0 {
             let mut moved = false;
             for level in 0..count {
-                let (low, high) = span(level, cells);
                 for sign in [-1.0, 1.0] {
                     let old = angles[level];
                     angles[level] = match cells.part(level) {
-                        Some(_) => (old + sign * step).clamp(low, high),
+                        Some((range, _)) => (old + sign * step).clamp(range.low(), range.high()),
                         None => old + sign * step,
                     };
                     let next = at(&angles, known.min(level), cells);
@@ -280,22 +274,17 @@ fn climb(cells: &mut Cells<'_>, starts: usize, value: &dyn Fn(&[f64]) -> f64) ->
 
 /// Returns the range of a key's rates.
 fn range(key: Key, limits: &InputBox) -> Interval {
-    let n = limits.joints();
-    let variable = |rate: u8| match usize::from(rate) {
-        0 => Interval::ONE,
-        k if k <= n => limits.velocity[k - 1],
-        k => limits.acceleration[k - 1 - n],
-    };
     match rates(key) {
-        [a, b] if a == b && a != 0 => variable(a).square(),
-        [0, 0] => Interval::ONE,
-        [0, b] => variable(b),
-        [a, b] => variable(a) * variable(b),
+        [a, b] if a == b && a != 0 => limits.rate(a).square(),
+        [0, b] => limits.rate(b),
+        [a, b] => limits.rate(a) * limits.rate(b),
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::harmonics::multiple;
     use super::*;
     use crate::bound::expand::shift;
@@ -308,11 +297,7 @@ mod tests {
         let mut random = Random::new(11);
         for round in 0..12 {
             let reach = if round % 2 == 0 { PI } else { 1.9 };
-            let limits = InputBox {
-                position: vec![Interval::symmetric(reach); 2],
-                velocity: vec![Interval::symmetric(2.0); 2],
-                acceleration: vec![Interval::symmetric(3.0); 2],
-            };
+            let limits = InputBox::symmetric(&[reach; 2], &[2.0; 2], &[3.0; 2]);
             let mut terms = Polynomial::new();
             // Of q̇₁·q̇₂, of q̇₂ and of q̈₁.
             for rates in [1 << 8 | 2, 2, 3] {
@@ -358,7 +343,7 @@ mod tests {
             let grid = (-60..=60).flat_map(|a| (-60..=60).map(move |b| [at(a), at(b)]));
             let most = grid.map(value).fold(0.0, f64::max);
             let effort = GridEffort::fine(1 << 20);
-            let found = magnitude(terms.clone(), &limits, &[false; 2], Aim::Least(0.0), effort);
+            let found = magnitude(terms.clone(), &limits, &[false; 2], Aim::Least, effort);
             assert!((most..1.05 * most).contains(&found), "{most} {found}");
         }
     }

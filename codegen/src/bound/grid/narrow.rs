@@ -92,8 +92,8 @@ fn replaced(terms: &Polynomial, joint: usize, range: Interval) -> Polynomial {
         let of = multiple(key, joint);
         let rest = key & !bits(joint);
         let mut add = |key: Key, x: Interval| {
-            let sum = next.get(&key).map_or(x, |&before| before + x);
-            next.insert(key, sum);
+            let sum = next.entry(key);
+            sum.and_modify(|sum| *sum = *sum + x).or_insert(x);
         };
         if of.0 == 0 {
             add(key, x);
@@ -238,11 +238,7 @@ mod tests {
     /// Wide ranges and rates stay as they are.
     #[test]
     fn only_angles_of_narrow_ranges_are_replaced() {
-        let limits = InputBox {
-            position: vec![Interval::symmetric(3.0), Interval::symmetric(0.2)],
-            velocity: vec![Interval::symmetric(1.0); 2],
-            acceleration: vec![Interval::symmetric(1.0); 2],
-        };
+        let limits = InputBox::symmetric(&[3.0, 0.2], &[1.0; 2], &[1.0; 2]);
         let key: Key = 1 << shift(0) | 17 << shift(1) | 2;
         let (terms, narrow) = narrowed(vec![(key, Interval::ONE)], &limits, &[false, false]);
         assert_eq!(narrow, [1]);

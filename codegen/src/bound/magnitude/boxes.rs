@@ -7,8 +7,8 @@
 //! Deterministic: sub-boxes are counted, never timed, and ties go to the one
 //! made first.
 
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
 
 use super::{BoxEffort, relative};
 use crate::bound::form::{Forms, Scratch};
@@ -30,14 +30,17 @@ pub(super) fn branch_and_bound(
         scratch: Scratch::default(),
         serial: 0,
     };
-    let mut heap = BinaryHeap::new();
-    heap.push(search.leaf(whole.clone()));
+    let first = search.leaf(whole.clone());
+    let mut leaves = BTreeMap::from([(search.place(&first), first)]);
     while search.serial < budget.boxes {
-        let Some(leaf) = heap.peek() else { break };
-        if leaf.priority <= goal || leaf.axis == usize::MAX {
+        let Some(worst) = leaves.last_entry() else {
+            break;
+        };
+        let leaf = worst.get();
+        if priority(&leaf.magnitudes, scales) <= goal || leaf.axis == usize::MAX {
             break;
         }
-        let Some(leaf) = heap.pop() else { break };
+        let leaf = worst.remove();
         for half in leaf.sub.position[leaf.axis].split() {
             let mut sub = leaf.sub.clone();
             sub.position[leaf.axis] = half;
@@ -46,12 +49,11 @@ pub(super) fn branch_and_bound(
             for (mine, parents) in child.magnitudes.iter_mut().zip(&leaf.magnitudes) {
                 *mine = mine.min(*parents);
             }
-            child.priority = priority(&child.magnitudes, scales);
-            heap.push(child);
+            leaves.insert(search.place(&child), child);
         }
     }
     let mut most = vec![0.0f64; graph.outputs.len()];
-    for leaf in heap {
+    for leaf in leaves.into_values() {
         for (most, magnitude) in most.iter_mut().zip(&leaf.magnitudes) {
             *most = most.max(*magnitude);
         }
@@ -61,30 +63,9 @@ pub(super) fn branch_and_bound(
 
 /// A sub-box that is not halved yet.
 struct Leaf {
-    /// The output that is worst here relative to its weight.
-    priority: f64,
-    serial: usize,
     sub: InputBox,
     magnitudes: Vec<f64>,
     axis: usize,
-}
-
-impl PartialEq for Leaf {
-    fn eq(&self, other: &Leaf) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-impl Eq for Leaf {}
-impl PartialOrd for Leaf {
-    fn partial_cmp(&self, other: &Leaf) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl Ord for Leaf {
-    fn cmp(&self, other: &Leaf) -> Ordering {
-        let first = self.priority.total_cmp(&other.priority);
-        first.then(other.serial.cmp(&self.serial))
-    }
 }
 
 struct Search<'a> {
@@ -101,12 +82,17 @@ impl Search<'_> {
         let magnitudes: Vec<f64> = outputs.iter().map(|x| x.magnitude()).collect();
         self.serial += 1;
         Leaf {
-            priority: priority(&magnitudes, self.scales),
-            serial: self.serial,
             axis: self.axis(&sub),
             sub,
             magnitudes,
         }
+    }
+
+    /// Returns the place of the leaf that was made last: before the others that are no better.
+    fn place(&self, leaf: &Leaf) -> (u64, Reverse<usize>) {
+        // A magnitude's bits are in its order.
+        let priority = priority(&leaf.magnitudes, self.scales);
+        (priority.to_bits(), Reverse(self.serial))
     }
 
     /// Returns the widest position that matters.

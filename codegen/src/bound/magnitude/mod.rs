@@ -36,30 +36,17 @@ impl BoxEffort {
     };
 }
 
-/// The part of a limit below which no bound need be.
-const ENOUGH: f64 = 0.85;
-
 /// Bounds of |output| over the box, one an output. `scales` say what a unit
 /// of each output is worth: the largest |output|/scale is tightened.
 pub fn magnitudes(graph: &Dag, whole: &InputBox, scales: &[f64], budget: BoxEffort) -> Vec<f64> {
-    let (graph, scales, distinct) = distinct_outputs(graph, scales);
-    let aims = scales.iter().map(|_| Aim::Least(0.0));
-    let most = written_out(&graph, whole, aims, budget);
-    let most = most.unwrap_or_else(|| branch_and_bound(&graph, whole, &scales, 0.0, budget));
-    distinct.scatter(&most)
+    bounds(graph, whole, scales, budget, 0.0, |_| Aim::Least)
 }
 
 /// Returns the same for who searches: an output is shown to be at most its limit, and need not be
-/// shown to be below [`ENOUGH`] of it; or, where it cannot be, the number is larger, about as
-/// large as the output is, and no bound.
+/// shown to be much below; or, where it cannot be, the number is larger, about as large as the
+/// output is, and no bound.
 pub(crate) fn judged(graph: &Dag, whole: &InputBox, limits: &[f64], budget: BoxEffort) -> Vec<f64> {
-    let (graph, limits, distinct) = distinct_outputs(graph, limits);
-    let aims = limits
-        .iter()
-        .map(|&limit| Aim::Judged(ENOUGH * limit, limit));
-    let most = written_out(&graph, whole, aims, budget);
-    let most = most.unwrap_or_else(|| branch_and_bound(&graph, whole, &limits, 1.0, budget));
-    distinct.scatter(&most)
+    bounds(graph, whole, limits, budget, 1.0, Aim::Judged)
 }
 
 /// Returns the same as [`magnitudes`], if every output is shown to be at most its limit; at a
@@ -70,13 +57,26 @@ pub(crate) fn magnitudes_within(
     limits: &[f64],
     budget: BoxEffort,
 ) -> Option<Vec<f64>> {
-    let (graph, limits, distinct) = distinct_outputs(graph, limits);
-    let aims = limits.iter().map(|&limit| Aim::Within(limit));
+    let most = bounds(graph, whole, limits, budget, 1.0, Aim::Within);
+    let within = most.iter().zip(limits).all(|(x, limit)| x <= limit);
+    within.then_some(most)
+}
+
+/// Bounds every output for what is aimed at with its scale; by boxes, until the largest
+/// |output|/scale is at most the goal.
+fn bounds(
+    graph: &Dag,
+    whole: &InputBox,
+    scales: &[f64],
+    budget: BoxEffort,
+    goal: f64,
+    aim: fn(f64) -> Aim,
+) -> Vec<f64> {
+    let (graph, scales, distinct) = distinct_outputs(graph, scales);
+    let aims = scales.iter().map(|&scale| aim(scale));
     let most = written_out(&graph, whole, aims, budget);
-    let most = most.unwrap_or_else(|| branch_and_bound(&graph, whole, &limits, 1.0, budget));
-    let within =
-        most.len() == limits.len() && most.iter().zip(&limits).all(|(x, limit)| x <= limit);
-    within.then(|| distinct.scatter(&most))
+    let most = most.unwrap_or_else(|| branch_and_bound(&graph, whole, &scales, goal, budget));
+    distinct.scatter(&most)
 }
 
 /// Returns equal outputs once: a sign does not matter to a magnitude; a scale does to the search.
@@ -91,8 +91,8 @@ fn distinct_outputs(graph: &Dag, scales: &[f64]) -> (Dag, Vec<f64>, Distinct) {
     (graph, distinct.pick(scales), distinct)
 }
 
-/// Bounds at a grid, if there is one: of all outputs, or up to the first that is
-/// not within what it is to be.
+/// Bounds at a grid, if there is one. After the first that is not within what it is to be, no
+/// other is looked for.
 fn written_out(
     graph: &Dag,
     whole: &InputBox,
@@ -110,16 +110,17 @@ fn written_out(
         Some(grid::magnitude(polynomial, whole, &sliding, aim, closeness))
     };
     let all: Vec<_> = polynomials.iter().zip(aims).collect();
-    if all.iter().all(|(_, aim)| matches!(aim, Aim::Least(_))) {
+    if all.iter().all(|(_, aim)| *aim == Aim::Least) {
         return parallel::each(&all, |one| bound(*one))
             .into_iter()
             .collect();
     }
     let mut most = Vec::new();
-    for one in all {
+    for &one in &all {
         let found = bound(one)?;
         most.push(found);
         if matches!(one.1, Aim::Within(limit) if found > limit) {
+            most.resize(all.len(), f64::INFINITY);
             break;
         }
     }
@@ -156,11 +157,7 @@ mod tests {
         let cosine = builder.input(Input::Cos(0));
         let load = builder.mul(rate, cosine);
         let graph = builder.finish(vec![load]);
-        let mut limits = InputBox {
-            position: vec![Interval::symmetric(1.0)],
-            velocity: vec![Interval::ZERO],
-            acceleration: vec![Interval::symmetric(30.0)],
-        };
+        let mut limits = InputBox::symmetric(&[1.0], &[0.0], &[30.0]);
         let bound = |limits: &InputBox| magnitudes(&graph, limits, &[1.0], BoxEffort::QUICK)[0];
         assert_eq!(bound(&limits), 0.0);
         let mut builder = Builder::new(Folding::Syntactic);
@@ -191,11 +188,7 @@ mod tests {
         let small = builder.constant(&Exact::from(small));
         let error = builder.mul(rate, small);
         let graph = builder.finish(vec![error]);
-        let limits = InputBox {
-            position: vec![Interval::symmetric(3.0)],
-            velocity: vec![Interval::ZERO],
-            acceleration: vec![Interval::symmetric(30.0)],
-        };
+        let limits = InputBox::symmetric(&[3.0], &[0.0], &[30.0]);
         for budget in [BoxEffort::QUICK, BoxEffort::CERTIFY] {
             let bound = magnitudes(&graph, &limits, &[1.0], budget)[0];
             assert!((1.2e-3..1.3e-3).contains(&bound), "{bound:e}");

@@ -49,7 +49,7 @@ impl Extremes {
         visit(graph, limits, &mut |node, polynomial| {
             let harmonics = grid::harmonics(polynomial, limits.joints());
             most[node] = harmonics.map(|harmonics| {
-                grid::magnitude(harmonics, limits, &sliding, Aim::Least(0.0), closeness)
+                grid::magnitude(harmonics, limits, &sliding, Aim::Least, closeness)
             });
         })?;
         let most: Vec<f64> = most.into_iter().collect::<Option<_>>()?;

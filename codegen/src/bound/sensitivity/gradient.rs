@@ -3,7 +3,6 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use dalembert_model::number::Exact;
 use dalembert_model::scalar::Scalar;
 
 use crate::dag::symbol::Symbol;
@@ -26,8 +25,8 @@ impl Gradient {
     pub(super) fn new(program: &Program) -> Gradient {
         let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
         let dag = &program.dag;
-        let constant = |constant: &Exact| Symbol::from(constant.clone());
-        let values = dag.values(&(constant, |input| Symbol::input(&builder, input)));
+        let input = |input| Symbol::input(&builder, input);
+        let values = dag.values(&(Symbol::constant, input));
         let mut adjoints = Vec::new();
         let mut derivatives = Vec::with_capacity(dag.outputs.len());
         for output in &dag.outputs {

@@ -33,7 +33,7 @@ pub(super) fn rounding(
     let mut worst = vec![Rounding::default(); program.dag.outputs.len()];
     for sub in sub_boxes(program, limits, boxes) {
         for (worst, here) in worst.iter_mut().zip(over(constants, &sub)) {
-            *worst = worst.max(here);
+            *worst = worst.each(here, f64::max);
         }
     }
     worst

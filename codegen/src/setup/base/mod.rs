@@ -50,6 +50,16 @@ pub enum Parameter {
     Viscous(usize),
 }
 
+impl Parameter {
+    /// Returns the parameter of a drive's column.
+    pub(crate) fn of_drive(column: &Column<Exact>) -> Parameter {
+        match *column {
+            Column::Viscous(joint) => Parameter::Viscous(joint),
+            Column::Armature(joint) | Column::Body { joint, .. } => Parameter::Armature(joint),
+        }
+    }
+}
+
 impl fmt::Display for Parameter {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -140,21 +150,11 @@ impl BaseParameters {
             reduced(values(setup, quantity, &candidates).ok_or_else(unfit)?),
         )
         .ok_or_else(irrational)?;
-        let mut base = BaseParameters {
-            columns: reduced
-                .pivots
-                .iter()
-                .map(|&c| candidates[c].clone())
-                .collect(),
-            combinations: vec![Vec::new(); reduced.pivots.len()],
-        };
+        let columns = reduced.pivots.iter().map(|&c| candidates[c].clone());
+        let columns: Vec<Column<Exact>> = columns.collect();
+        let mut combinations = vec![Vec::new(); columns.len()];
         // Each candidate as a combination of the base columns.
-        let mut over: Vec<Vec<(usize, Exact)>> = Vec::with_capacity(candidates.len());
-        for coefficients in &reduced.coefficients {
-            let exact = coefficients.iter();
-            let exact = exact.map(|(pivot, x)| (*pivot, Exact::from(x.clone())));
-            over.push(exact.collect());
-        }
+        let over = &reduced.coefficients;
         for (link, segment) in chain.links.iter().enumerate() {
             for probe in &segment.probes {
                 let Probed::Body(body) = &probe.of else {
@@ -163,43 +163,31 @@ impl BaseParameters {
                 let joint = probe.column / LinkParameter::COUNT;
                 let own = LinkParameter::ALL[probe.column % LinkParameter::COUNT];
                 let parts = parts(&chain, link, body).ok_or_else(|| large(joint))?;
-                let mut sums = vec![Exact::zero(); base.columns.len()];
-                for ((place, moment), over) in places.iter().zip(&over) {
+                let mut sums = vec![Exact::zero(); columns.len()];
+                for ((place, moment), over) in places.iter().zip(over) {
                     let part = moment.read(&parts[*place]);
                     for (pivot, factor) in over.iter().filter(|_| !part.is_zero()) {
                         sums[*pivot] = sums[*pivot].add(&part.mul(factor));
                     }
                 }
-                base.add(Parameter::Link(joint, own), sums);
+                let sums = combinations.iter_mut().zip(sums);
+                for (terms, sum) in sums.filter(|(_, sum)| !sum.is_zero()) {
+                    terms.push((Parameter::Link(joint, own), sum));
+                }
             }
         }
         for (drive, over) in drives.iter().zip(&over[places.len()..]) {
-            let mut sums = vec![Exact::zero(); base.columns.len()];
             for (pivot, factor) in over {
-                sums[*pivot] = factor.clone();
-            }
-            base.add(
-                match drive {
-                    Column::Viscous(joint) => Parameter::Viscous(*joint),
-                    Column::Armature(joint) | Column::Body { joint, .. } => {
-                        Parameter::Armature(*joint)
-                    }
-                },
-                sums,
-            );
-        }
-        base.combinations
-            .iter_mut()
-            .for_each(|terms| terms.sort_by_key(|(of, _)| *of));
-        Ok(base)
-    }
-
-    fn add(&mut self, parameter: Parameter, coefficients: Vec<Exact>) {
-        for (terms, coefficient) in self.combinations.iter_mut().zip(coefficients) {
-            if !coefficient.is_zero() {
-                terms.push((parameter, coefficient));
+                combinations[*pivot].push((Parameter::of_drive(drive), factor.clone()));
             }
         }
+        for terms in &mut combinations {
+            terms.sort_by_key(|(of, _)| *of);
+        }
+        Ok(BaseParameters {
+            columns,
+            combinations,
+        })
     }
 
     /// Returns every base parameter's value for a robot of exact numbers.

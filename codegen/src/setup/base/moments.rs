@@ -27,13 +27,9 @@ impl Moment {
             Moment::Mass => body.mass = Exact::one(),
             Moment::First(axis) => body.first[axis] = Exact::one(),
             Moment::Second(row, column) => {
-                let is_own = |i, j| (i, j) == (row, column);
-                body.second = Inertia::symmetric(|i, j| {
-                    if is_own(i, j) {
-                        Exact::one()
-                    } else {
-                        Exact::zero()
-                    }
+                body.second = Inertia::symmetric(|i, j| match (i, j) == (row, column) {
+                    true => Exact::one(),
+                    false => Exact::zero(),
                 });
             }
         }

@@ -17,8 +17,9 @@ use super::columns::{Nodes, Value};
 use crate::approximate::motions::Motions;
 use crate::program::Operand;
 use adjoints::adjoints;
+pub(super) use products::LANES;
+pub(in crate::approximate) use products::dot;
 use products::{Columns, gram};
-pub(super) use products::{LANES, dot};
 
 /// Returns the monomials of a value at the samples, and the length of them all.
 pub(super) fn sized(column: &[f64], motions: &Motions) -> (Vec<f64>, f64) {

@@ -188,7 +188,7 @@ fn dots(a: &[f64], [b, c]: [&[f64]; 2]) -> [f64; 2] {
 }
 
 /// Computes a product in eight sums side by side, which is quick.
-pub(in crate::approximate::prune) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(in crate::approximate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let len = a.len().min(b.len());
     let (a, b) = (&a[..len], &b[..len]);
     let mut sums = [0.0; 8];

@@ -22,7 +22,7 @@ pub(super) struct Potential {
 /// An edited program whose constants are to be corrected.
 pub(super) struct Attempt {
     pub potential: Potential,
-    trial: Option<Trial>,
+    trial: Trial,
 }
 
 impl Greedy<'_> {
@@ -41,43 +41,39 @@ impl Greedy<'_> {
     }
 
     /// The potential after constants are corrected.
-    pub(super) fn settled(&self, state: &State, columns: &[f64], fit: &Option<Fit>) -> Potential {
+    pub(super) fn settled(&self, state: &State, columns: &[f64], fit: &Fit) -> Potential {
         let mut attempts = [self.attempt(state, columns, fit)];
         self.make_up(fit, &mut attempts);
         attempts[0].potential
     }
 
     /// Returns what is to be settled: the program that was priced last.
-    pub(super) fn attempt(&self, state: &State, columns: &[f64], fit: &Option<Fit>) -> Attempt {
+    pub(super) fn attempt(&self, state: &State, columns: &[f64], fit: &Fit) -> Attempt {
         let mut errors = self.errors(&state.nodes, columns);
         let potential = self.potential(&errors);
-        let trial = fit.as_ref().map(|fit| {
-            for (error, weight) in errors.iter_mut().zip(&self.weights) {
-                *error *= weight;
-            }
-            let live = self.scratch.live();
-            let inputs = state.nodes.inputs.len();
-            Trial {
-                errors,
-                gone: fit.of_ops(|op| !live[inputs + op]),
-            }
-        });
+        for (error, weight) in errors.iter_mut().zip(&self.weights) {
+            *error *= weight;
+        }
+        let gone = self.gone(state, fit);
+        let trial = Trial { errors, gone };
         Attempt { potential, trial }
     }
 
+    /// Returns the columns of the constants that the program that was priced last does not read.
+    pub(super) fn gone(&self, state: &State, fit: &Fit) -> Vec<usize> {
+        let (live, inputs) = (self.scratch.live(), state.nodes.inputs.len());
+        fit.of_ops(|op| !live[inputs + op])
+    }
+
     /// Corrects constants where that is better.
-    pub(super) fn make_up(&self, fit: &Option<Fit>, attempts: &mut [Attempt]) {
-        let Some(fit) = fit else { return };
-        let mut trials: Vec<&mut Trial> = attempts.iter_mut().flat_map(|a| &mut a.trial).collect();
+    pub(super) fn make_up(&self, fit: &Fit, attempts: &mut [Attempt]) {
+        let mut trials: Vec<&mut Trial> = attempts.iter_mut().map(|a| &mut a.trial).collect();
         fit.settle(&mut trials);
         for Attempt { potential, trial } in attempts {
-            let Some(Trial { errors, .. }) = trial else {
-                continue;
-            };
-            for (error, weight) in errors.iter_mut().zip(&self.weights) {
+            for (error, weight) in trial.errors.iter_mut().zip(&self.weights) {
                 *error /= weight;
             }
-            let settled = self.potential(errors);
+            let settled = self.potential(&trial.errors);
             if settled.worst <= potential.worst {
                 *potential = settled;
             }

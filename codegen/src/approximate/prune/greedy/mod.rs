@@ -24,6 +24,15 @@ pub(super) struct State {
     pub edits: Vec<Option<Value>>,
 }
 
+impl State {
+    pub(super) fn unedited(nodes: Nodes) -> State {
+        State {
+            edits: vec![None; nodes.len()],
+            nodes,
+        }
+    }
+}
+
 /// A search at sampled states.
 pub(super) struct Greedy<'a> {
     motions: &'a Motions,
@@ -45,8 +54,6 @@ pub(super) struct Greedy<'a> {
     pub(super) never: Vec<Vec<Value>>,
     /// What an output's error weighs in the ranking.
     prices: Vec<f64>,
-    /// Whether constants are corrected.
-    refit: bool,
     /// Edits in a row that are corrected with the derivatives from before them.
     reuses: usize,
     /// The candidates that are ranked again before one is taken.
@@ -107,7 +114,6 @@ impl<'a> Greedy<'a> {
             hopeless: vec![Vec::new(); nodes.len()],
             never: vec![Vec::new(); nodes.len()],
             prices,
-            refit: settings.refit,
             reuses: if hurries { REUSES } else { 0 },
             ranked_again: if hurries { LANES } else { RANKED_AGAIN },
             alike: settings.alike,
@@ -163,15 +169,15 @@ impl<'a> Greedy<'a> {
                 let Some(Ranked { node, value, .. }) = best else {
                     break;
                 };
+                taken += 1;
+                ranked.retain(|c| c.score.is_finite());
+                ranked.sort_by(|a, b| a.score.total_cmp(&b.score));
                 let kept = state.nodes.steps.clone();
                 state.edits[node] = Some(value);
                 if reused < self.reuses
                     && let Some(corrected) = self.corrected(state, &fit)
                 {
                     (columns, reused) = (corrected, reused + 1);
-                    taken += 1;
-                    ranked.retain(|c| c.score.is_finite());
-                    ranked.sort_by(|a, b| a.score.total_cmp(&b.score));
                     continue;
                 }
                 reused = 0;
@@ -187,9 +193,6 @@ impl<'a> Greedy<'a> {
                 } else {
                     fit = refitted;
                 }
-                taken += 1;
-                ranked.retain(|c| c.score.is_finite());
-                ranked.sort_by(|a, b| a.score.total_cmp(&b.score));
             }
             if taken == 0 {
                 return;

@@ -7,9 +7,6 @@ use crate::program::Operand;
 impl Greedy<'_> {
     /// Corrects constants until the worst error shrinks no more.
     pub(in crate::approximate::prune) fn polish(&mut self, state: &mut State, rounds: usize) {
-        if !self.refit {
-            return;
-        }
         self.price(state);
         let mut columns = state.nodes.run(&state.edits);
         let worst = self.potential(&self.errors(&state.nodes, &columns)).worst;
@@ -55,27 +52,18 @@ impl Greedy<'_> {
         }
     }
 
-    pub(super) fn fit(&mut self, state: &State, columns: &[f64]) -> Option<Fit> {
+    pub(super) fn fit(&mut self, state: &State, columns: &[f64]) -> Fit {
         self.price(state);
-        let live = self.scratch.live();
-        self.refit.then(|| {
-            Fit::new(
-                &state.nodes,
-                &state.edits,
-                live,
-                columns,
-                self.motions,
-                &self.weights,
-            )
-        })
+        let (live, weights) = (self.scratch.live(), &self.weights);
+        let State { nodes, edits } = state;
+        Fit::new(nodes, edits, live, columns, self.motions, weights)
     }
 
     /// Returns the columns under edits that came after a fit, constants corrected by it; `None`,
     /// and constants as they were, if they cannot make up for the edits so.
-    pub(super) fn corrected(&mut self, state: &mut State, fit: &Option<Fit>) -> Option<Vec<f64>> {
+    pub(super) fn corrected(&mut self, state: &mut State, fit: &Fit) -> Option<Vec<f64>> {
         self.price(state);
-        let (live, inputs) = (self.scratch.live(), state.nodes.inputs.len());
-        let gone = fit.as_ref()?.of_ops(|op| !live[inputs + op]);
+        let gone = self.gone(state, fit);
         let kept = state.nodes.steps.clone();
         let edited = state.nodes.run(&state.edits);
         let columns = self.correct(state, edited, fit, &gone);
@@ -92,10 +80,9 @@ impl Greedy<'_> {
         &self,
         state: &mut State,
         columns: Vec<f64>,
-        fit: &Option<Fit>,
+        fit: &Fit,
         gone: &[usize],
     ) -> Vec<f64> {
-        let Some(fit) = fit else { return columns };
         let mut errors = self.errors(&state.nodes, &columns);
         let before = self.potential(&errors).worst;
         for (error, weight) in errors.iter_mut().zip(&self.weights) {

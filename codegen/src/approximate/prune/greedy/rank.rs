@@ -22,7 +22,7 @@ impl Greedy<'_> {
         &mut self,
         state: &mut State,
         columns: &[f64],
-        fit: &Option<Fit>,
+        fit: &Fit,
         refused: &[bool],
         noise: f64,
         random: &mut Random,
@@ -68,7 +68,7 @@ impl Greedy<'_> {
         &mut self,
         state: &mut State,
         columns: &[f64],
-        fit: &Option<Fit>,
+        fit: &Fit,
         candidates: &[(usize, Value)],
         (before, paid): (f64, u32),
     ) -> Vec<Option<f64>> {
@@ -112,7 +112,7 @@ impl Greedy<'_> {
 
     /// Returns the program if a node's edit is new and the columns, which are
     /// [mirrored](Self::mirror), are not.
-    fn retry(&mut self, state: &State, columns: &[f64], fit: &Option<Fit>, node: usize) -> Attempt {
+    fn retry(&mut self, state: &State, columns: &[f64], fit: &Fit, node: usize) -> Attempt {
         let nodes = &state.nodes;
         let (m, inputs) = (nodes.samples, nodes.inputs.len());
         self.dirty.clear();

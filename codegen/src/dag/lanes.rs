@@ -1,5 +1,5 @@
-//! Numbers of several states side by side, with the bits that each has alone, in loops that a
-//! compiler makes vectors of.
+//! Numbers of several states, or of several points, side by side, with the bits that each has
+//! alone, in loops that a compiler makes vectors of.
 
 use dalembert_model::scalar::{Divide, Scalar};
 
@@ -7,12 +7,12 @@ use dalembert_model::scalar::{Divide, Scalar};
 pub(crate) const LANES: usize = 16;
 
 /// A number of each.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Lanes<T>(pub [T; LANES]);
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Lanes<T, const N: usize = LANES>(pub [T; N]);
 
-impl<T: Divide + Copy> Lanes<T> {
+impl<T: Divide + Copy, const N: usize> Lanes<T, N> {
     /// Returns lanes of these numbers; those beyond repeat the last of them. None of no number.
-    pub(crate) fn new(values: &[T]) -> Option<Lanes<T>> {
+    pub(crate) fn new(values: &[T]) -> Option<Self> {
         let last = *values.last()?;
         let lane = |lane: usize| values.get(lane).copied().unwrap_or(last);
         Some(Lanes(core::array::from_fn(lane)))
@@ -20,7 +20,7 @@ impl<T: Divide + Copy> Lanes<T> {
 
     // Plain loops, inlined: compilers make calls of arrays' own `map` and `from_fn` here.
     #[inline(always)]
-    fn zip(mut self, other: &Lanes<T>, f: impl Fn(&T, &T) -> T) -> Self {
+    fn zip(mut self, other: &Self, f: impl Fn(&T, &T) -> T) -> Self {
         for (x, y) in self.0.iter_mut().zip(&other.0) {
             *x = f(x, y);
         }
@@ -28,13 +28,13 @@ impl<T: Divide + Copy> Lanes<T> {
     }
 }
 
-impl<T: Divide + Copy> Scalar for Lanes<T> {
+impl<T: Divide + Copy, const N: usize> Scalar for Lanes<T, N> {
     fn zero() -> Self {
-        Lanes([T::zero(); LANES])
+        Lanes([T::zero(); N])
     }
 
     fn one() -> Self {
-        Lanes([T::one(); LANES])
+        Lanes([T::one(); N])
     }
 
     #[inline]
@@ -52,6 +52,7 @@ impl<T: Divide + Copy> Scalar for Lanes<T> {
         self.zip(other, T::mul)
     }
 
+    #[inline]
     fn neg(&self) -> Self {
         self.zip(self, |x, _| x.neg())
     }
@@ -74,7 +75,7 @@ impl<T: Divide + Copy> Scalar for Lanes<T> {
     }
 }
 
-impl<T: Divide + Copy> Divide for Lanes<T> {
+impl<T: Divide + Copy, const N: usize> Divide for Lanes<T, N> {
     #[inline]
     fn div(&self, other: &Self) -> Self {
         self.zip(other, T::div)
