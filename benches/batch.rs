@@ -122,10 +122,7 @@ macro_rules! bench {
                 let mut slices = in_columns.each_mut().map(|column| aligned(column, STATES));
                 let arguments = black_box(columns.each_ref());
                 rounds.time(name, || {
-                    assert!(
-                        columns_in::<Kind, 3, 6, $results, 4>(vectors, arguments, &mut slices)
-                            .is_ok()
-                    );
+                    columns_in::<Kind, 3, 6, $results, 4>(vectors, arguments, &mut slices).unwrap();
                 });
                 let program = match vectors {
                     Vectors::Avx512 => &mut $compiled.wide,
@@ -148,7 +145,7 @@ macro_rules! bench {
                 name if name.ends_with("AVX2") => 256,
                 _ => return None,
             };
-            ports::limit::<$scalar>(&operations, width, $clock).map(|(limit, _)| limit)
+            ports::limit::<$scalar>(&operations, width, $clock)
         });
         if $is_alone {
             let mut rounds = Rounds::of(MANY);
@@ -156,18 +153,13 @@ macro_rules! bench {
                 std::array::from_fn(|_| vec![0.0; MANY + LINE]);
             for _ in 0..ROUNDS / 4 {
                 let mut slices = in_columns.each_mut().map(|column| aligned(column, MANY));
+                let many = many.each_ref();
                 rounds.time("one thread", || {
                     let widest = Vectors::widest();
-                    assert!(
-                        columns_in::<Kind, 3, 6, $results, 4>(widest, many.each_ref(), &mut slices)
-                            .is_ok()
-                    );
+                    columns_in::<Kind, 3, 6, $results, 4>(widest, many, &mut slices).unwrap();
                 });
                 rounds.time("all cores", || {
-                    assert!(
-                        parallel::columns::<Kind, 3, 6, $results, 4>(many.each_ref(), &mut slices)
-                            .is_ok()
-                    );
+                    parallel::columns::<Kind, 3, 6, $results, 4>(many, &mut slices).unwrap();
                 });
             }
             rounds.print(concat!($what, ", 16384 states in columns"));

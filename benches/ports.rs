@@ -18,197 +18,55 @@ const KINDS: usize = 9;
 
 /// A processor's ports for vectors of one width.
 struct Row {
-    /// Its cores, by vendor, family and models as `/proc/cpuinfo` has them.
-    name: &'static str,
-    vendor: &'static str,
-    family: u32,
-    models: &'static [(u32, u32)],
+    /// Vendor, family and models as `/proc/cpuinfo` has them.
+    cores: (&'static str, u32, &'static [(u32, u32)]),
     /// The bits of its vectors.
     width: u32,
-    /// For each kind the ports, a bit each, and the cycles for which one of them is taken: those of
-    /// f64 and of f32. The divider is the last port.
-    kinds: [(u8, [f64; 2]); KINDS],
+    /// For each kind but the last two the ports, a bit each, of which one is taken for `cycles`.
+    ports: [u8; KINDS - 2],
+    cycles: f64,
+    /// The cycles of quotients and of roots: those of f64 and of f32.
+    divider: [[f64; 2]; 2],
 }
 
-const ONE: [f64; 2] = [1.0; 2];
-const TWO: [f64; 2] = [2.0; 2];
+const AMD: &str = "AuthenticAMD";
+const INTEL: &str = "GenuineIntel";
+const ZEN: [u8; 7] = [0b1100, 0b0011, 0b0011, 0b1111, 0b1111, 0b0110, 0b0011];
+const LAKES: [u8; 7] = [0b011, 0b011, 0b011, 0b111, 0b111, 0b011, 0b011];
+const COVE: [u8; 7] = [0b110, 0b011, 0b011, 0b111, 0b111, 0b011, 0b011];
+const INTEL_512: [u8; 7] = [0b101, 0b101, 0b101, 0b101, 0b101, 0b001, 0b100];
+/// A port of its own, for all of these processors.
 const DIVIDER: u8 = 1 << 7;
 
 /// Sources: uops.info and A. Fog's instruction tables; of Zen 4, sums, products, fused products,
 /// bits and shifts were measured, too. AMD's ports are FP0 to FP3, Intel's 0, 1 and 5 (the bits
 /// 1, 2 and 4).
+#[rustfmt::skip]
 const ROWS: &[Row] = &[
-    Row {
-        name: "Zen 3",
-        vendor: "AuthenticAMD",
-        family: 25,
-        models: &[(0, 15), (32, 95)],
-        width: 256,
-        kinds: [
-            (0b1100, ONE),
-            (0b0011, ONE),
-            (0b0011, ONE),
-            (0b1111, ONE),
-            (0b1111, ONE),
-            (0b0110, ONE),
-            (0b0011, ONE),
-            (DIVIDER, [5.0, 3.0]),
-            (DIVIDER, [9.0, 5.0]),
-        ],
-    },
-    Row {
-        name: "Zen 4",
-        vendor: "AuthenticAMD",
-        family: 25,
-        models: &[(16, 31), (96, 255)],
-        width: 256,
-        kinds: [
-            (0b1100, ONE),
-            (0b0011, ONE),
-            (0b0011, ONE),
-            (0b1111, ONE),
-            (0b1111, ONE),
-            (0b0110, ONE),
-            (0b0011, ONE),
-            (DIVIDER, [5.0, 3.0]),
-            (DIVIDER, [9.0, 5.0]),
-        ],
-    },
-    Row {
-        name: "Zen 4",
-        vendor: "AuthenticAMD",
-        family: 25,
-        models: &[(16, 31), (96, 255)],
-        width: 512,
-        kinds: [
-            (0b1100, TWO),
-            (0b0011, TWO),
-            (0b0011, TWO),
-            (0b1111, TWO),
-            (0b1111, TWO),
-            (0b0110, TWO),
-            (0b0011, TWO),
-            (DIVIDER, [10.0, 6.0]),
-            (DIVIDER, [18.0, 10.0]),
-        ],
-    },
-    Row {
-        name: "Zen 5",
-        vendor: "AuthenticAMD",
-        family: 26,
-        models: &[(0, 255)],
-        width: 256,
-        kinds: [
-            (0b1100, ONE),
-            (0b0011, ONE),
-            (0b0011, ONE),
-            (0b1111, ONE),
-            (0b1111, ONE),
-            (0b0110, ONE),
-            (0b0011, ONE),
-            (DIVIDER, [5.0, 3.0]),
-            (DIVIDER, [9.0, 5.0]),
-        ],
-    },
-    Row {
-        name: "Zen 5",
-        vendor: "AuthenticAMD",
-        family: 26,
-        models: &[(0, 31), (64, 255)],
-        width: 512,
-        kinds: [
-            (0b1100, ONE),
-            (0b0011, ONE),
-            (0b0011, ONE),
-            (0b1111, ONE),
-            (0b1111, ONE),
-            (0b0110, ONE),
-            (0b0011, ONE),
-            (DIVIDER, [9.0, 6.0]),
-            (DIVIDER, [16.0, 10.0]),
-        ],
-    },
-    Row {
-        name: "Skylake to Ice Lake",
-        vendor: "GenuineIntel",
-        family: 6,
-        models: &[
-            (78, 78),
-            (85, 85),
-            (94, 94),
-            (106, 108),
-            (125, 126),
-            (140, 142),
-            (158, 158),
-            (167, 167),
-        ],
-        width: 256,
-        kinds: [
-            (0b011, ONE),
-            (0b011, ONE),
-            (0b011, ONE),
-            (0b111, ONE),
-            (0b111, ONE),
-            (0b011, ONE),
-            (0b011, ONE),
-            (DIVIDER, [8.0, 5.0]),
-            (DIVIDER, [9.0, 6.0]),
-        ],
-    },
-    Row {
-        name: "Skylake-SP, Ice Lake-SP",
-        vendor: "GenuineIntel",
-        family: 6,
-        models: &[(85, 85), (106, 108)],
-        width: 512,
-        kinds: [
-            (0b101, ONE),
-            (0b101, ONE),
-            (0b101, ONE),
-            (0b101, ONE),
-            (0b101, ONE),
-            (0b001, ONE),
-            (0b100, ONE),
-            (DIVIDER, [16.0, 10.0]),
-            (DIVIDER, [18.0, 12.0]),
-        ],
-    },
-    Row {
-        name: "Golden Cove",
-        vendor: "GenuineIntel",
-        family: 6,
-        models: &[(143, 143), (151, 151), (154, 154), (183, 183), (207, 207)],
-        width: 256,
-        kinds: [
-            (0b110, ONE),
-            (0b011, ONE),
-            (0b011, ONE),
-            (0b111, ONE),
-            (0b111, ONE),
-            (0b011, ONE),
-            (0b011, ONE),
-            (DIVIDER, [8.0, 5.0]),
-            (DIVIDER, [9.0, 6.0]),
-        ],
-    },
-    Row {
-        name: "Golden Cove (Sapphire Rapids, Emerald Rapids)",
-        vendor: "GenuineIntel",
-        family: 6,
-        models: &[(143, 143), (207, 207)],
-        width: 512,
-        kinds: [
-            (0b101, ONE),
-            (0b101, ONE),
-            (0b101, ONE),
-            (0b101, ONE),
-            (0b101, ONE),
-            (0b001, ONE),
-            (0b100, ONE),
-            (DIVIDER, [16.0, 10.0]),
-            (DIVIDER, [18.0, 12.0]),
-        ],
-    },
+    // Zen 3 and Zen 4.
+    Row { cores: (AMD, 25, &[(0, 255)]),
+          width: 256, ports: ZEN, cycles: 1.0, divider: [[5.0, 3.0], [9.0, 5.0]] },
+    // Zen 4.
+    Row { cores: (AMD, 25, &[(16, 31), (96, 255)]),
+          width: 512, ports: ZEN, cycles: 2.0, divider: [[10.0, 6.0], [18.0, 10.0]] },
+    // Zen 5.
+    Row { cores: (AMD, 26, &[(0, 255)]),
+          width: 256, ports: ZEN, cycles: 1.0, divider: [[5.0, 3.0], [9.0, 5.0]] },
+    Row { cores: (AMD, 26, &[(0, 31), (64, 255)]),
+          width: 512, ports: ZEN, cycles: 1.0, divider: [[9.0, 6.0], [16.0, 10.0]] },
+    // Skylake to Ice Lake.
+    Row { cores: (INTEL, 6, &[(78, 78), (85, 85), (94, 94), (106, 108), (125, 126), (140, 142),
+                              (158, 158), (167, 167)]),
+          width: 256, ports: LAKES, cycles: 1.0, divider: [[8.0, 5.0], [9.0, 6.0]] },
+    // Skylake-SP, Ice Lake-SP.
+    Row { cores: (INTEL, 6, &[(85, 85), (106, 108)]),
+          width: 512, ports: INTEL_512, cycles: 1.0, divider: [[16.0, 10.0], [18.0, 12.0]] },
+    // Golden Cove.
+    Row { cores: (INTEL, 6, &[(143, 143), (151, 151), (154, 154), (183, 183), (207, 207)]),
+          width: 256, ports: COVE, cycles: 1.0, divider: [[8.0, 5.0], [9.0, 6.0]] },
+    // Golden Cove: Sapphire Rapids, Emerald Rapids.
+    Row { cores: (INTEL, 6, &[(143, 143), (207, 207)]),
+          width: 512, ports: INTEL_512, cycles: 1.0, divider: [[16.0, 10.0], [18.0, 12.0]] },
 ];
 
 /// The operations of one vector, by their kinds.
@@ -340,45 +198,36 @@ where
     COUNTED.get()
 }
 
-/// Returns the limit in ns a state, and the name of the core; `None` where the table has no row
-/// for this processor, or nobody says which it is.
-pub fn limit<T: Angle>(
-    operations: &Operations,
-    width: u32,
-    clock: f64,
-) -> Option<(f64, &'static str)> {
+/// Returns the limit in ns a state; `None` where the table has no row for this processor, or nobody
+/// says which it is.
+pub fn limit<T: Angle>(operations: &Operations, width: u32, clock: f64) -> Option<f64> {
     let about = fs::read_to_string("/proc/cpuinfo").ok()?;
     let field = |name: &str| {
-        let line = about
-            .lines()
-            .find(|line| line.split(':').next().map(str::trim) == Some(name));
-        line.and_then(|line| line.split(':').nth(1)).map(str::trim)
+        let mut fields = about.lines().filter_map(|line| line.split_once(':'));
+        let (_, value) = fields.find(|(own, _)| own.trim() == name)?;
+        Some(value.trim())
     };
-    let (vendor, family, model) = (field("vendor_id")?, field("cpu family")?, field("model")?);
-    let (family, model): (u32, u32) = (family.parse().ok()?, model.parse().ok()?);
+    let vendor = field("vendor_id")?;
+    let family: u32 = field("cpu family")?.parse().ok()?;
+    let model: u32 = field("model")?.parse().ok()?;
     let row = ROWS.iter().find(|row| {
-        row.vendor == vendor
-            && (row.family, row.width) == (family, width)
-            && row
-                .models
-                .iter()
-                .any(|(first, last)| (*first..=*last).contains(&model))
+        let (own, of, models) = row.cores;
+        let is_one = |(first, last): &(u32, u32)| (*first..=*last).contains(&model);
+        (own, of, row.width) == (vendor, family, width) && models.iter().any(is_one)
     })?;
     let scalar = usize::from(size_of::<T>() == 4);
+    let plain = row.ports.map(|ports| (ports, row.cycles));
+    let divided = row.divider.map(|cycles| (DIVIDER, cycles[scalar]));
+    let kinds = [&plain[..], &divided].concat();
     let busy = |ports: u8| {
-        let own = row
-            .kinds
-            .iter()
-            .zip(operations)
-            .filter(|((own, _), _)| own & !ports == 0);
-        let cycles: f64 = own
-            .map(|((_, cycles), count)| cycles[scalar] * *count as f64)
-            .sum();
+        let own = kinds.iter().zip(operations);
+        let own = own.filter(|((own, _), _)| own & !ports == 0);
+        let cycles: f64 = own.map(|((_, cycles), count)| cycles * *count as f64).sum();
         cycles / f64::from(ports.count_ones())
     };
     let cycles = (1..=u8::MAX).map(busy).fold(0.0, f64::max);
     let lanes = row.width as usize / (8 * size_of::<T>());
-    Some((cycles / lanes as f64 / clock, row.name))
+    Some(cycles / lanes as f64 / clock)
 }
 
 /// Returns the cycles a nanosecond: of a chain of products and exclusive ors, of 3 cycles and one

@@ -78,8 +78,7 @@ fn torques(states: &[State]) {
 /// Times six sines and cosines together and one by one: f64 and f32.
 fn six_angles(states: &[State]) {
     let single: Vec<[f32; 6]> = states.iter().map(|[q, ..]| q.map(|x| x as f32)).collect();
-    let mut rounds = [(); 2].map(|()| Rounds::of(STATES));
-    let [double_rounds, single_rounds] = &mut rounds;
+    let [mut double_rounds, mut single_rounds] = [(); 2].map(|()| Rounds::of(STATES));
     for _ in 0..ROUNDS {
         double_rounds.time("libm", || {
             for [q, ..] in black_box(states) {

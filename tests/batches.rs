@@ -72,35 +72,18 @@ arm!(
     sincos: together;
 );
 
-/// Equal bits, or no number in both: which NaN it is, is the processor's choice.
-trait Same {
-    fn same(&self, other: &Self) -> bool;
+/// Equal bits, or no number in both: which NaN it is, is the processor's choice. Doubles have
+/// every single number.
+fn same<T: Copy + Into<f64>>(one: &T, other: &T) -> bool {
+    let (one, other): (f64, f64) = ((*one).into(), (*other).into());
+    one.to_bits() == other.to_bits() || (one.is_nan() && other.is_nan())
 }
-
-macro_rules! same {
-    ($($scalar:ty),*) => {$(
-        impl Same for $scalar {
-            fn same(&self, other: &Self) -> bool {
-                self.to_bits() == other.to_bits() || (self.is_nan() && other.is_nan())
-            }
-        }
-    )*};
-}
-same!(f64, f32);
 
 /// Returns seeded numbers; every ninth is unusual: angles beyond what polynomials are for,
 /// zeros, infinities, NaN.
 fn numbers(count: usize, seed: u64) -> Vec<f64> {
-    let odd = [
-        1e5,
-        -0.0,
-        f64::INFINITY,
-        f64::NAN,
-        1e300,
-        f64::NEG_INFINITY,
-        5e-324,
-        1e-40,
-    ];
+    let (no, most) = (f64::NAN, f64::INFINITY);
+    let odd = [1e5, -0.0, most, no, 1e300, -most, 5e-324, 1e-40];
     let mut points = Points::new(seed);
     let mut next = |index: usize| match index % 9 {
         8 => odd[(points.bits() >> 32) as usize % odd.len()],
@@ -180,7 +163,7 @@ macro_rules! check {
             let all = [Vectors::Portable, Vectors::Avx2, Vectors::Avx512].map(Some);
             for vectors in all.into_iter().chain([None]) {
                 for (found, expected) in of(vectors, count).iter().zip(&many) {
-                    assert!(found.iter().zip(expected).all(|(a, b)| a.same(b)), "{count}");
+                    assert!(found.iter().zip(expected).all(|(a, b)| same(a, b)), "{count}");
                 }
             }
         }
@@ -257,20 +240,14 @@ fn slices_of_different_lengths_are_refused() {
     let mut slices = results.each_mut().map(|x| x.as_mut_slice());
     let qd = [&column[..], &column, &short];
     let error = together::inverse_dynamics_columns(&q, &qd, &q, &mut slices).unwrap_err();
-    assert_eq!(
-        (error.slice, error.found, error.expected),
-        (Slice::Entry(2, 3), 2, 5)
-    );
-    assert_eq!(
-        error.to_string(),
-        "entry 3 of argument 2 has 2 states, the results have 5"
-    );
+    let (slice, found, expected) = (error.slice, error.found, error.expected);
+    assert_eq!((slice, found, expected), (Slice::Entry(2, 3), 2, 5));
+    let text = "entry 3 of argument 2 has 2 states, the results have 5";
+    assert_eq!(error.to_string(), text);
     slices[1] = &mut [];
     let error = together::inverse_dynamics_columns(&q, &q, &q, &mut slices).unwrap_err();
-    assert_eq!(
-        error.to_string(),
-        "column 2 of the results has 0 states, the first has 5"
-    );
+    let text = "column 2 of the results has 0 states, the first has 5";
+    assert_eq!(error.to_string(), text);
     // Nothing was computed.
     assert_eq!(results, [[7.0; 5]; 3]);
 }
@@ -288,13 +265,9 @@ fn all_cores_have_the_same_bits() {
         together::inverse_dynamics_columns(&q, &q, &q, &mut slices).unwrap();
         let mut all = [(); 3].map(|()| vec![1.0; count]);
         let mut slices = all.each_mut().map(|column| column.as_mut_slice());
-        let arguments = [&q, &q, &q];
-        batch::parallel::columns::<together::InverseDynamicsBatch, 3, 3, 3, _>(
-            arguments,
-            &mut slices,
-        )
-        .unwrap();
+        type Kind = together::InverseDynamicsBatch;
+        batch::parallel::columns::<Kind, 3, 3, 3, _>([&q; 3], &mut slices).unwrap();
         let mut pairs = one.iter().flatten().zip(all.iter().flatten());
-        assert!(pairs.all(|(one, all)| one.same(all)), "{count}");
+        assert!(pairs.all(|(one, all)| same(one, all)), "{count}");
     }
 }

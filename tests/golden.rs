@@ -11,31 +11,17 @@ use serde_json::Value;
 const DOUBLE: f64 = 1e-12;
 const SINGLE: f64 = 1e-5;
 
-/// q, q̇, q̈ and what is known there.
-struct State {
-    motion: [Vec<f64>; 3],
-    tau: Vec<f64>,
-    d: Vec<f64>,
-    h: Vec<f64>,
-    c: Vec<f64>,
-}
+/// q, q̇ and q̈.
+type Motion = [Vec<f64>; 3];
 
-/// Everything that a module computes at a state, matrices row by row.
-struct Outputs {
-    tau: Vec<f64>,
-    c: Vec<f64>,
-    d: Vec<f64>,
-    h: Vec<f64>,
-    /// D, h, c of `manipulator_equation`.
-    together: [Vec<f64>; 3],
-    /// D, h_ikm, c of `dynamic_coefficients`.
-    coefficients: [Vec<f64>; 3],
-}
+/// What a module computes at a state, matrices row by row, by the keys of what is known there. The
+/// torques are the first.
+type Outputs = [(&'static str, Vec<f64>); 10];
 
 struct Compiled {
     name: &'static str,
-    double: fn(&[Vec<f64>; 3]) -> Outputs,
-    single: fn(&[Vec<f64>; 3]) -> Outputs,
+    double: fn(&Motion) -> Outputs,
+    single: fn(&Motion) -> Outputs,
 }
 
 macro_rules! run {
@@ -49,14 +35,19 @@ macro_rules! run {
             let matrix = |x: [[$float; arm::N]; arm::N]| x.map(vector).concat();
             let both = arm::manipulator_equation(&q, &qd);
             let all = arm::dynamic_coefficients(&q);
-            Outputs {
-                tau: vector(arm::inverse_dynamics(&q, &qd, &qdd)),
-                c: vector(arm::gravity(&q)),
-                d: matrix(arm::inertia(&q)),
-                h: vector(arm::coriolis(&q, &qd)),
-                together: [matrix(both.d), vector(both.h), vector(both.c)],
-                coefficients: [matrix(all.d), all.h.map(matrix).concat(), vector(all.c)],
-            }
+            let symbols = all.h.map(matrix).concat();
+            [
+                ("tau", vector(arm::inverse_dynamics(&q, &qd, &qdd))),
+                ("c", vector(arm::gravity(&q))),
+                ("c", vector(both.c)),
+                ("c", vector(all.c)),
+                ("D", matrix(arm::inertia(&q))),
+                ("D", matrix(both.d)),
+                ("D", matrix(all.d)),
+                ("h", vector(arm::coriolis(&q, &qd))),
+                ("h", vector(both.h)),
+                ("h", by_symbols(&symbols, &motion[1])),
+            ]
         }
     };
 }
@@ -80,28 +71,23 @@ const ROBOTS: [Compiled; 6] = compiled![
     ur10 ur10_f32
 ];
 
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
+/// Returns the numbers of lists in lists.
+fn numbers(json: &Value) -> Vec<f64> {
+    match json {
+        Value::Array(list) => list.iter().flat_map(numbers).collect(),
+        number => vec![number.as_f64().unwrap()],
+    }
 }
 
-fn states(name: &str) -> Vec<State> {
-    let file = root().join(format!("model/tests/data/golden/{name}.json"));
+fn states(name: &str) -> Vec<Value> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let file = root.join(format!("model/tests/data/golden/{name}.json"));
     let json: Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
-    fn numbers(json: &Value) -> Vec<f64> {
-        match json {
-            Value::Array(list) => list.iter().flat_map(numbers).collect(),
-            number => vec![number.as_f64().unwrap()],
-        }
-    }
-    let states = json["states"].as_array().unwrap().iter();
-    let state = |json: &Value| State {
-        motion: ["q", "qd", "qdd"].map(|key| numbers(&json[key])),
-        tau: numbers(&json["tau"]),
-        d: numbers(&json["D"]),
-        h: numbers(&json["h"]),
-        c: numbers(&json["c"]),
-    };
-    states.map(state).collect()
+    json["states"].as_array().unwrap().clone()
+}
+
+fn motion(state: &Value) -> Motion {
+    ["q", "qd", "qdd"].map(|key| numbers(&state[key]))
 }
 
 fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
@@ -124,38 +110,24 @@ fn six_robots_against_the_files() {
     for robot in ROBOTS {
         let states = states(robot.name);
         assert_eq!(states.len(), 60);
-        for (state, (run, bound)) in states.iter().flat_map(|state| {
-            [(robot.double, DOUBLE), (robot.single, SINGLE)].map(|way| (state, way))
-        }) {
-            let out = run(&state.motion);
-            let check = |a: &[f64], b: &[f64], what| {
-                close(a, b, bound, &format!("{} {what}", robot.name));
-            };
-            check(&out.tau, &state.tau, "tau");
-            for c in [&out.c, &out.together[2], &out.coefficients[2]] {
-                check(c, &state.c, "c");
-            }
-            for d in [&out.d, &out.together[0], &out.coefficients[0]] {
-                check(d, &state.d, "D");
-            }
-            for h in [
-                &out.h,
-                &out.together[1],
-                &by_symbols(&out, &state.motion[1]),
-            ] {
-                check(h, &state.h, "h");
+        for state in &states {
+            for (run, bound) in [(robot.double, DOUBLE), (robot.single, SINGLE)] {
+                for (key, found) in run(&motion(state)) {
+                    let what = format!("{} {key}", robot.name);
+                    close(&found, &numbers(&state[key]), bound, &what);
+                }
             }
         }
     }
 }
 
 /// Returns h_i = Σ h_ikm q̇_k q̇_m.
-fn by_symbols(out: &Outputs, qd: &[f64]) -> Vec<f64> {
+fn by_symbols(symbols: &[f64], qd: &[f64]) -> Vec<f64> {
     let n = qd.len();
     let row = |i: usize| {
         let pairs = (0..n * n).map(|km| (km / n, km % n));
         pairs
-            .map(|(k, m)| out.coefficients[1][(i * n + k) * n + m] * qd[k] * qd[m])
+            .map(|(k, m)| symbols[(i * n + k) * n + m] * qd[k] * qd[m])
             .sum()
     };
     (0..n).map(row).collect()
@@ -164,17 +136,17 @@ fn by_symbols(out: &Outputs, qd: &[f64]) -> Vec<f64> {
 #[test]
 fn what_is_no_number_spreads_and_nothing_panics() {
     for robot in ROBOTS {
-        let motion = states(robot.name).remove(0).motion;
+        let motion = motion(&states(robot.name)[0]);
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             for which in 0..3 {
                 let mut motion = motion.clone();
                 let last = motion[which].len() - 1;
                 motion[which][last] = bad;
                 for run in [robot.double, robot.single] {
-                    let out = run(&motion);
+                    let [(_, tau), ..] = run(&motion);
                     // Each torque that depends on the last joint: its own at
                     // least, but the last position may have no part in it.
-                    let spread = out.tau.iter().any(|x| !x.is_finite());
+                    let spread = tau.iter().any(|x| !x.is_finite());
                     assert!(spread || which == 0, "{} {which} {bad}", robot.name);
                 }
             }

@@ -39,11 +39,9 @@ fn read(path: &Path, text: &mut String) {
 /// Returns the modules that a stage's files name behind `crate::`.
 fn used(stage: &str) -> BTreeSet<String> {
     let mut text = String::new();
-    let file = format!("{SOURCE}/{stage}.rs");
-    let folder = format!("{SOURCE}/{stage}");
-    for path in [Path::new(&file), Path::new(&folder)] {
-        if path.exists() {
-            read(path, &mut text);
+    for path in [".rs", ""].map(|ending| format!("{SOURCE}/{stage}{ending}")) {
+        if fs::exists(&path).unwrap() {
+            read(path.as_ref(), &mut text);
         }
     }
     // A list would hide what it names.
@@ -62,13 +60,11 @@ fn no_stage_uses_a_later_one() {
     let lib = fs::read_to_string(format!("{SOURCE}/lib.rs")).unwrap();
     let modules = lib.lines().filter_map(|line| {
         let line = line.strip_prefix("pub ").unwrap_or(line);
-        line.strip_prefix("mod ")?.strip_suffix(';')
+        Some(line.strip_prefix("mod ")?.strip_suffix(';')?.to_owned())
     });
-    assert_eq!(
-        stages.iter().map(String::as_str).collect::<BTreeSet<_>>(),
-        modules.collect(),
-        "the list in codegen/src/lib.rs has every module"
-    );
+    let listed = BTreeSet::from_iter(stages.clone());
+    let what = "the list in codegen/src/lib.rs has every module";
+    assert_eq!(listed, modules.collect(), "{what}");
     let place = |name: &str| stages.iter().position(|stage| stage == name);
     let mut uses = 0;
     for stage in &stages {

@@ -12,10 +12,8 @@ dalembert::dynamics! {
 fn rows_stay_rows() {
     let known = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]];
     let found: SMatrix<f64, 2, 3> = matrix(known);
-    assert_eq!(
-        found,
-        SMatrix::<f64, 2, 3>::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
-    );
+    let expected = SMatrix::<f64, 2, 3>::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0);
+    assert_eq!(found, expected);
     assert_eq!(rows(&found), known);
     // What nalgebra's own conversion makes of the same array.
     let turned: SMatrix<f64, 3, 2> = SMatrix::from(known);
@@ -32,16 +30,10 @@ fn results_are_what_formulas_take() {
     let qd = SVector::<f64, 2>::new(0.7, 0.2);
     let qdd = SVector::<f64, 2>::new(-0.4, 1.1);
     let state = planar2r::state(array(&q), array(&qd));
-    let tau = vector(planar2r::inverse_dynamics(
-        array(&q),
-        array(&qd),
-        array(&qdd),
-    ));
+    let tau = planar2r::inverse_dynamics(array(&q), array(&qd), array(&qdd));
     let found = matrix(state.d) * qdd + vector(state.h) + vector(state.c);
-    assert!(
-        (tau - found).iter().all(|x| x.abs() < 1e-13),
-        "{tau} {found}"
-    );
+    let off = vector(tau) - found;
+    assert!(off.iter().all(|x| x.abs() < 1e-13), "{off}");
     let jacobian: SMatrix<f64, 6, 2> = matrix(state.jacobian);
     let wrench = SVector::<f64, 6>::from_fn(|i, _| 1.0 + i as f64);
     let hand = (jacobian * qd).dot(&wrench);

@@ -62,10 +62,8 @@ fn pages_have_the_counts_of_the_plans() {
             stale.push(page);
         }
     }
-    assert!(
-        stale.is_empty(),
-        "these files were not what the generator writes, and were written anew: {stale:#?}"
-    );
+    let what = "these files were not what the generator writes, and were written anew";
+    assert!(stale.is_empty(), "{what}: {stale:#?}");
 }
 
 /// The functions of each robot.
@@ -77,9 +75,9 @@ fn others(robot: &Robot, request: &Request) -> Vec<GeneratedFunction> {
     let plan = request.plan.as_ref().unwrap();
     let entries = || plan.entries.iter().filter(|entry| entry.scene.is_none());
     let generated = |parameters: &[RuntimeParameter]| {
-        let taken = |entry: &&Entry| {
-            let taken = entry.parameters.as_ref().map_or(&[][..], |p| &p.taken);
-            taken == parameters
+        let taken = |entry: &&Entry| match &entry.parameters {
+            Some(own) => own.taken == parameters,
+            None => parameters.is_empty(),
         };
         let mut functions: Vec<Function> = Vec::new();
         for function in entries().filter(taken).map(|entry| entry.program.function) {
@@ -102,14 +100,8 @@ fn others(robot: &Robot, request: &Request) -> Vec<GeneratedFunction> {
     };
     let own = generated(&[]);
     // Proved, and not in the guide's table, which has one row a function.
-    let parameters: Vec<_> = entries()
-        .filter_map(|entry| entry.parameters.clone())
-        .collect();
-    assert!(
-        parameters
-            .iter()
-            .all(|p| p.taken == [RuntimeParameter::Payload])
-    );
+    let mut parameters = entries().filter_map(|entry| entry.parameters.as_ref());
+    assert!(parameters.all(|own| own.taken == [RuntimeParameter::Payload]));
     generated(&[RuntimeParameter::Payload]);
     own
 }

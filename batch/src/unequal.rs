@@ -42,15 +42,15 @@ impl fmt::Display for Unequal {
             found, expected, ..
         } = self;
         match self.slice {
-            Slice::Entry(a, i) => write!(f, "entry {i} of argument {a} has {found} states")?,
-            Slice::Result(k) => {
-                return write!(
-                    f,
-                    "column {k} of the results has {found} states, the first has {expected}"
-                );
-            }
+            Slice::Entry(a, i) => write!(
+                f,
+                "entry {i} of argument {a} has {found} states, the results have {expected}"
+            ),
+            Slice::Result(k) => write!(
+                f,
+                "column {k} of the results has {found} states, the first has {expected}"
+            ),
         }
-        write!(f, ", the results have {expected}")
     }
 }
 

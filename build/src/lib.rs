@@ -83,11 +83,8 @@ pub struct BuildError(pub Vec<String>);
 
 impl fmt::Display for BuildError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, message) in self.0.iter().enumerate() {
-            let gap = if index > 0 { "\n\n" } else { "" };
-            write!(f, "{gap}error: {message}")?;
-        }
-        Ok(())
+        let each = self.0.iter().map(|message| format!("error: {message}"));
+        f.write_str(&each.collect::<Vec<String>>().join("\n\n"))
     }
 }
 
@@ -136,9 +133,9 @@ impl Generator {
         let path = Path::new(&folder).join(file_name);
         let source = self.source(&path)?;
         let found = fs::read_to_string(&path).unwrap_or_default();
-        let Err(_) = Stamp::check(&found, VERSION, &source, &self.asked) else {
+        if Stamp::check(&found, VERSION, &source, &self.asked).is_ok() {
             return Ok(());
-        };
+        }
         let base = path.file_stem().unwrap_or_default().to_string_lossy();
         let mut text = String::new();
         for (suffix, code) in self.generated(&path)?.texts {
@@ -169,7 +166,6 @@ impl Generator {
             true => self.asked.by_scalar(),
             false => vec![("", self.asked.clone())],
         };
-        let mut stale = None;
         for (suffix, asked) in files {
             let file = beside(path, suffix);
             let found = fs::read_to_string(&file);
@@ -178,13 +174,10 @@ impl Generator {
                 Err(_) => Err(None),
             };
             if let Err(why) = checked {
-                stale.get_or_insert((file, why));
+                return self.renew(path, &file, why);
             }
         }
-        let Some((file, why)) = stale else {
-            return Ok(());
-        };
-        self.renew(path, &file, why)
+        Ok(())
     }
 
     /// Returns the robot file's text, and makes cargo run the script again when it changes.
@@ -193,17 +186,16 @@ impl Generator {
             return Err(BuildError(self.unknown.clone()));
         }
         cargo::watch(&self.robot, output);
-        let bytes = fs::read(&self.robot);
-        match bytes {
+        match fs::read(&self.robot) {
             Ok(bytes) => Ok(String::from_utf8_lossy(&bytes).into_owned()),
             // What is wrong with it, the generator says better.
             #[cfg(feature = "search")]
             Err(_) => self.generated(output).map(|_| String::new()),
             #[cfg(not(feature = "search"))]
-            Err(error) => Err(one(format!(
-                "cannot read `{}`: {error}",
-                self.robot.display()
-            ))),
+            Err(error) => {
+                let robot = self.robot.display();
+                Err(one(format!("cannot read `{robot}`: {error}")))
+            }
         }
     }
 

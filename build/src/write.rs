@@ -1,6 +1,6 @@
 //! The written file: whole or not at all.
 
-use std::fs::{self, OpenOptions};
+use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -12,11 +12,7 @@ pub(crate) fn whole(path: &Path, text: &str) -> io::Result<()> {
     }
     // Two build scripts may write the same file.
     let unfinished = path.with_extension(format!("{}.unfinished", std::process::id()));
-    let written = OpenOptions::new()
-        .write(true)
-        .create(true)
-        .truncate(true)
-        .open(&unfinished)
+    let written = File::create(&unfinished)
         .and_then(|mut file| {
             file.write_all(text.as_bytes())?;
             file.sync_all()

@@ -94,10 +94,13 @@ pub fn certify(
     }
     let in_scene = |own: &Claimed| own.scene.as_deref() == scene;
     document.functions.retain(in_scene);
+    let constants = document.constants()?;
+    let load = document.functions.iter().find(|own| own.function == LOAD);
     let singles = items.iter().filter(|item| item.text.contains("[f32; "));
     let whole = Whole {
         seed: Draws::new(&[robot, claim, source]).text(),
-        constants: document.constants()?,
+        load: load.map(|own| own.program(&constants)).transpose(),
+        constants,
         claim: &document,
         ranges: ranges(&setting).map_err(of_robot)?,
         setting: &setting,
@@ -127,9 +130,13 @@ pub fn certify(
         lines.push(line(found, whole.name(found), result));
     }
     let known = whole.known();
+    let mut heads = HashSet::new();
     for item in items.iter().filter(|item| is_beside(item)) {
-        if let Err(why) = whole.follows(item, &items, &known) {
-            let head = item.text.lines().next().unwrap_or("");
+        let head = item.text.lines().next().unwrap_or("");
+        let is_first = heads.insert((item.module, head));
+        let twice = || Fault::Text(item.line, "an item that stands there twice".into());
+        let follows = is_first.then(|| whole.follows(item, &items, &known));
+        if let Err(why) = follows.unwrap_or_else(|| Err(twice())) {
             let name = head.split([':', '{', '(']).next().unwrap_or("").trim();
             lines.push(line(item, name.to_owned(), Err(why)));
         }
@@ -156,6 +163,8 @@ struct Whole<'w> {
     /// What is claimed in the scene.
     claim: &'w Claim,
     constants: Vec<Exact>,
+    /// The program that computes the load of a payload, if it is claimed.
+    load: Result<Option<Program<Exact>>, Fault>,
     setting: &'w Setting<'w>,
     ranges: Ranges,
     /// The tolerance of each joint, and the scale that it is relative to, if that is given.
@@ -360,10 +369,8 @@ impl<'w> Whole<'w> {
         Ok(())
     }
 
-    /// Returns the program that computes the load of a payload, if it is claimed.
-    fn load(&self) -> Result<Option<Program<Exact>>, Fault> {
-        let own = (self.claim.functions.iter()).find(|own| own.function == LOAD);
-        own.map(|own| own.program(&self.constants)).transpose()
+    fn load(&self) -> Result<Option<&Program<Exact>>, Fault> {
+        self.load.as_ref().map(Option::as_ref).map_err(Fault::clone)
     }
 
     /// Compares a function's program with the equations of motion.
@@ -378,13 +385,12 @@ impl<'w> Whole<'w> {
             // What it computes is shown by those that take it.
             return Ok(());
         }
-        let load = self.load()?;
         let statement = Statement {
             setting: self.setting,
             function,
             program,
             base,
-            load: load.as_ref(),
+            load: self.load()?,
         };
         let refused = |why| Fault::Claim(format!("`{}`: {why}", claimed.function));
         check(statement, &[&self.seed]).map_err(refused)

@@ -23,7 +23,7 @@ use crate::written::{at, written};
 pub(crate) const BOX_SLACK: f64 = 1e-9;
 /// The share by which T may be above the value that is reached. The tolerance is relative to that.
 const SCALE_SLACK: f64 = 1e-4;
-/// The most operations times results.
+/// The most operations and results, times results.
 const MOST_EVALUATED: usize = 1 << 24;
 /// The number of states that may refute an E that is not shown.
 const STATES: usize = 1000;
@@ -114,7 +114,7 @@ impl Subject<'_> {
         let fields = self.results();
         unless(fields.len() == count, "results that are not the function's")?;
         let [ranges, file] = &self.ranges()?;
-        if self.exact.steps.len() * count > MOST_EVALUATED {
+        if (self.exact.steps.len() + count) * count > MOST_EVALUATED {
             return Err(Fault::Work);
         }
         let most = self.attainable(&fields, file)?;

@@ -5,7 +5,7 @@ use dalembert_checker::identity::arm::Arm;
 use dalembert_checker::identity::exact::{Exact, Point};
 use dalembert_checker::identity::program::{Operand, Program, argument};
 use dalembert_checker::identity::state::State;
-use dalembert_checker::identity::table::functions;
+use dalembert_checker::identity::table::{Function, functions};
 use dalembert_checker::identity::{Base, Combination, Statement, check, robot};
 
 use crate::support::{changed, file};
@@ -94,6 +94,47 @@ fn programs_that_do_not_fit_are_refused() {
     let one = || Exact::read("1").unwrap();
     for base in [vec![vec![(500, one())]], vec![vec![(0, one())]; 2]] {
         assert_eq!(refused("regressor", outputs(exact("1")), &base), unfit);
+    }
+}
+
+/// A frame that is not there has no results, and a regressor of no rows no columns: neither is a
+/// panic.
+#[test]
+fn results_that_are_none_are_refused() {
+    let source = file(ROBOT) + "\n[scene.none]\njoints = []\n";
+    let file = robot::read(&source).unwrap();
+    let base = Base {
+        combinations: vec![vec![(0, Exact::read("1").unwrap())]],
+        values: Vec::new(),
+    };
+    for (scene, arguments, results, words) in [
+        (
+            None,
+            "q qd tau wrench",
+            "forward_dynamics_with_wrench.qdd@nowhere",
+            "no such result",
+        ),
+        (
+            Some("none"),
+            "q qd qdd",
+            "regressor.y kinetic_energy.kinetic",
+            "0 results, not 1",
+        ),
+    ] {
+        let words_of = |text: &str| text.split(' ').map(str::to_owned).collect::<Vec<_>>();
+        let function = Function::named("x", &words_of(arguments), &words_of(results)).unwrap();
+        let program = Program {
+            steps: Vec::new(),
+            outputs: vec![(false, exact("0")); if scene.is_some() { 1 } else { 2 }],
+        };
+        let statement = Statement {
+            setting: &file.setting(scene).unwrap(),
+            function: &function,
+            program: &program,
+            base: &base,
+            load: None,
+        };
+        assert_eq!(check(statement, &["none"]).unwrap_err(), words, "{results}");
     }
 }
 

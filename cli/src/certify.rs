@@ -3,8 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use dalembert_checker::Fault;
-use dalembert_checker::certify::{Bounded, Line, RATE, Shown, certify};
+use dalembert_checker::certify::{Bounded, Line, RATE, certify};
 use dalembert_checker::file::MOST_BYTES;
 use dalembert_codegen::workspace::input_hash;
 use dalembert_stamp::Stamp;
@@ -72,9 +71,7 @@ fn row(own: &Bounded) -> Vec<Cell> {
 fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
     let name = args.file.display();
     let stamp = Stamp::read(source);
-    let named = stamp
-        .as_ref()
-        .and_then(|(stamp, _)| stamp.asked.get("scene"));
+    let named = stamp.iter().find_map(|(stamp, _)| stamp.asked.get("scene"));
     let scene = args.scene.as_deref().or(named);
     let place = claim_of(&args.file);
     if !place.exists() {
@@ -87,7 +84,7 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
     }
     let claim = text(&place, MOST_BYTES as u64)?;
     let found = certify(source, &claim, &robot.robot_file, scene, args.tolerance);
-    let found = found.map_err(|fault: Fault| Failure::Input(format!("error: {fault}")))?;
+    let found = found.map_err(|fault| Failure::Input(format!("error: {fault}")))?;
     let mut report = Report::default();
     let results = |line: &Line| line.result.as_ref().map_or(0, |own| own.results.len());
     report.line(match found.lines.iter().any(|line| results(line) > 0) {
@@ -159,22 +156,14 @@ pub(crate) fn claim_of(file: &Path) -> PathBuf {
 fn words(line: &Line) -> String {
     match &line.result {
         Err(fault) => format!("not shown: {fault}"),
-        Ok(Shown {
-            rounding,
-            units,
-            states,
-            has_polynomials,
-            results,
-        }) => {
-            if !results.is_empty() {
-                return "shown to be within the tolerance".into();
-            }
-            let of = if *has_polynomials {
-                "sines and rounding"
-            } else {
-                "rounding"
+        Ok(shown) if !shown.results.is_empty() => "shown to be within the tolerance".into(),
+        Ok(shown) => {
+            let (rounding, units) = (shown.rounding, shown.units);
+            let of = match shown.has_polynomials {
+                true => "sines and rounding",
+                false => "rounding",
             };
-            let over = match states {
+            let over = match shown.states {
                 0 => "over the box".to_owned(),
                 count => format!("at {count} states"),
             };

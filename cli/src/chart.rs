@@ -33,9 +33,6 @@ const KINDS: [(&str, RGBColor); 4] = [
 ];
 const GREY: RGBColor = RGBColor(0x99, 0x99, 0x99);
 
-/// The mark of this program near the beginning of a chart.
-const MARK: &str = "<desc>by dalembert tradeoff</desc>\n";
-
 /// Draws the chart; errors are relative to `relative_to`.
 ///
 /// # Errors
@@ -55,16 +52,14 @@ pub fn svg(title: &str, relative_to: &str, dots: &[Dot]) -> Result<String, Box<d
         .x_label_area_size(44)
         .y_label_area_size(56)
         .build_cartesian_2d(across.log_scale(), 0.0..1.1 * most)?;
-    let whiskers = if has_whiskers {
-        "; whiskers: observed"
-    } else {
-        ""
+    let whiskers = match has_whiskers {
+        true => "; whiskers: observed",
+        false => "",
     };
+    let across = format!("certified error, relative to {relative_to}{whiskers}");
     chart
         .configure_mesh()
-        .x_desc(format!(
-            "certified error, relative to {relative_to}{whiskers}"
-        ))
+        .x_desc(across)
         .y_desc("operations, polynomials included")
         .x_label_formatter(&|x| format!("1e{:.0}", x.log10()))
         .y_label_formatter(&|y| format!("{y:.0}"))
@@ -102,10 +97,10 @@ pub fn svg(title: &str, relative_to: &str, dots: &[Dot]) -> Result<String, Box<d
     root.present()?;
     // The text is written when the drawing ends.
     drop((chart, root));
-    let head = text
-        .find("<svg")
-        .and_then(|at| Some(at + text[at..].find('>')? + 1));
-    text.insert_str(head.unwrap_or(0), &format!("\n{MARK}"));
+    let start = text.find("<svg");
+    let head = start.and_then(|at| Some(at + text[at..].find('>')? + 1));
+    // By this mark the command knows its charts.
+    text.insert_str(head.unwrap_or(0), "\n<desc>by dalembert tradeoff</desc>\n");
     Ok(text)
 }
 
@@ -171,19 +166,12 @@ mod tests {
     fn the_checked_in_chart_is_that_of_its_table() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/tradeoff");
         let csv = fs::read_to_string(folder.join("puma560.csv")).unwrap();
-        let chart = svg(
-            "puma560: inverse_dynamics",
-            "the actuators' limits",
-            &dots(&csv),
-        )
-        .unwrap();
+        let title = "puma560: inverse_dynamics";
+        let chart = svg(title, "the actuators' limits", &dots(&csv)).unwrap();
         let file = folder.join("puma560.svg");
         if fs::read_to_string(&file).unwrap() != chart {
             fs::write(&file, chart).unwrap();
-            panic!(
-                "{} was not the chart of its table; it is now",
-                file.display()
-            );
+            panic!("{file:?} was not the chart of its table; it is now");
         }
     }
 }

@@ -25,21 +25,14 @@ pub fn report(robot: &Robot, request: &Request, generated: &Generated, detail: D
     report.table("functions", "", operations(generated, detail));
     let heads = "function|scalar|trig_mul|trig_add|angles|error";
     let sines = Table::new(heads).with(generated.functions.iter().flat_map(sines));
-    report.table(
-        "sines",
-        "sines and cosines by polynomials, errors proved",
-        sines,
-    );
+    let title = "sines and cosines by polynomials, errors proved";
+    report.table("sines", title, sines);
     if detail == Detail::Whole {
         whole(&mut report, robot, request, generated);
     }
-    for function in &generated.functions {
-        if let Some(admitted) = function
-            .admitted
-            .as_ref()
-            .filter(|_| detail != Detail::Counts)
-        {
-            tolerance(&mut report, function.function, admitted, generated.ended);
+    for own in &generated.functions {
+        if let (Some(admitted), true) = (&own.admitted, detail != Detail::Counts) {
+            tolerance(&mut report, own.function, admitted, generated.ended);
         }
     }
     let proved = match generated.functions.iter().any(|own| own.admitted.is_some()) {
@@ -117,28 +110,20 @@ fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Gene
             cells![function, emitted.scalar.name(), vector, entry]
         });
         let states = counted(states, "random state");
-        report.table(
-            "rounding",
-            format!(
-                "largest rounding errors at {states} inside the limits, in u (f64 2^-53, f32 2^-24)"
-            ),
-            Table::new("function|scalar|vector|entry").with(rows),
+        let title = format!(
+            "largest rounding errors at {states} inside the limits, in u (f64 2^-53, f32 2^-24)"
         );
+        let table = Table::new("function|scalar|vector|entry").with(rows);
+        report.table("rounding", title, table);
     }
     let mut stages = Table::new(&format!("function|stage|{COUNTS}"));
-    for function in &generated.functions {
+    for own in &generated.functions {
         // What the tolerance left of it is what is emitted.
-        let last = function
-            .admitted
-            .as_ref()
-            .map(|_| ("tolerance", function.counts()));
-        let own = function
-            .passes
-            .iter()
-            .map(|stage| (stage.name, stage.counts));
-        for (stage, own) in own.chain(last) {
-            let mut row = cells![function.function.to_string(), stage];
-            row.extend(counts(&own));
+        let last = own.admitted.is_some().then(|| ("tolerance", own.counts()));
+        let passes = own.passes.iter().map(|pass| (pass.name, pass.counts));
+        for (stage, found) in passes.chain(last) {
+            let mut row = cells![own.function.to_string(), stage];
+            row.extend(counts(&found));
             stages.row(row);
         }
     }
@@ -149,11 +134,10 @@ fn whole(report: &mut Report, robot: &Robot, request: &Request, generated: &Gene
 /// Adds what a tolerance admitted: E by cause, and what was left out.
 fn tolerance(report: &mut Report, function: Function, admitted: &Admitted, ended: bool) {
     for own in &admitted.certificates {
-        report.table(
-            &format!("certified/{function}/{}", own.scalar),
-            format!("{function} in {}, certified", own.scalar),
-            Table::new(BOUNDS).with(bounds(own)),
-        );
+        let scalar = own.scalar;
+        let title = format!("{function} in {scalar}, certified");
+        let table = Table::new(BOUNDS).with(bounds(own));
+        report.table(&format!("certified/{function}/{scalar}"), title, table);
     }
     let left_out = &admitted.left_out;
     let rows = left_out.iter().map(|own| {
@@ -161,17 +145,12 @@ fn tolerance(report: &mut Report, function: Function, admitted: &Admitted, ended
             0 => String::new(),
             pairs => format!("+ {pairs} sincos"),
         };
-        cells![
-            own.words.as_str(),
-            own.operations,
-            Cell::of(pairs, own.sincos)
-        ]
+        let sincos = Cell::of(pairs, own.sincos);
+        cells![own.words.as_str(), own.operations, sincos]
     });
-    report.table(
-        &format!("left_out/{function}"),
-        "left out, and what putting it back costs",
-        Table::new("what=|operations=|sincos=").with(rows),
-    );
+    let title = "left out, and what putting it back costs";
+    let table = Table::new("what=|operations=|sincos=").with(rows);
+    report.table(&format!("left_out/{function}"), title, table);
     if left_out.is_empty() {
         let why = match ended {
             false => "no omission was found within the tolerance",

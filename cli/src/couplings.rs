@@ -53,9 +53,8 @@ pub fn couplings(robot: &Robot) -> Option<Vec<Coupling>> {
         0..=6 => Formulation::LagrangeEuler,
         _ => Formulation::NewtonEulerLink,
     };
-    let graph = trace(Setup::whole(robot).task(function), formulation)
-        .graph
-        .rebuild(Folding::Semantic);
+    let traced = trace(Setup::whole(robot).task(function), formulation).graph;
+    let graph = traced.rebuild(Folding::Semantic);
     let mut outputs = graph.outputs.iter();
     let mut couplings = Vec::new();
     let mut known = HashMap::new();

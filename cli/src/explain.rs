@@ -145,10 +145,9 @@ fn formula(
 
 /// Runs the subcommand.
 pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
-    let source = Source::open(context, &args.robot)?;
-    let asked = &args.options.0;
-    let torques = [Function::InverseDynamics];
-    let mut request = source.request_for(asked, &torques)?;
+    let mut source = Source::open(context, &args.robot)?;
+    source.outputs = vec![Function::InverseDynamics];
+    let mut request = source.request(&args.options.0, &ScalarType::ALL)?;
     let session = progress::watch(&mut request);
     let input = input_hash(&source.robot);
     if request.plan.take_if(|plan| plan.input != input).is_some() {
@@ -228,11 +227,7 @@ fn coefficients(report: &mut Report, couplings: &[Coupling], each: bool) {
             };
             cells![name.as_str(), value]
         });
-        let table = Table::new("name=|value=").with(rows);
-        report.table(
-            "entries",
-            "D_ik with i ≤ k, h_ikm = h_imk with k ≤ m, c_i",
-            table,
-        );
+        let title = "D_ik with i ≤ k, h_ikm = h_imk with k ≤ m, c_i";
+        report.table("entries", title, Table::new("name=|value=").with(rows));
     }
 }

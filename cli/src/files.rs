@@ -123,10 +123,8 @@ impl<'c> Files<'c> {
     /// `into` is no folder or cannot be written in, and the errors of [`Files::add`].
     pub fn add_in(&mut self, into: &Path, name: &str) -> Result<Target, Failure> {
         if into == Path::new(STANDARD) {
-            return Err(refused(
-                into,
-                "it is standard output, and a folder is needed",
-            ));
+            let why = "it is standard output, and a folder is needed";
+            return Err(refused(into, why));
         }
         let path = into.join(name);
         let inside = folder(&path);
@@ -135,10 +133,8 @@ impl<'c> Files<'c> {
         let there = inside.ancestors().find(is_there);
         let there = there.unwrap_or(Path::new("."));
         if !there.is_dir() {
-            return Err(refused(
-                into,
-                format!("`{}` is not a folder", there.display()),
-            ));
+            let why = format!("`{}` is not a folder", there.display());
+            return Err(refused(into, why));
         }
         if there == inside {
             return self.add(&path);
@@ -164,11 +160,8 @@ pub fn write(outputs: &[(Target, String)]) -> Result<(), Failure> {
             let part = fs::create_dir_all(folder(file))
                 .and_then(|()| unfinished(folder(file)))
                 .and_then(|mut part| part.write_all(text.as_bytes()).map(|()| part));
-            parts.push((
-                target,
-                file,
-                part.map_err(|error| refused(&target.name, error))?,
-            ));
+            let part = part.map_err(|error| refused(&target.name, error))?;
+            parts.push((target, file, part));
         }
     }
     for (target, text) in outputs {

@@ -87,11 +87,9 @@ pub(crate) fn run(args: &GenerateArgs, context: &Context) -> Outcome {
     };
     let code = generated.files(&request, &place, &source.text);
     files.extend(places.code.into_iter().zip(code));
+    let notes = files.iter().filter_map(|(target, _)| target.note());
     Ok(Done {
-        notes: files
-            .iter()
-            .filter_map(|(target, _)| target.note())
-            .collect(),
+        notes: notes.collect(),
         is_aside: true,
         files,
         announced,
@@ -176,8 +174,7 @@ fn language(args: &GenerateArgs) -> Result<Language, Failure> {
         return Ok(args.language.unwrap_or_default());
     };
     match (Language::of(path), args.language) {
-        (Ok(language), None) => Ok(language),
-        (Ok(language), Some(asked)) if language == asked => Ok(language),
+        (Ok(language), asked) if asked.is_none_or(|asked| asked == language) => Ok(language),
         (Err(_), Some(asked)) => Ok(asked),
         (_, asked) => {
             // What has no ending names them.

@@ -2,7 +2,7 @@
 //! JSON with a list `states` of objects with `q`, the rates `qd` and `qdd` where they matter, and
 //! any result by its key, such as `tau`, `D`, `h` or `c`.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use dalembert_codegen::Function;
 use dalembert_codegen::workspace::{Argument, Emitted, JointState, Quantity, Runtime, Sizes};
@@ -80,21 +80,20 @@ pub fn read(text: &str, n: usize) -> Result<Vec<GivenState>, String> {
     for (index, keys) in file.states.iter().enumerate() {
         let (state, wrong) = state(keys, n);
         states.push(state);
-        mistakes.extend(
-            wrong
-                .into_iter()
-                .map(|why| format!("state {}: {why}", index + 1)),
-        );
+        let at = index + 1;
+        mistakes.extend(wrong.iter().map(|why| format!("state {at}: {why}")));
     }
     let more = mistakes.len().saturating_sub(MOST);
     mistakes.truncate(MOST);
     if more > 0 {
         mistakes.push(format!("and {more} more mistakes"));
     }
-    match (mistakes.is_empty(), states.is_empty()) {
-        (true, false) => Ok(states),
-        (true, true) => Err("the list `states` is empty".into()),
-        (false, _) => Err(mistakes.join("\n")),
+    if states.is_empty() {
+        mistakes.push("the list `states` is empty".into());
+    }
+    match mistakes.is_empty() {
+        true => Ok(states),
+        false => Err(mistakes.join("\n")),
     }
 }
 
@@ -105,10 +104,8 @@ fn state(keys: &BTreeMap<String, Numbers>, n: usize) -> (GivenState, Vec<String>
     let mut values = |key: &str, length: usize| -> Option<Vec<f64>> {
         let values = keys.get(key)?.flat();
         if values.len() != length {
-            wrong.push(format!(
-                "`{key}` has {} numbers, not {length}",
-                values.len()
-            ));
+            let count = values.len();
+            wrong.push(format!("`{key}` has {count} numbers, not {length}"));
         }
         Some(values)
     };
@@ -195,14 +192,6 @@ pub struct Compared {
     pub worst: String,
 }
 
-impl Compared {
-    /// Returns the key of the quantity.
-    fn result(&self) -> &'static str {
-        let quantity = self.quantity;
-        quantity.given().unwrap_or_else(|| quantity.symbol())
-    }
-}
-
 /// Returns the quantities that can be compared with given states, from what a function
 /// returns: the symbols h_ikm are compared as the load h that they give.
 pub fn quantities(function: Function) -> impl Iterator<Item = Quantity> {
@@ -284,14 +273,10 @@ fn place(quantity: Quantity, entry: usize, robot: &Robot) -> String {
 /// is not a number.
 fn worst(actual: &[f64], expected: &[f64]) -> (usize, f64) {
     let size = expected.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+    let size = if size > 0.0 { size } else { 1.0 };
     let mut worst = (0, 0.0f64);
     for (index, (a, b)) in actual.iter().zip(expected).enumerate() {
-        let difference = (a - b).abs();
-        let error = if size > 0.0 {
-            difference / size
-        } else {
-            difference
-        };
+        let error = (a - b).abs() / size;
         if error.is_nan() {
             return (index, f64::INFINITY);
         }
@@ -307,30 +292,25 @@ pub(crate) fn describe(file: &str, states: &[GivenState], compared: &[Compared],
     let heads = "function|result|states|error|bound|.disagreeing|.worst|verdict=";
     let mut table = Table::new(heads);
     for own in compared {
+        let quantity = own.quantity;
+        let agrees = own.disagreeing == 0;
+        let verdict = if agrees { "ok" } else { "DISAGREES" };
         table.row(cells![
             own.function.to_string(),
-            own.result(),
+            quantity.given().unwrap_or_else(|| quantity.symbol()),
             own.states,
             Cell::power(own.error, 1),
             Cell::power(BOUND, 1),
             own.disagreeing,
             own.worst.as_str(),
-            if own.disagreeing == 0 {
-                "ok"
-            } else {
-                "DISAGREES"
-            },
+            verdict,
         ]);
     }
-    done.report.table(
-        "given",
-        format!("{} of {file}, in f64", counted(states.len(), "state")),
-        table,
-    );
-    let given = states.iter().flat_map(|state| state.known.keys());
-    let mut missed: Vec<Quantity> = given.copied().collect();
-    missed.sort();
-    missed.dedup();
+    let count = counted(states.len(), "state");
+    let title = format!("{count} of {file}, in f64");
+    done.report.table("given", title, table);
+    let known = states.iter().flat_map(|state| state.known.keys().copied());
+    let mut missed: BTreeSet<Quantity> = known.collect();
     missed.retain(|quantity| !compared.iter().any(|own| own.quantity == *quantity));
     let missed: Vec<&str> = missed.into_iter().filter_map(Quantity::given).collect();
     if !missed.is_empty() {
@@ -347,14 +327,9 @@ pub(crate) fn describe(file: &str, states: &[GivenState], compared: &[Compared],
         return;
     }
     let mut text = format!("error: {file}: the robot disagrees with the states");
-    for Compared {
-        worst,
-        disagreeing,
-        states,
-        ..
-    } in &wrong
-    {
-        text += &format!("\n  {worst}; {disagreeing} of {states} states disagree");
+    for own in wrong {
+        let (worst, off, all) = (&own.worst, own.disagreeing, own.states);
+        text += &format!("\n  {worst}; {off} of {all} states disagree");
     }
     let worst = compared.iter().map(|own| own.error).fold(0.0, f64::max);
     done.failed.push(match worst < FEW_DIGITS {

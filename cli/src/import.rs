@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use std::slice;
 
 use dalembert_import::{
-    Arms, Change, Imported, Options, Shared, Text, arms, import_text, is_model, open_text,
+    Change, Imported, Options, Shared, Text, arms, import_text, is_model, open_text,
 };
 use dalembert_model::number::Rational;
-use dalembert_model::read::{RobotWarning, Severity};
+use dalembert_model::read::{Diagnostics, RobotWarning, Severity};
 use serde_json::{Value, json};
 
 use crate::args::values::{acceleration_parser, lock_parser, name_parser};
@@ -110,24 +110,19 @@ pub(crate) fn run(args: &ImportArgs, context: &Context) -> Outcome {
         )));
     }
     let options = args.options();
-    let wrong =
-        |errors: dalembert_model::read::Diagnostics| Failure::Input(source.render(&errors.0));
-    let (made, shared) = match args.all {
-        false => (
-            vec![import_text(&source, &options).map_err(wrong)?],
-            Vec::new(),
-        ),
-        true => {
-            let Arms { arms, shared } = arms(&source, &options).map_err(wrong)?;
-            (arms.into_iter().map(|(_, made)| made).collect(), shared)
-        }
-    };
+    let wrong = |errors: Diagnostics| Failure::Input(source.render(&errors.0));
+    let (mut made, mut shared) = (Vec::new(), Vec::new());
+    if args.all {
+        let found = arms(&source, &options).map_err(wrong)?;
+        made.extend(found.arms.into_iter().map(|(_, made)| made));
+        shared = found.shared;
+    } else {
+        made.push(import_text(&source, &options).map_err(wrong)?);
+    }
     say(args, context, &made, &source);
-    let mut done = Done::from(match args.all {
-        false => made
-            .first()
-            .map_or_else(Report::default, |made| one(made, path, &source)),
-        true => all(&made, shared, path, &source),
+    let mut done = Done::from(match made.as_slice() {
+        [own] if !args.all => one(own, path, &source),
+        _ => all(&made, shared, path, &source),
     });
     done.is_aside = true;
     for made in made {

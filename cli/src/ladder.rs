@@ -189,13 +189,8 @@ impl<'a> Ladder<'a> {
         let from: Vec<Program> = from.into_iter().collect();
         groups
             .map(|scalars| {
-                let found = self.frame.choose(
-                    &from,
-                    &tolerances,
-                    &scalars,
-                    &self.settings,
-                    BoundEffort::CERTIFY,
-                );
+                let (frame, settings, effort) = (self.frame, &self.settings, BoundEffort::CERTIFY);
+                let found = frame.choose(&from, &tolerances, &scalars, settings, effort);
                 found.unwrap_or_else(|_| {
                     let mut exact = self.exact.clone();
                     exact.certificates.retain(|c| scalars.contains(&c.scalar));

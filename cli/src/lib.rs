@@ -74,13 +74,6 @@ struct Args {
     deny_warnings: bool,
 }
 
-impl Args {
-    /// Returns the options that all subcommands share.
-    fn context(&self) -> Context {
-        Context::new(self.json, self.force, self.deny_warnings)
-    }
-}
-
 /// The subcommands.
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -117,7 +110,7 @@ enum Command {
 /// code of the process. Wrong arguments and `--help` end the process.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> u8 {
     let args = Args::parse_from(args);
-    let context = args.context();
+    let context = Context::new(args.json, args.force, args.deny_warnings);
     let bar = terminal::begin();
     let outcome = match &args.command {
         Command::New(args) => new::run(args, &context),

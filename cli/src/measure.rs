@@ -118,11 +118,6 @@ impl Bench {
         self.reference.run(function, state)
     }
 
-    /// Returns the condition of what a quantity inverts at a state; one where it inverts nothing.
-    pub fn condition(&self, function: Function, state: &JointState, quantity: Quantity) -> f64 {
-        self.runtime.granted(function, state).factor(quantity)
-    }
-
     /// Returns the runtime, whose results are those of the equations of motion.
     pub fn runtime(&self) -> &Runtime {
         &self.runtime
@@ -165,21 +160,14 @@ impl Bench {
         states: &[JointState],
         scales: &[JointState],
     ) -> Vec<Worst> {
-        self.compare(
-            code,
-            &self.samples(code.function, code.scalar, states, scales),
-        )
+        let samples = self.samples(code.function, code.scalar, states, scales);
+        self.compare(code, &samples)
     }
 
     /// Compares code with what is true at states.
     pub fn compare(&self, code: &Code<'_>, samples: &Samples) -> Vec<Worst> {
-        let Samples {
-            states,
-            truths,
-            granted,
-            sizes,
-        } = samples;
         let (function, scalar) = (code.function, code.scalar);
+        let states = &samples.states;
         let found: Vec<Vec<f64>> = states.iter().map(|state| (code.run)(state)).collect();
         let mut start = 0;
         let quantities = function.quantities().iter();
@@ -197,12 +185,14 @@ impl Bench {
                     state: states.first().cloned().unwrap_or_default(),
                     overflows: false,
                 };
-                let runs = states.iter().zip(granted).zip(truths.iter().zip(&found));
+                let truths = samples.truths.iter().zip(&found);
+                let runs = states.iter().zip(&samples.granted).zip(truths);
                 for ((state, granted), (truth, found)) in runs {
                     worst.overflows |= found[range.clone()].iter().any(|x| !x.is_finite());
                     let condition = granted.factor(quantity);
                     let unit = condition * scalar.unit_roundoff();
-                    let [vector, entry] = self.errors(code, range.clone(), truth, found, sizes);
+                    let [vector, entry] =
+                        self.errors(code, range.clone(), truth, found, &samples.sizes);
                     let [vector, entry] = [vector, entry].map(|error| relative(error, unit));
                     worst.entry = worst.entry.max(entry);
                     if vector > worst.vector {

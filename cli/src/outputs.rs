@@ -3,8 +3,7 @@
 use dalembert_codegen::Function;
 use dalembert_codegen::workspace::{Argument, Quantity, Sizes};
 use dalembert_model::outputs::Axis;
-use dalembert_model::read;
-use dalembert_model::robot::Robot;
+use dalembert_model::robot::{Joint, Robot};
 use serde_json::json;
 
 use crate::output::Outcome;
@@ -12,24 +11,23 @@ use crate::report::{Cell, Report, Table, cells};
 
 /// Runs the subcommand.
 pub(crate) fn run() -> Outcome {
-    let robot = read::parse(crate::new::ROBOT, &read::Options::default());
-    // This robot is part of the command; all its joints are revolute.
-    let robot = robot.map_or_else(|_| None, |reading| Some(reading.robot));
     let heads = "function|takes|returns|unit|meaning|.results";
     let mut functions = Table::keyed(heads);
     for function in Function::ALL {
         let arguments = function.arguments().into_iter().map(Argument::name);
         let arguments: Vec<&str> = arguments.collect();
         let results = function.quantities().iter();
-        let results: Vec<[String; 3]> = results.map(|&own| result(own, robot.as_ref())).collect();
+        let results: Vec<[String; 3]> = results.map(|&own| result(own)).collect();
         let json = results
             .iter()
             .map(|[symbol, shape, unit]| json!({ "symbol": symbol, "shape": shape, "unit": unit }));
+        let returned = results.iter();
+        let returned = returned.map(|[symbol, shape, _]| format!("{symbol} [{shape}]"));
         let units: Vec<&str> = results.iter().map(|own| own[2].as_str()).collect();
         functions.row(cells![
             function.name(),
             Cell::of(arguments.join(", "), arguments),
-            returned(&results),
+            returned.collect::<Vec<_>>().join(", "),
             units.join("; "),
             function.summary(),
             Cell::json(json.collect::<Vec<_>>()),
@@ -37,10 +35,8 @@ pub(crate) fn run() -> Outcome {
     }
     let mut arguments = Table::keyed("argument|symbol|meaning");
     for own in Argument::ALL {
-        if Function::ALL
-            .into_iter()
-            .any(|function| function.arguments().contains(&own))
-        {
+        let mut functions = Function::ALL.into_iter();
+        if functions.any(|function| function.arguments().contains(&own)) {
             arguments.row(cells![own.name(), own.symbol(), own.meaning()]);
         }
     }
@@ -54,15 +50,8 @@ pub(crate) fn run() -> Outcome {
     Ok(report.into())
 }
 
-/// Lists results with their shapes.
-fn returned(results: &[[String; 3]]) -> String {
-    let each = results.iter();
-    let each = each.map(|[symbol, shape, _]| format!("{symbol} [{shape}]"));
-    each.collect::<Vec<_>>().join(", ")
-}
-
 /// Returns symbol, shape and unit of a quantity.
-fn result(quantity: Quantity, robot: Option<&Robot>) -> [String; 3] {
+fn result(quantity: Quantity) -> [String; 3] {
     let axis = |axis: &Axis| match axis {
         Axis::Joints => "n".to_owned(),
         Axis::Fixed(length) => length.to_string(),
@@ -75,26 +64,26 @@ fn result(quantity: Quantity, robot: Option<&Robot>) -> [String; 3] {
         true => "1".to_owned(),
         false => shape.join("×"),
     };
+    // Two revolute joints.
+    let robot = Robot {
+        joints: vec![Joint::default(); 2],
+        ..Robot::default()
+    };
+    let sizes = Sizes {
+        base: 1,
+        load: 1,
+        ..Sizes::whole(2)
+    };
     let mut units: Vec<&str> = Vec::new();
-    if let Some(robot) = robot {
-        let rows: Vec<usize> = (0..robot.joints.len()).collect();
-        let sizes = Sizes {
-            base: 1,
-            load: 1,
-            ..Sizes::whole(rows.len())
-        };
-        let entries = (0..quantity.len(sizes)).map(|i| quantity.unit(i, &rows, sizes, robot));
-        for unit in entries.filter(|unit| !unit.is_empty()) {
-            if !units.contains(&unit) {
-                units.push(unit);
-            }
+    for unit in (0..quantity.len(sizes)).map(|i| quantity.unit(i, &[0, 1], sizes, &robot)) {
+        if !unit.is_empty() && !units.contains(&unit) {
+            units.push(unit);
         }
     }
     // Each column of base parameters has its own unit.
-    let unit = if units.is_empty() {
-        "mixed".to_owned()
-    } else {
-        units.join(", ")
+    let unit = match units.is_empty() {
+        true => "mixed".to_owned(),
+        false => units.join(", "),
     };
     [quantity.symbol().to_owned(), shape, unit]
 }

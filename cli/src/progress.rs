@@ -61,22 +61,23 @@ impl Seen {
 
 impl Observer for Seen {
     fn step(&self, progress: &Progress) {
-        let Progress {
-            function,
-            part,
-            round,
-            rounds,
-            best,
-        } = progress;
-        let reached = match (best, rounds) {
+        let (function, part) = (progress.function, progress.part);
+        let (round, rounds) = (progress.round, progress.rounds);
+        let reached = match (&progress.best, rounds) {
             (Some(counts), _) => format!(": {counts}"),
             (None, 0) => format!(": {round} tried"),
             (None, _) => String::new(),
         };
-        let place = place(&self.functions, *function);
+        let functions = &self.functions;
+        let place = match functions.iter().position(|one| *one == function) {
+            Some(at) if functions.len() > 1 => {
+                format!("function {} of {}: ", at + 1, functions.len())
+            }
+            _ => String::new(),
+        };
         bar().set_message(format!("{place}{function}, {part}{reached}"));
-        bar().set_length((*rounds).max(1) as u64);
-        bar().set_position((*round).min(*rounds) as u64);
+        bar().set_length(rounds.max(1) as u64);
+        bar().set_position(round.min(rounds) as u64);
     }
 
     fn stop(&self) -> bool {
@@ -90,14 +91,5 @@ impl Drop for Session {
         if self.0.stop() {
             note("the search ended early: a longer search may find a cheaper program");
         }
-    }
-}
-
-/// Returns `function 2 of 6: ` if there are several functions.
-fn place(functions: &[Function], function: Function) -> String {
-    let at = functions.iter().position(|one| *one == function);
-    match (at, functions.len()) {
-        (Some(at), 2..) => format!("function {} of {}: ", at + 1, functions.len()),
-        _ => String::new(),
     }
 }

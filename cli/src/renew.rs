@@ -78,24 +78,20 @@ pub(crate) fn run(args: &RenewArgs, context: &Context) -> Outcome {
     }
     report.value("files", table.json());
     let mut done = Done::from(report);
-    let stale: Vec<New> = texts
-        .into_iter()
-        .filter(|new| new.differs.is_some())
-        .collect();
+    texts.retain(|new| new.differs.is_some());
     if !args.check {
         let mut files = Files::new(context, &[]);
-        let outputs = stale
-            .into_iter()
-            .map(|new| Ok((files.add(&new.path)?, new.text)));
-        done.files = outputs.collect::<Result<_, Failure>>()?;
+        for new in texts {
+            done.files.push((files.add(&new.path)?, new.text));
+        }
         return Ok(done);
     }
-    for new in &stale {
+    for new in &texts {
         let (path, line) = (new.path.display(), new.differs.unwrap_or(1));
         let why = format!("error: {path}:{line}: the file is out of date");
         done.failed.push(why);
     }
-    if !stale.is_empty() {
+    if !texts.is_empty() {
         let help = "  = help: run `dalembert renew` without --check to update it";
         done.failed.push(help.into());
     }

@@ -68,10 +68,8 @@ fn poses(robot: &Robot, at: &[f64]) -> Result<Report, WrongLength> {
     };
     let mut links = Table::new("joint|pose");
     for (joint, pose) in robot.rows().into_iter().zip(&runtime.poses(&q)?) {
-        links.row(cells![
-            Cell::json(joint.name.clone()),
-            Cell::json(rows(pose))
-        ]);
+        let name = Cell::json(joint.name.clone());
+        links.row(cells![name, Cell::json(rows(pose))]);
     }
     let mut report = Report::default();
     report.value("robot", robot.name.as_str());
@@ -86,11 +84,8 @@ fn poses(robot: &Robot, at: &[f64]) -> Result<Report, WrongLength> {
 /// a unit is in radians, but may have been meant in degrees.
 fn doubtful(robot: &Robot, index: usize, text: &str, q: f64) -> Option<String> {
     let joint = robot.joints.get(index)?;
-    let limits = joint
-        .limits
-        .position
-        .as_ref()
-        .map(|ends| ends.each_ref().map(Position::to_f64));
+    let limits = joint.limits.position.as_ref();
+    let limits = limits.map(|ends| ends.each_ref().map(Position::to_f64));
     let turns = joint.kind == JointKind::Revolute;
     let what = match limits {
         Some([low, high]) if q < low || q > high => {

@@ -17,12 +17,11 @@ use crate::output::{Context, Failure};
 use crate::progress;
 
 /// A robot from a robot file, a URDF or an MJCF.
-#[derive(Clone)]
 pub struct Source {
     pub path: PathBuf,
     pub robot: Robot,
     pub scenes: Vec<Scene>,
-    /// The functions that the robot file lists; empty if it lists none.
+    /// The functions of a request that names none: those that the robot file lists, if it lists any.
     pub outputs: Vec<Function>,
     /// The text of the file, and the text of the robot as a robot file.
     pub text: String,
@@ -82,18 +81,6 @@ impl Source {
             request.plan = self.plan()?;
         }
         Ok(request)
-    }
-
-    /// Parses options to a request; `functions` are its default if the scene names none.
-    ///
-    /// # Errors
-    /// The errors of [`Source::request`].
-    pub fn request_for(&self, asked: &Asked, functions: &[Function]) -> Result<Request, Failure> {
-        let named = Source {
-            outputs: functions.to_vec(),
-            ..self.clone()
-        };
-        named.request(asked, &ScalarType::ALL)
     }
 
     /// Returns the plan beside a robot file; a model has none.

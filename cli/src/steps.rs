@@ -164,10 +164,8 @@ impl Steps<'_> {
         let formulation = Formulation::NewtonEulerLink;
         let graph = trace(self.job.setup.task(self.function), formulation).graph;
         self.graph("newton_euler_folded", &graph);
-        self.graph(
-            "newton_euler_fingerprints",
-            &graph.rebuild(Folding::Semantic),
-        );
+        let merged = graph.rebuild(Folding::Semantic);
+        self.graph("newton_euler_fingerprints", &merged);
     }
 
     /// Adds the chain form in one regrouping after the other, each in its cheapest form: nothing
@@ -228,11 +226,9 @@ fn kept(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
 pub(super) fn tolerated(admitted: &Admitted) -> Result<Vec<Row>, GenerateError> {
     let row = |certificate: &Certificate| {
         let (function, scalar) = (certificate.emitted.function, certificate.scalar);
-        let text = workspace::Code::parse(
-            &certificate.text,
-            &Signature::of(&certificate.emitted, scalar),
-        )
-        .map_err(|error| GenerateError::Defect(function, Some(scalar), error.to_string()))?;
+        let signature = Signature::of(&certificate.emitted, scalar);
+        let text = workspace::Code::parse(&certificate.text, &signature)
+            .map_err(|error| GenerateError::Defect(function, Some(scalar), error.to_string()))?;
         Ok(Row {
             step: "tolerance",
             counts: text.counts(),

@@ -44,16 +44,6 @@ impl Drop for Shown {
     }
 }
 
-/// Runs `print` while the bar is hidden.
-pub fn aside<R>(print: impl FnOnce() -> R) -> R {
-    bar().suspend(print)
-}
-
-/// Sets the number of steps of a long run.
-pub fn steps(steps: usize) {
-    bar().set_length(steps as u64);
-}
-
 /// Starts the next step of a long run and shows its name.
 pub fn step(name: &str) {
     bar().set_message(name.to_owned());
@@ -72,7 +62,7 @@ pub fn bar() -> ProgressBar {
 /// Standard output cannot be written.
 pub fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
-    match aside(|| out.write_all(text.as_bytes()).and_then(|()| out.flush())) {
+    match bar().suspend(|| out.write_all(text.as_bytes()).and_then(|()| out.flush())) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Input(format!(
             "error: standard output cannot be written: {error}"
         ))),
@@ -101,7 +91,7 @@ pub fn note(text: &str) {
         _ => line.to_owned(),
     };
     let lines: Vec<String> = text.trim_end().split('\n').map(coloured).collect();
-    aside(|| {
+    bar().suspend(|| {
         // No stream is left on which to report an error.
         let _ = writeln!(io::stderr().lock(), "{}", lines.join("\n"));
     });

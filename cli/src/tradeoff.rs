@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use dalembert_codegen::workspace::{ErrorBudget, SceneKey, Setup, claim_of, prove};
-use dalembert_codegen::{GenerateError, Program, Request, ScalarType};
+use dalembert_codegen::{Function, GenerateError, Program, Request, ScalarType};
 use dalembert_model::scene::{Scale, Scene};
 use serde_json::Value;
 
@@ -55,7 +55,8 @@ const SVG: &str = "tradeoff.svg";
 
 /// Runs the subcommand.
 pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
-    let source = Source::open(context, &args.robot)?;
+    let mut source = Source::open(context, &args.robot)?;
+    source.outputs = vec![Function::InverseDynamics];
     let (mut request, scene) = exact_request(args, &source)?;
     let tolerances = tolerances(args, context);
     // Before the work: a folder that cannot be is no news an hour later.
@@ -88,9 +89,7 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
     report.value("input", source.robot.short_hash());
     report.value("scene", scene.as_ref().map(|scene| scene.name.as_str()));
     report.value("function", exact.function.to_string());
-    let mut words = Scale::WORDS.into_iter();
-    let word = words.find(|(_, scale)| *scale == relative_to);
-    report.value("relative_to", word.map(|(word, _)| word));
+    report.value("relative_to", relative_to.word());
     let table = table(&points);
     if let Some(([csv, svg], folder)) = targets.zip(args.output.as_ref()) {
         let scene = in_scene(scene.as_ref().map(|scene| scene.name.as_str()));
@@ -119,13 +118,10 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
     let table = table.without("rounding|rounding observed");
     done.report.value("variants", table.json());
     done.report.rows(table);
-    for point in &points {
-        if let Some(why) = &point.violation {
-            let name = point.name();
-            done.failed
-                .push(format!("error: {name} is violated: {why}"));
-        }
-    }
+    done.failed.extend(points.iter().filter_map(|point| {
+        let (name, why) = (point.name(), point.violation.as_ref()?);
+        Some(format!("error: {name} is violated: {why}"))
+    }));
     Ok(done)
 }
 
@@ -135,10 +131,7 @@ fn exact_request(
     args: &TradeoffArgs,
     source: &Source,
 ) -> Result<(Request, Option<Scene>), Failure> {
-    let mut request = source.request_for(
-        &args.options.0,
-        &[dalembert_codegen::Function::InverseDynamics],
-    )?;
+    let mut request = source.request(&args.options.0, &ScalarType::ALL)?;
     if args.options.0.items("outputs").len() > 1 {
         let why = "error: --outputs: one function is traded at a time\n  = help: name one";
         return Err(Failure::Input(why.into()));
@@ -175,7 +168,7 @@ fn climb(
         ))
     })?;
     // Every tolerance and the exact program: searched for, then falsified.
-    terminal::steps(2 * (1 + tolerances.len()));
+    terminal::bar().set_length(2 * (1 + tolerances.len() as u64));
     let ladder = Ladder::new(args.samples as usize, request.effort, &frame);
     let points = ladder.climb(tolerances, &terminal::step);
     points.map_err(|error| Failure::Check(format!("error: {error}")))
@@ -226,14 +219,14 @@ fn table(points: &[Point]) -> Table {
             Some(seen) => Cell::power(seen, 2),
             None => Cell::of("–", Value::Null),
         };
+        let sines = match own.certificate.sines.is_empty() {
+            true => "libm",
+            false => "polynomials",
+        };
         table.row(cells![
             Cell::of(format!("{:e}", own.tolerance), own.tolerance),
             own.certificate.scalar.name(),
-            if own.certificate.sines.is_empty() {
-                "libm"
-            } else {
-                "polynomials"
-            },
+            sines,
             counts.mul,
             counts.add,
             counts.sincos,

@@ -135,11 +135,10 @@ fn claims(generated: &Generated, done: &mut Done) -> Result<Vec<(Function, Scala
             row.push(Cell::power(*observed, 3));
             table.row(row);
         }
-        done.report.table(
-            &format!("certificates/{function}/{scalar}"),
-            format!("{function} in {scalar}, certified, and the largest errors at {states} states"),
-            table,
-        );
+        let key = format!("certificates/{function}/{scalar}");
+        let title =
+            format!("{function} in {scalar}, certified, and the largest errors at {states} states");
+        done.report.table(&key, title, table);
         if found.violation.is_some() {
             done.failed.push(format!(
                 "error: the certificate of `{function}` in {scalar} is violated: a defect of this program"
@@ -203,10 +202,8 @@ fn rounding(states: usize, rows: &[Row], done: &mut Done) {
             ));
         }
     }
-    let failed = rows
-        .iter()
-        .filter(|row| row.verdict == Verdict::Failed)
-        .count();
+    let is_failed = |row: &&Row| row.verdict == Verdict::Failed;
+    let failed = rows.iter().filter(is_failed).count();
     if failed > 0 {
         let all = rows.len();
         done.failed.push(format!(

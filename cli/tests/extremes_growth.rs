@@ -1,7 +1,5 @@
 //! Longer chains: linear inverse dynamics, code in blocks, refusals.
 
-use std::slice;
-
 use dalembert_cli::extremes::cases::Change;
 use dalembert_cli::measure::{Bench, Code, VECTOR};
 use dalembert_codegen::workspace::{Emitted, Setup, parse, seeded};
@@ -27,11 +25,8 @@ fn request(function: Function, start: &str) -> Request {
 fn is_within_the_bound(robot: &Robot, emitted: &Emitted, states: usize) {
     let bench = Bench::new(Setup::whole(robot));
     for state in seeded(robot, states, 1) {
-        for found in bench.measure(
-            &Code::emitted(emitted),
-            slice::from_ref(&state),
-            slice::from_ref(&state),
-        ) {
+        let alone = [state];
+        for found in bench.measure(&Code::emitted(emitted), &alone, &alone) {
             assert!(found.vector <= VECTOR, "{found:?}");
         }
     }

@@ -19,12 +19,13 @@ const IS_SLOW: bool = cfg!(debug_assertions);
 
 fn held(category: &str) -> Held {
     let starts = |prefixes: &[&str]| prefixes.iter().any(|p| category.starts_with(p));
-    if starts(&[
+    let near_zero = [
         "static_near_balance",
         "tiny_",
         "folded_2link",
         "pointmass_tip",
-    ]) {
+    ];
+    if starts(&near_zero) {
         Held::Entries
     } else if starts(&["massratio", "length", "snake"]) {
         Held::Vector

@@ -25,10 +25,8 @@ fn coefficients(robot: &Robot) -> Emitted {
 fn coriolis(code: &Emitted, state: &JointState) -> DMatrix<f64> {
     let n = state.q.len();
     let results = code.run(state);
-    let h = &results[n * n..n * n + n * n * n];
-    let entries = h
-        .chunks(n)
-        .map(|h| h.iter().zip(&state.qd).map(|(h, v)| h * v).sum());
+    let h = results[n * n..n * n + n * n * n].chunks(n);
+    let entries = h.map(|h| h.iter().zip(&state.qd).map(|(h, v)| h * v).sum());
     DMatrix::from_row_iterator(n, n, entries)
 }
 
@@ -118,11 +116,7 @@ fn a_passive_arm_keeps_its_energy() {
         for i in 0..6 {
             let pivot = rows.row(i) / rows[(i, i)];
             for k in 0..6 {
-                let factor = if k == i {
-                    rows[(i, i)] - 1.0
-                } else {
-                    rows[(k, i)]
-                };
+                let factor = rows[(k, i)] - f64::from(k == i);
                 let cleared = rows.row(k) - pivot * factor;
                 rows.set_row(k, &cleared);
             }

@@ -61,9 +61,8 @@ fn a_scene_is_explained() {
     assert!(last.counts.operations() < searched && searched < 14);
     let errors = explained.rounding(50);
     let (last, exact) = errors.split_last().unwrap();
-    let small = exact
-        .iter()
-        .all(|[vector, _]| *vector > 0.0 && *vector < 100.0);
+    let mut vectors = exact.iter().map(|[vector, _]| *vector);
+    let small = vectors.all(|vector| vector > 0.0 && vector < 100.0);
     assert!(small && last[0] > 1e6, "{errors:?}");
 }
 
@@ -109,26 +108,15 @@ fn the_last_row_is_what_is_generated() {
 #[test]
 fn steps_do_not_make_it_dearer() {
     let puma = of("puma560", Function::InverseDynamics);
-    let falling = [
-        "lagrange_euler_written",
-        "lagrange_euler_folded",
-        "lagrange_euler_fingerprints",
-        "lagrange_euler_search",
-        "newton_euler_fingerprints",
-        "chain",
-        "base_parameters",
-        "tuned_regrouping",
-        "unit_of_length",
-        "search",
-    ];
+    // Newton–Euler is traced anew.
+    let falling = puma.rows.iter();
+    let falling = falling.filter(|row| row.step != "newton_euler_folded");
+    let falling: Vec<_> = falling
+        .map(|row| (row.step, row.counts.operations()))
+        .collect();
+    assert_eq!(falling.len(), 10);
     for pair in falling.windows(2) {
-        let (before, after) = (operations(&puma, pair[0]), operations(&puma, pair[1]));
-        assert!(
-            after <= before,
-            "{:?} {before}, {:?} {after}",
-            pair[0],
-            pair[1]
-        );
+        assert!(pair[1].1 <= pair[0].1, "{pair:?}");
     }
     assert!(operations(&puma, "search") < operations(&puma, "base_parameters"));
 }

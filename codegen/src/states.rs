@@ -176,14 +176,10 @@ pub fn positions(robot: &Robot) -> Vec<[f64; 2]> {
 
 /// Returns between which ends a joint's entry of an argument is drawn.
 fn range(joint: &Joint, argument: Argument) -> [f64; 2] {
-    let limits = &joint.limits;
     let most = match argument.limit() {
-        Some(Limit::Velocity) => &limits.velocity,
-        Some(Limit::Acceleration) => &limits.acceleration,
-        Some(Limit::Torque) => &limits.torque,
-        _ => return position(joint),
+        None | Some(Limit::Position) => return position(joint),
+        Some(rate) => joint.limits.rate(rate),
     };
-    let most = most.as_ref();
     let most = most.map_or(argument.reach(), f64::nearest_rational);
     [-most, most]
 }

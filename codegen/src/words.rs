@@ -152,6 +152,6 @@ pub fn parse<W: Word>(text: &str) -> Result<W, Complaint> {
 /// # Errors
 /// What is wrong with it, and the likely fix.
 pub fn bundle(text: &str) -> Result<Function, Complaint> {
-    let complain = |error: &BundleError| Complaint::new(error.message(), for_bundle(error));
-    Function::parse(text).map_err(|error| complain(&error))
+    let complain = |error: BundleError| Complaint::new(error.message.as_str(), for_bundle(&error));
+    Function::parse(text).map_err(complain)
 }

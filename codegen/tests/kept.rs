@@ -91,6 +91,12 @@ fn arguments_are_told_apart() {
     ] {
         refused(&with(load), said);
     }
+    let rows = "\"rows\":[1,2]";
+    assert!(text.contains(rows));
+    refused(
+        &text.replace(rows, "\"rows\":[1,1,1]"),
+        "more rows than joints",
+    );
     for (words, said) in [
         ("\"load\", \"load\"", "expected arguments of the function"),
         ("\"load\", \"wind\"", "expected arguments of the function"),

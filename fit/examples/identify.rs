@@ -10,8 +10,7 @@ use std::error::Error;
 use dalembert_fit::random::{Random, within};
 use dalembert_fit::simulate::{Recording, record};
 use dalembert_fit::{
-    Accumulator, Effort, Model, Options, Prior, consistent, cross_validation, excite, fit,
-    identified,
+    Accumulator, Effort, Model, Options, consistent, cross_validation, excite, fit, identified,
 };
 use dalembert_model::read::parse_bytes;
 use dalembert_model::robot::write;
@@ -68,7 +67,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for file in &files {
         all.merge(file)?;
     }
-    let found = fit(&model, &all, &Prior::None)?;
+    let found = fit(&model, &all)?;
     println!("\n{:>12} {:>12}  parameter", "value", "std. error");
     for k in 0..model.columns().len() {
         let [value, error] = [found.parameters[k], found.standard_errors[k]];
@@ -78,10 +77,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("not excited: {one}");
     }
     println!("\nresiduals of logs that were left out, N·m: before -> after");
-    for (k, file) in cross_validation(&model, &files, &Prior::None)?
-        .iter()
-        .enumerate()
-    {
+    for (k, file) in cross_validation(&model, &files)?.iter().enumerate() {
         let each = file.before.iter().zip(&file.after);
         let each: Vec<String> = each.map(|(b, a)| format!("{b:.2} -> {a:.2}")).collect();
         println!("log {k}: {}", each.join(", "));

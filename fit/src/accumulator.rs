@@ -48,13 +48,6 @@ impl Row<'_> {
         row
     }
 
-    /// Returns z_i.
-    pub(crate) fn torque(&self) -> Vec<f64> {
-        let width = self.columns.len() + 1;
-        let rows = self.factor.chunks(width).take(width - 1);
-        rows.map(|row| row[width - 1]).collect()
-    }
-
     /// Returns ρ_i²: the residual that a fit of this joint alone leaves, columns independent.
     pub(crate) fn rest(&self) -> f64 {
         let last = self.factor.last().copied().unwrap_or(0.0);
@@ -117,38 +110,12 @@ impl Accumulator {
         Ok(())
     }
 
-    /// Adds a state by what a generated `regressor` returns: rows over the base parameters
-    /// alone; columns of friction and offsets come from the velocities.
-    ///
-    /// The robot that it was generated from has to have the drives' inertias and viscous
-    /// friction that [`Options`](crate::Options) ask for, so that the columns are the same.
-    ///
-    /// # Errors
-    /// As [`Accumulator::add`].
-    pub fn add_generated<const K: usize>(
-        &mut self,
-        model: &Model,
-        y: &[[f64; K]],
-        qd: &[f64],
-        tau: &[f64],
-    ) -> Result<(), Error> {
-        for (argument, expected, found) in
-            [("y", self.rows.len(), y.len()), ("y[0]", model.base(), K)]
-        {
-            if found != expected {
-                return Err(Error::Length {
-                    argument,
-                    expected,
-                    found,
-                });
-            }
-        }
-        self.add_columns(model, y.as_flattened(), qd, tau, 1)
-    }
-
     /// Adds states by what a generated `regressor` returns for many of them, column by column:
     /// entry (i, k) of state s at `(i * base + k) * states + s`, velocities and torques of
-    /// joint i at `i * states + s`.
+    /// joint i at `i * states + s`. Columns of friction and offsets come from the velocities.
+    ///
+    /// The robot that it was generated from is [`Model::generator_robot`], so that the columns
+    /// are the same.
     ///
     /// # Errors
     /// As [`Accumulator::add`]; an index is that of the array.

@@ -26,7 +26,7 @@ mod body;
 
 use dalembert_codegen::workspace::Parameter;
 
-use crate::dense::{apply, back_substitute, dot};
+use crate::dense::{apply, back_substitute, dot, split};
 use crate::error::Error;
 use crate::fit::Fit;
 use crate::model::{Column, Model, place};
@@ -87,19 +87,16 @@ pub fn consistent(model: &Model, fit: &Fit) -> Result<Bodies, Error> {
     let width = model.columns().len();
     let unknowns = unknowns(model);
     let map = map(model, &unknowns);
-    let r: Vec<&[f64]> = (fit.factor.chunks(width + 1).take(width))
-        .map(|row| &row[..width])
-        .collect();
     // R M, and R π̂.
     let mut metric = vec![0.0; width * unknowns.len()];
-    for (i, row) in r.iter().enumerate() {
+    for (i, row) in fit.factor.chunks(width).enumerate() {
         for (k, r) in row.iter().enumerate().filter(|(_, r)| **r != 0.0) {
             for (sum, m) in metric[i * unknowns.len()..].iter_mut().zip(&map[k]) {
                 *sum += r * m;
             }
         }
     }
-    let wanted: Vec<f64> = r.iter().map(|row| dot(row, &fit.parameters)).collect();
+    let wanted = apply(&fit.factor, &fit.parameters);
 
     let barrier = Barrier::new(model, &unknowns, &fit.noise);
     let mut theta = barrier.start();
@@ -172,12 +169,7 @@ fn newton(
     for row in barrier.rows(theta).ok_or(Error::NotConverged)? {
         all.push(row.iter().map(|x| root * x));
     }
-    let whole = all.reduced();
-    let stride = count + 1;
-    let r: Vec<f64> = (0..count * count)
-        .map(|i| whole[i / count * stride + i % count])
-        .collect();
-    let z: Vec<f64> = (0..count).map(|i| whole[i * stride + count]).collect();
+    let (r, z) = split(&all.reduced(), count);
     let along = back_substitute(&r, &z);
     match along.iter().all(|x| x.is_finite()) {
         true => Ok(along),
@@ -187,44 +179,37 @@ fn newton(
 
 /// Returns θ: what the columns of the model are sums of.
 fn unknowns(model: &Model) -> Vec<Unknown> {
-    let n = model.joints();
-    let mut unknowns: Vec<Unknown> = (0..n)
+    let mut unknowns: Vec<Unknown> = (0..model.joints())
         .flat_map(|joint| (0..10).map(move |k| Unknown::Link(joint, k)))
         .collect();
-    for base in 0..model.base() {
-        for (parameter, _) in model.combination(base) {
-            let unknown = unknown(*parameter);
-            if !unknowns.contains(&unknown) {
-                unknowns.push(unknown);
-            }
+    for (unknown, _) in model.columns().iter().flat_map(|own| terms(model, *own)) {
+        if !unknowns.contains(&unknown) {
+            unknowns.push(unknown);
         }
     }
-    unknowns.extend(model.columns().iter().filter_map(|column| match column {
-        Column::Base(_) => None,
-        Column::Coulomb(joint) => Some(Unknown::Coulomb(*joint)),
-        Column::Offset(joint) => Some(Unknown::Offset(*joint)),
-    }));
     unknowns
 }
 
-fn unknown(parameter: Parameter) -> Unknown {
-    match parameter {
+/// Returns what a column is a sum of, each with its factor.
+fn terms(model: &Model, column: Column) -> Vec<(Unknown, f64)> {
+    let unknown = |parameter: Parameter| match parameter {
         Parameter::Link(joint, own) => Unknown::Link(joint, place(own)),
         Parameter::Armature(joint) => Unknown::Armature(joint),
         Parameter::Viscous(joint) => Unknown::Viscous(joint),
+    };
+    match column {
+        Column::Base(base) => (model.combination(base).iter())
+            .map(|(parameter, factor)| (unknown(*parameter), *factor))
+            .collect(),
+        Column::Coulomb(joint) => vec![(Unknown::Coulomb(joint), 1.0)],
+        Column::Offset(joint) => vec![(Unknown::Offset(joint), 1.0)],
     }
 }
 
 /// Returns M, a row a column of the model: π = M θ.
 fn map(model: &Model, unknowns: &[Unknown]) -> Vec<Vec<f64>> {
     let rows = model.columns().iter().map(|column| {
-        let terms: Vec<(Unknown, f64)> = match column {
-            Column::Base(base) => (model.combination(*base).iter())
-                .map(|(parameter, factor)| (unknown(*parameter), *factor))
-                .collect(),
-            Column::Coulomb(joint) => vec![(Unknown::Coulomb(*joint), 1.0)],
-            Column::Offset(joint) => vec![(Unknown::Offset(*joint), 1.0)],
-        };
+        let terms = terms(model, *column);
         let entry = |of: &Unknown| {
             let own = terms.iter().filter(|(unknown, _)| unknown == of);
             own.map(|(_, factor)| factor).sum()

@@ -2,7 +2,7 @@
 
 use crate::accumulator::Accumulator;
 use crate::error::Error;
-use crate::fit::{Prior, fit};
+use crate::fit::fit;
 use crate::model::Model;
 
 /// Residuals of a log, root mean squares, an entry a joint.
@@ -18,11 +18,7 @@ pub struct FileResidual {
 ///
 /// # Errors
 /// [`Error::OneFile`] and those of [`fit`].
-pub fn cross_validation(
-    model: &Model,
-    files: &[Accumulator],
-    prior: &Prior,
-) -> Result<Vec<FileResidual>, Error> {
+pub fn cross_validation(model: &Model, files: &[Accumulator]) -> Result<Vec<FileResidual>, Error> {
     if files.len() < 2 {
         return Err(Error::OneFile);
     }
@@ -42,7 +38,7 @@ pub fn cross_validation(
             others.merge(&rest)?;
         }
         before.merge(file)?;
-        let fit = fit(model, &others, prior)?;
+        let fit = fit(model, &others)?;
         Ok(FileResidual {
             before: file.residual(model, model.parameters())?,
             after: file.residual(model, &fit.parameters)?,
@@ -80,14 +76,10 @@ const MOST: usize = 8;
 pub fn disagreeing(
     model: &Model,
     files: &[Accumulator],
-    prior: &Prior,
     found: &[FileResidual],
 ) -> Result<Vec<Disagreement>, Error> {
     // A log too short for parameters of its own is not judged.
-    let own: Vec<_> = files
-        .iter()
-        .map(|file| fit(model, file, prior).ok())
-        .collect();
+    let own: Vec<_> = files.iter().map(|file| fit(model, file).ok()).collect();
     let mut rest: Vec<usize> = (0..files.len()).collect();
     let (mut residuals, mut found) = (found.to_vec(), Vec::new());
     loop {
@@ -116,7 +108,7 @@ pub fn disagreeing(
         }
         rest.retain(|file| *file != one.file);
         let kept: Vec<Accumulator> = rest.iter().map(|file| files[*file].clone()).collect();
-        residuals = cross_validation(model, &kept, prior)?;
+        residuals = cross_validation(model, &kept)?;
     }
 }
 

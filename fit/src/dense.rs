@@ -42,6 +42,23 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
+/// Returns R, whole rows, and z of a triangle [R z; 0 ρ].
+pub(crate) fn split(factor: &[f64], columns: usize) -> (Vec<f64>, Vec<f64>) {
+    let rows = factor.chunks(columns + 1).take(columns);
+    let z = rows.clone().map(|row| row[columns]).collect();
+    let r = rows.flat_map(|row| &row[..columns]).copied().collect();
+    (r, z)
+}
+
+/// Computes the norm of each column.
+pub(crate) fn norms(a: &[f64], columns: usize) -> Vec<f64> {
+    let norm = |k: usize| {
+        let squares = a.iter().skip(k).step_by(columns).map(|x| x.powi(2));
+        libm::sqrt(squares.sum())
+    };
+    (0..columns).map(norm).collect()
+}
+
 /// A singular value decomposition by its columns: A v_k = σ_k u_k.
 #[derive(Clone, Debug)]
 pub(crate) struct Singular {

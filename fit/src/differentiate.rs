@@ -117,12 +117,6 @@ impl Differentiator {
             -sum(bend, &|x| libm::cos(x)) / (omega * omega),
         ]
     }
-
-    /// Returns the standard deviations of q, q̇ and q̈ for positions with independent errors of one.
-    pub fn noise(&self) -> [f64; 3] {
-        let size = |weights: &Vec<f64>| libm::sqrt(weights.iter().map(|w| w * w).sum());
-        self.weights.each_ref().map(size)
-    }
 }
 
 /// Computes q, q̇ and q̈ of a joint's positions. Of the k-th position it is the (k − half)-th

@@ -12,8 +12,8 @@
 pub(crate) mod noise;
 
 use crate::accumulator::Accumulator;
-use crate::dense::{apply, back_substitute, dot, over, singular};
-use crate::error::{Error, check};
+use crate::dense::{apply, back_substitute, dot, norms, over, singular, split};
+use crate::error::Error;
 use crate::model::Model;
 use crate::reference::{Reference, weighted};
 use crate::unexcited::{Unexcited, Weighting, separated};
@@ -21,31 +21,6 @@ use crate::unexcited::{Unexcited, Weighting, separated};
 /// Combinations that give less torque than so much of that in the reference motion are not
 /// excited.
 pub const LEAST_EXCITATION: f64 = 1e-3;
-
-/// What is known of parameters before there are data.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub enum Prior {
-    /// Nothing.
-    #[default]
-    None,
-    /// The robot file's parameters are right within standard errors, one a column, in the
-    /// parameters' units; infinite where nothing is known. A ridge.
-    File(Vec<f64>),
-}
-
-impl Prior {
-    /// Returns what the prior adds to the singular value of a direction of parameters.
-    fn value(&self, direction: &[f64]) -> f64 {
-        match self {
-            Prior::None => 0.0,
-            Prior::File(errors) => {
-                let parts = direction.iter().zip(errors);
-                let squares = parts.map(|(x, error)| (x / error).powi(2));
-                libm::sqrt(squares.sum())
-            }
-        }
-    }
-}
 
 /// Identified parameters.
 #[derive(Clone, Debug)]
@@ -67,47 +42,32 @@ pub struct Fit {
     pub unexcited: Vec<Unexcited>,
     /// Number of states.
     pub states: u64,
-    /// R of the weighted data, without the prior, and z.
+    /// R of the weighted data.
     pub(crate) factor: Vec<f64>,
 }
 
 /// Identifies the parameters of a model from what was accumulated.
 ///
 /// # Errors
-/// [`Error::OtherModel`], [`Error::TooFew`], and of a prior with numbers that are no standard
-/// errors [`Error::Option`] and [`Error::Length`].
-pub fn fit(model: &Model, data: &Accumulator, prior: &Prior) -> Result<Fit, Error> {
+/// [`Error::OtherModel`] and [`Error::TooFew`].
+pub fn fit(model: &Model, data: &Accumulator) -> Result<Fit, Error> {
     data.matches(model)?;
     let width = model.columns().len();
     let noise = noise::noise(data)?;
     let scales: Vec<f64> = noise.iter().map(|noise| 1.0 / noise).collect();
-    let mut all = weighted(data, width, &scales);
-    let factor = all.clone().reduced();
-    if let Prior::File(errors) = prior {
-        add_prior(model, errors, &mut all)?;
-    }
-    let whole = all.reduced();
-    let stride = width + 1;
-    let r: Vec<f64> = (0..width * width)
-        .map(|i| whole[i / width * stride + i % width])
-        .collect();
-    let z: Vec<f64> = (0..width).map(|i| whole[i * stride + width]).collect();
-
+    let (r, z) = split(&weighted(data, width, &scales).reduced(), width);
     let reference = Reference::new(model, &noise)?;
     let root = libm::sqrt(data.states() as f64);
     let found = singular(&over(&r, &reference.r, width), width);
     let before = apply(&reference.r, model.parameters());
     let least = LEAST_EXCITATION * root;
-    let rounding = 1e-12 * found.values.iter().fold(0.0f64, |a, b| a.max(*b));
     let mut y = vec![0.0; width];
     let mut variances = vec![0.0f64; width];
     let mut directions = Vec::new();
     for k in 0..width {
         let (value, direction) = (found.values[k], &found.directions[k]);
         let parameters = back_substitute(&reference.r, direction);
-        // What the data do not tell a prior may, however weak: then it is most of the value.
-        let excited =
-            value >= least || value >= rounding && 2.0 * prior.value(&parameters) >= value;
+        let excited = value >= least;
         let along = match excited {
             true => dot(&found.images[k], &z) / (value * value),
             false => dot(direction, &before),
@@ -141,11 +101,11 @@ pub fn fit(model: &Model, data: &Accumulator, prior: &Prior) -> Result<Fit, Erro
         after: data.residual(model, &parameters)?,
         parameters,
         standard_errors: variances.into_iter().map(libm::sqrt).collect(),
-        condition: condition(&factor, width),
+        condition: condition(&r, width),
         noise,
         unexcited,
         states: data.states(),
-        factor,
+        factor: r,
     })
 }
 
@@ -192,52 +152,20 @@ fn remove(from: &mut [f64], unit: &[f64]) {
     }
 }
 
-fn add_prior(
-    model: &Model,
-    errors: &[f64],
-    all: &mut crate::triangle::Triangle,
-) -> Result<(), Error> {
-    let width = model.columns().len();
-    if errors.len() == width && errors.iter().any(|error| error.is_nan() || *error <= 0.0) {
-        return Err(Error::Option(
-            "standard errors of a prior have to be positive numbers, or infinite",
-        ));
-    }
-    let finite: Vec<f64> = (errors.iter())
-        .map(|error| if error.is_finite() { *error } else { 1.0 })
-        .collect();
-    check("prior", &finite, width)?;
-    for (k, error) in errors.iter().enumerate().filter(|(_, e)| e.is_finite()) {
-        let entry = |column: usize| match column {
-            _ if column == k => 1.0 / error,
-            _ if column == width => model.parameters()[k] / error,
-            _ => 0.0,
-        };
-        all.push((0..=width).map(entry));
-    }
-    Ok(())
-}
-
-/// Computes the condition of R, whole rows with a last column that is not part of it, its
-/// columns scaled to length one.
-pub(crate) fn condition(factor: &[f64], width: usize) -> f64 {
-    let values = singular(&unit_columns(factor, width), width).values;
+/// Computes the condition of R, its columns scaled to length one.
+pub(crate) fn condition(r: &[f64], width: usize) -> f64 {
+    let values = singular(&unit_columns(r, width), width).values;
     let largest = values.iter().fold(0.0f64, |a, b| a.max(*b));
     let least = values.iter().fold(f64::INFINITY, |a, b| a.min(*b));
     largest / least
 }
 
-/// Returns R without its last column and row, its columns scaled to length one.
-fn unit_columns(factor: &[f64], width: usize) -> Vec<f64> {
-    let entry = |i: usize, k: usize| factor[i * (width + 1) + k];
-    let norm = |k: usize| -> f64 {
-        let squares = (0..width).map(|i| entry(i, k).powi(2));
-        libm::sqrt(squares.sum())
-    };
-    let norms: Vec<f64> = (0..width).map(norm).collect();
-    let scaled = (0..width * width).map(|i| match norms[i % width] {
+/// Returns R, its columns scaled to length one.
+fn unit_columns(r: &[f64], width: usize) -> Vec<f64> {
+    let norms = norms(r, width);
+    let scaled = r.iter().enumerate().map(|(i, x)| match norms[i % width] {
         0.0 => 0.0,
-        norm => entry(i / width, i % width) / norm,
+        norm => x / norm,
     });
     scaled.collect()
 }

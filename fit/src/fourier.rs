@@ -117,7 +117,10 @@ impl Trajectory {
         for (i, (bound, _)) in self.used(limits).into_iter().enumerate() {
             // A little less than the limits: of a motion at the very limit rounding may
             // show more.
-            self.scale(i, limits[i].middle(), (1.0 - 1e-9) / bound);
+            let (middle, factor) = (limits[i].middle(), (1.0 - 1e-9) / bound);
+            self.middle[i] = middle + factor * (self.middle[i] - middle);
+            let own = self.cosines[i].iter_mut().chain(&mut self.sines[i]);
+            own.for_each(|x| *x *= factor);
         }
         self
     }
@@ -134,11 +137,5 @@ impl Trajectory {
                 *b -= along / norm * l;
             }
         }
-    }
-
-    fn scale(&mut self, joint: usize, middle: f64, factor: f64) {
-        self.middle[joint] = middle + factor * (self.middle[joint] - middle);
-        let own = self.cosines[joint].iter_mut();
-        own.chain(&mut self.sines[joint]).for_each(|x| *x *= factor);
     }
 }

@@ -48,7 +48,7 @@ pub use cross_validation::{Disagreement, FileResidual, cross_validation, disagre
 pub use differentiate::{Differentiator, differentiate};
 pub use error::Error;
 pub use excite::{Effort, excite};
-pub use fit::{Fit, Prior, fit};
+pub use fit::{Fit, fit};
 pub use fourier::Trajectory;
 pub use limits::Limits;
 pub use model::{Column, Model, Options};

@@ -5,6 +5,7 @@
 //! against what it gives in this motion, has no unit.
 
 use crate::accumulator::Accumulator;
+use crate::dense::{norms, split};
 use crate::error::Error;
 use crate::model::{Model, state};
 use crate::random::Random;
@@ -37,17 +38,9 @@ impl Reference {
         }
         let root = libm::sqrt(states as f64);
         let scales: Vec<f64> = noise.iter().map(|noise| 1.0 / (noise * root)).collect();
-        let all = weighted(&accumulator, width, &scales);
-        let whole = all.reduced();
-        let r: Vec<f64> = (0..width * width)
-            .map(|i| whole[i / width * (width + 1) + i % width])
-            .collect();
-        let norm = |k: usize| {
-            let squares = (0..=k).map(|i| r[i * width + k].powi(2));
-            libm::sqrt(squares.sum())
-        };
+        let (r, _) = split(&weighted(&accumulator, width, &scales).reduced(), width);
         Ok(Reference {
-            norms: (0..width).map(norm).collect(),
+            norms: norms(&r, width),
             r,
         })
     }

@@ -1,9 +1,9 @@
 //! Parts that merge give what the whole gives, and bytes come back.
 
 use dalembert_fit::random::Random;
-use dalembert_fit::{Accumulator, Error, Model, Options, Prior, fit};
+use dalembert_fit::{Accumulator, Error, Model, Options, fit};
 
-use crate::support::{ARMS, State, accumulated, file, guess, model, states, torques, truth};
+use crate::support::{ARMS, State, accumulated, arm, file, model, states, torques};
 
 /// Returns the states in contiguous parts, each in batches, merged from the first to the last.
 fn in_parts(
@@ -39,9 +39,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 #[test]
 fn partitions_do_not_matter() {
     for name in ARMS {
-        let truth = truth(name);
-        let model = model(&guess(&truth));
-        let right = crate::support::true_parameters(&truth);
+        let (model, right) = arm(name);
         let states = states(&model, 1500, 1);
         let mut random = Random::new(2);
         let tau: Vec<Vec<f64>> = (states.iter())
@@ -55,7 +53,7 @@ fn partitions_do_not_matter() {
         let both: Vec<_> = states.iter().zip(&tau).collect();
         let reversed: Vec<_> = both.iter().rev().copied().collect();
         let whole = in_parts(&model, &both, 1, 1500);
-        let wanted = fit(&model, &whole, &Prior::None).unwrap();
+        let wanted = fit(&model, &whole).unwrap();
         for (of, parts, batch) in [
             (&both, 1, 333),
             (&both, 2, 1500),
@@ -66,7 +64,7 @@ fn partitions_do_not_matter() {
         ] {
             let merged = in_parts(&model, of, parts, batch);
             assert_eq!(merged.states(), 1500);
-            let found = fit(&model, &merged, &Prior::None).unwrap();
+            let found = fit(&model, &merged).unwrap();
             for (what, a, b) in [
                 ("noise", &found.noise, &wanted.noise),
                 ("residuals", &found.after, &wanted.after),
@@ -86,39 +84,11 @@ fn partitions_do_not_matter() {
     }
 }
 
-/// Rows of a generated `regressor`, which has base parameters alone, give what `add` gives.
-#[test]
-fn rows_of_generated_regressors_are_completed() {
-    const K: usize = 14;
-    let robot = file("planar3r");
-    let model = model(&robot);
-    assert_eq!(model.base(), K);
-    let [mut added, mut generated] = [(); 2].map(|()| Accumulator::new(&model));
-    let width = model.columns().len();
-    for state in states(&model, 100, 5) {
-        let tau = torques(&state.y, model.parameters());
-        added
-            .add(&model, [&state.q, &state.qd, &state.qdd], &tau)
-            .unwrap();
-        let rows: Vec<[f64; K]> = (state.y.chunks(width))
-            .map(|row| row[..K].try_into().unwrap())
-            .collect();
-        generated
-            .add_generated(&model, &rows, &state.qd, &tau)
-            .unwrap();
-        let short = generated.add_generated(&model, &rows[1..], &state.qd, &tau);
-        assert!(matches!(short, Err(Error::Length { argument: "y", .. })));
-    }
-    assert_eq!(added, generated);
-}
-
 /// Residuals from the triangles are those of a second look at the states.
 #[test]
 fn residuals_need_no_second_look() {
-    let truth = truth("puma560");
-    let model = model(&guess(&truth));
+    let (model, right) = arm("puma560");
     let states = states(&model, 300, 3);
-    let right = crate::support::true_parameters(&truth);
     let mut random = Random::new(4);
     let data = accumulated(&model, &states, &right, Some(&mut random));
     let found = data.residual(&model, model.parameters()).unwrap();
@@ -184,14 +154,6 @@ fn bytes_are_refused_that_are_not_its_own() {
     );
 }
 
-/// The same columns, other masses: logs of one arm may be fitted from any file of it.
-#[test]
-fn masses_of_the_file_do_not_matter_to_the_accumulator() {
-    let truth = truth("ur10");
-    let [one, other] = [model(&truth), model(&guess(&truth))];
-    assert_eq!(one.fingerprint(), other.fingerprint());
-}
-
 #[test]
 fn a_state_that_is_refused_changes_nothing() {
     let model = model(&file("puma560"));
@@ -201,7 +163,7 @@ fn a_state_that_is_refused_changes_nothing() {
     assert!(data.add(&model, [&six, &six, &six], &bad).is_err());
     assert!(data.add(&model, [&six, &bad, &six], &six).is_err());
     assert_eq!(data, Accumulator::new(&model));
-    let few = fit(&model, &data, &Prior::None).unwrap_err();
+    let few = fit(&model, &data).unwrap_err();
     assert!(few.to_string().contains("there are 0 states"), "{few}");
 }
 
@@ -209,7 +171,7 @@ fn a_state_that_is_refused_changes_nothing() {
 /// same bits as one by one, in whatever numbers they come.
 #[test]
 fn columns_give_what_rows_give() {
-    let model = model(&guess(&truth("puma560")));
+    let (model, _) = arm("puma560");
     let (n, base, width) = (model.joints(), model.base(), model.columns().len());
     let states = states(&model, 300, 7);
     let mut rows = Accumulator::new(&model);

@@ -1,23 +1,21 @@
 //! Bodies exist, and are those of the free parameters wherever these have bodies.
 
 use dalembert_fit::random::Random;
-use dalembert_fit::{Prior, consistent, fit};
+use dalembert_fit::{consistent, fit};
 
-use crate::support::{ARMS, accumulated, guess, model, number, states, true_parameters, truth};
+use crate::support::{ARMS, accumulated, arm, number, states};
 
 #[test]
 fn free_parameters_that_have_bodies_are_kept() {
     for name in ARMS {
-        let truth = truth(name);
-        let model = model(&guess(&truth));
-        let right = true_parameters(&truth);
+        let (model, right) = arm(name);
         // With little noise the free parameters are next to those of bodies.
         let data = accumulated(&model, &states(&model, 500, 31), &right, None);
-        let mut free = fit(&model, &data, &Prior::None).unwrap();
+        let mut free = fit(&model, &data).unwrap();
         let exact = free.parameters.clone();
         let mut random = Random::new(3);
         let noisy = accumulated(&model, &states(&model, 500, 31), &right, Some(&mut random));
-        free = fit(&model, &noisy, &Prior::None).unwrap();
+        free = fit(&model, &noisy).unwrap();
         free.parameters = exact;
         let bodies = consistent(&model, &free).unwrap();
         assert!(
@@ -34,12 +32,10 @@ fn free_parameters_that_have_bodies_are_kept() {
 #[test]
 fn bodies_of_noisy_data_exist() {
     for name in ARMS {
-        let truth = truth(name);
-        let model = model(&guess(&truth));
-        let right = true_parameters(&truth);
+        let (model, right) = arm(name);
         let mut random = Random::new(33);
         let data = accumulated(&model, &states(&model, 300, 32), &right, Some(&mut random));
-        let free = fit(&model, &data, &Prior::None).unwrap();
+        let free = fit(&model, &data).unwrap();
         let bodies = consistent(&model, &free).unwrap();
         for link in &bodies.links {
             assert!(link[0] > 0.0);

@@ -1,11 +1,9 @@
 //! Velocities and accelerations of encoders: gains, windows, and what they do to parameters.
 
 use dalembert_fit::simulate::{Log, Recording, record};
-use dalembert_fit::{
-    Accumulator, Differentiator, Effort, Model, Prior, differentiate, excite, fit,
-};
+use dalembert_fit::{Accumulator, Differentiator, Effort, Model, differentiate, excite, fit};
 
-use crate::support::{guess, model, noise, true_parameters, truth};
+use crate::support::{arm, noise};
 
 /// Exact for motion of degree 4, at the place of the window's middle.
 #[test]
@@ -41,7 +39,6 @@ fn windows_are_as_long_as_the_motion_lets_them() {
         if filter.half() < Differentiator::LONGEST {
             let longer = Differentiator::new(period, filter.half() + 1).unwrap();
             assert!(off(&longer) > Differentiator::ERROR);
-            assert!(longer.noise()[2] < filter.noise()[2]);
         }
     }
     let said = Differentiator::for_motion(0.1, 5.0)
@@ -61,9 +58,7 @@ fn windows_are_as_long_as_the_motion_lets_them() {
 ///
 /// Holds each joint's residual to within 5 % of its noise.
 fn encoder_bias(seeds: u64) -> [f64; 2] {
-    let truth = truth("puma560");
-    let model = model(&guess(&truth));
-    let right = true_parameters(&truth);
+    let (model, right) = arm("puma560");
     let sigma: Vec<f64> = (0..6).map(noise).collect();
     let effort = Effort {
         starts: 8,
@@ -83,7 +78,7 @@ fn encoder_bias(seeds: u64) -> [f64; 2] {
             seed,
         };
         let log = record(&model, &right, &trajectory, &recording).unwrap();
-        let found = fit(&model, &differentiated(&model, &log, &filter), &Prior::None).unwrap();
+        let found = fit(&model, &differentiated(&model, &log, &filter)).unwrap();
         assert!(found.unexcited.is_empty());
         for (i, (after, noise)) in found.after.iter().zip(&sigma).enumerate() {
             assert!(

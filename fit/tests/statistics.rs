@@ -1,22 +1,20 @@
 //! Standard errors mean what they say.
 
+use dalembert_fit::fit;
 use dalembert_fit::random::Random;
-use dalembert_fit::{Prior, fit};
 
-use crate::support::{ARMS, accumulated, guess, model, states, true_parameters, truth};
+use crate::support::{ARMS, accumulated, arm, states};
 
 /// Returns, over `seeds` logs of an arm that differ by the noise of the torques alone, the part
 /// of all parameters that lie within three standard errors, and the root mean square in these.
 fn coverage(name: &str, seeds: u64, count: usize) -> [f64; 2] {
-    let truth = truth(name);
-    let model = model(&guess(&truth));
-    let right = true_parameters(&truth);
+    let (model, right) = arm(name);
     let states = states(&model, count, 7);
     let [mut inside, mut all, mut squares] = [0.0; 3];
     for seed in 0..seeds {
         let mut random = Random::new(1000 + seed);
         let data = accumulated(&model, &states, &right, Some(&mut random));
-        let found = fit(&model, &data, &Prior::None).unwrap();
+        let found = fit(&model, &data).unwrap();
         assert!(found.unexcited.is_empty());
         for (k, error) in found.standard_errors.iter().enumerate() {
             let away = (found.parameters[k] - right[k]) / error;
@@ -53,12 +51,11 @@ fn three_standard_errors_cover_the_parameters_of_100_logs() {
 /// Joints are weighed by their noise: σ is that of each joint's torque.
 #[test]
 fn noise_is_each_joint_s_own() {
-    let truth = truth("puma560");
-    let model = model(&guess(&truth));
+    let (model, right) = arm("puma560");
     let states = states(&model, 2000, 8);
     let mut random = Random::new(9);
-    let data = accumulated(&model, &states, &true_parameters(&truth), Some(&mut random));
-    let found = fit(&model, &data, &Prior::None).unwrap();
+    let data = accumulated(&model, &states, &right, Some(&mut random));
+    let found = fit(&model, &data).unwrap();
     for (i, noise) in found.noise.iter().enumerate() {
         let wanted = crate::support::noise(i);
         assert!((noise / wanted - 1.0).abs() < 0.06, "{noise} {wanted}");
@@ -66,16 +63,13 @@ fn noise_is_each_joint_s_own() {
     }
 }
 
-/// Exact torques give the exact parameters, and a prior that is sure keeps the file's.
 #[test]
-fn exact_torques_and_sure_priors() {
+fn exact_torques_give_the_exact_parameters() {
     for name in ARMS {
-        let truth = truth(name);
-        let model = model(&guess(&truth));
-        let right = true_parameters(&truth);
+        let (model, right) = arm(name);
         let states = states(&model, 400, 10);
         let data = accumulated(&model, &states, &right, None);
-        let found = fit(&model, &data, &Prior::None).unwrap();
+        let found = fit(&model, &data).unwrap();
         for (k, right) in right.iter().enumerate() {
             let error = (found.parameters[k] - right).abs();
             assert!(
@@ -84,20 +78,5 @@ fn exact_torques_and_sure_priors() {
                 model.name(k)
             );
         }
-        let mut random = Random::new(12);
-        let noisy = accumulated(&model, &states, &right, Some(&mut random));
-        let sure = Prior::File(vec![1e-9; right.len()]);
-        let kept = fit(&model, &noisy, &sure).unwrap();
-        for (kept, file) in kept.parameters.iter().zip(model.parameters()) {
-            assert!((kept - file).abs() < 1e-6, "{kept} {file}");
-        }
-        let unsure = Prior::File(vec![f64::INFINITY; right.len()]);
-        let free = fit(&model, &noisy, &unsure).unwrap();
-        assert_eq!(
-            free.parameters,
-            fit(&model, &noisy, &Prior::None).unwrap().parameters
-        );
-        assert!(fit(&model, &noisy, &Prior::File(vec![0.0; right.len()])).is_err());
-        assert!(fit(&model, &noisy, &Prior::File(vec![1.0])).is_err());
     }
 }

@@ -1,9 +1,9 @@
 //! What data do not tell is named, with a motion that tells it.
 
 use dalembert_fit::unexcited::Motion;
-use dalembert_fit::{Accumulator, Prior, fit};
+use dalembert_fit::{Accumulator, fit};
 
-use crate::support::{ARMS, State, guess, model, states, torques, true_parameters, truth};
+use crate::support::{ARMS, State, arm, states, torques};
 
 /// States of a part of the motion.
 fn only(
@@ -42,12 +42,10 @@ fn add(data: &mut Accumulator, model: &dalembert_fit::Model, some: &[State], rig
 #[test]
 fn poses_tell_weights_alone() {
     for name in ARMS {
-        let truth = truth(name);
-        let model = model(&guess(&truth));
-        let right = true_parameters(&truth);
+        let (model, right) = arm(name);
         let mut data = Accumulator::new(&model);
         add(&mut data, &model, &only(&model, |_| false, false), &right);
-        let still = fit(&model, &data, &Prior::None).unwrap();
+        let still = fit(&model, &data).unwrap();
         assert!(still.condition > 1e12);
         let friction: Vec<usize> = (0..model.columns().len())
             .filter(|k| model.name(*k).starts_with("coulomb"))
@@ -79,7 +77,7 @@ fn poses_tell_weights_alone() {
             assert!(*after < 0.12, "{after}");
         }
         add(&mut data, &model, &only(&model, |_| true, true), &right);
-        let moved = fit(&model, &data, &Prior::None).unwrap();
+        let moved = fit(&model, &data).unwrap();
         assert!(moved.unexcited.is_empty(), "{}", moved.unexcited[0]);
     }
 }
@@ -87,12 +85,10 @@ fn poses_tell_weights_alone() {
 /// A joint that never moved: what is said names it, and moving it helps.
 #[test]
 fn a_joint_that_never_moved_is_named() {
-    let truth = truth("puma560");
-    let model = model(&guess(&truth));
-    let right = true_parameters(&truth);
+    let (model, right) = arm("puma560");
     let mut data = Accumulator::new(&model);
     add(&mut data, &model, &only(&model, |i| i != 4, true), &right);
-    let found = fit(&model, &data, &Prior::None).unwrap();
+    let found = fit(&model, &data).unwrap();
     assert!(!found.unexcited.is_empty());
     for one in &found.unexcited {
         let said = one.to_string();
@@ -103,53 +99,4 @@ fn a_joint_that_never_moved_is_named() {
         names.iter().any(|name| name.contains("viscous5")),
         "{names:?}"
     );
-}
-
-/// A ridge tells what data do not.
-#[test]
-fn a_prior_excites_everything() {
-    let truth = truth("ur10");
-    let model = model(&guess(&truth));
-    let mut data = Accumulator::new(&model);
-    add(
-        &mut data,
-        &model,
-        &only(&model, |_| false, false),
-        &true_parameters(&truth),
-    );
-    let prior = Prior::File(vec![0.5; model.columns().len()]);
-    let found = fit(&model, &data, &prior).unwrap();
-    for error in &found.standard_errors {
-        assert!(*error <= 0.5 * (1.0 + 1e-9), "{error}");
-    }
-}
-
-/// A prior of which nothing is known of friction tells all else, and not friction.
-#[test]
-fn a_prior_tells_what_it_is_finite_for() {
-    let truth = truth("ur10");
-    let model = model(&guess(&truth));
-    let mut data = Accumulator::new(&model);
-    let still = only(&model, |_| false, false);
-    add(&mut data, &model, &still, &true_parameters(&truth));
-    let friction = |k: usize| {
-        let name = model.name(k);
-        name.starts_with("coulomb") || name.starts_with("viscous")
-    };
-    let columns = 0..model.columns().len();
-    let each = columns.clone().map(|k| match friction(k) {
-        true => f64::INFINITY,
-        false => 0.5,
-    });
-    let found = fit(&model, &data, &Prior::File(each.collect())).unwrap();
-    for k in columns.clone() {
-        assert_eq!(found.standard_errors[k].is_finite(), !friction(k), "{k}");
-    }
-    assert_eq!(found.unexcited.len(), 12);
-    // One that is finite for nothing is none.
-    let nothing = Prior::File(columns.map(|_| f64::INFINITY).collect());
-    let [with, without] = [nothing, Prior::None].map(|prior| fit(&model, &data, &prior).unwrap());
-    assert_eq!(with.parameters, without.parameters);
-    assert_eq!(with.standard_errors, without.standard_errors);
-    assert_eq!(with.unexcited, without.unexcited);
 }

@@ -2,8 +2,7 @@
 
 use dalembert_fit::simulate::{Collision, Controlled, Log, Recording, control};
 use dalembert_fit::{
-    Accumulator, Differentiator, Effort, Model, Prior, Trajectory, Watch, differentiate, excite,
-    fit,
+    Accumulator, Differentiator, Effort, Model, Trajectory, Watch, differentiate, excite, fit,
 };
 use dalembert_model::robot::Robot;
 
@@ -172,7 +171,7 @@ fn a_payload_is_found() {
     });
     let right = [&scene.truth, &loaded].map(true_parameters);
     let away = |half: usize, from: usize| -> f64 {
-        let found = fit(&scene.model, &halves[half], &Prior::None).unwrap();
+        let found = fit(&scene.model, &halves[half]).unwrap();
         let parts = found.parameters.iter().zip(&right[from]);
         let parts = parts.zip(&found.standard_errors);
         let squares: f64 = parts.map(|((x, r), e)| ((x - r) / e).powi(2)).sum();

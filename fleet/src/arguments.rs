@@ -1,8 +1,12 @@
 //! Arguments of the functions: n columns, or one list of n, for each of q, q̇, q̈ and τ.
 
-use datafusion::arrow::array::{Array, ArrayRef, AsArray};
+use datafusion::arrow::array::{
+    Array, ArrayRef, AsArray, BooleanArray, FixedSizeListArray, Float64Array,
+};
 use datafusion::arrow::buffer::NullBuffer;
+use datafusion::arrow::compute::filter;
 use datafusion::arrow::datatypes::{DataType, Field, Float64Type};
+use datafusion::arrow::error::ArrowError;
 use datafusion::common::plan_err;
 use datafusion::error::Result;
 use std::sync::Arc;
@@ -26,6 +30,17 @@ const NAMES: [&str; 4] = ["q", "qd", "qdd", "tau"];
 pub(crate) fn list(joints: usize) -> DataType {
     let item = Arc::new(Field::new_list_field(DataType::Float64, true));
     DataType::FixedSizeList(item, joints as i32)
+}
+
+/// Returns lists of n numbers each.
+pub(crate) fn lists(
+    n: usize,
+    values: Vec<f64>,
+    nulls: Option<NullBuffer>,
+) -> Result<FixedSizeListArray> {
+    let item = Arc::new(Field::new_list_field(DataType::Float64, true));
+    let values = Arc::new(Float64Array::from(values));
+    Ok(FixedSizeListArray::try_new(item, n as i32, values, nulls)?)
 }
 
 impl Shape {
@@ -163,26 +178,27 @@ pub(crate) struct Piece {
 }
 
 impl Arguments {
-    /// Calls with all states that have no null, piece after piece.
-    pub(crate) fn each_valid(&self, mut call: impl FnMut(&Piece) -> Result<()>) -> Result<()> {
-        let mut piece = Piece::default();
+    /// Returns those of the states that have no null.
+    pub(crate) fn valid(self) -> Result<Arguments> {
         let Some(nulls) = &self.nulls else {
-            for first in (0..self.rows).step_by(PIECE) {
-                let last = self.rows.min(first + PIECE);
-                self.copy(first, last, &mut piece);
-                call(&piece)?;
-            }
-            return Ok(());
+            return Ok(self);
         };
-        let valid: Vec<usize> = nulls.valid_indices().collect();
-        for rows in valid.chunks(PIECE) {
-            self.gather(rows, &mut piece);
-            call(&piece)?;
+        let is_valid = BooleanArray::from(nulls.inner().clone());
+        let kept = |array: &ArrayRef| filter(array, &is_valid);
+        let mut sources = Vec::with_capacity(self.sources.len());
+        for arrays in &self.sources {
+            sources.push(arrays.iter().map(kept).collect::<Result<_, ArrowError>>()?);
         }
-        Ok(())
+        Ok(Arguments {
+            joints: self.joints,
+            rows: is_valid.true_count(),
+            time: self.time.as_ref().map(kept).transpose()?,
+            sources,
+            nulls: None,
+        })
     }
 
-    /// Calls with all states, those of nulls too, whatever stands there.
+    /// Calls with all states, piece after piece, those of nulls too, whatever stands there.
     pub(crate) fn each(&self, mut call: impl FnMut(usize, &Piece) -> Result<()>) -> Result<()> {
         let mut piece = Piece::default();
         for first in (0..self.rows).step_by(PIECE) {
@@ -218,32 +234,6 @@ impl Arguments {
                     for column in columns {
                         let values = column.as_primitive::<Float64Type>().values();
                         to.extend_from_slice(&values[first..last]);
-                    }
-                }
-            }
-        }
-    }
-
-    fn gather(&self, rows: &[usize], piece: &mut Piece) {
-        let (n, count) = (self.joints, rows.len());
-        piece.count = count;
-        if let Some(time) = &self.time {
-            let values = time.as_primitive::<Float64Type>().values();
-            piece.time = rows.iter().map(|row| values[*row]).collect();
-        }
-        for (source, to) in self.sources.iter().zip(&mut piece.quantities) {
-            to.clear();
-            match &source[..] {
-                [lists] if matches!(lists.data_type(), DataType::FixedSizeList(..)) => {
-                    let values = lists.as_fixed_size_list().values();
-                    let values = values.as_primitive::<Float64Type>().values();
-                    let entry = |i: usize| rows.iter().map(move |row| values[row * n + i]);
-                    to.extend((0..n).flat_map(entry));
-                }
-                columns => {
-                    for column in columns {
-                        let values = column.as_primitive::<Float64Type>().values();
-                        to.extend(rows.iter().map(|row| values[*row]));
                     }
                 }
             }

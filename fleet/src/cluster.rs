@@ -3,7 +3,6 @@
 //! Nothing of this is secured: whoever reaches the ports reads what the executors can read.
 
 use std::net::SocketAddr;
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -42,8 +41,10 @@ pub async fn reach(address: &str) -> Result<(), Error> {
     Err(Error::new(format!("scheduler {address}: {why}")))
 }
 
-fn failed(why: impl std::fmt::Display) -> Error {
-    Error::new(why)
+fn session() -> SessionConfig {
+    let mut config = SessionConfig::new_with_ballista();
+    evaluate_once(&mut config);
+    config
 }
 
 /// Runs a scheduler until it is ended.
@@ -51,8 +52,7 @@ fn failed(why: impl std::fmt::Display) -> Error {
 /// # Errors
 /// An address that is taken, and those of Ballista.
 pub async fn scheduler(address: SocketAddr, functions: Functions) -> Result<(), Error> {
-    let builder = move |config: SessionConfig| {
-        let mut config = config;
+    let builder = move |mut config: SessionConfig| {
         evaluate_once(&mut config);
         let mut state = SessionStateBuilder::new()
             .with_default_features()
@@ -63,91 +63,45 @@ pub async fn scheduler(address: SocketAddr, functions: Functions) -> Result<(), 
         aggregates.extend(functions.aggregates.iter().cloned());
         Ok(state.build())
     };
-    let producer = || {
-        let mut config = SessionConfig::new_with_ballista();
-        evaluate_once(&mut config);
-        config
-    };
+    let host = address.ip().to_string();
     let config = SchedulerConfig {
-        bind_host: address.ip().to_string(),
-        external_host: address.ip().to_string(),
+        bind_host: host.clone(),
+        external_host: host,
         bind_port: address.port(),
         executor_timeout_seconds: LOST,
         expire_dead_executor_interval_seconds: 1,
         no_executors_grace_period_seconds: LOST,
         override_session_builder: Some(Arc::new(builder)),
-        override_config_producer: Some(Arc::new(producer)),
+        override_config_producer: Some(Arc::new(session)),
         ..SchedulerConfig::default()
     };
-    let cluster = BallistaCluster::new_from_config(&config)
-        .await
-        .map_err(failed)?;
-    start_server(cluster, address, Arc::new(config))
-        .await
-        .map_err(failed)
+    let cluster = BallistaCluster::new_from_config(&config).await;
+    let served = start_server(cluster.map_err(Error::new)?, address, Arc::new(config));
+    served.await.map_err(Error::new)
 }
 
-/// Where an executor is, and what it may use.
-#[derive(Clone, Debug)]
-pub struct Executor {
-    /// Where it listens, with the port of its results; that of its tasks is the next.
-    pub address: SocketAddr,
-    /// Host of the scheduler.
-    pub scheduler_host: String,
-    /// Port of the scheduler.
-    pub scheduler_port: u16,
-    /// Tasks at once.
-    pub threads: usize,
-    /// Bytes of the engine's pool.
-    pub memory: u64,
-    /// Folder for what stages pass on.
-    pub work: PathBuf,
-}
-
-/// Runs an executor until it is ended.
+/// Runs an executor until it is ended: `config` says where it is, with the port of its results
+/// (that of its tasks is the next), and what it may use.
 ///
 /// # Errors
 /// A scheduler that does not answer, an address that is taken, and those of Ballista.
-pub async fn executor(executor: Executor, functions: Functions) -> Result<(), Error> {
-    let Executor {
-        scheduler_host,
-        scheduler_port,
-        ..
-    } = executor.clone();
-    reach(&format!("{scheduler_host}:{scheduler_port}")).await?;
+pub async fn executor(config: ExecutorProcessConfig, functions: Functions) -> Result<(), Error> {
+    let scheduler = format!("{}:{}", config.scheduler_host, config.scheduler_port);
+    reach(&scheduler).await?;
     let mut registry = BallistaFunctionRegistry::default();
-    for scalar in functions.scalars {
-        registry
-            .scalar_functions
-            .insert(scalar.name().to_owned(), scalar);
-    }
-    for aggregate in functions.aggregates {
-        registry
-            .aggregate_functions
-            .insert(aggregate.name().to_owned(), aggregate);
-    }
-    let producer = || {
-        let mut config = SessionConfig::new_with_ballista();
-        evaluate_once(&mut config);
-        config
-    };
-    let host = executor.address.ip().to_string();
+    let scalars = functions.scalars.into_iter();
+    let scalars = scalars.map(|of| (of.name().to_owned(), of));
+    registry.scalar_functions.extend(scalars);
+    let aggregates = functions.aggregates.into_iter();
+    let aggregates = aggregates.map(|of| (of.name().to_owned(), of));
+    registry.aggregate_functions.extend(aggregates);
     let config = ExecutorProcessConfig {
-        bind_host: host.clone(),
-        external_host: Some(host),
-        port: executor.address.port(),
-        grpc_port: executor.address.port() + 1,
-        scheduler_host,
-        scheduler_port,
-        vcores: executor.threads,
-        work_dir: Some(executor.work.display().to_string()),
+        grpc_port: config.port + 1,
         executor_heartbeat_interval_seconds: HEARTBEAT,
-        memory_pool_size: Some(executor.memory),
         override_function_registry: Some(Arc::new(registry)),
-        override_config_producer: Some(Arc::new(producer)),
-        ..ExecutorProcessConfig::default()
+        override_config_producer: Some(Arc::new(session)),
+        ..config
     };
-    start_executor_process(Arc::new(config))
-        .await
-        .map_err(failed)
+    let served = start_executor_process(Arc::new(config));
+    served.await.map_err(Error::new)
 }

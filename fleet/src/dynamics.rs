@@ -4,6 +4,8 @@
 
 use std::fmt;
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use dalembert_fit::{Accumulator, Model, Options};
 use dalembert_jit::{Arm, Asked, Load, Native, Output, Place, Rows, RowsMut, Scalar};
@@ -35,18 +37,19 @@ pub trait Dynamics: fmt::Debug + Send + Sync + 'static {
     /// What went wrong; arrays have the lengths that `count` asks for.
     fn inverse_dynamics(&self, states: States<'_>, tau: &mut [f64]) -> Result<(), Error>;
 
-    /// Computes residuals of states in columns: measured torques less the robot's.
+    /// Computes residuals of so many states, q, q̇, q̈ and τ, in columns: measured torques less
+    /// the robot's.
     ///
     /// # Errors
     /// As [`Dynamics::inverse_dynamics`].
     fn residuals(
         &self,
-        states: States<'_>,
-        measured: &[f64],
+        count: usize,
+        [q, qd, qdd, measured]: &[Vec<f64>; 4],
         into: &mut Vec<f64>,
     ) -> Result<(), Error> {
         into.resize(measured.len(), 0.0);
-        self.inverse_dynamics(states, into)?;
+        self.inverse_dynamics(States { count, q, qd, qdd }, into)?;
         for (own, measured) in into.iter_mut().zip(measured) {
             *own = measured - *own;
         }
@@ -87,23 +90,16 @@ pub trait Dynamics: fmt::Debug + Send + Sync + 'static {
     }
 }
 
-fn no_model() -> Error {
+pub(crate) fn no_model() -> Error {
     Error::new("this robot was registered without the columns that a fit needs")
 }
 
 /// Any robot, at run time: a robot file or a URDF, its functions compiled in memory.
 pub struct Loaded {
     arm: Arm,
-    torques: usize,
-    fitted: Option<Fitted>,
-    notes: Vec<String>,
-}
-
-/// What a fit needs: the columns, and the machine code of the regressor.
-struct Fitted {
-    model: Model,
-    arm: Arm,
-    regressor: usize,
+    /// What a fit needs: the columns, and the machine code of the regressor.
+    fitted: Option<(Model, Arm)>,
+    evaluated: Arc<AtomicU64>,
 }
 
 impl fmt::Debug for Loaded {
@@ -134,17 +130,12 @@ impl Loaded {
     }
 
     fn with(arm: Arm, fit: bool) -> Result<Loaded, Error> {
-        let torques = place(&arm)?;
-        let fitted = match fit {
-            true => Some(Fitted::new(arm.robot())?),
-            false => None,
-        };
-        let notes = arm.notes().to_vec();
+        code(&arm)?.prepare_columns().map_err(Error::new)?;
+        let fitted = fit.then(|| fitted(arm.robot())).transpose()?;
         Ok(Loaded {
             arm,
-            torques,
             fitted,
-            notes,
+            evaluated: Arc::default(),
         })
     }
 
@@ -153,18 +144,19 @@ impl Loaded {
         self.arm.robot()
     }
 
-    /// Returns the robot as a robot file.
-    pub fn robot_file(&self) -> &str {
-        self.arm.robot_file()
-    }
-
     /// Returns what a user should know of the robot.
     pub fn notes(&self) -> &[String] {
-        &self.notes
+        self.arm.notes()
     }
 
-    fn native(&self) -> &Native {
-        self.arm.functions()[self.torques].native()
+    /// Returns the count of states that were evaluated.
+    pub fn evaluated(&self) -> Arc<AtomicU64> {
+        self.evaluated.clone()
+    }
+
+    fn count(&self, states: States<'_>) {
+        let count = states.count as u64;
+        self.evaluated.fetch_add(count, Ordering::Relaxed);
     }
 }
 
@@ -181,32 +173,22 @@ fn load(urdf: &dalembert_import::Options, output: Output) -> Load {
     }
 }
 
-/// Returns the place of the one function of an arm, its machine code ready for many states.
-fn place(arm: &Arm) -> Result<usize, Error> {
-    let found = arm
-        .functions()
-        .iter()
-        .position(|f| f.scalar() == Scalar::F64);
-    let place = found.ok_or_else(|| Error::new("the generator returned no function"))?;
-    let native = arm.functions()[place].native();
-    native.prepare_columns().map_err(Error::new)?;
-    Ok(place)
+/// Returns the machine code of the one function of an arm.
+fn code(arm: &Arm) -> Result<&Native, Error> {
+    let mut functions = arm.functions().iter();
+    let found = functions.find(|f| f.scalar() == Scalar::F64);
+    let found = found.ok_or_else(|| Error::new("the generator returned no function"))?;
+    Ok(found.native())
 }
 
-impl Fitted {
-    fn new(robot: &Robot) -> Result<Fitted, Error> {
-        let model = Model::new(robot, &Options::default())?;
-        let text = write(&model.generator_robot());
-        let load = load(&Default::default(), Output::Regressor);
-        let arm =
-            Arm::parse(&text, "the robot with its drives", None, &load).map_err(Error::new)?;
-        let regressor = place(&arm)?;
-        Ok(Fitted {
-            model,
-            arm,
-            regressor,
-        })
-    }
+fn fitted(robot: &Robot) -> Result<(Model, Arm), Error> {
+    let model = Model::new(robot, &Options::default())?;
+    let text = write(&model.generator_robot());
+    let load = load(&Default::default(), Output::Regressor);
+    let arm = Arm::parse(&text, "the robot with its drives", None, &load);
+    let arm = arm.map_err(Error::new)?;
+    code(&arm)?.prepare_columns().map_err(Error::new)?;
+    Ok((model, arm))
 }
 
 impl Dynamics for Loaded {
@@ -215,11 +197,13 @@ impl Dynamics for Loaded {
     }
 
     fn inverse_dynamics(&self, states: States<'_>, tau: &mut [f64]) -> Result<(), Error> {
-        call(self.native(), self.joints(), states, tau, self.joints())
+        self.count(states);
+        let native = code(&self.arm)?;
+        call(native, self.joints(), states, tau, self.joints())
     }
 
     fn model(&self) -> Option<&Model> {
-        self.fitted.as_ref().map(|fitted| &fitted.model)
+        self.fitted.as_ref().map(|(model, _)| model)
     }
 
     fn accumulate(
@@ -229,13 +213,12 @@ impl Dynamics for Loaded {
         room: &mut Vec<f64>,
         into: &mut Accumulator,
     ) -> Result<(), Error> {
-        let fitted = self.fitted.as_ref().ok_or_else(no_model)?;
-        let native = fitted.arm.functions()[fitted.regressor].native();
-        let entries = self.joints() * fitted.model.base();
+        self.count(states);
+        let (model, arm) = self.fitted.as_ref().ok_or_else(no_model)?;
+        let entries = self.joints() * model.base();
         room.resize(entries * states.count, 0.0);
-        call(native, self.joints(), states, room, entries)?;
-        into.add_columns(&fitted.model, room, states.qd, tau, states.count)?;
-        Ok(())
+        call(code(arm)?, self.joints(), states, room, entries)?;
+        Ok(into.add_columns(model, room, states.qd, tau, states.count)?)
     }
 }
 

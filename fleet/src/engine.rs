@@ -65,10 +65,9 @@ impl Engine {
             .with_memory_pool(pool)
             .build_arc()?;
         let context = SessionContext::new_with_config_rt(config(limits.partitions), runtime);
-        register(&context, name, robot);
         Ok(Engine {
+            functions: register(&context, name, robot),
             context,
-            functions: Functions::of(name, robot),
             limits,
             is_cluster: false,
         })
@@ -96,23 +95,18 @@ impl Engine {
             .build();
         let url = format!("df://{scheduler}");
         let context = SessionContext::remote_with_state(&url, state).await?;
-        // After it: becoming a cluster's resets the functions.
-        register(&context, name, robot);
         Ok(Engine {
+            // Only now: becoming a cluster's resets the functions.
+            functions: register(&context, name, robot),
             context,
-            functions: Functions::of(name, robot),
             limits,
             is_cluster: true,
         })
     }
 
-    /// Returns an aggregate by the end of its name.
-    fn aggregate(&self, suffix: &str) -> Result<Arc<AggregateUDF>, Error> {
-        let mut all = self.functions.aggregates.iter();
-        let found = all.find(|aggregate| aggregate.name().ends_with(suffix));
-        found
-            .cloned()
-            .ok_or_else(|| Error::new(format!("there is no aggregate `{suffix}`")))
+    /// Returns whether a cluster computes, and not this machine.
+    pub fn is_cluster(&self) -> bool {
+        self.is_cluster
     }
 
     /// Computes an aggregate that returns bytes of every log, in their order; a log with a row
@@ -127,7 +121,10 @@ impl Engine {
         going: &Going,
         mut done: impl FnMut(&Log),
     ) -> Result<Vec<Result<Vec<u8>, Bad>>, Error> {
-        let aggregate = self.aggregate(suffix)?;
+        let mut aggregates = self.functions.aggregates.iter();
+        let aggregate = aggregates
+            .find(|aggregate| aggregate.name().ends_with(suffix))
+            .ok_or_else(|| Error::new(format!("there is no aggregate `{suffix}`")))?;
         let with_time = suffix == "_residuals";
         // Of each partition a row group is in memory: as many at once as there is room for.
         let largest = logs.iter().map(|log| log.group).max().unwrap_or(0);
@@ -142,9 +139,8 @@ impl Engine {
                 // One large log is read in parts, many are read beside each other.
                 false => at_once.div_ceil(logs.len().max(1)),
             };
-            let aggregate = aggregate.clone();
             async move {
-                let found = self.one(&aggregate, with_time, log, partitions).await;
+                let found = self.one(aggregate, with_time, log, partitions).await;
                 (log, found)
             }
         });
@@ -181,21 +177,19 @@ impl Engine {
         let schema = table.schema().as_arrow().clone();
         let mut arguments = Vec::new();
         if with_time {
-            let kind = schema
-                .field_with_name(&log.columns.time)?
-                .data_type()
-                .clone();
-            arguments.push(time(&log.columns.time, &kind, log.columns.time_factor));
+            let name = &log.columns.time;
+            let (time, factor) = match schema.field_with_name(name)?.data_type() {
+                DataType::Timestamp(unit, _) => (cast(ident(name), DataType::Int64), per(*unit)),
+                _ => (ident(name), log.columns.time_factor),
+            };
+            arguments.push(scaled(time, factor));
         }
         for (source, factors) in log.layout.sources.iter().zip(&log.columns.factors) {
             match source {
-                Some(Source::List(name)) => arguments.push(ident(name.clone())),
+                Some(Source::List(name)) => arguments.push(ident(name)),
                 Some(Source::Columns(names)) => {
                     let each = names.iter().zip(factors);
-                    arguments.extend(each.map(|(name, factor)| match *factor {
-                        1.0 => ident(name.clone()),
-                        factor => cast(ident(name.clone()), DataType::Float64) * lit(factor),
-                    }));
+                    arguments.extend(each.map(|(name, factor)| scaled(ident(name), *factor)));
                 }
                 None => return Err(Error::new("its rates were not differentiated")),
             }
@@ -213,22 +207,18 @@ impl Engine {
 
 /// Finds the first row of a log that cannot be used.
 pub fn locate(log: &Log) -> Option<Bad> {
-    let whole = |why: Error| Some(Bad::whole(&log.name, why));
-    let blocks = match states(&log.path, &log.columns) {
-        Ok(blocks) => blocks,
-        Err(why) => return whole(why),
-    };
-    for block in blocks {
-        match block {
-            Err(why) => return whole(why),
-            Ok(block) => {
-                if let Some((row, what)) = block.not_finite() {
-                    return Some(Bad::row(&log.name, row, what));
-                }
+    let first = || -> Result<Option<(u64, String)>, Error> {
+        for block in states(&log.path, &log.columns)? {
+            if let Some(found) = block?.not_finite() {
+                return Ok(Some(found));
             }
         }
+        Ok(None)
+    };
+    match first() {
+        Ok(found) => found.map(|(row, what)| Bad::row(&log.name, row, what)),
+        Err(why) => Some(Bad::whole(&log.name, why)),
     }
-    None
 }
 
 /// Returns the address of a file, whatever characters it has.
@@ -239,13 +229,9 @@ fn location(path: &Path) -> Result<String, Error> {
     Ok(url.to_string())
 }
 
-fn time(name: &str, kind: &DataType, factor: f64) -> Expr {
-    let (whole, factor) = match kind {
-        DataType::Timestamp(unit, _) => (cast(ident(name), DataType::Int64), per(*unit)),
-        _ => (ident(name), factor),
-    };
+fn scaled(of: Expr, factor: f64) -> Expr {
     match factor {
-        1.0 => whole,
-        factor => cast(whole, DataType::Float64) * lit(factor),
+        1.0 => of,
+        factor => cast(of, DataType::Float64) * lit(factor),
     }
 }

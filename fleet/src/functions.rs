@@ -108,8 +108,8 @@ impl Functions {
     }
 }
 
-/// Registers a robot's functions by names that begin with `name`.
-pub fn register(context: &SessionContext, name: &str, robot: &Arc<dyn Dynamics>) {
+/// Registers a robot's functions by names that begin with `name`; returns them.
+pub fn register(context: &SessionContext, name: &str, robot: &Arc<dyn Dynamics>) -> Functions {
     let functions = Functions::of(name, robot);
     for scalar in &functions.scalars {
         context.register_udf(scalar.as_ref().clone());
@@ -119,6 +119,7 @@ pub fn register(context: &SessionContext, name: &str, robot: &Arc<dyn Dynamics>)
     }
     let state = context.state_ref();
     evaluate_once(state.write().config_mut());
+    functions
 }
 
 /// Switches off what would evaluate a call once a result that is read of it.

@@ -11,7 +11,7 @@ use crate::engine::{Engine, Limits};
 use crate::error::Error;
 use crate::logs::{Bad, Columns, Log, Mapping, convert, expand, inspect};
 use crate::output::Scratch;
-use crate::progress::{Counted, Going, Progress};
+use crate::progress::{Going, Progress};
 
 /// The robot of a command.
 #[derive(Args, Clone, Debug)]
@@ -81,6 +81,12 @@ pub fn bytes(text: &str) -> Result<u64, String> {
     size.ok_or_else(|| format!("`{text}`: 64M is the least, and 16E the most"))
 }
 
+/// Returns how many threads to use: the machine's, if none are asked for.
+pub fn threads(asked: Option<usize>) -> usize {
+    let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+    asked.unwrap_or_else(cores).max(1)
+}
+
 impl RobotArgs {
     /// Loads the robot; with `fit` the regressor too.
     ///
@@ -105,40 +111,28 @@ impl RobotArgs {
     /// a query is refused instead of answered by another robot.
     pub fn function_name(&self, robot: &Loaded) -> String {
         let stem = self.robot.file_stem().unwrap_or_default().to_string_lossy();
-        let plain = |c: char| {
-            if c.is_ascii_alphanumeric() {
-                c.to_ascii_lowercase()
-            } else {
-                '_'
-            }
-        };
-        let stem: String = stem.chars().map(plain).collect();
+        let stem = stem.to_ascii_lowercase();
+        let stem = stem.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
         let hash = robot.robot().input_hash();
-        let hash: String = hash
-            .iter()
-            .take(4)
-            .map(|byte| format!("{byte:02x}"))
-            .collect();
-        format!("{stem}_{hash}")
+        let hash = hash.iter().take(4).map(|byte| format!("{byte:02x}"));
+        format!("{stem}_{}", hash.collect::<String>())
     }
 }
 
 /// Logs that can be queried.
 pub struct Job {
     /// The robot, which counts what it evaluates.
-    pub robot: Arc<dyn Dynamics>,
-    /// The robot as it was loaded.
-    pub loaded: Arc<Loaded>,
+    pub robot: Arc<Loaded>,
     /// Where queries run.
     pub engine: Engine,
     /// The logs, in order.
     pub logs: Vec<Log>,
     /// How far it is.
     pub progress: Arc<Progress>,
-    going: Going,
+    /// Whether it goes on.
+    pub going: Going,
     skip_bad: bool,
     threads: usize,
-    is_remote: bool,
     /// Files that were converted live as long as this.
     _scratch: Scratch,
 }
@@ -150,32 +144,39 @@ impl Job {
     /// What is wrong with robot or flags; bad files unless they are skipped.
     pub async fn new(args: &LogArgs, fit: bool, going: &Going) -> Result<Job, Error> {
         let files = expand(&args.logs)?;
-        let loaded = args.robot.load(fit, going).await?;
-        let columns = args.mapping.resolve(loaded.robot())?;
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let threads = args.threads.unwrap_or(cores).max(1);
-        let progress = Arc::new(Progress::default());
-        let robot: Arc<dyn Dynamics> = loaded.clone();
-        let robot: Arc<dyn Dynamics> = Arc::new(Counted::new(robot, progress.clone()));
+        let robot = args.robot.load(fit, going).await?;
+        let columns = args.mapping.resolve(robot.robot())?;
+        let threads = threads(args.threads);
+        let progress = Arc::new(Progress::of(robot.evaluated()));
         let work = args.work.clone().unwrap_or_else(std::env::temp_dir);
         let scratch = Scratch::within(&work)?;
-        let found = looked_at(&files, &columns, &scratch, threads, going).await?;
+        let each = stream::iter(files.into_iter().enumerate()).map(|(place, path)| {
+            let (columns, to) = (columns.clone(), scratch.file(&format!("{place}.parquet")));
+            going.blocking(move |going| Ok(usable(&path, &columns, &to, going)))
+        });
+        let found: Vec<Result<_, Error>> = each.buffered(threads).collect().await;
+        let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
         let limits = Limits {
             memory: args.memory,
             partitions: threads,
         };
-        let name = args.robot.function_name(&loaded);
-        let (engine, is_remote) = engine(args, &name, &robot, limits).await?;
+        let name = args.robot.function_name(&robot);
+        let dynamics: Arc<dyn Dynamics> = robot.clone();
+        #[cfg(feature = "cluster")]
+        let engine = match &args.scheduler {
+            Some(scheduler) => Engine::cluster(scheduler, &name, &dynamics, limits).await?,
+            None => Engine::embedded(&name, &dynamics, limits)?,
+        };
+        #[cfg(not(feature = "cluster"))]
+        let engine = Engine::embedded(&name, &dynamics, limits)?;
         let mut job = Job {
             robot,
-            loaded,
             engine,
             logs: Vec::new(),
             progress,
             going: going.clone(),
             skip_bad: args.skip_bad,
             threads,
-            is_remote,
             _scratch: scratch,
         };
         job.logs = job.good(found)?;
@@ -190,7 +191,7 @@ impl Job {
 
     /// Says of what a cluster does not compute that this machine does.
     pub fn tell_local(&self, what: &str) {
-        if self.is_remote {
+        if self.engine.is_cluster() {
             eprintln!("{what}: rows in order, computed by this machine and not by the cluster");
         }
     }
@@ -228,17 +229,15 @@ impl Job {
     /// Those of the engine and of [`Job::good`].
     pub async fn aggregates(&mut self, suffix: &str) -> Result<Vec<Vec<u8>>, Error> {
         let progress = self.progress.clone();
-        let is_remote = self.is_remote;
+        let is_cluster = self.engine.is_cluster();
         // What a cluster evaluates is not counted here.
         let done = move |log: &Log| {
-            if is_remote {
+            if is_cluster {
                 progress.add(log.rows)
             }
         };
-        let found = self
-            .engine
-            .over(suffix, &self.logs, &self.going, done)
-            .await?;
+        let all = self.engine.over(suffix, &self.logs, &self.going, done);
+        let found = all.await?;
         self.keep(found)
     }
 
@@ -254,68 +253,31 @@ impl Job {
         Ok(found)
     }
 
-    /// Does something with each log on the threads of this machine; returns it in their order.
+    /// Does something with each log and its place on the threads of this machine; returns what it
+    /// gives in their order.
     ///
     /// # Errors
     /// Those of the work, and that the command was ended.
     pub async fn each<T: Send + 'static>(
         &self,
-        work: impl Fn(&Log, &Going) -> Result<T, Error> + Clone + Send + 'static,
+        work: impl Fn(usize, &Log, &Going) -> Result<T, Error> + Clone + Send + 'static,
     ) -> Result<Vec<T>, Error> {
-        let each = stream::iter(self.logs.clone()).map(|log| {
+        let logs = self.logs.clone().into_iter().enumerate();
+        let each = stream::iter(logs).map(|(place, log)| {
             let work = work.clone();
-            self.going.blocking(move |going| work(&log, going))
+            self.going.blocking(move |going| work(place, &log, going))
         });
         let found: Vec<Result<T, Error>> = each.buffered(self.threads).collect().await;
         found.into_iter().collect()
     }
 }
 
-/// Looks at all files, and converts those that have to be.
-async fn looked_at(
-    files: &[PathBuf],
-    columns: &Columns,
-    scratch: &Scratch,
-    threads: usize,
-    going: &Going,
-) -> Result<Vec<Result<Log, Bad>>, Error> {
-    let each = stream::iter(files.iter().enumerate()).map(|(place, path)| {
-        let (path, columns) = (path.clone(), columns.clone());
-        let to = scratch.file(&format!("{place}.parquet"));
-        going.blocking(move |going| Ok(usable(&path, &columns, &to, going)))
-    });
-    let found: Vec<Result<_, Error>> = each.buffered(threads).collect().await;
-    found.into_iter().collect()
-}
-
+/// Looks at a file, and converts it if it has to be.
 fn usable(path: &Path, columns: &Columns, to: &Path, going: &Going) -> Result<Log, Bad> {
     let goes_on = || going.goes_on();
     let log = inspect(path, columns, &goes_on)?;
-    match log.converts {
+    match log.converts() {
         true => convert(&log, to, &goes_on),
         false => Ok(log),
     }
-}
-
-#[cfg(feature = "cluster")]
-async fn engine(
-    args: &LogArgs,
-    name: &str,
-    robot: &Arc<dyn Dynamics>,
-    limits: Limits,
-) -> Result<(Engine, bool), Error> {
-    match &args.scheduler {
-        Some(scheduler) => Ok((Engine::cluster(scheduler, name, robot, limits).await?, true)),
-        None => Ok((Engine::embedded(name, robot, limits)?, false)),
-    }
-}
-
-#[cfg(not(feature = "cluster"))]
-async fn engine(
-    _: &LogArgs,
-    name: &str,
-    robot: &Arc<dyn Dynamics>,
-    limits: Limits,
-) -> Result<(Engine, bool), Error> {
-    Ok((Engine::embedded(name, robot, limits)?, false))
 }

@@ -32,14 +32,13 @@ use crate::error::Error;
 pub fn expand(patterns: &[String]) -> Result<Vec<PathBuf>, Error> {
     let mut all = Vec::new();
     for pattern in patterns {
-        let before = all.len();
         // A file may be called what looks like a pattern.
         if Path::new(pattern).is_file() {
             all.push(PathBuf::from(pattern));
             continue;
         }
-        let found = glob::glob(pattern).map_err(|why| Error::new(why).at(pattern))?;
-        for path in found {
+        let before = all.len();
+        for path in glob::glob(pattern).map_err(|why| Error::new(why).at(pattern))? {
             let path = path.map_err(Error::new)?;
             if path.is_file() {
                 all.push(path);
@@ -58,8 +57,8 @@ pub fn expand(patterns: &[String]) -> Result<Vec<PathBuf>, Error> {
 
 /// Returns whether a file is a recording of ROS 2, by its name.
 pub fn is_mcap(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|extension| extension.eq_ignore_ascii_case("mcap"))
+    let extension = path.extension();
+    extension.is_some_and(|extension| extension.eq_ignore_ascii_case("mcap"))
 }
 
 /// Opens a log of either kind.

@@ -10,7 +10,7 @@ use crate::error::Error;
 /// Numbers of what this process has not finished.
 static NEXT: AtomicU32 = AtomicU32::new(0);
 
-/// A file that has not got its name yet; without [`Unfinished::finish`] it goes again.
+/// A file or folder that has not got its name yet; without [`Unfinished::finish`] it goes again.
 #[derive(Debug)]
 pub struct Unfinished {
     part: PathBuf,
@@ -18,17 +18,15 @@ pub struct Unfinished {
 }
 
 impl Unfinished {
-    /// Chooses a name in the same folder, so that the file can be renamed.
+    /// Chooses a name in the same folder, so that what is there can be renamed.
     ///
     /// # Errors
     /// A name that is a folder's, or in a folder that does not exist.
     pub fn beside(name: &Path) -> Result<Unfinished, Error> {
         let file = name.file_name().filter(|_| !name.is_dir());
         let file = file.ok_or_else(|| Error::new("it is a folder").at(name.display()))?;
-        let folder = name
-            .parent()
-            .filter(|folder| !folder.as_os_str().is_empty());
-        if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
+        let is_lost = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.is_dir();
+        if let Some(folder) = name.parent().filter(is_lost) {
             return Err(Error::new("there is no such folder").at(folder.display()));
         }
         let mut part = file.to_os_string();
@@ -45,7 +43,7 @@ impl Unfinished {
         &self.part
     }
 
-    /// Gives the file its name.
+    /// Gives it its name.
     ///
     /// # Errors
     /// The system's.
@@ -57,7 +55,7 @@ impl Unfinished {
 impl Drop for Unfinished {
     fn drop(&mut self) {
         // Renamed, never written, or there is an error to report already.
-        let _ = fs::remove_file(&self.part);
+        let _ = fs::remove_file(&self.part).or_else(|_| fs::remove_dir_all(&self.part));
     }
 }
 

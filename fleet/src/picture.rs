@@ -40,11 +40,8 @@ impl Curves {
             self.time[0] = *first;
         }
         self.time[1] = *last;
-        for (ranges, own) in self
-            .ranges
-            .iter_mut()
-            .zip(residuals.chunks_exact(time.len()))
-        {
+        let joints = residuals.chunks_exact(time.len());
+        for (ranges, own) in self.ranges.iter_mut().zip(joints) {
             for (s, value) in own.iter().enumerate() {
                 let place = (self.seen + s as u64) * COLUMNS as u64 / self.rows;
                 let range = &mut ranges[(place as usize).min(COLUMNS - 1)];
@@ -68,32 +65,15 @@ pub fn picture(logs: &[&Curves]) -> String {
     let mut y = 0.0;
     for log in logs {
         y += TOP;
-        text(
-            &mut svg,
-            4.0,
-            y - 8.0,
-            "start",
-            &format!("{}: residuals, N·m or N", log.name),
-        );
+        let title = format!("{}: residuals, N·m or N", log.name);
+        text(&mut svg, 4.0, y - 8.0, "start", &title);
         for (i, ranges) in log.ranges.iter().enumerate() {
             strip(&mut svg, y, i, ranges);
             y += HEIGHT;
         }
-        text(
-            &mut svg,
-            LEFT,
-            y + 12.0,
-            "start",
-            &format!("{:.2} s", log.time[0]),
-        );
-        let end = LEFT + COLUMNS as f64;
-        text(
-            &mut svg,
-            end,
-            y + 12.0,
-            "end",
-            &format!("{:.2} s", log.time[1]),
-        );
+        let [first, last] = log.time.map(|time| format!("{time:.2} s"));
+        text(&mut svg, LEFT, y + 12.0, "start", &first);
+        text(&mut svg, LEFT + COLUMNS as f64, y + 12.0, "end", &last);
         y += 20.0;
     }
     svg += "</svg>\n";
@@ -101,13 +81,10 @@ pub fn picture(logs: &[&Curves]) -> String {
 }
 
 fn strip(svg: &mut String, y: f64, joint: usize, ranges: &[[f64; 2]]) {
-    let filled = || {
-        ranges
-            .iter()
-            .enumerate()
-            .filter(|(_, range)| range[0] <= range[1])
-    };
-    let largest = filled().fold(0.0f64, |max, (_, [least, most])| max.max(most.max(-least)));
+    let filled = ranges.iter().enumerate();
+    let filled: Vec<_> = filled.filter(|(_, [least, most])| least <= most).collect();
+    let sizes = filled.iter().map(|(_, [least, most])| most.max(-least));
+    let largest = sizes.fold(0.0, f64::max);
     let middle = y + 0.5 * HEIGHT;
     let scale = match largest {
         0.0 => 0.0,
@@ -115,11 +92,11 @@ fn strip(svg: &mut String, y: f64, joint: usize, ranges: &[[f64; 2]]) {
     };
     let at = |value: f64| middle - scale * value;
     let mut points = String::new();
-    for (k, [_, most]) in filled() {
-        let _ = write!(points, "{:.1},{:.1} ", LEFT + k as f64, at(*most) - 0.3);
+    for (k, [_, most]) in &filled {
+        let _ = write!(points, "{:.1},{:.1} ", LEFT + *k as f64, at(*most) - 0.3);
     }
-    for (k, [least, _]) in filled().collect::<Vec<_>>().into_iter().rev() {
-        let _ = write!(points, "{:.1},{:.1} ", LEFT + k as f64, at(*least) + 0.3);
+    for (k, [least, _]) in filled.iter().rev() {
+        let _ = write!(points, "{:.1},{:.1} ", LEFT + *k as f64, at(*least) + 0.3);
     }
     let end = LEFT + COLUMNS as f64;
     let _ = writeln!(
@@ -128,20 +105,9 @@ fn strip(svg: &mut String, y: f64, joint: usize, ranges: &[[f64; 2]]) {
          <polygon points=\"{}\" fill=\"#1f77b4\"/>",
         points.trim_end()
     );
-    text(
-        svg,
-        LEFT - 6.0,
-        middle - 4.0,
-        "end",
-        &format!("joint {}", joint + 1),
-    );
-    text(
-        svg,
-        LEFT - 6.0,
-        middle + 10.0,
-        "end",
-        &format!("±{largest:.3}"),
-    );
+    let (name, size) = (format!("joint {}", joint + 1), format!("±{largest:.3}"));
+    text(svg, LEFT - 6.0, middle - 4.0, "end", &name);
+    text(svg, LEFT - 6.0, middle + 10.0, "end", &size);
 }
 
 fn text(svg: &mut String, x: f64, y: f64, anchor: &str, text: &str) {

@@ -6,10 +6,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
-use dalembert_fit::{Accumulator, Model};
 use tokio::sync::watch;
 
-use crate::dynamics::{Dynamics, States};
 use crate::error::Error;
 
 /// Asks a command to end: the other end of [`Going`].
@@ -86,12 +84,20 @@ pub const INTERRUPTED: &str = "interrupted: nothing was written";
 #[derive(Debug, Default)]
 pub struct Progress {
     total: AtomicU64,
-    done: AtomicU64,
+    done: Arc<AtomicU64>,
     /// When there was something to do.
     start: OnceLock<Instant>,
 }
 
 impl Progress {
+    /// Returns that of states which others count.
+    pub fn of(done: Arc<AtomicU64>) -> Progress {
+        Progress {
+            done,
+            ..Progress::default()
+        }
+    }
+
     /// Adds states that are done.
     pub fn add(&self, states: u64) {
         self.done.fetch_add(states, Ordering::Relaxed);
@@ -127,61 +133,14 @@ impl fmt::Display for Progress {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let done = self.done.load(Ordering::Relaxed) as f64;
         let total = self.total.load(Ordering::Relaxed) as f64;
-        let elapsed = self
-            .start
-            .get()
-            .map_or(0.0, |start| start.elapsed().as_secs_f64());
+        let start = self.start.get();
+        let elapsed = start.map_or(0.0, |start| start.elapsed().as_secs_f64());
         let rate = done / elapsed.max(1e-9);
-        write!(
-            f,
-            "{:.2} of {:.2} M states, {:.2} M/s",
-            done / 1e6,
-            total / 1e6,
-            rate / 1e6
-        )?;
+        let [millions, of, speed] = [done, total, rate].map(|count| count / 1e6);
+        write!(f, "{millions:.2} of {of:.2} M states, {speed:.2} M/s")?;
         match rate > 0.0 && total > done {
             true => write!(f, ", {:.0} s left", (total - done) / rate),
             false => Ok(()),
         }
-    }
-}
-
-/// A robot that counts the states which are evaluated.
-#[derive(Debug)]
-pub struct Counted {
-    robot: Arc<dyn Dynamics>,
-    progress: Arc<Progress>,
-}
-
-impl Counted {
-    /// Counts the states of a robot.
-    pub fn new(robot: Arc<dyn Dynamics>, progress: Arc<Progress>) -> Counted {
-        Counted { robot, progress }
-    }
-}
-
-impl Dynamics for Counted {
-    fn joints(&self) -> usize {
-        self.robot.joints()
-    }
-
-    fn inverse_dynamics(&self, states: States<'_>, tau: &mut [f64]) -> Result<(), Error> {
-        self.progress.add(states.count as u64);
-        self.robot.inverse_dynamics(states, tau)
-    }
-
-    fn model(&self) -> Option<&Model> {
-        self.robot.model()
-    }
-
-    fn accumulate(
-        &self,
-        states: States<'_>,
-        tau: &[f64],
-        room: &mut Vec<f64>,
-        into: &mut Accumulator,
-    ) -> Result<(), Error> {
-        self.progress.add(states.count as u64);
-        self.robot.accumulate(states, tau, room, into)
     }
 }

@@ -1,6 +1,6 @@
 //! A log's residuals in the order of its rows: what a query does not keep.
 
-use crate::dynamics::{Dynamics, States};
+use crate::dynamics::Dynamics;
 use crate::error::Error;
 use crate::logs::{Block, Log, states};
 use crate::progress::Going;
@@ -19,9 +19,7 @@ pub fn walk(
     for block in states(&log.path, &log.columns)? {
         let block = block?;
         going.check()?;
-        let [q, qd, qdd, measured] = &block.quantities;
-        let count = block.len();
-        robot.residuals(States { count, q, qd, qdd }, measured, &mut residuals)?;
+        robot.residuals(block.len(), &block.quantities, &mut residuals)?;
         call(&block, &residuals)?;
     }
     Ok(())

@@ -33,7 +33,7 @@ pub struct Shared {
 /// # Errors
 /// Everything that is wrong with the model or with one of its arms.
 pub fn arms(text: &Text, options: &Options) -> Result<Arms, Diagnostics> {
-    let mut problems = Problems::of(text.as_str(), text);
+    let mut problems = Problems::of(text);
     let urdf = model(text.as_str(), options, &mut problems);
     let tips = urdf.and_then(|urdf| Some((tree::tips(&urdf, options, &mut problems)?, urdf.name)));
     let notes = problems.finish()?;
@@ -80,13 +80,9 @@ pub fn arms(text: &Text, options: &Options) -> Result<Arms, Diagnostics> {
 
 /// Returns the pairs of arms with joints that both have.
 fn shared(arms: &[(String, Imported)]) -> Vec<Shared> {
-    let joints = |arm: &Imported| {
-        let names = arm
-            .robot
-            .joints
-            .iter()
-            .filter_map(|joint| joint.name.clone());
-        names.collect::<Vec<String>>()
+    let joints = |arm: &Imported| -> Vec<String> {
+        let joints = arm.robot.joints.iter();
+        joints.filter_map(|joint| joint.name.clone()).collect()
     };
     let mut pairs = Vec::new();
     for (index, (one, arm)) in arms.iter().enumerate() {

@@ -85,54 +85,44 @@ impl Tree<'_, '_, '_> {
             let lines = lines.iter().rev();
             lines.fold(at, |at, [multiplier, offset]| multiplier * at + offset)
         };
-        let slides = self.urdf.joints[joint].kind == Kind::Prismatic;
+        let kind = self.urdf.joints[joint].kind;
         let value = match at {
             // A multiple of a multiple of π, but for an offset, is one.
-            Position::Angle(Angle::PiTimes(value)) if !slides => {
-                let bare = along(Rational::zero());
-                if bare.is_zero() {
-                    let unit = along(value);
-                    return Position::Angle(Angle::PiTimes(unit));
+            Position::Angle(Angle::PiTimes(value)) if kind != Kind::Prismatic => {
+                if along(Rational::zero()).is_zero() {
+                    return Position::Angle(Angle::PiTimes(along(value)));
                 }
                 along(Angle::PiTimes(value).radians())
             }
             Position::Angle(angle) => along(angle.radians()),
             Position::Length(length) => along(length),
         };
-        match slides {
-            true => Position::Length(value),
-            false => Position::Angle(Angle::Radians(value).canonical()),
-        }
+        kind.position(value)
     }
 
     /// Returns whether nothing beside the chain follows a joint of it, after saying what does.
     pub(crate) fn leads_nothing_beside(&mut self, leader: usize) -> bool {
         let name = &self.urdf.joints[leader].name;
-        let follower = self.held.iter().find(|(held, _)| {
-            let mimic = &self.urdf.joints[*held].mimic;
-            mimic.as_ref().is_some_and(|mimic| mimic.joint == *name)
+        let follower = self.held.iter().find_map(|(held, _)| {
+            let own = &self.urdf.joints[*held];
+            let mimic = own.mimic.as_ref()?;
+            (mimic.joint == *name).then_some((own, &mimic.span))
         });
-        let Some((held, _)) = follower else {
+        let Some((joint, span)) = follower else {
             return true;
         };
-        let Joint { name: own, .. } = &self.urdf.joints[*held];
-        let span = self.urdf.joints[*held]
-            .mimic
-            .as_ref()
-            .map(|mimic| &mimic.span);
+        let (own, at) = (&joint.name, lock::advised(joint));
         let message = format!("joint `{own}` hangs on the chain and follows `{name}`, which moves");
-        let at = lock::advised(&self.urdf.joints[*held]);
         let help = format!(
             "it cannot be held as the others are: add --lock {own}={at} to have it stand still all the same"
         );
-        self.problems.error(span.unwrap_or(&(0..0)), message, &help);
+        self.problems.error(span, message, &help);
         false
     }
 
     /// Returns whether nothing ties the chain's joints to others or its links to what does not
     /// move with them, after saying what does.
     pub(crate) fn is_free_of_ties(&mut self, moving: &[Moving]) -> bool {
-        let mut good = true;
         let mover = |name: &String| {
             let has_it = |link: usize| self.urdf.links[link].name == *name;
             moving
@@ -167,11 +157,11 @@ impl Tree<'_, '_, '_> {
                 }
             }
         }
+        let is_free = found.is_empty();
         for (span, message, help) in found {
             self.problems.error(span, message, &help);
-            good = false;
         }
-        good
+        is_free
     }
 
     /// Lists the joints beside the chain that are held, and those of these that follow a
@@ -185,11 +175,8 @@ impl Tree<'_, '_, '_> {
             return;
         };
         let held = self.held.iter().map(|(joint, at)| {
-            format!(
-                "`{}` at {}",
-                self.urdf.joints[*joint].name,
-                position(at).replace('"', "")
-            )
+            let (name, at) = (&self.urdf.joints[*joint].name, position(at));
+            format!("`{name}` at {}", at.replace('"', ""))
         });
         let held = held.collect::<Vec<_>>().join(", ");
         let message = format!("what hangs on the chain is held: {held}");

@@ -99,6 +99,7 @@ use dalembert_model::robot::Robot;
 pub use arms::{Arms, Shared, arms};
 pub use change::{Change, Displacement, Motion};
 pub use open::{Opened, Unopened, is_model, open, open_text, read_robot};
+use problems::Problems;
 pub use snap::Snap;
 use snap::Snapping;
 pub use text::Text;
@@ -161,7 +162,7 @@ pub struct Imported {
 /// Everything that is wrong with the URDF or the options, at once, each at its
 /// place in the URDF.
 pub fn import(source: &str, options: &Options) -> Result<Imported, Diagnostics> {
-    finished(source, options, problems::Problems::new(source))
+    import_text(&Text::of("", source.to_owned()), options)
 }
 
 /// Makes a robot file of a chain of a model that may be in several files.
@@ -169,19 +170,8 @@ pub fn import(source: &str, options: &Options) -> Result<Imported, Diagnostics> 
 /// # Errors
 /// Those of [`import`]; [`Text::render`] says in which file they are.
 pub fn import_text(text: &Text, options: &Options) -> Result<Imported, Diagnostics> {
-    finished(
-        text.as_str(),
-        options,
-        problems::Problems::of(text.as_str(), text),
-    )
-}
-
-fn finished(
-    source: &str,
-    options: &Options,
-    mut problems: problems::Problems,
-) -> Result<Imported, Diagnostics> {
-    let imported = imported(source, options, &mut problems);
+    let mut problems = Problems::of(text);
+    let imported = imported(text.as_str(), options, &mut problems);
     let notes = problems.finish()?;
     match imported {
         Some(imported) => Ok(Imported { notes, ..imported }),
@@ -191,14 +181,13 @@ fn finished(
 }
 
 /// Returns what a model says, if all of it can be read.
-fn model(source: &str, options: &Options, problems: &mut problems::Problems) -> Option<urdf::Urdf> {
+fn model(source: &str, options: &Options, problems: &mut Problems) -> Option<urdf::Urdf> {
     let document = guard::parse(source, problems)?;
-    let urdf = match mjcf::is_mjcf(&document) {
+    let mut urdf = match document.root_element().has_tag_name("mujoco") {
         true => mjcf::read(&document, problems)?,
         false => urdf::read(&document, problems)?,
     };
     names::check(&urdf, options, problems);
-    let mut urdf = urdf;
     if options.ignore_ties {
         urdf.untie(problems);
     }
@@ -206,18 +195,14 @@ fn model(source: &str, options: &Options, problems: &mut problems::Problems) -> 
     (!problems.has_errors()).then_some(urdf)
 }
 
-fn imported(
-    source: &str,
-    options: &Options,
-    problems: &mut problems::Problems,
-) -> Option<Imported> {
+fn imported(source: &str, options: &Options, problems: &mut Problems) -> Option<Imported> {
     let urdf = model(source, options, problems)?;
     let chain = tree::chain(&urdf, options, problems)?;
     let as_written = merge::arm(&urdf, &chain, problems)?;
     let snapped = |snapping: Snapping| {
         let (snapped, snaps) = snap::snapped(&urdf, &chain, snapping);
         // What there is to say was said of the digits as they stand.
-        let arm = merge::arm(&snapped, &chain, &mut problems::Problems::new(source))?;
+        let arm = merge::arm(&snapped, &chain, &mut Problems::new(source))?;
         let change = change::bound(&as_written, &arm, &snapped, &chain, options);
         Some((snapped, snaps, arm, change))
     };

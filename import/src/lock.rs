@@ -17,11 +17,17 @@ pub(crate) const OTHERS: &str = "*";
 /// saying what is wrong.
 pub(crate) fn nearest(joint: &Joint, text: &str, problems: &mut Problems) -> Option<Position> {
     let at = read(joint, text, problems)?;
-    Some(match &joint.position {
-        Some([lower, _]) if compare(&at, &lower.value) == Ordering::Less => lower.value.clone(),
-        Some([_, upper]) if compare(&at, &upper.value) == Ordering::Greater => upper.value.clone(),
-        _ => at,
-    })
+    let limit = beyond(joint, &at).map(|limit| limit.value.clone());
+    Some(limit.unwrap_or(at))
+}
+
+/// Returns the limit that a position is beyond, if it is.
+fn beyond<'j>(joint: &'j Joint, at: &Position) -> Option<&'j Value<Position>> {
+    let [lower, upper] = joint.position.as_ref()?;
+    if compare(at, &lower.value).is_lt() {
+        return Some(lower);
+    }
+    compare(at, &upper.value).is_gt().then_some(upper)
 }
 
 /// Returns the position in the text of an option; `None` after saying what is wrong.
@@ -77,15 +83,8 @@ pub(crate) fn position(joint: &Joint, text: &str, problems: &mut Problems) -> Op
 
 /// Returns the position that errors advise: zero, or the limit that is nearest to it.
 pub(crate) fn advised(joint: &Joint) -> &str {
-    let zero = match joint.kind {
-        Kind::Prismatic => Position::Length(Default::default()),
-        _ => Position::Angle(Angle::default()),
-    };
-    match &joint.position {
-        Some([lower, _]) if compare(&zero, &lower.value) == Ordering::Less => &lower.text,
-        Some([_, upper]) if compare(&zero, &upper.value) == Ordering::Greater => &upper.text,
-        _ => "0",
-    }
+    let zero = joint.kind.position(Default::default());
+    beyond(joint, &zero).map_or("0", |limit| limit.text.as_str())
 }
 
 /// Returns whether a position is outside its limits, all three as they were meant:
@@ -97,7 +96,7 @@ fn is_outside(at: &Position, text: &str, [lower, upper]: [&Value<Position>; 2]) 
     };
     let at = as_meant(at, text.trim());
     let [lower, upper] = [lower, upper].map(|limit| as_meant(&limit.value, &limit.text));
-    compare(&at, &lower) == Ordering::Less || compare(&at, &upper) == Ordering::Greater
+    compare(&at, &lower).is_lt() || compare(&at, &upper).is_gt()
 }
 
 /// Compares positions of one joint; an angle and a length have no order.

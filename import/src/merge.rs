@@ -12,7 +12,7 @@ use num_traits::{One, Zero};
 
 use crate::problems::Problems;
 use crate::tree::{Chain, Moving, Step};
-use crate::urdf::{Inertial, Joint, Role, Urdf};
+use crate::urdf::{self, Inertial, Joint, Role, Urdf};
 
 /// The chain's joints with what they move, and the tool.
 #[derive(Clone, Debug)]
@@ -76,13 +76,12 @@ pub(crate) fn arm(urdf: &Urdf, chain: &Chain, problems: &mut Problems) -> Option
         let body = &link.body.inertia.rows();
         link.mass.is_zero() && body.iter().flatten().all(Zero::is_zero)
     });
-    let empty = empty.map(|(moving, _)| urdf.joints[moving.joint].child.0.as_str());
-    let is_body = |name: &&str| {
+    let empty = empty.filter_map(|(moving, _)| {
+        let child = &urdf.joints[moving.joint].child.0;
         let mut bodies = urdf.links.iter().filter(|link| link.role == Role::Body);
-        bodies.any(|link| link.name == *name)
-    };
-    let empty = empty.filter(is_body);
-    without_mass(urdf, &empty.collect::<Vec<_>>(), problems);
+        bodies.find(|link| link.name == *child)
+    });
+    without_mass(&empty.collect::<Vec<_>>(), problems);
     let frames = chain.moving.iter().enumerate().flat_map(|(joint, moving)| {
         let size = &size;
         moving.links.iter().map(move |(link, steps)| {
@@ -119,40 +118,35 @@ fn are_possible(urdf: &Urdf, chain: &Chain, problems: &mut Problems) -> bool {
         };
         let message = format!("link `{}`: {}", link.name, defect.message());
         let span = &inertia.xx.span;
+        let help = "the inertia is about the centre of mass, in kg·m²";
         if defect == Defect::NegativeMoment {
-            let help = "the inertia is about the centre of mass, in kg·m²";
             problems.error(span, message, help);
             good = false;
         } else {
-            let help =
-                "the inertia is about the centre of mass, in kg·m²; it is taken as it stands";
-            problems.warning(span, message, help);
+            problems.warning(span, message, &format!("{help}; it is taken as it stands"));
         }
     }
     good
 }
 
 /// Says of links that they have no mass, once, where the first is.
-fn without_mass(urdf: &Urdf, links: &[&str], problems: &mut Problems) {
+fn without_mass(links: &[&urdf::Link], problems: &mut Problems) {
     let Some(first) = links.first() else {
         return;
     };
-    let span = urdf.links.iter().find(|link| link.name == *first);
-    let span = span.map_or(0..0, |link| link.span.clone());
-    let (message, help) = match links {
-        [link] => (
-            format!("link `{link}`, and what is fixed to it, has no mass"),
+    let names: Vec<&str> = links.iter().map(|link| link.name.as_str()).collect();
+    let names = names.join("`, `");
+    let (message, help) = match links.len() {
+        1 => (
+            format!("link `{names}`, and what is fixed to it, has no mass"),
             "give it an <inertial>, unless it weighs nothing",
         ),
         _ => (
-            format!(
-                "the links `{}`, and what is fixed to them, have no mass",
-                links.join("`, `")
-            ),
+            format!("the links `{names}`, and what is fixed to them, have no mass"),
             "give each an <inertial>, unless it weighs nothing",
         ),
     };
-    problems.warning(&span, message, help);
+    problems.warning(&first.span, message, help);
 }
 
 /// Returns what lengths are small against.
@@ -220,10 +214,9 @@ fn body(urdf: &Urdf, moving: &Moving, size: &Rational) -> Option<(Rational, Body
     let total: Rational = parts.iter().map(|(mass, _)| mass).sum();
     let centre: [Rational; 3] = core::array::from_fn(|i| {
         let moment: Rational = parts.iter().map(|(mass, body)| mass * &body.com[i]).sum();
-        if total.is_zero() {
-            moment
-        } else {
-            moment / &total
+        match total.is_zero() {
+            true => moment,
+            false => moment / &total,
         }
     });
     let entry = |i: usize, k: usize| {

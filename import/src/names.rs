@@ -1,7 +1,5 @@
 //! The names of links and joints that the file and the options speak of.
 
-use std::collections::BTreeSet;
-
 use crate::Options;
 use crate::lock::OTHERS;
 use crate::problems::{Problems, instead};
@@ -10,19 +8,11 @@ use crate::urdf::Urdf;
 /// Reports every name of a link or a joint that the file does not have.
 pub(crate) fn check(urdf: &Urdf, options: &Options, problems: &mut Problems) {
     let [links, joints] = &urdf.names;
-    let meant =
-        |name: &str, names: &BTreeSet<String>| instead(name, names.iter().map(String::as_str));
-    for (name, span) in urdf
-        .joints
-        .iter()
-        .flat_map(|joint| [&joint.parent, &joint.child])
-    {
+    let ends = urdf.joints.iter();
+    for (name, span) in ends.flat_map(|joint| [&joint.parent, &joint.child]) {
         if !links.contains(name) {
-            problems.error(
-                span,
-                format!("there is no link `{name}`"),
-                &meant(name, links),
-            );
+            let message = format!("there is no link `{name}`");
+            problems.error(span, message, &instead(name, links));
         }
     }
     let ends = [("--base", &options.base), ("--tip", &options.tip)];
@@ -37,7 +27,7 @@ pub(crate) fn check(urdf: &Urdf, options: &Options, problems: &mut Problems) {
         let message = format!("{option}: there is no link `{name}`");
         let help = match urdf.joints.iter().find(|joint| joint.name == *name) {
             Some(joint) => format!("`{name}` is a joint; its link is `{}`", joint.child.0),
-            None => meant(name, links),
+            None => instead(name, links),
         };
         problems.error(&urdf.span, message, &help);
     }
@@ -50,7 +40,7 @@ pub(crate) fn check(urdf: &Urdf, options: &Options, problems: &mut Problems) {
             (Ok(_), count @ 1..) => {
                 format!("those that move are 1 to {count}, from the root outwards")
             }
-            _ => meant(name, joints),
+            _ => instead(name, joints),
         };
         problems.error(&urdf.span, message, &help);
     }

@@ -64,30 +64,27 @@ pub fn open(path: &Path, options: &Options) -> Result<Opened, Unopened> {
 pub fn open_text(path: &Path) -> Result<Text, Unopened> {
     let shown = path.display().to_string();
     let bytes = first(path, MAX_BYTES as u64 + 1).map_err(Unopened::System)?;
-    let is_model = is_model(&bytes);
-    let most = if is_model { MAX_BYTES } else { read::MAX_BYTES };
-    let is_long = bytes.len() > most;
-    match String::from_utf8(bytes) {
-        Ok(text) if is_model && !is_long => Text::of(&shown, text)
-            .with_includes(path, included)
-            .map_err(Unopened::Wrong),
-        Ok(text) if !is_long => Ok(Text::of(&shown, text)),
-        _ if is_long && is_model => Err(Unopened::Wrong(format!(
-            "error: `{shown}` is longer than {} MiB, the most that is read",
-            MAX_BYTES >> 20
-        ))),
-        _ if is_model => Err(Unopened::Wrong(format!(
-            "error: `{shown}` is not UTF-8 text"
-        ))),
-        // The reader of robot files says where it is none, or too long.
-        text => {
-            let bytes = text.map_or_else(|error| error.into_bytes(), String::into_bytes);
-            let errors = read::parse_bytes(&bytes, &read::Options::default()).err();
-            let text = String::from_utf8_lossy(&bytes);
-            let errors = errors.map(|errors| errors.render(&shown, &text));
-            Err(Unopened::Wrong(errors.unwrap_or_default()))
+    if is_model(&bytes) {
+        let wrong = |why: String| Unopened::Wrong(format!("error: `{shown}` {why}"));
+        if bytes.len() > MAX_BYTES {
+            let most = MAX_BYTES >> 20;
+            return Err(wrong(format!(
+                "is longer than {most} MiB, the most that is read"
+            )));
         }
+        let text = String::from_utf8(bytes).map_err(|_| wrong("is not UTF-8 text".to_owned()))?;
+        let text = Text::of(&shown, text).with_includes(path, included);
+        return text.map_err(Unopened::Wrong);
     }
+    if bytes.len() <= read::MAX_BYTES
+        && let Ok(text) = str::from_utf8(&bytes)
+    {
+        return Ok(Text::of(&shown, text.to_owned()));
+    }
+    // The reader of robot files says where it is none, or too long.
+    let errors = read::parse_bytes(&bytes, &read::Options::default()).err();
+    let errors = errors.map(|errors| errors.render(&shown, &String::from_utf8_lossy(&bytes)));
+    Err(Unopened::Wrong(errors.unwrap_or_default()))
 }
 
 /// Reads a robot from the text of a robot file or of a model.

@@ -4,22 +4,19 @@ use std::ops::Range;
 
 use dalembert_model::read::{Diagnostic, Diagnostics, Severity, closest};
 
+use crate::text::Text;
+
 /// More than these are counted, not listed.
 const MAX: usize = 200;
 /// More names than these are not listed.
 pub(crate) const MAX_NAMES: usize = 30;
 
-/// A text that may be of several files.
-pub(crate) trait Files {
-    /// Returns the name of the file of a byte and its line there; `None` of a single file.
-    fn in_file(&self, byte: usize) -> Option<(&str, usize)>;
-}
-
 /// Collects them, in any order.
+#[derive(Default)]
 pub(crate) struct Problems<'s> {
     source: &'s str,
-    /// The files that the source is made of.
-    files: Option<&'s dyn Files>,
+    /// The source with the files that it is made of.
+    text: Option<&'s Text>,
     found: Vec<Diagnostic>,
     /// The number of problems beyond those that are listed.
     more: usize,
@@ -29,23 +26,21 @@ impl<'s> Problems<'s> {
     pub(crate) fn new(source: &'s str) -> Self {
         Problems {
             source,
-            files: None,
-            found: Vec::new(),
-            more: 0,
+            ..Problems::default()
         }
     }
 
-    /// Collects them of a text of several files.
-    pub(crate) fn of(source: &'s str, files: &'s dyn Files) -> Self {
+    /// Collects them of a text that may be of several files.
+    pub(crate) fn of(text: &'s Text) -> Self {
         Problems {
-            files: Some(files),
-            ..Problems::new(source)
+            text: Some(text),
+            ..Problems::new(text.as_str())
         }
     }
 
     /// Returns the line of a byte in its file, in words.
     pub(crate) fn line(&self, byte: usize) -> String {
-        match self.files.and_then(|files| files.in_file(byte)) {
+        match self.text.and_then(|text| text.in_file(byte)) {
             None => format!("line {}", place(self.source, byte).0),
             Some((name, line)) => {
                 let file = std::path::Path::new(name).file_name().unwrap_or_default();
@@ -130,8 +125,11 @@ pub(crate) fn place(source: &str, byte: usize) -> (usize, usize) {
 }
 
 /// Returns the help for a name that there is not.
-pub(crate) fn instead<'n>(name: &str, names: impl Iterator<Item = &'n str>) -> String {
-    let names: Vec<&str> = names.collect();
+pub(crate) fn instead<'n, N: AsRef<str> + ?Sized + 'n>(
+    name: &str,
+    names: impl IntoIterator<Item = &'n N>,
+) -> String {
+    let names: Vec<&str> = names.into_iter().map(|name| name.as_ref()).collect();
     let has_it = |known: &&&str| !name.is_empty() && known.contains(name);
     let longer: Vec<&str> = names.iter().filter(has_it).copied().collect();
     match closest(name, &names) {

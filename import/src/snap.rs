@@ -51,9 +51,8 @@ pub(crate) enum Snapping {
 /// Returns the URDF with numbers of the chain taken for what they were meant to be.
 pub(crate) fn snapped(urdf: &Urdf, chain: &Chain, snapping: Snapping) -> (Urdf, Vec<Snap>) {
     let mut urdf = urdf.clone();
-    let is_near = snapping == Snapping::Near;
     let mut snaps = Snaps {
-        is_near,
+        is_near: snapping == Snapping::Near,
         taken: Vec::new(),
     };
     if snapping == Snapping::None {
@@ -94,6 +93,7 @@ pub(crate) fn snapped(urdf: &Urdf, chain: &Chain, snapping: Snapping) -> (Urdf, 
 }
 
 /// Collects them.
+#[derive(Default)]
 struct Snaps {
     /// Whether digits that are further off stay.
     is_near: bool,
@@ -136,8 +136,6 @@ impl Snaps {
             // Where it is turned is where its parts are.
             for (length, meant) in origin.xyz.iter_mut().zip(meant.xyz) {
                 length.value = meant;
-            }
-            for length in &mut origin.xyz {
                 self.length(length, &power(NOTHING), xyz);
             }
             return;
@@ -194,26 +192,12 @@ mod tests {
 
     /// Returns what `rpy` is taken for, an angle each.
     fn taken(rpy: [&str; 3]) -> [String; 3] {
-        let angle = |text: &str| Value {
-            value: Angle::Radians(parse_decimal(text).expect("a number")),
-            text: text.to_owned(),
-            span: 0..0,
-        };
-        let length = || Value {
-            value: Rational::zero(),
-            text: "0".to_owned(),
-            span: 0..0,
-        };
+        let number = |text: &str| Angle::Radians(parse_decimal(text).expect("a number"));
         let mut origin = Origin {
-            xyz: [(); 3].map(|()| length()),
-            rpy: rpy.map(angle),
-            meant: None,
+            rpy: rpy.map(|text| Value::new(number(text), text, &(0..0))),
+            ..Origin::default()
         };
-        Snaps {
-            is_near: false,
-            taken: Vec::new(),
-        }
-        .origin(&mut origin, "xyz", "rpy");
+        Snaps::default().origin(&mut origin, "xyz", "rpy");
         origin.rpy.map(|angle| angle.value.to_string())
     }
 

@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 use std::path::Path;
 
-use dalembert_model::read::{Diagnostic, Diagnostics};
+use dalembert_model::read::Diagnostic;
 
-use crate::problems::{Files, Problems, place};
+use crate::problems::{Problems, place};
 use crate::{MAX_BYTES, guard};
 
 /// The most files of a model.
@@ -29,12 +29,6 @@ struct Open {
     rest: Range<usize>,
     /// What it includes, the last first: where, and the names.
     includes: Vec<(Range<usize>, String)>,
-}
-
-impl Files for Text {
-    fn in_file(&self, byte: usize) -> Option<(&str, usize)> {
-        (self.files.len() > 1).then(|| self.line(byte))
-    }
 }
 
 impl Text {
@@ -131,6 +125,11 @@ impl Text {
         (name, place(text, at).0)
     }
 
+    /// Returns the same where there are several files.
+    pub(crate) fn in_file(&self, byte: usize) -> Option<(&str, usize)> {
+        (self.files.len() > 1).then(|| self.line(byte))
+    }
+
     /// Returns what there is to say of the text, each at its place in its file.
     pub fn render(&self, found: &[Diagnostic]) -> String {
         let rendered = found.iter().map(|found| {
@@ -169,19 +168,17 @@ impl Text {
 
     /// Finds what a file includes; of one that is included its root is left away.
     fn open(&self, file: usize) -> Result<Open, String> {
-        let (name, text) = &self.files[file];
+        let text = &self.files[file].1;
         let mut problems = Problems::new(text);
         let Some(document) = guard::parse(text, &mut problems) else {
-            let errors = problems.finish().err().unwrap_or(Diagnostics(Vec::new()));
-            return Err(errors.render(name, text));
+            return Err(self.rendered(file, problems));
         };
         let root = document.root_element();
-        let whole = root.range();
-        let children: Vec<_> = root.children().collect();
-        let rest = match (file, children.first(), children.last()) {
-            (0, ..) => 0..text.len(),
-            (_, Some(first), Some(last)) => first.range().start..last.range().end,
-            _ => whole.end..whole.end,
+        let end = root.range().end;
+        let rest = match (root.first_child(), root.last_child()) {
+            _ if file == 0 => 0..text.len(),
+            (Some(first), Some(last)) => first.range().start..last.range().end,
+            _ => end..end,
         };
         let includes = root
             .descendants()
@@ -204,10 +201,14 @@ impl Text {
     }
 
     fn error(&self, file: usize, span: Range<usize>, message: String, help: &str) -> String {
-        let (name, text) = &self.files[file];
-        let mut problems = Problems::new(text);
+        let mut problems = Problems::new(&self.files[file].1);
         problems.error(&span, message, help);
-        let errors = problems.finish().err().unwrap_or(Diagnostics(Vec::new()));
-        errors.render(name, text)
+        self.rendered(file, problems)
+    }
+
+    fn rendered(&self, file: usize, problems: Problems) -> String {
+        let (name, text) = &self.files[file];
+        let errors = problems.finish().err();
+        errors.map_or_else(String::new, |errors| errors.render(name, text))
     }
 }

@@ -89,10 +89,7 @@ pub(crate) struct Tree<'u, 'p, 's> {
 pub(crate) fn tips(urdf: &Urdf, options: &Options, problems: &mut Problems) -> Option<Vec<String>> {
     let mut tree = Tree::new(urdf, problems)?;
     tree.options(options)?;
-    let base = match &options.base {
-        Some(name) => tree.link(name)?,
-        None => tree.root().map(|root| tree.standing(root))?,
-    };
+    let base = tree.base(options)?;
     let tips = tree.tips(base)?.into_iter();
     Some(tips.map(|tip| urdf.links[tip].name.clone()).collect())
 }
@@ -101,11 +98,7 @@ pub(crate) fn tips(urdf: &Urdf, options: &Options, problems: &mut Problems) -> O
 pub(crate) fn chain(urdf: &Urdf, options: &Options, problems: &mut Problems) -> Option<Chain> {
     let mut tree = Tree::new(urdf, problems)?;
     let read = tree.options(options);
-    let base = match &options.base {
-        Some(name) => tree.link(name),
-        None => tree.root().map(|root| tree.standing(root)),
-    };
-    let (base, ()) = base.zip(read)?;
+    let (base, ()) = tree.base(options).zip(read)?;
     let tip = match &options.tip {
         Some(name) => tree.link(name)?,
         None => tree.tip(base)?,
@@ -172,12 +165,9 @@ pub(crate) fn chain(urdf: &Urdf, options: &Options, problems: &mut Problems) -> 
 
 impl<'u, 'p, 's> Tree<'u, 'p, 's> {
     fn new(urdf: &'u Urdf, problems: &'p mut Problems<'s>) -> Option<Self> {
-        let links: BTreeMap<&str, usize> = urdf
-            .links
-            .iter()
-            .enumerate()
-            .map(|(index, link)| (link.name.as_str(), index))
-            .collect();
+        let links = urdf.links.iter().enumerate();
+        let links = links.map(|(index, link)| (link.name.as_str(), index));
+        let links: BTreeMap<&str, usize> = links.collect();
         let mut tree = Tree {
             urdf,
             problems,
@@ -234,6 +224,14 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         self.urdf.links.iter().position(|link| link.name == name)
     }
 
+    /// Returns the link that stands still.
+    fn base(&mut self, options: &Options) -> Option<usize> {
+        match &options.base {
+            Some(name) => self.link(name),
+            None => self.root().map(|root| self.standing(root)),
+        }
+    }
+
     /// Returns the only link that hangs on nothing.
     fn root(&mut self) -> Option<usize> {
         let all = 0..self.urdf.links.len();
@@ -241,20 +239,16 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         if let [root] = roots[..] {
             return Some(root);
         }
-        let names = roots
-            .iter()
-            .map(|root| self.urdf.links[*root].name.as_str());
-        let (message, help) = match roots.is_empty() {
-            true => (
+        let names = roots.iter();
+        let names: Vec<&str> = names.map(|root| &*self.urdf.links[*root].name).collect();
+        let (message, help) = match roots.len() {
+            0 => (
                 "every link hangs on another: this is no tree".to_owned(),
                 "the base hangs on nothing".to_owned(),
             ),
-            false => (
-                format!("{} links hang on nothing", roots.len()),
-                format!(
-                    "choose one by --base: {}",
-                    names.collect::<Vec<_>>().join(", ")
-                ),
+            count => (
+                format!("{count} links hang on nothing"),
+                format!("choose one by --base: {}", names.join(", ")),
             ),
         };
         self.problems.error(&self.urdf.span, message, &help);
@@ -360,12 +354,11 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
         };
         let slides = own == Kind::Prismatic;
         if slides != (other == Kind::Prismatic) {
-            let words = if slides {
-                ["slides", "turns"]
-            } else {
-                ["turns", "slides"]
+            let (own, other) = match slides {
+                true => ("slides", "turns"),
+                false => ("turns", "slides"),
             };
-            return Some(format!(", and {} where that {}", words[0], words[1]));
+            return Some(format!(", and {own} where that {other}"));
         }
         let most = Rational::from_integer(Follower::MAX_TURNS.into());
         let is_whole = multiplier.is_integer() && multiplier.abs() <= most;
@@ -429,18 +422,13 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
                 if self.without.contains(&child) {
                     continue;
                 }
-                match self.step(joint) {
-                    Some(step) => {
-                        let way = way.iter().cloned().chain([step]);
-                        open.push((child, way.collect()));
-                    }
-                    None if path.contains(&joint) => {}
-                    None => match self.hold(joint) {
-                        Some(step) => {
-                            open.push((child, way.iter().cloned().chain([step]).collect()));
-                        }
-                        None => good = false,
-                    },
+                let stays = self.step(joint);
+                if stays.is_none() && path.contains(&joint) {
+                    continue;
+                }
+                match stays.or_else(|| self.hold(joint)) {
+                    Some(step) => open.push((child, [&way[..], &[step]].concat())),
+                    None => good = false,
                 }
             }
             links.push((link, way));

@@ -1,8 +1,9 @@
 //! Real URDFs: torques, gravity loads and poses are those of an independent
 //! library; with snapping they are off by no more than the bounds say.
 
-use crate::support;
-use crate::support::{NAMES, exact, golden, imported, snapped};
+use crate::support::{
+    NAMES, State, bounded, exact, golden, imported, largest, motion, snapped, worst,
+};
 use dalembert_import::Motion;
 use dalembert_model::reference::Reference;
 use nalgebra::DVector;
@@ -11,31 +12,7 @@ use nalgebra::DVector;
 #[test]
 fn exact_digits_give_the_torques_of_the_urdf() {
     for name in NAMES {
-        let golden = golden(name);
-        let robot = imported(name, &exact(name)).robot;
-        let names: Vec<_> = robot
-            .joints
-            .iter()
-            .map(|j| j.name.clone().unwrap())
-            .collect();
-        assert_eq!(names, golden.joints, "{name}");
-        let runtime = Reference::<f64>::from_robot(&robot);
-        let mut worst: f64 = 0.0;
-        for state in &golden.states {
-            let [q, qd, qdd] =
-                [&state.q, &state.qd, &state.qdd].map(|x| DVector::from_vec(x.clone()));
-            let mut tau = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
-            for (i, joint) in robot.joints.iter().enumerate() {
-                tau[i] -= num_traits::ToPrimitive::to_f64(&joint.viscous).unwrap() * qd[i];
-            }
-            worst = worst.max(support::relative(tau.as_slice(), &state.tau));
-            let c = runtime.gravity(&q).unwrap();
-            worst = worst.max(support::relative(c.as_slice(), &state.gravity));
-            let d = runtime.inertia(&q).unwrap();
-            worst = worst.max(support::relative(d.transpose().as_slice(), &state.inertia));
-            let hand = runtime.hand(&q).unwrap().rows();
-            worst = worst.max(support::relative(&hand, &state.pose));
-        }
+        let worst = worst(&imported(name, &exact(name)).robot, &golden(name));
         println!("{name}: {worst:.1e}");
         assert!(worst < 1e-12, "{name}: {worst:e}");
     }
@@ -46,52 +23,10 @@ fn exact_digits_give_the_torques_of_the_urdf() {
 #[test]
 fn snapped_torques_stay_within_the_bound() {
     for name in NAMES {
-        let golden = golden(name);
         let imported = imported(name, &snapped(name));
-        let runtime = Reference::<f64>::from_robot(&imported.robot);
-        let largest = |of: fn(&support::State) -> &Vec<f64>| {
-            let n = golden.joints.len();
-            let most = |i: usize| golden.states.iter().map(move |s| of(s)[i].abs());
-            (0..n)
-                .map(|i| most(i).fold(0.0, f64::max))
-                .collect::<Vec<_>>()
-        };
-        let motion = Motion {
-            position: largest(|s| &s.q),
-            velocity: largest(|s| &s.qd),
-            acceleration: largest(|s| &s.qdd),
-        };
-        let bounds = match &imported.change {
-            Some(change) => change.torques(&motion),
-            None => vec![0.0; golden.joints.len()],
-        };
-        let (mut worst, mut most) = (0.0f64, 0.0f64);
-        for state in &golden.states {
-            let [q, qd, qdd] =
-                [&state.q, &state.qd, &state.qdd].map(|x| DVector::from_vec(x.clone()));
-            let tau = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
-            let size = state.tau.iter().fold(0.0f64, |most, x| most.max(x.abs()));
-            for (i, joint) in imported.robot.joints.iter().enumerate() {
-                let damping = num_traits::ToPrimitive::to_f64(&joint.viscous).unwrap() * qd[i];
-                let off = (tau[i] - damping - state.tau[i]).abs();
-                // Of the golden values' own rounding and the runtime's.
-                let rounding = 1e-12 * size;
-                assert!(
-                    off <= bounds[i] + rounding,
-                    "{name}, joint {i}: {off:e} > {:e}",
-                    bounds[i]
-                );
-                worst = worst.max(off);
-                most = most.max(bounds[i]);
-            }
-        }
-        println!(
-            "{name}: {} snaps, off by {worst:.1e} N·m, bound {most:.1e}, {}",
-            imported.snaps.len(),
-            imported
-                .change
-                .map_or("none".to_owned(), |change| change.to_string())
-        );
+        // Of the golden values' own rounding and the runtime's.
+        let rounding = |state: &State| 1e-12 * largest(&state.tau);
+        let most = bounded(name, &imported, &golden(name), rounding);
         assert!(most < 0.1, "{name}: {most:e}");
     }
 }
@@ -103,13 +38,7 @@ fn snapped_hands_stay_within_the_bound() {
         let golden = golden(name);
         let imported = imported(name, &snapped(name));
         let runtime = Reference::<f64>::from_robot(&imported.robot);
-        let n = golden.joints.len();
-        let most = |i: usize| golden.states.iter().map(move |s| s.q[i].abs());
-        let motion = Motion {
-            position: (0..n).map(|i| most(i).fold(0.0, f64::max)).collect(),
-            velocity: Vec::new(),
-            acceleration: Vec::new(),
-        };
+        let motion = motion(&golden);
         let bound = imported.change.as_ref().map(|change| change.hand(&motion));
         let (mut far, mut turned) = (0.0f64, 0.0f64);
         for state in &golden.states {

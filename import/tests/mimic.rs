@@ -5,10 +5,8 @@ use dalembert_import::Options;
 use dalembert_model::outputs::{Argument, Quantity};
 use dalembert_model::reference::{JointVectors, Reference};
 use nalgebra::DVector;
-use serde_json::Value;
 
-use crate::support;
-use crate::support::{imported, refused, relative, source};
+use crate::support::{flat, imported, json, refused, relative, source};
 
 const ARM: &str = "wafer";
 
@@ -16,13 +14,6 @@ fn options() -> Options {
     Options {
         file: format!("{ARM}.urdf"),
         ..Options::default()
-    }
-}
-
-fn numbers(value: &Value) -> Vec<f64> {
-    match value {
-        Value::Array(list) => list.iter().flat_map(numbers).collect(),
-        other => vec![other.as_f64().unwrap()],
     }
 }
 
@@ -42,21 +33,20 @@ fn the_runtime_gives_what_pinocchio_gives() {
     let names: Vec<&str> = names.iter().map(|name| name.as_deref().unwrap()).collect();
     assert_eq!(names, ["turn", "lift", "shoulder", "tilt"]);
     let runtime = Reference::<f64>::from_robot(&imported.robot);
-    let json = support::json(ARM);
+    let json = json(ARM);
     let mut compared = 0;
     for state in json["states"].as_array().unwrap() {
         let of = |argument: Argument| {
             let key = argument.given().unwrap_or_default();
-            DVector::from_vec(state.get(key).map_or_else(Vec::new, numbers))
+            DVector::from_vec(state.get(key).map_or_else(Vec::new, flat))
         };
-        let mut at = JointVectors::new(Argument::JOINTS.map(of));
-        (at.wrench, at.damping) = (of(Argument::Wrench), of(Argument::Damping));
+        let at = JointVectors::new(Argument::ALL.map(|argument| (argument, of(argument))));
         for &quantity in Quantity::ALL {
             let Some(known) = quantity.given().and_then(|key| state.get(key)) else {
                 continue;
             };
             let found = runtime.entries(quantity, &at).unwrap();
-            let error = relative(&found, &numbers(known));
+            let error = relative(&found, &flat(known));
             assert!(error < 1e-12, "{quantity:?}: {error:e}");
             compared += 1;
         }

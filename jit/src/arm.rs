@@ -4,8 +4,7 @@ use std::path::Path;
 
 use dalembert_codegen::workspace::{self, Argument, Code, Sizes, parse};
 use dalembert_codegen::{
-    Counts, Function as Output, Generated, Language, Plan, Request, RobotFileError, ScalarType,
-    generate,
+    Counts, Function as Output, Language, Plan, Request, RobotFileError, ScalarType, generate,
 };
 use dalembert_import::{Text, Unopened, is_model, open_text};
 use dalembert_model::robot::Robot;
@@ -17,7 +16,7 @@ use crate::entry::{Entry, Proved};
 use crate::error::LoadError;
 use crate::make::{claimed, made, read_robot};
 use crate::native::Native;
-use crate::request::{Cache, Load};
+use crate::request::Load;
 
 /// A function of an arm.
 pub struct Function {
@@ -91,7 +90,7 @@ impl Arm {
         })?;
         let plan = match is_model(source.as_str().as_bytes()) {
             true => None,
-            false => dalembert_codegen::workspace::plan_file::beside(path)
+            false => workspace::plan_file::beside(path)
                 .map_err(|error| LoadError::Robot(format!("error: {error}")))?,
         };
         Arm::of(&source, plan, load)
@@ -114,12 +113,7 @@ impl Arm {
     }
 
     fn of(source: &Text, plan: Option<Plan>, load: &Load) -> Result<Arm, LoadError> {
-        let folder = match &load.cache {
-            Cache::Off => None,
-            Cache::At(path) => Some(Folder::at(path)),
-            Cache::User => Folder::of_user(),
-        };
-        let (folder, note) = match folder.map(Folder::trusted).transpose() {
+        let (folder, note) = match Folder::of(&load.cache) {
             Ok(folder) => (folder, None),
             Err(note) => (None, Some(note)),
         };
@@ -150,15 +144,12 @@ impl Arm {
         is_from_cache: bool,
     ) -> Result<Arm, LoadError> {
         let reading = read_robot(&entry.robot, "the arm's robot file")?;
-        let functions: Result<Vec<Function>, LoadError> = entry
-            .functions
-            .iter()
-            .map(|proved| compiled(&entry, proved))
-            .collect();
+        let functions = entry.functions.iter();
+        let functions = functions.map(|proved| compiled(&entry, proved));
         Ok(Arm {
             robot: reading.robot,
             source: source.to_owned(),
-            functions: functions?,
+            functions: functions.collect::<Result<_, _>>()?,
             entry,
             load: load.clone(),
             is_from_cache,
@@ -231,15 +222,11 @@ impl Arm {
         request.language = Language::C;
         request.module = name;
         request.plan = Plan::parse(&self.entry.plan).ok();
-        let generated = generate(&reading.robot, &request).map_err(LoadError::Generate)?;
+        let mut generated = generate(&reading.robot, &request).map_err(LoadError::Generate)?;
         let claim = claimed(&reading.robot, self.robot_file(), &request, &generated)?;
-        let Generated {
-            texts,
-            mut warnings,
-            ..
-        } = generated;
-        warnings.retain(|warning| !self.notes().contains(warning));
-        Ok((texts.concat(), claim, warnings))
+        let own = |warning: &String| !self.notes().contains(warning);
+        generated.warnings.retain(own);
+        Ok((generated.texts.concat(), claim, generated.warnings))
     }
 
     /// Returns the robot as a robot file.
@@ -285,12 +272,9 @@ fn compiled(entry: &Entry, proved: &Proved) -> Result<Function, LoadError> {
     let scalar = parse::<ScalarType>(&proved.scalar).map_err(|_| damaged())?;
     let text = entry.rust.get(proved.file).ok_or_else(damaged)?;
     let sizes = proved.sizes();
-    let arguments = proved
-        .arguments
-        .iter()
-        .map(|name| Argument::from_name(name));
-    let arguments: Option<Vec<Argument>> = arguments.collect();
-    let arguments = arguments.ok_or_else(damaged)?;
+    let arguments = proved.arguments.iter();
+    let arguments = arguments.map(|name| Argument::from_name(name).ok_or_else(damaged));
+    let arguments = arguments.collect::<Result<Vec<_>, _>>()?;
     let form = workspace::Signature {
         function: output,
         arguments: &arguments,

@@ -73,45 +73,28 @@ fn hexadecimal(hash: [u8; 32]) -> String {
 }
 
 impl Folder {
-    /// Takes a folder; it is made when something is kept.
-    pub(crate) fn at(path: &Path) -> Folder {
-        Folder(path.to_owned())
-    }
-
-    /// Returns the folder if the user alone may write it.
+    /// Returns the folder that is asked for, if there is one. It is made when something is kept.
     ///
     /// # Errors
-    /// A note that says why nothing is read from it or kept in it.
-    pub(crate) fn trusted(self) -> Result<Folder, String> {
-        match fs::metadata(&self.0) {
+    /// A note that says why nothing is read from it or kept in it: others may write it.
+    pub(crate) fn of(cache: &Cache) -> Result<Option<Folder>, String> {
+        let path = match cache {
+            Cache::Off => None,
+            Cache::At(path) => Some(path.clone()),
+            Cache::User => user_folder(),
+        };
+        let Some(path) = path else {
+            return Ok(None);
+        };
+        match fs::metadata(&path) {
             Ok(about) if !is_private(&about) => Err(format!(
                 "note: nothing is read from the cache `{}` or kept there, since other users may \
                  write it: they could change the code that runs; `chmod go-w` on a folder of your \
                  own ends this",
-                self.0.display()
+                path.display()
             )),
-            _ => Ok(self),
+            _ => Ok(Some(Folder(path))),
         }
-    }
-
-    /// Returns the user's folder, if the environment tells where that is.
-    pub(crate) fn of_user() -> Option<Folder> {
-        let set = |name| {
-            env::var_os(name)
-                .filter(|value| !value.is_empty())
-                .map(PathBuf::from)
-        };
-        if let Some(own) = set("DALEMBERT_CACHE") {
-            return Some(Folder(own));
-        }
-        let caches = if cfg!(windows) {
-            set("LOCALAPPDATA")
-        } else if cfg!(target_os = "macos") {
-            set("HOME").map(|home| home.join("Library/Caches"))
-        } else {
-            set("XDG_CACHE_HOME").or_else(|| set("HOME").map(|home| home.join(".cache")))
-        };
-        caches.map(|caches| Folder(caches.join("dalembert")))
     }
 
     /// Reads an entry that is whole.
@@ -166,6 +149,24 @@ impl Folder {
     }
 }
 
+/// Returns the user's folder, if the environment tells where that is.
+fn user_folder() -> Option<PathBuf> {
+    let set = |name| {
+        let value = env::var_os(name).filter(|value| !value.is_empty());
+        value.map(PathBuf::from)
+    };
+    let caches = || {
+        if cfg!(windows) {
+            set("LOCALAPPDATA")
+        } else if cfg!(target_os = "macos") {
+            set("HOME").map(|home| home.join("Library/Caches"))
+        } else {
+            set("XDG_CACHE_HOME").or_else(|| set("HOME").map(|home| home.join(".cache")))
+        }
+    };
+    set("DALEMBERT_CACHE").or_else(|| caches().map(|caches| caches.join("dalembert")))
+}
+
 /// Tells whether a folder or file is the user's, or the system's, and nobody else may write it.
 #[cfg(unix)]
 fn is_private(about: &Metadata) -> bool {
@@ -174,39 +175,26 @@ fn is_private(about: &Metadata) -> bool {
     about.mode() & 0o022 == 0 && owners.contains(&about.uid())
 }
 
-/// Makes a folder that the user alone may read and write.
-#[cfg(unix)]
-fn private_folder(path: &Path) -> io::Result<()> {
-    use std::os::unix::fs::DirBuilderExt;
-    fs::DirBuilder::new()
-        .recursive(true)
-        .mode(0o700)
-        .create(path)
-}
-
-/// Makes a file that the user alone may read and write.
-#[cfg(unix)]
-fn private_file(path: &Path) -> io::Result<File> {
-    use std::os::unix::fs::OpenOptionsExt;
-    let mut options = File::options();
-    options.write(true).create(true).truncate(true).mode(0o600);
-    options.open(path)
-}
-
 /// Elsewhere the user's folders are taken to be the user's alone.
 #[cfg(not(unix))]
 fn is_private(_: &Metadata) -> bool {
     true
 }
 
-#[cfg(not(unix))]
+/// Makes a folder that the user alone may read and write.
 fn private_folder(path: &Path) -> io::Result<()> {
-    fs::create_dir_all(path)
+    let mut builder = fs::DirBuilder::new();
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    builder.recursive(true).create(path)
 }
 
-#[cfg(not(unix))]
+/// Makes a file that the user alone may read and write.
 fn private_file(path: &Path) -> io::Result<File> {
-    File::create(path)
+    let mut options = File::options();
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    options.write(true).create(true).truncate(true).open(path)
 }
 
 #[cfg(test)]

@@ -88,7 +88,7 @@ pub(crate) fn check<T: Machine + Default>(
     for (state, arguments) in drawn::<T>(signature).iter().enumerate() {
         let slices: Vec<&[T]> = arguments.iter().map(Vec::as_slice).collect();
         // The lengths are the signature's: it can only be called.
-        call(&slices, &mut found).map_err(|_| CompileError::PARAMETERS)?;
+        call(&slices, &mut found).map_err(|_| CompileError::Program)?;
         if let Some(result) = differing(&expected(program, signature, arguments), &found) {
             return Err(CompileError::Differs { state, result });
         }
@@ -138,15 +138,11 @@ pub(crate) fn check_many<T: Machine + Default>(
         });
     call(&rows, &mut results.collect::<Vec<_>>())?;
     for (state, arguments) in states.iter().enumerate() {
+        let entries = |(found, &len): (&Vec<T>, &usize)| -> Vec<T> {
+            place(len).entries(state).map(|at| found[at]).collect()
+        };
         let own = found.iter().zip(&signature.results);
-        let own: Vec<T> = own
-            .flat_map(|(found, &len)| {
-                place(len)
-                    .entries(state)
-                    .map(|at| found[at])
-                    .collect::<Vec<_>>()
-            })
-            .collect();
+        let own: Vec<T> = own.flat_map(entries).collect();
         if let Some(result) = differing(&expected(program, signature, arguments), &own) {
             let error = CompileError::Differs { state, result };
             return Err(CallError::Compile(error));

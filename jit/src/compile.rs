@@ -55,15 +55,6 @@ pub(crate) enum States {
     Adjacent,
 }
 
-impl States {
-    fn lanes(self) -> Lanes {
-        match self {
-            States::One => Lanes::One,
-            States::Apart | States::Adjacent => Lanes::Vector,
-        }
-    }
-}
-
 /// Compiles a program.
 pub(crate) fn compile(
     code: &Code,
@@ -72,6 +63,7 @@ pub(crate) fn compile(
     library: *const u8,
 ) -> Result<Linked, CompileError> {
     let mut flags = settings::builder();
+    let verifies = cfg!(debug_assertions).to_string();
     for (name, value) in [
         ("use_colocated_libcalls", "false"),
         ("is_pic", "false"),
@@ -79,14 +71,7 @@ pub(crate) fn compile(
         // Large programs have frames beyond a guard page.
         ("enable_probestack", "true"),
         ("probestack_strategy", "inline"),
-        (
-            "enable_verifier",
-            if cfg!(debug_assertions) {
-                "true"
-            } else {
-                "false"
-            },
-        ),
+        ("enable_verifier", verifies.as_str()),
     ] {
         flags.set(name, value).map_err(CompileError::cranelift)?;
     }
@@ -110,13 +95,19 @@ fn define(
     signature: &Signature,
     states: States,
 ) -> Result<FuncId, CompileError> {
-    let lanes = states.lanes();
+    let (lanes, parameters) = match states {
+        // Addresses of the arguments, and of the results.
+        States::One => (Lanes::One, 2),
+        // Addresses of all arguments' entries, the arguments' strides, addresses of all results'
+        // entries, the results' strides, the number of states.
+        States::Apart | States::Adjacent => (Lanes::Vector, 5),
+    };
     let mut library = module.make_signature();
     library.params = vec![AbiParam::new(types::I64); 3];
     let library = module.declare_function(LIBRARY, Linkage::Import, &library);
     let library = library.map_err(CompileError::cranelift)?;
     let mut own = module.make_signature();
-    own.params = vec![AbiParam::new(types::I64); lanes.parameters()];
+    own.params = vec![AbiParam::new(types::I64); parameters];
     let function = module.declare_function("function", Linkage::Local, &own);
     let function = function.map_err(CompileError::cranelift)?;
     let mut context: Context = module.make_context();
@@ -143,19 +134,6 @@ fn define(
     Ok(function)
 }
 
-impl Lanes {
-    /// Returns how many parameters the function has.
-    fn parameters(self) -> usize {
-        match self {
-            // Addresses of the arguments, and of the results.
-            Lanes::One => 2,
-            // Addresses of all arguments' entries, the arguments' strides, addresses of all
-            // results' entries, the results' strides, the number of states.
-            Lanes::Vector => 5,
-        }
-    }
-}
-
 fn one(
     emitter: &Emitter<'_>,
     code: &Code,
@@ -163,10 +141,12 @@ fn one(
     parameters: &[Value],
 ) -> Result<(), CompileError> {
     let &[arguments, results] = parameters else {
-        return Err(CompileError::PARAMETERS);
+        return Err(CompileError::Program);
     };
     let width = bytes(code.scalar) as i32;
-    let addresses = addresses(emitter, arguments, signature.arguments.len());
+    let addresses = 0..signature.arguments.len();
+    let addresses = addresses.map(|index| address(emitter, arguments, index));
+    let addresses: Vec<Value> = addresses.collect();
     let read = |argument, index: usize| {
         let (place, len) = signature.argument(argument)?;
         (index < len).then(|| emitter.read(addresses[place], index as i32 * width))
@@ -178,13 +158,7 @@ fn one(
     Ok(())
 }
 
-/// Reads pointers or strides from a table.
-fn addresses(emitter: &Emitter<'_>, table: Value, count: usize) -> Vec<Value> {
-    (0..count)
-        .map(|index| address(emitter, table, index))
-        .collect()
-}
-
+/// Reads a pointer or stride from a table.
 fn address(emitter: &Emitter<'_>, table: Value, index: usize) -> Value {
     let flags = MemFlagsData::trusted();
     emitter.with(|b| b.ins().load(types::I64, flags, table, 8 * index as i32))
@@ -199,7 +173,7 @@ fn many(
     layout: States,
 ) -> Result<(), CompileError> {
     let &[entries, strides, results, result_strides, states] = parameters else {
-        return Err(CompileError::PARAMETERS);
+        return Err(CompileError::Program);
     };
     let lanes = Lanes::Vector.count(code.scalar);
     let (head, body, end) = emitter.with(|b| {

@@ -4,8 +4,6 @@ use std::fmt;
 
 use dalembert_codegen::{GenerateError, ScalarType};
 
-use crate::program::Unreadable;
-
 /// Why a program was not compiled.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -31,16 +29,8 @@ pub enum CompileError {
 }
 
 impl CompileError {
-    pub(crate) const PARAMETERS: CompileError = CompileError::Program;
-
     pub(crate) fn cranelift(error: impl fmt::Display) -> CompileError {
         CompileError::Cranelift(error.to_string())
-    }
-}
-
-impl From<Unreadable> for CompileError {
-    fn from(_: Unreadable) -> CompileError {
-        CompileError::Program
     }
 }
 

@@ -16,6 +16,7 @@ use std::sync::OnceLock;
 use cranelift_jit::JITModule;
 use dalembert_codegen::ScalarType;
 use dalembert_codegen::workspace::{Code, Machine};
+use dalembert_sines::text::Angle;
 
 use crate::check::{STATES, check, check_many};
 use crate::compile::{Linked, Signature, States, compile};
@@ -65,48 +66,24 @@ type Vectors<T> = unsafe extern "C" fn(
 );
 
 /// A float that machine code computes in.
-pub trait Real: Machine + std::fmt::Debug + Default + Send + Sync + 'static {
-    /// Computes sines as a call asks.
-    #[doc(hidden)]
-    fn sines(angles: &[Self], sines: &mut [Self], cosines: &mut [Self], kind: usize);
-}
+pub trait Real: Machine + Angle + std::fmt::Debug + Send + Sync + 'static {}
+impl Real for f64 {}
+impl Real for f32 {}
 
-macro_rules! real {
-    ($t:ty, $largest:expr, $together:path, $sin:path, $cos:path, $both:path) => {
-        impl Real for $t {
-            fn sines(angles: &[$t], sines: &mut [$t], cosines: &mut [$t], kind: usize) {
-                for ((&angle, sin), cos) in angles.iter().zip(sines).zip(cosines) {
-                    if kind == Call::Sine as usize {
-                        *sin = $sin(angle);
-                    } else if kind == Call::Cosine as usize {
-                        *cos = $cos(angle);
-                    } else if kind == Call::Both as usize {
-                        (*sin, *cos) = $both(angle);
-                    } else if angle.is_nan() || angle.abs() > $largest {
-                        let ([s], [c]) = $together(&[angle]);
-                        (*sin, *cos) = (s, c);
-                    }
-                }
-            }
+/// Computes sines as a call asks.
+fn sines<T: Real>(angles: &[T], sines: &mut [T], cosines: &mut [T], kind: usize) {
+    for ((&angle, sin), cos) in angles.iter().zip(sines).zip(cosines) {
+        if kind == Call::Sine as usize {
+            *sin = angle.sin();
+        } else if kind == Call::Cosine as usize {
+            *cos = angle.cos();
+        } else if kind == Call::Both as usize {
+            (*sin, *cos) = angle.sincos();
+        } else if !angle.are_within(T::LARGEST) {
+            (*sin, *cos) = angle.together();
         }
-    };
+    }
 }
-real!(
-    f64,
-    dalembert_sines::LARGEST,
-    dalembert_sines::sincos,
-    libm::sin,
-    libm::cos,
-    libm::sincos
-);
-real!(
-    f32,
-    dalembert_sines::LARGEST_F32,
-    dalembert_sines::sincosf,
-    libm::sinf,
-    libm::cosf,
-    libm::sincosf
-);
 
 /// What code calls for sines: `count` angles at an address, behind them as many sines, then
 /// cosines.
@@ -118,7 +95,7 @@ extern "C" fn library<T: Real>(angles: *mut T, count: usize, kind: usize) {
     let all = unsafe { std::slice::from_raw_parts_mut(angles, 3 * count) };
     let (angles, pairs) = all.split_at_mut(count);
     let (sines, cosines) = pairs.split_at_mut(count);
-    T::sines(angles, sines, cosines, kind);
+    self::sines(angles, sines, cosines, kind);
 }
 
 fn library_address(scalar: ScalarType) -> *const u8 {
@@ -228,15 +205,16 @@ impl Native {
             self.program.dag.outputs.len(),
             results.len(),
         )?;
-        let mut addresses = [std::ptr::null(); MOST_ARGUMENTS];
-        for (address, argument) in addresses.iter_mut().zip(arguments) {
-            *address = argument.as_ptr();
-        }
-        self.run_one(&addresses, results);
+        self.run_one(arguments, results);
         Ok(())
     }
 
-    fn run_one<T: Real>(&self, addresses: &[*const T; MOST_ARGUMENTS], results: &mut [T]) {
+    /// Runs the code for one state, whose slices are as long as the signature says.
+    fn run_one<T: Real>(&self, arguments: &[impl AsRef<[T]>], results: &mut [T]) {
+        let mut addresses = [std::ptr::null(); MOST_ARGUMENTS];
+        for (address, argument) in addresses.iter_mut().zip(arguments) {
+            *address = argument.as_ref().as_ptr();
+        }
         // SAFETY: the address is of a function of this type: compiled for one state, its
         // two parameters are addresses, and `T` is its scalar.
         let one = unsafe { std::mem::transmute::<*const u8, One<T>>(self.one.entry) };
@@ -357,22 +335,18 @@ impl Native {
         let rest = states.start + states.len() / lanes * lanes..states.end;
         let mut found = vec![T::default(); self.program.dag.outputs.len()];
         for state in rest {
-            let arguments: Vec<Vec<T>> = read
-                .0
-                .iter()
+            let gathered = |&(data, place): &(*const T, &Place)| -> Vec<T> {
+                let entries = place.entries(state);
                 // SAFETY: `Place::check` found every entry of every state in its slice.
-                .map(|&(data, place)| unsafe { gathered(data, place, state) })
-                .collect();
-            let mut addresses = [std::ptr::null(); MOST_ARGUMENTS];
-            for (address, argument) in addresses.iter_mut().zip(&arguments) {
-                *address = argument.as_ptr();
-            }
-            self.run_one(&addresses, &mut found);
+                entries.map(|at| unsafe { data.add(at).read() }).collect()
+            };
+            let arguments: Vec<Vec<T>> = read.0.iter().map(gathered).collect();
+            self.run_one(&arguments, &mut found);
             let mut values = found.iter();
             for &(data, place) in &written.0 {
-                for (offset, &value) in place.offsets.iter().zip(values.by_ref()) {
+                for (at, &value) in place.entries(state).zip(values.by_ref()) {
                     // SAFETY: as for the code's own results.
-                    unsafe { data.add(state * place.state + offset).write(value) };
+                    unsafe { data.add(at).write(value) };
                 }
             }
         }
@@ -414,18 +388,6 @@ impl Native {
             });
         checked.clone()
     }
-}
-
-/// Returns the entries of a state.
-///
-/// # Safety
-/// All of them are in the memory at the address, which is readable.
-unsafe fn gathered<T: Copy>(data: *const T, place: &Place, state: usize) -> Vec<T> {
-    let at = |offset: &usize| {
-        // SAFETY: the caller's.
-        unsafe { data.add(state * place.state + offset).read() }
-    };
-    place.offsets.iter().map(at).collect()
 }
 
 /// Addresses that threads share for the time of a call.

@@ -9,11 +9,8 @@ use dalembert_codegen::workspace::{
 };
 
 use crate::emit::{Call, Emitter};
+use crate::error::CompileError;
 use crate::sines::together;
-
-/// The code reads what it does not have: an argument, a sine or a later node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Unreadable;
 
 /// What a program reads while its instructions are emitted.
 struct Inputs<'a, 'f, R> {
@@ -24,19 +21,19 @@ struct Inputs<'a, 'f, R> {
 }
 
 impl<R: FnMut(Argument, usize) -> Option<Value>> Inputs<'_, '_, R> {
-    fn input(&mut self, input: Input) -> Result<Value, Unreadable> {
+    fn input(&mut self, input: Input) -> Result<Value, CompileError> {
         if let Some(&value) = self.read_before.get(&input) {
             return Ok(value);
         }
         let Input::Entry(argument, index) = input else {
-            return Err(Unreadable);
+            return Err(CompileError::Program);
         };
-        let value = (self.read)(argument, index).ok_or(Unreadable)?;
+        let value = (self.read)(argument, index).ok_or(CompileError::Program)?;
         self.read_before.insert(input, value);
         Ok(value)
     }
 
-    fn angle(&mut self, joint: usize) -> Result<Value, Unreadable> {
+    fn angle(&mut self, joint: usize) -> Result<Value, CompileError> {
         self.input(Input::Entry(Argument::Position, joint))
     }
 }
@@ -46,7 +43,7 @@ pub(crate) fn emit(
     emitter: &Emitter<'_>,
     code: &Code,
     read: impl FnMut(Argument, usize) -> Option<Value>,
-) -> Result<Vec<Value>, Unreadable> {
+) -> Result<Vec<Value>, CompileError> {
     let mut inputs = Inputs {
         emitter,
         read,
@@ -70,7 +67,7 @@ pub(crate) fn emit(
 }
 
 /// Emits the sines and cosines, those of a library first.
-fn sines<R>(inputs: &mut Inputs<'_, '_, R>, code: &Code) -> Result<(), Unreadable>
+fn sines<R>(inputs: &mut Inputs<'_, '_, R>, code: &Code) -> Result<(), CompileError>
 where
     R: FnMut(Argument, usize) -> Option<Value>,
 {
@@ -84,7 +81,7 @@ where
             pairs.push((pair.joint, polynomials(emitter, kernel, angle)?));
         }
     }
-    let angles: Result<Vec<Value>, Unreadable> =
+    let angles: Result<Vec<Value>, CompileError> =
         called.iter().map(|pair| inputs.angle(pair.joint)).collect();
     let angles = angles?;
     let computed = match (code.library, code.scalar) {
@@ -117,7 +114,7 @@ fn polynomials(
     emitter: &Emitter<'_>,
     kernel: &Kernel,
     angle: Value,
-) -> Result<(Value, Value), Unreadable> {
+) -> Result<(Value, Value), CompileError> {
     let values = run(emitter, &kernel.dag, |_| Ok(angle))?;
     let [sin, cos] = kernel.need.each(values);
     Ok((sin.unwrap_or(angle), cos.unwrap_or(angle)))
@@ -127,8 +124,12 @@ fn polynomials(
 fn run<I>(
     emitter: &Emitter<'_>,
     dag: &Dag<Literal, I>,
-    mut input: impl FnMut(&I) -> Result<Value, Unreadable>,
-) -> Result<Vec<Value>, Unreadable> {
+    mut input: impl FnMut(&I) -> Result<Value, CompileError>,
+) -> Result<Vec<Value>, CompileError> {
+    let signed = |value: Value, is_negative: bool| match is_negative {
+        true => emitter.with(|b| b.ins().fneg(value)),
+        false => value,
+    };
     let mut values: Vec<Value> = Vec::with_capacity(dag.nodes.len());
     for (node, id) in dag.nodes.iter().zip(0..) {
         let value = match node {
@@ -146,29 +147,15 @@ fn run<I>(
                 }
                 Some(fusion) => {
                     let [left, right] = fusion.factors.map(|id| values[id as usize]);
-                    let addend = values[fusion.addend as usize];
-                    emitter.with(|b| {
-                        let left = match fusion.negative {
-                            true => b.ins().fneg(left),
-                            false => left,
-                        };
-                        let addend = match fusion.minus {
-                            true => b.ins().fneg(addend),
-                            false => addend,
-                        };
-                        b.ins().fma(left, right, addend)
-                    })
+                    let left = signed(left, fusion.negative);
+                    let addend = signed(values[fusion.addend as usize], fusion.minus);
+                    emitter.with(|b| b.ins().fma(left, right, addend))
                 }
             },
         };
         values.push(value);
     }
-    let outputs = dag.outputs.iter().map(|output| {
-        let value = values[output.index()];
-        match output.negative {
-            true => emitter.with(|b| b.ins().fneg(value)),
-            false => value,
-        }
-    });
+    let outputs = dag.outputs.iter();
+    let outputs = outputs.map(|output| signed(values[output.index()], output.negative));
     Ok(outputs.collect())
 }

@@ -30,14 +30,6 @@ impl Place {
         }
     }
 
-    /// Returns the same entries for all states.
-    pub fn constant(entries: usize) -> Place {
-        Place {
-            state: 0,
-            ..Place::rows(entries)
-        }
-    }
-
     /// Returns where the entries of a state lie.
     pub(crate) fn entries(&self, state: usize) -> impl Iterator<Item = usize> {
         let first = state * self.state;

@@ -7,126 +7,56 @@ use dalembert_sines::text::{Angle, Number, Rounded, rest};
 
 use crate::emit::{Call, Emitter};
 
-/// A number of the text: known, or a value of the function.
+/// A number of the text: a value of the function.
 #[derive(Clone, Copy)]
-pub(crate) enum Traced<'e, 'f> {
-    Constant(f64),
-    Computed(Value, &'e Emitter<'f>),
-}
-
-#[derive(Clone, Copy)]
-enum Operation {
-    Add,
-    Sub,
-    Mul,
-}
-
-impl<'e, 'f> Traced<'e, 'f> {
-    fn with(self, other: Traced<'e, 'f>, operation: Operation) -> Traced<'e, 'f> {
-        let emitter = match (self, other) {
-            (Traced::Computed(_, emitter), _) | (_, Traced::Computed(_, emitter)) => emitter,
-            // The text computes no constant; if it did, the check at load would tell.
-            (Traced::Constant(_), Traced::Constant(_)) => return Traced::Constant(f64::NAN),
-        };
-        let (left, right) = (self.value(emitter), other.value(emitter));
-        let value = emitter.with(|b| match operation {
-            Operation::Add => b.ins().fadd(left, right),
-            Operation::Sub => b.ins().fsub(left, right),
-            Operation::Mul => b.ins().fmul(left, right),
-        });
-        Traced::Computed(value, emitter)
-    }
-
-    fn value(self, emitter: &'e Emitter<'f>) -> Value {
-        match self {
-            Traced::Constant(value) => emitter.constant(value),
-            Traced::Computed(value, _) => value,
-        }
-    }
-}
+struct Traced<'e, 'f>(Value, &'e Emitter<'f>);
 
 macro_rules! operations {
-    ($($operation:ident $method:ident),*) => {$(
+    ($($operation:ident $method:ident $instruction:ident),*) => {$(
         impl $operation for Traced<'_, '_> {
             type Output = Self;
             fn $method(self, other: Self) -> Self {
-                self.with(other, Operation::$operation)
-            }
-        }
-        impl $operation<f64> for Traced<'_, '_> {
-            type Output = Self;
-            fn $method(self, other: f64) -> Self {
-                self.with(Traced::Constant(other), Operation::$operation)
-            }
-        }
-        impl $operation<f32> for Traced<'_, '_> {
-            type Output = Self;
-            fn $method(self, other: f32) -> Self {
-                self.with(Traced::Constant(f64::from(other)), Operation::$operation)
+                let Traced(own, emitter) = self;
+                Traced(emitter.with(|b| b.ins().$instruction(own, other.0)), emitter)
             }
         }
     )*};
 }
-operations!(Add add, Sub sub, Mul mul);
+operations!(Add add fadd, Sub sub fsub, Mul mul fmul);
 
-impl<'e, 'f> Neg for Traced<'e, 'f> {
+impl Neg for Traced<'_, '_> {
     type Output = Self;
     fn neg(self) -> Self {
-        match self {
-            Traced::Constant(value) => Traced::Constant(-value),
-            Traced::Computed(value, emitter) => {
-                Traced::Computed(emitter.with(|b| b.ins().fneg(value)), emitter)
-            }
-        }
+        let Traced(own, emitter) = self;
+        Traced(emitter.with(|b| b.ins().fneg(own)), emitter)
     }
 }
 
-impl<'e, 'f> Traced<'e, 'f> {
-    fn fma(self, factor: Traced<'e, 'f>, addend: Traced<'e, 'f>) -> Traced<'e, 'f> {
-        let emitter = match (self, factor, addend) {
-            (Traced::Computed(_, emitter), ..)
-            | (_, Traced::Computed(_, emitter), _)
-            | (.., Traced::Computed(_, emitter)) => emitter,
-            _ => return Traced::Constant(f64::NAN),
-        };
-        let [left, right, addend] = [self, factor, addend].map(|x| x.value(emitter));
-        let value = emitter.with(|b| b.ins().fma(left, right, addend));
-        Traced::Computed(value, emitter)
-    }
-}
-
-impl Number<f64> for Traced<'_, '_> {
-    fn all(self, value: f64) -> Self {
-        Traced::Constant(value)
+impl<T: Into<f64>> Number<T> for Traced<'_, '_> {
+    fn all(self, value: T) -> Self {
+        Traced(self.1.constant(value.into()), self.1)
     }
 
     fn fused(self, factor: Self, addend: Self) -> Self {
-        self.fma(factor, addend)
-    }
-}
-
-impl Number<f32> for Traced<'_, '_> {
-    fn all(self, value: f32) -> Self {
-        Traced::Constant(f64::from(value))
-    }
-
-    fn fused(self, factor: Self, addend: Self) -> Self {
-        self.fma(factor, addend)
+        let Traced(own, emitter) = self;
+        Traced(
+            emitter.with(|b| b.ins().fma(own, factor.0, addend.0)),
+            emitter,
+        )
     }
 }
 
 /// Sines and cosines of angles together: the polynomials, then one question for all
 /// whether a library is needed.
-pub(crate) fn together<'e, 'f, T>(emitter: &'e Emitter<'f>, angles: &[Value]) -> Vec<(Value, Value)>
+pub(crate) fn together<T>(emitter: &Emitter<'_>, angles: &[Value]) -> Vec<(Value, Value)>
 where
     T: Angle + Into<f64>,
-    Traced<'e, 'f>: Number<T>,
 {
     let mut usual: Option<Value> = None;
     let mut computed = Vec::with_capacity(angles.len());
     for &angle in angles {
-        let (shifted, sin, cos) = rest::<T, Rounded, _>(Traced::Computed(angle, emitter));
-        let [shifted, sin, cos] = [shifted, sin, cos].map(|traced| traced.value(emitter));
+        let (shifted, sin, cos) = rest::<T, Rounded, _>(Traced(angle, emitter));
+        let [shifted, sin, cos] = [shifted, sin, cos].map(|traced| traced.0);
         computed.push(turned(emitter, T::SIGN, shifted, sin, cos));
         let within = emitter.is_within(angle, T::LARGEST.into());
         usual = Some(match usual {

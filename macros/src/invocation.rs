@@ -133,10 +133,8 @@ impl Invocation {
             return self.name.to_token_stream();
         };
         let mut items = clause.items.iter();
-        let found = items.rfind(|own| text(own) == item);
-        found
-            .cloned()
-            .unwrap_or_else(|| clause.key.to_token_stream())
+        let found = items.rfind(|own| text(own) == item).cloned();
+        found.unwrap_or_else(|| clause.key.to_token_stream())
     }
 
     fn read_clauses(&mut self, trees: &[TokenTree], errors: &mut Errors) {
@@ -162,11 +160,9 @@ impl Invocation {
                 {
                     self.read_clause(key, value, errors);
                 }
-                [TokenTree::Ident(key)] => {
-                    errors.say(key, "expected `:` after the clause's name", CLAUSE);
-                }
-                [TokenTree::Ident(_), other, ..] => {
-                    errors.say(other, "expected `:` after the clause's name", CLAUSE);
+                [TokenTree::Ident(_), ..] => {
+                    let at = clause.get(1).unwrap_or(&clause[0]);
+                    errors.say(at, "expected `:` after the clause's name", CLAUSE);
                 }
                 [first, ..] => errors.say(first, "expected the name of a clause", CLAUSE),
                 [] => {}
@@ -225,13 +221,11 @@ impl Invocation {
 
     /// Reads the path of the facade crate, as an import inside the module can take it.
     fn read_facade(&mut self, key: &Ident, value: TokenStream, errors: &mut Errors) {
-        let path = Path::parse_mod_style.parse2(value.clone());
-        let Ok(path) = path else {
+        let Ok(path) = Path::parse_mod_style.parse2(value.clone()) else {
             let help = "crate = ::my_library::dalembert;";
-            let at = if value.is_empty() {
-                key.to_token_stream()
-            } else {
-                value
+            let at = match value.is_empty() {
+                true => key.to_token_stream(),
+                false => value,
             };
             errors.say(at, "expected the path of the crate `dalembert`", help);
             return;
@@ -239,11 +233,8 @@ impl Invocation {
         let start = path.segments.first().map(|segment| &segment.ident);
         if let Some(start) = start.filter(|start| *start == "self" || *start == "super") {
             let text = "the path would be taken from inside the generated module";
-            errors.say(
-                start,
-                text,
-                "start with `crate::` or with the name of a crate",
-            );
+            let help = "start with `crate::` or with the name of a crate";
+            errors.say(start, text, help);
             return;
         }
         self.facade = path;
@@ -282,11 +273,9 @@ fn head(input: ParseStream<'_>, late: &mut Vec<Error>) -> syn::Result<Head> {
 /// Returns the number of trees of a clause: up to a semicolon, or to the next key where the
 /// semicolon was forgotten.
 fn length(trees: &[TokenTree]) -> usize {
-    let is_colon = |tree: &TokenTree| {
-        let TokenTree::Punct(punct) = tree else {
-            return false;
-        };
-        punct.as_char() == ':' && punct.spacing() == Spacing::Alone
+    let is_colon = |tree: &TokenTree| match tree {
+        TokenTree::Punct(punct) => punct.as_char() == ':' && punct.spacing() == Spacing::Alone,
+        _ => false,
     };
     let mut has_frame = false;
     for (index, tree) in trees.iter().enumerate() {

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use dalembert_stamp::{Asked, Stale, Stamp};
-use proc_macro2::{Ident, LexError, TokenStream};
+use proc_macro2::{Ident, TokenStream};
 #[cfg(not(feature = "search"))]
 use quote::ToTokens;
 use quote::quote;
@@ -27,12 +27,8 @@ pub(crate) fn expand(input: TokenStream, folders: &[PathBuf]) -> TokenStream {
     quote!(#watch #errors #modules)
 }
 
-/// The module of one scalar.
-struct Wanted {
-    name: Ident,
-    /// The options that its file must have.
-    asked: Asked,
-}
+/// The name of the module of one scalar, and the options that its file must have.
+type Wanted = (Ident, Asked);
 
 /// A file beside a robot file, and why it is not taken; `None` where there is no file.
 type Refused = (PathBuf, Option<Stale>);
@@ -45,10 +41,8 @@ fn modules(
 ) -> (TokenStream, TokenStream) {
     let wanted = wanted(invocation);
     if invocation.has_text() {
-        return (
-            TokenStream::new(),
-            generated(invocation, None, &wanted, &[], errors),
-        );
+        let modules = generated(invocation, None, &wanted, &[], errors);
+        return (TokenStream::new(), modules);
     }
     let (robot, text) = match robot(invocation, folders) {
         Ok(found) => found,
@@ -59,21 +53,17 @@ fn modules(
     };
     let mut watch = watched(&robot);
     let (mut modules, mut refused) = (TokenStream::new(), Vec::new());
-    for own in &wanted {
-        let file = robot.with_file_name(format!("{}.rs", own.name));
+    for (name, asked) in &wanted {
+        let file = robot.with_file_name(format!("{name}.rs"));
         let Ok(found) = fs::read_to_string(&file) else {
             refused.push((file, None));
             continue;
         };
         watch.extend(watched(&file));
-        match Stamp::check(&found, env!("CARGO_PKG_VERSION"), &text, &own.asked) {
-            Ok(()) => modules.extend(module(
-                invocation,
-                &own.name,
-                &found,
-                TokenStream::new(),
-                errors,
-            )),
+        match Stamp::check(&found, env!("CARGO_PKG_VERSION"), &text, asked) {
+            Ok(()) => {
+                modules.extend(module(invocation, name, &found, TokenStream::new(), errors));
+            }
             Err(stale) => refused.push((file, Some(stale))),
         }
     }
@@ -89,10 +79,7 @@ fn wanted(invocation: &Invocation) -> Vec<Wanted> {
     let name = &invocation.name;
     let files = invocation.asked.by_scalar().into_iter();
     files
-        .map(|(suffix, asked)| Wanted {
-            name: named(&format!("{name}{suffix}"), name.span()),
-            asked,
-        })
+        .map(|(suffix, asked)| (named(&format!("{name}{suffix}"), name.span()), asked))
         .collect()
 }
 
@@ -138,9 +125,7 @@ fn meant(path: &Path) -> Option<String> {
         same.count() * 2 >= own.len()
     };
     // The order of a folder differs between machines.
-    let mut names: Vec<String> = names.filter(alike).collect();
-    names.sort();
-    names.into_iter().next()
+    names.filter(alike).min()
 }
 
 /// Returns the path of a file in the folder of another, as messages show it.
@@ -174,7 +159,6 @@ fn module(
     let body = match with_attributes(text).parse::<TokenStream>() {
         Ok(body) => body,
         Err(error) => {
-            let error: LexError = error;
             let text = format!("the generated text has no tokens: {error}");
             errors.say(&invocation.name, &text, "");
             return TokenStream::new();
@@ -247,9 +231,9 @@ fn generated(
     let (texts, mut warnings) = crate::search::texts(invocation, robot, errors);
     let pairs = wanted.iter().zip(&texts);
     pairs
-        .map(|(own, text)| {
+        .map(|((name, _), text)| {
             let warnings = std::mem::take(&mut warnings);
-            module(invocation, &own.name, text, warnings, errors)
+            module(invocation, name, text, warnings, errors)
         })
         .collect()
 }
@@ -288,11 +272,8 @@ fn generated(
                 "{}\n  = help: or let the compiler generate it, in minutes: cargo add dalembert --features search",
                 generate()
             );
-            errors.say(
-                &invocation.robot,
-                &format!("there is no generated file `{own}`"),
-                &help,
-            );
+            let said = format!("there is no generated file `{own}`");
+            errors.say(&invocation.robot, &said, &help);
             // One command makes all of them.
             break;
         };

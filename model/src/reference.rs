@@ -66,11 +66,7 @@ pub struct WrongLength {
 
 impl fmt::Display for WrongLength {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let WrongLength {
-            argument,
-            expected,
-            found,
-        } = self;
+        let (argument, found, expected) = (self.argument, self.found, self.expected);
         write!(
             f,
             "`{argument}` has {found} values, the arm has {expected} joints"
@@ -80,27 +76,11 @@ impl fmt::Display for WrongLength {
 
 impl core::error::Error for WrongLength {}
 
-/// The joint vectors that the outputs of an arm depend on.
+/// The vectors that the outputs of an arm depend on.
 #[derive(Clone, Debug)]
 pub struct JointVectors<T> {
-    /// Positions.
-    pub q: DVector<T>,
-    /// Velocities.
-    pub qd: DVector<T>,
-    /// Accelerations.
-    pub qdd: DVector<T>,
-    /// Torques.
-    pub tau: DVector<T>,
-    /// Velocities wished for.
-    pub v: DVector<T>,
-    /// Accelerations wished for.
-    pub a: DVector<T>,
-    /// Force over moment that act on the hand; none where nothing reads it.
-    pub wrench: DVector<T>,
-    /// λ², one number; none where nothing reads it.
-    pub damping: DVector<T>,
-    /// λ, which torques or accelerations are multiplied by; none where nothing reads it.
-    pub multiplier: DVector<T>,
+    /// By the [index](Argument::index) of their arguments.
+    given: [DVector<T>; Argument::COUNT],
     /// The columns of a regressor; none where it is not asked for.
     pub columns: Vec<Column<T>>,
     /// The payload at the hand, where a load is asked for.
@@ -108,50 +88,19 @@ pub struct JointVectors<T> {
 }
 
 impl<T: Float> JointVectors<T> {
-    /// Makes a state from the entries of each argument, in the order of signatures: q, q̇, q̈, τ,
-    /// v and a; of those that nothing reads none.
-    pub fn new([q, qd, qdd, tau, v, a]: [DVector<T>; 6]) -> Self {
+    /// Makes a state from the entries of arguments; those that nothing reads may be left out,
+    /// as are gravity and payloads, which the arm has.
+    pub fn new(vectors: impl IntoIterator<Item = (Argument, DVector<T>)>) -> Self {
+        let mut given = Argument::ALL.map(|_| DVector::from_vec(Vec::new()));
+        for (argument, vector) in vectors {
+            given[argument.index()] = vector;
+        }
         JointVectors {
-            q,
-            qd,
-            qdd,
-            tau,
-            v,
-            a,
-            wrench: none(),
-            damping: none(),
-            multiplier: none(),
+            given,
             columns: Vec::new(),
             loading: None,
         }
     }
-
-    /// Returns the vector of an argument; none of gravity and payloads, which the arm has.
-    fn of(&self, argument: Argument) -> Option<&DVector<T>> {
-        Some(match argument {
-            Argument::Position => &self.q,
-            Argument::Velocity => &self.qd,
-            Argument::Acceleration => &self.qdd,
-            Argument::Torque => &self.tau,
-            Argument::ReferenceVelocity => &self.v,
-            Argument::ReferenceAcceleration => &self.a,
-            Argument::Wrench => &self.wrench,
-            Argument::Damping => &self.damping,
-            Argument::Multiplier => &self.multiplier,
-            Argument::Gravity | Argument::Load | Argument::Payload => return None,
-        })
-    }
-
-    /// Makes a state at these positions, without a motion.
-    fn at(q: &DVector<T>) -> Self {
-        let mut all = [(); 6].map(|()| none());
-        all[Argument::Position.index()] = q.clone();
-        JointVectors::new(all)
-    }
-}
-
-fn none<T: Float>() -> DVector<T> {
-    DVector::from_vec(Vec::new())
 }
 
 /// The dynamics of one arm in floating point.
@@ -244,12 +193,16 @@ impl<T: Float> Reference<T> {
     /// # Errors
     /// A vector that the quantity depends on has another length than the arm has joints.
     pub fn entries(&self, quantity: Quantity, at: &JointVectors<T>) -> Result<Vec<T>, WrongLength> {
-        let q = self.positions(self.values(Argument::Position, &at.q)?);
+        let vector = |argument: Argument| &at.given[argument.index()];
+        let position = Argument::Position;
+        let q = self.positions(self.values(position, vector(position))?);
         let mut given = Vec::with_capacity(Argument::COUNT);
         for argument in Argument::ALL {
-            given.push(match at.of(argument) {
-                Some(vector) if quantity.arguments().contains(&argument) => {
-                    self.values(argument, vector)?.to_vec()
+            given.push(match argument {
+                // The arm has them.
+                Argument::Gravity | Argument::Load | Argument::Payload => Vec::new(),
+                _ if quantity.arguments().contains(&argument) => {
+                    self.values(argument, vector(argument))?.to_vec()
                 }
                 _ => zeros(argument.length(self.sizes())),
             });
@@ -291,12 +244,7 @@ impl<T: Float> Reference<T> {
         qd: &DVector<T>,
         qdd: &DVector<T>,
     ) -> Result<DVector<T>, WrongLength> {
-        let at = JointVectors {
-            qd: qd.clone(),
-            qdd: qdd.clone(),
-            ..JointVectors::at(q)
-        };
-        self.entries(Quantity::Torque, &at).map(DVector::from_vec)
+        self.vector(Quantity::Torque, [q, qd, qdd])
     }
 
     /// Computes q̈ = D⁻¹ (τ − h − c − (b + F∘r)∘q̇): infinities and NaN where D is singular.
@@ -309,13 +257,7 @@ impl<T: Float> Reference<T> {
         qd: &DVector<T>,
         tau: &DVector<T>,
     ) -> Result<DVector<T>, WrongLength> {
-        let at = JointVectors {
-            qd: qd.clone(),
-            tau: tau.clone(),
-            ..JointVectors::at(q)
-        };
-        let qdd = self.entries(Quantity::Acceleration, &at)?;
-        Ok(DVector::from_vec(qdd))
+        self.vector(Quantity::Acceleration, [q, qd, tau])
     }
 
     /// Computes D, n×n, symmetric, armature on its diagonal.
@@ -323,8 +265,8 @@ impl<T: Float> Reference<T> {
     /// # Errors
     /// `q` has another length than the arm has joints.
     pub fn inertia(&self, q: &DVector<T>) -> Result<DMatrix<T>, WrongLength> {
-        let d = self.entries(Quantity::Inertia, &JointVectors::at(q))?;
-        Ok(self.matrix(&d))
+        let d = self.vector(Quantity::Inertia, [q])?;
+        Ok(self.matrix(d.as_slice()))
     }
 
     /// Computes h, the Coriolis and centrifugal torques, without damping.
@@ -332,11 +274,7 @@ impl<T: Float> Reference<T> {
     /// # Errors
     /// A vector has another length than the arm has joints.
     pub fn coriolis(&self, q: &DVector<T>, qd: &DVector<T>) -> Result<DVector<T>, WrongLength> {
-        let at = JointVectors {
-            qd: qd.clone(),
-            ..JointVectors::at(q)
-        };
-        self.entries(Quantity::Coriolis, &at).map(DVector::from_vec)
+        self.vector(Quantity::Coriolis, [q, qd])
     }
 
     /// Computes c, what holds the arm against gravity.
@@ -344,8 +282,7 @@ impl<T: Float> Reference<T> {
     /// # Errors
     /// `q` has another length than the arm has joints.
     pub fn gravity(&self, q: &DVector<T>) -> Result<DVector<T>, WrongLength> {
-        let c = self.entries(Quantity::Gravity, &JointVectors::at(q))?;
-        Ok(DVector::from_vec(c))
+        self.vector(Quantity::Gravity, [q])
     }
 
     /// Computes h_ikm: for each joint i the symmetric n×n matrix with
@@ -354,9 +291,10 @@ impl<T: Float> Reference<T> {
     /// # Errors
     /// `q` has another length than the arm has joints.
     pub fn christoffel(&self, q: &DVector<T>) -> Result<Vec<DMatrix<T>>, WrongLength> {
-        let h = self.entries(Quantity::Christoffel, &JointVectors::at(q))?;
+        let h = self.vector(Quantity::Christoffel, [q])?;
         let n = self.joints();
-        Ok(h.chunks(n * n).map(|h| self.matrix(h)).collect())
+        let matrices = h.as_slice().chunks(n * n);
+        Ok(matrices.map(|h| self.matrix(h)).collect())
     }
 
     /// Computes U = −Σ_j m_j g·r_j, from the base's origin.
@@ -383,6 +321,17 @@ impl<T: Float> Reference<T> {
     /// `q` has another length than the arm has joints.
     pub fn poses(&self, q: &DVector<T>) -> Result<Vec<Columns<T>>, WrongLength> {
         Ok(poses(&self.whole, &self.whole_at(q)?))
+    }
+
+    /// Computes a quantity from the vectors that it depends on, in the order of its arguments.
+    fn vector<const N: usize>(
+        &self,
+        quantity: Quantity,
+        vectors: [&DVector<T>; N],
+    ) -> Result<DVector<T>, WrongLength> {
+        let arguments = quantity.arguments().iter().copied();
+        let at = JointVectors::new(arguments.zip(vectors.map(Clone::clone)));
+        self.entries(quantity, &at).map(DVector::from_vec)
     }
 
     fn sizes(&self) -> Sizes {

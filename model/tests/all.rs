@@ -7,7 +7,6 @@ mod equations_golden;
 mod equations_identities;
 mod equations_shoulder;
 mod equations_slips;
-mod equations_structure;
 mod equations_support;
 mod friction;
 mod outputs;

@@ -35,27 +35,25 @@ fn arm(convention: Convention, twists: &[Twist], slides: u32, points: &mut Point
 
 /// Returns every choice of axes within what the links allow.
 fn choices(chain: &Chain<Known>) -> Vec<Vec<i32>> {
-    let mut all = vec![Vec::new()];
+    let mut all: Vec<Vec<i32>> = vec![Vec::new()];
     for [less, more] in chain.freedoms() {
-        let longer = |choice: &Vec<i32>| {
-            let choice = choice.clone();
-            (less..=more).map(move |axes| [choice.clone(), vec![axes]].concat())
-        };
-        all = all.iter().flat_map(longer).collect();
+        let mut longer = Vec::new();
+        for choice in all {
+            longer.extend((less..=more).map(|axes| [&choice[..], &[axes]].concat()));
+        }
+        all = longer;
     }
     all
 }
 
 fn compare(arm: &Arm<Known>, points: &mut Points) -> usize {
     let position = random::position(arm, points, Known);
-    let mut draw = || known(&random::fields(arm.links.len(), points));
-    let (qd, qdd) = (draw(), draw());
+    let [qd, qdd, v, a] = [(); 4].map(|()| known(&random::fields(arm.links.len(), points)));
     let (textbook, at) = (Formulation::LagrangeEuler, arm.at(&position));
     let torque = textbook.inverse_dynamics(arm, &at, &qd, &qdd);
     let inertia = textbook.inertia(arm, &at);
     let christoffel = textbook.christoffel(arm, &at);
     let gravity = textbook.gravity(arm, &at);
-    let (v, a) = (draw(), draw());
     let passivity = textbook.passivity(arm, &at, &qd, [&v, &a]);
     let first = [
         textbook.torque_by_position(arm, &at, &qd, &qdd),

@@ -17,10 +17,7 @@ fn generic(formulation: Formulation, n: usize) -> (u64, u64) {
     let mut arm = arm.map(|_| counter.value());
     for link in &mut arm.links {
         (link.friction, link.armature) = (Friction::none(), Count::Zero);
-        link.theta = SinCosPair {
-            sin: Count::Zero,
-            cos: Count::One,
-        };
+        (link.theta.sin, link.theta.cos) = (Count::Zero, Count::One);
     }
     torques(formulation, &arm, &counter)
 }
@@ -83,32 +80,24 @@ fn recursions_grow_linearly_and_closed_forms_as_their_degree() {
 /// Table 3: coefficients of n⁰ to n⁴ of the multiplications, and of the additions.
 #[test]
 fn none_needs_more_than_the_paper_counts() {
+    let lagrange = [
+        &[0.0, 160.0 / 3.0, 739.0 / 3.0, 512.0 / 3.0, 128.0 / 3.0][..],
+        &[0.0, 245.0 / 6.0, 559.0 / 3.0, 781.0 / 6.0, 98.0 / 3.0],
+    ];
+    let dalembert = [
+        &[69.0, 268.0 / 3.0, 52.5, 13.0 / 6.0][..],
+        &[45.0, 146.0 / 3.0, 44.0, 4.0 / 3.0],
+    ];
     let linear = [&[0.0, 132.0][..], &[-4.0, 111.0]];
     for (formulation, printed) in [
-        (
-            LagrangeEuler,
-            [
-                &[0.0, 160.0 / 3.0, 739.0 / 3.0, 512.0 / 3.0, 128.0 / 3.0][..],
-                &[0.0, 245.0 / 6.0, 559.0 / 3.0, 781.0 / 6.0, 98.0 / 3.0],
-            ],
-        ),
-        (
-            Dalembert,
-            [
-                &[69.0, 268.0 / 3.0, 52.5, 13.0 / 6.0],
-                &[45.0, 146.0 / 3.0, 44.0, 4.0 / 3.0],
-            ],
-        ),
+        (LagrangeEuler, lagrange),
+        (Dalembert, dalembert),
         (NewtonEulerLinkAsPrinted, linear),
         (NewtonEulerLink, linear),
     ] {
         for n in 1..=7 {
-            let sum = |row: &[f64]| {
-                row.iter()
-                    .rev()
-                    .fold(0.0, |sum, own| sum * f64::from(n) + own)
-            };
-            let [most_mul, most_add] = printed.map(sum);
+            let next = |sum: f64, own: &f64| sum * f64::from(n) + own;
+            let [most_mul, most_add] = printed.map(|row| row.iter().rev().fold(0.0, next));
             let (mul, add) = generic(formulation, n as usize);
             let is_less = mul as f64 <= most_mul && add as f64 <= most_add;
             assert!(is_less, "{formulation:?} {n}");

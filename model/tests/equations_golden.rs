@@ -10,19 +10,18 @@ use dalembert_model::reference::Reference;
 fn formulations_give_the_golden_states() {
     for name in ROBOTS {
         let (arm, states) = read(name);
-        for (formulation, state) in Formulation::ALL
-            .iter()
-            .flat_map(|own| states.iter().map(move |state| (own, state)))
-        {
+        for state in &states {
             let [q, qd, qdd] = ["q", "qd", "qdd"].map(|key| numbers(&state[key]));
             let at = placed(&arm, &q, |x| x, sincos);
-            let found = [
-                ("tau", formulation.inverse_dynamics(&arm, &at, &qd, &qdd)),
-                ("D", formulation.inertia(&arm, &at).concat()),
-                ("h", formulation.velocity_terms(&arm, &at, &qd)),
-                ("c", formulation.gravity(&arm, &at)),
-            ];
-            check(&found, state, 1e-12, &format!("{name} {formulation:?}"));
+            for formulation in Formulation::ALL {
+                let found = [
+                    ("tau", formulation.inverse_dynamics(&arm, &at, &qd, &qdd)),
+                    ("D", formulation.inertia(&arm, &at).concat()),
+                    ("h", formulation.velocity_terms(&arm, &at, &qd)),
+                    ("c", formulation.gravity(&arm, &at)),
+                ];
+                check(&found, state, 1e-12, &format!("{name} {formulation:?}"));
+            }
         }
     }
 }
@@ -35,12 +34,8 @@ fn runtimes_give_the_golden_states() {
         let robot = reading(&generated(name)).robot;
         for runtime in [Reference::new(arm), Reference::from_robot(&robot)] {
             for state in &states {
-                check(
-                    &by_runtime(&runtime, state),
-                    state,
-                    100.0 * f64::EPSILON / 2.0,
-                    name,
-                );
+                let found = by_runtime(&runtime, state);
+                check(&found, state, 100.0 * f64::EPSILON / 2.0, name);
             }
         }
     }

@@ -7,7 +7,7 @@ use dalembert_model::equations::chain::composite::Composite;
 use dalembert_model::equations::chain::{
     Chain, EliminatedTip, Form, HandChoice, Regrouping, Skeleton, Unknowns,
 };
-use dalembert_model::equations::{Arm, Formulation, SinCosPair};
+use dalembert_model::equations::{Arm, Formulation};
 use dalembert_model::robot::Convention;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
@@ -24,10 +24,7 @@ fn arm(n: usize, slides: u32, four: bool, points: &mut Points) -> Arm<Known> {
         if i > 0 && i + 1 < meeting {
             link.d = Field::ZERO;
         }
-        link.alpha = SinCosPair {
-            sin: Field::ONE,
-            cos: Field::ZERO,
-        };
+        (link.alpha.sin, link.alpha.cos) = (Field::ONE, Field::ZERO);
     }
     arm.map(|x| Known(*x))
 }
@@ -105,9 +102,7 @@ fn so_they_are_where_the_tip_is_eliminated_before() {
 fn a_shoulder_has_axes_that_meet_and_joints_beyond() {
     let mut points = Points::new(0x5403);
     // One joint beyond is too few.
-    let mut arms = [(4, false), (5, true)]
-        .map(|(n, four)| arm(n, 0, four, &mut points))
-        .to_vec();
+    let mut arms = vec![arm(4, 0, false, &mut points), arm(5, 0, true, &mut points)];
     for missed in [1, 2] {
         let mut arm = arm(7, 0, false, &mut points);
         arm.links[missed].a = Known(points.field());

@@ -4,7 +4,7 @@
 use std::cell::Cell;
 
 use crate::equations_support::known::Known;
-use crate::equations_support::random::{CONVENTIONS, case, known};
+use crate::equations_support::random::{CONVENTIONS, Case, case, known};
 use dalembert_model::equations::{DhVariables, Formulation};
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, Points};
@@ -43,18 +43,16 @@ pub fn added(a: Field, b: Field) -> Field {
 #[test]
 fn every_single_slip_is_caught() {
     let mut points = Points::new(30);
+    let kinds = [0b000, 0b010, 0b101];
     for (convention, bits) in CONVENTIONS
-        .map(|own| [0b000, 0b010, 0b101].map(|bits| (own, bits)))
+        .map(|own| kinds.map(|bits| (own, bits)))
         .concat()
     {
-        let case = case(convention, 3, bits, &mut points);
+        let Case { arm, at, qd, qdd } = case(convention, 3, bits, &mut points);
         let exact = Formulation::LagrangeEuler;
-        let truth = known(&exact.inverse_dynamics(&case.arm, &case.at, &case.qd, &case.qdd));
-        let (arm, [qd, qdd]) = (
-            case.arm.map(|x| Known(*x)),
-            [&case.qd, &case.qdd].map(|x| known(x)),
-        );
-        let at = case.at.iter().map(|at| DhVariables {
+        let truth = known(&exact.inverse_dynamics(&arm, &at, &qd, &qdd));
+        let (arm, [qd, qdd]) = (arm.map(|x| Known(*x)), [qd, qdd].map(|x| known(&x)));
+        let at = at.iter().map(|at| DhVariables {
             theta: at.theta.map(|x| Known(*x)),
             d: Known(at.d),
         });
@@ -69,20 +67,13 @@ fn every_single_slip_is_caught() {
             let additions = ADDITIONS.get();
             let matters = |position: &u64| with(*position, Slip::Random) != truth;
             let caught: Vec<u64> = (1..=additions).filter(matters).collect();
-            for (position, slip) in caught
-                .iter()
-                .flat_map(|at| [(*at, Slip::Sign), (*at, Slip::Dropped)])
-            {
-                let found = with(position, slip);
-                assert_ne!(
-                    found, truth,
-                    "{formulation:?} {convention:?} {bits:b}: addition {position}"
-                );
+            let what = format!("{formulation:?} {convention:?} {bits:03b}");
+            for &position in &caught {
+                for slip in [Slip::Sign, Slip::Dropped] {
+                    assert_ne!(with(position, slip), truth, "{what}: addition {position}");
+                }
             }
-            println!(
-                "{formulation:?} {convention:?} {bits:03b}: {} of {additions}",
-                caught.len()
-            );
+            println!("{what}: {} of {additions}", caught.len());
             assert!(caught.len() as u64 * 2 > additions);
         }
     }

@@ -1,7 +1,6 @@
 //! Coulomb friction: its torque by hand, and what it leaves alone. Its slopes are in `outputs`.
 
 use crate::support::{data, ratio, reading, vector, written};
-use dalembert_model::number::Rational;
 use dalembert_model::outputs::Quantity;
 use dalembert_model::reference::{JointVectors, Reference};
 use dalembert_model::robot::Robot;
@@ -14,8 +13,8 @@ fn robot() -> Robot {
 fn without(robot: &Robot) -> Robot {
     let mut robot = robot.clone();
     for joint in &mut robot.joints {
-        joint.coulomb = Rational::default();
-        joint.coulomb_width = Rational::default();
+        joint.coulomb = Default::default();
+        joint.coulomb_width = Default::default();
     }
     robot
 }
@@ -50,9 +49,9 @@ fn close(found: &DVector<f64>, expected: &DVector<f64>) {
     assert!(error < 1e-12 * size, "{found} {expected}");
 }
 
-fn passivity(arm: &Reference<f64>, [q, qd, v, a]: [&DVector<f64>; 4]) -> DVector<f64> {
-    let rest = || DVector::zeros(3);
-    let at = JointVectors::new([q.clone(), qd.clone(), rest(), rest(), v.clone(), a.clone()]);
+fn passivity(arm: &Reference<f64>, vectors: [&DVector<f64>; 4]) -> DVector<f64> {
+    let arguments = Quantity::Passivity.arguments().iter().copied();
+    let at = JointVectors::new(arguments.zip(vectors.map(Clone::clone)));
     DVector::from_vec(arm.entries(Quantity::Passivity, &at).unwrap())
 }
 
@@ -98,10 +97,8 @@ fn passivity_takes_friction_as_a_damping() {
 fn files_keep_it() {
     let (robot, plain) = (robot(), without(&robot()));
     let text = written(&robot);
-    assert!(
-        text.contains("coulomb = 14\ncoulomb_width = \"1/300\"\n"),
-        "{text}"
-    );
+    let lines = "coulomb = 14\ncoulomb_width = \"1/300\"\n";
+    assert!(text.contains(lines), "{text}");
     assert_ne!(plain.input_hash(), robot.input_hash());
     assert!(!written(&plain).contains("coulomb_"));
 }

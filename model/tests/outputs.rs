@@ -73,24 +73,17 @@ fn golden_list() {
     };
     let found: Vec<String> = Function::ALL.iter().map(said).collect();
     assert_eq!(found, GOLDEN);
-    let fields = Function::ALL.map(|function| {
+    for function in Function::ALL {
         let mut fields: Vec<_> = function.quantities().iter().map(|q| q.field()).collect();
         fields.dedup();
-        fields.len() == function.quantities().len()
-            && (fields.len() > 1) == function.structure().is_some()
-    });
-    assert!(fields.iter().all(|fits| *fits));
-    // What a controller calls.
-    let by_default = [
-        Function::InverseDynamics,
-        Function::Gravity,
-        Function::Inertia,
-        Function::Coriolis,
-        Function::ForwardKinematics,
-        Function::Jacobian,
-        Function::ForwardDynamics,
-    ];
-    assert_eq!(Function::by_default(), by_default);
+        let is_struct = function.structure().is_some();
+        assert_eq!(fields.len(), function.quantities().len(), "{function}");
+        assert_eq!(fields.len() > 1, is_struct, "{function}");
+    }
+    let by_default = "inverse_dynamics gravity inertia coriolis forward_kinematics jacobian \
+                      forward_dynamics";
+    let names = Function::by_default().into_iter().map(Function::name);
+    assert!(names.eq(by_default.split(' ')), "what a controller calls");
 }
 
 /// Returns every kind pattern up to three joints, then one of six, then links with a
@@ -154,7 +147,7 @@ fn formulations_agree_on_every_quantity() {
                 ..Sizes::whole(n)
             };
             assert_eq!(expected.len(), quantity.len(sizes), "{quantity:?}");
-            assert!(expected.iter().any(|x| *x != Field::zero()) || n < 6);
+            assert!(expected.iter().any(|x| *x != Field::ZERO) || n < 6);
             for formulation in Formulation::ALL {
                 assert_eq!(by(formulation), expected, "{quantity:?} {formulation:?}");
             }
@@ -227,19 +220,13 @@ fn drive(link: &Link<Field>, rate: &Field, acceleration: &Field) -> Field {
 /// Returns the arm and its position as they change at the case's velocities.
 fn moving(case: &Case) -> (Arm<Dual<Field>>, Vec<DhVariables<Dual<Field>>>) {
     let links = case.arm.links.iter().zip(&case.at).zip(&case.qd);
-    let at = links.map(|((link, at), rate)| {
-        let turns = link.kind == JointKind::Revolute;
-        let still = |x: &Field| Dual::constant(*x);
-        DhVariables {
-            theta: match turns {
-                true => at.theta.clone().turning(rate),
-                false => at.theta.map(still),
-            },
-            d: Dual {
-                value: at.d,
-                rate: if turns { Field::zero() } else { *rate },
-            },
+    let at = links.map(|((link, at), &rate)| {
+        let (mut theta, mut d) = (at.theta.map(|x| Dual::constant(*x)), Dual::constant(at.d));
+        match link.kind {
+            JointKind::Revolute => theta = at.theta.clone().turning(&rate),
+            JointKind::Prismatic => d.rate = rate,
         }
+        DhVariables { theta, d }
     });
     (case.arm.map(|x| Dual::constant(*x)), at.collect())
 }
@@ -281,17 +268,17 @@ fn energy_and_wrenches_belong_to_the_torques() {
         let c = form.gravity(arm, at);
         let tau = form.inverse_dynamics(arm, at, qd, qdd);
         let wrenches = form.wrenches(arm, at, qd, qdd);
-        let jacobian_axes = dalembert_model::equations::kinematics::poses(arm, at);
+        let poses = dalembert_model::equations::kinematics::poses(arm, at);
         let base = arm.base.as_ref().map(|base| base.axes[2]);
-        let first = base.unwrap_or([Field::zero(), Field::zero(), Field::one()]);
+        let first = base.unwrap_or([Field::ZERO, Field::ZERO, Field::ONE]);
         let (arm_moving, at_moving) = moving(&case);
         let power = form.potential_energy(&arm_moving, &at_moving).rate;
         assert_eq!(power, dot(&c, qd));
         for (i, link) in arm.links.iter().enumerate() {
             let axis = match (arm.convention, i) {
                 (Convention::Standard, 0) => first,
-                (Convention::Standard, _) => jacobian_axes[i - 1].axes[2],
-                (Convention::Modified, _) => jacobian_axes[i].axes[2],
+                (Convention::Standard, _) => poses[i - 1].axes[2],
+                (Convention::Modified, _) => poses[i].axes[2],
             };
             let load = match link.kind {
                 JointKind::Revolute => &wrenches[i].moment,

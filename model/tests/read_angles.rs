@@ -43,10 +43,8 @@ fn forms() {
 #[test]
 fn values() {
     let halves = [FRAC_PI_2, PI, 3.0 * FRAC_PI_2, TAU];
-    assert_eq!(
-        [1, 2, 3, 4].map(|n| Angle::PiTimes(ratio(n, 2)).to_f64()),
-        halves
-    );
+    let found = [1, 2, 3, 4].map(|n| Angle::PiTimes(ratio(n, 2)).to_f64());
+    assert_eq!(found, halves);
     for n in -9..9 {
         let angle = Angle::right_angles(n);
         for (angle, n) in [(angle.negate(), -n), (angle, n)] {
@@ -115,54 +113,31 @@ fn near_misses() {
 fn in_a_file() {
     let head = "name = \"arm\"\nconvention = \"standard\"\ngravity = [0, 0, -9.81]\n[[joint]]\n\
         kind = \"revolute\"\nmass = 0\ninertia = [0, 0, 0, 0, 0, 0]\nalpha = ";
-    let quarter = Angle::right_angles(1);
-    let written = Angle::Radians(parse_decimal("1.5707963267948966").unwrap());
+    let double = "1.5707963267948966";
+    let [quarter, eighth] = [2, 4].map(|n| Angle::PiTimes(ratio(1, n)));
+    let written = Angle::Radians(parse_decimal(double).unwrap());
     assert_eq!(written.to_f64(), FRAC_PI_2);
     let near = Angle::Radians(ratio(15_708, 10_000));
     let (note, warning) = (Some(Severity::Note), Some(Severity::Warning));
+    let (taken, never) = (Snap::RightAngles, Snap::Never);
+    let is_read = "1.5707963267948966 is read as pi/2";
+    let stays = "1.5708 is 3.7e-6 from pi/2; it stays as written";
     for (alpha, snap, angle, severity, message) in [
-        (
-            "1.5707963267948966",
-            Snap::RightAngles,
-            quarter,
-            note,
-            "1.5707963267948966 is read as pi/2",
-        ),
-        ("1.5707963267948966", Snap::Never, written, warning, ""),
-        (
-            "1.5708",
-            Snap::RightAngles,
-            near,
-            warning,
-            "1.5708 is 3.7e-6 from pi/2; it stays as written",
-        ),
-        ("0", Snap::Never, Angle::default(), None, ""),
-        ("-0.0", Snap::RightAngles, Angle::default(), None, ""),
-        (
-            "\"45deg\"",
-            Snap::Never,
-            Angle::PiTimes(ratio(1, 4)),
-            None,
-            "",
-        ),
+        (double, taken, quarter, note, is_read),
+        (double, never, written, warning, ""),
+        ("1.5708", taken, near, warning, stays),
+        ("0", never, Angle::default(), None, ""),
+        ("-0.0", taken, Angle::default(), None, ""),
+        ("\"45deg\"", never, eighth, None, ""),
     ] {
         let reading = parse(&format!("{head}{alpha}"), &Options { snap }).expect("reads");
         assert_eq!(reading.robot.joints[0].alpha, angle, "{alpha}");
-        let said: Vec<_> = reading
-            .notes
-            .iter()
-            .map(|own| (own.severity, own.line))
-            .collect();
-        assert_eq!(
-            said,
-            severity.map(|own| (own, 8)).into_iter().collect::<Vec<_>>(),
-            "{alpha}"
-        );
-        let is_said = reading
-            .notes
-            .iter()
-            .all(|own| own.message == message || message.is_empty());
-        assert!(is_said, "{:?}", reading.notes);
+        let said = reading.notes.iter().map(|own| (own.severity, own.line));
+        let expected = severity.map(|own| (own, 8));
+        assert!(said.eq(expected), "{alpha}: {:?}", reading.notes);
+        for note in &reading.notes {
+            assert!(message.is_empty() || note.message == message, "{note}");
+        }
     }
 }
 

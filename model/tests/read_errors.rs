@@ -222,14 +222,11 @@ fn all_at_once() {
 fn rendering() {
     let source = GOOD.replace("viscous = 0.1", "\tviscuos = 0.1");
     let errors = parse(&source, &Options::default()).expect_err("a slip");
-    assert_eq!(
-        errors.render("arm.toml", &source),
-        "error: unknown key `viscuos`\n --> arm.toml:15:2\n   |\n15 |  viscuos = 0.1\n   |  ^^^^^^^\n   = help: did you mean `viscous`?\n"
-    );
-    assert_eq!(
-        errors.to_string(),
-        "15:2: error: unknown key `viscuos` (did you mean `viscous`?)"
-    );
+    let rendered = "error: unknown key `viscuos`\n --> arm.toml:15:2\n   |\n15 |  viscuos = 0.1\n   \
+                    |  ^^^^^^^\n   = help: did you mean `viscous`?\n";
+    assert_eq!(errors.render("arm.toml", &source), rendered);
+    let line = "15:2: error: unknown key `viscuos` (did you mean `viscous`?)";
+    assert_eq!(errors.to_string(), line);
 }
 
 /// Robots beyond the limits on their size.
@@ -254,6 +251,7 @@ fn joints() {
 /// Input that would cost too much is refused, quickly and with a reason.
 #[test]
 fn limits_on_the_input() {
+    let long = "x".repeat(100_000);
     for (source, message) in [
         ("#".repeat(MAX_BYTES + 1), "at most 1048576"),
         (format!("a = {}", "[".repeat(500_000)), "levels deep"),
@@ -262,11 +260,8 @@ fn limits_on_the_input() {
         (format!("[{}a]", "a.".repeat(500_000)), "levels deep"),
         ("a.b = 1\n".repeat(100_000), "keys and tables"),
         ("[[a]]\n".repeat(100_000), "keys and tables"),
-        ("x".repeat(100_000), "a word of more than"),
-        (
-            format!("name = \"{}\"", "x".repeat(100_000)),
-            "a word of more than",
-        ),
+        (format!("name = \"{long}\""), "a word of more than"),
+        (long, "a word of more than"),
     ] {
         let found = errors(&source);
         has(only(&found), message, "");

@@ -3,7 +3,7 @@
 
 use crate::support::{errors, has, only, ratio, reading, refused, rows, vector, written};
 use dalembert_model::number::Angle;
-use dalembert_model::outputs::Function;
+use dalembert_model::outputs::{Argument, Function};
 use dalembert_model::reference::{JointVectors, Reference};
 use dalembert_model::robot::{Placement, Robot};
 
@@ -28,13 +28,10 @@ fn read_and_written_back() {
         "base = { xyz = [0, 0.1, \"1/3\"], rpy = [\"pi\", 0.5, \"-45deg\"] }\n\
          [tool]\nxyz = [0, 0, 0.107]\n",
     );
+    let (half, eighth) = (Angle::Radians(ratio(1, 2)), Angle::PiTimes(ratio(-1, 4)));
     let base = Placement {
         xyz: [ratio(0, 1), ratio(1, 10), ratio(1, 3)],
-        rpy: [
-            Angle::right_angles(2),
-            Angle::Radians(ratio(1, 2)),
-            Angle::PiTimes(ratio(-1, 4)),
-        ],
+        rpy: [Angle::right_angles(2), half, eighth],
     };
     assert_eq!(placed.base, Some(base));
     written(&placed);
@@ -78,14 +75,8 @@ fn errors_say_where_and_what() {
     let bad = "base = { xyz = [0, 0], rpy = [0, 0, \"pi/two\"] }\n\
         tool = { xyz = [0, 0, 1e301], rot = 1 }";
     let text = refused(&file(bad));
-    let base = "xyz = [x, y, z], in m";
-    for words in [
-        "arm.toml:4:16",
-        base,
-        "arm.toml:4:38",
-        "arm.toml:5:23",
-        "unknown key `rot`",
-    ] {
+    let words = "arm.toml:4:16|xyz = [x, y, z], in m|arm.toml:4:38|arm.toml:5:23|unknown key `rot`";
+    for words in words.split('|') {
         assert!(text.contains(words), "{words} is missing:\n{text}");
     }
     assert!(refused(&file("base = [0, 0, 1]")).contains("base = { xyz = ["));
@@ -186,15 +177,7 @@ fn frames_move_over_with_their_links() {
          axis = [1, 0, 0]\nmass = 1\ncom = [0, 0, 0]\ninertia = [1, 1, 1, 0, 0, 0]\n\
          [[frame]]\nname = \"one\"\nlink = 1\n[[frame]]\nname = \"two\"\nlink = 2\nxyz = [0, 0.5, 0]\n";
     let reference = Reference::<f64>::from_robot(&reading(text).robot);
-    let [q, none] = [vector(&[0.0; 2]), vector(&[])];
-    let still = JointVectors::new([
-        q,
-        none.clone(),
-        none.clone(),
-        none.clone(),
-        none.clone(),
-        none,
-    ]);
+    let still = JointVectors::new([(Argument::Position, vector(&[0.0; 2]))]);
     let at = |text: &str| {
         let quantity = Function::parse(text).unwrap().quantities()[0];
         reference.entries(quantity, &still).unwrap()
@@ -206,12 +189,9 @@ fn frames_move_over_with_their_links() {
     for i in 0..3 {
         close(one[4 * i + 3], [0.1, 0.2, 0.3][i]);
         // The second link's own frame, and half a metre along its y.
-        close(
-            two[4 * i + 3],
-            links[12 + 4 * i + 3] + 0.5 * links[12 + 4 * i + 1],
-        );
+        let [along, origin] = [1, 3].map(|column| links[12 + 4 * i + column]);
+        close(two[4 * i + 3], origin + 0.5 * along);
     }
-    one.iter()
-        .zip(&links)
-        .for_each(|(own, expected)| close(*own, *expected));
+    let pairs = one.iter().zip(&links);
+    pairs.for_each(|(own, expected)| close(*own, *expected));
 }

@@ -1,9 +1,11 @@
 //! What is odd in a file and not wrong: a warning or a note on the right line, in words
 //! that help, which can be silenced.
 
+use std::collections::BTreeSet;
+
 use crate::read_errors::GOOD;
 use crate::support::{errors, has, only, reading, replaced, rows};
-use dalembert_model::read::{RobotWarning, Severity};
+use dalembert_model::read::{Diagnostic, RobotWarning, Severity};
 
 /// What is replaced in a good file, by what, the line, and words of what is said.
 const ODD: &str = r#"
@@ -17,26 +19,7 @@ position = [-1, 1] | position = [-1, 1.5708] | 17 | from pi/2
 alpha = "pi/2" | alpha = 4.71238898038469 | 7 | 4.71238898038469 is read as 3*pi/2
 "#;
 
-/// Odd but not wrong: read, with a warning or a note on the right line.
-#[test]
-fn warnings_and_notes() {
-    for [what, by, line, message] in rows(ODD) {
-        let notes = reading(&replaced(GOOD, &what, &by)).notes;
-        let note = only(&notes);
-        let severity = match message.contains("is read as") {
-            true => Severity::Note,
-            false => Severity::Warning,
-        };
-        assert_eq!(
-            (note.severity, note.line.to_string()),
-            (severity, line),
-            "{by}"
-        );
-        has(note, &message, "");
-    }
-}
-
-/// The same, and words of the help.
+/// The same of numbers that look like another unit's, and words of the help.
 const OTHER_UNITS: &str = r#"
 [0, 0, -9.81] | [0, 0, -9810] | 3 | is 9810.0000 m/s² | mm/s²
 [0, 0, -9.81] | [0, 981, 0] | 3 | far from | cm/s²
@@ -65,6 +48,24 @@ offset = 0.1 | offset = 100 | 11 | | write 0.1
 velocity = 2 | velocity = 500 | 17 | | write 0.5
 "#;
 
+/// Reads a file with one thing odd, and returns all that is said of it, at that line.
+fn oddity([what, by, line]: [&str; 3], good: &str) -> Diagnostic {
+    let notes = reading(&replaced(good, what, by)).notes;
+    assert_eq!(only(&notes).line.to_string(), line, "{by}");
+    notes[0].clone()
+}
+
+/// Odd but not wrong: read, with a warning or a note on the right line.
+#[test]
+fn warnings_and_notes() {
+    for [what, by, line, message] in rows(ODD) {
+        let note = oddity([&what, &by, &line], GOOD);
+        let is_note = message.contains("is read as");
+        assert_eq!(note.severity == Severity::Note, is_note, "{by}");
+        has(&note, &message, "");
+    }
+}
+
 /// Numbers that look like another unit's: taken as they stand, and the help says
 /// what was probably meant.
 #[test]
@@ -73,15 +74,10 @@ fn sizes_of_other_units() {
     let slides = replaced(GOOD, "kind = \"revolute\"", slides).replace("d = 0.25\ntheta = 0\n", "");
     for (good, table) in [(GOOD, OTHER_UNITS), (&slides, OF_SLIDES)] {
         for [what, by, line, message, help] in rows(table) {
-            let notes = reading(&replaced(good, &what, &by)).notes;
-            let note = only(&notes);
-            assert_eq!(
-                (note.severity, note.line.to_string()),
-                (Severity::Warning, line),
-                "{by}"
-            );
-            has(note, &message, &help);
-            has(note, "", "it is taken as it stands; allow = [\"");
+            let note = oddity([&what, &by, &line], good);
+            assert_eq!(note.severity, Severity::Warning, "{by}");
+            has(&note, &message, &help);
+            has(&note, "", "it is taken as it stands; allow = [\"");
         }
     }
 }
@@ -125,11 +121,10 @@ fn other_ways_to_say_it() {
     // A limits table of its own.
     let table = GOOD
         .replace("limits = {", "[joint.limits]\n")
-        .replace(" }", "");
-    let keys = [", v", ", a", ", t"].into_iter();
-    let table = keys.fold(table, |text, key| {
-        text.replace(key, &key.replace(", ", "\n"))
-    });
+        .replace(" }", "")
+        .replace(", v", "\nv")
+        .replace(", a", "\na")
+        .replace(", t", "\nt");
     let good = GOOD.to_owned();
     for (one, other) in [
         (six, nine),
@@ -188,7 +183,7 @@ fn names_of_warnings() {
         assert!(own.starts_with(&help), "{own}");
     }
     let words = RobotWarning::WORDS;
-    let names: std::collections::BTreeSet<&str> = words.iter().map(|(name, _)| *name).collect();
+    let names = BTreeSet::from_iter(words.iter().map(|(name, _)| *name));
     assert!(words.iter().all(|(name, warning)| warning.name() == *name));
     assert_eq!(names.len(), words.len());
 }

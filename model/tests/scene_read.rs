@@ -1,6 +1,6 @@
 //! Scenes of robot files: every key, and the text that says the same.
 
-use crate::support::{errors, has, only, ratio, reading, refused, replaced, rows};
+use crate::support::{errors, has, only, ratio, reading, replaced, rows};
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::outputs::Function;
 use dalembert_model::read::{Diagnostic, RobotWarning};
@@ -38,9 +38,13 @@ fn scenes(text: &str) -> Vec<Scene> {
     reading(&format!("{ROBOT}{text}")).scenes
 }
 
+fn scene(text: &str) -> String {
+    format!("[scene.a]\n{text}\n")
+}
+
 /// Returns the robot with a scene.
 fn with(text: &str) -> String {
-    format!("{ROBOT}[scene.a]\n{text}\n")
+    ROBOT.to_owned() + &scene(text)
 }
 
 /// Returns the notes of a scene whose messages begin so, with their lines in the scene.
@@ -53,36 +57,41 @@ fn notes(text: &str, begin: &str) -> Vec<(usize, Diagnostic)> {
     own.collect()
 }
 
+/// Every key says what it should, and what is written of it is read back.
 #[test]
 fn every_key() {
-    let scenes = scenes(
+    let all = scenes(
         r#"
 [scene.pick]
 outputs = ["inverse_dynamics", "gravity"]
 joints = ["wrist", 1]
-lock = { 2 = 0.25 }
-gravity = [0, 0, 0]
+lock = { 2 = "1/3" }
+gravity = [0, 0, -1.62]
 velocity = "zero"
-payload = { mass = 2.5, com = [0, 0, 0.05], inertia = [0.01, 0.01, 0.01, 0, 0, 0] }
+payload = { mass = "1/3", com = [0, 0, 0.05], inertia = [0.01, 0.01, 0.01, 0, 0, 0] }
 box = { position = [[-1, 1], [0, 0.5], ["-pi/2", "90deg"]], velocity = [2, 1, 3] }
 tolerance = { value = [1e-3, 1, 0.1], relative_to = "actuator" }
 scalar = "f32"
 
 [scene.hold]
-lock = { wrist = "pi/6", waist = 1 }
+lock = { waist = 1, wrist = "pi/6" }
 acceleration = "zero"
+payload = { mass = 1, com = [0, 0, 0.05] }
+box = { acceleration = [2, 1, 3] }
+tolerance = { value = 1e-3, relative_to = "range" }
+scalar = "f64"
 "#,
     );
-    let [pick, hold] = scenes.as_slice() else {
-        panic!("{scenes:?}")
+    let [pick, hold] = all.as_slice() else {
+        panic!("{all:?}")
     };
     assert_eq!(pick.name, "pick");
     assert_eq!(pick.outputs, [Function::InverseDynamics, Function::Gravity]);
     assert_eq!(pick.joints.as_deref(), Some(&[2, 0][..]));
-    assert_eq!(pick.lock, [(1, Position::Length(ratio(1, 4)))]);
+    assert_eq!(pick.lock, [(1, Position::Length(ratio(1, 3)))]);
     assert!(pick.gravity.is_some() && pick.velocity_zero && !pick.acceleration_zero);
     let load = pick.payload.as_ref().map(|load| load.mass.clone());
-    assert_eq!(load, Some(ratio(5, 2)));
+    assert_eq!(load, Some(ratio(1, 3)));
     let tolerance = pick.tolerance.as_ref().expect("has one");
     assert_eq!(tolerance.relative_to, Scale::Actuator);
     assert_eq!(tolerance.of(2), Some(&ratio(1, 10)));
@@ -94,31 +103,15 @@ acceleration = "zero"
     assert_eq!(hold.locked(2), Some(&angle));
     assert_eq!(hold.rows(3), [1]);
     assert!(hold.acceleration_zero && hold.joints.is_none());
-}
 
-#[test]
-fn what_is_written_is_read_back() {
-    let text = r#"
-[scene.pick]
-outputs = ["gravity"]
-joints = [3, 1]
-lock = { 2 = "1/3" }
-gravity = [0, 0, -1.62]
-velocity = "zero"
-payload = { mass = "1/3", com = [0, 0, 0.05] }
-box = { position = [[-1, 1], [0, 0.5], ["-pi/2", 1]], acceleration = [2, 1, 3] }
-tolerance = { value = 1e-3, relative_to = "range" }
-scalar = "f64"
-"#;
-    let first = scenes(text).remove(0);
-    let second = scenes(&write(&first)).remove(0);
-    assert_eq!(first, second);
-    assert_eq!(first.short_hash(), second.short_hash());
-    let other = Scene {
-        velocity_zero: false,
-        ..first.clone()
-    };
-    assert_ne!(first.short_hash(), other.short_hash());
+    for scene in &all {
+        let again = scenes(&write(scene)).remove(0);
+        assert_eq!(*scene, again);
+        assert_eq!(scene.short_hash(), again.short_hash());
+    }
+    let mut other = pick.clone();
+    other.velocity_zero = false;
+    assert_ne!(pick.short_hash(), other.short_hash());
 }
 
 /// The payload and the last link are one body: the same total mass, centre of
@@ -216,17 +209,11 @@ fn a_bound_needs_a_box() {
     let bare = ROBOT
         .replace("velocity = 1, ", "")
         .replace(", torque = 5 ", " ");
-    let with = |text: &str| format!("{bare}[scene.a]\n{text}");
-    let shown = refused(&with(ACTUATOR));
-    assert_eq!(shown.matches("error: ").count(), 2, "{shown}");
-    assert!(
-        shown.contains("the range of the velocity of joint 2 (boom)"),
-        "{shown}"
-    );
-    assert!(
-        shown.contains("the torque limit of joint 3 (wrist)"),
-        "{shown}"
-    );
+    let with = |text: &str| bare.clone() + &scene(text);
+    let found = errors(&with(ACTUATOR));
+    assert_eq!(found.len(), 2, "{found:?}");
+    has(&found[0], "the range of the velocity of joint 2 (boom)", "");
+    has(&found[1], "the torque limit of joint 3 (wrist)", "");
     for good in [
         format!("box = {{ velocity = [1, 1, 1] }}\n{RANGE}"),
         format!("velocity = \"zero\"\n{RANGE}"),
@@ -245,35 +232,22 @@ fn a_limit_of_zero() {
     let still = replaced(ROBOT, "acceleration = 10, torque = 5 }", slow);
     let still = replaced(&still, "torque = 80", "torque = 0");
     // The row behind one that follows another, too.
-    let boom = "[[joint]]\nname = \"boom\"";
+    let head = "[[joint]]\nname = \"boom\"";
     let elbow = "[[joint]]\nname = \"elbow\"\nkind = \"revolute\"\nmass = 0\n\
                  mimic = { joint = 1 }\nlimits = { torque = 7 }\n";
-    let following = replaced(&still, boom, &format!("{elbow}{boom}"));
-    let with = |text: &str| format!("{still}[scene.a]\n{text}\n");
+    let following = replaced(&still, head, &format!("{elbow}{head}"));
+    let with = |text: &str| still.clone() + &scene(text);
     let inertia = format!("outputs = [\"inertia\"]\n{ACTUATOR}\n");
     let zero = "box = { acceleration = [0, 1, 1] }";
     // T of D divides by the acceleration, unless nothing of that joint is asked for.
+    let two = format!("{inertia}joints = [1, 3]");
+    let boom = "the torque limit of joint 2 (boom) is 0";
+    let waist = "the acceleration limit of joint 1 (waist) is 0";
     for (source, at, message) in [
-        (
-            with(ACTUATOR),
-            "torque = 0",
-            "the torque limit of joint 2 (boom) is 0",
-        ),
-        (
-            format!("{following}[scene.a]\n{ACTUATOR}\n"),
-            "torque = 0",
-            "(boom) is 0",
-        ),
-        (
-            with(&format!("{inertia}joints = [1, 3]")),
-            "acceleration = 0",
-            "",
-        ),
-        (
-            with(&format!("{inertia}joints = [1, 3]\n{zero}")),
-            zero,
-            "the acceleration limit of joint 1 (waist) is 0",
-        ),
+        (with(ACTUATOR), "torque = 0", boom),
+        (following + &scene(ACTUATOR), "torque = 0", "(boom) is 0"),
+        (with(&two), "acceleration = 0", ""),
+        (with(&format!("{two}\n{zero}")), zero, waist),
     ] {
         let errors = errors(&source);
         let line = 1 + source.lines().position(|line| line.contains(at)).unwrap();
@@ -289,9 +263,8 @@ fn a_limit_of_zero() {
         assert_eq!(errors(&with(&good)), [], "{good}");
     }
     // A limit that could not be read is not zero.
-    only(&errors(
-        &self::with(ACTUATOR).replace("torque = 80", "torque = \"much\""),
-    ));
+    let unread = self::with(ACTUATOR).replace("torque = 80", "torque = \"much\"");
+    only(&errors(&unread));
 }
 
 /// What a scene has, and what is said of its box: beyond which limits it goes. Of a locked joint
@@ -309,42 +282,24 @@ box = { velocity = [2, 1, 9] }\nlock = { 3 = 0 } |
 #[test]
 fn a_box_beyond_the_limits() {
     for [text, limit] in rows(BEYOND) {
-        let found = notes(&text, "the box of");
-        assert_eq!(
-            found.len(),
-            usize::from(!limit.is_empty()),
-            "{text}: {found:?}"
-        );
-        for (line, note) in found {
-            let expected = format!("the box of scene `a` goes beyond the {limit}");
-            assert_eq!(
-                (note.severity, line, note.message),
-                (Severity::Warning, 1, expected)
-            );
-        }
+        let found = notes(&text, "the box of").into_iter();
+        let found = found.map(|(line, note)| (note.severity, line, note.message));
+        let said = format!("the box of scene `a` goes beyond the {limit}");
+        let expected = &[(Severity::Warning, 1, said)][..usize::from(!limit.is_empty())];
+        assert_eq!(found.collect::<Vec<_>>(), expected, "{text}");
     }
 }
 
 /// A tolerance of everything is probably meant in percent.
 #[test]
 fn a_tolerance_of_one_or_more() {
-    for (value, said) in [
-        ("1", true),
-        ("5", true),
-        ("[0.1, 0.1, 2]", true),
-        ("0.999", false),
-    ] {
-        let text = format!(
-            "outputs = [\"gravity\"]\n{}",
-            ACTUATOR.replace("1e-3", value)
-        );
+    for (value, said) in [("1", 1), ("5", 1), ("[0.1, 0.1, 2]", 1), ("0.999", 0)] {
+        let tolerance = ACTUATOR.replace("1e-3", value);
+        let text = format!("outputs = [\"gravity\"]\n{tolerance}");
         let found = notes(&text, "a tolerance of 1 or more");
-        let found: Vec<_> = found
-            .iter()
-            .map(|(line, note)| (note.severity, *line))
-            .collect();
-        let expected = [(Severity::Warning, 2)];
-        assert_eq!(found, expected[..usize::from(said)], "{value}");
+        let found = found.iter().map(|(line, note)| (note.severity, *line));
+        let expected = &[(Severity::Warning, 2)][..said];
+        assert_eq!(found.collect::<Vec<_>>(), expected, "{value}");
     }
 }
 
@@ -352,13 +307,11 @@ fn a_tolerance_of_one_or_more() {
 #[test]
 fn a_payload_in_other_units() {
     let load = "payload = { mass = 2, com = [0, 0, 0.1], inertia = [4e4, 4e4, 4e4, 0, 0, 0] }";
-    let found = notes(load, "");
-    let mut own = found
-        .iter()
-        .filter(|own| own.1.warning == Some(RobotWarning::LargeInertia));
-    let (line, note) = own.next().expect("a warning");
-    assert_eq!(*line, 1);
-    has(note, "", "write 0.04 for 40000");
+    let mut found = notes(load, "").into_iter();
+    let own = found.find(|(_, note)| note.warning == Some(RobotWarning::LargeInertia));
+    let (line, note) = own.expect("a warning");
+    assert_eq!(line, 1);
+    has(&note, "", "write 0.04 for 40000");
 }
 
 /// Everything at once.

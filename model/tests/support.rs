@@ -90,17 +90,6 @@ pub fn rows<const N: usize>(table: &str) -> Vec<[String; N]> {
     rows.map(|row| cells(row).try_into().expect(row)).collect()
 }
 
-/// Returns pairs of a table: what is replaced by what, and below it the cells of a row.
-pub fn changes<const N: usize>(table: &str) -> Vec<(String, String, [String; N])> {
-    let lines: Vec<&str> = table.trim().lines().collect();
-    let change = |[change, row]: &[&str; 2]| {
-        let (from, to) = change.split_once(" =>").expect(change);
-        let [from, to] = [from, to.trim_start()].map(|text| text.replace("\\n", "\n"));
-        (from, to, rows(row).remove(0))
-    };
-    lines.as_chunks().0.iter().map(change).collect()
-}
-
 pub fn ratio(numerator: i64, denominator: i64) -> Rational {
     Rational::new(numerator.into(), denominator.into())
 }

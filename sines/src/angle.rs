@@ -37,7 +37,7 @@ pub trait Angle:
 #[inline(always)]
 pub fn rest<T: Angle, P: Products<T>, V: Number<T>>(x: V) -> (V, V, V) {
     let shifted = P::plus(P::of(x, x.all(T::INVERSE)), x.all(T::SHIFT));
-    let k = shifted - T::SHIFT;
+    let k = shifted - x.all(T::SHIFT);
     let [much, little, least] = T::QUARTER;
     let rest = P::taken(x, P::of(k, x.all(much)));
     let second = P::of(k, x.all(little));
@@ -51,10 +51,9 @@ pub fn rest<T: Angle, P: Products<T>, V: Number<T>>(x: V) -> (V, V, V) {
     let w = z * z;
     let (sine, cosine) = T::polynomials::<P, V>(z, w);
     let half = P::of(z, x.all(T::HALF));
-    let one = x.all(T::ONE);
-    let top = P::taken(one, half);
+    let top = P::taken(x.all(T::ONE), half);
     let sin = r - P::added(lacks * top, P::of(r * z, sine));
-    let small = P::taken(one - top, half);
+    let small = P::taken(x.all(T::ONE) - top, half);
     let cos = top + (small + P::plus(P::of(w, cosine), r * lacks));
     (shifted, sin, cos)
 }
@@ -106,8 +105,6 @@ where
     T: Angle,
     P: Products<T>,
     V: Floats<T>,
-    Pair<V>: Number<T>,
-    Pair<Pair<V>>: Number<T>,
 {
     let (mut sines, mut cosines) = (*angles, *angles);
     let mut usual = true;

@@ -135,6 +135,11 @@ mod vectors {
     pub(crate) use crate::angle::singly as all;
     #[cfg(test)]
     pub(crate) use crate::angle::singly as together;
+
+    /// Without vectors, one number.
+    pub type TwoDoubles = f64;
+    /// Without vectors, one number.
+    pub type FourFloats = f32;
 }
 
 /// The computation as it stands, generic over numbers: what the generator's proof of
@@ -143,29 +148,7 @@ mod vectors {
 pub mod text {
     pub use crate::angle::{Angle, alone, rest, together};
     pub use crate::number::{Floats, Fused, Number, Pair, Products, Rounded};
-    #[cfg(any(
-        target_arch = "x86",
-        target_arch = "x86_64",
-        target_arch = "aarch64",
-        target_arch = "wasm32"
-    ))]
     pub use crate::vectors::{FourFloats as Singles, TwoDoubles as Doubles};
-    /// Without vectors, one number.
-    #[cfg(not(any(
-        target_arch = "x86",
-        target_arch = "x86_64",
-        target_arch = "aarch64",
-        target_arch = "wasm32"
-    )))]
-    pub type Doubles = f64;
-    /// Without vectors, one number.
-    #[cfg(not(any(
-        target_arch = "x86",
-        target_arch = "x86_64",
-        target_arch = "aarch64",
-        target_arch = "wasm32"
-    )))]
-    pub type Singles = f32;
 }
 
 /// Roots, correctly rounded: libm's, for code that has all from here.

@@ -3,16 +3,9 @@
 use core::num::Wrapping;
 use core::ops::{Add, BitAnd, BitXor, Div, Mul, Neg, Sub};
 
-/// A float, or one for each lane; the other operand may be one for all.
+/// A float, or one for each lane.
 pub trait Number<T>:
-    Copy
-    + Neg<Output = Self>
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Add<T, Output = Self>
-    + Sub<T, Output = Self>
-    + Mul<T, Output = Self>
+    Copy + Neg<Output = Self> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
     /// Returns a value in every lane that this number has.
     fn all(self, value: T) -> Self;
@@ -105,8 +98,15 @@ impl<T> Products<T> for Fused {
     }
 }
 
-/// Floats of known bits: one, or a vector of them.
-pub trait Floats<T>: Number<T> + Div<Output = Self> {
+/// Floats of known bits: one, or a vector of them. In generated code the other operand may be one
+/// float for all.
+pub trait Floats<T>:
+    Number<T>
+    + Div<Output = Self>
+    + Add<T, Output = Self>
+    + Sub<T, Output = Self>
+    + Mul<T, Output = Self>
+{
     /// Their bits, as integers that wrap.
     type Bits: Copy
         + BitXor<Output = Self::Bits>
@@ -185,22 +185,6 @@ macro_rules! pairwise {
                 Pair(self.0.$method(other.0), self.1.$method(other.1))
             }
         }
-
-        impl<V: $operation<f64, Output = V>> $operation<f64> for Pair<V> {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: f64) -> Self {
-                Pair(self.0.$method(other), self.1.$method(other))
-            }
-        }
-
-        impl<V: $operation<f32, Output = V>> $operation<f32> for Pair<V> {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: f32) -> Self {
-                Pair(self.0.$method(other), self.1.$method(other))
-            }
-        }
     )*};
 }
 pairwise!(Add, add; Sub, sub; Mul, mul);
@@ -213,11 +197,7 @@ impl<V: Neg<Output = V>> Neg for Pair<V> {
     }
 }
 
-impl<T, V: Number<T>> Number<T> for Pair<V>
-where
-    Pair<V>: Add<T, Output = Self> + Sub<T, Output = Self> + Mul<T, Output = Self>,
-    T: Copy,
-{
+impl<T: Copy, V: Number<T>> Number<T> for Pair<V> {
     #[inline(always)]
     fn all(self, value: T) -> Self {
         Pair(self.0.all(value), self.1.all(value))

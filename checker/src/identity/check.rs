@@ -141,7 +141,7 @@ fn spread(
     for (k, combination) in base.iter().enumerate() {
         for (column, factor) in combination {
             let factor = point.constant(factor);
-            for (i, row) in all.chunks_mut(length).enumerate() {
+            for (i, row) in all.chunks_mut(length.max(1)).enumerate() {
                 let place = row.get_mut(*column)?;
                 *place = *place + *found.get(i * base.len() + k)? * factor;
             }

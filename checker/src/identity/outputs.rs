@@ -386,13 +386,15 @@ impl<'a> At<'a> {
 /// Returns a result of an arm at a state, flat by rows: `dtau_dq` is the slopes of `tau` by q, and
 /// `d2tau_dq_dqd` those of λᵀτ by q and q̇. None of a field that has no formula.
 pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
+    let own = At::new(arm, state, &field.view);
+    // A frame that is not there has no results, of which others would be short.
+    own.hand()?;
     let n = arm.movers.len();
     let mut words = field.is.split('_');
     let first = words.next()?;
     let of = first.trim_start_matches('d').trim_start_matches('2');
     let by = words.map(|word| argument(word.strip_prefix('d')?));
     let by = by.collect::<Option<Vec<usize>>>().unwrap_or_default();
-    let own = At::new(arm, state, &field.view);
     Some(match *by.as_slice() {
         [by] => own.slopes(by, |own| own.value(of)).concat(),
         [one, other] => {

@@ -14,7 +14,7 @@ mod table;
 use dalembert_model::equations::matrix::{Columns, Vector};
 use dalembert_model::number::Rounded;
 use dalembert_model::reference::{Reference, WrongLength};
-use dalembert_model::robot::{Convention, JointKind, Robot};
+use dalembert_model::robot::{Convention, Joint, JointKind, Robot};
 use nalgebra::DVector;
 
 use page::{Page, View};
@@ -59,7 +59,7 @@ pub fn svg(robot: &Robot, q: &[f64]) -> Result<String, WrongLength> {
 }
 
 fn bodies(robot: &Robot, frames: &[Columns<f64>]) -> Vec<Body> {
-    let body = |(joint, frame): (&dalembert_model::robot::Joint, &Columns<f64>)| {
+    let body = |(joint, frame): (&Joint, &Columns<f64>)| {
         let com = joint.com.each_ref().map(f64::nearest_rational);
         let own = joint.inertia.map(f64::nearest_rational).rows();
         // R I Rᵀ
@@ -205,10 +205,8 @@ mod tests {
         assert_eq!(solid.ellipse([1, 0]), Some(([3.0, 2.0], 90.0)));
         assert_eq!(solid.ellipse([0, 2]), Some(([3.0, 1.0], 0.0)));
         // No body has one moment above the sum of the others, and a point has no outline.
-        assert_eq!(
-            body([[9.0, 0.0, 0.0], [0.0; 3], [0.0; 3]]).ellipse([0, 1]),
-            None
-        );
+        let impossible = body([[9.0, 0.0, 0.0], [0.0; 3], [0.0; 3]]);
+        assert_eq!(impossible.ellipse([0, 1]), None);
         assert_eq!(body([[0.0; 3]; 3]).ellipse([0, 1]), None);
     }
 }

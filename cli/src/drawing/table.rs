@@ -13,10 +13,11 @@ pub(super) fn lines(robot: &Robot, q: &[f64]) -> Vec<String> {
         Convention::Modified => "modified DH (Craig)",
     };
     let gravity = robot.gravity.each_ref().map(number).join(", ");
-    let at: Vec<String> = q.iter().map(|&q| short(q)).collect();
+    let at = q.iter().map(|&q| short(Some(q.to_string()), 7, q));
+    let at = at.collect::<Vec<String>>().join(", ");
     let mut lines = vec![
         format!("{convention}, gravity ({gravity}) m/s², lengths in m, masses in kg"),
-        format!("drawn at q = ({})", at.join(", ")),
+        format!("drawn at q = ({at})"),
     ];
     for (what, end) in robot.placements() {
         lines.extend(end.map(|end| placement(what, end)));
@@ -65,27 +66,19 @@ fn placement(what: &str, placement: &Placement) -> String {
     format!("{what}: xyz ({xyz}), rpy ({rpy})")
 }
 
-/// Formats a number as the file has it if that is short, otherwise with six digits.
+/// Formats a number as the file has it if that is short.
 fn number(value: &Rational) -> String {
-    match write_decimal(value) {
-        Some(text) if text.len() <= 10 => text,
-        _ => six(f64::nearest_rational(value)),
-    }
+    short(write_decimal(value), 10, f64::nearest_rational(value))
 }
 
 fn angle(value: &Angle) -> String {
-    match value.to_string() {
-        text if text.len() <= 10 => text,
-        _ => six(value.to_f64()),
-    }
+    short(Some(value.to_string()), 10, value.to_f64())
 }
 
-/// Formats a position as it was given if that is short, otherwise with six digits.
-fn short(value: f64) -> String {
-    match format!("{value}") {
-        text if text.len() <= 7 => text,
-        _ => six(value),
-    }
+/// Returns a text of at most so many bytes, otherwise the number with six digits.
+fn short(text: Option<String>, most: usize, value: f64) -> String {
+    text.filter(|text| text.len() <= most)
+        .unwrap_or_else(|| six(value))
 }
 
 /// Formats a number with six digits, without zeros at the end.

@@ -24,11 +24,8 @@ pub enum Change {
     Masses(i32),
     /// All lengths times 10^e.
     Lengths(i32),
-    /// Lengths from 10⁻⁶ m to 10⁶ m, at the base or at the hand.
-    Mixed {
-        /// The long ones are at the hand.
-        long_hand: bool,
-    },
+    /// Lengths times 10⁻⁶ to 10⁶ from base to hand; with −1 in the other direction, with 1 in this.
+    Mixed(i32),
     /// The last links have no mass, inertia or rotor.
     Massless(usize),
     /// All of the last link's mass in the origin of its frame.
@@ -90,8 +87,8 @@ pub const CASES: [Case; 31] = [
     ("mass ratio 1e9", Vector, Change::Masses(9), Inside),
     ("lengths 1e-6", Vector, Change::Lengths(-6), Inside),
     ("lengths 1e6", Vector, Change::Lengths(6), Inside),
-    ("lengths mixed, long hand", Vector, Change::Mixed { long_hand: true }, Inside),
-    ("lengths mixed, long base", Vector, Change::Mixed { long_hand: false }, Inside),
+    ("lengths mixed, long hand", Vector, Change::Mixed(1), Inside),
+    ("lengths mixed, long base", Vector, Change::Mixed(-1), Inside),
     ("massless last link", Both, Change::Massless(1), Inside),
     ("massless wrist", Both, Change::Massless(3), Inside),
     ("point mass at the tip", Entries, Change::PointMass, Inside),
@@ -149,9 +146,8 @@ impl Change {
             match self {
                 Change::Masses(e) => scale_mass(joint, &power(share(e, index))),
                 Change::Lengths(e) => scale_length(joint, &power(e)),
-                Change::Mixed { long_hand } => {
-                    let e = share(12, index) - 6;
-                    scale_length(joint, &power(if long_hand { e } else { -e }));
+                Change::Mixed(sign) => {
+                    scale_length(joint, &power(sign * (share(12, index) - 6)));
                 }
                 Change::Massless(links) if index + links >= n => {
                     scale_mass(joint, &Rational::zero());
@@ -217,9 +213,9 @@ impl Motion {
             match self {
                 Motion::Inside => {}
                 Motion::Angles(size) => {
-                    turning
-                        .iter()
-                        .for_each(|&i| state.q[i] = size * (2.0 * random.unit() - 1.0));
+                    for &i in &turning {
+                        state.q[i] = size * (2.0 * random.unit() - 1.0);
+                    }
                 }
                 Motion::Times(factors) => {
                     let rows = [&mut state.q, &mut state.qd, &mut state.qdd];
@@ -264,9 +260,8 @@ fn balance(robot: &Robot, turning: &[usize], q: &mut [f64]) {
         let start = q[joint];
         let mut load = |at: f64| {
             q[joint] = at;
-            runtime
-                .gravity(&DVector::from_column_slice(q))
-                .map_or(0.0, |c| c[joint])
+            let load = runtime.gravity(&DVector::from_column_slice(q));
+            load.map_or(0.0, |c| c[joint])
         };
         let mut low = start;
         let first = load(low);

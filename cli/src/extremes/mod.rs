@@ -97,10 +97,20 @@ pub fn inside<'e>(
     functions: impl Iterator<Item = &'e Emitted>,
     states: &[JointState],
 ) -> Vec<Row> {
+    let case = (INSIDE, Held::Vector);
+    measured(bench, functions, case, [states, states]).collect()
+}
+
+/// Measures functions in a case, at states beside those that sizes are taken from.
+fn measured<'e>(
+    bench: &Bench,
+    functions: impl Iterator<Item = &'e Emitted>,
+    (case, held): (&'static str, Held),
+    [states, scales]: [&[JointState]; 2],
+) -> impl Iterator<Item = Row> {
     functions
-        .flat_map(|emitted| bench.measure(&Code::emitted(emitted), states, states))
-        .map(|worst| Row::new(INSIDE, Held::Vector, Ok(worst)))
-        .collect()
+        .flat_map(move |emitted| bench.measure(&Code::emitted(emitted), states, scales))
+        .map(move |worst| Row::new(case, held, Ok(worst)))
 }
 
 /// Functions as they were generated, all together or each scalar by itself.
@@ -110,23 +120,14 @@ type Made = Vec<Result<Generated, GenerateError>>;
 fn rows(
     bench: &Bench,
     made: &Made,
-    (case, held): (&'static str, Held),
-    [states, scales]: [&[JointState]; 2],
+    case: (&'static str, Held),
+    states: [&[JointState]; 2],
 ) -> Vec<Row> {
     let mut rows = Vec::new();
     for made in made {
         match made {
-            Ok(generated) => {
-                for emitted in &generated.emitted {
-                    let worst = bench.measure(&Code::emitted(emitted), states, scales);
-                    rows.extend(
-                        worst
-                            .into_iter()
-                            .map(|worst| Row::new(case, held, Ok(worst))),
-                    );
-                }
-            }
-            Err(reason) => rows.push(Row::new(case, held, Err(reason.clone()))),
+            Ok(made) => rows.extend(measured(bench, made.emitted.iter(), case, states)),
+            Err(reason) => rows.push(Row::new(case.0, case.1, Err(reason.clone()))),
         }
     }
     rows
@@ -188,25 +189,20 @@ fn generated(
     }
 }
 
-/// Lists what inverts D and nothing else: what is damped inverts other matrices, which are near
-/// singular at other states.
-pub fn dividing() -> Vec<Function> {
-    let inverts = |function: &Function| {
-        function.inverts_inertia() && !function.arguments().contains(&Argument::Damping)
-    };
-    Function::ALL.into_iter().filter(inverts).collect()
-}
-
-/// Measures what inverts D at states all over the limits, and at as many where D is nearest to
-/// singular.
+/// Measures what inverts D and nothing else at states all over the limits, and at as many where D
+/// is nearest to singular.
 ///
 /// # Errors
 /// Those of generating the code that is run.
 pub fn divided(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Row>, GenerateError> {
-    const CASE: &str = "nearest to singular";
-    let generated = match generated(robot, request, &dividing()) {
+    const CASE: (&str, Held) = ("nearest to singular", Held::Vector);
+    // What is damped inverts other matrices, which are near singular at other states.
+    let is_damped = |own: &Function| own.arguments().contains(&Argument::Damping);
+    let mut dividing = Function::ALL.to_vec();
+    dividing.retain(|own| own.inverts_inertia() && !is_damped(own));
+    let generated = match generated(robot, request, &dividing) {
         Err(reason @ GenerateError::Singular { .. }) => {
-            return Ok(vec![Row::new(CASE, Held::Vector, Err(reason))]);
+            return Ok(vec![Row::new(CASE.0, CASE.1, Err(reason))]);
         }
         generated => generated?,
     };
@@ -216,12 +212,7 @@ pub fn divided(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Ro
     for state in drawn.iter_mut().skip(states) {
         state.q.clone_from(&q);
     }
-    Ok(rows(
-        &bench,
-        &generated,
-        (CASE, Held::Vector),
-        [&drawn, &drawn],
-    ))
+    Ok(rows(&bench, &generated, CASE, [&drawn, &drawn]))
 }
 
 /// Returns the largest condition of D that a search over the limits finds, and where: the best of
@@ -231,7 +222,8 @@ pub fn nearest_to_singular(robot: &Robot, bench: &Bench) -> (f64, Vec<f64>) {
     let mut state = seeded(robot, 1, SEED).remove(0);
     let mut condition = |q: &[f64]| {
         state.q = q.to_vec();
-        bench.condition(function, &state, Quantity::Acceleration)
+        let granted = bench.runtime().granted(function, &state);
+        granted.factor(Quantity::Acceleration)
     };
     let bounds = positions(robot);
     let mut random = Random::new(SEED);

@@ -5,8 +5,6 @@
 
 mod texts;
 
-pub use texts::ROBOT;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -48,14 +46,13 @@ pub(crate) fn run(args: &NewArgs, context: &Context) -> Outcome {
     let file = file.map_err(|error| Failure::Input(error.to_string()))?;
     let robot = &file.robot;
     let manifest = texts::manifest(&name, &dependency());
+    let code = code(&file)?;
+    let main = texts::source(&robot.name, &states(robot)?);
     let texts = [
         ("Cargo.toml".to_owned(), manifest),
-        (format!("robots/{}.rs", robot.name), code(&file)?),
+        (format!("robots/{}.rs", robot.name), code),
         (format!("robots/{}.toml", robot.name), robot_file),
-        (
-            "src/main.rs".to_owned(),
-            texts::source(&robot.name, &states(robot)?),
-        ),
+        ("src/main.rs".to_owned(), main),
     ];
     let mut files = Files::new(context, &[]);
     let mut report = Report::default();
@@ -69,14 +66,12 @@ pub(crate) fn run(args: &NewArgs, context: &Context) -> Outcome {
     report.value("joints", robot.joints.len());
     let names = texts.each_ref().map(|(name, _)| name.as_str());
     report.value("files", names.to_vec());
-    let texts = texts
-        .into_iter()
-        .map(|(name, text)| Ok((files.add_in(folder, &name)?, text)));
-    Ok(Done {
-        files: texts.collect::<Result<_, Failure>>()?,
-        is_aside: true,
-        ..Done::from(report)
-    })
+    let mut done = Done::from(report);
+    done.is_aside = true;
+    for (name, text) in texts {
+        done.files.push((files.add_in(folder, &name)?, text));
+    }
+    Ok(done)
 }
 
 /// Generates the code that is checked in beside the robot file.
@@ -130,7 +125,7 @@ fn crate_name(folder: &Path) -> Result<String, Failure> {
         None => {
             refused("lower-case letters, digits, hyphens and underscores, a letter first".into())
         }
-        Some(good) if texts::DEPENDENCIES.contains(&good.as_str()) => refused(format!(
+        Some(good) if good == texts::DEPENDENCY => refused(format!(
             "the new crate depends on the crate `{good}`: write \"my_{good}\""
         )),
         Some(_) => Ok(name.into_owned()),

@@ -1,7 +1,7 @@
 //! The contents of the files of a new crate.
 
 /// The default robot: two links in a vertical plane.
-pub const ROBOT: &str = "\
+pub(super) const ROBOT: &str = "\
 # Two links of a metre and a kilogram in a vertical plane: put your arm here.
 
 name = \"planar\"
@@ -27,8 +27,8 @@ inertia = [0, \"1/12\", \"1/12\", 0, 0, 0]
 limits = { position = [\"-pi\", \"pi\"], velocity = 3, acceleration = 10, torque = 30 }
 ";
 
-/// The crates that the new one depends on.
-pub(super) const DEPENDENCIES: [&str; 1] = ["dalembert"];
+/// The crate that the new one depends on.
+pub(super) const DEPENDENCY: &str = "dalembert";
 
 /// The options of the code in the new crate.
 pub(super) const ASKED: &str = "outputs: inverse_dynamics, gravity; scalar: f64; sincos: together";

@@ -37,12 +37,8 @@ pub fn read(scalar: ScalarType) -> Vec<Extreme> {
             },
         }
     };
-    json["cases"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(extreme)
-        .collect()
+    let cases = json["cases"].as_array().unwrap();
+    cases.iter().map(extreme).collect()
 }
 
 /// Returns the robot with its numbers exactly as they are: no angle is snapped.
@@ -54,10 +50,9 @@ fn robot(json: &Value, scalar: ScalarType) -> Robot {
         let tensor = numbers(&json["I"][i], scalar);
         let com = numbers(&json["r"][i], scalar);
         Joint {
-            kind: if kind == 'R' {
-                JointKind::Revolute
-            } else {
-                JointKind::Prismatic
+            kind: match kind {
+                'R' => JointKind::Revolute,
+                _ => JointKind::Prismatic,
             },
             alpha: match json["sa"][i].as_f64().zip(json["ca"][i].as_f64()) {
                 Some(pair) => right_angle(pair),

@@ -31,11 +31,11 @@ fn run<T: Float>(
     narrow: impl Fn(f64) -> T,
     widen: impl Fn(T) -> f64,
 ) -> Vec<f64> {
-    let vector = |argument: &Argument| {
-        let values = state.entries(*argument);
-        DVector::from_iterator(values.len(), values.iter().map(|x| narrow(*x)))
+    let vector = |argument: Argument| {
+        let values = state.entries(argument).iter().map(|x| narrow(*x));
+        (argument, DVector::from_iterator(values.len(), values))
     };
-    let at = JointVectors::new(Argument::JOINTS.each_ref().map(vector));
+    let at = JointVectors::new(Argument::JOINTS.map(vector));
     let quantities = function.quantities().iter();
     let entries = quantities.flat_map(|&quantity| runtime.entries(quantity, &at).unwrap());
     entries.map(widen).collect()

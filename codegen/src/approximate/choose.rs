@@ -62,7 +62,8 @@ impl<'a> ErrorBudget<'a> {
     /// Returns the box of a robot in its scene, and T over it.
     ///
     /// # Errors
-    /// [`ToleranceError::Refused`].
+    /// [`ToleranceError::Refused`]: a function without bounds, a limit that is missing, or actuators
+    /// that are no measure of it.
     pub fn new(
         setup: &'a Setup,
         exact: &'a Program,
@@ -240,7 +241,8 @@ impl<'a> ErrorBudget<'a> {
     ///
     /// # Errors
     /// [`ToleranceError::Above`] if the exact program is not;
-    /// [`ToleranceError::Indefinite`] if its D cannot be shown to be positive definite.
+    /// [`ToleranceError::Indefinite`] if its D cannot be shown to be positive definite;
+    /// [`ToleranceError::Refused`] beyond the work of the settings.
     pub fn choose(
         &self,
         from: &[Program],
@@ -337,8 +339,7 @@ impl<'a> ErrorBudget<'a> {
         // A tolerance may admit more than D bears.
         for part in [1.0, 0.1, 0.01] {
             let allowances: Vec<f64> = allowances.iter().map(|allowed| allowed * part).collect();
-            let sines = sines::within(emitted, *scalar, &positions, &allowances, &sensitivity);
-            let sines = sines.map_err(|why| complaint(why.to_string()))?;
+            let sines = sines::within(emitted, *scalar, &positions, &allowances, &sensitivity)?;
             let found = certificate.with_sines(self.setup, &sines, &sensitivity);
             within(&found, tolerances).map_err(|why| complaint(why.to_string()))?;
             if found.lambda_min.is_some() || !has_inertia(emitted) {

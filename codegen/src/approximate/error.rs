@@ -123,10 +123,7 @@ impl fmt::Display for ToleranceError {
 }
 
 fn wider(scalar: ScalarType) -> &'static str {
-    match scalar {
-        ScalarType::F32 => ", or choose a wider scalar",
-        ScalarType::F64 => "",
-    }
+    scalar.of("", ", or choose a wider scalar")
 }
 
 impl std::error::Error for ToleranceError {}

@@ -15,7 +15,8 @@ use crate::program::kernel::{Kernel, KernelWriter};
 use crate::program::{Program, ScalarType, Trig};
 use crate::sincos::choose::{Candidates, Choice};
 use crate::sincos::proof::Errors;
-use crate::sincos::{self, AngleKernel, Sines, TooAccurate};
+use crate::sincos::{self, AngleKernel, Sines};
+use crate::words::Complaint;
 
 /// An error that is small beside any sine, and large beside libm's.
 const UNIT: f64 = 1e-4;
@@ -32,7 +33,7 @@ pub fn within(
     positions: &[Interval],
     allowances: &[f64],
     sensitivity: &Sensitivity,
-) -> Result<Sines, TooAccurate> {
+) -> Result<Sines, Complaint> {
     let error = uniform(program, scalar, allowances, sensitivity);
     let mut sines = sincos::polynomials(program, scalar, positions, error)?;
     let admitted = |sines: &[AngleKernel]| {

@@ -48,10 +48,7 @@ pub(crate) fn overflows(
             *most = most.max(run.values[*id as usize].magnitude());
         }
     }
-    let largest = match scalar {
-        ScalarType::F64 => f64::MAX,
-        ScalarType::F32 => f64::from(f32::MAX),
-    };
+    let largest = scalar.of(f64::MAX, f32::MAX.into());
     let steps = magnitudes.into_iter().enumerate();
     steps
         .filter(|(_, magnitude)| *magnitude > largest)

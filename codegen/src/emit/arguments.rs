@@ -7,15 +7,16 @@ use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 
 use super::figures::{decimal, placed};
+use super::say;
 use crate::function::{Argument, Function};
 use crate::language::function::{GRAVITY, LOAD, PAYLOAD};
+use crate::language::list;
 use crate::program::ScalarType;
 use crate::setup::Setup;
 
 /// Returns what gravity is, for the header.
 pub(super) fn gravity(robot: &Robot, setup: &Setup) -> String {
-    let components: Vec<String> = robot.gravity.iter().map(decimal).collect();
-    let file = components.join(", ");
+    let file = list(robot.gravity.iter().map(decimal));
     match setup.has(RuntimeParameter::Gravity) {
         false => format!("gravity ({file}) m/s² in base axes."),
         true => {
@@ -28,12 +29,32 @@ pub(super) fn gravity(robot: &Robot, setup: &Setup) -> String {
 pub(super) fn types(setup: &Setup, scalar: ScalarType) -> String {
     let mut text = String::new();
     if setup.has(RuntimeParameter::Gravity) {
-        text += &gravity_type(scalar);
+        text += "/// The acceleration of gravity in base axes, in m/s²: x, y and z.\n";
+        newtype(&mut text, GRAVITY, scalar, 3);
     }
     if !setup.has(RuntimeParameter::Payload) {
         return text;
     }
-    text += &payload_type(scalar, &payload_frame(setup).replace(" at ", "\n/// at "));
+    let frame = payload_frame(setup).replace(" at ", "\n/// at ");
+    text += "/// A body that is fixed to the last link, beside what the robot file has there: see\n\
+             /// [`Payload::new`], whose arguments these are, in their order.\n";
+    newtype(&mut text, PAYLOAD, scalar, 10);
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "impl {PAYLOAD} {{\n\
+         /// Nothing is carried.\n\
+         pub const NONE: {PAYLOAD} = {PAYLOAD}([0.0; 10]);\n\
+         /// A body of this `mass` in kg. `com` is its centre of mass in m, in the last link's frame,\n\
+         /// {frame}\n\
+         /// (a tool's pose moves poses and Jacobians only). `inertia` is its tensor about the centre of\n\
+         /// mass in kg·m², in the axes of that frame: Ixx, Iyy, Izz, Ixy, Iyz, Ixz as they stand in the\n\
+         /// matrix.\n\
+         #[must_use]\n\
+         pub const fn new(mass: {scalar}, com: [{scalar}; 3], inertia: [{scalar}; 6]) -> {PAYLOAD} {{\n    \
+         let ([x, y, z], [xx, yy, zz, xy, yz, xz]) = (com, inertia);\n    \
+         {PAYLOAD}([mass, x, y, z, xx, yy, zz, xy, yz, xz])\n}}\n}}"
+    );
     text += "/// The regrouped parameters that a payload changes: what [`load`] returns, and what the other\n\
              /// functions take. Compute it once for each tool; its numbers are this module's own.\n";
     let length = Argument::Load.length(setup.sizes(Function::Load));
@@ -69,40 +90,6 @@ pub(super) fn described(argument: Argument, setup: &Setup) -> Vec<String> {
     text.lines().map(str::to_owned).collect()
 }
 
-/// The type of gravity.
-pub(crate) fn gravity_type(scalar: ScalarType) -> String {
-    let mut text =
-        "/// The acceleration of gravity in base axes, in m/s²: x, y and z.\n".to_owned();
-    newtype(&mut text, GRAVITY, scalar, 3);
-    text
-}
-
-/// The type of a payload, whose frame is this.
-pub(crate) fn payload_type(scalar: ScalarType, frame: &str) -> String {
-    let mut text =
-        "/// A body that is fixed to the last link, beside what the robot file has there: see\n\
-                    /// [`Payload::new`], whose arguments these are, in their order.\n"
-            .to_owned();
-    newtype(&mut text, PAYLOAD, scalar, 10);
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        text,
-        "impl {PAYLOAD} {{\n\
-         /// Nothing is carried.\n\
-         pub const NONE: {PAYLOAD} = {PAYLOAD}([0.0; 10]);\n\
-         /// A body of this `mass` in kg. `com` is its centre of mass in m, in the last link's frame,\n\
-         /// {frame}\n\
-         /// (a tool's pose moves poses and Jacobians only). `inertia` is its tensor about the centre of\n\
-         /// mass in kg·m², in the axes of that frame: Ixx, Iyy, Izz, Ixy, Iyz, Ixz as they stand in the\n\
-         /// matrix.\n\
-         #[must_use]\n\
-         pub const fn new(mass: {scalar}, com: [{scalar}; 3], inertia: [{scalar}; 6]) -> {PAYLOAD} {{\n    \
-         let ([x, y, z], [xx, yy, zz, xy, yz, xz]) = (com, inertia);\n    \
-         {PAYLOAD}([mass, x, y, z, xx, yy, zz, xy, yz, xz])\n}}\n}}"
-    );
-    text
-}
-
 /// Writes a type of so many numbers.
 fn newtype(text: &mut String, name: &str, scalar: ScalarType, length: usize) {
     // Writing to a string cannot fail.
@@ -119,18 +106,20 @@ fn newtype(text: &mut String, name: &str, scalar: ScalarType, length: usize) {
 pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
     let mut lines = Vec::new();
     if setup.takes(function, RuntimeParameter::Gravity) {
-        lines.extend([
-            String::new(),
-            "`g` is the acceleration of gravity in base axes, m/s². Where the base is tilted, turn it into".into(),
-            "the base's axes; where it moves without turning, subtract its acceleration.".into(),
-        ]);
+        let gravity = [
+            "",
+            "`g` is the acceleration of gravity in base axes, m/s². Where the base is tilted, turn it into",
+            "the base's axes; where it moves without turning, subtract its acceleration.",
+        ];
+        say(&mut lines, gravity);
     }
     if setup.takes(function, RuntimeParameter::Payload) {
-        lines.extend([
-            String::new(),
-            "`load` is what [`load`] returns of what the hand carries. Proved with all ten numbers of".into(),
-            "the payload as variables.".into(),
-        ]);
+        let load = [
+            "",
+            "`load` is what [`load`] returns of what the hand carries. Proved with all ten numbers of",
+            "the payload as variables.",
+        ];
+        say(&mut lines, load);
     }
     lines
 }

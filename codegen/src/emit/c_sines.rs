@@ -9,7 +9,7 @@ use crate::language::c99::{Names, float, largest};
 use crate::language::called::Called;
 use crate::language::dialect::Lines;
 use crate::program::kernel::Kernel;
-use crate::program::{Library, Literal, ScalarType};
+use crate::program::{Library, Literal};
 use crate::sincos::routine::routine;
 
 /// Writes what the functions call: of a number of angles each, a loop that compilers make vectors
@@ -80,21 +80,12 @@ impl Words {
     /// gcc makes vectors for every processor; clang keeps results in memory if it is not
     /// inlined, which is shorter than taking vectors apart.
     fn several(&self, names: &Names, count: usize) -> String {
-        let Words {
-            float,
-            inline,
-            f,
-            largest,
-            sine,
-            cosine,
-            ..
-        } = self;
+        let (float, inline, f) = (self.float, self.inline, self.f);
+        let (largest, sine, cosine) = (&self.largest, &self.sine, &self.cosine);
         let dialect = names.dialect();
         let [one, four, fourth] = [1.0, 4.0, 0.25].map(|value| dialect.literal(Literal(value)));
-        let shift = dialect.literal(Literal(match dialect.scalar {
-            ScalarType::F64 => f64::SHIFT,
-            ScalarType::F32 => f64::from(f32::SHIFT),
-        }));
+        let shift = dialect.scalar.of(f64::SHIFT, f32::SHIFT.into());
+        let shift = dialect.literal(Literal(shift));
         let (restrict, unfused) = (names.constant("RESTRICT"), names.constant("UNFUSED"));
         let (name, steps) = (Called::name(count, names), self.steps("        "));
         let angles = if count == 1 { "angle" } else { "angles" };
@@ -124,15 +115,8 @@ impl Words {
 
     /// Returns the function of one angle, which is told whether it may be far.
     fn one(&self, names: &Names) -> String {
-        let Words {
-            float,
-            inline,
-            f,
-            largest,
-            sine,
-            cosine,
-            ..
-        } = self;
+        let (float, inline, f) = (self.float, self.inline, self.f);
+        let (largest, sine, cosine) = (&self.largest, &self.sine, &self.cosine);
         let [kind, function] = ["sincos_t", "sincos"].map(|word| names.of(word));
         let zero = names.dialect().literal(Literal(0.0));
         let (unfused, steps) = (names.constant("UNFUSED"), self.steps("    "));

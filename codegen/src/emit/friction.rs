@@ -14,22 +14,18 @@ pub(super) fn doc(generated: &GeneratedFunction, setup: &Setup) -> Vec<String> {
     }
     let arguments = generated.function.arguments();
     let wished = arguments.contains(&Argument::ReferenceVelocity);
-    let mut lines = vec![
-        String::new(),
-        "With Coulomb friction: b_i stands for b_i + F_i r_i, r_i = 1/√(q̇_i² + w_i²), so that the"
-            .into(),
-        match wished {
-            false => {
-                "friction is F_i q̇_i/√(q̇_i² + w_i²). In the proof each r_i is a variable.".into()
-            }
-            true => {
-                "friction is F_i v_i/√(q̇_i² + w_i²). In the proof each r_i is a variable.".into()
-            }
-        },
-        String::new(),
-        "| joint | F | w |".into(),
-        "|---|---|---|".into(),
+    let speed = if wished { "v_i" } else { "q̇_i" };
+    let friction =
+        format!("friction is F_i {speed}/√(q̇_i² + w_i²). In the proof each r_i is a variable.");
+    let head = [
+        "",
+        "With Coulomb friction: b_i stands for b_i + F_i r_i, r_i = 1/√(q̇_i² + w_i²), so that the",
+        &friction,
+        "",
+        "| joint | F | w |",
+        "|---|---|---|",
     ];
+    let mut lines = head.map(String::from).to_vec();
     for speed in &program.speeds {
         let joint = &setup.robot().joints[speed.joint];
         let (force, width) = (decimal(&joint.coulomb), decimal(&joint.coulomb_width));

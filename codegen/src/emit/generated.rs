@@ -1,12 +1,13 @@
 //! A function with what was found and proved of it.
 
 use crate::approximate::admitted::Admitted;
+use crate::certificate::Certificate;
 use crate::function::Function;
 use crate::program::{Code, Counts, Library, Program, ScalarType};
 use crate::search::Pass;
 use crate::seeds::Source;
 use crate::setup::ParametersKey;
-use crate::sincos::{self, AngleKernel, Sines};
+use crate::sincos::{AngleKernel, Sines};
 use crate::verify::accuracy::Refused;
 use crate::verify::exact::Proof;
 
@@ -43,7 +44,14 @@ pub struct GeneratedFunction {
 impl GeneratedFunction {
     /// Returns the polynomials of its sines in a scalar; none if they are libm's.
     pub fn sines(&self, scalar: ScalarType) -> &[AngleKernel] {
-        sincos::of(&self.sines, scalar)
+        let found = self.sines.iter().find(|(known, _)| *known == scalar);
+        found.map_or(&[], |(_, sines)| sines)
+    }
+
+    /// Returns the certificate of its text in a scalar, if a tolerance admitted it.
+    pub(crate) fn certificate(&self, scalar: ScalarType) -> Option<&Certificate> {
+        let mut all = self.admitted.as_ref()?.certificates.iter();
+        all.find(|own| own.scalar == scalar)
     }
 
     /// Returns the program in a scalar, each constant rounded once: what is printed. Sines

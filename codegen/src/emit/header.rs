@@ -9,7 +9,7 @@ use super::state_box::StateBox;
 use super::{GeneratedFunction, c_sines, fused, parameters};
 use crate::function::Function;
 use crate::language::c99::{self, LONGEST, Names};
-use crate::language::{Language, Printed, columns, cuda};
+use crate::language::{self, Language, Printed, columns, cuda};
 use crate::program::{Code, Library, ScalarType};
 use crate::task::Job;
 
@@ -44,9 +44,8 @@ pub(crate) fn misnamed(
         let constant = parameters::name(*function).map(str::to_lowercase);
         words.extend(constant.filter(|constant| !words.contains(constant)));
     }
-    let names = scalars
-        .iter()
-        .map(|&scalar| Names::new(base, Language::C, scalar));
+    let scalars = scalars.iter();
+    let names = scalars.map(|&scalar| Names::new(base, Language::C, scalar));
     let names = names.flat_map(|names| words.iter().map(move |word| names.of(word)));
     let macros = ["RESTRICT", "UNFUSED", "SIMD"];
     let macros = macros.map(|word| Names::new(base, Language::C, ScalarType::F64).constant(word));
@@ -61,11 +60,7 @@ pub(crate) fn write(
     functions: &[GeneratedFunction],
     codes: &[(ScalarType, Vec<Code>)],
 ) -> String {
-    let Job {
-        robot,
-        setup,
-        request,
-    } = *job;
+    let (robot, setup, request) = (job.robot, job.setup, job.request);
     let name = request.module_name(robot);
     let names = Names::new(&name, request.language, ScalarType::F64);
     let mut text = String::new();
@@ -80,10 +75,11 @@ pub(crate) fn write(
     let needs_math =
         codes_of().any(|code| calls(&code) || is_fused(&code) || !code.speeds.is_empty());
     let includes = [("math", needs_math), ("stddef", request.batch)];
-    let includes = includes.into_iter().filter(|(_, needed)| *needed);
-    let includes: String = includes
-        .map(|(name, _)| format!("#include <{name}.h>\n"))
-        .collect();
+    let includes = includes.map(|(name, is_needed)| match is_needed {
+        true => format!("#include <{name}.h>\n"),
+        false => String::new(),
+    });
+    let includes = includes.concat();
     let has_loops = request.batch && request.language == Language::C;
     let (when, options) = match has_loops {
         true => (GCC, ", \"no-tree-pre\""),
@@ -149,18 +145,15 @@ pub(crate) fn write(
             }
             let printed = Printed::of(&generated.program, code);
             if let Some(structure) = c99::structure(&printed, &names) {
-                text.push('\n');
-                text.push_str(&structure);
+                let _ = write!(text, "\n{structure}");
             }
             let mut doc = function_doc(job, generated, scalar);
             let of_rust = fused::doc(&generated.program);
             if !of_rust.is_empty() {
                 doc.retain(|line| line.is_empty() || !of_rust.contains(line));
-                doc.push(
-                    "A product and the sum that alone reads it are one operation, `fma`, rounded once: slow \
-                     on a processor that has none."
-                        .to_owned(),
-                );
+                let of_c = "A product and the sum that alone reads it are one operation, `fma`, rounded \
+                            once: slow on a processor that has none.";
+                doc.push(of_c.to_owned());
             }
             if let Some(constant) = parameters::name(function) {
                 let own = names.of(&constant.to_lowercase());
@@ -193,12 +186,10 @@ pub(crate) fn write(
             let is_told = is_batch && c99::is_told(code, &names);
             text.push_str(&c99::write(&printed, &names, is_told));
             if is_told {
-                text.push('\n');
-                text.push_str(&c99::single(&printed, &names));
+                let _ = write!(text, "\n{}", c99::single(&printed, &names));
             }
             if is_batch {
-                text.push('\n');
-                text.push_str(&columns::batch(&printed, &names));
+                let _ = write!(text, "\n{}", columns::batch(&printed, &names));
             }
         }
     }
@@ -214,13 +205,8 @@ pub(crate) fn write(
 
 /// Lines as a comment.
 fn comment(text: &mut String, lines: &[String]) {
-    text.push_str("\n/*\n");
-    for line in lines {
-        let line = plain(line);
-        let space = if line.is_empty() { "" } else { " " };
-        let _ = writeln!(text, " *{space}{line}");
-    }
-    text.push_str(" */\n");
+    let lines: Vec<String> = lines.iter().map(|line| plain(line)).collect();
+    let _ = write!(text, "\n/*\n{} */\n", language::comment(" *", &lines));
 }
 
 /// Returns a line that ends no comment and begins none; without the marks of Rust's documentation.

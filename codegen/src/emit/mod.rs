@@ -29,3 +29,8 @@ mod state_box;
 mod variant;
 
 pub use generated::GeneratedFunction;
+
+/// Appends constant lines.
+fn say<const N: usize>(lines: &mut Vec<String>, own: [&str; N]) {
+    lines.extend(own.map(String::from));
+}

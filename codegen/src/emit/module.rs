@@ -1,19 +1,20 @@
 //! The file of a robot in Rust: the contents of one module in one scalar, with header, table,
 //! structs and functions.
 
-use std::fmt::{Display, Write};
+use std::fmt::Write;
 
 use dalembert_model::robot::{Convention, Follower, JointKind, Position, Robot};
 
 use super::escape::escaped;
 use super::figures::{decimal, placed};
 use super::friction;
+use super::say;
 use super::scene::describe;
 use super::state_box::StateBox;
 use super::{arguments, fused, parameters, sines, variant};
 use crate::emit::GeneratedFunction;
-use crate::language::{Printed, columns, function, result};
-use crate::program::{Code, ScalarType};
+use crate::language::{Printed, columns, comment, function, result};
+use crate::program::{Code, Counts, ScalarType};
 use crate::setup::Setup;
 use crate::task::Job;
 
@@ -29,17 +30,9 @@ pub(crate) fn write(
     codes: &[Code],
     scalar: ScalarType,
 ) -> String {
-    let Job {
-        robot,
-        setup,
-        request,
-    } = *job;
+    let (robot, setup, request) = (job.robot, job.setup, job.request);
     let n = robot.joints.len();
-    let mut text = String::new();
-    for line in header(robot, setup, functions, scalar) {
-        let space = if line.is_empty() { "" } else { " " };
-        let _ = writeln!(text, "//!{space}{line}");
-    }
+    let mut text = comment("//!", &header(robot, setup, functions, scalar));
     // One operation a line, whatever the formatter of the user's crate thinks.
     // Only this way of telling it so is stable as an inner attribute.
     let _ = writeln!(
@@ -62,10 +55,9 @@ pub(crate) fn write(
     }
     for (index, (generated, code)) in functions.iter().zip(codes).enumerate() {
         text.push('\n');
-        let sizes = generated.program.sizes();
-        if let Some(structure) = result::structure(generated.function, sizes, scalar) {
-            text.push_str(&structure);
-            text.push('\n');
+        let printed = Printed::of(&generated.program, code);
+        if let Some(structure) = result::structure(printed.function, printed.sizes, scalar) {
+            let _ = writeln!(text, "{structure}");
         }
         // One π for all that are over the same columns.
         let columns = generated.function.columns();
@@ -74,11 +66,9 @@ pub(crate) fn write(
             text.push_str(&parameters::constant(generated.function, setup, scalar));
         }
         let doc = function_doc(job, generated, scalar);
-        let printed = Printed::of(&generated.program, code);
         text.push_str(&function::write(&printed, request.library(), &doc));
         if request.batch {
-            text.push('\n');
-            text.push_str(&columns::columns(&printed));
+            let _ = write!(text, "\n{}", columns::columns(&printed));
         }
     }
     text
@@ -131,11 +121,8 @@ pub(super) fn header(
             "The last frame of poses and Jacobians is the tool, in the last link's at {at}."
         ));
     }
-    lines.extend([
-        String::new(),
-        "| joint | kind | α | a | d | θ | mass |".into(),
-        "|---|---|---|---|---|---|---|".into(),
-    ]);
+    let head = "| joint | kind | α | a | d | θ | mass |";
+    say(&mut lines, ["", head, "|---|---|---|---|---|---|---|"]);
     for (row, joint) in robot.rows().into_iter().enumerate() {
         let mut followers = robot.followers.iter();
         let own = followers.find(|own| own.row == row);
@@ -168,11 +155,9 @@ pub(super) fn header(
         ));
     }
     if !robot.followers.is_empty() {
-        lines.push(String::new());
-        lines.push(
-            "Of joints that follow others there are no entries; parameters count links by rows."
-                .into(),
-        );
+        let why =
+            "Of joints that follow others there are no entries; parameters count links by rows.";
+        say(&mut lines, ["", why]);
     }
     let tilted = robot.rows().into_iter().enumerate();
     let tilted: Vec<String> = tilted
@@ -180,11 +165,9 @@ pub(super) fn header(
         .map(|(index, joint)| format!("{} by {}", index + 1, joint.beta))
         .collect();
     if !tilted.is_empty() {
-        lines.push(String::new());
-        lines.push(format!(
-            "After its twist each of these turns about y: joint {}.",
-            tilted.join(", joint ")
-        ));
+        let tilted = tilted.join(", joint ");
+        let why = format!("After its twist each of these turns about y: joint {tilted}.");
+        say(&mut lines, ["", &why]);
     }
     if let Some(scene) = setup.scene() {
         lines.push(String::new());
@@ -205,54 +188,39 @@ pub(super) fn header(
             "Each function lists what was then left out of it, within the scene's tolerance.",
         ],
     };
-    lines.extend(proved.map(String::from));
+    say(&mut lines, proved);
     let drawn = [
         "The points follow from the SHA-256 of robot, scene and program. Each function says how",
         "improbable it is that a wrong one passes.",
     ];
-    lines.extend(drawn.map(String::from));
+    say(&mut lines, drawn);
     lines
 }
 
 /// The operation counts, fused operations, divisions and roots among them where there are any.
 fn table(functions: &[GeneratedFunction]) -> Vec<String> {
-    let any = |of: fn(&GeneratedFunction) -> usize| functions.iter().any(|f| of(f) > 0);
-    let (divides, roots) = (any(|f| f.counts().div), any(|f| f.counts().sqrt));
-    let fuses = any(|f| f.counts().fma);
-    let line = |[function, mul, add, fma, div, sqrt, sincos, from]: [&dyn Display; 8]| {
-        let mut line = format!("| {function} | {mul} | {add} |");
-        for (column, cell) in [(fuses, fma), (divides, div), (roots, sqrt)] {
-            if column {
-                line += &format!(" {cell} |");
-            }
-        }
-        line + &format!(" {sincos} | {from} |")
-    };
-    let mut lines = vec![
-        line([
-            &"function",
-            &"mul",
-            &"add",
-            &"fma",
-            &"div",
-            &"sqrt",
-            &"sincos",
-            &"from",
-        ]),
-        line([&"---"; 8]).replace(' ', ""),
+    type Column = (&'static str, bool, fn(&Counts) -> usize);
+    let columns: [Column; 6] = [
+        ("mul", true, |counts| counts.mul),
+        ("add", true, |counts| counts.add),
+        ("fma", false, |counts| counts.fma),
+        ("div", false, |counts| counts.div),
+        ("sqrt", false, |counts| counts.sqrt),
+        ("sincos", true, |counts| counts.sincos),
     ];
-    for generated in functions {
-        let counts = generated.counts();
-        lines.push(line([
-            &format!("`{}`", generated.function),
-            &counts.mul,
-            &counts.add,
-            &counts.fma,
-            &counts.div,
-            &counts.sqrt,
-            &counts.sincos,
-            &generated.source.name(),
-        ]));
+    let has = |of: fn(&Counts) -> usize| functions.iter().any(|own| of(&own.counts()) > 0);
+    let shown = columns.iter().filter(|(_, always, of)| *always || has(*of));
+    let shown: Vec<&Column> = shown.collect();
+    let titles = shown.iter().map(|(title, ..)| format!(" {title} |"));
+    let mut lines = vec![
+        format!("| function |{} from |", titles.collect::<String>()),
+        format!("|{}", "---|".repeat(shown.len() + 2)),
+    ];
+    for own in functions {
+        let counts = own.counts();
+        let cells = shown.iter().map(|(.., of)| format!(" {} |", of(&counts)));
+        let (cells, source) = (cells.collect::<String>(), own.source.name());
+        lines.push(format!("| `{}` |{cells} {source} |", own.function));
     }
     lines
 }
@@ -278,20 +246,21 @@ pub(super) fn function_doc(
     ];
     lines.extend(fused::doc(&generated.program));
     if generated.program.divides() {
-        lines.push(String::new());
-        lines.push(
-            "Divides by the pivots of D, which are positive wherever D is positive definite. Where a".into(),
-        );
-        lines.push(
-            "joint moves no inertia a pivot is zero, and results are infinite or NaN.".into(),
-        );
+        let why = [
+            "",
+            "Divides by the pivots of D, which are positive wherever D is positive definite. Where a",
+            "joint moves no inertia a pivot is zero, and results are infinite or NaN.",
+        ];
+        say(&mut lines, why);
     }
     lines.extend(friction::doc(generated, setup));
     lines.extend(arguments::doc(generated.function, setup));
     lines.extend(parameters::doc(generated.function, setup));
     lines.extend(sines::doc(generated.sines(scalar), scalar));
-    if let Some(admitted) = &generated.admitted {
-        lines.extend(variant::describe(admitted, setup, scalar));
+    if let Some(admitted) = &generated.admitted
+        && let Some(certificate) = generated.certificate(scalar)
+    {
+        lines.extend(variant::describe(admitted, certificate, setup));
     }
     lines
 }

@@ -7,6 +7,7 @@ use dalembert_model::number::Exact;
 use num_traits::{One, Signed};
 
 use super::figures::decimal;
+use super::say;
 use crate::function::{Columns, Function};
 use crate::language::c99::{Names, float};
 use crate::program::{Literal, ScalarType};
@@ -23,38 +24,42 @@ pub(super) fn doc(function: Function, setup: &Setup) -> Vec<String> {
         "m2 is the mass of link 2, mx2, my2 and mz2 its first moments, m x, m y and m z, Ixx2 to",
         "Ixz2 the entries of its tensor, all about the origin and in the axes of its DH frame.",
     ];
+    let is_drive = |(own, _): &(Parameter, Exact)| !matches!(own, Parameter::Link(..));
     match over_base(function, setup) {
         Some(((sum, constant), base)) => {
             lines.push(format!(
                 "{sum} = Y π, and `{constant}` is this robot's π. No fewer columns give all"
             ));
-            lines.push(
-                "torques; that these do was proved. Each is a combination of parameters:".into(),
-            );
-            lines.push(String::new());
-            lines.push("| column | base parameter |".into());
-            lines.push("|---|---|".into());
+            let head = [
+                "torques; that these do was proved. Each is a combination of parameters:",
+                "",
+                "| column | base parameter |",
+                "|---|---|",
+            ];
+            say(&mut lines, head);
             for (index, terms) in base.combinations.iter().enumerate() {
                 lines.push(format!("| {} | {} |", index + 1, combination(terms)));
             }
             lines.push(String::new());
-            lines.extend(named.map(String::from));
-            if has_drives(base) {
-                lines.push("armature2 is the rotor's inertia that joint 2 feels, viscous2 its friction; they have".into());
-                lines.push("columns where the robot file has them.".into());
+            say(&mut lines, named);
+            if base.combinations.iter().flatten().any(is_drive) {
+                let drives = [
+                    "armature2 is the rotor's inertia that joint 2 feels, viscous2 its friction; they have",
+                    "columns where the robot file has them.",
+                ];
+                say(&mut lines, drives);
             }
         }
         None => {
-            lines.push(
-                "Columns are m1, mx1, my1, mz1, Ixx1, Iyy1, Izz1, Ixy1, Iyz1, Ixz1, then those of"
-                    .into(),
-            );
+            let columns =
+                "Columns are m1, mx1, my1, mz1, Ixx1, Iyy1, Izz1, Ixy1, Iyz1, Ixz1, then those of";
+            say(&mut lines, [columns]);
             let friction = match setup.has_coulomb() {
                 true => "friction, viscous and Coulomb,",
                 false => "viscous friction",
             };
             lines.push(format!("link 2. Armature and {friction} have none."));
-            lines.extend(named.map(String::from));
+            say(&mut lines, named);
         }
     }
     lines
@@ -136,11 +141,6 @@ fn over_base(
         return None;
     };
     Some((quantity.linear()?, setup.base(quantity).ok()?))
-}
-
-fn has_drives(base: &BaseParameters) -> bool {
-    let mut terms = base.combinations.iter().flatten();
-    terms.any(|(parameter, _)| !matches!(parameter, Parameter::Link(..)))
 }
 
 /// Returns a constant without factors of one and signs after signs.

@@ -4,6 +4,7 @@
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scale;
 
+use super::say;
 use crate::function::{ErrorScale, Quantity};
 use crate::program::Program;
 
@@ -11,11 +12,12 @@ use crate::program::Program;
 pub(super) fn sentences(relative_to: Option<Scale>, quantities: &[Quantity]) -> Vec<String> {
     match relative_to {
         None => vec!["T is as given.".into()],
-        Some(Scale::Range) => vec![
-            "T of an output is a size that it attains in the box, at its largest there or just"
-                .into(),
-            "below.".into(),
-        ],
+        Some(Scale::Range) => [
+            "T of an output is a size that it attains in the box, at its largest there or just",
+            "below.",
+        ]
+        .map(String::from)
+        .to_vec(),
         Some(Scale::Actuator) => actuators(quantities),
     }
 }
@@ -32,18 +34,18 @@ fn actuators(quantities: &[Quantity]) -> Vec<String> {
         ));
     }
     if has(ErrorScale::Inertia) {
-        lines.push(
-            "T of D_ik is min(T_i/q̈_k, T_k/q̈_i): the inertia that by itself takes the torque"
-                .into(),
-        );
-        lines.push("limit T_i of an actuator at the largest acceleration q̈_k of the box.".into());
+        let inertia = [
+            "T of D_ik is min(T_i/q̈_k, T_k/q̈_i): the inertia that by itself takes the torque",
+            "limit T_i of an actuator at the largest acceleration q̈_k of the box.",
+        ];
+        say(&mut lines, inertia);
     }
     if has(ErrorScale::Coefficient) {
-        lines.push(
-            "T of h_ikm is T_i/(q̇_k q̇_m): the coefficient that by itself takes the torque limit"
-                .into(),
-        );
-        lines.push("T_i at the largest velocities of the box.".into());
+        let coefficient = [
+            "T of h_ikm is T_i/(q̇_k q̇_m): the coefficient that by itself takes the torque limit",
+            "T_i at the largest velocities of the box.",
+        ];
+        say(&mut lines, coefficient);
     }
     lines
 }

@@ -3,7 +3,9 @@
 use dalembert_model::robot::{Position, Robot};
 use dalembert_model::scene::Scene;
 
-use crate::emit::figures::decimal;
+use super::figures::decimal;
+use super::say;
+use crate::language::list;
 
 /// Returns a line each.
 pub(super) fn describe(scene: &Scene, robot: &Robot) -> Vec<String> {
@@ -25,32 +27,26 @@ pub(super) fn describe(scene: &Scene, robot: &Robot) -> Vec<String> {
         }
     }
     if let Some(gravity) = &scene.gravity {
-        let gravity: Vec<String> = gravity.iter().map(decimal).collect();
+        let gravity = list(gravity.iter().map(decimal));
         lines.push(format!(
-            "- gravity ({}) m/s², instead of the robot's;",
-            gravity.join(", ")
+            "- gravity ({gravity}) m/s², instead of the robot's;"
         ));
     }
     if let Some(payload) = &scene.payload {
-        let com: Vec<String> = payload.com.iter().map(decimal).collect();
-        lines.push(format!(
-            "- a payload of {} kg at ({}) m in the frame of the last link;",
+        let (mass, com) = (
             decimal(&payload.mass),
-            com.join(", ")
+            list(payload.com.iter().map(decimal)),
+        );
+        lines.push(format!(
+            "- a payload of {mass} kg at ({com}) m in the frame of the last link;"
         ));
     }
-    let rows: Vec<String> = scene
-        .rows(robot.joints.len())
-        .iter()
-        .map(|row| (row + 1).to_string())
-        .collect();
+    let rows = scene.rows(robot.joints.len());
+    let rows = list(rows.iter().map(|row| (row + 1).to_string()));
     lines.push(format!(
-        "- results over the joints {}: every index of a result counts these.",
-        rows.join(", ")
+        "- results over the joints {rows}: every index of a result counts these."
     ));
-    lines.push(String::new());
-    lines.push(
-        "Arguments have an entry for every joint; those of locked joints are not read.".into(),
-    );
+    let read = "Arguments have an entry for every joint; those of locked joints are not read.";
+    say(&mut lines, ["", read]);
     lines
 }

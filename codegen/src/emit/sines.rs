@@ -1,6 +1,7 @@
 //! Polynomials for sines, in the words of a function's documentation.
 
 use super::figures::bound_of;
+use super::say;
 use crate::program::{Counts, ScalarType};
 use crate::sincos::AngleKernel;
 
@@ -11,13 +12,11 @@ pub(super) fn doc(sines: &[AngleKernel], scalar: ScalarType) -> Vec<String> {
     }
     let counts = Counts::default().with_kernels(sines.iter().map(|own| &own.kernel));
     let (mul, add) = (counts.trig_mul, counts.trig_add);
-    let mut lines = vec![
-        String::new(),
-        format!("Sines and cosines are polynomials, {mul} mul, {add} add, with proved errors:"),
-        String::new(),
-        "| angle | from | to | error | by |".into(),
-        "|---|---|---|---|---|".into(),
-    ];
+    let what =
+        format!("Sines and cosines are polynomials, {mul} mul, {add} add, with proved errors:");
+    let mut lines = Vec::new();
+    let head = "| angle | from | to | error | by |";
+    say(&mut lines, ["", &what, "", head, "|---|---|---|---|---|"]);
     for sine in sines {
         lines.push(format!(
             "| q{} | {:?} | {:?} | {} | {} |",
@@ -28,10 +27,11 @@ pub(super) fn doc(sines: &[AngleKernel], scalar: ScalarType) -> Vec<String> {
             sine.form
         ));
     }
-    lines.push(String::new());
-    lines.push(
-        "Outside these ranges they are no sines: the error grows with every step away. Ask".into(),
-    );
-    lines.push("[`in_box`] whether a state is inside.".into());
+    let outside = [
+        "",
+        "Outside these ranges they are no sines: the error grows with every step away. Ask",
+        "[`in_box`] whether a state is inside.",
+    ];
+    say(&mut lines, outside);
     lines
 }

@@ -8,10 +8,12 @@ use std::fmt::Write;
 
 use super::GeneratedFunction;
 use super::variant::held;
+use crate::certificate::Certificate;
 use crate::function::Argument;
 use crate::interval::Interval;
 use crate::language::c99::{Names, float};
-use crate::program::ScalarType;
+use crate::language::list;
+use crate::program::{Literal, ScalarType};
 use crate::setup::Setup;
 use crate::sincos;
 
@@ -80,11 +82,10 @@ impl StateBox {
         let parameters = self.columns.iter().map(|(argument, column)| {
             format!("{}: &[{scalar}; {}]", argument.name(), column.len())
         });
-        let parameters: Vec<String> = parameters.collect();
+        let parameters = list(parameters);
         let _ = writeln!(
             text,
-            "pub fn in_box({}) -> bool {{\n    let inside = true;",
-            parameters.join(", ")
+            "pub fn in_box({parameters}) -> bool {{\n    let inside = true;"
         );
         for (argument, column) in &self.columns {
             let name = argument.name();
@@ -98,9 +99,7 @@ impl StateBox {
         }
         text.push_str("    inside\n}\n");
     }
-}
 
-impl StateBox {
     /// Prints the function of C that asks.
     pub(super) fn write_c(&self, text: &mut String, scalar: ScalarType, names: &Names) {
         let (float, restrict) = (float(scalar), names.constant("RESTRICT"));
@@ -109,7 +108,6 @@ impl StateBox {
             let (name, length) = (argument.name(), column.len());
             format!("const {float} {name}[{restrict} {length}]")
         });
-        let parameters: Vec<String> = parameters.collect();
         // Writing to a string cannot fail.
         let _ = write!(
             text,
@@ -118,7 +116,7 @@ impl StateBox {
              {} int {}({})\n{{\n    int inside = 1;\n",
             dialect.function,
             names.of("in_box"),
-            parameters.join(", ")
+            list(parameters)
         );
         for (argument, column) in &self.columns {
             let name = argument.name();
@@ -143,14 +141,11 @@ fn bound(
     setup: &Setup,
     scalar: ScalarType,
 ) {
-    if let Some(admitted) = &generated.admitted {
-        let mut all = admitted.certificates.iter();
-        let Some(certificate) = all.find(|certificate| certificate.scalar == scalar) else {
+    if generated.admitted.is_some() {
+        let reads = |own: &&Certificate| own.emitted.arguments.contains(&argument);
+        let Some(certificate) = generated.certificate(scalar).filter(reads) else {
             return;
         };
-        if !certificate.emitted.arguments.contains(&argument) {
-            return;
-        }
         for (joint, place) in column.iter_mut().enumerate() {
             if setup.lock(joint).is_none()
                 && let Some(range) = held(certificate, setup, argument, joint)
@@ -182,21 +177,8 @@ fn ends(range: Option<Interval>, scalar: ScalarType) -> [String; 2] {
     let Some(range) = range else {
         return ["NEG_INFINITY", "INFINITY"].map(|end| format!("{scalar}::{end}"));
     };
-    match scalar {
-        ScalarType::F64 => [range.low(), range.high()].map(|end| format!("{end:?}")),
-        ScalarType::F32 => {
-            let (low, high) = (range.low() as f32, range.high() as f32);
-            let low = match f64::from(low) < range.low() {
-                true => low.next_up(),
-                false => low,
-            };
-            let high = match f64::from(high) > range.high() {
-                true => high.next_down(),
-                false => high,
-            };
-            [low, high].map(|end| format!("{end:?}"))
-        }
-    }
+    let ends = [scalar.above(range.low()), -scalar.above(-range.high())];
+    ends.map(|end| Literal(end).text(scalar))
 }
 
 #[cfg(test)]

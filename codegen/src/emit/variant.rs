@@ -9,15 +9,14 @@ use crate::certificate::Certificate;
 use crate::edits::Omission;
 use crate::function::Argument;
 use crate::interval::Interval;
-use crate::program::ScalarType;
 use crate::setup::Setup;
 
 /// Returns a line each: the bounds, the box, what was left out.
-pub(super) fn describe(admitted: &Admitted, setup: &Setup, scalar: ScalarType) -> Vec<String> {
-    let mut all = admitted.certificates.iter();
-    let Some(certificate) = all.find(|certificate| certificate.scalar == scalar) else {
-        return Vec::new();
-    };
+pub(super) fn describe(
+    admitted: &Admitted,
+    certificate: &Certificate,
+    setup: &Setup,
+) -> Vec<String> {
     let mut lines = [
         "",
         "Certified: inside the box, |this code - the full model| ≤ E·T. The last three columns",

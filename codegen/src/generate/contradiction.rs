@@ -71,8 +71,7 @@ fn tolerated(
     emitted: &Emitted,
 ) -> Result<(), GenerateError> {
     let scalar = emitted.scalar;
-    let mut certificates = generated.admitted.iter().flat_map(|all| &all.certificates);
-    let Some(claim) = certificates.find(|claim| claim.scalar == scalar) else {
+    let Some(claim) = generated.certificate(scalar) else {
         let why = "it passed its proof, but has no certificate";
         let function = generated.function;
         return Err(GenerateError::Defect(function, Some(scalar), why.into()));

@@ -132,23 +132,19 @@ impl fmt::Display for GenerateError {
             GenerateError::Disproved(function, disproof) => write!(f, "`{function}`: {disproof}"),
             GenerateError::Defect(function, scalar, why) => {
                 let scalar = scalar.map_or(String::new(), |scalar| format!(" in {scalar}"));
-                write!(
-                    f,
-                    "`{function}`{scalar}: {why}; please report this defect of dalembert"
-                )
+                let report = "please report this defect of dalembert";
+                write!(f, "`{function}`{scalar}: {why}; {report}")
             }
             GenerateError::SinCos(function, why)
             | GenerateError::Base(function, why)
             | GenerateError::Singular(function, why) => write!(f, "`{function}`: {why}"),
             GenerateError::Tolerance(function, why) => write!(f, "`{function}`: {why}"),
-            GenerateError::Variant(function, why) => {
-                write!(
-                    f,
-                    "the plan's variant of `{function}`: {why}; make the plan anew with `dalembert \
-                     generate ROBOT --scene SCENE --save-plan` and the effort that it was made with, \
-                     or delete it"
-                )
-            }
+            GenerateError::Variant(function, why) => write!(
+                f,
+                "the plan's variant of `{function}`: {why}; make the plan anew with `dalembert \
+                 generate ROBOT --scene SCENE --save-plan` and the effort that it was made with, \
+                 or delete it"
+            ),
         }
     }
 }

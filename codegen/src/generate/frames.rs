@@ -11,11 +11,8 @@ use crate::function::Function;
 /// # Errors
 /// The name, with the likely fix.
 pub(super) fn check(robot: &Robot, function: Function) -> Result<(), GenerateError> {
-    let names: Vec<&str> = robot
-        .frames
-        .iter()
-        .map(|frame| frame.name.as_str())
-        .collect();
+    let frames = robot.frames.iter();
+    let names: Vec<&str> = frames.map(|frame| frame.name.as_str()).collect();
     let known = |frame: &&str| *frame == HAND || names.contains(frame);
     let Some(frame) = function.frames().into_iter().find(|frame| !known(frame)) else {
         return Ok(());

@@ -2,7 +2,7 @@
 
 use dalembert_model::robot::Robot;
 
-use super::{Generated, GeneratedFunction, Request};
+use super::{Generated, Request};
 use crate::function::Function;
 use crate::plan::{Edited, Entry, Plan};
 use crate::program::{Program, ScalarType};
@@ -33,8 +33,27 @@ pub fn keep(robot: &Robot, request: &Request, generated: &Generated, plan: Optio
     let functions = generated.functions.iter();
     // A load is its definition: nobody searches for that.
     for function in functions.filter(|generated| generated.function != Function::Load) {
-        for scalar in scalars(request, function) {
-            let entry = entry(request, function, scalar);
+        let admitted = function.admitted.as_ref();
+        let scalars = match admitted {
+            None => request.scalars.clone(),
+            Some(admitted) => admitted.certificates.iter().map(|c| c.scalar).collect(),
+        };
+        // The proved program: what a tolerance was applied to.
+        let found = function.found.as_ref().unwrap_or(&function.program);
+        for scalar in scalars {
+            let entry = Entry {
+                start: request.start,
+                scalar,
+                source: function.source,
+                passes: function.passes.clone(),
+                scene: request.scene.as_ref().map(SceneKey::new),
+                parameters: function.parameters.clone(),
+                program: admitted.map_or(found, |admitted| &admitted.exact).clone(),
+                edited: admitted.map(|admitted| Edited {
+                    program: admitted.program.clone(),
+                    left_out: admitted.left_out.clone(),
+                }),
+            };
             let (name, scene) = (function.function, request.scene.as_ref());
             let parameters = function.parameters.as_ref();
             let other = plan.find(name, request.start, scalar, scene, parameters);
@@ -53,40 +72,10 @@ pub fn keep(robot: &Robot, request: &Request, generated: &Generated, plan: Optio
     Kept { plan, own }
 }
 
-fn entry(request: &Request, function: &GeneratedFunction, scalar: ScalarType) -> Entry {
-    Entry {
-        start: request.start,
-        scalar,
-        source: function.source,
-        passes: function.passes.clone(),
-        scene: request.scene.as_ref().map(SceneKey::new),
-        parameters: function.parameters.clone(),
-        program: exact(function).clone(),
-        edited: function.admitted.as_ref().map(|admitted| Edited {
-            program: admitted.program.clone(),
-            left_out: admitted.left_out.clone(),
-        }),
-    }
-}
-
 /// Returns what a run would emit of an entry.
 fn emitted(entry: &Entry) -> &Program {
     let edited = entry.edited.as_ref();
     edited.map_or(&entry.program, |edited| &edited.program)
-}
-
-/// Returns the scalars that a function was emitted in.
-fn scalars(request: &Request, function: &GeneratedFunction) -> Vec<ScalarType> {
-    match &function.admitted {
-        None => request.scalars.clone(),
-        Some(admitted) => admitted.certificates.iter().map(|c| c.scalar).collect(),
-    }
-}
-
-/// Returns the proved program: what a tolerance was applied to.
-fn exact(function: &GeneratedFunction) -> &Program {
-    let program = function.found.as_ref().unwrap_or(&function.program);
-    (function.admitted.as_ref()).map_or(program, |admitted| &admitted.exact)
 }
 
 #[cfg(test)]
@@ -116,11 +105,8 @@ mod tests {
         dag.nodes.push(Node::Apply(operation, operands));
         let prices = |kept, found: &_| {
             let Kept { plan, own } = keep(&robot, &request, found, kept);
-            let prices = plan
-                .entries
-                .iter()
-                .map(|entry| price(&emitted(entry).counts()));
-            let prices: Vec<u64> = prices.collect();
+            let entries = plan.entries.iter();
+            let prices: Vec<u64> = entries.map(|own| price(&emitted(own).counts())).collect();
             assert_eq!(prices.len(), 2, "one a scalar");
             assert_eq!(prices[0], prices[1]);
             (plan, prices[0], own.len())
@@ -135,12 +121,11 @@ mod tests {
             let (_, price, own) = prices(Some(of_good.clone()), generated);
             assert_eq!((price, own), (low, 2));
         }
-        let ended = {
-            let mut good = good;
-            good.ended = true;
-            good
+        let ended = Generated {
+            ended: true,
+            ..good
         };
-        assert_eq!(prices(Some(of_dear.clone()), &ended).1, low);
+        assert_eq!(prices(Some(of_dear), &ended).1, low);
         // Of another robot nothing is kept.
         let mut other = of_good;
         other.input = String::new();

@@ -23,18 +23,14 @@ pub(super) fn check(
         return Ok(());
     }
     let name = request.module_name(robot);
-    match header::misnamed(&name, functions, request.batch, &request.scalars) {
-        Some(name) => {
-            let message = format!(
-                "`{}`: `{name}` is no name that every compiler takes",
-                request.language.name()
-            );
-            let help = "letters, digits and `_`, at most 31 of them, each name once; give the \
-                        option `name` a short one";
-            Err(GenerateError::refused(None, message, help))
-        }
-        None => Ok(()),
-    }
+    let Some(name) = header::misnamed(&name, functions, request.batch, &request.scalars) else {
+        return Ok(());
+    };
+    let language = request.language.name();
+    let message = format!("`{language}`: `{name}` is no name that every compiler takes");
+    let help = "letters, digits and `_`, at most 31 of them, each name once; give the \
+                option `name` a short one";
+    Err(GenerateError::refused(None, message, help))
 }
 
 /// Gives the module of a header a short name where nobody chose one and its own is too long: its
@@ -54,10 +50,8 @@ pub(crate) fn with_short_name<'a>(robot: &Robot, request: &'a Request) -> Cow<'a
         .rev()
         .filter_map(|length| name.get(..length));
     let mut shorter = beginnings.map(|beginning| {
-        format!(
-            "{}_{first:02x}{second:02x}",
-            beginning.trim_end_matches('_')
-        )
+        let beginning = beginning.trim_end_matches('_');
+        format!("{beginning}_{first:02x}{second:02x}")
     });
     match shorter.find(|name| !misnamed(name)) {
         None => Cow::Borrowed(request),

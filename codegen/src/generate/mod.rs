@@ -166,18 +166,18 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
         }
     }
     // What is printed, and what the text is compared with once it is read back.
-    let in_scalar = |&scalar: &ScalarType| -> (ScalarType, Vec<Code>) {
-        let all = functions.iter();
-        let code = all.map(|generated| generated.code(scalar, request.library()));
-        (scalar, code.collect())
+    let in_scalar = |&scalar: &ScalarType| {
+        let code = functions
+            .iter()
+            .map(|own| own.code(scalar, request.library()));
+        (scalar, code.collect::<Vec<Code>>())
     };
     let codes: Vec<(ScalarType, Vec<Code>)> = scalars.iter().map(in_scalar).collect();
     let texts = match request.language {
         Language::Rust => {
-            let codes = codes.iter();
-            let one =
-                |(scalar, codes): &(_, Vec<_>)| module::write(job, &functions, codes, *scalar);
-            codes.map(one).collect()
+            let each = codes.iter();
+            each.map(|(scalar, codes)| module::write(job, &functions, codes, *scalar))
+                .collect()
         }
         Language::C | Language::Cuda => vec![header::write(job, &functions, &codes)],
     };
@@ -381,7 +381,7 @@ fn sines(
     let all = scalars.iter().map(|&scalar| {
         let positions = sincos::positions(setup.robot(), scalar);
         let sines = sincos::polynomials(&generated.program, scalar, &positions, error);
-        let sines = sines.map_err(|why| fail(complaint(why.to_string())))?;
+        let sines = sines.map_err(fail)?;
         if spoil_inertia(setup, &generated.program, scalar, &sines) {
             let message = format!(
                 "with sines that err by up to {error:e}, D cannot be shown to be positive definite \

@@ -52,10 +52,7 @@ pub(super) fn check_constants(
                 program.function,
                 f64::nearest(constant)
             );
-            let help = match scalar {
-                ScalarType::F32 => "choose other units or a wider scalar",
-                ScalarType::F64 => "choose other units",
-            };
+            let help = scalar.of("choose other units", "choose other units or a wider scalar");
             let why = Complaint::new(message, help);
             return Err(GenerateError::Constant(program.function, why));
         }

@@ -233,19 +233,18 @@ impl<'a> Search<'a> {
         from: &[Regrouping<Exact>],
         watch: FunctionWatch<'_>,
     ) -> Result<Found, GenerateError> {
-        let start = self.job.request.start;
         let excess = |graph: &Dag, bound| self.judge.excess(graph, bound);
         let limit: Option<Limit<'_>> = limited.then_some(&excess);
-        let approaches = start.approaches(&Problem {
+        let problem = Problem {
             task: self.task,
             effort,
             limit,
             from,
             watch,
-        });
-        let found = approaches
-            .into_iter()
-            .filter_map(|approach| self.search_from(approach, effort, limited, watch));
+        };
+        let approaches = self.job.request.start.approaches(&problem).into_iter();
+        let found =
+            approaches.filter_map(|approach| self.search_from(approach, effort, limited, watch));
         // The first of the cheapest, of those that are accurate enough if there are such.
         let refused = |found: &Found| limited && !self.judge.accepts(&found.searched.graph);
         found
@@ -260,21 +259,19 @@ impl<'a> Search<'a> {
         limited: bool,
         watch: FunctionWatch<'_>,
     ) -> Option<Found> {
-        let Approach {
-            tuned,
-            seeds,
-            helpers,
-        } = approach;
-        let graphs: Vec<Dag> = seeds.iter().map(|seed| seed.graph.clone()).collect();
+        let seeds = approach.seeds.iter();
+        let graphs: Vec<Dag> = seeds.map(|seed| seed.graph.clone()).collect();
         let accept = |graph: &Dag| !limited || self.judge.accepts(graph);
         let goes_on = |rounds: [usize; 2], best: &Dag| {
             watch.step(Part::Search, rounds, Some(best.counts()));
             !watch.is_over()
         };
+        let limits = |operations| effort.limits(operations);
+        let searched = search::search(&graphs, &approach.helpers, &limits, &accept, &goes_on)?;
         Some(Found {
-            tuned,
-            seeds,
-            searched: search::search(&graphs, &helpers, &|n| effort.limits(n), &accept, &goes_on)?,
+            tuned: approach.tuned,
+            seeds: approach.seeds,
+            searched,
             refused: None,
         })
     }

@@ -13,7 +13,7 @@ use crate::approximate::prune::PruneSettings;
 use crate::bound::sensitivity::BoundEffort;
 use crate::bound::work::Meter;
 use crate::certificate::Certificate;
-use crate::generate::{GenerateError, GeneratedFunction, Job, Request};
+use crate::generate::{GenerateError, GeneratedFunction, Job};
 use crate::plan::Edited;
 use crate::program::{Program, ScalarType};
 use crate::search::Effort;
@@ -33,10 +33,7 @@ pub(super) fn tolerate(
         return Ok(job.request.scalars.clone());
     };
     // One a certificate, the same of every function.
-    let certificates = all
-        .iter()
-        .take(1)
-        .flat_map(|admitted| &admitted.certificates);
+    let certificates = all.first().map_or(&[][..], |own| &own.certificates).iter();
     let scalars = certificates.map(|certificate| certificate.scalar).collect();
     for (function, admitted) in functions.iter_mut().zip(all) {
         function.program = job.finished(&admitted.program);
@@ -184,9 +181,13 @@ fn chosen(
     let tolerances = budget.tolerances(tolerance);
     let bound_effort = bound_effort(job);
     let mut settings = match request.effort {
-        Effort::Thorough if !over => thorough(request),
+        Effort::Thorough if !over => PruneSettings::THOROUGH,
         _ => PruneSettings::QUICK,
     };
+    // Another regrouping may be looked for only where the start may be any.
+    if request.start != Start::Auto {
+        settings.sweeps = 0;
+    }
     settings.work = request.work.map(|work| work.saturating_sub(meter.done()));
     let mut admitted = match planned {
         Some(planned) => planned,
@@ -242,13 +243,4 @@ fn chosen(
         *certificate = certificate.calling(request.library());
     }
     Ok(admitted)
-}
-
-/// Another regrouping may be looked for only where the start may be any.
-fn thorough(request: &Request) -> PruneSettings {
-    let mut settings = PruneSettings::THOROUGH;
-    if request.start != Start::Auto {
-        settings.sweeps = 0;
-    }
-    settings
 }

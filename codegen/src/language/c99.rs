@@ -19,31 +19,25 @@ use std::fmt::Write;
 
 use dalembert_sines::{LARGEST, LARGEST_F32};
 
-use super::angles;
 use super::called::Called;
 use super::dialect::{Dialect, Lines};
 use super::function::reads;
 pub(crate) use super::names::{LONGEST, Names, float};
-use super::{Language, Printed, speed};
-use crate::function::{Argument, Function, Quantity};
+use super::{Language, Printed, speed, trig};
+use crate::function::{Function, Quantity};
 use crate::program::{Code, Input, Library, Pair, ScalarType};
 
 impl Dialect {
     /// Returns C99.
     pub(crate) const fn c99(scalar: ScalarType) -> Dialect {
-        let (declaration, fused, literal) = match scalar {
-            ScalarType::F64 => ("const double {} = {};", "fma({}, {}, {})", "{}"),
-            ScalarType::F32 => ("const float {} = {};", "fmaf({}, {}, {})", "{}F"),
-        };
         Dialect {
             scalar,
             function: "static inline",
-            declaration,
+            declaration: scalar.of("const double {} = {};", "const float {} = {};"),
             product: "{} * {}",
-            fused,
+            fused: scalar.of("fma({}, {}, {})", "fmaf({}, {}, {})"),
             negative: "-{}",
-            literal,
-            separator: "",
+            literal: scalar.of("{}", "{}F"),
         }
     }
 }
@@ -64,19 +58,13 @@ pub(crate) fn structure(printed: &Printed<'_>, names: &Names) -> Option<String> 
     is_bundle(function).then(|| {
         let float = float(printed.code.scalar);
         let fields = function.quantities().iter().map(|quantity| {
-            let length = quantity.len(printed.sizes);
+            let (field, length) = (quantity.field(), quantity.len(printed.sizes));
             let doc = shaped(*quantity, printed);
-            format!(
-                "    /* {doc} */\n    {float} {}[{length}];\n",
-                quantity.field()
-            )
+            format!("    /* {doc} */\n    {float} {field}[{length}];\n")
         });
-        let fields: String = fields.collect();
-        format!(
-            "/* The results of {}. */\ntypedef struct {{\n{fields}}} {};\n",
-            names.of(function.name()),
-            structure_name(function, names)
-        )
+        let (fields, kind) = (fields.collect::<String>(), structure_name(function, names));
+        let name = names.of(function.name());
+        format!("/* The results of {name}. */\ntypedef struct {{\n{fields}}} {kind};\n")
     })
 }
 
@@ -88,9 +76,10 @@ pub(crate) fn structure_name(function: Function, names: &Names) -> String {
 pub(crate) fn shaped(quantity: Quantity, printed: &Printed<'_>) -> String {
     let lengths = quantity.shape().lengths(printed.sizes);
     let lengths: Vec<String> = lengths.map(|length| format!("[{length}]")).collect();
-    let rows = match lengths.len() {
-        0 | 1 => "",
-        _ => ", row by row",
+    let rows = if lengths.len() > 1 {
+        ", row by row"
+    } else {
+        ""
     };
     let field = quantity.field();
     format!("{field}{}{rows}: {}", lengths.concat(), quantity.summary())
@@ -147,22 +136,11 @@ pub(crate) fn single(printed: &Printed<'_>, names: &Names) -> String {
     let function = printed.function;
     let called = names.of(&format!("{function}_any"));
     let arguments = printed.arguments.iter().map(|argument| argument.name());
-    let passed: Vec<&str> = [FAR[0]]
-        .into_iter()
-        .chain(arguments)
-        .chain(written(function))
-        .collect();
+    let mut passed = vec![FAR[0]];
+    passed.extend(arguments.chain(written(function)));
+    let (head, passed) = (head(printed, names, false), passed.join(", "));
     let back = if is_number(function) { "return " } else { "" };
-    format!(
-        "{}\n{{\n    {back}{called}({});\n}}\n",
-        head(printed, names, false),
-        passed.join(", ")
-    )
-}
-
-/// Returns whether sines are of the crate's algorithm, which calls others for angles that are far.
-fn is_together(code: &Code) -> bool {
-    code.library == Library::Together && code.pairs.iter().any(|pair| pair.kernel.is_none())
+    format!("{head}\n{{\n    {back}{called}({passed});\n}}\n")
 }
 
 /// Returns where the numbers of a result go, in their order; none of a number that is returned.
@@ -179,23 +157,10 @@ pub(crate) fn targets(printed: &Printed<'_>) -> Vec<String> {
     fields.collect()
 }
 
-/// Returns whether the function is told whether angles may be far: in batches that are vectors,
-/// where calls would be in the way.
+/// Returns whether the function is told whether angles may be far, for which the crate's algorithm
+/// calls others: in batches that are vectors, where calls would be in the way.
 pub(crate) fn is_told(code: &Code, names: &Names) -> bool {
-    names.language() == Language::C && is_together(code)
-}
-
-/// Arguments that the code does not read.
-pub(crate) fn unread(printed: &Printed<'_>) -> Vec<Argument> {
-    let arguments = printed.arguments.iter().copied();
-    arguments
-        .filter(|&argument| !reads(printed.code, argument))
-        .collect()
-}
-
-/// Returns what the operations of an angle's polynomials are called, before their number.
-pub(crate) fn kernel_prefix(joint: usize) -> String {
-    format!("x{}_", joint + 1)
+    names.language() == Language::C && trig::taken(code).next().is_some()
 }
 
 /// Prints the function.
@@ -209,12 +174,11 @@ pub(crate) fn write(printed: &Printed<'_>, names: &Names, is_told: bool) -> Stri
     };
     line(&names.constant("UNFUSED"));
     let called = Called::of(code, printed.sizes.joints, names, is_told);
-    for pair in &code.pairs {
+    let is_called = |pair: &&Pair| called.is_some() && pair.kernel.is_none();
+    let (by_call, alone): (Vec<&Pair>, Vec<&Pair>) = code.pairs.iter().partition(is_called);
+    for pair in alone {
         let joint = pair.joint;
-        if called.is_some() && Called::is_of(pair) {
-            continue;
-        }
-        let (argument, both) = (angles::operand(joint), format!("p{}", joint + 1));
+        let (argument, both) = (trig::operand(joint), format!("p{}", joint + 1));
         if let (None, Library::Together) = (&pair.kernel, code.library) {
             let [kind, function] = ["sincos_t", "sincos"].map(|word| names.of(word));
             line(&format!(
@@ -222,7 +186,7 @@ pub(crate) fn write(printed: &Printed<'_>, names: &Names, is_told: bool) -> Stri
             ));
         }
         let kernel = pair.kernel.as_ref();
-        let prefix = kernel_prefix(joint);
+        let prefix = format!("x{}_", joint + 1);
         let lines = kernel.map(|own| Lines::of_kernel(dialect, own, &argument, &prefix));
         if let Some(lines) = &lines {
             lines.statements().for_each(|statement| line(&statement));
@@ -242,7 +206,7 @@ pub(crate) fn write(printed: &Printed<'_>, names: &Names, is_told: bool) -> Stri
         for statement in called.lines(names) {
             line(&statement);
         }
-        for pair in code.pairs.iter().filter(|pair| Called::is_of(pair)) {
+        for pair in by_call {
             for (name, is_sine) in taken(pair) {
                 let value = called.value(pair.joint, is_sine).unwrap_or_default();
                 line(&dialect.declare(&name, &value));
@@ -255,7 +219,8 @@ pub(crate) fn write(printed: &Printed<'_>, names: &Names, is_told: bool) -> Stri
     };
     let lines = Lines::new(dialect, code);
     lines.statements().for_each(|statement| line(&statement));
-    for argument in unread(printed) {
+    let arguments = printed.arguments.iter();
+    for argument in arguments.filter(|argument| !reads(code, **argument)) {
         line(&format!("(void){};", argument.name()));
     }
     let targets = targets(printed);
@@ -279,8 +244,5 @@ fn taken(pair: &Pair) -> impl Iterator<Item = (String, bool)> {
 
 /// Up to this magnitude sines are computed without a library.
 pub(crate) fn largest(scalar: ScalarType) -> f64 {
-    match scalar {
-        ScalarType::F64 => LARGEST,
-        ScalarType::F32 => f64::from(LARGEST_F32),
-    }
+    scalar.of(LARGEST, LARGEST_F32.into())
 }

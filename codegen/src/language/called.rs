@@ -9,16 +9,15 @@
 //! const double s1 = sines[0];
 //! ```
 
-use super::Language;
-use super::angles;
 use super::names::{Names, float};
-use crate::program::{Code, Library, Pair};
+use super::{Language, list, trig};
+use crate::program::Code;
 
 /// The angles of a call, in the order of their sines.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Called {
     /// The first, where they are positions of neighbouring joints, as they stand in `q`.
-    pub(super) first: Option<usize>,
+    first: Option<usize>,
     pub(crate) angles: Vec<usize>,
 }
 
@@ -26,21 +25,14 @@ impl Called {
     /// Returns the call of a function, if it has one. In CUDA, and in a function that batches
     /// call, vectors are made of states, and each angle has a call of its own.
     pub(crate) fn of(code: &Code, joints: usize, names: &Names, is_told: bool) -> Option<Called> {
-        let has_call = code.library == Library::Together && names.language() == Language::C;
-        let called = code.pairs.iter().filter(|pair| Called::is_of(pair));
-        let angles: Vec<usize> = called.map(|pair| pair.joint).collect();
-        if is_told || !has_call || angles.is_empty() {
+        let angles: Vec<usize> = trig::taken(code).map(|pair| pair.joint).collect();
+        if is_told || names.language() != Language::C || angles.is_empty() {
             return None;
         }
         Some(Called::neighbours(&angles, joints).unwrap_or(Called {
             first: None,
             angles,
         }))
-    }
-
-    /// Returns whether an angle's sines are not polynomials of its own.
-    pub(super) fn is_of(pair: &Pair) -> bool {
-        pair.kernel.is_none()
     }
 
     /// Returns the angles of neighbouring joints: an even number, if that takes one joint more at
@@ -56,15 +48,10 @@ impl Called {
         }
         let count = last + 1 - first;
         let is_near = count == own.len() || count == own.len() + 1 && is_odd(own.len());
-        is_near.then(|| Called::from(first, count))
-    }
-
-    /// Names so many joints from one on.
-    pub(super) fn from(first: usize, count: usize) -> Called {
-        Called {
+        is_near.then(|| Called {
             first: Some(first),
-            angles: (first..first + count).collect(),
-        }
+            angles: (first..=last).collect(),
+        })
     }
 
     /// Returns the name of the function that is called.
@@ -79,12 +66,8 @@ impl Called {
         let given = match self.first {
             Some(joint) => format!("&q[{joint}]"),
             None => {
-                let angles = self.angles.iter().map(|&own| angles::operand(own));
-                let angles: Vec<String> = angles.collect();
-                lines.push(format!(
-                    "const {float} angles[{count}] = {{{}}};",
-                    angles.join(", ")
-                ));
+                let angles = list(self.angles.iter().map(|&own| trig::operand(own)));
+                lines.push(format!("const {float} angles[{count}] = {{{angles}}};"));
                 "angles".to_owned()
             }
         };

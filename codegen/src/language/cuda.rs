@@ -29,10 +29,7 @@ impl Dialect {
     pub(crate) const fn cuda(scalar: ScalarType) -> Dialect {
         Dialect {
             function: "static __host__ __device__ inline",
-            product: match scalar {
-                ScalarType::F64 => "DALEMBERT_MUL({}, {})",
-                ScalarType::F32 => "DALEMBERT_MULF({}, {})",
-            },
+            product: scalar.of("DALEMBERT_MUL({}, {})", "DALEMBERT_MULF({}, {})"),
             ..Dialect::c99(scalar)
         }
     }

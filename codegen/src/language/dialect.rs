@@ -21,8 +21,6 @@ pub(crate) struct Dialect {
     pub negative: &'static str,
     /// A literal: its digits.
     pub literal: &'static str,
-    /// Between the path of a library and its function.
-    pub separator: &'static str,
 }
 
 impl Dialect {
@@ -36,7 +34,6 @@ impl Dialect {
             fused: "{}.mul_add({}, {})",
             negative: "(-{})",
             literal: "{}",
-            separator: "::",
         }
     }
 
@@ -63,7 +60,8 @@ impl Dialect {
 
     /// Returns a call of a library's function.
     pub(crate) fn call(&self, path: &str, function: &str, argument: &str) -> String {
-        let (separator, suffix) = (self.separator, self.scalar.math_suffix());
+        let separator = if path.is_empty() { "" } else { "::" };
+        let suffix = self.scalar.math_suffix();
         format!("{path}{separator}{function}{suffix}({argument})")
     }
 
@@ -189,17 +187,4 @@ fn filled(pattern: &str, parts: &[&str]) -> String {
         text += piece;
     }
     text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn patterns_are_filled() {
-        let rust = Dialect::rust(ScalarType::F64);
-        assert_eq!(rust.declare("t1", "c1 * 0.5"), "let t1 = c1 * 0.5;");
-        let fused = filled(rust.fused, &["(-t3)", "s2", "-t1"]);
-        assert_eq!(fused, "(-t3).mul_add(s2, -t1)");
-    }
 }

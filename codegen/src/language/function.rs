@@ -10,7 +10,7 @@ use crate::dag::Id;
 use crate::function::{Argument, Function, Sizes};
 use crate::language::dialect::{Dialect, Lines};
 use crate::language::result::{self, array_type};
-use crate::language::{Printed, speed, trig};
+use crate::language::{Printed, comment, list, speed, trig};
 use crate::program::{Code, Input, Library, ScalarType};
 
 /// A function of more operations than this is printed in blocks.
@@ -32,41 +32,19 @@ pub(crate) const PAYLOAD: &str = "Payload";
 /// The name of the type of gravity, where it is an argument.
 pub(crate) const GRAVITY: &str = "Gravity";
 
-/// Returns the name of an argument's type, if it has one: a type for each, so that none is passed
-/// for another of as many numbers.
-pub(crate) fn own_type(argument: Argument) -> Option<&'static str> {
-    match argument {
-        Argument::Gravity => Some(GRAVITY),
-        Argument::Load => Some(LOAD),
-        Argument::Payload => Some(PAYLOAD),
-        _ => None,
-    }
-}
-
 /// Prints the function, whose roots are this library's; `doc` stands above it, one line an item.
 pub fn write(printed: &Printed<'_>, library: Library, doc: &[String]) -> String {
-    let mut text = String::new();
-    write_doc(&mut text, doc);
+    let mut text = comment("///", doc);
     push(&mut text, format_args!("#[must_use]"));
     push(&mut text, format_args!("{} {{", signature(printed)));
     let dialect = Dialect::rust(printed.code.scalar);
     trig::write(&mut text, printed.code);
     speed::write(&mut text, dialect, printed.code, library.path());
     write_steps(&mut text, printed.code, dialect);
-    let (function, sizes) = (printed.function, printed.sizes);
     let lines = Lines::new(dialect, printed.code);
-    let items = lines.results();
-    result::write(&mut text, function, function.structure(), sizes, items);
+    result::write(&mut text, printed.function, printed.sizes, lines.results());
     text.push_str("}\n");
     text
-}
-
-/// Writes documentation, one line an item.
-fn write_doc(text: &mut String, doc: &[String]) {
-    for line in doc {
-        let space = if line.is_empty() { "" } else { " " };
-        push(text, format_args!("///{space}{line}"));
-    }
 }
 
 /// Prints the arithmetic, in blocks if it is long.
@@ -94,10 +72,8 @@ pub(super) fn write_steps(text: &mut String, code: &Code, dialect: Dialect) {
         let end = after.first().copied().unwrap_or(Id::MAX);
         rest = after;
         // A block hands on what is read after it: that much is live.
-        let mut live = String::new();
-        for &id in block.iter().filter(|&&id| last_use[id as usize] >= end) {
-            let _ = write!(live, "{}, ", lines.operand(id));
-        }
+        let live = block.iter().filter(|&&id| last_use[id as usize] >= end);
+        let live: String = live.map(|&id| format!("{}, ", lines.operand(id))).collect();
         push(text, format_args!("    let ({}) = {{", live.trim_end()));
         for line in block.iter().filter_map(|&id| lines.statement(id)) {
             push(text, format_args!("        {line}"));
@@ -122,34 +98,26 @@ fn last_uses(code: &Code) -> Vec<Id> {
 /// Returns the signature, without a brace.
 fn signature(printed: &Printed<'_>) -> String {
     let (function, sizes, scalar) = (printed.function, printed.sizes, printed.code.scalar);
-    let arguments: Vec<String> = printed
-        .arguments
-        .iter()
-        .map(|&argument| {
-            // An argument that this robot's function does not depend on.
-            let mark = if reads(printed.code, argument) {
-                ""
-            } else {
-                "_"
-            };
-            let kind = argument_type(argument, sizes, scalar);
-            format!("{mark}{}: &{kind}", argument.name())
-        })
-        .collect();
+    let arguments = printed.arguments.iter().map(|&argument| {
+        // An argument that this robot's function does not depend on.
+        let is_read = reads(printed.code, argument);
+        let mark = if is_read { "" } else { "_" };
+        let kind = argument_type(argument, sizes, scalar);
+        format!("{mark}{}: &{kind}", argument.name())
+    });
+    let (name, arguments) = (function.name(), list(arguments));
     let result = result_type(function, sizes, scalar);
-    format!(
-        "pub fn {}({}) -> {result}",
-        function.name(),
-        arguments.join(", ")
-    )
+    format!("pub fn {name}({arguments}) -> {result}")
 }
 
-/// Returns the type of an argument: an array, which has a name where it is no joint vector
-/// of as many numbers as users would count.
+/// Returns the type of an argument: an array, which has a name where it is no joint vector, so that
+/// none is passed for another of as many numbers.
 fn argument_type(argument: Argument, sizes: Sizes, scalar: ScalarType) -> String {
-    match own_type(argument) {
-        Some(name) => name.to_owned(),
-        None => format!("[{scalar}; {}]", argument.length(sizes)),
+    match argument {
+        Argument::Gravity => GRAVITY.to_owned(),
+        Argument::Load => LOAD.to_owned(),
+        Argument::Payload => PAYLOAD.to_owned(),
+        _ => format!("[{scalar}; {}]", argument.length(sizes)),
     }
 }
 

@@ -6,13 +6,10 @@
 //! - [`columns`]: functions of any number of states
 //! - [`function`]: one program as one function
 //! - [`result`]: the array or the struct that it ends with
-//! - [`angles`]: what angles and their sines are called
-//! - `trig`: sines and cosines that are called
-//! - `sines`: sines and cosines as polynomials
+//! - `trig`: sines and cosines, by calls and as polynomials
 //! - `speed`: what Coulomb friction reads of speeds
 //! - [`read`]: the printed text, and whether it is the program
 
-pub(crate) mod angles;
 pub(crate) mod c99;
 pub(crate) mod called;
 pub(crate) mod columns;
@@ -22,7 +19,6 @@ pub(crate) mod function;
 pub(crate) mod names;
 pub(crate) mod read;
 pub(crate) mod result;
-mod sines;
 mod speed;
 mod trig;
 
@@ -80,6 +76,20 @@ impl Language {
             Language::C | Language::Cuda => &ScalarType::ALL,
         }
     }
+}
+
+/// Returns items with commas between them.
+pub(crate) fn list(items: impl Iterator<Item = String>) -> String {
+    items.collect::<Vec<String>>().join(", ")
+}
+
+/// Returns lines behind the mark of a comment.
+pub(crate) fn comment(mark: &str, lines: &[String]) -> String {
+    let marked = lines.iter().map(|line| match line.as_str() {
+        "" => format!("{mark}\n"),
+        line => format!("{mark} {line}\n"),
+    });
+    marked.collect()
 }
 
 /// A function as it is printed: its code over literals, and what it is called with and

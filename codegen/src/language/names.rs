@@ -84,10 +84,7 @@ impl Names {
 
     /// Returns a function or type by its word, shortened where it would be too long.
     pub fn of(&self, word: &str) -> String {
-        let infix = match self.scalar {
-            ScalarType::F64 => "",
-            ScalarType::F32 => "f32_",
-        };
+        let infix = self.scalar.of("", "f32_");
         let name = |word: &str| format!("{}_{infix}{word}", self.base);
         let words = word.split('_').map(|part| {
             let short = SHORT.iter().find(|(long, _)| *long == part);
@@ -103,10 +100,7 @@ impl Names {
 
     /// Returns all names of a function, by which its text is found.
     pub(super) fn symbols(&self, function: Function) -> Symbols {
-        let infix = match self.scalar {
-            ScalarType::F64 => "",
-            ScalarType::F32 => "_f32",
-        };
+        let infix = self.scalar.of("", "_f32");
         Symbols {
             macros: self.base.to_uppercase(),
             prefix: format!("{}{infix}", self.base),
@@ -126,8 +120,5 @@ impl Names {
 
 /// Returns the scalar's type.
 pub(crate) fn float(scalar: ScalarType) -> &'static str {
-    match scalar {
-        ScalarType::F64 => "double",
-        ScalarType::F32 => "float",
-    }
+    scalar.of("double", "float")
 }

@@ -110,12 +110,11 @@ impl Code {
 
 /// Returns what was read as code.
 fn code(read: read::Function, scalar: ScalarType) -> Result<Code, TextError> {
-    let library = |own: &Source| match own {
+    let mut libraries = read.sines.iter().filter_map(|own| match own.source {
         Source::Libm => Some(Library::Libm),
         Source::Together => Some(Library::Together),
         Source::Polynomial(_) => None,
-    };
-    let mut libraries = read.sines.iter().filter_map(|own| library(&own.source));
+    });
     let first = libraries.next().unwrap_or_default();
     if libraries.any(|other| other != first) {
         let reason = "sines of two libraries".to_owned();

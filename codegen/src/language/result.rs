@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::function::{Function, Quantity, Sizes};
+use crate::language::list;
 use crate::program::ScalarType;
 
 /// Returns the array type of a quantity: `[[f64; 6]; 6]` for a matrix over the joints.
@@ -30,15 +31,14 @@ pub(crate) fn structure(function: Function, sizes: Sizes, scalar: ScalarType) ->
 }
 
 /// Prints a result of these entries, in their order, as the last expression of
-/// a function; `structure` is its struct, if there is one.
+/// a function.
 pub(super) fn write(
     text: &mut String,
     function: Function,
-    structure: Option<&str>,
     sizes: Sizes,
     mut items: impl Iterator<Item = String>,
 ) {
-    match structure {
+    match function.structure() {
         None => {
             let lengths: Vec<usize> = function.quantities()[0].shape().lengths(sizes).collect();
             // A load is of a type of its own.
@@ -46,11 +46,9 @@ pub(super) fn write(
                 Function::Load => ["Load(", ")"],
                 _ => [""; 2],
             };
-            text.push_str("    ");
-            text.push_str(before);
+            let _ = write!(text, "    {before}");
             write_array(text, &mut items, &lengths, 1);
-            text.push_str(after);
-            text.push('\n');
+            let _ = writeln!(text, "{after}");
         }
         Some(name) => {
             let _ = writeln!(text, "    {name} {{");
@@ -76,8 +74,7 @@ fn write_array(
     match *lengths {
         [] => text.push_str(&items.next().unwrap_or_default()),
         [length] => {
-            let row: Vec<String> = items.take(length).collect();
-            let _ = write!(text, "[{}]", row.join(", "));
+            let _ = write!(text, "[{}]", list(items.take(length)));
         }
         [length, ref inner @ ..] => {
             text.push_str("[\n");

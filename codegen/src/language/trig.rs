@@ -5,49 +5,84 @@
 //! let (s1, c1) = libm::sincos(q[0]);
 //!
 //! let ([s1, s2], [c1, _]) = dalembert_sines::sincos(&[q[0], q[1]]);
+//!
+//! let (s1, c1) = {
+//!     let x1 = q[0] * q[0];
+//!     …
+//!     (x9, -x14)
+//! };
 //! ```
 
 use std::fmt::Write;
 
-use crate::language::dialect::Dialect;
-use crate::language::{angles, sines};
-use crate::program::{Code, Input, Library, Need, Pair};
+use crate::language::dialect::{Dialect, Lines};
+use crate::language::list;
+use crate::program::kernel::Kernel;
+use crate::program::{Code, Input, Library, Pair};
 
 /// Prints them.
 pub(super) fn write(text: &mut String, code: &Code) {
     let dialect = Dialect::rust(code.scalar);
-    for pair in &code.pairs {
-        if is_together(pair, code) {
-            continue;
-        }
-        let (names, angle) = (
-            angles::names(pair.joint, pair.need),
-            angles::operand(pair.joint),
+    write_each(text, code, dialect, |function, angle| {
+        dialect.call("libm", function, angle)
+    });
+    let angles = list(taken(code).map(|pair| operand(pair.joint)));
+    if !angles.is_empty() {
+        let ([sin, cos], suffix) = (taken_names(code), code.scalar.math_suffix());
+        let _ = writeln!(
+            text,
+            "    let ([{sin}], [{cos}]) = dalembert_sines::sincos{suffix}(&[{angles}]);"
         );
+    }
+}
+
+/// Prints those that are computed angle by angle; `call` is that of a function of the library.
+pub(super) fn write_each(
+    text: &mut String,
+    code: &Code,
+    dialect: Dialect,
+    call: impl Fn(&str, &str) -> String,
+) {
+    for pair in code.pairs.iter().filter(|pair| !is_together(pair, code)) {
+        let [sine, cosine] = [Input::Sin(pair.joint), Input::Cos(pair.joint)].map(Input::name);
+        let (names, function) = match (pair.need.sin, pair.need.cos) {
+            (true, false) => (sine, "sin"),
+            (false, true) => (cosine, "cos"),
+            _ => (format!("({sine}, {cosine})"), "sincos"),
+        };
+        let angle = operand(pair.joint);
         match &pair.kernel {
-            Some(kernel) => sines::write(text, &names, &angle, kernel, dialect),
+            Some(kernel) => write_kernel(text, &names, &angle, kernel, dialect),
             None => {
-                let value = dialect.call("libm", called(pair.need), &angle);
                 // Writing to a string cannot fail.
-                let _ = writeln!(text, "    let {names} = {value};");
+                let _ = writeln!(text, "    let {names} = {};", call(function, &angle));
             }
         }
     }
-    together(text, code);
+}
+
+/// Prints the block of the polynomials of an angle, an operation a line.
+fn write_kernel(text: &mut String, names: &str, angle: &str, kernel: &Kernel, dialect: Dialect) {
+    let lines = Lines::of_kernel(dialect, kernel, angle, "x");
+    let _ = writeln!(text, "    let {names} = {{");
+    for line in lines.statements() {
+        let _ = writeln!(text, "        {line}");
+    }
+    let mut result = list(lines.results());
+    if kernel.dag.outputs.len() != 1 {
+        result = format!("({result})");
+    }
+    let _ = writeln!(text, "        {result}\n    }};");
+}
+
+/// Returns the operand that sines are taken of.
+pub(super) fn operand(joint: usize) -> String {
+    format!("q[{joint}]")
 }
 
 /// Returns whether an angle's sines are of those that one call gives.
-pub(super) fn is_together(pair: &Pair, code: &Code) -> bool {
+fn is_together(pair: &Pair, code: &Code) -> bool {
     code.library == Library::Together && pair.kernel.is_none()
-}
-
-/// Returns the name of the function that gives what is taken of an angle.
-pub(super) fn called(need: Need) -> &'static str {
-    match (need.sin, need.cos) {
-        (true, false) => "sin",
-        (false, true) => "cos",
-        _ => "sincos",
-    }
 }
 
 /// Lists the angles whose sines one call gives.
@@ -58,28 +93,11 @@ pub(super) fn taken(code: &Code) -> impl Iterator<Item = &Pair> {
 /// Lists the names of the sines, and of the cosines, of angles that one call gives; what is not
 /// needed gets no name.
 pub(super) fn taken_names(code: &Code) -> [String; 2] {
-    let each = |name: &dyn Fn(&Pair) -> Option<String>| {
-        let names = taken(code).map(|pair| name(pair).unwrap_or_else(|| "_".to_owned()));
-        names.collect::<Vec<String>>().join(", ")
+    let name = |is_needed: bool, input: Input| match is_needed {
+        true => input.name(),
+        false => "_".to_owned(),
     };
-    [
-        each(&|pair| pair.need.sin.then(|| Input::Sin(pair.joint).name())),
-        each(&|pair| pair.need.cos.then(|| Input::Cos(pair.joint).name())),
-    ]
-}
-
-/// Prints one call for all of them.
-fn together(text: &mut String, code: &Code) {
-    let angles: Vec<String> = taken(code)
-        .map(|pair| angles::operand(pair.joint))
-        .collect();
-    if angles.is_empty() {
-        return;
-    }
-    let (suffix, angles) = (code.scalar.math_suffix(), angles.join(", "));
-    let [sin, cos] = taken_names(code);
-    let _ = writeln!(
-        text,
-        "    let ([{sin}], [{cos}]) = dalembert_sines::sincos{suffix}(&[{angles}]);"
-    );
+    let sines = taken(code).map(|pair| name(pair.need.sin, Input::Sin(pair.joint)));
+    let cosines = taken(code).map(|pair| name(pair.need.cos, Input::Cos(pair.joint)));
+    [list(sines), list(cosines)]
 }

@@ -123,7 +123,7 @@ fn entry(own: &Claimed, constants: &[Exact]) -> Result<Entry, Complaint> {
     let planned = (own.planned.as_ref())
         .ok_or_else(|| complaint("there is no `planned`: what was searched for"))?;
     let asked = Function::parse(&planned.asked);
-    let function = asked.map_err(|error| complaint(error.message()))?;
+    let function = asked.map_err(|error| complaint(error.message))?;
     if !(1..=Robot::MAX_JOINTS).contains(&planned.joints) {
         return Err(unknown("number of joints", &planned.joints.to_string()));
     }
@@ -133,7 +133,10 @@ fn entry(own: &Claimed, constants: &[Exact]) -> Result<Entry, Complaint> {
         let row = row.checked_sub(1).filter(|row| *row < planned.joints);
         row.ok_or_else(|| complaint("expected joints such as `[1, 2, 3]`"))
     });
-    empty.rows = rows.collect::<Result<_, _>>()?;
+    empty.rows = rows.take(planned.joints + 1).collect::<Result<_, _>>()?;
+    if empty.rows.len() > planned.joints {
+        return Err(complaint("more rows than joints"));
+    }
     let taken = taken(own, &mut empty)?;
     let parameters = match (&planned.load, taken.is_empty()) {
         (None, true) => None,
@@ -151,10 +154,8 @@ fn entry(own: &Claimed, constants: &[Exact]) -> Result<Entry, Complaint> {
     let emitted = own.program(constants).map_err(refused)?;
     let exact = own.exact(constants).map_err(refused)?;
     let program = program(&empty, exact.as_ref().unwrap_or(&emitted))?;
-    let edited = match exact {
-        None => None,
-        Some(_) => Some(edited(&empty, &emitted, planned)?),
-    };
+    let edited = exact.map(|_| edited(&empty, &emitted, planned));
+    let edited = edited.transpose()?;
     Ok(Entry {
         start: Start::from_name(&planned.formulation)
             .ok_or_else(|| unknown("formulation", &planned.formulation))?,

@@ -106,7 +106,7 @@ impl Code {
     }
 
     /// Runs the code bit for bit at a state; none if the state lacks an entry that is read.
-    fn run<T: Machine>(&self, state: &State<T>) -> Option<Vec<T>> {
+    pub fn run<T: Machine>(&self, state: &State<T>) -> Option<Vec<T>> {
         let inputs = self.inputs(std::slice::from_ref(state))?;
         Some(self.dag.run(&leaves(inputs, |lanes| lanes.0[0])))
     }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use dalembert_model::number::{Exact, Rounded};
+use dalembert_model::number::{Exact, Rational, Rounded};
 
 use crate::states::JointState;
 use crate::words::words;
@@ -19,7 +19,8 @@ words! {
 }
 
 impl ScalarType {
-    fn of<T>(self, double: T, single: T) -> T {
+    /// Returns what this scalar has of two.
+    pub(crate) const fn of<T: Copy>(self, double: T, single: T) -> T {
         match self {
             ScalarType::F64 => double,
             ScalarType::F32 => single,
@@ -47,6 +48,14 @@ impl ScalarType {
         match self {
             ScalarType::F64 => f64::nearest(value),
             ScalarType::F32 => f64::from(f32::nearest(value)),
+        }
+    }
+
+    /// Returns a fraction, rounded once, as a double that holds the rounded value exactly.
+    pub(crate) fn round_rational(self, value: &Rational) -> f64 {
+        match self {
+            ScalarType::F64 => f64::nearest_rational(value),
+            ScalarType::F32 => f32::nearest_rational(value).into(),
         }
     }
 

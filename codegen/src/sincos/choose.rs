@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use super::forms::{Centre, Form};
 use super::proof::{Errors, prove};
-use super::series::{FARTHEST, Fit};
+use super::series::Fit;
 use crate::interval::Interval;
 use crate::program::ScalarType;
-use crate::program::kernel::{Kernel, KernelWriter, Need};
+use crate::program::kernel::{Kernel, Need};
 use crate::sincos::reduction;
 
 /// A kernel with its proof.
@@ -58,31 +58,18 @@ impl Candidates {
         if range.magnitude() <= MAX_UNREDUCED {
             let (middle, radius) = (range.mid(), range.radius());
             let quarters = libm::round(middle / std::f64::consts::FRAC_PI_2) as i32;
-            let mut about = vec![Centre::Quarter(quarters)];
-            if quarters != 0 {
-                about.push(Centre::Quarter(0));
-            }
-            for centre in about {
-                let off = match centre {
-                    Centre::Quarter(k) => {
-                        (middle - f64::from(k) * std::f64::consts::FRAC_PI_2).abs()
-                    }
-                    Centre::At(_) => 0.0,
-                };
-                candidates.add(false, centre, radius + off);
+            let mut about = vec![quarters, 0];
+            about.dedup();
+            for k in about {
+                let off = (middle - f64::from(k) * std::f64::consts::FRAC_PI_2).abs();
+                candidates.add(false, Centre::Quarter(k), radius + off);
             }
             let near = scalar.nearest(middle);
             if near != 0.0 && radius < 2.0 {
                 candidates.add(false, Centre::At(near), radius + (near - middle).abs());
             }
         }
-        let written = {
-            let mut kernel = KernelWriter::default();
-            let rest = reduction::write(&mut kernel, scalar);
-            reduction::split(&reduction::alone(kernel, rest), scalar)
-        };
-        let rest = written.and_then(|(constants, _)| reduction::rest(constants, scalar, range));
-        if let Some(rest) = rest
+        if let Some(rest) = reduction::rest(reduction::constants(scalar), scalar, range)
             && range.magnitude() > rest.range.high()
         {
             candidates.add(true, Centre::Quarter(0), rest.range.high());
@@ -95,25 +82,13 @@ impl Candidates {
 
     /// Adds the forms of one centre: of those with one number of operations only the best.
     fn add(&mut self, reduced: bool, centre: Centre, radius: f64) {
-        let halvings = match centre {
-            Centre::Quarter(_) => MAX_HALVINGS,
-            Centre::At(_) => 0,
+        let (most, offset, step, start) = match centre {
+            Centre::Quarter(_) => (MAX_HALVINGS, 0.0, 2, [1, 0]),
+            Centre::At(x) => (0, x, 1, [1, 1]),
         };
-        for halvings in 0..=halvings {
-            let scaled = radius * libm::exp2(-f64::from(halvings));
-            let offset = match centre {
-                Centre::At(x) => x,
-                Centre::Quarter(_) => 0.0,
-            };
-            if scaled + offset.abs() > FARTHEST {
-                continue;
-            }
+        for halvings in 0..=most {
             let Some(fit) = Fit::new(offset, radius, halvings as i32) else {
                 continue;
-            };
-            let (step, start) = match centre {
-                Centre::Quarter(_) => (2, [1, 0]),
-                Centre::At(_) => (1, [1, 1]),
             };
             let mut best: BTreeMap<usize, (f64, Form)> = BTreeMap::new();
             for sin in (start[0]..=MAX_DEGREE).step_by(step) {

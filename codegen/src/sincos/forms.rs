@@ -13,7 +13,7 @@
 
 use std::fmt;
 
-use dalembert_model::number::{Angle, Rational, Rounded};
+use dalembert_model::number::{Angle, Rational};
 use num_bigint::BigInt;
 use num_traits::One;
 
@@ -70,12 +70,14 @@ impl Form {
     pub fn kernel(&self, fit: Option<&Fit>, need: Need, scalar: ScalarType) -> Kernel {
         let mut kernel = KernelWriter::default();
         let rest = match self.reduced {
-            true => reduction::write(&mut kernel, scalar),
+            true => reduction::write(&mut kernel, reduction::constants(scalar), scalar),
             false => kernel.angle(),
         };
         let shift = match self.centre {
             Centre::Quarter(0) => None,
-            Centre::Quarter(k) => Some(round(&Angle::right_angles(k.into()).radians(), scalar)),
+            Centre::Quarter(k) => {
+                Some(scalar.round_rational(&Angle::right_angles(k.into()).radians()))
+            }
             Centre::At(x) => Some(x),
         };
         let x = match shift {
@@ -92,11 +94,9 @@ impl Form {
         let (mut s, mut c) = match self.centre {
             Centre::At(_) => (kernel.horner(x, &sine), kernel.horner(x, &cosine)),
             Centre::Quarter(_) => {
-                let every_other =
-                    |c: &[f64], from: usize| c.iter().skip(from).step_by(2).copied().collect();
-                let (odd, even): (Vec<f64>, Vec<f64>) =
-                    (every_other(&sine, 1), every_other(&cosine, 0));
                 let square = kernel.mul(x, x);
+                let odd: Vec<f64> = sine.into_iter().skip(1).step_by(2).collect();
+                let even: Vec<f64> = cosine.into_iter().step_by(2).collect();
                 let (p, c) = (kernel.horner(square, &odd), kernel.horner(square, &even));
                 (kernel.mul(x, p), c)
             }
@@ -104,7 +104,7 @@ impl Form {
         for level in (0..self.halvings as usize).rev() {
             let squared = kernel.mul(s, s);
             let product = kernel.mul(s, c);
-            let lambda = kernel.literal(round(&lambdas[level], scalar));
+            let lambda = kernel.literal(scalar.round_rational(&lambdas[level]));
             (s, c) = (product, kernel.apply(Operation::Sub, [lambda, squared]));
         }
         let turned = match self.centre {
@@ -140,13 +140,6 @@ impl Form {
         let (sin, cos) = if swaps { (c, s) } else { (s, c) };
         let wanted = |needed, error| if needed { error } else { 0.0 };
         f64::max(wanted(need.sin, sin), wanted(need.cos, cos))
-    }
-}
-
-fn round(x: &Rational, scalar: ScalarType) -> f64 {
-    match scalar {
-        ScalarType::F64 => f64::nearest_rational(x),
-        ScalarType::F32 => f32::nearest_rational(x).into(),
     }
 }
 

@@ -21,12 +21,10 @@ pub(crate) mod series;
 #[cfg(test)]
 mod tests;
 
-use std::fmt;
-
 use crate::interval::Interval;
 use crate::program::kernel::Kernel;
 use crate::program::{Code, Library, Program, ScalarType, Trig};
-use crate::words::Word;
+use crate::words::{Complaint, Word, complaint};
 use choose::Candidates;
 use dalembert_model::robot::{JointKind, Robot};
 use proof::Errors;
@@ -112,58 +110,9 @@ pub struct AngleKernel {
 /// [`Program::trig`]; none if they are a library's.
 pub type Sines = Vec<AngleKernel>;
 
-/// A wanted error that no polynomial reaches.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TooAccurate {
-    /// The joint.
-    pub joint: usize,
-    /// Its range.
-    pub range: Interval,
-    /// The scalar.
-    pub scalar: ScalarType,
-    /// What was wanted.
-    pub wanted: f64,
-    /// The least error that was proved; infinite if none was.
-    pub least: f64,
-}
-
-impl fmt::Display for TooAccurate {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let angle = format!("q{}", self.joint + 1);
-        let (low, high) = (self.range.low(), self.range.high());
-        let (scalar, wanted) = (self.scalar, self.wanted);
-        if wanted.is_nan() || wanted <= 0.0 {
-            return write!(
-                f,
-                "the error of a sine must be above zero, not {wanted:e}: write 1e-9, or take libm"
-            );
-        }
-        if self.least.is_infinite() {
-            return write!(
-                f,
-                "no polynomial in {scalar} is known for {angle} in [{low:?}, {high:?}]: \
-                 narrow the joints' limits of position, or take libm"
-            );
-        }
-        let wanted = format!("{wanted:.2e}").replace(".00e", "e");
-        write!(
-            f,
-            "no polynomial in {scalar} is proved to give the sines of {angle} in \
-             [{low:?}, {high:?}] to {wanted}, at best to {:.2e}: ask for that, \
-             for a wider scalar, or for libm",
-            self.least
-        )
-    }
-}
-
-impl std::error::Error for TooAccurate {}
-
 /// Returns the largest |q| for which the polynomials of a joint without limits hold.
 pub fn stated(scalar: ScalarType) -> f64 {
-    match scalar {
-        ScalarType::F64 => 1e6,
-        ScalarType::F32 => 1e3,
-    }
+    scalar.of(1e6, 1e3)
 }
 
 /// Returns the positions of a robot's joints: their limits, or what is
@@ -194,7 +143,7 @@ pub(crate) fn polynomials(
     scalar: ScalarType,
     positions: &[Interval],
     error: f64,
-) -> Result<Sines, TooAccurate> {
+) -> Result<Sines, Complaint> {
     let mut sines: Sines = Vec::new();
     for trig in &program.trig() {
         let range = range_of(trig.joint, positions);
@@ -219,33 +168,41 @@ fn one(
     scalar: ScalarType,
     range: Interval,
     error: f64,
-) -> Result<AngleKernel, TooAccurate> {
-    let best = match error > 0.0 {
-        true => Candidates::new(trig.need, scalar, range).cheapest(error),
-        false => None,
-    };
-    match best {
-        Some(choice) if choice.errors.worst() <= error => Ok(AngleKernel {
-            joint: trig.joint,
-            range,
-            form: choice.form.to_string(),
-            kernel: choice.kernel,
-            errors: choice.errors,
-        }),
-        best => Err(TooAccurate {
-            joint: trig.joint,
-            range,
-            scalar,
-            wanted: error,
-            least: best.map_or(f64::INFINITY, |choice| choice.errors.worst()),
-        }),
+) -> Result<AngleKernel, Complaint> {
+    if error.is_nan() || error <= 0.0 {
+        return Err(complaint(format!(
+            "the error of a sine must be above zero, not {error:e}: write 1e-9, or take libm"
+        )));
     }
-}
-
-/// Returns the polynomials of one scalar; none if its sines are a library's.
-pub(crate) fn of(all: &[(ScalarType, Sines)], scalar: ScalarType) -> &[AngleKernel] {
-    let found = all.iter().find(|(known, _)| *known == scalar);
-    found.map_or(&[], |(_, sines)| sines)
+    let best = Candidates::new(trig.need, scalar, range).cheapest(error);
+    let angle = format!(
+        "q{} in [{:?}, {:?}]",
+        trig.joint + 1,
+        range.low(),
+        range.high()
+    );
+    let wanted = format!("{error:.2e}").replace(".00e", "e");
+    let why = match best {
+        Some(choice) if choice.errors.worst() <= error => {
+            return Ok(AngleKernel {
+                joint: trig.joint,
+                range,
+                form: choice.form.to_string(),
+                kernel: choice.kernel,
+                errors: choice.errors,
+            });
+        }
+        Some(choice) if !choice.errors.worst().is_infinite() => format!(
+            "no polynomial in {scalar} is proved to give the sines of {angle} to {wanted}, at best to \
+             {:.2e}: ask for that, for a wider scalar, or for libm",
+            choice.errors.worst()
+        ),
+        _ => format!(
+            "no polynomial in {scalar} is known for {angle}: narrow the joints' limits of position, \
+             or take libm"
+        ),
+    };
+    Err(complaint(why))
 }
 
 impl Program {

@@ -20,11 +20,7 @@ pub(crate) struct Poly {
 impl Poly {
     /// Makes a polynomial from integer coefficients.
     pub(crate) fn integers(coefficients: Vec<BigInt>) -> Poly {
-        Poly {
-            coefficients,
-            exponent: 0,
-        }
-        .trimmed()
+        Poly::new(coefficients, 0)
     }
 
     /// Returns a float; `None` if it is not finite.
@@ -33,20 +29,9 @@ impl Poly {
             return None;
         }
         let (mantissa, exponent, sign) = FloatCore::integer_decode(value);
-        let mut mantissa = BigInt::from(mantissa) * sign;
-        if exponent > 0 {
-            mantissa <<= exponent.unsigned_abs();
-        }
-        let exponent = if exponent < 0 {
-            exponent.unsigned_abs().into()
-        } else {
-            0
-        };
-        let poly = Poly {
-            coefficients: vec![mantissa],
-            exponent,
-        };
-        Some(poly.trimmed())
+        let mantissa = (BigInt::from(mantissa) * sign) << exponent.max(0);
+        let exponent = exponent.min(0).unsigned_abs();
+        Some(Poly::new(vec![mantissa], exponent.into()))
     }
 
     /// Returns x
@@ -78,12 +63,8 @@ impl Poly {
         let (a, b) = (self.at(exponent), other.at(exponent));
         let len = a.len().max(b.len());
         let term = |list: &[BigInt], k: usize| list.get(k).cloned().unwrap_or_default();
-        let coefficients = (0..len).map(|k| term(&a, k) + term(&b, k)).collect();
-        Poly {
-            coefficients,
-            exponent,
-        }
-        .trimmed()
+        let coefficients = (0..len).map(|k| term(&a, k) + term(&b, k));
+        Poly::new(coefficients.collect(), exponent)
     }
 
     /// Returns self − other
@@ -102,21 +83,14 @@ impl Poly {
                 coefficients[i + j] += a * b;
             }
         }
-        Poly {
-            coefficients,
-            exponent: self.exponent + other.exponent,
-        }
-        .trimmed()
+        Poly::new(coefficients, self.exponent + other.exponent)
     }
 
     /// Returns self·factor
     #[must_use]
     pub(crate) fn scaled(&self, factor: &BigInt) -> Poly {
-        Poly {
-            coefficients: self.coefficients.iter().map(|c| c * factor).collect(),
-            exponent: self.exponent,
-        }
-        .trimmed()
+        let coefficients = self.coefficients.iter().map(|c| c * factor);
+        Poly::new(coefficients.collect(), self.exponent)
     }
 
     /// Returns the polynomial p(inner(x)).
@@ -124,10 +98,7 @@ impl Poly {
     pub(crate) fn compose(&self, inner: &Poly) -> Poly {
         let mut sum = Poly::integers(Vec::new());
         for c in self.coefficients.iter().rev() {
-            let constant = Poly {
-                coefficients: vec![c.clone()],
-                exponent: self.exponent,
-            };
+            let constant = Poly::new(vec![c.clone()], self.exponent);
             sum = sum.mul(inner).add(&constant);
         }
         sum
@@ -212,8 +183,7 @@ impl Poly {
             let next = two_x.mul(&high).sub(&low);
             low = std::mem::replace(&mut high, next);
         }
-        sum.exponent += self.exponent;
-        sum
+        Poly::new(sum.coefficients, sum.exponent + self.exponent)
     }
 
     /// Returns Σ |c_k| over the coefficients from the k-th on, over a divisor,
@@ -236,18 +206,21 @@ impl Poly {
         self.coefficients.iter().map(|c| c << by).collect()
     }
 
-    fn trimmed(mut self) -> Poly {
-        while self.coefficients.last().is_some_and(Zero::is_zero) {
-            self.coefficients.pop();
+    /// Makes a polynomial without leading zeros and without a common power of two, which is no
+    /// information.
+    fn new(mut coefficients: Vec<BigInt>, exponent: u64) -> Poly {
+        while coefficients.last().is_some_and(Zero::is_zero) {
+            coefficients.pop();
         }
-        // A common power of two is no information.
-        let shared = self.coefficients.iter().filter_map(BigInt::trailing_zeros);
-        let shared = shared.min().unwrap_or(self.exponent).min(self.exponent);
-        for c in &mut self.coefficients {
+        let shared = coefficients.iter().filter_map(BigInt::trailing_zeros);
+        let shared = shared.min().unwrap_or(exponent).min(exponent);
+        for c in &mut coefficients {
             *c >>= shared;
         }
-        self.exponent -= shared;
-        self
+        Poly {
+            coefficients,
+            exponent: exponent - shared,
+        }
     }
 }
 
@@ -292,7 +265,7 @@ mod tests {
     fn chebyshev_there_and_back() {
         let p = of(&[0.1, -3.0, 0.5, 7.0, -0.3, 2.0]);
         let t = p.chebyshev();
-        assert_eq!(t.in_powers(5).trimmed(), p);
+        assert_eq!(t.in_powers(5), p);
         // x³ = (3 T_1 + T_3)/4, and on [−1, 1] it is at most one.
         let cube = of(&[0.0, 0.0, 0.0, 1.0]).chebyshev();
         assert_eq!(cube.coefficient(1), Rational::new(3.into(), 4.into()));

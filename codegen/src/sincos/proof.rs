@@ -21,7 +21,7 @@ use super::series::{FARTHEST, Taylor, Wave};
 use crate::dag::{Edge, Node};
 use crate::interval::Interval;
 use crate::interval::rounding::{Forward, forward};
-use crate::program::kernel::{Angle, Kernel};
+use crate::program::kernel::{Angle, Kernel, Need};
 use crate::program::scalar_type::underflow;
 use crate::program::{Literal, Operation, ScalarType};
 
@@ -38,6 +38,18 @@ impl Errors {
     /// Returns the larger one.
     pub fn worst(self) -> f64 {
         self.sin.max(self.cos)
+    }
+
+    /// Returns sums from above of what is wanted.
+    fn and(self, other: Errors, need: Need) -> Errors {
+        let sum = |is_wanted: bool, own: f64, other: f64| match is_wanted {
+            true => (own + other).next_up(),
+            false => 0.0,
+        };
+        Errors {
+            sin: sum(need.sin, self.sin, other.sin),
+            cos: sum(need.cos, self.cos, other.cos),
+        }
     }
 }
 
@@ -61,41 +73,31 @@ pub(crate) fn prove(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Opt
     if let Some((constants, left)) = reduction::split(kernel, scalar) {
         let rest = reduction::rest(constants, scalar, range)?;
         let errors = polynomial(&left, scalar, rest.range)?;
-        let add = |is_wanted: bool, x: f64| match is_wanted {
-            true => (x + rest.error).next_up(),
-            false => 0.0,
-        };
-        return Some(Errors {
-            sin: add(left.need.sin, errors.sin),
-            cos: add(left.need.cos, errors.cos),
-        });
+        let (sin, cos) = (rest.error, rest.error);
+        return Some(errors.and(Errors { sin, cos }, left.need));
     }
     polynomial(kernel, scalar, range)
 }
 
 fn polynomial(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Option<Errors> {
     let approximations = approximations(kernel, range)?;
-    let rounding = rounding(kernel, scalar, range);
-    let one = |is_wanted: bool, approximation: f64, rounding: f64| match is_wanted {
-        false => 0.0,
-        true => (approximation + rounding).next_up(),
-    };
-    let errors = Errors {
-        sin: one(kernel.need.sin, approximations.sin, rounding.sin),
-        cos: one(kernel.need.cos, approximations.cos, rounding.cos),
-    };
+    let errors = approximations.and(rounding(kernel, scalar, range), kernel.need);
     errors.worst().is_finite().then_some(errors)
 }
 
 /// Returns what a kernel is off with exact arithmetic.
-pub(super) fn approximations(kernel: &Kernel, range: Interval) -> Option<Errors> {
+fn approximations(kernel: &Kernel, range: Interval) -> Option<Errors> {
     if range.magnitude().is_nan() || range.magnitude() > FARTHEST {
         return None;
     }
     let values = expand(kernel)?;
     let one = |edge: Option<Edge>, wave| match edge {
         None => Some(0.0),
-        Some(edge) => approximation(&result(edge, &values), wave, range),
+        Some(edge) => {
+            let poly = &values[edge.index()];
+            let sign = BigInt::from(if edge.negative { -1 } else { 1 });
+            approximation(&poly.scaled(&sign), wave, range)
+        }
     };
     let [sin, cos] = kernel.results();
     Some(Errors {
@@ -136,19 +138,11 @@ fn expand(kernel: &Kernel) -> Option<Vec<Poly>> {
     Some(values)
 }
 
-fn result(edge: Edge, values: &[Poly]) -> Poly {
-    let poly = &values[edge.index()];
-    match edge.negative {
-        true => Poly::integers(Vec::new()).sub(poly),
-        false => poly.clone(),
-    }
-}
-
 /// |p − wave| over a range, from above: over the whole, or the worst of
 /// pieces, whichever is less.
 fn approximation(poly: &Poly, wave: Wave, range: Interval) -> Option<f64> {
     let taylor = Taylor::up_to(range.magnitude() + 1.0)?;
-    let difference = taylor.wave(wave).sub(&poly.scaled(&taylor.factorial));
+    let difference = taylor.waves[wave as usize].sub(&poly.scaled(&taylor.factorial));
     let (difference, cut) = difference.divided(&taylor.factorial, range.magnitude() + 1.0);
     let over = |pieces: usize| {
         let width = range.width() / pieces as f64;
@@ -176,13 +170,11 @@ fn rounding(kernel: &Kernel, scalar: ScalarType, range: Interval) -> Errors {
     let mut worst = Errors::default();
     let width = range.width() / CELLS as f64;
     for cell in 0..CELLS {
-        let end = |k: usize| (range.low() + k as f64 * width).min(range.high());
-        let high = if cell + 1 == CELLS {
-            range.high()
-        } else {
-            end(cell + 1)
+        let end = |k: usize| match k {
+            CELLS => range.high(),
+            _ => (range.low() + k as f64 * width).min(range.high()),
         };
-        let cell = Interval::new(end(cell), high).unwrap_or(range);
+        let cell = Interval::new(end(cell), end(cell + 1)).unwrap_or(range);
         let ran = ranges(kernel, scalar, cell);
         let errors = kernel
             .results()

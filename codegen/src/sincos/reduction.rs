@@ -9,7 +9,7 @@ use num_traits::float::FloatCore;
 
 use crate::dag::{Edge, Id, Node};
 use crate::interval::Interval;
-use crate::program::kernel::{Kernel, KernelWriter, Need};
+use crate::program::kernel::{Kernel, KernelWriter};
 use crate::program::scalar_type::underflow;
 use crate::program::{Literal, Operation, ScalarType};
 
@@ -24,10 +24,7 @@ pub(crate) struct Rest {
 
 /// Returns the significand bits.
 fn digits(scalar: ScalarType) -> i32 {
-    match scalar {
-        ScalarType::F64 => f64::MANTISSA_DIGITS as i32,
-        ScalarType::F32 => f32::MANTISSA_DIGITS as i32,
-    }
+    scalar.of(f64::MANTISSA_DIGITS, f32::MANTISSA_DIGITS) as i32
 }
 
 /// Returns 1.5·2^(p−1)
@@ -40,29 +37,19 @@ fn turn() -> Rational {
     Angle::right_angles(4).radians()
 }
 
-/// Writes the reduction into an empty kernel; returns the rest.
-pub(crate) fn write(kernel: &mut KernelWriter, scalar: ScalarType) -> Id {
-    let round = |x: &Rational| match scalar {
-        ScalarType::F64 => f64::nearest_rational(x),
-        ScalarType::F32 => f32::nearest_rational(x).into(),
-    };
+/// Returns ι, A and B.
+pub(crate) fn constants(scalar: ScalarType) -> [f64; 3] {
+    let round = |x: &Rational| scalar.round_rational(x);
     // Turns up to 2^21 in f64 and 2^8 in f32 are subtracted exactly.
-    let kept = match scalar {
-        ScalarType::F64 => 32,
-        ScalarType::F32 => 16,
-    };
+    let kept = scalar.of(32, 16);
     let (whole, grid) = (turn(), libm::exp2(f64::from(kept - 3)));
     let coarse = libm::floor(f64::nearest_rational(&whole) * grid) / grid;
     let exact = Rational::from_float(coarse).unwrap_or_default();
-    with_constants(
-        kernel,
-        [round(&whole.recip()), coarse, round(&(whole - exact))],
-        scalar,
-    )
+    [round(&whole.recip()), coarse, round(&(whole - exact))]
 }
 
-/// Writes the reduction with ι, A and B.
-fn with_constants(
+/// Writes the reduction with ι, A and B into an empty kernel; returns the rest.
+pub(crate) fn write(
     kernel: &mut KernelWriter,
     [inverse, much, little]: [f64; 3],
     scalar: ScalarType,
@@ -93,7 +80,7 @@ pub(crate) fn split(kernel: &Kernel, scalar: ScalarType) -> Option<([f64; 3], Ke
     // The products with ι, A and B.
     let constants = [literal(0)?, literal(3)?, literal(5)?];
     let mut expected = KernelWriter::default();
-    let rest = with_constants(&mut expected, constants, scalar);
+    let rest = write(&mut expected, constants, scalar);
     let expected = expected.finish(Vec::new());
     if dag.nodes.get(..expected.nodes.len()) != Some(&expected.nodes) {
         return None;
@@ -126,15 +113,6 @@ pub(crate) fn split(kernel: &Kernel, scalar: ScalarType) -> Option<([f64; 3], Ke
     let dag = left.finish(outputs?);
     let need = kernel.need;
     Some((constants, Kernel { need, dag }))
-}
-
-/// Returns the kernel whose sine is this value, as it stands.
-pub(crate) fn alone(kernel: KernelWriter, node: Id) -> Kernel {
-    let need = Need {
-        sin: true,
-        cos: false,
-    };
-    kernel.kernel(need, [Edge::from(node); 2])
 }
 
 /// Returns what is left of angles in a range; `None` if there are too many turns for
@@ -197,10 +175,11 @@ fn is_exact(x: f64, turns: f64, scalar: ScalarType) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sincos::tests::alone;
 
     fn reduced(scalar: ScalarType) -> Kernel {
         let mut kernel = KernelWriter::default();
-        let rest = write(&mut kernel, scalar);
+        let rest = write(&mut kernel, constants(scalar), scalar);
         alone(kernel, rest)
     }
 
@@ -242,7 +221,8 @@ mod tests {
         assert!(split(&other, ScalarType::F64).is_none());
         // Who still reads the whole angle has not taken the turns off.
         let mut writer = KernelWriter::default();
-        let (left, angle) = (write(&mut writer, ScalarType::F64), writer.angle());
+        let left = write(&mut writer, constants(ScalarType::F64), ScalarType::F64);
+        let angle = writer.angle();
         let product = writer.mul(left, angle);
         assert!(split(&alone(writer, product), ScalarType::F64).is_none());
         let (mut constants, _) = split(&kernel, ScalarType::F64).unwrap();

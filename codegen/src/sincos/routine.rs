@@ -12,31 +12,22 @@ use crate::program::{Operation, ScalarType};
 /// A number that records the operations on it.
 #[derive(Clone, Copy)]
 struct Recorded<'t> {
-    /// The operations so far; none for a literal.
-    tape: Option<&'t RefCell<KernelWriter>>,
-    value: Value,
-}
-
-#[derive(Clone, Copy)]
-enum Value {
-    Node(Id),
-    Literal(f64),
+    /// The operations so far.
+    tape: &'t RefCell<KernelWriter>,
+    id: Id,
 }
 
 /// Records the operations by which sine and cosine follow from an angle, before both trade
 /// places or change their signs.
 pub(crate) fn routine(scalar: ScalarType) -> Kernel {
     let tape = RefCell::new(KernelWriter::default());
-    let angle = tape.borrow_mut().angle();
-    let angle = Recorded {
-        tape: Some(&tape),
-        value: Value::Node(angle),
-    };
+    let id = tape.borrow_mut().angle();
+    let angle = Recorded { tape: &tape, id };
     let (_, sin, cos) = match scalar {
         ScalarType::F64 => rest::<f64, Rounded, _>(angle),
         ScalarType::F32 => rest::<f32, Rounded, _>(angle),
     };
-    let results = [sin, cos].map(|result| Edge::from(result.node(&mut tape.borrow_mut())));
+    let results = [sin, cos].map(|result| Edge::from(result.id));
     let need = Need {
         sin: true,
         cos: true,
@@ -44,63 +35,25 @@ pub(crate) fn routine(scalar: ScalarType) -> Kernel {
     tape.take().kernel(need, results)
 }
 
-impl<'t> Recorded<'t> {
-    fn literal(value: f64) -> Recorded<'t> {
-        Recorded {
-            tape: None,
-            value: Value::Literal(value),
-        }
-    }
-
-    fn node(self, tape: &mut KernelWriter) -> Id {
-        match self.value {
-            Value::Node(id) => id,
-            Value::Literal(value) => tape.literal(value),
-        }
-    }
-
-    fn record(self, operation: Operation, other: Recorded<'t>) -> Recorded<'t> {
-        let Some(tape) = self.tape.or(other.tape) else {
-            // The routine has no operation of two literals.
-            return Recorded::literal(f64::NAN);
-        };
-        let mut writer = tape.borrow_mut();
-        let operands = [self, other].map(|operand| operand.node(&mut writer));
-        Recorded {
-            tape: Some(tape),
-            value: Value::Node(writer.apply(operation, operands)),
-        }
-    }
-}
-
 /// The routine of rounded products negates nothing.
 impl Neg for Recorded<'_> {
     type Output = Self;
     fn neg(self) -> Self {
-        Recorded::literal(f64::NAN)
+        self.all(f64::NAN)
     }
 }
 
 macro_rules! operation {
     ($operation:ident, $method:ident) => {
-        impl<'t> $operation for Recorded<'t> {
-            type Output = Recorded<'t>;
-            fn $method(self, other: Recorded<'t>) -> Recorded<'t> {
-                self.record(Operation::$operation, other)
-            }
-        }
-
-        impl<'t> $operation<f64> for Recorded<'t> {
-            type Output = Recorded<'t>;
-            fn $method(self, other: f64) -> Recorded<'t> {
-                self.record(Operation::$operation, Recorded::literal(other))
-            }
-        }
-
-        impl<'t> $operation<f32> for Recorded<'t> {
-            type Output = Recorded<'t>;
-            fn $method(self, other: f32) -> Recorded<'t> {
-                self.record(Operation::$operation, Recorded::literal(other.into()))
+        impl $operation for Recorded<'_> {
+            type Output = Self;
+            fn $method(self, other: Self) -> Self {
+                let operands = [self.id, other.id];
+                let id = self
+                    .tape
+                    .borrow_mut()
+                    .apply(Operation::$operation, operands);
+                Recorded { id, ..self }
             }
         }
     };
@@ -109,19 +62,10 @@ operation!(Add, add);
 operation!(Sub, sub);
 operation!(Mul, mul);
 
-impl Number<f64> for Recorded<'_> {
-    fn all(self, value: f64) -> Self {
-        Recorded::literal(value)
-    }
-
-    fn fused(self, factor: Self, addend: Self) -> Self {
-        self * factor + addend
-    }
-}
-
-impl Number<f32> for Recorded<'_> {
-    fn all(self, value: f32) -> Self {
-        Recorded::literal(value.into())
+impl<T: Into<f64>> Number<T> for Recorded<'_> {
+    fn all(self, value: T) -> Self {
+        let id = self.tape.borrow_mut().literal(value.into());
+        Recorded { id, ..self }
     }
 
     fn fused(self, factor: Self, addend: Self) -> Self {

@@ -9,7 +9,7 @@
 use num_bigint::BigInt;
 use num_traits::One;
 
-use dalembert_model::number::{Rational, Rounded};
+use dalembert_model::number::Rational;
 
 use super::poly::Poly;
 use crate::program::ScalarType;
@@ -32,8 +32,8 @@ pub enum Wave {
 /// Taylor's polynomials about zero, times n!, so that they are integers.
 #[derive(Clone, Debug)]
 pub(crate) struct Taylor {
-    sin: Poly,
-    cos: Poly,
+    /// One a [`Wave`].
+    pub waves: [Poly; 2],
     /// n!
     pub factorial: BigInt,
     /// What either leaves out at most, before the factor n!.
@@ -69,19 +69,10 @@ impl Taylor {
             Poly::integers((0..).zip(&falling).map(term).collect())
         };
         Some(Taylor {
-            sin: wave(1),
-            cos: wave(0),
+            waves: [1, 0].map(wave),
             factorial: falling[0].clone(),
             remainder,
         })
-    }
-
-    /// Returns one of the two.
-    pub(crate) fn wave(&self, wave: Wave) -> &Poly {
-        match wave {
-            Wave::Sin => &self.sin,
-            Wave::Cos => &self.cos,
-        }
     }
 }
 
@@ -89,8 +80,7 @@ impl Taylor {
 /// to a radius.
 #[derive(Clone, Debug)]
 pub struct Fit {
-    sin: Poly,
-    cos: Poly,
+    waves: [Poly; 2],
     factorial: BigInt,
     radius: f64,
 }
@@ -103,25 +93,17 @@ impl Fit {
         let taylor = Taylor::up_to(centre.abs() + scaled)?;
         let slope = Poly::variable().mul(&Poly::constant(scaled)?);
         let inner = Poly::constant(centre)?.add(&slope);
-        let series = |wave| taylor.wave(wave).compose(&inner).chebyshev();
+        let series = |wave: &Poly| wave.compose(&inner).chebyshev();
         Some(Fit {
-            sin: series(Wave::Sin),
-            cos: series(Wave::Cos),
-            factorial: taylor.factorial.clone(),
+            waves: taylor.waves.each_ref().map(series),
+            factorial: taylor.factorial,
             radius,
         })
     }
 
-    fn series(&self, wave: Wave) -> &Poly {
-        match wave {
-            Wave::Sin => &self.sin,
-            Wave::Cos => &self.cos,
-        }
-    }
-
     /// Returns the error of cutting the series off after a degree, from above.
     pub fn tail(&self, wave: Wave, degree: usize) -> f64 {
-        self.series(wave).sum_from(degree + 1, &self.factorial)
+        self.waves[wave as usize].sum_from(degree + 1, &self.factorial)
     }
 
     /// Returns the coefficients of factor · series up to a degree in powers of x,
@@ -133,17 +115,14 @@ impl Fit {
         factor: &Rational,
         scalar: ScalarType,
     ) -> Vec<f64> {
-        let cut = self.series(wave).in_powers(degree);
+        let cut = self.waves[wave as usize].in_powers(degree);
         let radius = Rational::from_float(self.radius).unwrap_or_else(Rational::one);
         let mut scale = factor / Rational::from_integer(self.factorial.clone());
         (0..=degree)
             .map(|k| {
                 let c = cut.coefficient(k) * &scale;
                 scale /= &radius;
-                match scalar {
-                    ScalarType::F64 => f64::nearest_rational(&c),
-                    ScalarType::F32 => f32::nearest_rational(&c).into(),
-                }
+                scalar.round_rational(&c)
             })
             .collect()
     }
@@ -158,14 +137,15 @@ pub(crate) fn coarse(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use dalembert_model::number::Rounded;
 
     #[test]
     fn taylor_is_the_sine() {
         let taylor = Taylor::up_to(3.0).unwrap();
         assert!(taylor.remainder < NEGLIGIBLE && taylor.remainder > 0.0);
         let n = Rational::from_integer(taylor.factorial.clone());
-        let at = |wave| {
-            let p = taylor.wave(wave);
+        let at = |wave: Wave| {
+            let p: &Poly = &taylor.waves[wave as usize];
             let terms = (0..=p.degree()).rev().map(|k| p.coefficient(k) / &n);
             let x = Rational::new(5.into(), 2.into());
             f64::nearest_rational(&terms.fold(Rational::default(), |sum, c| sum * &x + c))

@@ -90,7 +90,7 @@ fn output(draft: &mut Draft, item: &str) -> Result<(), Complaint> {
     let outputs = draft.outputs.get_or_insert_default();
     let function = Function::parse(item).map_err(|error| {
         let error = error.among(outputs);
-        Complaint::new(error.message(), for_bundle(&error))
+        Complaint::new(error.message.as_str(), for_bundle(&error))
     })?;
     let name = function.name();
     add(outputs, function, |a, b| a.is_namesake(*b), name)

@@ -28,14 +28,13 @@ fn the_code_of_the_guide_is_that_of_the_examples() {
     let mut pages = texts(&examples.join("../docs/src"), "md");
     pages.extend(texts(&examples, "md"));
     let mut blocks = 0;
-    for part in pages
-        .iter()
-        .flat_map(|page| page.split("```rust\n").skip(1))
-    {
-        let code = part.split("```").next().unwrap();
-        let is_known = sources.iter().any(|source| source.contains(code));
-        assert!(is_known, "this code is nowhere in the examples:\n{code}");
-        blocks += 1;
+    for page in &pages {
+        for part in page.split("```rust\n").skip(1) {
+            let code = part.split("```").next().unwrap();
+            let is_known = sources.iter().any(|source| source.contains(code));
+            assert!(is_known, "this code is nowhere in the examples:\n{code}");
+            blocks += 1;
+        }
     }
     assert!(blocks >= 18, "{blocks}");
 }
@@ -95,10 +94,8 @@ fn picking_is_within_its_tolerance() {
     let (q, qd, qdd) = ([0.0, 0.7, -1.1], [0.0, 1.5, -2.0], [0.0, 8.0, 5.0]);
     assert!(picking::in_box(&q, &qd, &qdd));
     let payload = carrying::Payload::new(0.5, [0.0, 0.0, 0.02], [0.0; 6]);
-    let (floor, load) = (
-        carrying::Gravity([0.0, 0.0, -9.81]),
-        carrying::load(&payload),
-    );
+    let load = carrying::load(&payload);
+    let floor = carrying::Gravity([0.0, 0.0, -9.81]);
     let [_, exact @ ..] = carrying::inverse_dynamics(&q, &qd, &qdd, &floor, &load);
     let found = picking::inverse_dynamics(&q, &qd, &qdd);
     for (i, limit) in [60.0, 25.0].into_iter().enumerate() {

@@ -2,10 +2,9 @@
 //! that it adds to a step of Newton's method.
 
 use dalembert_model::number::Rounded;
-use dalembert_model::robot::Robot;
 
 use super::Unknown;
-use super::body::{Pseudo, moments, of_robot, unit};
+use super::body::{Pseudo, moments, of_joint, unit};
 use crate::dense::cholesky;
 use crate::model::Model;
 
@@ -31,7 +30,7 @@ enum Drive {
 impl Barrier {
     /// Returns the distance from a model's robot.
     pub(super) fn new(model: &Model, unknowns: &[Unknown], noise: &[f64]) -> Barrier {
-        let robot: &Robot = model.robot();
+        let robot = model.robot();
         let drives = unknowns.iter().enumerate().filter_map(|(at, unknown)| {
             let (joint, file, per) = match *unknown {
                 Unknown::Link(..) => return None,
@@ -51,7 +50,7 @@ impl Barrier {
             Some(Drive::Positive(at, file))
         });
         Barrier {
-            links: of_robot(robot),
+            links: robot.joints.iter().map(of_joint).collect(),
             units: core::array::from_fn(unit),
             drives: drives.collect(),
             count: unknowns.len(),
@@ -77,7 +76,7 @@ impl Barrier {
         let mut total = 0.0;
         for (i, (_, file)) in self.links.iter().enumerate() {
             let l = cholesky(&self.pseudo(theta, i))?;
-            let seen = seen_from(file, &l);
+            let seen = solve(file, &l);
             for (k, row) in seen.iter().enumerate() {
                 total -= 2.0 * libm::log(row[k]);
                 total += row.iter().map(|x| x * x).sum::<f64>();
@@ -100,7 +99,7 @@ impl Barrier {
         for (i, (_, file)) in self.links.iter().enumerate() {
             let l = cholesky(&self.pseudo(theta, i))?;
             let columns: [Pseudo; 10] = self.units.map(|unit| within(&l, &unit));
-            let seen = seen_from(file, &l);
+            let seen = solve(file, &l);
             for row in 0..4 {
                 for column in 0..=row {
                     // Both of two entries that are equal.
@@ -145,18 +144,13 @@ impl Barrier {
     }
 }
 
-/// Computes L₀⁻¹ L, a lower triangle as both are.
-fn seen_from(file: &Pseudo, l: &Pseudo) -> Pseudo {
-    solve(file, l)
-}
-
 /// Computes L⁻¹ E L⁻ᵀ.
 fn within(l: &Pseudo, e: &Pseudo) -> Pseudo {
     let half = solve(l, e);
     solve(l, &transposed(&half))
 }
 
-/// Computes L⁻¹ B.
+/// Computes L⁻¹ B, a lower triangle where B is one.
 fn solve(l: &Pseudo, b: &Pseudo) -> Pseudo {
     let mut x = *b;
     for (i, row) in l.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use dalembert_model::equations::regressor::LinkParameter;
 use dalembert_model::number::Rounded;
-use dalembert_model::robot::{Joint, Robot};
+use dalembert_model::robot::Joint;
 
 use super::{Bodies, Unknown};
 use crate::dense::{cholesky, dot};
@@ -51,13 +51,9 @@ pub(super) fn moments(j: &Pseudo) -> [f64; 10] {
     })
 }
 
-/// Returns J of every link of a robot file with the factor L of J = L Lᵀ. A link that no body has
+/// Returns J of a link of a robot file with the factor L of J = L Lᵀ. A link that no body has
 /// gets second moments until one has; one without a mass gets some.
-pub(super) fn of_robot(robot: &Robot) -> Vec<(Pseudo, Pseudo)> {
-    robot.joints.iter().map(of_joint).collect()
-}
-
-fn of_joint(joint: &Joint) -> (Pseudo, Pseudo) {
+pub(super) fn of_joint(joint: &Joint) -> (Pseudo, Pseudo) {
     let number = f64::nearest_rational;
     let (mass, size) = match number(&joint.mass) {
         mass if mass > 0.0 => (mass, 0.1 * SOME_BODY.1),

@@ -80,12 +80,7 @@ impl Search<'_> {
     /// Computes the condition, columns of length one.
     pub(super) fn condition(&self, trajectory: &Trajectory) -> Result<f64, Error> {
         let width = self.model.columns().len();
-        let r = self.factor(trajectory)?;
-        let with_last: Vec<f64> = r
-            .chunks(width)
-            .flat_map(|row| row.iter().copied().chain([0.0]))
-            .collect();
-        Ok(crate::fit::condition(&with_last, width))
+        Ok(crate::fit::condition(&self.factor(trajectory)?, width))
     }
 
     /// Improves a trajectory of which F is known; returns F of what it returns.

@@ -1,8 +1,8 @@
 //! The noise of each joint's torque, from its triangle.
 
 use super::{remove, unit_columns};
-use crate::accumulator::{Accumulator, Row};
-use crate::dense::{dot, singular};
+use crate::accumulator::Accumulator;
+use crate::dense::{dot, singular, split};
 use crate::error::Error;
 
 /// Noise is taken for at least so much of the torque's root mean square: exact torques would
@@ -16,7 +16,8 @@ const DEPENDENT: f64 = 1e-8;
 /// Returns σ_i of every joint.
 pub(crate) fn noise(data: &Accumulator) -> Result<Vec<f64>, Error> {
     let each = data.factors().into_iter().enumerate().map(|(joint, row)| {
-        let needed = row.columns.len() as u64;
+        let columns = row.columns.len();
+        let needed = columns as u64;
         if data.states() <= needed {
             return Err(Error::TooFew {
                 joint,
@@ -24,9 +25,10 @@ pub(crate) fn noise(data: &Accumulator) -> Result<Vec<f64>, Error> {
                 needed,
             });
         }
-        let (rank, rest) = alone(&row);
-        let torque = row.torque();
+        let (r, torque) = split(&row.factor, columns);
         let squares = dot(&torque, &torque) + row.rest();
+        let (rank, left) = alone(&r, torque);
+        let rest = left + row.rest();
         let degrees = (data.states() - rank) as f64;
         let least = LEAST_NOISE * libm::sqrt(squares / data.states() as f64);
         let noise = libm::sqrt(rest / degrees).max(least);
@@ -36,16 +38,15 @@ pub(crate) fn noise(data: &Accumulator) -> Result<Vec<f64>, Error> {
     each.collect()
 }
 
-/// Fits a joint's row alone: the rank of its columns, and the sum of squared residuals.
+/// Fits a joint's row alone: the rank of its columns, and the squares that R leaves of the torque.
 ///
 /// Columns that are independent in all rows together may depend on each other in one. The
 /// triangle then has rows of rounding: a direction that is anywhere in the residual, whose part
 /// of the torque is as good as drawn. Of those, nothing is taken for fitted.
-fn alone(row: &Row) -> (u64, f64) {
-    let width = row.columns.len();
-    let found = singular(&unit_columns(&row.factor, width), width);
+fn alone(r: &[f64], mut rest: Vec<f64>) -> (u64, f64) {
+    let width = rest.len();
+    let found = singular(&unit_columns(r, width), width);
     let largest = found.values.iter().fold(0.0f64, |a, b| a.max(*b));
-    let mut rest = row.torque();
     let mut rank = 0;
     for (value, image) in found.values.iter().zip(found.images) {
         if *value > DEPENDENT * largest {
@@ -54,5 +55,5 @@ fn alone(row: &Row) -> (u64, f64) {
             rank += 1;
         }
     }
-    (rank, dot(&rest, &rest) + row.rest())
+    (rank, dot(&rest, &rest))
 }

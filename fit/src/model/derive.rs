@@ -5,6 +5,7 @@ use dalembert_model::robot::Robot;
 use num_traits::{One, Zero};
 
 use super::{Column, Model, Options, state};
+use crate::dense::norms;
 use crate::random::Random;
 use crate::triangle::Triangle;
 
@@ -28,10 +29,8 @@ impl Model {
                 .for_each(|row| all.push(row.iter().copied()));
         }
         let r = all.reduced();
-        let independent = |column: usize| {
-            let norm: f64 = (0..=column).map(|i| r[i * width + column].powi(2)).sum();
-            r[column * width + column] > 1e-9 * libm::sqrt(norm)
-        };
+        let norms = norms(&r, width);
+        let independent = |column: usize| r[column * width + column] > 1e-9 * norms[column];
         let kept: Vec<usize> = (0..width)
             .filter(|k| !matches!(self.columns[*k], Column::Offset(_)) || independent(*k))
             .collect();

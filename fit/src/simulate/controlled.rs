@@ -70,7 +70,13 @@ pub fn control(
         .map(|(from, arm)| (*from, Reference::from_robot(arm)))
         .collect();
     for (_, arm) in &arms {
-        length("arms", n, arm.joints())?;
+        if arm.joints() != n {
+            return Err(Error::Length {
+                argument: "arms",
+                expected: n,
+                found: arm.joints(),
+            });
+        }
     }
     for collision in &controlled.collisions {
         check("collisions", &collision.torque, n)?;
@@ -106,15 +112,4 @@ pub fn control(
         q += &qd * recording.period;
     }
     Ok(log)
-}
-
-fn length(argument: &'static str, expected: usize, found: usize) -> Result<(), Error> {
-    match found == expected {
-        true => Ok(()),
-        false => Err(Error::Length {
-            argument,
-            expected,
-            found,
-        }),
-    }
 }

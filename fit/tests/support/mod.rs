@@ -72,6 +72,12 @@ pub fn model(robot: &Robot) -> Model {
     Model::new(robot, &Options::default()).unwrap()
 }
 
+/// Returns the model that an arm's data sheet gives, and π of the arm as it is.
+pub fn arm(name: &str) -> (Model, Vec<f64>) {
+    let truth = truth(name);
+    (model(&guess(&truth)), true_parameters(&truth))
+}
+
 /// A state with its regressor.
 pub struct State {
     pub q: Vec<f64>,

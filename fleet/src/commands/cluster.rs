@@ -4,13 +4,14 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use ballista_executor::executor_process::ExecutorProcessConfig;
 use clap::Args;
 
-use crate::cluster::{self, Executor};
+use crate::cluster;
 use crate::dynamics::Dynamics;
 use crate::error::Error;
 use crate::functions::Functions;
-use crate::job::{RobotArgs, bytes};
+use crate::job::{RobotArgs, bytes, threads};
 use crate::output::Scratch;
 use crate::progress::Going;
 
@@ -67,16 +68,19 @@ pub(super) async fn executor(args: ExecutorArgs, going: &Going) -> Result<String
     let port = port.parse().map_err(|_| address())?;
     let parent = args.work.clone().unwrap_or_else(std::env::temp_dir);
     let scratch = Scratch::within(&parent)?;
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let executor = Executor {
-        address: args.listen,
+    let own = args.listen.ip().to_string();
+    let config = ExecutorProcessConfig {
+        bind_host: own.clone(),
+        external_host: Some(own),
+        port: args.listen.port(),
         scheduler_host: host.to_owned(),
         scheduler_port: port,
-        threads: args.threads.unwrap_or(cores).max(1),
-        memory: args.memory,
-        work: scratch.file("stages"),
+        vcores: threads(args.threads),
+        memory_pool_size: Some(args.memory),
+        work_dir: Some(scratch.file("stages").display().to_string()),
+        ..ExecutorProcessConfig::default()
     };
     eprintln!("executor at {}, not secured", args.listen);
-    let served = going.unless_ended(cluster::executor(executor, functions));
+    let served = going.unless_ended(cluster::executor(config, functions));
     served.await.map(|()| String::new())
 }

@@ -43,19 +43,18 @@ pub(super) fn contacts(
             let alarm = watch.push(&state)?;
             level = level.max(watch.level());
             let last = found.last_mut().filter(|last| time - last.end < APART);
-            match (alarm, last) {
-                (Some(_), Some(last)) => {
+            if let Some(last) = last {
+                if alarm.is_some() {
                     last.end = *time;
-                    last.largest = last.largest.max(state[last.joint].abs());
                 }
-                (Some(joint), None) => found.push(Contact {
+                last.largest = last.largest.max(state[last.joint].abs());
+            } else if let Some(joint) = alarm {
+                found.push(Contact {
                     start: *time,
                     end: *time,
                     joint,
                     largest: state[joint].abs(),
-                }),
-                (None, Some(last)) => last.largest = last.largest.max(state[last.joint].abs()),
-                (None, None) => {}
+                });
             }
         }
         Ok(())

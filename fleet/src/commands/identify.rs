@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use dalembert_fit::{Accumulator, Model, Prior, consistent, cross_validation, fit, identified};
+use dalembert_fit::{Accumulator, Model, consistent, cross_validation, fit, identified};
 use dalembert_model::robot::write;
 
 use super::table::{number, table};
+use crate::dynamics::{Dynamics, no_model};
 use crate::error::Error;
 use crate::job::{Job, LogArgs};
 use crate::output::{self, Unfinished};
@@ -30,18 +31,12 @@ pub(super) async fn run(args: &IdentifyArgs, going: &Going) -> Result<String, Er
     let found = progress
         .shown(args.logs.progress, job.aggregates("_fit"))
         .await?;
-    let loaded = job.loaded.clone();
-    let names: Vec<String> = job
-        .logs
-        .iter()
-        .map(|log| log.name.display().to_string())
-        .collect();
+    let robot = job.robot.clone();
+    let names = job.logs.iter().map(|log| log.name.display().to_string());
+    let names: Vec<String> = names.collect();
     let is_written = args.output.is_some();
     let solved = going.blocking(move |_| {
-        use crate::dynamics::Dynamics;
-        let model = loaded
-            .model()
-            .ok_or_else(|| Error::new("the robot has no columns"))?;
+        let model = robot.model().ok_or_else(no_model)?;
         solve(model, &found, &names, is_written)
     });
     let (text, robot) = going.unless_ended(solved).await?;
@@ -57,39 +52,29 @@ fn solve(
     names: &[String],
     is_written: bool,
 ) -> Result<(String, Option<String>), Error> {
-    let files = found
-        .iter()
-        .map(|bytes| Accumulator::from_bytes(model, bytes));
+    let files = found.iter();
+    let files = files.map(|bytes| Accumulator::from_bytes(model, bytes));
     let files = files.collect::<Result<Vec<_>, _>>()?;
     let mut all = Accumulator::new(model);
     for file in &files {
         all.merge(file)?;
     }
-    let fit = fit(model, &all, &Prior::None)?;
-    let mut rows = vec![
-        ["parameter", "value", "std. error"]
-            .map(str::to_owned)
-            .to_vec(),
-    ];
+    let fit = fit(model, &all)?;
+    let mut rows = Vec::new();
     for k in 0..model.columns().len() {
         let [value, error] = [fit.parameters[k], fit.standard_errors[k]].map(number);
-        rows.push(vec![model.name(k), value, error]);
+        rows.push([model.name(k), value, error]);
     }
-    let mut text = table(&rows);
+    let mut text = table(["parameter", "value", "std. error"], rows);
     text += &format!("{} states, condition {:.0}\n", fit.states, fit.condition);
     for one in &fit.unexcited {
         text += &format!("not excited: {one}\n");
     }
-    let head = ["residuals, rms", "joint", "before", "after"];
-    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    let mut rows = Vec::new();
     let mut add = |name: &str, before: &[f64], after: &[f64]| {
         for (i, (before, after)) in before.iter().zip(after).enumerate() {
-            rows.push(vec![
-                name.to_owned(),
-                (i + 1).to_string(),
-                number(*before),
-                number(*after),
-            ]);
+            let [before, after] = [*before, *after].map(number);
+            rows.push([name.to_owned(), (i + 1).to_string(), before, after]);
         }
     };
     let what = match files.len() {
@@ -99,14 +84,15 @@ fn solve(
              others say"
         }
         _ => {
-            let each = cross_validation(model, &files, &Prior::None)?;
+            let each = cross_validation(model, &files)?;
             for (name, file) in names.iter().zip(&each) {
                 add(name, &file.before, &file.after);
             }
             "of each log, with parameters from the others"
         }
     };
-    text += &format!("\n{}{what}\n", table(&rows));
+    let head = ["residuals, rms", "joint", "before", "after"];
+    text += &format!("\n{}{what}\n", table(head, rows));
     if !is_written {
         return Ok((text, None));
     }

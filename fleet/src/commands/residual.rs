@@ -1,14 +1,16 @@
 //! `residual`: how far measured torques are from the model's.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 
-use super::contacts::{Contact, contacts};
+use super::contacts::contacts;
 use super::table::{number, table};
+use crate::dynamics::Dynamics;
+use crate::engine::locate;
 use crate::error::Error;
-use crate::functions::Residuals;
+use crate::functions::{Joint, Residuals};
 use crate::job::{Job, LogArgs};
 use crate::logs::{Bad, Table, canonical_names};
 use crate::output::{self, Unfinished};
@@ -59,22 +61,22 @@ pub(super) async fn run(args: &ResidualArgs, going: &Going) -> Result<String, Er
     }
     job.progress.expect(passes as u64 * job.rows());
     let progress = job.progress.clone();
-    let all = computed(args, &mut job, going);
+    let all = computed(args, &mut job);
     progress.shown(args.logs.progress, all).await
 }
 
-async fn computed(args: &ResidualArgs, job: &mut Job, going: &Going) -> Result<String, Error> {
+async fn computed(args: &ResidualArgs, job: &mut Job) -> Result<String, Error> {
     let found = summaries(job).await?;
     let mut text = summary(job, &found);
     if args.watch_for.is_some() {
-        text += &watched(args, job, &found, going).await?;
+        text += &watched(args, job, &found).await?;
     }
     let svg = match &args.svg {
         Some(_) => Some(drawn(args, job, &found).await?),
         None => None,
     };
     if let Some(output) = &args.output {
-        write_residuals(job, output, going).await?;
+        write_residuals(job, output).await?;
     }
     if let (Some(name), Some(svg)) = (&args.svg, svg) {
         output::write(name, &svg)?;
@@ -84,29 +86,23 @@ async fn computed(args: &ResidualArgs, job: &mut Job, going: &Going) -> Result<S
 
 /// Computes the residuals of every log.
 async fn summaries(job: &mut Job) -> Result<Vec<Residuals>, Error> {
+    let mut checked = Vec::new();
     let found = job.aggregates("_residuals").await?;
-    let found: Result<Vec<Residuals>, Error> = found
-        .iter()
-        .map(|bytes| Residuals::from_bytes(bytes))
-        .collect();
-    let found = found?;
-    let logs: Vec<_> = job.logs.iter().cloned().zip(found).collect();
-    let checked = logs
-        .into_iter()
-        .map(|(log, found)| match found.not_finite() {
+    let found = found.iter().map(|bytes| Residuals::from_bytes(bytes));
+    for (log, found) in job.logs.iter().zip(found.collect::<Result<Vec<_>, _>>()?) {
+        checked.push(match found.not_finite() {
             0 => Ok(found),
             count => {
-                let whole =
-                    || Bad::whole(&log.name, format!("torques of {count} rows are not finite"));
-                Err(crate::engine::locate(&log).unwrap_or_else(whole))
+                let why = format!("torques of {count} rows are not finite");
+                Err(locate(log).unwrap_or_else(|| Bad::whole(&log.name, why)))
             }
         });
-    job.keep(checked.collect())
+    }
+    job.keep(checked)
 }
 
 fn summary(job: &Job, found: &[Residuals]) -> String {
-    let head = ["file", "joint", "rms", "99 %", "worst", "at, s"];
-    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    let mut rows = Vec::new();
     let mut all = Residuals::new(job.robot.joints());
     for (log, found) in job.logs.iter().zip(found) {
         all.merge(found);
@@ -115,110 +111,70 @@ fn summary(job: &Job, found: &[Residuals]) -> String {
     if found.len() > 1 {
         rows.extend(lines("all", &all, false));
     }
-    let states = all.states();
-    let files = found.len();
-    format!(
-        "{}{states} states in {files} files; N·m or N, 99 % within 0.8 % of it\n",
-        table(&rows)
-    )
+    let (states, files) = (all.states(), found.len());
+    let table = table(["file", "joint", "rms", "99 %", "worst", "at, s"], rows);
+    format!("{table}{states} states in {files} files; N·m or N, 99 % within 0.8 % of it\n")
 }
 
-fn lines(name: &str, found: &Residuals, time: bool) -> Vec<Vec<String>> {
-    let line = |(i, joint): (usize, &crate::functions::Joint)| {
-        let at = if time {
-            format!("{:.3}", joint.time())
-        } else {
-            String::new()
-        };
-        vec![
-            name.to_owned(),
-            (i + 1).to_string(),
-            number(found.rms(i)),
-            number(found.quantile(i, 0.99)),
-            number(joint.worst()),
-            at,
-        ]
+fn lines(name: &str, found: &Residuals, time: bool) -> Vec<[String; 6]> {
+    let line = |(i, joint): (usize, &Joint)| {
+        let at = time.then(|| format!("{:.3}", joint.time));
+        let sizes = [found.rms(i), found.quantile(i, 0.99), joint.worst];
+        let [rms, most, worst] = sizes.map(number);
+        let at = at.unwrap_or_default();
+        [name.to_owned(), (i + 1).to_string(), rms, most, worst, at]
     };
     found.joints().iter().enumerate().map(line).collect()
 }
 
 /// Lists contacts of every log.
-async fn watched(
-    args: &ResidualArgs,
-    job: &Job,
-    found: &[Residuals],
-    going: &Going,
-) -> Result<String, Error> {
+async fn watched(args: &ResidualArgs, job: &Job, found: &[Residuals]) -> Result<String, Error> {
     let n = job.robot.joints();
     // Half of the residuals are below it, whatever a contact does to the others.
     let noise = |found: &Residuals| -> Vec<f64> {
-        (0..n)
-            .map(|i| (found.quantile(i, 0.5) / 0.6745).max(f64::MIN_POSITIVE))
+        let half = (0..n).map(|i| found.quantile(i, 0.5));
+        half.map(|half| (half / 0.6745).max(f64::MIN_POSITIVE))
             .collect()
     };
-    let quiet = match &args.quiet {
-        None => None,
+    let (noises, bar): (Vec<Vec<f64>>, f64) = match &args.quiet {
+        None => (found.iter().map(noise).collect(), args.bar),
         Some(quiet) => {
             let quiet = LogArgs {
                 logs: vec![quiet.display().to_string()],
                 skip_bad: false,
                 ..args.logs.clone()
             };
-            let mut quiet = Job::new(&quiet, false, going).await?;
+            let mut quiet = Job::new(&quiet, false, &job.going).await?;
             let found = summaries(&mut quiet).await?;
             let noise = noise(&found[0]);
-            let robot = job.robot.clone();
-            let own = noise.clone();
-            let level = quiet.each(move |log, going| {
+            let (robot, own) = (job.robot.clone(), noise.clone());
+            let level = quiet.each(move |_, log, going| {
                 Ok(contacts(robot.as_ref(), log, &own, f64::MAX / 4.0, going)?.1)
             });
             let level = level.await?.into_iter().fold(0.0, f64::max);
-            Some((noise, 2.0 * level))
+            (vec![noise; job.logs.len()], 2.0 * level)
         }
     };
-    let noises: Vec<(PathBuf, Vec<f64>)> = job
-        .logs
-        .iter()
-        .zip(found)
-        .map(|(log, found)| {
-            let own = quiet
-                .as_ref()
-                .map_or_else(|| noise(found), |quiet| quiet.0.clone());
-            (log.path.clone(), own)
-        })
-        .collect();
-    let bar = quiet.as_ref().map_or(args.bar, |quiet| quiet.1);
     let (robot, noises) = (job.robot.clone(), Arc::new(noises));
-    let all = job.each(move |log, going| {
-        let noise = noises.iter().find(|(path, _)| *path == log.path);
-        let noise = noise.map(|(_, noise)| &noise[..]).unwrap_or_default();
-        Ok(contacts(robot.as_ref(), log, noise, bar, going)?.0)
+    let all = job.each(move |place, log, going| {
+        Ok(contacts(robot.as_ref(), log, &noises[place], bar, going)?.0)
     });
-    let head = ["contact in", "from, s", "to, s", "joint", "largest, N·m"];
-    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    let mut rows = Vec::new();
     for (log, contacts) in job.logs.iter().zip(all.await?) {
-        for Contact {
-            start,
-            end,
-            joint,
-            largest,
-        } in contacts
-        {
-            rows.push(vec![
-                log.name.display().to_string(),
-                format!("{start:.3}"),
-                format!("{end:.3}"),
-                (joint + 1).to_string(),
-                number(largest),
-            ]);
+        let name = log.name.display().to_string();
+        for one in contacts {
+            let [start, end] = [one.start, one.end].map(|time| format!("{time:.3}"));
+            let joint = (one.joint + 1).to_string();
+            rows.push([name.clone(), start, end, joint, number(one.largest)]);
         }
     }
-    match rows.len() {
-        1 => Ok(format!(
+    if rows.is_empty() {
+        return Ok(format!(
             "\nno contacts: no sum of residuals is over {bar:.0} times the noise\n"
-        )),
-        _ => Ok(format!("\n{}", table(&rows))),
+        ));
     }
+    let head = ["contact in", "from, s", "to, s", "joint", "largest, N·m"];
+    Ok(format!("\n{}", table(head, rows)))
 }
 
 /// Draws the logs whose residuals are largest, each joint's as part of the smallest one's.
@@ -234,10 +190,9 @@ async fn drawn(args: &ResidualArgs, job: &Job, found: &[Residuals]) -> Result<St
     let mut order: Vec<usize> = (0..found.len()).collect();
     order.sort_by(|a, b| size(&found[*b]).total_cmp(&size(&found[*a])));
     order.truncate(args.worst);
-    let worst: Vec<PathBuf> = order.iter().map(|k| job.logs[*k].path.clone()).collect();
-    let (robot, chosen) = (job.robot.clone(), worst.clone());
-    let curves = job.each(move |log, going| {
-        if !chosen.contains(&log.path) {
+    let (robot, chosen) = (job.robot.clone(), order.clone());
+    let curves = job.each(move |place, log, going| {
+        if !chosen.contains(&place) {
             return Ok(None);
         }
         let mut curves = Curves::new(&log.name.display().to_string(), n, log.rows);
@@ -245,32 +200,27 @@ async fn drawn(args: &ResidualArgs, job: &Job, found: &[Residuals]) -> Result<St
             curves.add(&block.time, residuals);
             Ok(())
         })?;
-        Ok(Some((log.path.clone(), curves)))
+        Ok(Some(curves))
     });
-    let curves: Vec<_> = curves.await?.into_iter().flatten().collect();
-    let found = worst
-        .iter()
-        .flat_map(|path| curves.iter().find(|(own, _)| own == path));
-    let found: Vec<&Curves> = found.map(|(_, curves)| curves).collect();
-    Ok(picture(&found))
+    let curves = curves.await?;
+    let worst: Vec<&Curves> = order.iter().flat_map(|place| &curves[*place]).collect();
+    Ok(picture(&worst))
 }
 
 /// Writes all states with their residuals, log after log.
-async fn write_residuals(job: &Job, output: &std::path::Path, going: &Going) -> Result<(), Error> {
+async fn write_residuals(job: &Job, output: &Path) -> Result<(), Error> {
     let part = Unfinished::beside(output)?;
     let n = job.robot.joints();
     let mut names = canonical_names(n);
     names.extend((1..=n).map(|i| format!("residual{i}")));
     let (logs, robot, path) = (job.logs.clone(), job.robot.clone(), part.path().to_owned());
-    let written = going.blocking(move |going| {
+    let written = job.going.blocking(move |going| {
         let mut table = Table::create(&path, &names, true)?;
         for log in &logs {
             let name = log.name.display().to_string();
             walk(robot.as_ref(), log, going, |block, residuals| {
-                let each = block.quantities.iter().map(|of| &of[..]).chain([residuals]);
-                let each = each.flat_map(|of| of.chunks_exact(block.len().max(1)));
-                let all: Vec<&[f64]> = std::iter::once(&block.time[..]).chain(each).collect();
-                table.write(&name, &all)
+                let all = block.quantities.iter().map(Vec::as_slice);
+                table.write(&name, &block.time, all.chain([residuals]))
             })?;
         }
         table.close()

@@ -87,10 +87,8 @@ pub(super) async fn run(args: SimulateArgs, going: &Going) -> Result<String, Err
         ));
     }
     let folder = args.output.clone();
-    let is_used = folder
-        .read_dir()
-        .is_ok_and(|mut entries| entries.next().is_some());
-    if is_used {
+    let entries = folder.read_dir();
+    if entries.is_ok_and(|mut entries| entries.next().is_some()) {
         return Err(Error::new("there is something in it already").at(folder.display()));
     }
     let robot = args.robot.load(false, going).await?;
@@ -102,13 +100,19 @@ pub(super) async fn run(args: SimulateArgs, going: &Going) -> Result<String, Err
     let made = going.blocking(move |going| {
         let scene = Scene::new(args, robot)?;
         // Beside it, under another name, until all logs are there.
-        let part = Folder::beside(&scene.args.output)?;
+        let name = &scene.args.output;
+        if name.is_dir() {
+            std::fs::remove_dir(name).map_err(|why| Error::new(why).at(name.display()))?;
+        }
+        let part = Unfinished::beside(name)?;
+        let path = part.path();
+        std::fs::create_dir(path).map_err(|why| Error::new(why).at(path.display()))?;
         let mut said = String::new();
         for file in 0..files {
-            said += &scene.record(&part.path, file, &counted, going)?;
+            said += &scene.record(path, file, &counted, going)?;
         }
         if scene.args.vary > 0.0 {
-            output::write(&part.path.join("truth.toml"), &write(&scene.truth))?;
+            output::write(&path.join("truth.toml"), &write(&scene.truth))?;
         }
         part.finish()?;
         Ok(said)
@@ -119,38 +123,6 @@ pub(super) async fn run(args: SimulateArgs, going: &Going) -> Result<String, Err
         "{said}{} states in {files} logs in {folder}\n",
         states * files
     ))
-}
-
-/// A folder that has not got its name yet.
-struct Folder {
-    path: PathBuf,
-    name: PathBuf,
-}
-
-impl Folder {
-    fn beside(name: &Path) -> Result<Folder, Error> {
-        if name.is_dir() {
-            std::fs::remove_dir(name).map_err(|why| Error::new(why).at(name.display()))?;
-        }
-        let path = Unfinished::beside(name)?.path().to_owned();
-        std::fs::create_dir(&path).map_err(|why| Error::new(why).at(path.display()))?;
-        Ok(Folder {
-            path,
-            name: name.to_owned(),
-        })
-    }
-
-    fn finish(self) -> Result<(), Error> {
-        std::fs::rename(&self.path, &self.name)
-            .map_err(|why| Error::new(why).at(self.name.display()))
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        // Renamed, or there is an error to report already.
-        let _ = std::fs::remove_dir_all(&self.path);
-    }
 }
 
 impl Scene {
@@ -169,25 +141,24 @@ impl Scene {
         let (count, period) = (800, 0.01);
         let mut states = [(); 3].map(|()| vec![0.0; n * count]);
         for s in 0..count {
-            fill(&mut states, s, count, trajectory.at(s as f64 * period));
+            fill(&mut states, s, count, &trajectory.at(s as f64 * period));
         }
         let [q, qd, qdd] = &states;
         let mut tau = vec![0.0; n * count];
         loaded.inverse_dynamics(States { count, q, qd, qdd }, &mut tau)?;
-        let squares = tau
-            .chunks_exact(count)
-            .map(|own| own.iter().map(|x| x * x).sum::<f64>());
         // A joint that holds nothing has some noise all the same.
-        let usual = squares.map(|sum| libm::sqrt(sum / count as f64).max(1e-3));
+        let usual = tau.chunks_exact(count).map(|own| {
+            let squares: f64 = own.iter().map(|x| x * x).sum();
+            libm::sqrt(squares / count as f64).max(1e-3)
+        });
         let usual: Vec<f64> = usual.collect();
-        let (truth, exact) = match args.vary > 0.0 {
-            true => {
-                let truth = varied(robot, args.vary, &usual, &mut Random::new(args.seed))?;
-                let exact = args.exact.then(|| Loaded::of(&truth)).transpose()?;
-                (truth, exact.map_or_else(|| loaded.clone(), Arc::new))
+        let (mut truth, mut exact) = (robot.clone(), loaded.clone());
+        if args.vary > 0.0 {
+            truth = varied(robot, args.vary, &usual, &mut Random::new(args.seed))?;
+            if args.exact {
+                exact = Arc::new(Loaded::of(&truth)?);
             }
-            false => (robot.clone(), loaded.clone()),
-        };
+        }
         Ok(Scene {
             noise: usual.iter().map(|torque| args.noise * torque).collect(),
             args,
@@ -199,14 +170,13 @@ impl Scene {
     }
 
     fn recording(&self, file: u64) -> Recording {
-        let steps = f64::from(self.args.encoder);
         Recording {
             period: 1.0 / self.args.rate,
             states: (self.args.seconds * self.args.rate) as usize,
             noise: self.noise.clone(),
             resolution: match self.args.encoder {
                 0 => 0.0,
-                _ => 2.0 * core::f64::consts::PI / steps,
+                steps => 2.0 * core::f64::consts::PI / f64::from(steps),
             },
             seed: self.args.seed.wrapping_mul(1_000_003).wrapping_add(file),
         }
@@ -328,20 +298,14 @@ impl Scene {
             let count = BLOCK.min(recording.states - first);
             let mut states = [(); 3].map(|()| vec![0.0; n * count]);
             for s in 0..count {
-                fill(
-                    &mut states,
-                    s,
-                    count,
-                    cycle[(first + s) % cycle.len()].clone(),
-                );
+                fill(&mut states, s, count, &cycle[(first + s) % cycle.len()]);
             }
             let [q, qd, qdd] = &states;
             let mut tau = vec![0.0; n * count];
             self.exact
                 .inverse_dynamics(States { count, q, qd, qdd }, &mut tau)?;
-            let time: Vec<f64> = (0..count)
-                .map(|s| (first + s) as f64 * recording.period)
-                .collect();
+            let time = (first..first + count).map(|k| k as f64 * recording.period);
+            let time: Vec<f64> = time.collect();
             for (s, time) in time.iter().enumerate() {
                 for i in 0..n {
                     let own = &mut tau[i * count + s];
@@ -351,15 +315,13 @@ impl Scene {
                     }
                 }
             }
-            let [q, qd, qdd] = states;
+            let [mut q, qd, qdd] = states;
             let step = recording.resolution;
-            let q = match step > 0.0 {
-                true => q
-                    .into_iter()
-                    .map(|q| step * libm::round(q / step))
-                    .collect(),
-                false => q,
-            };
+            if step > 0.0 {
+                for q in &mut q {
+                    *q = step * libm::round(*q / step);
+                }
+            }
             self.write(table, time, &[q, qd, qdd, tau])?;
             progress.add(count as u64);
         }
@@ -374,19 +336,17 @@ impl Scene {
     ) -> Result<(), Error> {
         let chosen = columns.iter().enumerate();
         let chosen = chosen.filter(|(k, _)| !self.args.encoders_only || [0, 3].contains(k));
-        let each = chosen.flat_map(|(_, of)| of.chunks_exact(time.len().max(1)));
-        let all: Vec<&[f64]> = std::iter::once(&time[..]).chain(each).collect();
-        table.write("", &all)
+        table.write("", &time, chosen.map(|(_, of)| &of[..]))
     }
 }
 
 /// States that are written at once.
 const BLOCK: usize = 8192;
 
-fn fill(states: &mut [Vec<f64>; 3], s: usize, count: usize, state: [Vec<f64>; 3]) {
+fn fill(states: &mut [Vec<f64>; 3], s: usize, count: usize, state: &[Vec<f64>; 3]) {
     for (to, from) in states.iter_mut().zip(state) {
-        for (i, value) in from.into_iter().enumerate() {
-            to[i * count + s] = value;
+        for (i, value) in from.iter().enumerate() {
+            to[i * count + s] = *value;
         }
     }
 }

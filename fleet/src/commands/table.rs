@@ -1,17 +1,13 @@
 //! Tables on standard output.
 
-/// Returns rows of text in columns, the first to the left and the others to the right.
-pub(super) fn table(rows: &[Vec<String>]) -> String {
-    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let width = |k: usize| {
-        rows.iter()
-            .filter_map(|row| row.get(k))
-            .map(|x| x.chars().count())
-            .max()
-    };
-    let widths: Vec<usize> = (0..columns).map(|k| width(k).unwrap_or(0)).collect();
+/// Returns a head and rows of text in columns, the first to the left and the others to the right.
+pub(super) fn table<const N: usize>(head: [&str; N], rows: Vec<[String; N]>) -> String {
+    let mut all = vec![head.map(str::to_owned)];
+    all.extend(rows);
+    let width = |k: usize| all.iter().map(|row| row[k].chars().count()).max();
+    let widths: Vec<usize> = (0..N).map(|k| width(k).unwrap_or(0)).collect();
     let mut text = String::new();
-    for row in rows {
+    for row in &all {
         let cells = row.iter().zip(&widths).enumerate();
         let cells: Vec<String> = cells
             .map(|(k, (cell, width))| match k {

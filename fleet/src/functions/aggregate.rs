@@ -16,7 +16,7 @@ use super::fit::Parameters;
 use super::residuals::Residuals;
 use super::rms::Rms;
 use crate::arguments::{Piece, Shape, list};
-use crate::dynamics::{Dynamics, States};
+use crate::dynamics::Dynamics;
 use crate::error::Error;
 
 /// Which aggregate.
@@ -101,8 +101,8 @@ struct Keeping {
 
 impl Accumulator for Keeping {
     fn update_batch(&mut self, values: &[ArrayRef]) -> Result<()> {
-        let arguments = self.shape.read(values);
-        arguments.each_valid(|piece| Ok(self.kept.add(self.robot.as_ref(), piece)?))
+        let arguments = self.shape.read(values).valid()?;
+        arguments.each(|_, piece| Ok(self.kept.add(self.robot.as_ref(), piece)?))
     }
 
     fn evaluate(&mut self) -> Result<ScalarValue> {
@@ -129,23 +129,11 @@ impl Accumulator for Keeping {
     }
 }
 
-/// Computes residuals of a piece in columns.
-pub(super) fn residuals(
-    robot: &dyn Dynamics,
-    piece: &Piece,
-    into: &mut Vec<f64>,
-) -> Result<(), Error> {
-    let [q, qd, qdd, measured] = &piece.quantities;
-    let count = piece.count;
-    robot.residuals(States { count, q, qd, qdd }, measured, into)
-}
-
 /// Reads numbers that were written one after the other.
 pub(super) struct Reader<'a>(pub(super) &'a [u8]);
 
 impl Reader<'_> {
-    /// Returns the next eight bytes.
-    pub(super) fn next(&mut self) -> Result<[u8; 8], Error> {
+    fn next(&mut self) -> Result<[u8; 8], Error> {
         let damaged = || Error::new("what an executor sent is damaged, or of another version");
         let (first, rest) = self.0.split_first_chunk().ok_or_else(damaged)?;
         self.0 = rest;

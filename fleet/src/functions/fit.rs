@@ -5,9 +5,9 @@ use datafusion::scalar::ScalarValue;
 
 use super::aggregate::Kept;
 use crate::arguments::Piece;
-use crate::dynamics::{Dynamics, States};
+use crate::dynamics::{Dynamics, States, no_model};
 use crate::error::Error;
-use dalembert_fit::{Accumulator, Model};
+use dalembert_fit::Accumulator;
 
 /// Fewer than other pieces: of each state there is a whole regressor.
 const PIECE: usize = 128;
@@ -24,16 +24,11 @@ pub(super) struct Parameters {
 impl Parameters {
     pub(super) fn new(robot: &dyn Dynamics) -> Result<Parameters> {
         Ok(Parameters {
-            kept: Accumulator::new(model(robot)?),
+            kept: Accumulator::new(robot.model().ok_or_else(no_model)?),
             parts: Default::default(),
             room: Vec::new(),
         })
     }
-}
-
-fn model(robot: &dyn Dynamics) -> Result<&Model, Error> {
-    let none = || Error::new("this robot was registered without the columns that a fit needs");
-    robot.model().ok_or_else(none)
 }
 
 impl Kept for Parameters {
@@ -59,7 +54,8 @@ impl Kept for Parameters {
     }
 
     fn merge(&mut self, robot: &dyn Dynamics, bytes: &[u8]) -> Result<(), Error> {
-        let other = Accumulator::from_bytes(model(robot)?, bytes)?;
+        let model = robot.model().ok_or_else(no_model)?;
+        let other = Accumulator::from_bytes(model, bytes)?;
         Ok(self.kept.merge(&other)?)
     }
 

@@ -3,7 +3,7 @@
 use datafusion::error::Result;
 use datafusion::scalar::ScalarValue;
 
-use super::aggregate::{Kept, Reader, residuals};
+use super::aggregate::{Kept, Reader};
 use super::rms::{Sum, largest, squares};
 use crate::arguments::Piece;
 use crate::dynamics::Dynamics;
@@ -23,8 +23,10 @@ const BINS: usize = 40 * OCTAVE;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     squares: Sum,
-    worst: f64,
-    time: f64,
+    /// The largest |residual|, N·m or N.
+    pub worst: f64,
+    /// When it was, in the log's time.
+    pub time: f64,
     bins: Vec<u64>,
 }
 
@@ -57,16 +59,6 @@ impl Joint {
             time: f64::NAN,
             bins: vec![0; BINS],
         }
-    }
-
-    /// Returns the largest |residual|, N·m or N.
-    pub fn worst(&self) -> f64 {
-        self.worst
-    }
-
-    /// Returns when it was, in the log's time.
-    pub fn time(&self) -> f64 {
-        self.time
     }
 
     /// Adds residuals whose sum of squares is known.
@@ -168,8 +160,7 @@ impl Residuals {
         };
         for _ in 0..joints {
             let mut joint = Joint::new();
-            joint.squares.value = reader.float()?;
-            joint.squares.rest = reader.float()?;
+            joint.squares = Sum::read(&mut reader)?;
             joint.worst = reader.float()?;
             joint.time = reader.float()?;
             for _ in 0..reader.count()? {
@@ -185,33 +176,33 @@ impl Residuals {
 
 impl Kept for Residuals {
     fn add(&mut self, robot: &dyn Dynamics, piece: &Piece) -> Result<(), Error> {
-        let mut residuals_of = std::mem::take(&mut self.piece);
-        residuals(robot, piece, &mut residuals_of)?;
+        let mut residuals = std::mem::take(&mut self.piece);
+        robot.residuals(piece.count, &piece.quantities, &mut residuals)?;
         let count = piece.count;
         // One that is not finite makes its sum so.
-        let sums: Vec<f64> = residuals_of.chunks_exact(count).map(squares).collect();
+        let sums: Vec<f64> = residuals.chunks_exact(count).map(squares).collect();
         let mut all = sums.iter().copied().chain([squares(&piece.time)]);
         if all.all(f64::is_finite) {
-            let columns = residuals_of.chunks_exact(count).zip(sums);
+            let columns = residuals.chunks_exact(count).zip(sums);
             for (joint, (column, squares)) in self.joints.iter_mut().zip(columns) {
                 joint.add(column, squares, &piece.time);
             }
             self.states += count as u64;
         } else {
             let fine = |s: &usize| {
-                let mut own = residuals_of.iter().skip(*s).step_by(count);
+                let mut own = residuals.iter().skip(*s).step_by(count);
                 own.all(|r| r.is_finite()) && piece.time[*s].is_finite()
             };
             let kept: Vec<usize> = (0..count).filter(fine).collect();
             let time: Vec<f64> = kept.iter().map(|s| piece.time[*s]).collect();
-            for (joint, column) in self.joints.iter_mut().zip(residuals_of.chunks_exact(count)) {
+            for (joint, column) in self.joints.iter_mut().zip(residuals.chunks_exact(count)) {
                 let own: Vec<f64> = kept.iter().map(|s| column[*s]).collect();
                 joint.add(&own, squares(&own), &time);
             }
             self.states += kept.len() as u64;
             self.not_finite += (count - kept.len()) as u64;
         }
-        self.piece = residuals_of;
+        self.piece = residuals;
         Ok(())
     }
 
@@ -223,19 +214,14 @@ impl Kept for Residuals {
         put(self.states);
         put(self.not_finite);
         for joint in &self.joints {
-            put(joint.squares.value.to_bits());
-            put(joint.squares.rest.to_bits());
-            put(joint.worst.to_bits());
-            put(joint.time.to_bits());
-            let filled = || {
-                joint
-                    .bins
-                    .iter()
-                    .enumerate()
-                    .filter(|(_, count)| **count > 0)
-            };
-            put(filled().count() as u64);
-            for (bin, count) in filled() {
+            let Sum { value, rest } = joint.squares;
+            for number in [value, rest, joint.worst, joint.time] {
+                put(number.to_bits());
+            }
+            let filled = joint.bins.iter().enumerate();
+            let filled = filled.filter(|(_, count)| **count > 0);
+            put(filled.clone().count() as u64);
+            for (bin, count) in filled {
                 put(bin as u64);
                 put(*count);
             }

@@ -2,13 +2,11 @@
 
 use std::sync::Arc;
 
-use datafusion::arrow::array::{FixedSizeListArray, Float64Array};
-use datafusion::arrow::datatypes::{DataType, Field};
 use datafusion::error::Result;
 use datafusion::scalar::ScalarValue;
 
-use super::aggregate::{Kept, Reader, residuals};
-use crate::arguments::{Piece, list};
+use super::aggregate::{Kept, Reader};
+use crate::arguments::{Piece, list, lists};
 use crate::dynamics::Dynamics;
 use crate::error::Error;
 
@@ -33,6 +31,11 @@ impl Sum {
     pub(super) fn merge(&mut self, other: Sum) {
         self.add(other.value);
         self.rest += other.rest;
+    }
+
+    pub(super) fn read(reader: &mut Reader<'_>) -> Result<Sum, Error> {
+        let [value, rest] = [reader.float()?, reader.float()?];
+        Ok(Sum { value, rest })
     }
 
     pub(super) fn total(&self) -> f64 {
@@ -88,7 +91,7 @@ impl Rms {
 
 impl Kept for Rms {
     fn add(&mut self, robot: &dyn Dynamics, piece: &Piece) -> Result<(), Error> {
-        residuals(robot, piece, &mut self.residuals)?;
+        robot.residuals(piece.count, &piece.quantities, &mut self.residuals)?;
         let columns = self.residuals.chunks_exact(piece.count);
         for (sum, column) in self.sums.iter_mut().zip(columns) {
             sum.add(squares(column));
@@ -110,8 +113,7 @@ impl Kept for Rms {
         let mut reader = Reader(bytes);
         self.states += reader.count()?;
         for sum in &mut self.sums {
-            let [value, rest] = [reader.float()?, reader.float()?];
-            sum.merge(Sum { value, rest });
+            sum.merge(Sum::read(&mut reader)?);
         }
         Ok(())
     }
@@ -122,9 +124,7 @@ impl Kept for Rms {
         }
         let mean = |sum: &Sum| libm::sqrt(sum.total() / self.states as f64);
         let values: Vec<f64> = self.sums.iter().map(mean).collect();
-        let item = Arc::new(Field::new_list_field(DataType::Float64, true));
-        let (n, values) = (values.len() as i32, Arc::new(Float64Array::from(values)));
-        let lists = FixedSizeListArray::try_new(item, n, values, None)?;
+        let lists = lists(values.len(), values, None)?;
         Ok(ScalarValue::FixedSizeList(Arc::new(lists)))
     }
 

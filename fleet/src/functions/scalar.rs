@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use datafusion::arrow::array::{Array, ArrayRef, FixedSizeListArray, Float64Array};
-use datafusion::arrow::datatypes::{DataType, Field};
+use datafusion::arrow::datatypes::DataType;
 use datafusion::error::Result;
 use datafusion::logical_expr::{ColumnarValue, ScalarFunctionArgs, ScalarUDFImpl, Signature};
+use datafusion::scalar::ScalarValue;
 
 use super::Function;
-use crate::arguments::list;
+use crate::arguments::{list, lists};
 use crate::dynamics::{Dynamics, States};
 
 /// What is computed.
@@ -48,45 +48,33 @@ impl ScalarUDFImpl for Scalar {
             .args
             .iter()
             .all(|of| matches!(of, ColumnarValue::Scalar(_)));
-        let arrays = match is_constant {
-            true => ColumnarValue::values_to_arrays(&given.args)?,
-            false => {
-                let each = given.args.iter();
-                let each = each.map(|of| of.to_array(given.number_rows));
-                each.collect::<Result<Vec<ArrayRef>>>()?
-            }
-        };
         let Function { robot, shape, .. } = &self.function;
-        let arguments = shape.read(&arrays);
+        let arguments = shape.read(&ColumnarValue::values_to_arrays(&given.args)?);
         let n = shape.joints;
         let mut values = vec![0.0; n * arguments.rows];
-        let mut tau = Vec::new();
+        let mut results = Vec::new();
         arguments.each(|first, piece| {
-            let [q, qd, qdd, measured] = &piece.quantities;
             let count = piece.count;
-            tau.resize(n * count, 0.0);
-            let states = States { count, q, qd, qdd };
-            robot.inverse_dynamics(states, &mut tau)?;
+            match self.what {
+                What::Torques => {
+                    let [q, qd, qdd, _] = &piece.quantities;
+                    results.resize(n * count, 0.0);
+                    robot.inverse_dynamics(States { count, q, qd, qdd }, &mut results)?;
+                }
+                What::Residual => robot.residuals(count, &piece.quantities, &mut results)?,
+            }
             let rows = values[first * n..].chunks_exact_mut(n).take(count);
             for (s, row) in rows.enumerate() {
                 for (i, value) in row.iter_mut().enumerate() {
-                    let place = i * count + s;
-                    *value = match self.what {
-                        What::Torques => tau[place],
-                        What::Residual => measured[place] - tau[place],
-                    };
+                    *value = results[i * count + s];
                 }
             }
             Ok(())
         })?;
-        let item = Arc::new(Field::new_list_field(DataType::Float64, true));
-        let values = Arc::new(Float64Array::from(values));
-        let lists = FixedSizeListArray::try_new(item, n as i32, values, arguments.nulls.clone())?;
-        match is_constant && lists.len() == 1 {
-            true => Ok(ColumnarValue::Scalar(
-                datafusion::scalar::ScalarValue::try_from_array(&lists, 0)?,
-            )),
-            false => Ok(ColumnarValue::Array(Arc::new(lists))),
-        }
+        let lists = lists(n, values, arguments.nulls)?;
+        Ok(match is_constant {
+            true => ColumnarValue::Scalar(ScalarValue::try_from_array(&lists, 0)?),
+            false => ColumnarValue::Array(Arc::new(lists)),
+        })
     }
 }

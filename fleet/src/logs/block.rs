@@ -2,16 +2,17 @@
 
 use std::fs::File;
 use std::path::Path;
+use std::sync::Arc;
 
 use datafusion::arrow::array::{Array, ArrayRef, AsArray, RecordBatch};
 use datafusion::arrow::compute::cast;
-use datafusion::arrow::datatypes::{DataType, Float64Type, Int64Type, TimeUnit};
+use datafusion::arrow::datatypes::{DataType, Float64Type, TimeUnit};
 use parquet::arrow::ProjectionMask;
 use parquet::arrow::arrow_reader::{
     ParquetRecordBatchReader, ParquetRecordBatchReaderBuilder as Builder,
 };
 
-use super::mapping::{Columns, Layout, Source};
+use super::mapping::{Columns, Layout, QUANTITIES, Source};
 use crate::error::Error;
 
 /// Rows that are read at once.
@@ -47,30 +48,22 @@ impl Block {
 
     /// Finds the first value that is not finite: its row, and what it is.
     pub fn not_finite(&self) -> Option<(u64, String)> {
-        let mut first: Option<(usize, String)> = None;
-        let mut see = |place: usize, name: String, value: f64| {
-            if first.as_ref().is_none_or(|(other, _)| place < *other) {
-                first = Some((place, format!("{name} is {value}")));
-            }
-        };
-        if let Some(place) = self.time.iter().position(|x| !x.is_finite()) {
-            see(place, "the time".into(), self.time[place]);
+        let first = |column: &[f64]| column.iter().position(|x| !x.is_finite());
+        let mut found = Vec::new();
+        if let Some(place) = first(&self.time) {
+            found.push((place, format!("the time is {}", self.time[place])));
         }
-        for (quantity, name) in super::mapping::QUANTITIES.iter().enumerate() {
-            for (i, column) in self.quantities[quantity]
-                .chunks_exact(self.len().max(1))
-                .enumerate()
-            {
-                if let Some(place) = column.iter().position(|x| !x.is_finite()) {
-                    see(
-                        place,
-                        format!("the {name} of joint {}", i + 1),
-                        column[place],
-                    );
+        for (name, values) in QUANTITIES.iter().zip(&self.quantities) {
+            for (i, column) in values.chunks_exact(self.len().max(1)).enumerate() {
+                if let Some(place) = first(column) {
+                    let (joint, value) = (i + 1, column[place]);
+                    found.push((place, format!("the {name} of joint {joint} is {value}")));
                 }
             }
         }
-        first.map(|(place, what)| (self.rows[place], what))
+        // Of those in the same row the one that was found first.
+        let (place, what) = found.into_iter().min_by_key(|(place, _)| *place)?;
+        Some((self.rows[place], what))
     }
 }
 
@@ -127,49 +120,40 @@ impl<'a> Blocks<'a> {
         let mut valid = vec![true; batch.num_rows()];
         let time = seconds(&named(&self.columns.time)?, self.columns.time_factor)?;
         without_nulls(&time, 1, &mut valid);
-        let mut arrays: [Vec<ArrayRef>; 4] = Default::default();
-        for (source, arrays) in self.layout.sources.iter().zip(&mut arrays) {
+        // Of each joint an array, how many entries of it a row has, and which is the joint's.
+        let mut columns: [Vec<(ArrayRef, usize, usize)>; 4] = Default::default();
+        for (source, columns) in self.layout.sources.iter().zip(&mut columns) {
             match source {
                 None => {}
                 Some(Source::Columns(names)) => {
                     for name in names {
                         let array = cast(&named(name)?, &DataType::Float64)?;
                         without_nulls(&array, 1, &mut valid);
-                        arrays.push(array);
+                        columns.push((array, 1, 0));
                     }
                 }
                 Some(Source::List(name)) => {
+                    let n = self.columns.joints;
                     let array = named(name)?;
                     without_nulls(&array, 1, &mut valid);
                     let values = cast(array.as_fixed_size_list().values(), &DataType::Float64)?;
-                    without_nulls(&values, self.columns.joints, &mut valid);
-                    arrays.push(values);
+                    without_nulls(&values, n, &mut valid);
+                    columns.extend((0..n).map(|i| (values.clone(), n, i)));
                 }
             }
         }
         let places: Vec<usize> = (0..valid.len()).filter(|place| valid[*place]).collect();
+        let rows = places.iter().map(|place| self.row + 1 + *place as u64);
         let mut block = Block {
-            rows: places
-                .iter()
-                .map(|place| self.row + 1 + *place as u64)
-                .collect(),
+            rows: rows.collect(),
             time: picked(&time, &places, 1, 0, 1.0).collect(),
             ..Block::default()
         };
-        for (quantity, arrays) in arrays.iter().enumerate() {
+        for (quantity, columns) in columns.iter().enumerate() {
             let factors = &self.columns.factors[quantity];
-            let values = &mut block.quantities[quantity];
-            match &self.layout.sources[quantity] {
-                Some(Source::List(_)) => {
-                    for (i, factor) in factors.iter().enumerate() {
-                        values.extend(picked(&arrays[0], &places, factors.len(), i, *factor));
-                    }
-                }
-                _ => {
-                    for (array, factor) in arrays.iter().zip(factors) {
-                        values.extend(picked(array, &places, 1, 0, *factor));
-                    }
-                }
+            for ((array, width, i), factor) in columns.iter().zip(factors) {
+                let values = picked(array, &places, *width, *i, *factor);
+                block.quantities[quantity].extend(values);
             }
         }
         self.row += batch.num_rows() as u64;
@@ -206,15 +190,10 @@ pub(crate) fn seconds(array: &ArrayRef, factor: f64) -> Result<ArrayRef, Error> 
         DataType::Timestamp(unit, _) => (cast(array, &DataType::Int64)?, per(*unit)),
         _ => (array.clone(), factor),
     };
-    let array = match array.as_primitive_opt::<Int64Type>() {
-        Some(whole) => std::sync::Arc::new(whole.unary::<_, Float64Type>(|x| x as f64 * factor)),
-        None => {
-            let floats = cast(&array, &DataType::Float64)?;
-            let floats = floats.as_primitive::<Float64Type>();
-            std::sync::Arc::new(floats.unary::<_, Float64Type>(|x| x * factor))
-        }
-    };
-    Ok(array)
+    // Whole numbers are cast as `as` casts them: to the nearest.
+    let floats = cast(&array, &DataType::Float64)?;
+    let floats = floats.as_primitive::<Float64Type>();
+    Ok(Arc::new(floats.unary::<_, Float64Type>(|x| x * factor)))
 }
 
 /// Marks rows that have a null among `width` entries.

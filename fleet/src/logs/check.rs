@@ -66,8 +66,20 @@ pub struct Log {
     pub columns: Columns,
     /// Bytes of the largest row group: what a reader holds of it.
     pub group: u64,
-    /// Whether it has to be converted before a query can read it.
-    pub converts: bool,
+}
+
+impl Log {
+    /// Returns whether it has to be converted before a query can read it: recordings of ROS 2,
+    /// whose layout has nothing, logs without rates, and lists in other units.
+    pub fn converts(&self) -> bool {
+        let sources = self.layout.sources.iter().enumerate();
+        let mut needs = sources.map(|(quantity, source)| match source {
+            None => true,
+            Some(Source::List(_)) => !self.columns.is_plain(quantity),
+            Some(Source::Columns(_)) => false,
+        });
+        needs.any(|needs| needs)
+    }
 }
 
 /// Times of a log, which have to increase.
@@ -106,7 +118,6 @@ pub fn inspect(path: &Path, columns: &Columns, goes_on: &dyn Fn() -> bool) -> Re
             },
             columns: columns.clone(),
             group: 0,
-            converts: true,
         });
     }
     let whole = |why: Error| Bad::whole(path, why);
@@ -141,10 +152,6 @@ pub fn inspect(path: &Path, columns: &Columns, goes_on: &dyn Fn() -> bool) -> Re
             break;
         }
     }
-    let scaled = |(quantity, source): (usize, &Option<Source>)| {
-        matches!(source, Some(Source::List(_))) && !columns.is_plain(quantity)
-    };
-    let converts = layout.lacks_rates() || layout.sources.iter().enumerate().any(scaled);
     Ok(Log {
         name: path.to_owned(),
         path: path.to_owned(),
@@ -152,6 +159,5 @@ pub fn inspect(path: &Path, columns: &Columns, goes_on: &dyn Fn() -> bool) -> Re
         layout,
         columns: columns.clone(),
         group: group.unwrap_or(0),
-        converts,
     })
 }

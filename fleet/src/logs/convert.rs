@@ -3,8 +3,7 @@
 
 use std::path::Path;
 
-use super::block::open;
-use super::check::{Bad, Clock, Log};
+use super::check::{Bad, Clock, Log, inspect};
 use super::mapping::Columns;
 use super::rates::Rates;
 use super::states;
@@ -22,7 +21,7 @@ pub fn convert(log: &Log, to: &Path, goes_on: &dyn Fn() -> bool) -> Result<Log, 
     let n = columns.joints;
     let mut table = Table::create(to, &canonical_names(n), false).map_err(whole)?;
     let mut rates: Option<Rates> = None;
-    let (mut clock, mut rows) = (Clock::default(), 0);
+    let (mut clock, mut is_written) = (Clock::default(), false);
     for block in states(&log.path, columns).map_err(whole)? {
         let mut block = block.map_err(whole)?;
         for (row, time) in block.rows.iter().zip(&block.time) {
@@ -41,36 +40,23 @@ pub fn convert(log: &Log, to: &Path, goes_on: &dyn Fn() -> bool) -> Result<Log, 
             })?;
         }
         if !block.is_empty() {
-            let each = (0..4).flat_map(|of| (0..n).map(move |i| (of, i)));
-            let each = each.map(|(quantity, joint)| block.column(quantity, joint));
-            let all: Vec<&[f64]> = std::iter::once(&block.time[..]).chain(each).collect();
-            table.write("", &all).map_err(whole)?;
-            rows += block.len() as u64;
+            let all = block.quantities.iter().map(Vec::as_slice);
+            table.write("", &block.time, all).map_err(whole)?;
+            is_written = true;
         }
         if !goes_on() {
             break;
         }
     }
     table.close().map_err(whole)?;
-    if rows == 0 && goes_on() {
+    if !is_written && goes_on() {
         return Err(Bad::whole(
             name,
             "it is too short to differentiate its positions: log velocities and accelerations",
         ));
     }
-    let canonical = Columns::canonical(n);
-    let written = open(to).map_err(whole)?;
-    let groups = written.metadata().row_groups().iter();
-    let group = groups
-        .map(|group| group.compressed_size().max(0) as u64)
-        .max();
-    Ok(Log {
-        name: name.clone(),
-        path: to.to_owned(),
-        rows,
-        layout: canonical.layout(written.schema()).map_err(whole)?,
-        columns: canonical,
-        group: group.unwrap_or(0),
-        converts: false,
-    })
+    let written = inspect(to, &Columns::canonical(n), goes_on);
+    let mut written = written.map_err(|bad| Bad::whole(name, bad.reason))?;
+    written.name = name.clone();
+    Ok(written)
 }

@@ -120,13 +120,6 @@ pub struct Layout {
     pub sources: [Option<Source>; 4],
 }
 
-impl Layout {
-    /// Returns whether rates have to be differentiated.
-    pub fn lacks_rates(&self) -> bool {
-        self.sources[1].is_none() || self.sources[2].is_none()
-    }
-}
-
 impl Mapping {
     /// Resolves flags, file and defaults for a robot; flags go before the file.
     ///
@@ -157,14 +150,8 @@ impl Mapping {
         }
         let frequency = self.motion_frequency.or(file.motion_frequency);
         let names = self.joint_names.clone().or(file.joint_names);
-        let names = names.or_else(|| {
-            robot
-                .joints
-                .iter()
-                .map(|joint| joint.name.clone())
-                .collect()
-        });
-        let joint_names: Vec<String> = names.unwrap_or_default();
+        let joints = robot.joints.iter().map(|joint| joint.name.clone());
+        let joint_names: Vec<String> = names.or_else(|| joints.collect()).unwrap_or_default();
         if !joint_names.is_empty() {
             length("names of joints", joint_names.len(), n)?;
         }
@@ -229,14 +216,11 @@ impl Columns {
     fn names(&self, quantity: usize) -> Vec<String> {
         let pattern = &self.patterns[quantity];
         if pattern.contains("{}") {
-            let each = 1..=self.joints;
-            each.map(|i| pattern.replace("{}", &i.to_string()))
-                .collect()
+            let each = (1..=self.joints).map(|i| pattern.replace("{}", &i.to_string()));
+            each.collect()
         } else {
-            pattern
-                .split(',')
-                .map(|name| name.trim().to_owned())
-                .collect()
+            let each = pattern.split(',').map(|name| name.trim().to_owned());
+            each.collect()
         }
     }
 
@@ -304,12 +288,9 @@ impl Columns {
 }
 
 fn missing(name: &str, quantity: &str, schema: &Schema) -> Error {
-    let all: Vec<&str> = schema
-        .fields()
-        .iter()
-        .map(|field| field.name().as_str())
-        .collect();
-    let few = all.iter().take(12).copied().collect::<Vec<_>>().join(", ");
+    let fields = schema.fields().iter();
+    let all: Vec<&str> = fields.map(|field| field.name().as_str()).collect();
+    let few = all[..all.len().min(12)].join(", ");
     let more = if all.len() > 12 { ", …" } else { "" };
     Error::new(format!(
         "there is no column `{name}`; there are {few}{more}: say which it is by `--{quantity}`"

@@ -7,7 +7,7 @@ use std::path::Path;
 use ::mcap::io::MessageReader;
 
 use super::block::{Block, ROWS};
-use super::mapping::Columns;
+use super::mapping::{Columns, QUANTITIES};
 use crate::error::Error;
 
 const SCHEMAS: [&str; 2] = ["sensor_msgs/msg/JointState", "sensor_msgs/JointState"];
@@ -41,10 +41,8 @@ impl<'a> Messages<'a> {
         for message in self.messages.by_ref() {
             let message = message.map_err(Error::new)?;
             let channel = &message.channel;
-            let schema = channel
-                .schema
-                .as_ref()
-                .map_or("", |schema| schema.name.as_str());
+            let schema = channel.schema.as_ref();
+            let schema = schema.map_or("", |schema| schema.name.as_str());
             if !SCHEMAS.contains(&schema) {
                 if self.columns.topic.as_deref() == Some(&channel.topic) {
                     return Err(Error::new(format!(
@@ -103,18 +101,14 @@ impl<'a> Messages<'a> {
                     continue;
                 }
                 if values.len() != state.joints() || states.len() != n * (block.len() - 1) {
-                    let name = super::mapping::QUANTITIES[quantity];
+                    let name = QUANTITIES[quantity];
                     let (count, joints) = (values.len(), state.joints());
                     let why = format!("{count} values of {name} for {joints} joints");
                     return Err(place(Error::new(why)));
                 }
                 let factors = &self.columns.factors[quantity];
-                states.extend(
-                    order
-                        .iter()
-                        .zip(factors)
-                        .map(|(from, factor)| values[*from] * factor),
-                );
+                let own = order.iter().zip(factors);
+                states.extend(own.map(|(from, factor)| values[*from] * factor));
             }
         }
         let count = block.len();
@@ -199,14 +193,15 @@ impl JointState {
 fn decode(bytes: &[u8]) -> Result<JointState, Error> {
     let kind = bytes.get(1).copied();
     let body = bytes.get(4..).ok_or_else(short)?;
+    let is_little = match kind {
+        Some(0) => false,
+        Some(1) => true,
+        _ => return Err(Error::new("it is not plain CDR")),
+    };
     let mut reader = Cdr {
         body,
         place: 0,
-        is_little: match kind {
-            Some(0) => false,
-            Some(1) => true,
-            _ => return Err(Error::new("it is not plain CDR")),
-        },
+        is_little,
     };
     let seconds = reader.word()? as i32;
     let nanoseconds = reader.word()?;

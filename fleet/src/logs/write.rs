@@ -48,15 +48,10 @@ impl Table {
         file: bool,
         compression: Compression,
     ) -> Result<Table, Error> {
-        let mut fields = Vec::new();
-        if file {
-            fields.push(Field::new("file", DataType::Utf8, false));
-        }
-        fields.extend(
-            names
-                .iter()
-                .map(|name| Field::new(name, DataType::Float64, false)),
-        );
+        let first = file.then(|| Field::new("file", DataType::Utf8, false));
+        let numbers = names.iter();
+        let numbers = numbers.map(|name| Field::new(name, DataType::Float64, false));
+        let fields: Vec<Field> = first.into_iter().chain(numbers).collect();
         let schema = Arc::new(Schema::new(fields));
         // Numbers of a log do not repeat, names of files do.
         let properties = WriterProperties::builder()
@@ -74,19 +69,25 @@ impl Table {
         })
     }
 
-    /// Writes rows, given column by column.
+    /// Writes rows: their times, and quantities, each column by column.
     ///
     /// # Errors
     /// No room, or columns of other lengths.
-    pub fn write(&mut self, file: &str, columns: &[&[f64]]) -> Result<(), Error> {
-        let rows = columns.first().map_or(0, |column| column.len());
-        let mut arrays: Vec<ArrayRef> = Vec::with_capacity(columns.len() + 1);
+    pub fn write<'a>(
+        &mut self,
+        file: &str,
+        time: &'a [f64],
+        quantities: impl IntoIterator<Item = &'a [f64]>,
+    ) -> Result<(), Error> {
+        let rows = time.len();
+        let mut arrays: Vec<ArrayRef> = Vec::with_capacity(self.schema.fields().len());
         if self.has_file {
-            arrays.push(Arc::new(StringArray::from_iter_values(
-                std::iter::repeat_n(file, rows),
-            )));
+            let names = std::iter::repeat_n(file, rows);
+            arrays.push(Arc::new(StringArray::from_iter_values(names)));
         }
-        for column in columns {
+        let columns = quantities.into_iter();
+        let columns = columns.flat_map(|of| of.chunks_exact(rows.max(1)));
+        for column in std::iter::once(time).chain(columns) {
             arrays.push(Arc::new(Float64Array::from(column.to_vec())));
         }
         self.writer

@@ -3,11 +3,13 @@
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use dalembert_fleet::logs::Table;
 
-use crate::support::{Folder, Sample, fails, fleet, robot, robot_file, succeeds, text};
+use crate::support::{
+    Folder, Sample, fails, fleet, over, robot, robot_file, simulated, succeeds, text, wait_until,
+};
 
 fn log(folder: &Folder, name: &str, change: impl FnOnce(&mut Sample)) {
     let mut sample = Sample::new(robot("planar2r", false).as_ref(), 20_000, 20);
@@ -31,13 +33,13 @@ fn bad_files_are_named_and_skipped_only_if_asked() {
     fs::write(folder.file("text.parquet"), "time,q1\n").unwrap();
     let names = ["time", "q1", "q2"].map(str::to_owned);
     let mut table = Table::create(&folder.file("schema.parquet"), &names, false).unwrap();
-    table.write("", &[&[0.0], &[0.0], &[0.0]]).unwrap();
+    table.write("", &[0.0], [&[0.0, 0.0][..]]).unwrap();
     table.close().unwrap();
     let table = Table::create(&folder.file("empty.parquet"), &names, false).unwrap();
     table.close().unwrap();
     let (all, arm) = (folder.file("*.parquet"), robot_file("planar2r"));
     let out = folder.file("out.parquet");
-    let base = ["residual", text(&all), "--robot", text(&arm)];
+    let base = over("residual", &all, &arm, &[]);
     let said = fails(&[&base[..], &["-o", text(&out)]].concat());
     for part in [
         "back.parquet: row 12345: time goes back from 12.343 s to 1 s",
@@ -59,7 +61,7 @@ fn bad_files_are_named_and_skipped_only_if_asked() {
     });
     let one = folder.file("number.parquet");
     for command in ["residual", "identify"] {
-        let said = fails(&[command, text(&one), "--robot", text(&arm)]);
+        let said = fails(&over(command, &one, &arm, &[]));
         let wanted = "number.parquet: row 15555: the velocity of joint 2 is NaN";
         assert!(said.contains(wanted), "{said}");
     }
@@ -67,12 +69,7 @@ fn bad_files_are_named_and_skipped_only_if_asked() {
     assert!(skipped.status.success());
     let said = String::from_utf8_lossy(&skipped.stderr).into_owned();
     assert_eq!(said.matches("left out: ").count(), 8, "{said}");
-    let good = succeeds(&[
-        "residual",
-        text(&folder.file("good.parquet")),
-        "--robot",
-        text(&arm),
-    ]);
+    let good = succeeds(&over("residual", &folder.file("good.parquet"), &arm, &[]));
     assert_eq!(String::from_utf8(skipped.stdout).unwrap(), good);
 }
 
@@ -86,12 +83,7 @@ fn damaged_pages_are_named() {
     let middle = bytes.len() / 2;
     bytes[middle..middle + 40_000].fill(0xff);
     fs::write(&path, bytes).unwrap();
-    let said = fails(&[
-        "residual",
-        text(&path),
-        "--robot",
-        text(&robot_file("planar2r")),
-    ]);
+    let said = fails(&over("residual", &path, &robot_file("planar2r"), &[]));
     assert!(said.contains("log.parquet: "), "{said}");
 }
 
@@ -100,7 +92,7 @@ fn flags_that_cannot_be_are_refused() {
     let folder = Folder::new();
     log(&folder, "log.parquet", |_| {});
     let (path, arm) = (folder.file("log.parquet"), robot_file("planar2r"));
-    let base = ["residual", text(&path), "--robot", text(&arm)];
+    let base = over("residual", &path, &arm, &[]);
     let nowhere = folder.file("nowhere/out.parquet");
     for (more, part) in [
         (&["-o", text(&nowhere)][..], "there is no such folder"),
@@ -117,7 +109,7 @@ fn flags_that_cannot_be_are_refused() {
         assert!(said.contains(part), "{more:?}: {said}");
     }
     let none = folder.file("*.csv");
-    let said = fails(&["residual", text(&none), "--robot", text(&arm)]);
+    let said = fails(&over("residual", &none, &arm, &[]));
     assert!(said.contains("no file is called"), "{said}");
     let said = fails(&["residual", text(&path), "--robot", "nobody.toml"]);
     assert!(said.contains("nobody.toml"), "{said}");
@@ -129,34 +121,17 @@ fn flags_that_cannot_be_are_refused() {
 fn what_is_ended_leaves_nothing() {
     let folder = Folder::new();
     let (arm, logs) = (robot_file("planar2r"), folder.file("logs"));
-    let minutes = ["--files", "1", "--exact", "--seconds", "40000"];
     let simulate = ["simulate", "--robot", text(&arm), "-o", text(&logs)];
+    let minutes = ["--files", "1", "--exact", "--seconds", "40000"];
     ended(&[&simulate[..], &minutes].concat(), &folder.0);
     assert!(folder.names().is_empty(), "{:?}", folder.names());
 
-    let many = [
-        "--files",
-        "1",
-        "--exact",
-        "--seconds",
-        "2000",
-        "--encoders-only",
-    ];
-    succeeds(&[&simulate[..], &many].concat());
+    simulated(&folder, "--files 1 --exact --seconds 2000 --encoders-only");
     let (all, out) = (folder.file("logs/*.parquet"), folder.file("out.parquet"));
     let work = folder.file("work");
     fs::create_dir(&work).unwrap();
-    let arguments = [
-        "residual",
-        text(&all),
-        "--robot",
-        text(&arm),
-        "-o",
-        text(&out),
-        "--work",
-        text(&work),
-    ];
-    ended(&arguments, &work);
+    let more = ["-o", text(&out), "--work", text(&work)];
+    ended(&over("residual", &all, &arm, &more), &work);
     assert_eq!(folder.names(), ["logs", "work"]);
     assert_eq!(fs::read_dir(&work).unwrap().count(), 0);
 }
@@ -170,15 +145,10 @@ fn ended(arguments: &[&str], folder: &Path) {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    let start = Instant::now();
-    while fs::read_dir(folder).unwrap().count() == 0 {
-        assert!(
-            start.elapsed() < Duration::from_secs(300),
-            "nothing was begun"
-        );
+    wait_until("something is begun", || {
         assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
-        std::thread::sleep(Duration::from_millis(20));
-    }
+        fs::read_dir(folder).unwrap().count() > 0
+    });
     std::thread::sleep(Duration::from_millis(200));
     let sent = Command::new("kill")
         .args(["-INT", &child.id().to_string()])

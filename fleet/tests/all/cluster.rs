@@ -8,14 +8,15 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU16, Ordering};
 use std::time::{Duration, Instant};
 
-use dalembert_fit::{Accumulator, Prior, fit};
 use dalembert_fleet::engine::{Engine, Limits};
 use dalembert_fleet::job::RobotArgs;
 use dalembert_fleet::logs::{Columns, Log, inspect};
 use dalembert_fleet::progress::Going;
 use dalembert_fleet::{Dynamics, Residuals};
 
-use crate::support::{Folder, Sample, fails, fleet, robot, robot_file, succeeds, text};
+use crate::support::{
+    Folder, Sample, fails, fitted, fleet, over, robot, robot_file, succeeds, text, wait_until,
+};
 
 /// A process that is killed at the end.
 struct Process(Child);
@@ -58,14 +59,8 @@ fn ports() -> u16 {
 }
 
 fn wait_for(port: u16) {
-    let start = Instant::now();
-    while TcpStream::connect(("127.0.0.1", port)).is_err() {
-        assert!(
-            start.elapsed() < Duration::from_secs(120),
-            "port {port} is not served"
-        );
-        std::thread::sleep(Duration::from_millis(100));
-    }
+    let is_served = || TcpStream::connect(("127.0.0.1", port)).is_ok();
+    wait_until(&format!("port {port} is served"), is_served);
 }
 
 /// A scheduler and two executors, with the folders of what they pass on.
@@ -123,18 +118,12 @@ fn files(folder: &Path) -> usize {
 
 /// Waits until an executor has passed something on that it had not before.
 fn has_worked(work: &Path, before: usize, client: &mut Child) {
-    let start = Instant::now();
-    while files(work) <= before {
-        assert!(
-            start.elapsed() < Duration::from_secs(120),
-            "it gets no work"
-        );
-        assert!(
-            client.try_wait().unwrap().is_none(),
-            "all was done without it"
-        );
-        std::thread::sleep(Duration::from_millis(5));
-    }
+    wait_until("it gets work", || {
+        let has_ended = client.try_wait().unwrap().is_some();
+        let has_worked = files(work) > before;
+        assert!(has_worked || !has_ended, "all was done without it");
+        has_worked
+    });
 }
 
 /// Writes some logs in a folder, of so many states each.
@@ -173,17 +162,12 @@ fn a_cluster_returns_what_one_process_returns() {
     let (_end, going) = Going::new();
     let [here, there] = runtime.block_on(async {
         let here = Engine::embedded(&name, &own, limits).unwrap();
-        let there = Engine::cluster(&cluster.address, &name, &own, limits)
-            .await
-            .unwrap();
+        let there = Engine::cluster(&cluster.address, &name, &own, limits).await;
         let mut found = Vec::new();
-        for engine in [here, there] {
-            let residuals = engine
-                .over("_residuals", &logs, &going, |_| ())
-                .await
-                .unwrap();
-            let fits = engine.over("_fit", &logs, &going, |_| ()).await.unwrap();
-            found.push((residuals, fits));
+        for engine in [here, there.unwrap()] {
+            let residuals = engine.over("_residuals", &logs, &going, |_| ()).await;
+            let fits = engine.over("_fit", &logs, &going, |_| ()).await;
+            found.push((residuals.unwrap(), fits.unwrap()));
         }
         <[_; 2]>::try_from(found).unwrap()
     });
@@ -193,64 +177,39 @@ fn a_cluster_returns_what_one_process_returns() {
         let [here, there] = [here, there].map(|bytes| read(bytes).unwrap());
         assert_eq!(here.states(), 40_000);
         for i in 0..2 {
-            assert!(
-                near(there.rms(i), here.rms(i)),
-                "{} {}",
-                there.rms(i),
-                here.rms(i)
-            );
+            let (here_rms, there_rms) = (here.rms(i), there.rms(i));
+            assert!(near(there_rms, here_rms), "{there_rms} {here_rms}");
             assert_eq!(there.quantile(i, 0.99), here.quantile(i, 0.99));
-            assert_eq!(there.joints()[i].worst(), here.joints()[i].worst());
-            assert_eq!(there.joints()[i].time(), here.joints()[i].time());
+            assert_eq!(there.joints()[i].worst, here.joints()[i].worst);
+            assert_eq!(there.joints()[i].time, here.joints()[i].time);
         }
     }
     let model = loaded.model().unwrap();
     for (here, there) in here.1.iter().zip(&there.1) {
-        let parameters = |bytes: &Result<Vec<u8>, _>| {
-            let kept = Accumulator::from_bytes(model, bytes.as_ref().unwrap()).unwrap();
-            fit(model, &kept, &Prior::None).unwrap().parameters
-        };
+        let parameters =
+            |bytes: &Result<Vec<u8>, _>| fitted(model, bytes.as_ref().unwrap()).parameters;
         let [here, there] = [here, there].map(parameters);
-        let apart = here
-            .iter()
-            .zip(&there)
-            .map(|(x, y)| (x - y).powi(2))
-            .sum::<f64>()
-            .sqrt();
+        let parts = here.iter().zip(&there);
+        let apart = parts.map(|(x, y)| (x - y).powi(2)).sum::<f64>().sqrt();
         let size = here.iter().map(|x| x * x).sum::<f64>().sqrt();
         assert!(apart <= 1e-12 * size, "{apart} of {size}");
     }
     for command in ["residual", "identify"] {
-        let base = [command, text(&all), "--robot", text(&arm)];
+        let base = over(command, &all, &arm, &[]);
         let here = succeeds(&base);
         let there = succeeds(&[&base[..], &["--scheduler", &cluster.address]].concat());
         assert_eq!(here, there);
     }
     let out = folder.file("out.parquet");
-    let local = fleet(&[
-        "residual",
-        text(&all),
-        "--robot",
-        text(&arm),
-        "--scheduler",
-        &cluster.address,
-        "-o",
-        text(&out),
-    ]);
+    let more = ["--scheduler", cluster.address.as_str(), "-o", text(&out)];
+    let local = fleet(&over("residual", &all, &arm, &more));
     assert!(String::from_utf8_lossy(&local.stderr).contains("computed by this machine"));
     assert!(out.exists());
     // Another robot has other functions: there is an error, and no table of this one.
     let other = robot_file("planar3r");
     let three = folder.file("three.parquet");
     Sample::new(robot("planar3r", false).as_ref(), 100, 1).write(&three);
-    let said = fails(&[
-        "residual",
-        text(&three),
-        "--robot",
-        text(&other),
-        "--scheduler",
-        &cluster.address,
-    ]);
+    let said = fails(&over("residual", &three, &other, &more[..2]));
     assert!(said.contains("planar3r_"), "{said}");
 }
 
@@ -262,7 +221,7 @@ fn executors_that_are_killed_change_no_table() {
     logs(&folder, 24, 40_000);
     let mut cluster = Cluster::start(&folder);
     let (all, arm) = (folder.file("*.parquet"), robot_file("planar2r"));
-    let base = ["identify", text(&all), "--robot", text(&arm)];
+    let base = over("identify", &all, &arm, &[]);
     let here = succeeds(&base);
     let there = [&base[..], &["--scheduler", &cluster.address]].concat();
     let run = || {
@@ -290,21 +249,11 @@ fn executors_that_are_killed_change_no_table() {
     let killed = Instant::now();
     let output = client.wait_with_output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(
-        !output.status.success() && output.stdout.is_empty(),
-        "{said}"
-    );
-    assert!(
-        said.contains("error: ") && !said.contains("panicked"),
-        "{said}"
-    );
-    println!(
-        "{:.1} s after the last executor: {said}",
-        killed.elapsed().as_secs_f64()
-    );
-    assert!(
-        killed.elapsed() < Duration::from_secs(30),
-        "{:?}",
-        killed.elapsed()
-    );
+    assert!(!output.status.success(), "{said}");
+    assert!(output.stdout.is_empty(), "{said}");
+    assert!(said.contains("error: "), "{said}");
+    assert!(!said.contains("panicked"), "{said}");
+    let after = killed.elapsed();
+    println!("{after:.1?} after the last executor: {said}");
+    assert!(after < Duration::from_secs(30), "{after:?}");
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use dalembert_fit::{Accumulator, Model, Prior, fit};
+use dalembert_fit::Model;
 use dalembert_fleet::logs::{Blocks, Mapping};
 use dalembert_fleet::{Dynamics, Residuals, register};
 use dalembert_model::number::parse::parse_decimal;
@@ -11,46 +11,25 @@ use datafusion::arrow::compute::concat_batches;
 use datafusion::arrow::datatypes::Float64Type;
 use datafusion::prelude::{ParquetReadOptions, SessionContext};
 
-use crate::support::{Folder, Sample, fails, robot, robot_file, rows, simulated, succeeds, text};
+use crate::support::{
+    Folder, Sample, fails, fitted, over, robot, robot_file, rows, simulated, succeeds, text,
+};
 
 /// What README and issue promise: logs of an arm that is not its file's; its residuals; its
 /// parameters; and residuals of logs that the fit has not seen, with the new file.
 #[test]
 fn identification_closes_the_loop() {
     let folder = Folder::new();
-    simulated(
-        &folder,
-        &[
-            "--files",
-            "3",
-            "--seconds",
-            "12",
-            "--rate",
-            "500",
-            "--vary",
-            "0.2",
-        ],
-    );
+    simulated(&folder, "--files 3 --seconds 12 --rate 500 --vary 0.2");
     let (old, new) = (robot_file("planar2r"), folder.file("new.toml"));
-    let (seen, unseen) = (
-        folder.file("logs/log000[01].parquet"),
-        folder.file("logs/log0002.parquet"),
-    );
-    let said = succeeds(&[
-        "identify",
-        text(&seen),
-        "--robot",
-        text(&old),
-        "-o",
-        text(&new),
-    ]);
+    let seen = folder.file("logs/log000[01].parquet");
+    let unseen = folder.file("logs/log0002.parquet");
+    let said = succeeds(&over("identify", &seen, &old, &["-o", text(&new)]));
     assert!(said.contains("std. error") && said.contains("with parameters from the others"));
     let rms = |robot: &std::path::Path| -> Vec<f64> {
-        let table = succeeds(&["residual", text(&unseen), "--robot", text(robot)]);
-        rows(&table, "log0002.parquet")
-            .iter()
-            .map(|row| row[1])
-            .collect()
+        let table = succeeds(&over("residual", &unseen, robot, &[]));
+        let rows = rows(&table, "log0002.parquet");
+        rows.iter().map(|row| row[1]).collect()
     };
     let (before, after) = (rms(&old), rms(&new));
     println!("{before:?} -> {after:?}");
@@ -64,10 +43,7 @@ fn identification_closes_the_loop() {
         assert!(*after < 1.05 * own, "{after} {own}");
     }
     let generated = dalembert_jit::Arm::load(&new, &Default::default());
-    assert!(
-        generated.is_ok(),
-        "the generator does not read the new file"
-    );
+    assert!(generated.is_ok(), "the new file is not read");
 }
 
 /// The table is that of the states themselves, in one file and in all.
@@ -82,18 +58,8 @@ fn tables_and_rows_are_those_of_the_states() {
     });
     let (pattern, arm) = (folder.file("*.parquet"), robot_file("planar2r"));
     let (out, svg) = (folder.file("out.parquet"), folder.file("out.svg"));
-    let table = succeeds(&[
-        "residual",
-        text(&pattern),
-        "--robot",
-        text(&arm),
-        "-o",
-        text(&out),
-        "--svg",
-        text(&svg),
-        "--worst",
-        "1",
-    ]);
+    let more = ["-o", text(&out), "--svg", text(&svg), "--worst", "1"];
+    let table = succeeds(&over("residual", &pattern, &arm, &more));
     for (sample, name) in samples.iter().zip(["a.parquet", "b.parquet"]) {
         let found = rows(&table, name);
         for (i, row) in found.iter().enumerate() {
@@ -109,11 +75,8 @@ fn tables_and_rows_are_those_of_the_states() {
     }
     assert!(table.contains("40000 states in 2 files"), "{table}");
     let drawn = std::fs::read_to_string(&svg).unwrap();
-    assert_eq!(
-        drawn.matches("<polygon").count(),
-        2,
-        "one file of two joints"
-    );
+    // One file of two joints.
+    assert_eq!(drawn.matches("<polygon").count(), 2);
     // Rows are in order, with all that they are of.
     let names = ["q", "qd", "qdd", "residual"].map(|name| format!("{name}{{}}"));
     let mapping = Mapping {
@@ -128,11 +91,8 @@ fn tables_and_rows_are_those_of_the_states() {
     for block in Blocks::open(&out, &columns).unwrap() {
         let block = block.unwrap();
         for residual in block.column(3, 1) {
-            assert_eq!(
-                *residual,
-                wanted[place / 20_000][place % 20_000],
-                "row {place}"
-            );
+            let wanted = wanted[place / 20_000][place % 20_000];
+            assert_eq!(*residual, wanted, "row {place}");
             place += 1;
         }
     }
@@ -147,10 +107,7 @@ fn tables_and_rows_are_those_of_the_states() {
 #[test]
 fn collisions_are_found_and_nothing_else() {
     let folder = Folder::new();
-    let said = simulated(
-        &folder,
-        &["--files", "2", "--seconds", "30", "--collisions", "2"],
-    );
+    let said = simulated(&folder, "--files 2 --seconds 30 --collisions 2");
     let happened: Vec<(String, f64, usize)> = said
         .lines()
         .filter_map(|line| {
@@ -162,14 +119,8 @@ fn collisions_are_found_and_nothing_else() {
         .collect();
     assert_eq!(happened.len(), 4, "{said}");
     let (logs, arm) = (folder.file("logs/*.parquet"), robot_file("planar2r"));
-    let table = succeeds(&[
-        "residual",
-        text(&logs),
-        "--robot",
-        text(&arm),
-        "--watch-for",
-        "collision",
-    ]);
+    let more = ["--watch-for", "collision"];
+    let table = succeeds(&over("residual", &logs, &arm, &more));
     let (_, listed) = table.split_once("contact in").expect("contacts");
     let found: Vec<Vec<&str>> = listed
         .lines()
@@ -191,8 +142,7 @@ fn collisions_are_found_and_nothing_else() {
 #[test]
 fn a_payload_is_found() {
     let folder = Folder::new();
-    let more = ["--files", "1", "--seconds", "20", "--payload", "0.5"];
-    simulated(&folder, &more);
+    simulated(&folder, "--files 1 --seconds 20 --payload 0.5");
     let robot = robot("planar2r", true);
     let model = robot.model().unwrap();
     let mut loaded = robot.robot().clone();
@@ -222,8 +172,7 @@ fn a_payload_is_found() {
     let fits = found.column(1).as_binary::<i32>();
     for half in 0..2 {
         assert!(rms[2 + half] > 10.0 * rms[half], "{rms:?}");
-        let kept = Accumulator::from_bytes(model, fits.value(half)).unwrap();
-        let found = fit(model, &kept, &Prior::None).unwrap();
+        let found = fitted(model, fits.value(half));
         let away = |right: &[f64]| -> f64 {
             let parts = found.parameters.iter().zip(right);
             let parts = parts.zip(&found.standard_errors);
@@ -239,18 +188,17 @@ fn a_payload_is_found() {
 /// The same seed, the same bytes.
 #[test]
 fn simulated_logs_are_the_same_every_time() {
-    for more in [&["--exact", "--zstd"][..], &[][..]] {
+    for more in ["--exact --zstd", ""] {
         let bytes = [1, 2].map(|_| {
             let folder = Folder::new();
-            let mut arguments = vec!["--files", "1", "--seconds", "2", "--collisions", "1"];
-            arguments.extend(more);
-            simulated(&folder, &arguments);
+            let flags = format!("--files 1 --seconds 2 --collisions 1 {more}");
+            simulated(&folder, &flags);
             std::fs::read(folder.file("logs/log0000.parquet")).unwrap()
         });
         assert_eq!(bytes[0], bytes[1]);
     }
     let folder = Folder::new();
-    simulated(&folder, &["--files", "1", "--seconds", "1"]);
+    simulated(&folder, "--files 1 --seconds 1");
     let (arm, logs) = (robot_file("planar2r"), folder.file("logs"));
     let why = fails(&["simulate", "--robot", text(&arm), "-o", text(&logs)]);
     assert!(why.contains("something in it already"), "{why}");

@@ -10,7 +10,9 @@ use datafusion::arrow::array::{
 use datafusion::arrow::datatypes::{DataType, Field};
 use parquet::arrow::ArrowWriter;
 
-use crate::support::{Folder, Sample, fails, robot, robot_file, rows, simulated, succeeds, text};
+use crate::support::{
+    Folder, Sample, fails, over, robot, robot_file, rows, simulated, succeeds, text,
+};
 
 /// Logs in degrees, of other names, as lists, with currents, in milliseconds.
 #[test]
@@ -26,25 +28,19 @@ fn columns_and_units_are_the_logs() {
     let path = folder.file("other.parquet");
     let mut table = Table::create(&path, &names, false).unwrap();
     let stamps: Vec<f64> = sample.time.iter().map(|time| 1e3 * time).collect();
-    let mut columns = vec![stamps];
+    let mut columns: Vec<Vec<f64>> = Vec::new();
     for quantity in 0..4 {
         for (i, constant) in [0.5, -2.0].iter().enumerate() {
-            let factor = if quantity == 3 {
-                1.0 / constant
-            } else {
-                degrees
+            let factor = match quantity {
+                3 => 1.0 / constant,
+                _ => degrees,
             };
-            columns.push(
-                sample
-                    .column(quantity, i)
-                    .iter()
-                    .map(|x| x * factor)
-                    .collect(),
-            );
+            let values = sample.column(quantity, i).iter();
+            columns.push(values.map(|x| x * factor).collect());
         }
     }
-    let slices: Vec<&[f64]> = columns.iter().map(|column| &column[..]).collect();
-    table.write("", &slices).unwrap();
+    let all = columns.iter().map(Vec::as_slice);
+    table.write("", &stamps, all).unwrap();
     table.close().unwrap();
     let mapping = folder.file("mapping.toml");
     let flags = "time = 'stamp'\ntime-unit = 'ms'\nposition = 'pa, pb'\nvelocity = 'va,vb'\n\
@@ -52,34 +48,14 @@ fn columns_and_units_are_the_logs() {
                  torque-constants = [0.5, -2.0]\n";
     std::fs::write(&mapping, flags).unwrap();
     let arm = robot_file("planar2r");
-    let plain = succeeds(&[
-        "residual",
-        text(&folder.file("plain.parquet")),
-        "--robot",
-        text(&arm),
-    ]);
-    let other = succeeds(&[
-        "residual",
-        text(&path),
-        "--robot",
-        text(&arm),
-        "--mapping",
-        text(&mapping),
-        "--units",
-        "deg",
-    ]);
+    let plain = succeeds(&over("residual", &folder.file("plain.parquet"), &arm, &[]));
+    let more = ["--mapping", text(&mapping), "--units", "deg"];
+    let other = succeeds(&over("residual", &path, &arm, &more));
     assert_eq!(rows(&plain, "plain.parquet"), rows(&other, "other.parquet"));
     std::fs::write(&mapping, "positon = 'q{}'\n").unwrap();
-    let why = fails(&[
-        "residual",
-        text(&path),
-        "--robot",
-        text(&arm),
-        "--mapping",
-        text(&mapping),
-    ]);
+    let why = fails(&over("residual", &path, &arm, &more));
     assert!(why.contains("positon") && why.contains("position"), "{why}");
-    let why = fails(&["residual", text(&path), "--robot", text(&arm)]);
+    let why = fails(&over("residual", &path, &arm, &[]));
     assert!(
         why.contains("no column `time`") && why.contains("stamp, pa"),
         "{why}"
@@ -90,8 +66,7 @@ fn columns_and_units_are_the_logs() {
 #[test]
 fn lists_of_floats_in_degrees_are_read() {
     let folder = Folder::new();
-    let more = ["--files", "1", "--seconds", "20", "--noise", "0.02"];
-    simulated(&folder, &more);
+    simulated(&folder, "--files 1 --seconds 20 --noise 0.02");
     let log = folder.file("logs/log0000.parquet");
     let robot = robot("planar2r", false);
     let (mut time, mut state, mut current) = (Vec::new(), Vec::new(), Vec::new());
@@ -123,8 +98,8 @@ fn lists_of_floats_in_degrees_are_read() {
     writer.close().unwrap();
 
     let arm = robot_file("planar2r");
-    let plain = succeeds(&["residual", text(&log), "--robot", text(&arm)]);
-    let base = ["residual", text(&path), "--robot", text(&arm)];
+    let plain = succeeds(&over("residual", &log, &arm, &[]));
+    let base = over("residual", &path, &arm, &[]);
     let named = [
         &base[..],
         &["--time", "timestamp", "--position", "observation.state"],
@@ -142,11 +117,7 @@ fn lists_of_floats_in_degrees_are_read() {
         assert!((listed[1] / plain[1] - 1.0).abs() < 0.05, "{listed:?}");
     }
     let three = robot_file("planar3r");
-    let wide = [
-        &["residual", text(&path), "--robot", text(&three)],
-        &named[4..],
-    ]
-    .concat();
+    let wide = over("residual", &path, &three, &named[4..]);
     let why = fails(&[&wide[..], &["1,1,1"]].concat());
     assert!(
         why.contains("a list of 2 Float32: one of 3 numbers"),
@@ -157,25 +128,16 @@ fn lists_of_floats_in_degrees_are_read() {
 /// Encoders alone: rates are differentiated, and residuals stay near the torques' noise.
 #[test]
 fn rates_that_are_missing_are_differentiated() {
-    let [with, without] = [&[][..], &["--encoders-only"][..]].map(|more| {
+    let [with, without] = ["", "--encoders-only"].map(|more| {
         let folder = Folder::new();
-        let mut arguments = vec!["--files", "1", "--seconds", "20", "--noise", "0.02"];
-        arguments.extend(more);
-        simulated(&folder, &arguments);
+        let flags = format!("--files 1 --seconds 20 --noise 0.02 {more}");
+        simulated(&folder, &flags);
         let logs = folder.file("logs/*.parquet");
         let arm = robot_file("planar2r");
         let work = folder.file("");
         // The motion has 0.6 Hz: a filter for 5 Hz lets more of the encoder's steps through.
-        let table = succeeds(&[
-            "residual",
-            text(&logs),
-            "--robot",
-            text(&arm),
-            "--work",
-            text(&work),
-            "--motion-frequency",
-            "2",
-        ]);
+        let more = ["--work", text(&work), "--motion-frequency", "2"];
+        let table = succeeds(&over("residual", &logs, &arm, &more));
         assert_eq!(folder.names(), ["logs"], "what was converted is gone");
         rows(&table, "log0000.parquet")
     });

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use dalembert_fit::{Accumulator, Model, Prior, fit};
+use dalembert_fit::{Accumulator, Model, fit};
 use dalembert_fleet::{Dynamics, Error, Generated, Residuals, States, register};
 use dalembert_generated::planar2r;
 use datafusion::arrow::array::{
@@ -14,7 +14,7 @@ use datafusion::arrow::datatypes::{DataType, Field, Float64Type};
 use datafusion::datasource::MemTable;
 use datafusion::prelude::{SessionConfig, SessionContext};
 
-use crate::support::{Sample, robot};
+use crate::support::{Sample, fitted, robot};
 
 const NAMES: [&str; 4] = ["q", "qd", "qdd", "tau"];
 
@@ -94,12 +94,13 @@ fn query(context: &SessionContext, sql: &str) -> Result<RecordBatch, String> {
 }
 
 fn floats(list: &dyn Array) -> Vec<f64> {
-    let lists = list.as_fixed_size_list();
-    lists
-        .values()
-        .as_primitive::<Float64Type>()
-        .values()
-        .to_vec()
+    let values = list.as_fixed_size_list().values();
+    values.as_primitive::<Float64Type>().values().to_vec()
+}
+
+/// Returns the first row of a column of bytes.
+fn bytes(column: &dyn Array) -> &[u8] {
+    column.as_binary::<i32>().value(0)
 }
 
 const COLUMNS: &str = "q1, q2, qd1, qd2, qdd1, qdd2";
@@ -147,11 +148,8 @@ fn nulls_propagate_in_functions_and_are_skipped_by_aggregates() {
     assert_eq!(found.column(0).null_count(), 300);
     assert!(found.column(0).is_null(299) && found.column(0).is_valid(300));
     let rms = |arguments: &str, from: &str| {
-        let found = query(
-            &context,
-            &format!("SELECT arm_rms({arguments}) FROM {from}"),
-        )
-        .unwrap();
+        let sql = format!("SELECT arm_rms({arguments}) FROM {from}");
+        let found = query(&context, &sql).unwrap();
         (found.column(0).is_null(0), floats(found.column(0)))
     };
     let skipped = rms(&format!("q, qd1, {some}, qdd, tau"), "logs");
@@ -266,10 +264,9 @@ fn aggregates_do_not_depend_on_partitions() {
                    arm_fit(q, qd, qdd, tau) FROM logs";
         let found = query(&context, sql).unwrap();
         let rms = floats(found.column(0));
-        let all = Residuals::from_bytes(found.column(1).as_binary::<i32>().value(0)).unwrap();
+        let all = Residuals::from_bytes(bytes(found.column(1))).unwrap();
         let model = robot.model().unwrap();
-        let kept = Accumulator::from_bytes(model, found.column(2).as_binary::<i32>().value(0));
-        let parameters = fit(model, &kept.unwrap(), &Prior::None).unwrap().parameters;
+        let parameters = fitted(model, bytes(found.column(2))).parameters;
         for (i, rms) in rms.iter().enumerate() {
             let own = sample.residuals(robot.as_ref(), i);
             let wanted = (own.iter().map(|r| r * r).sum::<f64>() / 5000.0).sqrt();
@@ -277,16 +274,13 @@ fn aggregates_do_not_depend_on_partitions() {
             assert!((all.rms(i) - wanted).abs() < 1e-12 * wanted);
             let mut sizes: Vec<f64> = own.iter().map(|r| r.abs()).collect();
             let worst = sizes.iter().copied().fold(0.0, f64::max);
-            assert_eq!(all.joints()[i].worst(), worst);
+            assert_eq!(all.joints()[i].worst, worst);
             let place = sizes.iter().position(|size| *size == worst).unwrap();
-            assert_eq!(all.joints()[i].time(), sample.time[place]);
+            assert_eq!(all.joints()[i].time, sample.time[place]);
             sizes.sort_by(f64::total_cmp);
             let quantile = all.quantile(i, 0.99);
-            assert!(
-                (quantile / sizes[4949] - 1.0).abs() < 8e-3,
-                "{quantile} {}",
-                sizes[4949]
-            );
+            let off = quantile / sizes[4949] - 1.0;
+            assert!(off.abs() < 8e-3, "{quantile} {}", sizes[4949]);
         }
         let Some((_, one, others)) = &first else {
             first = Some((rms, all, parameters));
@@ -310,24 +304,19 @@ fn fits_by_machine_code_are_those_of_the_library() {
         let context = context(&robot, table(&sample, n, 250, 2), 2);
         let found = query(&context, "SELECT arm_fit(q, qd, qdd, tau) FROM logs").unwrap();
         let model = robot.model().unwrap();
-        let bytes = found.column(0).as_binary::<i32>().value(0).to_vec();
-        let kept = Accumulator::from_bytes(model, &bytes).unwrap();
+        let kept = fitted(model, bytes(found.column(0)));
         let mut own = Accumulator::new(model);
         for s in 0..sample.count {
-            let at = |quantity| {
-                (0..n)
-                    .map(|i| sample.column(quantity, i)[s])
-                    .collect::<Vec<_>>()
+            let at = |quantity| -> Vec<f64> {
+                let each = (0..n).map(|i| sample.column(quantity, i)[s]);
+                each.collect()
             };
             own.add(model, [&at(0), &at(1), &at(2)], &at(3)).unwrap();
         }
-        assert_eq!(kept.states(), 600);
-        let [kept, own] = [kept, own].map(|data| fit(model, &data, &Prior::None).unwrap());
-        let parts = kept
-            .parameters
-            .iter()
-            .zip(&own.parameters)
-            .zip(&own.standard_errors);
+        assert_eq!(kept.states, 600);
+        let own = fit(model, &own).unwrap();
+        let parts = kept.parameters.iter().zip(&own.parameters);
+        let parts = parts.zip(&own.standard_errors);
         for (k, ((x, y), error)) in parts.enumerate() {
             assert!(
                 (x - y).abs() <= 1e-8 * error,
@@ -351,14 +340,8 @@ fn generated_functions_are_registered() {
         let context = context(robot, table(&sample, 2, 256, 2), 2);
         let sql = "SELECT arm_residual(q, qd, qdd, tau), 1 FROM logs ORDER BY time";
         let own = floats(query(&context, sql).unwrap().column(0));
-        let fitted = query(&context, "SELECT arm_fit(q, qd, qdd, tau) FROM logs").unwrap();
-        let kept = Accumulator::from_bytes(&model, fitted.column(0).as_binary::<i32>().value(0));
-        (
-            own,
-            fit(&model, &kept.unwrap(), &Prior::None)
-                .unwrap()
-                .parameters,
-        )
+        let found = query(&context, "SELECT arm_fit(q, qd, qdd, tau) FROM logs").unwrap();
+        (own, fitted(&model, bytes(found.column(0))).parameters)
     });
     for (x, y) in values[0].0.iter().zip(&values[1].0) {
         assert!((x - y).abs() < 1e-12, "{x} {y}");
@@ -367,8 +350,7 @@ fn generated_functions_are_registered() {
         assert!((x - y).abs() < 1e-9 * (1.0 + y.abs()), "{x} {y}");
     }
     let three: Model = robot("planar3r", true).model().unwrap().clone();
-    let why = Generated::new(planar2r::inverse_dynamics, Some(three))
-        .unwrap_err()
-        .to_string();
+    let refused = Generated::new(planar2r::inverse_dynamics, Some(three));
+    let why = refused.unwrap_err().to_string();
     assert!(why.contains("3 joints"), "{why}");
 }

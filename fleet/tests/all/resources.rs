@@ -4,15 +4,15 @@ use std::time::Duration;
 
 use dalembert_fleet::progress::Progress;
 
-use crate::support::{Folder, fleet, robot_file, simulated, text};
+use crate::support::{Folder, fleet, over, robot_file, simulated};
 
 /// How much is done, how fast, and how long the rest takes.
 #[test]
 fn progress_is_told_where_it_is_asked_for() {
     let folder = Folder::new();
-    simulated(&folder, &["--files", "2", "--seconds", "20"]);
+    simulated(&folder, "--files 2 --seconds 20");
     let (logs, arm) = (folder.file("logs/*.parquet"), robot_file("planar2r"));
-    let base = ["residual", text(&logs), "--robot", text(&arm)];
+    let base = over("residual", &logs, &arm, &[]);
     let said = |more: &[&str]| {
         let output = fleet(&[&base[..], more].concat());
         String::from_utf8(output.stderr).unwrap()
@@ -37,7 +37,7 @@ fn progress_is_told_where_it_is_asked_for() {
 #[test]
 fn memory_does_not_grow_with_the_states() {
     let folder = Folder::new();
-    simulated(&folder, &["--files", "1", "--exact", "--seconds", "200"]);
+    simulated(&folder, "--files 1 --exact --seconds 200");
     let log = folder.file("logs/log0000.parquet");
     for k in 1..8 {
         std::fs::hard_link(&log, folder.file(&format!("logs/log000{k}.parquet"))).unwrap();
@@ -46,8 +46,7 @@ fn memory_does_not_grow_with_the_states() {
     for command in ["residual", "identify"] {
         let [one, all] = ["logs/log0000.parquet", "logs/*.parquet"].map(|logs| {
             let logs = folder.file(logs);
-            let base = [command, text(&logs), "--robot", text(&arm)];
-            peak(&[&base[..], &["--memory", "64M"]].concat())
+            peak(&over(command, &logs, &arm, &["--memory", "64M"]))
         });
         println!("{command}: {one} KiB, of eight times as many states {all} KiB");
         assert!(all < one + (24 << 10), "{command}: {one} {all}");

@@ -8,7 +8,7 @@ use std::path::Path;
 use mcap::Writer;
 use mcap::records::MessageHeader;
 
-use crate::support::{Folder, fails, robot_file, rows, succeeds, text};
+use crate::support::{Folder, fails, over, robot_file, rows, simulated, succeeds};
 use dalembert_fleet::logs::{Blocks, Columns};
 
 /// Bytes of a message: XCDR1, as ROS 2 writes them.
@@ -87,10 +87,8 @@ fn record(log: &Path, to: &Path, joints: &Joints, is_little: bool) {
         for (s, time) in block.time.iter().enumerate() {
             let at = |of| -> Vec<f64> {
                 let value = |joint| block.column(of, joint)[s];
-                joints
-                    .iter()
-                    .map(|(_, joint)| joint.map_or(0.5, value))
-                    .collect()
+                let each = joints.iter().map(|(_, joint)| joint.map_or(0.5, value));
+                each.collect()
             };
             let data = message(*time, &names, [&at(0), &[], &at(3)], is_little);
             put(other, *time, b"\0\x01\0\0");
@@ -104,12 +102,10 @@ fn record(log: &Path, to: &Path, joints: &Joints, is_little: bool) {
 #[test]
 fn joints_of_other_names_are_refused() {
     let folder = Folder::new();
-    let (arm, logs) = (robot_file("planar2r"), folder.file("logs"));
-    let simulate = ["simulate", "--robot", text(&arm), "-o", text(&logs)];
-    let short = ["--files", "1", "--seconds", "5", "--encoders-only"];
-    succeeds(&[&simulate[..], &short].concat());
+    let arm = robot_file("planar2r");
+    simulated(&folder, "--files 1 --seconds 5 --encoders-only");
     let (log, path) = (folder.file("logs/log0000.parquet"), folder.file("log.mcap"));
-    let residual = ["residual", text(&path), "--robot", text(&arm)];
+    let residual = over("residual", &path, &arm, &[]);
     record(&log, &path, &[("b", Some(1)), ("a", Some(0))], true);
     let why = fails(&residual);
     let said =
@@ -117,14 +113,7 @@ fn joints_of_other_names_are_refused() {
     assert!(why.contains(said) && why.contains("--joint-names"), "{why}");
     record(&log, &path, &[("", Some(0)), ("", Some(1))], true);
     let found = rows(&succeeds(&residual), "log.mcap");
-    let named = [
-        "residual",
-        text(&path),
-        "--robot",
-        text(&arm),
-        "--joint-names",
-        "a,b",
-    ];
+    let named = over("residual", &path, &arm, &["--joint-names", "a,b"]);
     record(&log, &path, &[("b", Some(1)), ("a", Some(0))], true);
     assert_eq!(found, rows(&succeeds(&named), "log.mcap"));
 }
@@ -132,22 +121,16 @@ fn joints_of_other_names_are_refused() {
 #[test]
 fn recordings_give_what_parquet_files_give() {
     let folder = Folder::new();
-    let (arm, logs) = (robot_file("planar2r"), folder.file("logs"));
-    let simulate = ["simulate", "--robot", text(&arm), "-o", text(&logs)];
-    let short = ["--files", "1", "--seconds", "5", "--encoders-only"];
-    succeeds(&[&simulate[..], &short].concat());
+    let arm = robot_file("planar2r");
+    simulated(&folder, "--files 1 --seconds 5 --encoders-only");
     let log = folder.file("logs/log0000.parquet");
-    let table = succeeds(&["residual", text(&log), "--robot", text(&arm)]);
+    let table = succeeds(&over("residual", &log, &arm, &[]));
     let wanted = rows(&table, "log0000.parquet");
     for is_little in [true, false] {
         let path = folder.file("log.mcap");
-        record(
-            &log,
-            &path,
-            &[("b", Some(1)), ("gripper", None), ("a", Some(0))],
-            is_little,
-        );
-        let base = ["residual", text(&path), "--robot", text(&arm)];
+        let joints = [("b", Some(1)), ("gripper", None), ("a", Some(0))];
+        record(&log, &path, &joints, is_little);
+        let base = over("residual", &path, &arm, &[]);
         let named = [&base[..], &["--joint-names", "a,b"]].concat();
         let found = rows(&succeeds(&named), "log.mcap");
         assert_eq!(found.len(), 2);

@@ -4,8 +4,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::{Duration, Instant};
 
 use dalembert_fit::random::{Random, within};
+use dalembert_fit::{Accumulator, Fit, Model, fit};
 use dalembert_fleet::logs::{Table, canonical_names};
 use dalembert_fleet::{Dynamics, Loaded, States};
 
@@ -40,9 +42,8 @@ impl Folder {
     /// Returns what is in it.
     pub fn names(&self) -> Vec<String> {
         let entries = std::fs::read_dir(&self.0).unwrap();
-        let mut names: Vec<String> = entries
-            .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
-            .collect();
+        let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let mut names: Vec<String> = names.collect();
         names.sort();
         names
     }
@@ -66,9 +67,8 @@ impl Sample {
         let n = robot.joints();
         let mut random = Random::new(seed);
         let mut draw = |largest: f64| -> Vec<f64> {
-            (0..n * count)
-                .map(|_| within(&mut random, largest))
-                .collect()
+            let each = (0..n * count).map(|_| within(&mut random, largest));
+            each.collect()
         };
         let [q, qd, qdd, mut noise] = [3.0, 2.0, 5.0, 1.0].map(&mut draw);
         let mut tau = vec![0.0; n * count];
@@ -79,10 +79,9 @@ impl Sample {
             qdd: &qdd,
         };
         robot.inverse_dynamics(states, &mut tau).unwrap();
-        noise
-            .iter_mut()
-            .zip(&tau)
-            .for_each(|(noise, tau)| *noise += tau);
+        for (noise, tau) in noise.iter_mut().zip(&tau) {
+            *noise += tau;
+        }
         Sample {
             count,
             time: (0..count).map(|k| k as f64 * 1e-3).collect(),
@@ -97,31 +96,38 @@ impl Sample {
     /// Residuals of a joint, by the robot itself.
     pub fn residuals(&self, robot: &dyn Dynamics, joint: usize) -> Vec<f64> {
         let [q, qd, qdd, _] = &self.quantities;
+        let count = self.count;
         let mut tau = vec![0.0; q.len()];
-        let states = States {
-            count: self.count,
-            q,
-            qd,
-            qdd,
-        };
+        let states = States { count, q, qd, qdd };
         robot.inverse_dynamics(states, &mut tau).unwrap();
-        let own = &tau[joint * self.count..(joint + 1) * self.count];
-        self.column(3, joint)
-            .iter()
-            .zip(own)
-            .map(|(x, y)| x - y)
-            .collect()
+        let own = tau[joint * count..].iter();
+        let measured = self.column(3, joint).iter();
+        measured.zip(own).map(|(x, y)| x - y).collect()
     }
 
     /// Writes a log with the columns that this program writes.
     pub fn write(&self, path: &Path) {
         let n = self.quantities[0].len() / self.count;
         let mut table = Table::create(path, &canonical_names(n), false).unwrap();
-        let each = (0..4).flat_map(|of| (0..n).map(move |i| (of, i)));
-        let each = each.map(|(of, i)| self.column(of, i));
-        let all: Vec<&[f64]> = std::iter::once(&self.time[..]).chain(each).collect();
-        table.write("", &all).unwrap();
+        let all = self.quantities.iter().map(Vec::as_slice);
+        table.write("", &self.time, all).unwrap();
         table.close().unwrap();
+    }
+}
+
+/// Returns what is identified from the bytes of an aggregate.
+pub fn fitted(model: &Model, bytes: &[u8]) -> Fit {
+    let kept = Accumulator::from_bytes(model, bytes).unwrap();
+    fit(model, &kept).unwrap()
+}
+
+/// Waits until something has happened.
+pub fn wait_until(what: &str, mut has_happened: impl FnMut() -> bool) {
+    let start = Instant::now();
+    while !has_happened() {
+        let is_late = start.elapsed() > Duration::from_secs(300);
+        assert!(!is_late, "{what}: not after {:?}", start.elapsed());
+        std::thread::sleep(Duration::from_millis(5));
     }
 }
 
@@ -141,12 +147,22 @@ pub fn succeeds(arguments: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// Simulates logs of the planar arm with two joints into a folder `logs`.
-pub fn simulated(folder: &Folder, more: &[&str]) -> String {
+/// Simulates logs of the planar arm with two joints into a folder `logs`, by flags between spaces.
+pub fn simulated(folder: &Folder, flags: &str) -> String {
     let (robot, logs) = (robot_file("planar2r"), folder.file("logs"));
     let mut arguments = vec!["simulate", "--robot", text(&robot), "-o", text(&logs)];
-    arguments.extend(more);
+    arguments.extend(flags.split_whitespace());
     succeeds(&arguments)
+}
+
+/// Returns the arguments of a command over logs.
+pub fn over<'a>(
+    command: &'a str,
+    logs: &'a Path,
+    robot: &'a Path,
+    more: &[&'a str],
+) -> Vec<&'a str> {
+    [&[command, text(logs), "--robot", text(robot)][..], more].concat()
 }
 
 /// Runs the command, which is to fail; returns its standard error.

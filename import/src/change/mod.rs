@@ -24,7 +24,7 @@ use crate::Options;
 use crate::merge::{Arm, Link};
 use crate::tree::Chain;
 use crate::urdf::{Kind, Urdf};
-use pair::{NextUp, Pair, root_of_squares, upward, vectors};
+use pair::{Pair, next_up_unless_zero, root_of_squares, upward, vectors};
 
 /// Bounds of how far torques and pose of the snapped arm are from those of the URDF's digits.
 #[derive(Clone, Debug)]
@@ -169,11 +169,8 @@ impl Change {
     pub fn of_efforts(&self) -> Option<f64> {
         let torques = self.torques(&self.limits);
         let parts = torques.iter().zip(self.efforts.as_ref()?);
-        Some(
-            parts
-                .map(|(off, effort)| (off / effort).next_up_unless_zero())
-                .fold(0.0, f64::max),
-        )
+        let parts = parts.map(|(off, effort)| next_up_unless_zero(off / effort));
+        Some(parts.fold(0.0, f64::max))
     }
 }
 
@@ -209,7 +206,7 @@ impl Parts {
 /// chord belongs to 2 asin(x/2), which is less than x + x³/20 up to one.
 fn angle(chord: f64) -> f64 {
     match chord < 0.99 {
-        true => (chord * (1.0 + chord * chord / 20.0).next_up().next_up()).next_up_unless_zero(),
+        true => next_up_unless_zero(chord * (1.0 + chord * chord / 20.0).next_up().next_up()),
         false => std::f64::consts::PI.next_up(),
     }
 }
@@ -254,10 +251,7 @@ pub(crate) fn bound(
     });
     let tools = [written, snapped].map(|arm| pose(&arm.tool));
     let turned = [0, 1, 2].map(|k| vectors(&tools[0].axes[k], &tools[1].axes[k]).off);
-    let turned = Pair {
-        size: 1.0,
-        off: root_of_squares(&turned),
-    };
+    let turned = Pair::new(1.0, root_of_squares(&turned));
     let gravity = urdf.gravity.as_ref().map(|gravity| {
         let sizes = gravity.each_ref().map(|x| upper(&x.value));
         root_of_squares(&sizes)
@@ -276,16 +270,13 @@ pub(crate) fn bound(
 fn parts(one: &Link, other: &Link, slides: bool) -> Parts {
     let axes = [0, 1, 2].map(|k| vectors(&one.pose.axes[k], &other.pose.axes[k]).off);
     let placed = root_of_squares(&axes);
-    let axis = Pair {
-        size: 1f64.next_up(),
-        off: vectors(&one.axis, &other.axis).off,
-    };
+    let axis = Pair::new(1f64.next_up(), vectors(&one.axis, &other.axis).off);
     // Turns about two unit vectors: s [u]× + (1 − c) u uᵀ differ by no more than
     // |δu| + 2 · 2 |δu|.
     let turned = if slides {
         0.0
     } else {
-        (5.0 * axis.off).next_up_unless_zero()
+        next_up_unless_zero(5.0 * axis.off)
     };
     let wide = |values: &[Rational; 3]| values.each_ref().map(Wide::from_rational);
     let [tensor, other_tensor] = [one, other].map(|link| {
@@ -296,20 +287,14 @@ fn parts(one: &Link, other: &Link, slides: bool) -> Parts {
     let mass = f64::nearest_rational(&one.mass.abs()).next_up();
     Parts {
         slides,
-        turn: Pair {
-            size: 1.0,
-            off: (placed + turned).next_up_unless_zero(),
-        },
+        turn: Pair::new(1.0, next_up_unless_zero(placed + turned)),
         axis,
         lever: vectors(&one.pose.origin, &other.pose.origin),
-        mass: Pair {
-            size: mass,
-            off: 0.0,
-        },
+        mass: Pair::new(mass, 0.0),
         com: vectors(&wide(&one.body.com), &wide(&other.body.com)),
-        inertia: Pair {
-            size: root_of_squares(&rows.map(|row| row.size)),
-            off: root_of_squares(&rows.map(|row| row.off)),
-        },
+        inertia: Pair::new(
+            root_of_squares(&rows.map(|row| row.size)),
+            root_of_squares(&rows.map(|row| row.off)),
+        ),
     }
 }

@@ -15,63 +15,49 @@ pub(super) struct Pair {
 pub(super) fn vectors(one: &Vector<Wide>, other: &Vector<Wide>) -> Pair {
     let length = |v: &Vector<Wide>| root_of_squares(&v.each_ref().map(Wide::magnitude));
     let off: Vector<Wide> = core::array::from_fn(|i| other[i].sub(&one[i]));
-    Pair {
-        size: length(one).max(length(other)),
-        off: length(&off),
-    }
+    Pair::new(length(one).max(length(other)), length(&off))
 }
 
 /// Returns √(a² + b² + c²), upward: of numbers whose squares may vanish, their sum.
 pub(super) fn root_of_squares(values: &[f64; 3]) -> f64 {
-    let sum: f64 = values
-        .iter()
-        .fold(0.0, |sum, x| (sum + x.abs()).next_up_unless_zero());
-    let squares: f64 = values.iter().fold(0.0, |sum, x| {
-        (sum + (x * x).next_up_unless_zero()).next_up_unless_zero()
-    });
-    let root = squares.sqrt().next_up_unless_zero();
+    let sum = values.iter().fold(0.0, |sum, x| upward_sum(sum, x.abs()));
+    let squares = values.iter().map(|x| next_up_unless_zero(x * x));
+    let square: f64 = squares.fold(0.0, upward_sum);
+    let root = next_up_unless_zero(square.sqrt());
     if sum < 1e-140 { sum } else { root.min(sum) }
 }
 
-/// Upward rounding that leaves an exact zero alone.
-pub(super) trait NextUp {
-    fn next_up_unless_zero(self) -> f64;
-}
-
-impl NextUp for f64 {
-    fn next_up_unless_zero(self) -> f64 {
-        if self == 0.0 { 0.0 } else { self.next_up() }
-    }
+/// Rounds upward, but leaves an exact zero alone.
+pub(super) fn next_up_unless_zero(x: f64) -> f64 {
+    if x == 0.0 { 0.0 } else { x.next_up() }
 }
 
 impl Pair {
-    pub(super) const ZERO: Pair = Pair {
-        size: 0.0,
-        off: 0.0,
-    };
+    pub(super) const ZERO: Pair = Pair::new(0.0, 0.0);
+
+    pub(super) const fn new(size: f64, off: f64) -> Pair {
+        Pair { size, off }
+    }
 
     /// Returns the same of both.
     pub(super) fn of(size: f64) -> Pair {
-        Pair {
-            size: size.next_up_unless_zero(),
-            off: 0.0,
-        }
+        Pair::new(next_up_unless_zero(size), 0.0)
     }
 }
 
 /// Returns a + b, not below.
 fn upward_sum(a: f64, b: f64) -> f64 {
-    (a + b).next_up_unless_zero()
+    next_up_unless_zero(a + b)
 }
 
 impl std::ops::Add for Pair {
     type Output = Pair;
 
     fn add(self, other: Pair) -> Pair {
-        Pair {
-            size: upward_sum(self.size, other.size),
-            off: upward_sum(self.off, other.off),
-        }
+        Pair::new(
+            upward_sum(self.size, other.size),
+            upward_sum(self.off, other.off),
+        )
     }
 }
 
@@ -85,10 +71,7 @@ impl std::ops::Mul for Pair {
             false => (a * b).next_up(),
         };
         let [of_other, of_own] = [product(self.size, other.off), product(self.off, other.size)];
-        Pair {
-            size: product(self.size, other.size),
-            off: upward_sum(of_other, of_own),
-        }
+        Pair::new(product(self.size, other.size), upward_sum(of_other, of_own))
     }
 }
 

@@ -4,78 +4,11 @@ use std::collections::BTreeMap;
 
 use roxmltree::Node;
 
-use super::{Mjcf, Text};
+use super::{Mjcf, Text, children};
 use crate::problems::instead;
 
 /// No model has more.
 const MAX_CLASSES: usize = 512;
-/// What is read of defaults; every actuator has the same ones.
-const READ: [(&str, &[&str]); 4] = [
-    (
-        "joint",
-        &[
-            "type",
-            "pos",
-            "axis",
-            "range",
-            "limited",
-            "ref",
-            "armature",
-            "damping",
-            "frictionloss",
-            "stiffness",
-            "actuatorfrcrange",
-            "actuatorfrclimited",
-        ],
-    ),
-    (
-        "geom",
-        &[
-            "type",
-            "size",
-            "fromto",
-            "mass",
-            "density",
-            "group",
-            "shellinertia",
-            "pos",
-            "quat",
-            "axisangle",
-            "xyaxes",
-            "zaxis",
-            "euler",
-        ],
-    ),
-    (
-        "site",
-        &["pos", "quat", "axisangle", "xyaxes", "zaxis", "euler"],
-    ),
-    (
-        ACTUATOR,
-        &[
-            "gear",
-            "forcerange",
-            "forcelimited",
-            "ctrlrange",
-            "ctrllimited",
-        ],
-    ),
-];
-const ACTUATOR: &str = "actuator";
-const ACTUATORS: [&str; 12] = [
-    "general",
-    "motor",
-    "position",
-    "velocity",
-    "intvelocity",
-    "damper",
-    "cylinder",
-    "muscle",
-    "adhesion",
-    "dcmotor",
-    "plugin",
-    ACTUATOR,
-];
 
 /// All classes: the first is that of elements that name none.
 pub(super) struct Classes<'a> {
@@ -96,36 +29,41 @@ impl<'a> Classes<'a> {
 
     /// Returns what a class has for an attribute of an element.
     pub(super) fn setting(&self, class: usize, node: Node, key: &str) -> Option<Text<'a>> {
-        let kind = kind(node.tag_name().name())?;
-        // Both come from the table: their texts decide.
-        let (_, key) =
-            row(kind).and_then(|keys| Some((kind, *keys.iter().find(|own| **own == key)?)))?;
+        let (kind, mut keys) = read(node)?;
+        let key = keys.find(|own| *own == key)?;
         self.all.get(class)?.get(&(kind, key)).cloned()
     }
 }
 
-/// Returns the kind of element that has defaults.
-fn kind(name: &str) -> Option<&'static str> {
-    let name = match ACTUATORS.contains(&name) {
-        true => ACTUATOR,
-        false => name,
+/// Returns the kind of an element that has defaults, and what is read of these; every actuator
+/// has the same ones.
+fn read(node: Node) -> Option<(&'static str, impl Iterator<Item = &'static str>)> {
+    let (kind, keys) = match node.tag_name().name() {
+        "joint" => (
+            "joint",
+            "type pos axis range limited ref armature damping frictionloss stiffness \
+             actuatorfrcrange actuatorfrclimited",
+        ),
+        "geom" => (
+            "geom",
+            "type size fromto mass density group shellinertia \
+             pos quat axisangle xyaxes zaxis euler",
+        ),
+        "site" => ("site", "pos quat axisangle xyaxes zaxis euler"),
+        "general" | "motor" | "position" | "velocity" | "intvelocity" | "damper" | "cylinder"
+        | "muscle" | "adhesion" | "dcmotor" | "plugin" | "actuator" => (
+            "actuator",
+            "gear forcerange forcelimited ctrlrange ctrllimited",
+        ),
+        _ => return None,
     };
-    READ.iter()
-        .find(|(kind, _)| *kind == name)
-        .map(|(kind, _)| *kind)
-}
-
-fn row(kind: &str) -> Option<&'static [&'static str]> {
-    READ.iter()
-        .find(|(own, _)| *own == kind)
-        .map(|(_, keys)| *keys)
+    Some((kind, keys.split(' ')))
 }
 
 impl<'a> Mjcf<'a, '_, '_, '_> {
     /// Reads all defaults.
     pub(super) fn classes(&mut self, root: Node<'a, '_>) {
-        let tops = root.children().filter(|node| node.has_tag_name("default"));
-        for top in tops {
+        for top in children(root, "default") {
             // What it has is for all, under whichever name.
             if let Some(name) = top.attribute("class") {
                 self.classes.names.insert(name, 0);
@@ -133,14 +71,10 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             let mut open = vec![(top, 0)];
             while let Some((node, class)) = open.pop() {
                 self.class_settings(node, class);
-                let inner = node.children().filter(|node| node.has_tag_name("default"));
-                let inner: Vec<Node> = inner.collect();
+                let inner: Vec<Node> = children(node, "default").collect();
                 // A class has what the one around it had by then.
                 for node in inner.into_iter().rev() {
-                    let Some(new) = self.new_class(node, class) else {
-                        continue;
-                    };
-                    open.push((node, new));
+                    open.extend(self.new_class(node, class).map(|new| (node, new)));
                 }
             }
         }
@@ -167,15 +101,15 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
 
     fn class_settings(&mut self, node: Node<'a, '_>, class: usize) {
         for element in node.children().filter(Node::is_element) {
-            let Some(kind) = kind(element.tag_name().name()) else {
+            let Some((kind, keys)) = read(element) else {
                 continue;
             };
-            for key in row(kind).into_iter().flatten() {
-                let own = element.attribute_node(*key);
-                let settings = self.classes.all.get_mut(class);
-                if let Some((own, settings)) = own.zip(settings) {
-                    settings.insert((kind, key), (own.value(), own.range_value()));
-                }
+            let own = keys.filter_map(|key| {
+                let own = element.attribute_node(key)?;
+                Some(((kind, key), (own.value(), own.range_value())))
+            });
+            if let Some(settings) = self.classes.all.get_mut(class) {
+                settings.extend(own);
             }
         }
     }
@@ -190,9 +124,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         if class.is_none() {
             let message = format!("there is no class `{}`", own.value());
             let help = instead(own.value(), names.keys().copied());
-            self.reader
-                .problems
-                .error(&own.range_value(), message, &help);
+            self.error_at(&own.range_value(), message, &help);
         }
         class.unwrap_or(around)
     }

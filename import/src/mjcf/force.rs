@@ -19,16 +19,16 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             let Some(joint) = joint else {
                 continue;
             };
-            let limit = self.force(node);
-            // One without a limit leaves none.
-            match (limits.remove(joint), limit) {
-                (Some(Some(before)), Some(own)) => {
-                    let value = &before.value + &own.value;
-                    limits.insert(joint, Some(Number { value, ..own }));
-                }
-                (None, own) => drop(limits.insert(joint, own)),
-                _ => drop(limits.insert(joint, None)),
-            }
+            let own = self.force(node);
+            let limit = match limits.remove(joint) {
+                None => own,
+                // One without a limit leaves none.
+                Some(before) => before.zip(own).map(|(before, own)| Number {
+                    value: before.value + &own.value,
+                    ..own
+                }),
+            };
+            limits.insert(joint, limit);
         }
         for joint in &mut urdf.joints {
             let Some(limit) = limits.remove(joint.name.as_str()).flatten() else {

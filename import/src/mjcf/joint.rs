@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use dalembert_model::number::{Angle, Rational, Wide};
+use dalembert_model::number::{Rational, Wide};
 use dalembert_model::placed::frame::direction;
 use dalembert_model::robot::Position;
 use dalembert_model::scalar::Scalar;
@@ -37,11 +37,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         let still = Joint {
             name,
             kind: Kind::Floating,
-            ..self.fixed(
-                (String::new(), span.clone()),
-                (String::new(), span.clone()),
-                at,
-            )
+            ..fixed(["", ""], &span, at)
         };
         let none = [(); 3].map(|()| Rational::zero());
         if node.has_tag_name("freejoint") {
@@ -54,7 +50,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
                 if found.is_none() {
                     let message = format!("`{word}` is no type of joint");
                     let help = instead(word, KINDS.iter().map(|(word, _)| *word));
-                    self.reader.problems.error(&span, message, &help);
+                    self.error_at(&span, message, &help);
                 }
                 found?.1
             }
@@ -76,9 +72,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         let any = [(); 3].map(|()| Wide::zero());
         let Some(along) = along.or((!kind.has_one_axis()).then_some(any)) else {
             let message = format!("the axis of joint `{}` has no direction", still.name);
-            self.reader
-                .problems
-                .error(&axis[0].span, message, "axis=\"0 0 1\"");
+            self.error_at(&axis[0].span, message, "axis=\"0 0 1\"");
             return None;
         };
         let mut place = at.shift(&anchor);
@@ -94,9 +88,9 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             _ => {}
         }
         let start = match (zero, kind) {
-            (Some(zero), Kind::Revolute) => Position::Angle(self.angle(&zero)),
-            (Some(zero), _) => Position::Length(zero.value),
-            (None, _) => still.start.clone(),
+            (Some(zero), Kind::Revolute) => self.angle(&zero).radians(),
+            (Some(zero), _) => zero.value,
+            (None, _) => Rational::zero(),
         };
         let mut number = |key| self.number(node, class, key);
         let [armature, damping, friction, spring] =
@@ -110,7 +104,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             if let Some(load) = load.as_ref().filter(|load| load.value.is_negative()) {
                 let message = format!("the {key} of joint `{}` is negative", still.name);
                 let help = "it adds inertia or takes energy out: zero or more";
-                self.reader.problems.error(&load.span, message, help);
+                self.error_at(&load.span, message, help);
             }
         }
         let position = match self.is_limited(node, class, "limited", "range") {
@@ -161,53 +155,21 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             Kind::Prismatic => Position::Length(end.value.clone()),
             _ => Position::Angle(self.angle(&end)),
         };
-        let text = format!("{}{unit}", end.text);
-        Value {
-            value,
-            text,
-            span: end.span,
-        }
-    }
-
-    /// Returns a joint that does not move.
-    pub(super) fn fixed(
-        &self,
-        parent: (String, Range<usize>),
-        child: (String, Range<usize>),
-        at: &Pose,
-    ) -> Joint {
-        let span = child.1.clone();
-        let number = |value: i64| Value {
-            value: Rational::from_integer(value.into()),
-            text: value.to_string(),
-            span: span.clone(),
-        };
-        Joint {
-            name: format!("to {}", child.0),
-            span: span.clone(),
-            kind: Kind::Fixed,
-            origin: at.origin(),
-            parent,
-            child,
-            axis: [number(0), number(0), number(1)],
-            position: None,
-            start: Position::Length(Rational::zero()),
-            effort: None,
-            velocity: None,
-            damping: None,
-            friction: None,
-            spring: None,
-            armature: Rational::zero(),
-            rotors: Vec::new(),
-            mimic: None,
-        }
+        Value::new(value, format!("{}{unit}", end.text), &end.span)
     }
 }
 
-/// Returns an angle or a length as a number of rad or m.
-pub(super) fn radians(position: &Position) -> Rational {
-    match position {
-        Position::Angle(angle @ Angle::PiTimes(_)) => angle.radians(),
-        Position::Angle(Angle::Radians(value)) | Position::Length(value) => value.clone(),
+/// Returns a joint that does not move, from its parent to its child.
+pub(super) fn fixed([parent, child]: [&str; 2], span: &Range<usize>, at: &Pose) -> Joint {
+    let number = |x: i64| Value::new(Rational::from_integer(x.into()), x.to_string(), span);
+    Joint {
+        name: format!("to {child}"),
+        kind: Kind::Fixed,
+        axis: [0, 0, 1].map(number),
+        span: span.clone(),
+        origin: at.origin(),
+        parent: (parent.to_owned(), span.clone()),
+        child: (child.to_owned(), span.clone()),
+        ..Joint::default()
     }
 }

@@ -55,7 +55,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         let own: Rational = own.map(|inertial| &inertial.mass.value).sum();
         if unread.is_some() || own.is_zero() {
             let message = "`settotalmass` is of bodies whose masses are not all known".to_owned();
-            self.reader.problems.error(&total.span, message, WRITE_IT);
+            self.error_at(&total.span, message, WRITE_IT);
             return;
         }
         let ratio = &total.value / own;
@@ -134,7 +134,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         if mass.value.is_negative() {
             let message = format!("the mass of body `{body}` is negative");
             let help = "a mass is zero or more, in kg";
-            self.reader.problems.error(&mass.span, message, help);
+            self.error_at(&mass.span, message, help);
             return None;
         }
         let nothing = Rational::zero();
@@ -142,7 +142,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         if let Some(moment) = negative.into_iter().find(|own| own.value < nothing) {
             let message = format!("a moment of inertia of body `{body}` is negative");
             let help = "the inertia is about the centre of mass, in kg·m²";
-            self.reader.problems.error(&moment.span, message, help);
+            self.error_at(&moment.span, message, help);
             return None;
         }
         Some(Inertial {

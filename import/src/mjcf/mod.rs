@@ -43,11 +43,6 @@ const MANY: &[(&[&str], usize)] = &[
     (&["geom"], 8192),
 ];
 
-/// Returns whether a text is read as MJCF.
-pub(crate) fn is_mjcf(document: &Document) -> bool {
-    document.root_element().has_tag_name("mujoco")
-}
-
 /// Reads an MJCF; `None` after saying why there is none.
 pub(crate) fn read(document: &Document, problems: &mut Problems) -> Option<Urdf> {
     let source = document.input_text();
@@ -124,9 +119,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             Some(("false", _)) => false,
             Some((word, span)) if word != "auto" => {
                 let message = format!("`{key}` is `{word}`");
-                self.reader
-                    .problems
-                    .error(&span, message, "true, false or auto");
+                self.error_at(&span, message, "true, false or auto");
                 false
             }
             _ => self.settings.auto_limits && self.text(node, class, range).is_some(),
@@ -141,15 +134,13 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         for node in root.descendants() {
             *counts.entry(node.tag_name().name()).or_default() += 1;
         }
-        for (tags, few) in MANY {
-            for tag in *tags {
-                let count = counts.get(tag).copied().unwrap_or(0);
-                if count > *few {
-                    let message = format!("there are {count} <{tag}>, more than {few}");
-                    let help = "is this a robot? cut out the arm";
-                    self.reader.problems.error(&span, message, help);
-                    return false;
-                }
+        let counted = MANY
+            .iter()
+            .flat_map(|(tags, few)| tags.iter().map(move |tag| (*tag, *few)));
+        for (tag, few) in counted {
+            let count = counts.get(tag).copied().unwrap_or(0);
+            if !self.reader.are_few(&span, &format!("<{tag}>"), count, few) {
+                return false;
             }
         }
         true
@@ -157,7 +148,11 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
 
     fn error(&mut self, node: Node, message: String, help: &str) {
         let span = start_tag(self.reader.source, node);
-        self.reader.problems.error(&span, message, help);
+        self.error_at(&span, message, help);
+    }
+
+    fn error_at(&mut self, span: &Range<usize>, message: String, help: &str) {
+        self.reader.error(span, message, help);
     }
 
     fn note(&mut self, node: Node, message: String, help: &str) {
@@ -166,11 +161,18 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
     }
 }
 
+/// Returns the children of this name.
+fn children<'a, 'd: 'a>(
+    node: Node<'a, 'd>,
+    name: &'static str,
+) -> impl Iterator<Item = Node<'a, 'd>> {
+    node.children().filter(move |node| node.has_tag_name(name))
+}
+
 /// Returns the elements of all parts of this name.
 fn within<'a, 'd: 'a>(
     root: Node<'a, 'd>,
     part: &'static str,
 ) -> impl Iterator<Item = Node<'a, 'd>> {
-    let parts = root.children().filter(move |node| node.has_tag_name(part));
-    parts.flat_map(|part| part.children().filter(Node::is_element))
+    children(root, part).flat_map(|part| part.children().filter(Node::is_element))
 }

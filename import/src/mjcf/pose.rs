@@ -20,13 +20,21 @@ use crate::urdf::{Number, Origin, Value, start_tag};
 /// Angles are computed to more digits than this, in radians.
 const SAME: i32 = -15;
 
+/// The same pose as its digits stand and as they were meant.
+type Both = [Columns<Wide>; 2];
+
+fn both_identities() -> Both {
+    [Columns::identity(), Columns::identity()]
+}
+
+fn composed([exact, meant]: &Both, next: &Both) -> Both {
+    [exact.then(&next[0]), meant.then(&next[1])]
+}
+
 /// Where a frame is in another.
 #[derive(Clone, Debug)]
 pub(super) struct Pose {
-    /// As the digits stand.
-    exact: Columns<Wide>,
-    /// As they were meant.
-    meant: Columns<Wide>,
+    both: Both,
     /// The lengths that it comes from.
     size: Rational,
     /// The file's own numbers, where they are the position.
@@ -45,8 +53,7 @@ fn shifted(by: &[Rational; 3]) -> Columns<Wide> {
 impl Pose {
     pub(super) fn identity(span: Range<usize>) -> Pose {
         Pose {
-            exact: Columns::identity(),
-            meant: Columns::identity(),
+            both: both_identities(),
             size: Rational::zero(),
             own: None,
             span,
@@ -56,8 +63,7 @@ impl Pose {
     /// Returns the pose of a frame that has this one in it.
     pub(super) fn then(&self, next: &Pose) -> Pose {
         Pose {
-            exact: self.exact.then(&next.exact),
-            meant: self.meant.then(&next.meant),
+            both: composed(&self.both, &next.both),
             size: &self.size + &next.size,
             // What nothing is before stays as it is written.
             own: next.own.clone().filter(|_| self.is_identity()),
@@ -73,8 +79,7 @@ impl Pose {
         let size = by.iter().map(Signed::abs).sum::<Rational>();
         let shifted = shifted(by);
         Pose {
-            exact: self.exact.then(&shifted),
-            meant: self.meant.then(&shifted),
+            both: self.both.each_ref().map(|own| own.then(&shifted)),
             size: &self.size + size,
             own: None,
             span: self.span.clone(),
@@ -85,14 +90,13 @@ impl Pose {
     pub(super) fn turn(&self, axis: &Vector<Wide>, by: &Angle) -> Pose {
         let turned = turned(axis, by);
         Pose {
-            exact: self.exact.then(&turned),
-            meant: self.meant.then(&turned),
+            both: self.both.each_ref().map(|own| own.then(&turned)),
             ..self.clone()
         }
     }
 
     fn is_identity(&self) -> bool {
-        self.size.is_zero() && placement(&self.exact, &Rational::one()).is_identity()
+        self.size.is_zero() && placement(&self.both[0], &Rational::one()).is_identity()
     }
 
     /// Returns a direction in the axes of the frame that this one is in.
@@ -100,7 +104,7 @@ impl Pose {
         let one = Rational::one();
         let wide = direction.each_ref().map(|x| Wide::from_rational(&x.value));
         let along = Columns {
-            origin: self.meant.rotate(&wide),
+            origin: self.both[1].rotate(&wide),
             ..Columns::identity()
         };
         let xyz = placement(&along, &one).xyz;
@@ -114,24 +118,20 @@ impl Pose {
     /// Returns a point in the frame that this one is in.
     pub(super) fn apply(&self, point: &[Rational; 3]) -> [Rational; 3] {
         let size = &self.size + point.iter().map(Signed::abs).sum::<Rational>();
-        placement(&self.meant.then(&shifted(point)), &size_of(&size)).xyz
+        placement(&self.both[1].then(&shifted(point)), &size_of(&size)).xyz
     }
 
     /// Returns the pose as a URDF has it.
     pub(super) fn origin(&self) -> Origin {
         let size = size_of(&self.size);
-        let [exact, meant] = [&self.exact, &self.meant].map(|pose| placement(pose, &size));
-        let value = |text: String| (text, self.span.clone());
-        let xyz = exact.xyz.each_ref().map(|x| {
-            let (text, span) = value(Angle::Radians(x.clone()).to_string());
-            let value = x.clone();
-            Value { value, text, span }
+        let [exact, meant] = self.both.each_ref().map(|pose| placement(pose, &size));
+        let xyz = exact.xyz.each_ref();
+        let xyz = xyz.map(|x| {
+            let text = Angle::Radians(x.clone()).to_string();
+            Value::new(x.clone(), text, &self.span)
         });
-        let rpy = exact.rpy.each_ref().map(|angle| {
-            let (text, span) = value(short(angle));
-            let value = angle.clone();
-            Value { value, text, span }
-        });
+        let rpy = exact.rpy.each_ref();
+        let rpy = rpy.map(|angle| Value::new(angle.clone(), short(angle), &self.span));
         let is_same = |(one, other): (&Angle, &Angle)| {
             let off = (one.radians() - other.radians()).abs();
             one == other || off < power(SAME)
@@ -164,9 +164,6 @@ fn short(angle: &Angle) -> String {
     }
 }
 
-/// The same rotation as its digits stand and as they were meant.
-type Rotation = [Columns<Wide>; 2];
-
 const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "euler", "xyaxes", "zaxis"];
 
 impl<'a> Mjcf<'a, '_, '_, '_> {
@@ -181,13 +178,12 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         let rotation = self.rotation(node, class);
         let (xyz, (rotation, place)) = (xyz?, rotation?);
         let values = xyz.each_ref().map(|x| x.value.clone());
-        let [exact, meant] = rotation.map(|turned| Columns {
+        let both = rotation.map(|turned| Columns {
             origin: values.each_ref().map(Wide::from_rational),
             ..turned
         });
         Some(Pose {
-            exact,
-            meant,
+            both,
             size: values.iter().map(Signed::abs).sum(),
             own: Some(xyz),
             span: place.unwrap_or(span),
@@ -199,7 +195,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         &mut self,
         node: Node<'a, '_>,
         class: usize,
-    ) -> Option<(Rotation, Option<Range<usize>>)> {
+    ) -> Option<(Both, Option<Range<usize>>)> {
         let own: Vec<&str> = ORIENTATIONS
             .into_iter()
             .filter(|key| node.has_attribute(*key))
@@ -212,35 +208,26 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         let mut all = own.into_iter().chain(ORIENTATIONS);
         let found = all.find_map(|key| Some((key, self.text(node, class, key)?)));
         let Some((key, (text, span))) = found else {
-            return Some(([Columns::identity(), Columns::identity()], None));
+            return Some((both_identities(), None));
         };
         let place = span.clone();
         let rotation = match key {
-            "quat" => {
-                let numbers: [Number; 4] = self.reader.list(key, text, span)?;
-                of_quaternion(&numbers)
-            }
+            "quat" => of_quaternion(&self.reader.list(key, text, span)?),
             "axisangle" => {
                 let [x, y, z, angle] = self.reader.list(key, text, span)?;
                 self.of_axis(&[x, y, z], &angle)
             }
             "euler" => {
-                let angles: [Number; 3] = self.reader.list(key, text, span)?;
+                let angles = self.reader.list(key, text, span)?;
                 Some(self.of_angles(&angles))
             }
-            "xyaxes" => {
-                let numbers: [Number; 6] = self.reader.list(key, text, span)?;
-                of_axes(&numbers)
-            }
-            _ => {
-                let axis: [Number; 3] = self.reader.list(key, text, span)?;
-                of_third_axis(&axis)
-            }
+            "xyaxes" => of_axes(&self.reader.list(key, text, span)?),
+            _ => of_third_axis(&self.reader.list(key, text, span)?),
         };
         if rotation.is_none() {
             let message = format!("`{key}` has no direction");
             let help = "a quaternion or an axis is not zero, and two axes are not parallel";
-            self.reader.problems.error(&place, message, help);
+            self.error_at(&place, message, help);
         }
         Some((rotation?, Some(place)))
     }
@@ -253,15 +240,9 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         at: &[Rational; 3],
     ) -> Option<Pose> {
         let span = start_tag(self.reader.source, node);
-        let number = |value: &Rational| Number {
-            value: value.clone(),
-            text: String::new(),
-            span: span.clone(),
-        };
-        let [exact, meant] = of_third_axis(&direction.each_ref().map(number))?;
+        let number = |value: &Rational| Value::new(value.clone(), "", &span);
         let turned = Pose {
-            exact,
-            meant,
+            both: of_third_axis(&direction.each_ref().map(number))?,
             ..Pose::identity(span.clone())
         };
         Some(Pose::identity(span).shift(at).then(&turned))
@@ -284,31 +265,27 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         [angle.clone(), meant.unwrap_or(angle)]
     }
 
-    fn of_axis(&self, axis: &[Number; 3], angle: &Number) -> Option<Rotation> {
+    fn of_axis(&self, axis: &[Number; 3], angle: &Number) -> Option<Both> {
         let axis = direction(&axis.each_ref().map(|x| x.value.clone()))?;
         Some(self.angles(angle).map(|angle| turned(&axis, &angle)))
     }
 
-    fn of_angles(&self, angles: &[Number; 3]) -> Rotation {
+    fn of_angles(&self, angles: &[Number; 3]) -> Both {
         let turns = self.settings.euler.iter().zip(angles);
-        turns.fold(
-            [Columns::identity(), Columns::identity()],
-            |before, (turn, angle)| {
-                let mut axis = [(); 3].map(|()| Wide::zero());
-                axis[turn.axis] = Wide::one();
-                let [exact, meant] = self.angles(angle).map(|angle| turned(&axis, &angle));
-                let [own_exact, own_meant] = before;
-                match turn.stays {
-                    true => [exact.then(&own_exact), meant.then(&own_meant)],
-                    false => [own_exact.then(&exact), own_meant.then(&meant)],
-                }
-            },
-        )
+        turns.fold(both_identities(), |before, (turn, angle)| {
+            let mut axis = [(); 3].map(|()| Wide::zero());
+            axis[turn.axis] = Wide::one();
+            let own = self.angles(angle).map(|angle| turned(&axis, &angle));
+            match turn.stays {
+                true => composed(&own, &before),
+                false => composed(&before, &own),
+            }
+        })
     }
 }
 
 /// Returns the rotation of w, x, y, z, of any length.
-fn of_quaternion(numbers: &[Number; 4]) -> Option<Rotation> {
+fn of_quaternion(numbers: &[Number; 4]) -> Option<Both> {
     let [w, x, y, z] = numbers.each_ref().map(|number| &number.value);
     let square: Rational = [w, x, y, z].into_iter().map(|a| a * a).sum();
     if square.is_zero() {
@@ -329,7 +306,7 @@ fn of_quaternion(numbers: &[Number; 4]) -> Option<Rotation> {
 }
 
 /// Returns the rotation whose first axes lie along two directions.
-fn of_axes(numbers: &[Number; 6]) -> Option<Rotation> {
+fn of_axes(numbers: &[Number; 6]) -> Option<Both> {
     let [x, y] = [0, 3].map(|at| {
         let part = [at, at + 1, at + 2].map(|i| numbers[i].value.clone());
         direction(&part)
@@ -346,7 +323,7 @@ fn of_axes(numbers: &[Number; 6]) -> Option<Rotation> {
 }
 
 /// Returns the shortest rotation that turns z to a direction.
-fn of_third_axis(axis: &[Number; 3]) -> Option<Rotation> {
+fn of_third_axis(axis: &[Number; 3]) -> Option<Both> {
     let z = direction(&axis.each_ref().map(|x| x.value.clone()))?;
     let [x, y] = [&z[0], &z[1]];
     let level = length(&[*x, *y, Wide::zero()]);
@@ -359,7 +336,7 @@ fn of_third_axis(axis: &[Number; 3]) -> Option<Rotation> {
 
 /// Returns a rotation, and what it was meant to be: as far from it as angles may be, since
 /// many a quaternion was made of 1.5708, and 0.707105 tells no more of its digits.
-fn by_digits(axes: [Vector<Wide>; 3], numbers: &[Number]) -> Rotation {
+fn by_digits(axes: [Vector<Wide>; 3], numbers: &[Number]) -> Both {
     let exact = Columns {
         axes,
         origin: [(); 3].map(|()| Wide::zero()),

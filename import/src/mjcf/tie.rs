@@ -1,16 +1,14 @@
 //! Equalities and tendons: what ties joints or bodies to each other beside the tree.
 
-use dalembert_model::number::{Angle, Rational};
-use dalembert_model::robot::Position;
+use dalembert_model::number::Rational;
 use dalembert_model::robot::values::number;
 use num_traits::{One, Signed, Zero};
 use roxmltree::Node;
 
-use super::joint::radians;
 use super::{Mjcf, within};
 use crate::lock::compare;
 use crate::problems::instead;
-use crate::urdf::{Kind, Mimic, Tie, Tied, Urdf, Value, start_tag};
+use crate::urdf::{Mimic, Tie, Tied, Urdf, Value, start_tag};
 
 impl<'a> Mjcf<'a, '_, '_, '_> {
     /// Reads what ties joints and bodies.
@@ -37,17 +35,11 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
                 self.limiting(node, *joint, urdf);
                 continue;
             }
-            let names = parts
-                .iter()
-                .filter_map(|child| child.attribute(part).map(str::to_owned));
-            let ends = match part {
-                "joint" => Tied::Joints(names.collect()),
-                _ => Tied::Links(names.collect()),
-            };
-            let word = if part == "joint" {
-                "fixed tendon"
-            } else {
-                "spatial tendon"
+            let names = parts.iter().filter_map(|child| child.attribute(part));
+            let names = names.map(str::to_owned).collect();
+            let (word, ends) = match part {
+                "joint" => ("fixed tendon", Tied::Joints(names)),
+                _ => ("spatial tendon", Tied::Links(names)),
             };
             urdf.ties.push(self.tie(node, word, ends));
         }
@@ -64,9 +56,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         let coefficient = self.reader.required(joint, "coef");
         let Some(own) = urdf.joints.iter_mut().find(|own| own.name == name) else {
             let message = format!("there is no joint `{name}`");
-            let known = urdf.names[1].iter().map(String::as_str);
-            let help = instead(name, known);
-            self.reader.problems.error(&span, message, &help);
+            self.error_at(&span, message, &instead(name, &urdf.names[1]));
             return;
         };
         for key in ["stiffness", "damping", "frictionloss", "armature"] {
@@ -85,7 +75,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         if by.value.is_negative() {
             range.reverse();
         }
-        let slides = own.kind == Kind::Prismatic;
+        let kind = own.kind;
         let [low, high] = range.map(|end| {
             let value = end.value / &by.value;
             let text = if by.value.is_one() {
@@ -93,28 +83,15 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             } else {
                 number(&value)
             };
-            let value = match slides {
-                true => Position::Length(value),
-                false => Position::Angle(Angle::Radians(value).canonical()),
-            };
-            let span = end.span;
-            Value { value, text, span }
+            Value::new(kind.position(value), text, &end.span)
         });
-        let position = match own.position.take() {
-            None => [low, high],
-            Some([lower, upper]) => [
-                if compare(&low.value, &lower.value).is_gt() {
-                    low
-                } else {
-                    lower
-                },
-                if compare(&high.value, &upper.value).is_lt() {
-                    high
-                } else {
-                    upper
-                },
-            ],
-        };
+        let mut position = own.position.take().unwrap_or([low.clone(), high.clone()]);
+        if compare(&low.value, &position[0].value).is_gt() {
+            position[0] = low;
+        }
+        if compare(&high.value, &position[1].value).is_lt() {
+            position[1] = high;
+        }
         if compare(&position[0].value, &position[1].value).is_gt() {
             let message = format!("the tendon leaves joint `{name}` no position within its limits");
             self.error(
@@ -145,10 +122,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             let found = urdf.joints.iter().position(|joint| joint.name == name);
             if found.is_none() {
                 let message = format!("there is no joint `{name}`");
-                let known = urdf.names[1].iter().map(String::as_str);
-                this.reader
-                    .problems
-                    .error(&span, message, &instead(name, known));
+                this.error_at(&span, message, &instead(name, &urdf.names[1]));
             }
             found
         };
@@ -170,7 +144,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             return;
         };
         // Both are counted from where the model has them at first.
-        let [start, from] = [own, other].map(|joint| radians(&urdf.joints[joint].start));
+        let [start, from] = [own, other].map(|joint| &urdf.joints[joint].start);
         let is_line = terms[2..].iter().all(Zero::is_zero);
         let line = is_line.then(|| {
             let [offset, multiplier] = [&terms[0], &terms[1]];
@@ -194,9 +168,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         if words.clone().count() > terms.len() {
             let message = "`polycoef` has more than 5 numbers".to_owned();
             let help = "polycoef=\"0 1 0 0 0\" is the same as the other joint";
-            self.reader
-                .problems
-                .error(&own.range_value(), message, help);
+            self.error_at(&own.range_value(), message, help);
             return None;
         }
         for (term, word) in terms.iter_mut().zip(words) {
@@ -212,12 +184,9 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             false => ["body1", "body2"],
         };
         let names = keys.map(|key| node.attribute(key).unwrap_or("world"));
-        let links = names.map(|name| {
-            let is_known = urdf.names[0].contains(name);
-            match is_known {
-                true => name.to_owned(),
-                false => body_of_site(root, name).unwrap_or(name).to_owned(),
-            }
+        let links = names.map(|name| match urdf.names[0].contains(name) {
+            true => name.to_owned(),
+            false => body_of_site(root, name).unwrap_or(name).to_owned(),
         });
         let word = format!("equality `{}`", node.tag_name().name());
         urdf.ties

@@ -4,9 +4,10 @@ use std::collections::BTreeSet;
 
 use roxmltree::Node;
 
-use super::Mjcf;
+use super::joint::fixed;
 use super::pose::Pose;
-use crate::urdf::{Joint, Kind, Link, Role, Unread, Urdf, start_tag};
+use super::{Mjcf, children};
+use crate::urdf::{Joint, Kind, Link, MAX_LINKS, Role, Unread, Urdf, start_tag};
 
 /// What makes copies, or bodies of another file.
 const MADE_ELSEWHERE: [&str; 4] = ["replicate", "composite", "flexcomp", "attach"];
@@ -49,38 +50,24 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         urdf.links.push(world);
         let identity = Pose::identity(urdf.span.clone());
         let mut open = Vec::new();
-        let parts = root
-            .children()
-            .filter(|node| node.has_tag_name("worldbody"));
-        for part in parts {
+        for part in children(root, "worldbody") {
             let class = self.class_of(part, "childclass", 0);
-            let items = self.items(part, class, &identity);
-            let bodies = items
-                .into_iter()
-                .filter(|item| item.node.has_tag_name("body"));
-            open.extend(bodies.map(|item| Open {
-                item,
-                on: "world".to_owned(),
-            }));
+            open.extend(bodies(self.items(part, class, &identity), "world"));
         }
         open.reverse();
         let given = |kind: &'static str| {
-            let nodes = root
-                .descendants()
-                .filter(move |node| node.has_tag_name(kind));
+            let nodes = root.descendants();
+            let nodes = nodes.filter(move |node| node.has_tag_name(kind));
             nodes.filter_map(|node| node.attribute("name").map(str::to_owned))
         };
         // Names that the file gives are not given to what has none.
-        let bodies: Vec<String> = given("body").collect();
-        let mut links = Names(bodies.iter().cloned().chain(["world".to_owned()]).collect());
+        let mut links = Names(given("body").chain(["world".to_owned()]).collect());
         let mut joints = Names(given("joint").chain(given("freejoint")).collect());
         while let Some(next) = open.pop() {
             let own = self.body(next, urdf, &mut links, &mut joints);
             open.extend(own.into_iter().rev());
-            if !self
-                .reader
-                .are_few(&urdf.span, "bodies, sites and weights", urdf.links.len())
-            {
+            let (what, count) = ("bodies, sites and weights", urdf.links.len());
+            if !self.reader.are_few(&urdf.span, what, count, MAX_LINKS) {
                 return None;
             }
         }
@@ -90,19 +77,14 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             return None;
         }
         self.say_weightless(root);
-        let named = |joint: &&Joint| joint.kind != Kind::Fixed;
-        self.reader.unique(
-            "body",
-            urdf.links.iter().map(|link| (&link.name, &link.span)),
-        );
-        let moving = urdf.joints.iter().filter(named);
-        self.reader.unique(
-            "joint",
-            moving.clone().map(|joint| (&joint.name, &joint.span)),
-        );
+        let links = urdf.links.iter().map(|link| (&link.name, &link.span));
+        let moving = urdf.joints.iter().filter(|joint| joint.kind != Kind::Fixed);
+        let moving = moving.map(|joint| (&joint.name, &joint.span));
+        self.reader.unique("body", links.clone());
+        self.reader.unique("joint", moving.clone());
         urdf.names = [
-            urdf.links.iter().map(|link| link.name.clone()).collect(),
-            moving.map(|joint| joint.name.clone()).collect(),
+            links.map(|(name, _)| name.clone()).collect(),
+            moving.map(|(name, _)| name.clone()).collect(),
         ];
         Some(())
     }
@@ -114,11 +96,8 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             bodies.filter(|body| body.attribute("gravcomp").is_some_and(|part| part != "0"));
         if let Some(first) = held.next() {
             let message = format!("`gravcomp` of {} bodies is left out", 1 + held.count());
-            self.note(
-                first,
-                message,
-                "the joints carry their weight: the load that holds it up is `gravity`",
-            );
+            let help = "the joints carry their weight: the load that holds it up is `gravity`";
+            self.note(first, message, help);
         }
     }
 
@@ -181,9 +160,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         self.joints_of(&name, on, &frame.then(&own), &items, urdf, [links, joints]);
         for (index, solid) in solids.into_iter().enumerate() {
             let part = links.fresh(format!("{name}, geom {}", index + 1));
-            let ends = [&name, &part].map(|name| (name.clone(), span.clone()));
-            let [on, child] = ends;
-            urdf.joints.push(self.fixed(on, child, &identity));
+            urdf.joints.push(fixed([&name, &part], &span, &identity));
             urdf.links.push(Link {
                 inertial: Some(solid),
                 role: Role::Mark,
@@ -193,14 +170,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         for site in items.iter().filter(|item| item.node.has_tag_name("site")) {
             self.site(site, &name, urdf, links);
         }
-        let inside = items
-            .into_iter()
-            .filter(|item| item.node.has_tag_name("body"));
-        let inside = inside.map(|item| Open {
-            item,
-            on: name.clone(),
-        });
-        inside.collect()
+        bodies(items, &name)
     }
 
     /// Reads the joints of a body, one behind the other, up to the body itself.
@@ -246,8 +216,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         if on != body {
             let span = urdf.links.iter().find(|link| link.name == body);
             let span = span.map_or(0..0, |link| link.span.clone());
-            urdf.joints
-                .push(self.fixed((on, span.clone()), (body.to_owned(), span), &at));
+            urdf.joints.push(fixed([&on, body], &span, &at));
         }
     }
 
@@ -264,10 +233,8 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             return;
         }
         let span = start_tag(self.reader.source, item.node);
-        let ends = [body, name].map(|name| (name.to_owned(), span.clone()));
-        let [on, child] = ends;
-        urdf.joints
-            .push(self.fixed(on, child, &item.frame.then(&own)));
+        let at = item.frame.then(&own);
+        urdf.joints.push(fixed([body, name], &span, &at));
         urdf.links.push(Link {
             role: Role::Mark,
             ..link(name.to_owned(), span)
@@ -275,13 +242,22 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
     }
 }
 
+/// Returns the bodies among the elements of a body or of the world.
+fn bodies<'a, 'd>(items: Vec<Item<'a, 'd>>, on: &str) -> Vec<Open<'a, 'd>> {
+    let bodies = items.into_iter();
+    let bodies = bodies.filter(|item| item.node.has_tag_name("body"));
+    let open = bodies.map(|item| Open {
+        item,
+        on: on.to_owned(),
+    });
+    open.collect()
+}
+
 /// Returns a link without mass.
 fn link(name: String, span: std::ops::Range<usize>) -> Link {
     Link {
         name,
         span,
-        inertial: None,
-        unread: Vec::new(),
-        role: Role::Body,
+        ..Link::default()
     }
 }

@@ -11,11 +11,12 @@ use super::{Number, Origin, Reader, Value, child, start_tag};
 use crate::problems::instead;
 
 /// The kind of motion of a joint.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Kind {
     Revolute,
     Continuous,
     Prismatic,
+    #[default]
     Fixed,
     Planar,
     Floating,
@@ -44,10 +45,18 @@ impl Kind {
     pub(crate) fn has_one_axis(self) -> bool {
         !matches!(self, Kind::Planar | Kind::Floating | Kind::Ball)
     }
+
+    /// Returns the position of a number of m or rad.
+    pub(crate) fn position(self, value: Rational) -> Position {
+        match self {
+            Kind::Prismatic => Position::Length(value),
+            _ => Position::Angle(Angle::Radians(value).canonical()),
+        }
+    }
 }
 
 /// A joint.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Joint {
     pub(crate) name: String,
     pub(crate) span: Range<usize>,
@@ -60,8 +69,8 @@ pub(crate) struct Joint {
     pub(crate) axis: [Number; 3],
     /// Lowest and highest position.
     pub(crate) position: Option<[Value<Position>; 2]>,
-    /// Where it is where the model is drawn.
-    pub(crate) start: Position,
+    /// Where it is where the model is drawn, in rad or m.
+    pub(crate) start: Rational,
     pub(crate) effort: Option<Number>,
     pub(crate) velocity: Option<Number>,
     pub(crate) damping: Option<Number>,
@@ -96,7 +105,7 @@ impl Reader<'_, '_, '_> {
                 let message = format!("joint `{name}` has no <{end}>");
                 let help = format!("<{end} link=\"…\"/>");
                 let span = start_tag(self.source, node);
-                self.problems.error(&span, message, &help);
+                self.error(&span, message, &help);
                 return None;
             };
             let (link, span) = self.attribute(element, "link")?;
@@ -112,8 +121,7 @@ impl Reader<'_, '_, '_> {
         let moves = !matches!(kind, Kind::Fixed | Kind::Floating);
         if moves && axis.iter().all(|x| x.value.is_zero()) {
             let message = format!("the axis of joint `{name}` has no direction");
-            self.problems
-                .error(&axis[0].span, message, "<axis xyz=\"0 0 1\"/>");
+            self.error(&axis[0].span, message, "<axis xyz=\"0 0 1\"/>");
             return None;
         }
         let limit = child(node, "limit");
@@ -131,12 +139,7 @@ impl Reader<'_, '_, '_> {
             }
         };
         let position = position.filter(|_| kind != Kind::Continuous);
-        let in_units = |number: Number| {
-            number.map(|value| match kind {
-                Kind::Prismatic => Position::Length(value),
-                _ => Position::Angle(Angle::Radians(value).canonical()),
-            })
-        };
+        let in_units = |number: Number| number.map(|value| kind.position(value));
         let mimic = child(node, "mimic").map(|mimic| {
             let mut of = |key, or: i64| match mimic.has_attribute(key) {
                 true => self.number(mimic, key).map(|number| number.value),
@@ -152,7 +155,7 @@ impl Reader<'_, '_, '_> {
         for load in [&effort, &velocity, &damping].into_iter().flatten() {
             if load.value.is_negative() {
                 let message = format!("`{}` of joint `{name}` is negative", load.text);
-                self.problems.error(
+                self.error(
                     &load.span,
                     message,
                     "a limit bounds the size, and damping takes energy out: zero or more",
@@ -170,15 +173,12 @@ impl Reader<'_, '_, '_> {
             position: self
                 .ordered(name, position)
                 .map(|range| range.map(in_units)),
-            start: Position::Length(Rational::zero()),
             effort,
             velocity,
             damping,
             friction,
-            spring: None,
-            armature: Rational::zero(),
-            rotors: Vec::new(),
             mimic,
+            ..Joint::default()
         })
     }
 
@@ -188,7 +188,7 @@ impl Reader<'_, '_, '_> {
         if found.is_none() {
             let words = Kind::WORDS.iter().map(|(word, _)| *word);
             let message = format!("`{word}` is no type of joint");
-            self.problems.error(&span, message, &instead(word, words));
+            self.error(&span, message, &instead(word, words));
         }
         found.map(|(_, kind)| *kind)
     }
@@ -204,7 +204,7 @@ impl Reader<'_, '_, '_> {
         if lower.value > upper.value {
             let message = format!("the limits of joint `{name}` are reversed");
             let help = "`lower` is the lowest position, `upper` the highest";
-            self.problems.error(&lower.span, message, help);
+            self.error(&lower.span, message, help);
             return None;
         }
         if lower.value == upper.value {

@@ -9,7 +9,7 @@ use roxmltree::Node;
 use super::{Number, Origin, Reader, child, start_tag};
 
 /// A link.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Link {
     pub(crate) name: String,
     pub(crate) span: Range<usize>,
@@ -21,8 +21,9 @@ pub(crate) struct Link {
 }
 
 /// What a link stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Role {
+    #[default]
     Body,
     /// Nothing: it lies between two joints of one body.
     Between,
@@ -58,8 +59,7 @@ impl Reader<'_, '_, '_> {
             name: name.to_owned(),
             span: start_tag(self.source, node),
             inertial,
-            unread: Vec::new(),
-            role: Role::Body,
+            ..Link::default()
         })
     }
 
@@ -71,7 +71,7 @@ impl Reader<'_, '_, '_> {
                 let span = start_tag(self.source, node);
                 let message = format!("the inertial of link `{link}` has no <{name}>");
                 let help = "an <inertial> has <mass value=\"…\"/> and <inertia ixx=\"…\" …/>; a link without mass has none";
-                self.problems.error(&span, message, help);
+                self.error(&span, message, help);
             }
             found
         });
@@ -84,8 +84,7 @@ impl Reader<'_, '_, '_> {
         let (origin, mass, inertia) = (origin?, mass?, tensor?);
         if mass.value.is_negative() {
             let message = format!("the mass of link `{link}` is negative");
-            self.problems
-                .error(&mass.span, message, "a mass is zero or more, in kg");
+            self.error(&mass.span, message, "a mass is zero or more, in kg");
             return None;
         }
         Some(Inertial {

@@ -137,16 +137,14 @@ pub(crate) fn read(document: &Document, problems: &mut Problems) -> Option<Urdf>
         "joint",
         joints.iter().map(|joint| (&joint.name, &joint.span)),
     );
-    if !reader.are_few(&span, "links", links.len())
-        || !reader.are_few(&span, "joints", joints.len())
-    {
-        return None;
+    for (what, count) in [("links", links.len()), ("joints", joints.len())] {
+        if !reader.are_few(&span, what, count, MAX_LINKS) {
+            return None;
+        }
     }
     if links.is_empty() {
         let help = "a URDF has a <link> for every body";
-        reader
-            .problems
-            .error(&span, "there are no links".to_owned(), help);
+        reader.error(&span, "there are no links".to_owned(), help);
         return None;
     }
     let names = ["link", "joint"].map(|kind| {
@@ -181,14 +179,24 @@ pub(crate) struct Reader<'r, 's, 'p> {
 }
 
 impl Reader<'_, '_, '_> {
-    /// Returns whether a robot may have so many, after saying why not.
-    pub(crate) fn are_few(&mut self, span: &Range<usize>, what: &str, count: usize) -> bool {
-        if count > MAX_LINKS {
-            let message = format!("there are {count} {what}, more than {MAX_LINKS}");
+    pub(crate) fn error(&mut self, span: &Range<usize>, message: String, help: &str) {
+        self.problems.error(span, message, help);
+    }
+
+    /// Returns whether there are at most so many, after saying that there are more.
+    pub(crate) fn are_few(
+        &mut self,
+        span: &Range<usize>,
+        what: &str,
+        count: usize,
+        few: usize,
+    ) -> bool {
+        if count > few {
+            let message = format!("there are {count} {what}, more than {few}");
             let help = "is this a robot? cut out the arm";
-            self.problems.error(span, message, help);
+            self.error(span, message, help);
         }
-        count <= MAX_LINKS
+        count <= few
     }
 
     pub(crate) fn unique<'n>(
@@ -196,12 +204,12 @@ impl Reader<'_, '_, '_> {
         what: &str,
         names: impl Iterator<Item = (&'n String, &'n Range<usize>)>,
     ) {
-        let mut seen = std::collections::BTreeSet::new();
+        let mut seen = BTreeSet::new();
         for (name, span) in names {
             if !seen.insert(name) {
                 let message = format!("there is a {what} `{name}` already");
                 let help = "names tell them apart: give it another";
-                self.problems.error(span, message, help);
+                self.error(span, message, help);
             }
         }
     }

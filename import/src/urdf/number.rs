@@ -5,13 +5,12 @@ use std::ops::Range;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::Placement;
-use num_traits::Zero;
 use roxmltree::Node;
 
 use super::{Reader, start_tag};
 
 /// A value of the file.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Value<T> {
     /// The value itself.
     pub(crate) value: T,
@@ -24,17 +23,18 @@ pub(crate) struct Value<T> {
 pub(crate) type Number = Value<Rational>;
 
 impl<T> Value<T> {
+    pub(crate) fn new(value: T, text: impl Into<String>, span: &Range<usize>) -> Value<T> {
+        let (text, span) = (text.into(), span.clone());
+        Value { value, text, span }
+    }
+
     pub(crate) fn map<U>(self, f: impl FnOnce(T) -> U) -> Value<U> {
-        Value {
-            value: f(self.value),
-            text: self.text,
-            span: self.span,
-        }
+        Value::new(f(self.value), self.text, &self.span)
     }
 }
 
 /// Where a frame is in another, `rpy` about fixed axes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Origin {
     pub(crate) xyz: [Number; 3],
     pub(crate) rpy: [Value<Angle>; 3],
@@ -72,11 +72,7 @@ impl Reader<'_, '_, '_> {
     /// Numbers that the format has where a file says nothing.
     pub(crate) fn constant<const N: usize>(&self, node: Node, texts: [&str; N]) -> [Number; N] {
         let span = start_tag(self.source, node);
-        texts.map(|text| Value {
-            value: parse_decimal(text).unwrap_or_else(|_| Rational::zero()),
-            text: text.to_owned(),
-            span: span.clone(),
-        })
+        texts.map(|text| Value::new(parse_decimal(text).unwrap_or_default(), text, &span))
     }
 
     /// Reads three numbers in one attribute.
@@ -106,7 +102,7 @@ impl Reader<'_, '_, '_> {
             let message = format!("`{key}` has {} numbers, not {N}", words.len());
             let names = &["x", "y", "z", "u", "v", "w"][..N.min(6)];
             let help = format!("{key}=\"{}\", with spaces between", names.join(" "));
-            self.problems.error(&span, message, &help);
+            self.error(&span, message, &help);
             return None;
         }
         let numbers: Vec<_> = words
@@ -123,8 +119,7 @@ impl Reader<'_, '_, '_> {
     /// Reads a number that an attribute may give.
     pub(crate) fn number(&mut self, node: Node, key: &str) -> Option<Number> {
         node.attribute(key)?;
-        let (text, span) = self.attribute(node, key)?;
-        self.parse(text.trim(), span)
+        self.required(node, key)
     }
 
     /// Reads a number that must be there.
@@ -144,8 +139,7 @@ impl Reader<'_, '_, '_> {
             let name = node.tag_name().name();
             let message = format!("<{name}> has no `{key}`");
             let span = start_tag(self.source, node);
-            self.problems
-                .error(&span, message, &format!("<{name} {key}=\"…\">"));
+            self.error(&span, message, &format!("<{name} {key}=\"…\">"));
         }
         attribute.map(|attribute| (attribute.value(), attribute.range_value()))
     }
@@ -153,14 +147,10 @@ impl Reader<'_, '_, '_> {
     /// Reads the number of a text.
     pub(crate) fn parse(&mut self, text: &str, span: Range<usize>) -> Option<Number> {
         match parse_decimal(&spelled_out(text)) {
-            Ok(value) => Some(Value {
-                value,
-                text: text.to_owned(),
-                span,
-            }),
+            Ok(value) => Some(Value::new(value, text, &span)),
             Err(error) => {
                 let message = format!("`{text}` is {error}");
-                self.problems.error(&span, message, error.help());
+                self.error(&span, message, error.help());
                 None
             }
         }

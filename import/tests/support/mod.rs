@@ -1,7 +1,11 @@
 //! The URDFs, their options and golden values.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
-use dalembert_import::{Imported, Options, import};
+use dalembert_import::{Imported, Motion, Options, import};
+use dalembert_model::reference::Reference;
+use dalembert_model::robot::Robot;
+use nalgebra::DVector;
+use num_traits::ToPrimitive;
 use serde_json::Value;
 
 pub const NAMES: [&str; 6] = ["panda", "ur5", "xarm7", "z1", "so101", "twodofs"];
@@ -113,7 +117,8 @@ pub fn flat_states(json: &Value) -> Golden {
     }
 }
 
-fn flat(json: &Value) -> Vec<f64> {
+/// Returns the numbers of nested lists.
+pub fn flat(json: &Value) -> Vec<f64> {
     match json {
         Value::Array(items) => items.iter().flat_map(flat).collect(),
         number => vec![number.as_f64().unwrap()],
@@ -123,8 +128,88 @@ fn flat(json: &Value) -> Vec<f64> {
 /// Returns the largest difference relative to the largest entry.
 pub fn relative(found: &[f64], expected: &[f64]) -> f64 {
     assert_eq!(found.len(), expected.len());
-    let size = expected.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+    let size = largest(expected);
     let off = found.iter().zip(expected).map(|(a, b)| (a - b).abs());
     let off = off.fold(0.0f64, f64::max);
     if size == 0.0 { off } else { off / size }
+}
+
+/// Returns the largest size of these.
+pub fn largest(numbers: &[f64]) -> f64 {
+    numbers.iter().fold(0.0f64, |most, x| most.max(x.abs()))
+}
+
+/// Returns the torques of a state by the runtime, without damping.
+fn torques(robot: &Robot, runtime: &Reference<f64>, state: &State) -> Vec<f64> {
+    let [q, qd, qdd] = [&state.q, &state.qd, &state.qdd].map(|x| DVector::from_vec(x.clone()));
+    let tau = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
+    let damping = |i: usize| robot.joints[i].viscous.to_f64().unwrap() * qd[i];
+    (0..tau.len()).map(|i| tau[i] - damping(i)).collect()
+}
+
+/// Returns the largest difference of torques, gravity loads, inertia matrices and poses from
+/// the golden ones, relative to their sizes.
+pub fn worst(robot: &Robot, golden: &Golden) -> f64 {
+    let names = robot.joints.iter().flat_map(|joint| joint.name.clone());
+    assert_eq!(names.collect::<Vec<_>>(), golden.joints);
+    let runtime = Reference::<f64>::from_robot(robot);
+    let mut worst = 0.0f64;
+    for state in &golden.states {
+        let q = DVector::from_vec(state.q.clone());
+        let gravity = runtime.gravity(&q).unwrap();
+        let inertia = runtime.inertia(&q).unwrap().transpose();
+        let hand = runtime.hand(&q).unwrap().rows();
+        for (found, expected) in [
+            (&*torques(robot, &runtime, state), &state.tau),
+            (gravity.as_slice(), &state.gravity),
+            (inertia.as_slice(), &state.inertia),
+            (&hand, &state.pose),
+        ] {
+            worst = worst.max(relative(found, expected));
+        }
+    }
+    worst
+}
+
+/// Returns the motion that has all the golden states in it.
+pub fn motion(golden: &Golden) -> Motion {
+    let most = |of: fn(&State) -> &Vec<f64>| {
+        let most = |i: usize| golden.states.iter().map(move |state| of(state)[i].abs());
+        let joints = 0..golden.joints.len();
+        joints.map(|i| most(i).fold(0.0, f64::max)).collect()
+    };
+    Motion {
+        position: most(|state| &state.q),
+        velocity: most(|state| &state.qd),
+        acceleration: most(|state| &state.qdd),
+    }
+}
+
+/// Checks that snapped torques are within the bound over all golden states, but for a rounding
+/// in each, and returns the largest bound.
+pub fn bounded(
+    name: &str,
+    imported: &Imported,
+    golden: &Golden,
+    rounding: impl Fn(&State) -> f64,
+) -> f64 {
+    let runtime = Reference::<f64>::from_robot(&imported.robot);
+    let change = imported.change.as_ref();
+    let bounds = change.map(|change| change.torques(&motion(golden)));
+    let bounds = bounds.unwrap_or_else(|| vec![0.0; golden.joints.len()]);
+    let mut worst = 0.0f64;
+    for state in &golden.states {
+        let found = torques(&imported.robot, &runtime, state);
+        for ((own, known), bound) in found.iter().zip(&state.tau).zip(&bounds) {
+            let off = (own - known).abs();
+            assert!(
+                off <= bound + rounding(state),
+                "{name}: {off:e} > {bound:e}"
+            );
+            worst = worst.max(off);
+        }
+    }
+    let (snaps, change) = (imported.snaps.len(), change.map(ToString::to_string));
+    println!("{name}: {snaps} snaps, off by {worst:.1e} of {bounds:?}, {change:?}");
+    largest(&bounds)
 }

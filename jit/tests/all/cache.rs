@@ -26,6 +26,13 @@ fn files(folder: &Folder, extension: &str) -> Vec<PathBuf> {
         .collect()
 }
 
+/// Returns an entry that is whole, whatever it tells.
+fn hashed(json: &str) -> String {
+    let hash = hmac_sha256::Hash::hash(json.as_bytes());
+    let hash: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
+    format!("{hash}\n{json}")
+}
+
 #[test]
 fn a_second_load_searches_for_nothing() {
     let folder = Folder::new("second");
@@ -97,9 +104,7 @@ fn an_entry_of_another_kind_is_made_anew() {
     ] {
         let other = json.replacen(from, to, 1);
         assert_ne!(other, json);
-        let hash = hmac_sha256::Hash::hash(other.as_bytes());
-        let hash: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
-        fs::write(&entry, format!("{hash}\n{other}")).unwrap();
+        fs::write(&entry, hashed(&other)).unwrap();
         let anew = arm(&folder.load());
         assert!(!anew.is_from_cache(), "{to}");
         assert_eq!(gravity(&anew), expected);
@@ -117,10 +122,7 @@ fn what_others_may_write_is_not_trusted() {
     let entry = files(&folder, "json").pop().unwrap();
     let text = fs::read_to_string(&entry).unwrap();
     let (_, json) = text.split_once('\n').unwrap();
-    let forged = json.replacen("c2", "s2", 1);
-    let hash = hmac_sha256::Hash::hash(forged.as_bytes());
-    let hash: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
-    let forged = format!("{hash}\n{forged}");
+    let forged = hashed(&json.replacen("c2", "s2", 1));
     let allow = |path: &PathBuf, mode| {
         fs::set_permissions(path, fs::Permissions::from_mode(mode)).unwrap();
     };

@@ -66,11 +66,11 @@ fn places_outside_and_on_each_other_are_refused() {
         offsets: offsets.to_vec(),
     };
     assert_eq!(call(Place::rows(2), Place::columns(2, 10), 10), Ok(()));
-    assert_eq!(call(Place::constant(2), Place::rows(2), 10), Ok(()));
+    assert_eq!(call(place(0, [0, 1]), Place::rows(2), 10), Ok(()));
     assert_eq!(call(Place::rows(2), Place::rows(2), 0), Ok(()));
     let outside = |place| Err(CallError::Outside { place });
     assert_eq!(call(Place::rows(2), Place::rows(2), 11), outside(0));
-    assert_eq!(call(Place::constant(2), Place::rows(2), 11), outside(1));
+    assert_eq!(call(place(0, [0, 1]), Place::rows(2), 11), outside(1));
     assert_eq!(
         call(place(usize::MAX, [0, 1]), Place::rows(2), 10),
         outside(0)

@@ -28,19 +28,12 @@ pub fn robot(name: &str, load: &Load) -> Arm {
     Arm::load(path, load).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-/// Returns nothing kept.
-pub fn fresh() -> Load {
-    Load {
-        cache: Cache::Off,
-        ..Load::default()
-    }
-}
-
 /// Returns options that ask for this and keep nothing.
 pub fn asking(asked: &str) -> Load {
     Load {
         asked: asked.parse().unwrap(),
-        ..fresh()
+        cache: Cache::Off,
+        ..Load::default()
     }
 }
 

@@ -79,11 +79,7 @@ pub fn suffix(scalar: &str, is_pair: bool) -> &'static str {
 /// Returns the items of a value, without the spaces in them and without empty ones.
 pub fn items(value: &str) -> impl Iterator<Item = String> + '_ {
     let items = value.split(',');
-    let items = items.map(|item| {
-        item.chars()
-            .filter(|c| !c.is_whitespace())
-            .collect::<String>()
-    });
+    let items = items.map(|item| item.split_whitespace().collect::<String>());
     items.filter(|item| !item.is_empty())
 }
 
@@ -94,15 +90,14 @@ impl Asked {
     /// # Errors
     /// There is no option of this name.
     pub fn set(&mut self, option: &str, value: &str) -> Result<(), NotAsked> {
-        let mut known = OPTIONS.iter().enumerate();
-        let found = known.find(|(_, (name, _))| *name == option);
-        let (place, (name, default)) = found.ok_or_else(|| NotAsked(option.to_owned()))?;
+        let found = OPTIONS.iter().find(|(name, _)| *name == option);
+        let (name, default) = found.ok_or_else(|| NotAsked(option.to_owned()))?;
         let value = items(value).collect::<Vec<String>>().join(", ");
         self.0.retain(|(own, _)| own != name);
         if !value.is_empty() && value != *default {
-            let at = |(own, _): &(&str, String)| OPTIONS.iter().position(|(name, _)| name == own);
-            let before = self.0.iter().filter(|own| at(own) < Some(place)).count();
-            self.0.insert(before, (name, value));
+            self.0.push((name, value));
+            self.0
+                .sort_by_key(|(own, _)| OPTIONS.iter().position(|(name, _)| name == own));
         }
         Ok(())
     }
@@ -158,11 +153,10 @@ impl Asked {
 
 impl fmt::Display for Asked {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, (option, value)) in self.0.iter().enumerate() {
-            let gap = if index > 0 { "; " } else { "" };
-            write!(f, "{gap}{option}: {value}")?;
-        }
-        Ok(())
+        let each = self
+            .iter()
+            .map(|(option, value)| format!("{option}: {value}"));
+        f.write_str(&each.collect::<Vec<String>>().join("; "))
     }
 }
 
@@ -225,14 +219,10 @@ mod tests {
     #[test]
     fn unknown_options_are_named() {
         let said = |text: &str| text.parse::<Asked>().unwrap_err().to_string();
-        assert_eq!(
-            said("output: gravity"),
-            "unknown option `output`: did you mean `outputs`?"
-        );
-        assert_eq!(
-            said("sinc: on"),
-            "unknown option `sinc`: known: outputs, scalar, formulation, \
-            effort, prefer, fma, sincos, sincos_error, batch, parameters, scene, plan, name"
-        );
+        let near = "unknown option `output`: did you mean `outputs`?";
+        assert_eq!(said("output: gravity"), near);
+        let far = "unknown option `sinc`: known: outputs, scalar, formulation, \
+            effort, prefer, fma, sincos, sincos_error, batch, parameters, scene, plan, name";
+        assert_eq!(said("sinc: on"), far);
     }
 }

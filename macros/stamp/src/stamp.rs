@@ -166,9 +166,8 @@ impl Stamp {
 
 /// Returns the versions whose generated code is called alike: all but the last number.
 fn series(version: &str) -> &str {
-    version
-        .rsplit_once('.')
-        .map_or(version, |(series, _)| series)
+    let parts = version.rsplit_once('.');
+    parts.map_or(version, |(series, _)| series)
 }
 
 /// Why a generated file may not be used.
@@ -237,10 +236,8 @@ mod tests {
             assert_eq!(Stamp::read(&file), Some((stamp.clone(), true)));
             let crlf = file.replace('\n', "\r\n");
             assert_eq!(Stamp::read(&crlf), Some((stamp.clone(), true)));
-            assert_eq!(
-                Stamp::read(&file.replace("{}", "{ }")),
-                Some((stamp, false))
-            );
+            let edited = file.replace("{}", "{ }");
+            assert_eq!(Stamp::read(&edited), Some((stamp, false)));
             // Each line of the stamp has its place.
             for line in 0..4 {
                 let mut lines: Vec<&str> = file.lines().collect();
@@ -254,42 +251,29 @@ mod tests {
     fn each_reason_is_named() {
         let file = stamp("outputs: gravity, inertia; scalar: f64; effort: thorough")
             .write(Comment::Line, "text\n");
-        let check = |version, robot, asked: &str| {
-            Stamp::check(&file, version, robot, &asked.parse().unwrap())
-        };
-        for asked in [
-            "outputs: gravity; scalar: f64",
-            "outputs: inertia, gravity; scalar: f64",
-            "scalar: f64",
+        let scalar = Err(Stale::Option("scalar", Some("f64".into())));
+        let fused = Err(Stale::Option("fma", None));
+        let outputs = Err(Stale::Outputs(vec!["jacobian".into()]));
+        for (asked, found) in [
+            ("outputs: gravity; scalar: f64", Ok(())),
+            ("outputs: inertia, gravity; scalar: f64", Ok(())),
+            ("scalar: f64", Ok(())),
+            ("outputs: gravity; scalar: f32", scalar),
+            ("outputs: gravity; scalar: f64; fma: on", fused),
+            ("outputs: gravity, jacobian; scalar: f64", outputs),
         ] {
-            assert_eq!(check("0.1.0", ROBOT, asked), Ok(()), "{asked}");
+            let asked = asked.parse().unwrap();
+            assert_eq!(Stamp::check(&file, "0.1.0", ROBOT, &asked), found);
         }
-        let asked = "outputs: gravity; scalar: f64";
-        assert_eq!(
-            check("0.2.0", ROBOT, asked),
-            Err(Stale::Version("0.1.3".into()))
-        );
-        assert_eq!(
-            check("0.1.0", "name = \"other\"\n", asked),
-            Err(Stale::Robot)
-        );
-        assert_eq!(check("0.1.0", "name = \"arm\"\r\n", asked), Ok(()));
-        let found = check("0.1.0", ROBOT, "outputs: gravity; scalar: f32");
-        assert_eq!(found, Err(Stale::Option("scalar", Some("f64".into()))));
-        let found = check("0.1.0", ROBOT, "outputs: gravity; scalar: f64; fma: on");
-        assert_eq!(found, Err(Stale::Option("fma", None)));
-        let found = check("0.1.0", ROBOT, "outputs: gravity, jacobian; scalar: f64");
-        assert_eq!(found, Err(Stale::Outputs(vec!["jacobian".into()])));
-        let robot = ROBOT;
+        let asked = "outputs: gravity; scalar: f64".parse().unwrap();
+        let check = |file: &str, version, robot| Stamp::check(file, version, robot, &asked);
+        let version = Stale::Version("0.1.3".into());
+        assert_eq!(check(&file, "0.2.0", ROBOT), Err(version));
+        let other = "name = \"other\"\n";
+        assert_eq!(check(&file, "0.1.0", other), Err(Stale::Robot));
+        assert_eq!(check(&file, "0.1.0", "name = \"arm\"\r\n"), Ok(()));
         let edited = file.replace("text\n", "next\n");
-        let asked: Asked = asked.parse().unwrap();
-        assert_eq!(
-            Stamp::check(&edited, "0.1.0", robot, &asked),
-            Err(Stale::Text)
-        );
-        assert_eq!(
-            Stamp::check("text\n", "0.1.0", robot, &asked),
-            Err(Stale::Foreign)
-        );
+        assert_eq!(check(&edited, "0.1.0", ROBOT), Err(Stale::Text));
+        assert_eq!(check("text\n", "0.1.0", ROBOT), Err(Stale::Foreign));
     }
 }

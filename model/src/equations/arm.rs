@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::following::Following;
 use super::frames::{Frames, View};
 use super::friction::Friction;
-use super::matrix::{Columns, Vector, plus, zero_vector};
+use super::matrix::{ABOUT_X, ABOUT_Y, ABOUT_Z, Columns, Vector, plus, zero_vector};
 use crate::robot::{Convention, HAND, Inertia, JointKind};
 use crate::scalar::{Scalar, SinCosPair};
 
@@ -76,10 +76,10 @@ impl<S: Scalar> JointPosition<S> {
                 for _ in 1..follower.turns.unsigned_abs() {
                     turned = turned.compose(pair);
                 }
-                if follower.turns < 0 {
-                    turned.sin = turned.sin.neg();
-                }
-                JointPosition::Revolute(turned)
+                JointPosition::Revolute(match follower.turns < 0 {
+                    true => turned.reversed(),
+                    false => turned,
+                })
             }
         }
     }
@@ -123,6 +123,11 @@ impl<S: Scalar> Arm<S> {
         self.base.clone().unwrap_or_else(Columns::identity)
     }
 
+    /// Returns the pose of the hand in the last frame.
+    pub(super) fn in_last_frame(&self) -> Columns<S> {
+        self.tool.clone().unwrap_or_else(Columns::identity)
+    }
+
     /// Returns the same arm where gravity is this, in base axes.
     #[must_use]
     pub fn with_gravity(mut self, gravity: &Vector<S>) -> Arm<S> {
@@ -131,6 +136,14 @@ impl<S: Scalar> Arm<S> {
             Some(base) => base.rotate_back(gravity),
         };
         self
+    }
+
+    /// Returns the same arm without gravity.
+    pub(super) fn weightless(&self) -> Arm<S> {
+        Arm {
+            gravity: zero_vector(),
+            ..self.clone()
+        }
     }
 
     /// Returns the same arm with a link behind the last one.
@@ -175,15 +188,11 @@ impl<S: Scalar> Link<S> {
     /// Returns a link without mass on a slide whose frame, at position zero, is the one
     /// before.
     pub fn still() -> Link<S> {
-        let straight = || SinCosPair {
-            sin: S::zero(),
-            cos: S::one(),
-        };
         Link {
             kind: JointKind::Prismatic,
-            alpha: straight(),
+            alpha: SinCosPair::straight(),
             beta: None,
-            theta: straight(),
+            theta: SinCosPair::straight(),
             a: S::zero(),
             d: S::zero(),
             mass: S::zero(),
@@ -266,11 +275,11 @@ impl<S: Scalar> Link<S> {
 
     /// Returns ⁱR_{i−1} v: components from frame i−1 into frame i.
     pub fn to_link(&self, convention: Convention, at: &DhVariables<S>, v: &Vector<S>) -> Vector<S> {
+        let twist_back = |v| self.alpha.turn_back_in(ABOUT_X, v);
+        let turn_back = |v| at.theta.turn_back_in(ABOUT_Z, v);
         match convention {
-            Convention::Standard => {
-                self.tilt_back(turn_back_x(&self.alpha, turn_back_z(&at.theta, v.clone())))
-            }
-            Convention::Modified => turn_back_z(&at.theta, turn_back_x(&self.alpha, v.clone())),
+            Convention::Standard => self.tilt_back(twist_back(turn_back(v.clone()))),
+            Convention::Modified => turn_back(twist_back(v.clone())),
         }
     }
 
@@ -281,19 +290,12 @@ impl<S: Scalar> Link<S> {
         at: &DhVariables<S>,
         v: &Vector<S>,
     ) -> Vector<S> {
-        match convention {
-            Convention::Standard => turn_z(&at.theta, turn_x(&self.alpha, self.tilt(v.clone()))),
-            Convention::Modified => turn_x(&self.alpha, turn_z(&at.theta, v.clone())),
-        }
-    }
-}
-
-impl<S: Scalar> Link<S> {
-    /// Returns Ry(β) v
-    fn tilt(&self, v: Vector<S>) -> Vector<S> {
-        match &self.beta {
-            None => v,
-            Some(beta) => turn_y(beta, v),
+        let twist = |v| self.alpha.turn_in(ABOUT_X, v);
+        let turn = |v| at.theta.turn_in(ABOUT_Z, v);
+        match (convention, &self.beta) {
+            (Convention::Standard, None) => turn(twist(v.clone())),
+            (Convention::Standard, Some(beta)) => turn(twist(beta.turn_in(ABOUT_Y, v.clone()))),
+            (Convention::Modified, _) => twist(turn(v.clone())),
         }
     }
 
@@ -301,39 +303,9 @@ impl<S: Scalar> Link<S> {
     pub(super) fn tilt_back(&self, v: Vector<S>) -> Vector<S> {
         match &self.beta {
             None => v,
-            Some(beta) => turn_back_y(beta, v),
+            Some(beta) => beta.turn_back_in(ABOUT_Y, v),
         }
     }
-}
-
-fn turn_y<S: Scalar>(angle: &SinCosPair<S>, [x, y, z]: Vector<S>) -> Vector<S> {
-    let [z, x] = angle.turn(&z, &x);
-    [x, y, z]
-}
-
-fn turn_back_y<S: Scalar>(angle: &SinCosPair<S>, [x, y, z]: Vector<S>) -> Vector<S> {
-    let [z, x] = angle.turn_back(&z, &x);
-    [x, y, z]
-}
-
-fn turn_x<S: Scalar>(angle: &SinCosPair<S>, [x, y, z]: Vector<S>) -> Vector<S> {
-    let [y, z] = angle.turn(&y, &z);
-    [x, y, z]
-}
-
-fn turn_back_x<S: Scalar>(angle: &SinCosPair<S>, [x, y, z]: Vector<S>) -> Vector<S> {
-    let [y, z] = angle.turn_back(&y, &z);
-    [x, y, z]
-}
-
-fn turn_z<S: Scalar>(angle: &SinCosPair<S>, [x, y, z]: Vector<S>) -> Vector<S> {
-    let [x, y] = angle.turn(&x, &y);
-    [x, y, z]
-}
-
-fn turn_back_z<S: Scalar>(angle: &SinCosPair<S>, [x, y, z]: Vector<S>) -> Vector<S> {
-    let [x, y] = angle.turn_back(&x, &y);
-    [x, y, z]
 }
 
 impl<S: Clone> Arm<S> {

@@ -22,25 +22,23 @@ impl<S: Scalar + PartialEq> Arm<S> {
     /// stands 1e6 m away would take every digit of an f32 torque with it: the
     /// length cancels only after it has been multiplied and rounded.
     pub fn fold_base(mut self) -> Self {
+        let is_modified = self.convention == Convention::Modified;
         let mut turned = false;
         for link in &mut self.links {
             // Modified DH: the twist comes before the joint.
             let parallel = link.alpha.sin == S::zero() && link.beta.is_none();
-            let leaves_axis = turned && !parallel;
-            if leaves_axis && self.convention == Convention::Modified {
+            if is_modified && turned && !parallel {
                 break;
             }
             link.d = S::zero();
-            let own_length_turns = match self.convention {
-                Convention::Standard => turned || link.kind == JointKind::Revolute,
-                Convention::Modified => turned,
-            };
+            let turns = turned || link.kind == JointKind::Revolute;
+            let own_length_turns = if is_modified { turned } else { turns };
             if !own_length_turns {
                 link.a = S::zero();
             }
-            turned |= link.kind == JointKind::Revolute;
+            turned = turns;
             // Standard DH: the twist comes after it, and turns the next axis.
-            if turned && !parallel && self.convention == Convention::Standard {
+            if !is_modified && turned && !parallel {
                 break;
             }
         }

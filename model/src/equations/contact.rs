@@ -8,11 +8,13 @@ use alloc::vec::Vec;
 
 use super::factor::Factor;
 use super::frames::Axes;
-use super::matrix::{Columns, Vector, cross, difference, sum, symmetric, times, total};
-use super::newton_euler::Wrench;
-use super::operational::{damped, products};
-use super::{Arm, DhVariables, Formulation, Link};
-use crate::robot::{Convention, JointKind};
+use super::matrix::{
+    Columns, Vector, columns_of, cross, difference, product, products, sum, symmetric,
+};
+use super::operational::damped;
+use super::screws::Wrench;
+use super::{Arm, DhVariables, Formulation};
+use crate::robot::Convention;
 use crate::scalar::{Divide, Scalar};
 
 impl Formulation {
@@ -30,14 +32,7 @@ impl Formulation {
                 torques.resize(at.len(), S::zero());
                 torques
             }
-            _ => {
-                let j = self.jacobian(arm, at);
-                let torque = |joint: usize| {
-                    let column = j.iter().zip(wrench);
-                    total(column.map(|(row, w)| times(&row[joint], w)))
-                };
-                (0..at.len()).map(torque).collect()
-            }
+            _ => products(&columns_of(&self.jacobian(arm, at)), wrench),
         }
     }
 
@@ -77,9 +72,7 @@ impl Formulation {
 
 /// Returns J Jᵀ
 pub fn squared<S: Scalar>(j: &[Vec<S>]) -> Vec<Vec<S>> {
-    symmetric(j.len(), |i, k| {
-        total(j[i].iter().zip(&j[k]).map(|(a, b)| times(a, b)))
-    })
+    symmetric(j.len(), |i, k| product(&j[i], &j[k]))
 }
 
 /// Returns the torques of the joints up to the hand.
@@ -101,47 +94,26 @@ fn along_links<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: &[S]) -> 
     }
 }
 
-/// Returns what a joint that acts along z of a frame feels of a wrench about its origin.
-fn felt<S: Scalar>(link: &Link<S>, wrench: &Wrench<S>) -> S {
-    match link.kind {
-        JointKind::Revolute => wrench.moment[2].clone(),
-        JointKind::Prismatic => wrench.force[2].clone(),
-    }
-}
-
 /// Returns the wrench in each link's axes, from the hand inward.
 fn from_the_hand<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: Wrench<S>) -> Vec<S> {
     let mut wrench = match &arm.tool {
         None => wrench,
-        Some(tool) => carried(&wrench, &tool.origin, |v| tool.rotate(v)),
+        Some(tool) => wrench.carried(|v| tool.rotate(v), &tool.origin),
     };
     let mut torques = Vec::with_capacity(at.len());
     for (link, at) in arm.links.iter().zip(at).rev() {
         let step = link.append(arm.convention, at, &Columns::identity());
         let turn = |v: &Vector<S>| link.to_previous(arm.convention, at, v);
-        let inner = carried(&wrench, &step.origin, turn);
-        torques.push(match arm.convention {
-            Convention::Standard => felt(link, &inner),
-            Convention::Modified => felt(link, &wrench),
-        });
+        let inner = wrench.carried(turn, &step.origin);
+        let at_joint = match arm.convention {
+            Convention::Standard => &inner,
+            Convention::Modified => &wrench,
+        };
+        torques.push(at_joint.part(link.kind)[2].clone());
         wrench = inner;
     }
     torques.reverse();
     torques
-}
-
-/// Returns a wrench about a frame's origin in its axes, about that and in those of the frame that
-/// it is turned into, in which it is at `origin`.
-fn carried<S: Scalar>(
-    wrench: &Wrench<S>,
-    origin: &Vector<S>,
-    turn: impl Fn(&Vector<S>) -> Vector<S>,
-) -> Wrench<S> {
-    let force = turn(&wrench.force);
-    Wrench {
-        moment: sum(&turn(&wrench.moment), &cross(origin, &force)),
-        force,
-    }
 }
 
 /// Returns a wrench about the base's origin in base axes, in each link's axes, from the base
@@ -151,25 +123,21 @@ fn from_the_base<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], wrench: Wrench<
         moment: difference(&wrench.moment, &cross(origin, &wrench.force)),
         force: wrench.force.clone(),
     };
-    let turned = |wrench: Wrench<S>, turn: &dyn Fn(&Vector<S>) -> Vector<S>| Wrench {
-        force: turn(&wrench.force),
-        moment: turn(&wrench.moment),
-    };
     let mut wrench = match &arm.base {
         None => wrench,
-        Some(base) => turned(outward(&wrench, &base.origin), &|v| base.rotate_back(v)),
+        Some(base) => outward(&wrench, &base.origin).in_axes(|v| base.rotate_back(v)),
     };
     let mut torques = Vec::with_capacity(at.len());
     for (link, at) in arm.links.iter().zip(at) {
-        let before = match arm.convention {
-            Convention::Standard => Some(felt(link, &wrench)),
-            Convention::Modified => None,
-        };
+        let before = wrench;
         let step = link.append(arm.convention, at, &Columns::identity());
-        wrench = turned(outward(&wrench, &step.origin), &|v| {
-            link.to_link(arm.convention, at, v)
-        });
-        torques.push(before.unwrap_or_else(|| felt(link, &wrench)));
+        let turn = |v: &Vector<S>| link.to_link(arm.convention, at, v);
+        wrench = outward(&before, &step.origin).in_axes(turn);
+        let at_joint = match arm.convention {
+            Convention::Standard => &before,
+            Convention::Modified => &wrench,
+        };
+        torques.push(at_joint.part(link.kind)[2].clone());
     }
     torques
 }

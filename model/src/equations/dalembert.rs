@@ -9,8 +9,8 @@ use alloc::vec::Vec;
 
 use super::lagrange_euler::{add_armature, assemble};
 use super::matrix::{
-    Columns, Vector, centripetal, cross, difference, dot, negative, plus, scaled, sum, symmetric,
-    tensor_times, times, total, twice, zero_vector,
+    Columns, Vector, centripetal, cross, difference, dot, negative, scaled, sum, sums, symmetric,
+    tensor_times, times, total, twice, unit_z, zero_vector,
 };
 use super::{Arm, DhVariables};
 use crate::robot::{Convention, JointKind};
@@ -98,10 +98,7 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
     fn append(&mut self, s: usize, at: &DhVariables<S>) {
         let (link, convention) = (&self.arm.links[s], self.arm.convention);
         let before = &self.poses[s];
-        let from_before = Columns {
-            axes: before.axes.clone(),
-            origin: zero_vector(),
-        };
+        let from_before = Columns::turned(before.axes.clone());
         let step = link.append(convention, at, &from_before);
         let pose = Columns {
             origin: sum(&before.origin, &step.origin),
@@ -116,7 +113,7 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
         self.levers.push(step.origin);
         let com = pose.rotate(&link.com);
 
-        let z0 = [S::zero(), S::zero(), S::one()];
+        let z0 = unit_z();
         let mut local: Vec<_> = match s {
             0 => Vec::new(),
             _ => self.local[s - 1]
@@ -266,9 +263,4 @@ fn joint_sums<S: Scalar>(a: &[Vec<Vector<S>>], b: &[Vector<S>]) -> Vec<S> {
     let n = b.len();
     let of_joint = |i: usize| total((i..n).map(|s| dot(&a[s][i], &b[s])));
     (0..n).map(of_joint).collect()
-}
-
-/// Returns a + b, entry by entry.
-fn sums<S: Scalar>(a: &[S], b: &[S]) -> Vec<S> {
-    a.iter().zip(b).map(|(a, b)| plus(a, b)).collect()
 }

@@ -4,10 +4,10 @@ use alloc::vec::Vec;
 
 use super::dalembert::{Dalembert, Part};
 use super::matrix::{
-    Columns, Vector, dot, halved, minus, negative, plus, scaled, sum, times, total, zero_vector,
-    zeros,
+    Columns, Vector, columns_of, dot, halved, minus, negative, plus, product, products, scaled,
+    sum, zero_vector, zeros,
 };
-use super::{Arm, DhVariables, Formulation, from_torques};
+use super::{Arm, DhVariables, Formulation};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 use crate::scalar::dual::Dual;
@@ -17,22 +17,14 @@ impl Formulation {
     /// accelerate the arm at rest, weightless, as fast as it moves.
     pub fn momentum<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S]) -> Vec<S> {
         match self {
-            Self::LagrangeEuler | Self::Dalembert => {
-                let d = self.inertia(arm, at);
-                let row = |row: &Vec<S>| total(row.iter().zip(qd).map(|(d, qd)| times(d, qd)));
-                d.iter().map(row).collect()
-            }
-            _ => {
-                let arm = from_torques::weightless(arm);
-                self.inverse_dynamics(&arm, at, &zeros(qd.len()), qd)
-            }
+            Self::LagrangeEuler | Self::Dalembert => products(&self.inertia(arm, at), qd),
+            _ => self.inverse_dynamics(&arm.weightless(), at, &zeros(qd.len()), qd),
         }
     }
 
     /// Returns T = ½ q̇ᵀ D q̇, the rotors' part included.
     pub fn kinetic_energy<S: Scalar>(self, arm: &Arm<S>, at: &[DhVariables<S>], qd: &[S]) -> S {
-        let p = self.momentum(arm, at, qd);
-        halved(&total(p.iter().zip(qd).map(|(p, qd)| times(p, qd))))
+        halved(&product(&self.momentum(arm, at, qd), qd))
     }
 
     /// Returns Cᵀ q̇ = ∂T/∂q, length n: Lagrange–Euler from the Christoffel symbols;
@@ -45,9 +37,7 @@ impl Formulation {
         qd: &[S],
     ) -> Vec<S> {
         if self == Self::LagrangeEuler {
-            let c = self.coriolis_matrix(arm, at, qd);
-            let column = |k: usize| total(c.iter().zip(qd).map(|(row, qd)| times(&row[k], qd)));
-            return (0..qd.len()).map(column).collect();
+            return products(&columns_of(&self.coriolis_matrix(arm, at, qd)), qd);
         }
         let h = self.velocity_terms(arm, at, qd);
         let (arm_moving, at_moving) = moving(arm, at, qd);
@@ -79,21 +69,22 @@ impl Formulation {
         let load = match self {
             Self::LagrangeEuler | Self::Dalembert => {
                 let (d, c) = (self.inertia(arm, at), self.coriolis_matrix(arm, at, qd));
-                let power = |row: &[S], rates: &[S]| {
-                    total(row.iter().zip(rates).map(|(x, rate)| times(x, rate)))
-                };
                 let rows = d.iter().zip(&c).zip(self.gravity(arm, at));
                 let rows =
-                    rows.map(|((d, c), load)| plus(&plus(&power(d, a), &power(c, v)), &load));
+                    rows.map(|((d, c), load)| plus(&plus(&product(d, a), &product(c, v)), &load));
                 rows.collect::<Vec<S>>()
             }
-            _ => from_torques::passivity(
-                |arm, at, qd, qdd| self.inverse_dynamics(arm, at, qd, qdd),
-                arm,
-                at,
-                qd,
-                [v, a],
-            ),
+            _ => {
+                let of = |combine: fn(&S, &S) -> S| -> Vec<S> {
+                    let rates = qd.iter().zip(v);
+                    rates.map(|(qd, v)| halved(&combine(qd, v))).collect()
+                };
+                let free = arm.clone().without_friction();
+                let with = self.inverse_dynamics(&free, at, &of(plus), a);
+                let without = self.velocity_terms(arm, at, &of(minus));
+                let pairs = with.iter().zip(&without);
+                pairs.map(|(with, without)| minus(with, without)).collect()
+            }
         };
         let links = load.iter().zip(&arm.links).zip(v);
         let damped = links.map(|((load, link), v)| plus(load, &link.friction.torque(v)));
@@ -149,8 +140,7 @@ impl Formulation {
 
 /// Returns C_ik = Σ_m h_ikm q̇_m
 pub fn contracted<S: Scalar>(h: &[Vec<Vec<S>>], qd: &[S]) -> Vec<Vec<S>> {
-    let entry = |row: &Vec<S>| total(row.iter().zip(qd).map(|(h, qd)| times(h, qd)));
-    h.iter().map(|h| h.iter().map(entry).collect()).collect()
+    h.iter().map(|h| products(h, qd)).collect()
 }
 
 /// Returns the arm and its position as they change at these velocities.

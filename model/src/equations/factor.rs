@@ -9,24 +9,13 @@
 
 use alloc::vec::Vec;
 
-use super::matrix::{minus, negative, over, plus, symmetric, times};
+use super::matrix::{minus, negative, over, plus, symmetric, times, zeros};
 use crate::scalar::{Divide, Scalar};
 
-/// The factors of a symmetric matrix.
+/// The factors of a symmetric matrix, of which all unknowns but the first few are eliminated.
 #[derive(Clone, Debug)]
 pub struct Factor<S> {
-    /// `upper[k][i]` = U_ik, i < k.
-    upper: Vec<Vec<S>>,
-    /// d_k
-    pivots: Vec<S>,
-    /// 1/d_k
-    inverses: Vec<S>,
-}
-
-/// A symmetric matrix of which all unknowns but the first few are eliminated.
-#[derive(Clone, Debug)]
-pub struct Partial<S> {
-    /// The rest of the matrix; of the first unknowns, the lower half.
+    /// d_k on the diagonal; of the unknowns that are left, the lower half of their matrix.
     rest: Vec<Vec<S>>,
     /// `upper[k][i]` = U_ik, i < k, of those that are eliminated.
     upper: Vec<Vec<S>>,
@@ -36,10 +25,16 @@ pub struct Partial<S> {
     kept: usize,
 }
 
-impl<S: Divide> Partial<S> {
+impl<S: Divide> Factor<S> {
+    /// Factors a symmetric matrix, whose upper half is not read. A division for
+    /// each pivot that an entry above it is divided by; n − 1 at most.
+    pub fn new(matrix: &[Vec<S>]) -> Factor<S> {
+        Factor::partial(matrix, 0)
+    }
+
     /// Eliminates from a symmetric matrix, whose upper half is not read, all unknowns but the
-    /// first. A division for each pivot that an entry above it is divided by.
-    pub fn new(matrix: &[Vec<S>], kept: usize) -> Partial<S> {
+    /// first.
+    pub(super) fn partial(matrix: &[Vec<S>], kept: usize) -> Factor<S> {
         let mut rest: Vec<Vec<S>> = matrix.to_vec();
         let (mut upper, mut inverses) = (Vec::new(), Vec::new());
         for k in (kept..matrix.len()).rev() {
@@ -56,7 +51,7 @@ impl<S: Divide> Partial<S> {
         }
         upper.reverse();
         inverses.reverse();
-        Partial {
+        Factor {
             rest,
             upper,
             inverses,
@@ -64,63 +59,22 @@ impl<S: Divide> Partial<S> {
         }
     }
 
-    /// Returns entry (i, k) of the matrix that is left of the first unknowns, k ≤ i.
-    pub fn left(&self, i: usize, k: usize) -> &S {
-        &self.rest[i][k]
-    }
-
-    /// Returns the right side b of the first unknowns once the others are eliminated, then what
-    /// these are if the first vanish.
-    pub fn eliminated(&self, b: &[S]) -> Vec<S> {
-        let mut x = b.to_vec();
-        for (k, factors) in self.upper.iter().enumerate().rev() {
-            let (before, own) = x.split_at_mut(self.kept + k);
-            for (x, factor) in before.iter_mut().zip(factors) {
-                *x = minus(x, &times(factor, &own[0]));
-            }
-            own[0] = times(&own[0], &self.inverses[k]);
-        }
-        x
-    }
-
-    /// Returns all unknowns, of which the first are given.
-    pub fn substituted(&self, mut x: Vec<S>) -> Vec<S> {
-        for (k, factors) in self.upper.iter().enumerate() {
-            let (before, own) = x.split_at_mut(self.kept + k);
-            for (x, factor) in before.iter().zip(factors) {
-                own[0] = minus(&own[0], &times(factor, x));
-            }
-        }
-        x
-    }
-}
-
-impl<S: Divide> Factor<S> {
-    /// Factors a symmetric matrix, whose upper half is not read. A division for
-    /// each pivot that an entry above it is divided by; n − 1 at most.
-    pub fn new(matrix: &[Vec<S>]) -> Factor<S> {
-        let Partial {
-            rest,
-            upper,
-            inverses,
-            ..
-        } = Partial::new(matrix, 0);
-        Factor {
-            upper,
-            pivots: (0..rest.len()).map(|k| rest[k][k].clone()).collect(),
-            inverses,
-        }
-    }
-
     /// Returns d
-    pub fn pivots(&self) -> &[S] {
-        &self.pivots
+    pub fn pivots(&self) -> Vec<S> {
+        (self.kept..self.rest.len())
+            .map(|k| self.rest[k][k].clone())
+            .collect()
+    }
+
+    /// Returns entry (i, k) of the matrix that is left of the first unknowns, k ≤ i.
+    pub(super) fn left(&self, i: usize, k: usize) -> &S {
+        &self.rest[i][k]
     }
 
     /// Returns x with D x = b.
     pub fn solve(&self, b: &[S]) -> Vec<S> {
         self.substituted(self.eliminate(b, |k, x| match k {
-            0 => over(x, &self.pivots[0]),
+            0 => over(x, &self.rest[0][0]),
             _ => times(x, &self.inverses[k]),
         }))
     }
@@ -128,6 +82,12 @@ impl<S: Divide> Factor<S> {
     /// Returns U⁻¹ b
     pub fn eliminated(&self, b: &[S]) -> Vec<S> {
         self.eliminate(b, |_, x| x.clone())
+    }
+
+    /// Returns the right side b of the first unknowns once the others are eliminated, then what
+    /// these are if the first vanish.
+    pub(super) fn halfway(&self, b: &[S]) -> Vec<S> {
+        self.eliminate(b, |k, x| times(x, &self.inverses[k]))
     }
 
     /// Returns diag(1/d) x
@@ -138,9 +98,10 @@ impl<S: Divide> Factor<S> {
 
     /// Returns U⁻ᵀ x
     pub fn substituted(&self, mut x: Vec<S>) -> Vec<S> {
-        for k in 1..x.len() {
-            for i in 0..k {
-                x[k] = minus(&x[k], &times(&self.upper[k][i], &x[i]));
+        for (k, factors) in self.upper.iter().enumerate() {
+            let (before, own) = x.split_at_mut(self.kept + k);
+            for (x, factor) in before.iter().zip(factors) {
+                own[0] = minus(&own[0], &times(factor, x));
             }
         }
         x
@@ -149,18 +110,19 @@ impl<S: Divide> Factor<S> {
     /// Returns U⁻¹ b, each entry through `then` once it has been eliminated from the others.
     fn eliminate(&self, b: &[S], then: impl Fn(usize, &S) -> S) -> Vec<S> {
         let mut x = b.to_vec();
-        for k in (0..x.len()).rev() {
-            for i in 0..k {
-                x[i] = minus(&x[i], &times(&self.upper[k][i], &x[k]));
+        for (k, factors) in self.upper.iter().enumerate().rev() {
+            let (before, own) = x.split_at_mut(self.kept + k);
+            for (x, factor) in before.iter_mut().zip(factors) {
+                *x = minus(x, &times(factor, &own[0]));
             }
-            x[k] = then(k, &x[k]);
+            own[0] = then(k, &own[0]);
         }
         x
     }
 
     /// Returns D⁻¹ = U⁻ᵀ diag(1/d) U⁻¹, n×n, symmetric.
     pub fn inverse(&self) -> Vec<Vec<S>> {
-        let n = self.pivots.len();
+        let n = self.upper.len();
         // [k][i] = (U⁻¹)_ik, i ≤ k: U U⁻¹ = 1 column by column.
         let mut inverse: Vec<Vec<S>> = Vec::with_capacity(n);
         for k in 0..n {
@@ -192,9 +154,17 @@ pub fn submatrix<S: Scalar>(matrix: &[Vec<S>], joints: &[usize]) -> Vec<Vec<S>> 
 
 /// Returns a vector of n entries that has these at these joints, and zeros elsewhere.
 pub fn scatter<S: Scalar>(values: &[S], joints: &[usize], n: usize) -> Vec<S> {
-    let mut all = alloc::vec![S::zero(); n];
-    for (value, &joint) in values.iter().zip(joints) {
-        all[joint] = value.clone();
+    placed(zeros(n), joints, values.iter().cloned())
+}
+
+/// Returns a vector whose entries at these joints are replaced.
+pub(super) fn placed<T>(
+    mut all: Vec<T>,
+    joints: &[usize],
+    values: impl IntoIterator<Item = T>,
+) -> Vec<T> {
+    for (&joint, value) in joints.iter().zip(values) {
+        all[joint] = value;
     }
     all
 }

@@ -1,11 +1,17 @@
 //! Every output from every formulation, by name.
+//!
+//! The recursions give D, h, c and h_ikm as torques of chosen motions. Their rates and
+//! accelerations are zeros and ones by structure, so that a symbolic scalar folds what they
+//! switch off.
 
 use alloc::vec::Vec;
 
 use super::dalembert::Dalembert;
 use super::lagrange_euler::{self, LagrangeEuler};
-use super::newton_euler::{table1, table2};
-use super::{Arm, DhVariables, from_torques};
+use super::matrix::{halved, minus, symmetric, unit, zeros};
+use super::newton_euler::table1;
+use super::newton_euler::table2::{self, Moment};
+use super::{Arm, DhVariables};
 use crate::scalar::Scalar;
 
 /// A way to write the dynamics. All give the same functions of the state.
@@ -50,20 +56,14 @@ impl Formulation {
         qd: &[S],
         qdd: &[S],
     ) -> Vec<S> {
-        use table2::Moment;
+        let in_link_axes = |moment| table2::inverse_dynamics(arm, at, qd, qdd, moment);
         match self {
-            Self::LagrangeEuler => lagrange_euler::inverse_dynamics(arm, at, qd, qdd),
+            Self::LagrangeEuler => LagrangeEuler::new(arm, at).inverse_dynamics(qd, qdd),
             Self::Dalembert => Dalembert::new(arm, at).inverse_dynamics(qd, qdd),
             Self::NewtonEulerBase => table1::inverse_dynamics(arm, at, qd, qdd),
-            Self::NewtonEulerLinkAsPrinted => {
-                table2::inverse_dynamics(arm, at, qd, qdd, Moment::AsPrinted)
-            }
-            Self::NewtonEulerLink => {
-                table2::inverse_dynamics(arm, at, qd, qdd, Moment::RotateFirst)
-            }
-            Self::NewtonEulerLinkDifferences => {
-                table2::inverse_dynamics(arm, at, qd, qdd, Moment::Differences)
-            }
+            Self::NewtonEulerLinkAsPrinted => in_link_axes(Moment::AsPrinted),
+            Self::NewtonEulerLink => in_link_axes(Moment::RotateFirst),
+            Self::NewtonEulerLinkDifferences => in_link_axes(Moment::Differences),
         }
     }
 
@@ -72,11 +72,14 @@ impl Formulation {
         match self {
             Self::LagrangeEuler => LagrangeEuler::new(arm, at).inertia(),
             Self::Dalembert => Dalembert::new(arm, at).inertia(),
-            _ => from_torques::inertia(
-                |arm, at, qd, qdd| self.inverse_dynamics(arm, at, qd, qdd),
-                arm,
-                at,
-            ),
+            // Column k is τ of q̈ = e_k at rest, without gravity. Only its rows i ≥ k are taken, the
+            // others by symmetry.
+            _ => {
+                let (arm, n) = (arm.weightless(), at.len());
+                let column = |k: usize| self.inverse_dynamics(&arm, at, &zeros(n), &unit(n, k));
+                let columns: Vec<Vec<S>> = (0..n).map(column).collect();
+                symmetric(n, |i, k| columns[k][i].clone())
+            }
         }
     }
 
@@ -88,16 +91,12 @@ impl Formulation {
         qd: &[S],
     ) -> Vec<S> {
         match self {
-            Self::LagrangeEuler => {
-                lagrange_euler::velocity_terms(&LagrangeEuler::new(arm, at).christoffel(), qd)
-            }
+            Self::LagrangeEuler => lagrange_euler::velocity_terms(&self.christoffel(arm, at), qd),
             Self::Dalembert => Dalembert::new(arm, at).velocity_terms(qd),
-            _ => from_torques::velocity_terms(
-                |arm, at, qd, qdd| self.inverse_dynamics(arm, at, qd, qdd),
-                arm,
-                at,
-                qd,
-            ),
+            _ => {
+                let arm = arm.weightless().without_friction();
+                self.inverse_dynamics(&arm, at, qd, &zeros(qd.len()))
+            }
         }
     }
 
@@ -106,11 +105,10 @@ impl Formulation {
         match self {
             Self::LagrangeEuler => LagrangeEuler::new(arm, at).gravity(),
             Self::Dalembert => Dalembert::new(arm, at).gravity(),
-            _ => from_torques::gravity(
-                |arm, at, qd, qdd| self.inverse_dynamics(arm, at, qd, qdd),
-                arm,
-                at,
-            ),
+            _ => {
+                let rest = zeros(at.len());
+                self.inverse_dynamics(arm, at, &rest, &rest)
+            }
         }
     }
 
@@ -121,15 +119,34 @@ impl Formulation {
             Self::Dalembert => {
                 // h alone: the terms that q̈ and g multiply are not asked for.
                 let terms = Dalembert::new(arm, at);
-                let h =
-                    |_: &Arm<S>, _: &[DhVariables<S>], qd: &[S], _: &[S]| terms.velocity_terms(qd);
-                from_torques::christoffel(h, arm, at)
+                polarised(at.len(), |qd| terms.velocity_terms(qd))
             }
-            _ => from_torques::christoffel(
-                |arm, at, qd, qdd| self.inverse_dynamics(arm, at, qd, qdd),
-                arm,
-                at,
-            ),
+            _ => polarised(at.len(), |qd| self.velocity_terms(arm, at, qd)),
         }
     }
+}
+
+/// Returns `h[i][k][m]` = h_ikm of any h(q̇) by polarisation: h_ikk = h_i(e_k) and
+/// h_ikm = (h_i(e_k + e_m) − h_i(e_k) − h_i(e_m)) / 2.
+fn polarised<S: Scalar>(n: usize, velocity_terms: impl Fn(&[S]) -> Vec<S>) -> Vec<Vec<Vec<S>>> {
+    let squares: Vec<Vec<S>> = (0..n).map(|k| velocity_terms(&unit(n, k))).collect();
+    // [m][k], k < m: h(e_k + e_m)
+    let pair = |k: usize, m: usize| {
+        let mut both = unit(n, k);
+        both[m] = S::one();
+        velocity_terms(&both)
+    };
+    let pairs: Vec<Vec<Vec<S>>> = (0..n)
+        .map(|m| (0..m).map(|k| pair(k, m)).collect())
+        .collect();
+    let entry = |i: usize, m: usize, k: usize| {
+        if m == k {
+            return squares[k][i].clone();
+        }
+        let mixed = minus(&minus(&pairs[m][k][i], &squares[k][i]), &squares[m][i]);
+        halved(&mixed)
+    };
+    (0..n)
+        .map(|i| symmetric(n, |m, k| entry(i, m, k)))
+        .collect()
 }

@@ -4,12 +4,11 @@
 use alloc::vec::Vec;
 
 use super::articulated;
-use super::derivatives::columns;
+use super::derivatives::{columns, with_rates};
 use super::energy::moving;
-use super::factor::{Factor, scatter, submatrix};
+use super::factor::{Factor, placed, scatter, submatrix};
 use super::following::{gathered, gathered_columns, gathered_square, spread};
-use super::from_torques::weightless;
-use super::matrix::{minus, negative, times, total, zeros};
+use super::matrix::{columns_of, minus, negative, product, times, unit, zeros};
 use super::{Arm, DhVariables, Formulation};
 use crate::scalar::dual::Dual;
 use crate::scalar::{Divide, Scalar};
@@ -34,20 +33,14 @@ pub fn inverted<S: Divide>(d: &[Vec<S>], moves: &[bool]) -> Vec<Vec<S>> {
     let (free, n) = (free(moves), moves.len());
     let inverse = Factor::new(&submatrix(d, &free)).inverse();
     let rows = inverse.iter().map(|row| scatter(row, &free, n));
-    let mut all: Vec<Vec<S>> = (0..n).map(|_| zeros(n)).collect();
-    for (row, &joint) in rows.zip(&free) {
-        all[joint] = row;
-    }
-    all
+    placed(alloc::vec![zeros(n); n], &free, rows)
 }
 
 /// Returns −D⁻¹ times the slopes of the torques: those of q̈.
 pub fn against<S: Scalar>(inverse: &[Vec<S>], slopes: &[Vec<S>]) -> Vec<Vec<S>> {
-    let entry = |row: &[S], k: usize| {
-        let products = row.iter().zip(slopes);
-        negative(&total(products.map(|(x, slopes)| times(x, &slopes[k]))))
-    };
-    let row = |row: &Vec<S>| (0..slopes.len()).map(|k| entry(row, k)).collect();
+    let columns = columns_of(slopes);
+    let entry = |row: &[S], column: &[S]| negative(&product(row, column));
+    let row = |row: &Vec<S>| columns.iter().map(|column| entry(row, column)).collect();
     inverse.iter().map(row).collect()
 }
 
@@ -101,12 +94,9 @@ impl Formulation {
             return inverted(&self.gathered_inertia(arm, at), moves);
         }
         let n = at.len();
-        let arm = weightless(arm).without_friction();
+        let arm = arm.weightless().without_friction();
         let row = |k: usize| {
-            let mut tau = zeros(n);
-            if moves[k] {
-                tau[k] = S::one();
-            }
+            let tau = if moves[k] { unit(n, k) } else { zeros(n) };
             articulated::forward_dynamics(&arm, at, &zeros(n), &tau, moves)
         };
         // Symmetric: its columns are its rows.
@@ -139,11 +129,7 @@ impl Formulation {
         let run = |rates: &[S], growth: &[S]| {
             let (arm, at) = moving(arm, at, rates);
             let arm = arm.without_coulomb();
-            let grown = qd.iter().zip(growth).map(|(value, rate)| Dual {
-                value: value.clone(),
-                rate: rate.clone(),
-            });
-            let grown: Vec<Dual<S>> = grown.collect();
+            let grown = with_rates(qd, growth);
             // Coulomb friction takes of the torques what it takes, and by its own slope.
             let left = tau.iter().zip(&rubbed).zip(growth);
             let left = left.map(|((tau, [torque, slope]), growth)| Dual {
@@ -153,15 +139,10 @@ impl Formulation {
             let left: Vec<Dual<S>> = left.collect();
             articulated::forward_dynamics(&arm, &at, &grown, &left, moves)
         };
-        let unit = |k: usize| {
-            let mut unit = zeros(n);
-            unit[k] = S::one();
-            unit
-        };
         let rest: Vec<S> = zeros(n);
         [
-            columns(n, |k| run(&unit(k), &rest)),
-            columns(n, |k| run(&rest, &unit(k))),
+            columns(n, |k| run(&unit(n, k), &rest)),
+            columns(n, |k| run(&rest, &unit(n, k))),
         ]
     }
 }

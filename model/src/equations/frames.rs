@@ -8,6 +8,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::matrix::Columns;
+use crate::robot::values::word;
 
 /// The axes that a frame's velocity has its components in, and the point it is of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -31,9 +32,7 @@ impl Axes {
 
     /// Returns its word.
     pub fn word(self) -> &'static str {
-        let mut all = Axes::WORDS.into_iter();
-        all.find(|(_, axes)| *axes == self)
-            .map_or("", |(word, _)| word)
+        word(&Axes::WORDS, &self)
     }
 }
 

@@ -18,10 +18,7 @@ use crate::scalar::Scalar;
 /// Returns the axes of frames 0 … n in base axes and, in the place of the origin, the step from
 /// the frame before.
 pub(super) fn frames<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Columns<S>> {
-    let unmoved = |frame: &Columns<S>| Columns {
-        axes: frame.axes.clone(),
-        origin: zero_vector(),
-    };
+    let unmoved = |frame: &Columns<S>| Columns::turned(frame.axes.clone());
     let mut frames = alloc::vec![unmoved(&arm.frame_0())];
     for (link, at) in arm.links.iter().zip(at) {
         let before = frames.last().map_or_else(Columns::identity, unmoved);
@@ -121,10 +118,7 @@ pub(super) fn columns_across<S: Scalar>(
         axes[seen.0] = frames[before].rotate(&carried(seen.1.clone(), i, before));
         axes[from_base.0] = frames[0].rotate(&carried(from_base.1.clone(), i, 0));
         axes[0] = cross(&axes[1], &axes[2]);
-        frames.push(Columns {
-            axes,
-            origin: zero_vector(),
-        });
+        frames.push(Columns::turned(axes));
     }
     let levers = levers(arm, at).1;
     let column = |j: usize| {
@@ -164,10 +158,7 @@ fn zeros<S: Scalar>(frame: &Columns<S>, lever: &Vector<S>) -> usize {
 /// Returns a joint's place without its turn.
 fn unturned<S: Scalar>(at: &DhVariables<S>) -> DhVariables<S> {
     DhVariables {
-        theta: SinCosPair {
-            sin: S::zero(),
-            cos: S::one(),
-        },
+        theta: SinCosPair::straight(),
         d: at.d.clone(),
     }
 }

@@ -5,15 +5,17 @@
 
 use alloc::vec::Vec;
 
+use super::derivatives::with_rates;
 use super::energy::moving;
 use super::frames::Axes;
 use super::lagrange_euler::PseudoInertia;
 use super::matrix::{
-    Columns, Vector, cross, difference, minus, negative, plus, scaled, sum, times, total,
+    Columns, Vector, cross, difference, minus, negative, plus, scaled, sum, times, total, unit,
     zero_vector, zeros,
 };
-use super::newton_euler::{Motion, Wrench, table1};
-use super::{Arm, DhVariables, Formulation, Link, from_torques, joint_axes};
+use super::newton_euler::{Motion, table1};
+use super::screws::Wrench;
+use super::{Arm, DhVariables, Formulation, Link, joint_axes};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
 use crate::scalar::dual::Dual;
@@ -55,14 +57,6 @@ fn hand_of<S: Scalar>(arm: &Arm<S>, poses: &[Columns<S>]) -> Columns<S> {
     match &arm.tool {
         None => last,
         Some(tool) => last.then(tool),
-    }
-}
-
-/// Components in base axes of a vector that has them in those of frame 0.
-fn in_base_axes<S: Scalar>(arm: &Arm<S>, vector: Vector<S>) -> Vector<S> {
-    match &arm.base {
-        None => vector,
-        Some(base) => base.rotate(&vector),
     }
 }
 
@@ -156,10 +150,13 @@ impl Formulation {
         qd: &[S],
     ) -> [Vector<S>; 2] {
         if self != Self::LagrangeEuler {
-            let arm = from_torques::weightless(arm);
+            let arm = arm.weightless();
             let base = Motion::of_base(&arm.gravity);
             let rate = table1::tip_acceleration(&arm, at, qd, &zeros(qd.len()), &base);
-            return rate.map(|part| in_base_axes(&arm, part));
+            return match &arm.base {
+                None => rate,
+                Some(base) => rate.each_ref().map(|part| base.rotate(part)),
+            };
         }
         let rest: Vec<S> = zeros(qd.len());
         let (arm, at) = accelerated(arm, at, qd, &rest);
@@ -181,11 +178,15 @@ impl Formulation {
             Self::LagrangeEuler => wrenches_by_poses(arm, at, qd, qdd),
             _ => table1::wrenches(arm, at, qd, qdd),
         };
-        let turned = |wrench: Wrench<S>| Wrench {
-            force: in_base_axes(arm, wrench.force),
-            moment: in_base_axes(arm, wrench.moment),
-        };
-        wrenches.into_iter().map(turned).collect()
+        match &arm.base {
+            None => wrenches,
+            Some(base) => {
+                let wrenches = wrenches.iter();
+                wrenches
+                    .map(|wrench| wrench.in_axes(|v| base.rotate(v)))
+                    .collect()
+            }
+        }
     }
 }
 
@@ -201,18 +202,17 @@ fn wrenches_by_poses<S: Scalar>(
     let still = poses_from(&Columns::identity(), arm, at);
     let n = at.len();
     let mut wrenches = Vec::with_capacity(n);
-    let (mut force, mut moment) = (zero_vector(), zero_vector());
+    let mut about_base = Wrench::zero();
     for i in (0..n).rev() {
-        let (own, about_base) = inertial(arm, i, &still[i], &moving[i]);
-        force = sum(&force, &own);
-        moment = sum(&moment, &about_base);
+        about_base = about_base.with(&inertial(arm, i, &still[i], &moving[i]));
+        let Wrench { force, moment } = &about_base;
         let point = match (arm.convention, i) {
             (Convention::Modified, _) => still[i].origin.clone(),
             (Convention::Standard, 0) => zero_vector(),
             (Convention::Standard, _) => still[i - 1].origin.clone(),
         };
         wrenches.push(Wrench {
-            moment: difference(&moment, &cross(&point, &force)),
+            moment: difference(moment, &cross(&point, force)),
             force: force.clone(),
         });
     }
@@ -232,23 +232,14 @@ fn accelerated<S: Scalar>(
     qdd: &[S],
 ) -> (Arm<Twice<S>>, Vec<DhVariables<Twice<S>>>) {
     let (arm, at) = moving(arm, at, qd);
-    let rates = qd.iter().zip(qdd);
-    let rates = rates.map(|(value, rate)| Dual {
-        value: value.clone(),
-        rate: rate.clone(),
-    });
-    moving(&arm, &at, &rates.collect::<Vec<_>>())
+    moving(&arm, &at, &with_rates(qd, qdd))
 }
 
 /// Returns ω of a frame: Ṙ Rᵀ is skew.
 fn angular<S: Scalar>(frame: &Columns<Dual<S>>) -> Vector<S> {
     let entry = |row: usize, column: usize| {
-        total(
-            frame
-                .axes
-                .iter()
-                .map(|axis| times(&axis[row].rate, &axis[column].value)),
-        )
+        let axes = frame.axes.iter();
+        total(axes.map(|axis| times(&axis[row].rate, &axis[column].value)))
     };
     [entry(2, 1), entry(0, 2), entry(1, 0)]
 }
@@ -256,9 +247,7 @@ fn angular<S: Scalar>(frame: &Columns<Dual<S>>) -> Vector<S> {
 /// Computes linear and angular velocity of the hand for a unit rate of joint j, by the rate of
 /// its pose.
 fn by_rates<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], j: usize) -> [Vector<S>; 2] {
-    let mut rates = zeros(at.len());
-    rates[j] = S::one();
-    let (arm, at) = moving(arm, at, &rates);
+    let (arm, at) = moving(arm, at, &unit(at.len(), j));
     let hand = hand_of(&arm, &poses(&arm, &at));
     let linear = hand.origin.each_ref().map(|x| x.rate.clone());
     [linear, angular(&hand)]
@@ -298,7 +287,7 @@ fn in_axes<S: Scalar>(
 /// Returns the columns of J in the hand's own axes: from the hand inward, the third row of its
 /// axes in a joint's frame is the joint's axis in the hand's.
 fn local_columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<[Vector<S>; 2]> {
-    let mut pose = arm.tool.clone().unwrap_or_else(Columns::identity);
+    let mut pose = arm.in_last_frame();
     let mut columns = Vec::with_capacity(at.len());
     for (link, at) in arm.links.iter().zip(at).rev() {
         let inner = inward(arm, link, at, &pose);
@@ -354,7 +343,7 @@ pub(super) fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Colu
 
 /// Returns the pose of the hand, from the hand inward.
 fn hand_inward<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
-    let mut pose = arm.tool.clone().unwrap_or_else(Columns::identity);
+    let mut pose = arm.in_last_frame();
     for (link, at) in arm.links.iter().zip(at).rev() {
         pose = inward(arm, link, at, &pose);
     }
@@ -369,7 +358,7 @@ fn hand_by_two_axes<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S
     let Columns {
         axes: [mut x, _, mut z],
         mut origin,
-    } = arm.tool.clone().unwrap_or_else(Columns::identity);
+    } = arm.in_last_frame();
     for (link, at) in arm.links.iter().zip(at).rev() {
         let step = link.append(arm.convention, at, &Columns::identity());
         let turn = |v: &Vector<S>| link.to_previous(arm.convention, at, v);
@@ -405,7 +394,7 @@ fn hand_by_levers<S: Scalar>(
     }
     let outer = at.len().saturating_sub(2);
     if let Some(frame) = levers.get(outer) {
-        let mut x = tool_axis(arm);
+        let [mut x, ..] = arm.in_last_frame().axes;
         for (link, at) in arm.links.iter().zip(at).skip(outer).rev() {
             x = link.to_previous(arm.convention, at, &x);
         }
@@ -422,13 +411,6 @@ fn hand_by_levers<S: Scalar>(
     hand
 }
 
-/// Returns the x axis of the hand in the last frame.
-fn tool_axis<S: Scalar>(arm: &Arm<S>) -> Vector<S> {
-    let tool = arm.tool.clone().unwrap_or_else(Columns::identity);
-    let [x, ..] = tool.axes;
-    x
-}
-
 /// Returns ∫ (r̈ − g) dm and ∫ r × (r̈ − g) dm of link i: from Ä J Aᵀ, whose last
 /// column is the force.
 fn inertial<S: Scalar>(
@@ -436,7 +418,7 @@ fn inertial<S: Scalar>(
     i: usize,
     pose: &Columns<S>,
     moving: &Columns<Dual<Dual<S>>>,
-) -> (Vector<S>, Vector<S>) {
+) -> Wrench<S> {
     let body = PseudoInertia::of(&arm.links[i]);
     let second = |v: &Vector<Dual<Dual<S>>>| v.each_ref().map(|x| x.rate.rate.clone());
     let accelerations = body.after(&Columns {
@@ -454,5 +436,8 @@ fn inertial<S: Scalar>(
     };
     let moment = [(2, 1), (0, 2), (1, 0)].map(|(a, b)| minus(&product(a, b), &product(b, a)));
     let weight = cross(&first, &arm.gravity).map(|x| negative(&x));
-    (force, sum(&moment, &weight))
+    Wrench {
+        moment: sum(&moment, &weight),
+        force,
+    }
 }

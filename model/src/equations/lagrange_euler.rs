@@ -11,8 +11,8 @@
 use alloc::vec::Vec;
 
 use super::matrix::{
-    Columns, Vector, dot, halved, minus, negative, plus, scaled, sum, symmetric, times, total,
-    twice, zero_vector,
+    Columns, Vector, dot, halved, minus, negative, plus, product, scaled, sum, symmetric, times,
+    total, twice, zero_vector,
 };
 use super::{Arm, DhVariables, Link};
 use crate::robot::Convention;
@@ -125,6 +125,12 @@ impl<'a, S: Scalar> LagrangeEuler<'a, S> {
         total(self.arm.links.iter().enumerate().map(of_link))
     }
 
+    /// Returns τ_i = Σ_k D_ik q̈_k + h_i + c_i + b_i q̇_i (eq. 2.3).
+    pub fn inverse_dynamics(&self, qd: &[S], qdd: &[S]) -> Vec<S> {
+        let h = velocity_terms(&self.christoffel(), qd);
+        assemble(self.arm, &self.inertia(), &h, &self.gravity(), qd, qdd)
+    }
+
     /// Returns `[i][k][j]` = U_ijk = U_ikj for j ≤ k ≤ i.
     fn second_derivatives(&self) -> Vec<Vec<Vec<Columns<S>>>> {
         let mut all: Vec<Vec<Vec<Columns<S>>>> = Vec::with_capacity(self.u.len());
@@ -208,21 +214,6 @@ impl<S: Scalar> PseudoInertia<S> {
     }
 }
 
-/// Returns D, n×n: see [`LagrangeEuler::inertia`].
-pub fn inertia<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<S>> {
-    LagrangeEuler::new(arm, at).inertia()
-}
-
-/// Returns h_ikm, n×n×n: see [`LagrangeEuler::christoffel`].
-pub fn christoffel<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<Vec<Vec<S>>> {
-    LagrangeEuler::new(arm, at).christoffel()
-}
-
-/// Returns c: see [`LagrangeEuler::gravity`].
-pub fn gravity<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Vec<S> {
-    LagrangeEuler::new(arm, at).gravity()
-}
-
 /// Returns h_i = Σ_k Σ_m h_ikm q̇_k q̇_m, the full double sum: a pair k < m counts twice.
 pub fn velocity_terms<S: Scalar>(h: &[Vec<Vec<S>>], qd: &[S]) -> Vec<S> {
     let n = qd.len();
@@ -239,18 +230,6 @@ pub fn velocity_terms<S: Scalar>(h: &[Vec<Vec<S>>], qd: &[S]) -> Vec<S> {
     h.iter().map(of_joint).collect()
 }
 
-/// Returns τ_i = Σ_k D_ik q̈_k + h_i + c_i + b_i q̇_i (eq. 2.3).
-pub fn inverse_dynamics<S: Scalar>(
-    arm: &Arm<S>,
-    at: &[DhVariables<S>],
-    qd: &[S],
-    qdd: &[S],
-) -> Vec<S> {
-    let terms = LagrangeEuler::new(arm, at);
-    let h = velocity_terms(&terms.christoffel(), qd);
-    assemble(arm, &terms.inertia(), &h, &terms.gravity(), qd, qdd)
-}
-
 /// Returns D q̈ + h + c + b∘q̇ from its parts.
 pub(super) fn assemble<S: Scalar>(
     arm: &Arm<S>,
@@ -262,7 +241,7 @@ pub(super) fn assemble<S: Scalar>(
 ) -> Vec<S> {
     (0..arm.links.len())
         .map(|i| {
-            let inertial = total(d[i].iter().zip(qdd).map(|(d, qdd)| times(d, qdd)));
+            let inertial = product(&d[i], qdd);
             let passive = plus(&h[i], &c[i]);
             let damping = arm.links[i].friction.torque(&qd[i]);
             plus(&plus(&inertial, &passive), &damping)

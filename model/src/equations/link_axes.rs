@@ -15,11 +15,12 @@
 use alloc::vec::Vec;
 
 use super::frames::Axes;
-use super::from_torques::weightless;
 use super::kinematics::{geometric, levers, poses};
-use super::matrix::{Columns, Vector, negative, sum, symmetric, zero_vector, zeros};
+use super::matrix::{
+    Columns, Vector, columns_of, product, products, sum, symmetric, unit_z, z_across, zero_vector,
+    zeros,
+};
 use super::newton_euler::{table1, table2};
-use super::operational::{product, products};
 use super::{Arm, DhVariables, Formulation};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
@@ -135,8 +136,7 @@ impl<'a, S: Scalar> SeenHand<'a, S> {
         // M Gᵀ, row by row: its columns are those of G M.
         let half = self.turned(matrix);
         let turn = self.turn();
-        let column = |k: usize| half.iter().map(|row| row[k].clone()).collect();
-        let columns: Vec<Vec<S>> = (0..half.len()).map(column).collect();
+        let columns = columns_of(&half);
         symmetric(half.len(), |i, k| product(&turn[i], &columns[k]))
     }
 }
@@ -158,13 +158,11 @@ fn columns<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>], link: usize) -> Vec<[
         hands.push(sum(&step.origin, &turned));
     }
     hands.reverse();
-    let unit = || [S::zero(), S::zero(), S::one()];
     let mut columns: Vec<[Vector<S>; 2]> = Vec::with_capacity(n);
     for (i, (link, at)) in arm.links[..link].iter().zip(at).enumerate() {
         let own = |hand: &Vector<S>| match link.kind {
-            // z × p
-            JointKind::Revolute => [[negative(&hand[1]), hand[0].clone(), S::zero()], unit()],
-            JointKind::Prismatic => [unit(), zero_vector()],
+            JointKind::Revolute => [z_across(hand), unit_z()],
+            JointKind::Prismatic => [unit_z(), zero_vector()],
         };
         if arm.convention == Convention::Standard {
             columns.push(own(&hands[i]));
@@ -190,7 +188,7 @@ fn acceleration<S: Scalar>(
     link: usize,
 ) -> [Vector<S>; 2] {
     let (arm, at) = arm.to_hand(at);
-    let mut inner = weightless(&arm);
+    let mut inner = arm.weightless();
     let mut outer = inner.clone();
     inner.links.truncate(link);
     outer.links.drain(..link);

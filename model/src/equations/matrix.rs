@@ -22,9 +22,52 @@ pub fn zero_vector<S: Scalar>() -> Vector<S> {
     [S::zero(), S::zero(), S::zero()]
 }
 
+/// Returns the axis z_0.
+pub fn unit_z<S: Scalar>() -> Vector<S> {
+    [S::zero(), S::zero(), S::one()]
+}
+
+/// Returns the matrix 1.
+pub fn identity<S: Scalar>() -> [Vector<S>; 3] {
+    core::array::from_fn(|i| core::array::from_fn(|k| if i == k { S::one() } else { S::zero() }))
+}
+
+/// Returns Mᵀ
+pub fn transposed<S: Clone>(matrix: &[Vector<S>; 3]) -> [Vector<S>; 3] {
+    core::array::from_fn(|i| core::array::from_fn(|k| matrix[k][i].clone()))
+}
+
 /// Returns `n` zeros.
 pub fn zeros<S: Scalar>(n: usize) -> Vec<S> {
     (0..n).map(|_| S::zero()).collect()
+}
+
+/// Returns e_k, of n entries.
+pub(super) fn unit<S: Scalar>(n: usize, k: usize) -> Vec<S> {
+    let mut e = zeros(n);
+    e[k] = S::one();
+    e
+}
+
+/// Returns Σ a_k b_k
+pub(super) fn product<S: Scalar>(a: &[S], b: &[S]) -> S {
+    total(a.iter().zip(b).map(|(a, b)| times(a, b)))
+}
+
+/// Returns a x for each row a.
+pub fn products<S: Scalar>(rows: &[Vec<S>], x: &[S]) -> Vec<S> {
+    rows.iter().map(|row| product(row, x)).collect()
+}
+
+/// Returns a + b, entry by entry.
+pub(super) fn sums<S: Scalar>(a: &[S], b: &[S]) -> Vec<S> {
+    a.iter().zip(b).map(|(a, b)| plus(a, b)).collect()
+}
+
+/// Returns the columns of a matrix given row by row; none of one without rows.
+pub(super) fn columns_of<S: Clone>(rows: &[Vec<S>]) -> Vec<Vec<S>> {
+    let column = |k: usize| rows.iter().map(|row| row[k].clone()).collect();
+    (0..rows.first().map_or(0, Vec::len)).map(column).collect()
 }
 
 /// Returns the sum of terms, the first two first.
@@ -78,6 +121,16 @@ pub fn cross_z<S: Scalar>(a: &Vector<S>, s: &S) -> Vector<S> {
     [times(&a[1], s), negative(&times(&a[0], s)), S::zero()]
 }
 
+/// Returns a × z_0.
+pub(super) fn across_z<S: Scalar>(a: &Vector<S>) -> Vector<S> {
+    [a[1].clone(), negative(&a[0]), S::zero()]
+}
+
+/// Returns z_0 × a.
+pub(super) fn z_across<S: Scalar>(a: &Vector<S>) -> Vector<S> {
+    [negative(&a[1]), a[0].clone(), S::zero()]
+}
+
 /// Returns ω × (ω × a), the centripetal acceleration of the point a.
 pub fn centripetal<S: Scalar>(omega: &Vector<S>, a: &Vector<S>) -> Vector<S> {
     cross(omega, &cross(omega, a))
@@ -85,23 +138,45 @@ pub fn centripetal<S: Scalar>(omega: &Vector<S>, a: &Vector<S>) -> Vector<S> {
 
 /// Returns I a for a symmetric tensor.
 pub fn tensor_times<S: Scalar>(tensor: &Inertia<S>, a: &Vector<S>) -> Vector<S> {
-    [
-        dot(
-            &[tensor.xx.clone(), tensor.xy.clone(), tensor.xz.clone()],
-            a,
-        ),
-        dot(
-            &[tensor.xy.clone(), tensor.yy.clone(), tensor.yz.clone()],
-            a,
-        ),
-        dot(
-            &[tensor.xz.clone(), tensor.yz.clone(), tensor.zz.clone()],
-            a,
-        ),
-    ]
+    tensor.rows().each_ref().map(|row| dot(row, a))
 }
 
+/// The two axes that a turn about x moves, the first towards the second.
+pub(super) const ABOUT_X: [usize; 2] = [1, 2];
+/// Those that a turn about y moves.
+pub(super) const ABOUT_Y: [usize; 2] = [2, 0];
+/// Those that a turn about z moves.
+pub(super) const ABOUT_Z: [usize; 2] = [0, 1];
+
 impl<S: Scalar> SinCosPair<S> {
+    /// Returns the pair of no turn.
+    pub fn straight() -> Self {
+        SinCosPair {
+            sin: S::zero(),
+            cos: S::one(),
+        }
+    }
+
+    /// Returns the pair of the opposite angle.
+    pub fn reversed(&self) -> Self {
+        SinCosPair {
+            sin: self.sin.neg(),
+            cos: self.cos.clone(),
+        }
+    }
+
+    /// Returns a vector turned by this angle in the plane of two axes.
+    pub(super) fn turn_in(&self, [i, j]: [usize; 2], mut v: Vector<S>) -> Vector<S> {
+        [v[i], v[j]] = self.turn(&v[i], &v[j]);
+        v
+    }
+
+    /// Returns the inverse of [`SinCosPair::turn_in`].
+    pub(super) fn turn_back_in(&self, [i, j]: [usize; 2], mut v: Vector<S>) -> Vector<S> {
+        [v[i], v[j]] = self.turn_back(&v[i], &v[j]);
+        v
+    }
+
     /// Returns the plane rotation by this angle: (c x − s y, s x + c y).
     pub fn turn(&self, x: &S, y: &S) -> [S; 2] {
         [
@@ -146,41 +221,39 @@ impl<S> Columns<S> {
 impl<S: Scalar> Columns<S> {
     /// Returns the pose 1.
     pub fn identity() -> Self {
-        let axis = |i| core::array::from_fn(|k| if k == i { S::one() } else { S::zero() });
+        Columns::turned(identity())
+    }
+
+    /// Returns the pose with these axes at the origin.
+    pub(super) fn turned(axes: [Vector<S>; 3]) -> Self {
         Columns {
-            axes: [axis(0), axis(1), axis(2)],
+            axes,
             origin: zero_vector(),
         }
     }
 
     /// Returns · Rz(θ)
     pub fn turn_z(self, theta: &SinCosPair<S>) -> Self {
-        let [x, y, z] = self.axes;
-        let [x, y] = turn_columns(theta, &x, &y);
-        Columns {
-            axes: [x, y, z],
-            origin: self.origin,
-        }
+        self.turn_in(theta, ABOUT_Z)
     }
 
     /// Returns · Rx(α)
     pub fn turn_x(self, alpha: &SinCosPair<S>) -> Self {
-        let [x, y, z] = self.axes;
-        let [y, z] = turn_columns(alpha, &y, &z);
-        Columns {
-            axes: [x, y, z],
-            origin: self.origin,
-        }
+        self.turn_in(alpha, ABOUT_X)
     }
 
     /// Returns · Ry(β)
     pub fn turn_y(self, beta: &SinCosPair<S>) -> Self {
-        let [x, y, z] = self.axes;
-        let [z, x] = turn_columns(beta, &z, &x);
-        Columns {
-            axes: [x, y, z],
-            origin: self.origin,
+        self.turn_in(beta, ABOUT_Y)
+    }
+
+    /// Returns two columns x and y times a plane rotation: (c x + s y, c y − s x).
+    fn turn_in(mut self, angle: &SinCosPair<S>, [x, y]: [usize; 2]) -> Self {
+        for row in 0..3 {
+            let turned = angle.turn_back(&self.axes[x][row], &self.axes[y][row]);
+            [self.axes[x][row], self.axes[y][row]] = turned;
         }
+        self
     }
 
     /// Returns · Tz(d)
@@ -201,10 +274,7 @@ impl<S: Scalar> Columns<S> {
     pub fn derive(&self, kind: JointKind) -> Self {
         let [x, y, z] = &self.axes;
         match kind {
-            JointKind::Revolute => Columns {
-                axes: [y.clone(), opposite(x), zero_vector()],
-                origin: zero_vector(),
-            },
+            JointKind::Revolute => Columns::turned([y.clone(), opposite(x), zero_vector()]),
             JointKind::Prismatic => Columns {
                 axes: [zero_vector(), zero_vector(), zero_vector()],
                 origin: z.clone(),
@@ -248,8 +318,7 @@ impl<S: Scalar> Columns<S> {
     pub fn turn_tensor(&self, tensor: &Inertia<S>) -> Inertia<S> {
         let half = tensor.rows().each_ref().map(|column| self.rotate(column));
         // (R T) Rᵀ, row by row: T is symmetric, so its rows were its columns.
-        let row = |i: usize| [0, 1, 2].map(|k| half[k][i].clone());
-        let turned = [0, 1, 2].map(|i| self.rotate(&row(i)));
+        let turned = transposed(&half).map(|row| self.rotate(&row));
         Inertia::symmetric(|i, k| turned[i][k].clone())
     }
 
@@ -258,10 +327,7 @@ impl<S: Scalar> Columns<S> {
     where
         S: 'a,
     {
-        let nothing = Columns {
-            axes: [zero_vector(), zero_vector(), zero_vector()],
-            origin: zero_vector(),
-        };
+        let nothing = Columns::turned([zero_vector(), zero_vector(), zero_vector()]);
         terms.fold(nothing, |all, (s, own)| Columns {
             axes: core::array::from_fn(|i| sum(&all.axes[i], &scaled(&s, &own.axes[i]))),
             origin: sum(&all.origin, &scaled(&s, &own.origin)),
@@ -275,12 +341,4 @@ impl<S: Scalar> Columns<S> {
             plus(&trace, &dot(a, b))
         })
     }
-}
-
-/// Returns two columns times a plane rotation from the right:
-/// (c x + s y, c y − s x).
-fn turn_columns<S: Scalar>(angle: &SinCosPair<S>, x: &Vector<S>, y: &Vector<S>) -> [Vector<S>; 2] {
-    let [a, b, c] = [0, 1, 2].map(|row| angle.turn_back(&x[row], &y[row]));
-    let [[x0, y0], [x1, y1], [x2, y2]] = [a, b, c];
-    [[x0, x1, x2], [y0, y1, y2]]
 }

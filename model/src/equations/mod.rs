@@ -20,11 +20,11 @@
 //! | [`link_axes`] | the hand's velocity in the axes of links |
 //! | [`operational`] | Λ, J̄, bias force and null space at the hand |
 //! | [`contact`] | Jᵀw of a wrench at the hand, and the wrench of torques |
-//! | [`from_torques`] | D, h, c, h_ikm of a recursion, from the torques of chosen motions |
 //! | [`Formulation`] | every output from every formulation, by name |
 //! | [`Arm::from_robot`], [`pose_of`], [`exact_pose`], [`Arm::fold_base`] | exact parameters in any scalar; what a fixed base cannot feel |
 //! | [`regressor`] | Y in τ = Y π of every formulation, the parameters that its columns are of |
 //! | [`load`] | what a payload adds to regrouped parameters |
+//! | [`screws`] | twists and wrenches |
 //! | [`matrix`] | the vector and matrix products all of them are made of |
 //!
 //! τ_i = Σ_k D_ik q̈_k + h_i + c_i + (b_i + F_i r_i) q̇_i in every form: armature is
@@ -51,7 +51,6 @@ pub mod forward;
 pub mod frames;
 pub mod friction;
 mod from_robot;
-pub mod from_torques;
 mod joint_axes;
 pub mod kinematics;
 pub mod lagrange_euler;
@@ -61,6 +60,7 @@ pub mod matrix;
 pub mod newton_euler;
 pub mod operational;
 pub mod regressor;
+pub mod screws;
 pub mod second_derivatives;
 
 pub use crate::scalar::SinCosPair;

@@ -21,10 +21,12 @@
 
 use alloc::vec::Vec;
 
-use super::factor::{Factor, scatter, submatrix};
+use super::factor::{Factor, placed, scatter, submatrix};
 use super::following::gathered_rows;
 use super::forward::free;
-use super::matrix::{minus, negative, plus, symmetric, times, total, zeros};
+use super::matrix::{
+    columns_of, minus, negative, plus, product, products, symmetric, times, zeros,
+};
 use super::{Arm, DhVariables, Formulation};
 use crate::scalar::{Divide, Scalar};
 
@@ -37,16 +39,6 @@ pub struct TaskSpace<S> {
     driven: Vec<Vec<S>>,
     /// Λ⁻¹, m×m.
     mobility: Vec<Vec<S>>,
-}
-
-/// Returns Σ a_k b_k
-pub(super) fn product<S: Scalar>(a: &[S], b: &[S]) -> S {
-    total(a.iter().zip(b).map(|(a, b)| times(a, b)))
-}
-
-/// Returns a x for each row a.
-pub fn products<S: Scalar>(rows: &[Vec<S>], x: &[S]) -> Vec<S> {
-    rows.iter().map(|row| product(row, x)).collect()
 }
 
 impl<S: Divide> TaskSpace<S> {
@@ -99,21 +91,17 @@ impl<S: Divide> TaskSpace<S> {
     /// Returns J̄, n×m.
     pub fn consistent_inverse(&self, damping: &S) -> Vec<Vec<S>> {
         let factor = Factor::new(&self.damped(damping));
-        let joints = 0..self.driven.first().map_or(0, Vec::len);
         // A row of J̄ is Λ times a column of J D⁻¹: Λ is symmetric.
-        let column = |joint: usize| self.driven.iter().map(|row| row[joint].clone()).collect();
-        joints
-            .map(|joint| factor.solve(&column(joint) as &Vec<S>))
-            .collect()
+        let columns = columns_of(&self.driven);
+        columns.iter().map(|column| factor.solve(column)).collect()
     }
 
     /// Returns N, n×n, over the joints that move.
     pub fn null_space(&self, damping: &S, moves: &[bool]) -> Vec<Vec<S>> {
         let inverse = self.consistent_inverse(damping);
+        let columns = columns_of(&self.jacobian);
         let entry = |i: usize, k: usize| {
-            let column = self.jacobian.iter().map(|row| &row[k]);
-            let products = inverse[i].iter().zip(column);
-            let product = total(products.map(|(x, y)| times(x, y)));
+            let product = product(&inverse[i], &columns[k]);
             match (moves[i] && moves[k], i == k) {
                 (false, _) => S::zero(),
                 (true, true) => minus(&S::one(), &product),
@@ -162,10 +150,8 @@ impl<S: Divide> NormalEquations<S> {
         let jacobian: Vec<Vec<S>> = jacobian.iter().map(row).collect();
         let inertia = submatrix(inertia, &joints);
         let damping = symmetric(joints.len(), |i, k| times(damping, &inertia[i][k]));
-        let square = |i: usize, k: usize| {
-            let rows = jacobian.iter().map(|row| times(&row[i], &row[k]));
-            plus(&total(rows), &damping[i][k])
-        };
+        let columns = columns_of(&jacobian);
+        let square = |i: usize, k: usize| plus(&product(&columns[i], &columns[k]), &damping[i][k]);
         Some(NormalEquations {
             factor: Factor::new(&symmetric(joints.len(), square)),
             jacobian,
@@ -190,12 +176,8 @@ impl<S: Divide> NormalEquations<S> {
     /// Returns (Jᵀ J + λ² D)⁻¹ x for each x, a column each.
     fn solved(&self, right: &[Vec<S>]) -> Vec<Vec<S>> {
         let columns: Vec<Vec<S>> = right.iter().map(|x| self.factor.solve(x)).collect();
-        let row = |joint: usize| columns.iter().map(|column| column[joint].clone()).collect();
-        let mut rows: Vec<Vec<S>> = alloc::vec![zeros(right.len()); self.n];
-        for (index, &joint) in self.joints.iter().enumerate() {
-            rows[joint] = row(index);
-        }
-        rows
+        let nothing = alloc::vec![zeros(right.len()); self.n];
+        placed(nothing, &self.joints, columns_of(&columns))
     }
 }
 
@@ -263,7 +245,7 @@ impl Formulation {
     ) -> Vec<S> {
         let space = self.task_space(arm, at, moves);
         // Without friction and torques the joints fall by −D⁻¹ (h + c).
-        let still = alloc::vec![S::zero(); qd.len()];
+        let still = zeros(qd.len());
         let free = arm.clone().without_friction();
         let falling = self.forward_dynamics(&free, at, qd, &still, moves);
         let driven = products(&space.jacobian, &falling);

@@ -11,8 +11,8 @@ use alloc::vec::Vec;
 
 pub use super::chain::Column;
 use super::chain::body::{Body, entry};
-use super::friction::Friction;
-use super::matrix::{minus, times, zero_vector, zeros};
+use super::factor::scatter;
+use super::matrix::{minus, times, zero_vector};
 use super::{Arm, DhVariables, Formulation, Link};
 use crate::robot::{Inertia, Robot};
 use crate::scalar::Scalar;
@@ -126,20 +126,6 @@ pub fn of_drives<S>(robot: &Robot) -> Vec<Column<S>> {
         .collect()
 }
 
-/// Returns what of a joint's drive a column is: what it multiplies in the
-/// joint's row.
-pub(super) fn drive<'a, S>(
-    column: &Column<S>,
-    qd: &'a [S],
-    qdd: &'a [S],
-) -> Option<(usize, &'a S)> {
-    match column {
-        Column::Body { .. } => None,
-        Column::Armature(joint) => Some((*joint, &qdd[*joint])),
-        Column::Viscous(joint) => Some((*joint, &qd[*joint])),
-    }
-}
-
 impl Formulation {
     /// Returns the columns of a regressor, n rows of an entry a column, each as the
     /// difference of the torques of two arms.
@@ -176,7 +162,7 @@ impl Formulation {
 /// An arm's link has a mass, a centre of mass and a tensor about that: a first
 /// moment without a mass is none. With (m, s, Σ) = (1, s, Σ) − (1 − m, 0, 0) a
 /// body is the difference of two that are, the first with its centre at s.
-pub fn differences<S: Scalar>(
+fn differences<S: Scalar>(
     arm: &Arm<S>,
     columns: &[Column<S>],
     qd: &[S],
@@ -187,15 +173,10 @@ pub fn differences<S: Scalar>(
     let empty = without_bodies(arm);
     let mut rows: Vec<Vec<S>> = (0..n).map(|_| Vec::with_capacity(columns.len())).collect();
     for column in columns {
-        let entries = match (column, drive(column, qd, qdd)) {
-            (Column::Body { joint, body }, _) => of_body(&empty, *joint, body, &torques),
-            (_, drive) => {
-                let mut entries = zeros(n);
-                if let Some((joint, factor)) = drive {
-                    entries[joint] = factor.clone();
-                }
-                entries
-            }
+        let entries = match column {
+            Column::Body { joint, body } => of_body(&empty, *joint, body, &torques),
+            Column::Armature(joint) => scatter(&[qdd[*joint].clone()], &[*joint], n),
+            Column::Viscous(joint) => scatter(&[qd[*joint].clone()], &[*joint], n),
         };
         for (row, entry) in rows.iter_mut().zip(entries) {
             row.push(entry);
@@ -206,13 +187,10 @@ pub fn differences<S: Scalar>(
 
 /// Returns the same joints without masses, friction and rotors.
 fn without_bodies<S: Scalar>(arm: &Arm<S>) -> Arm<S> {
-    let mut empty = arm.clone();
+    let mut empty = arm.clone().without_friction();
     for link in &mut empty.links {
-        link.mass = S::zero();
-        link.com = zero_vector();
-        link.inertia = Inertia::symmetric(|_, _| S::zero());
-        link.friction = Friction::none();
-        link.armature = S::zero();
+        (link.mass, link.armature) = (S::zero(), S::zero());
+        (link.com, link.inertia) = (zero_vector(), Inertia::symmetric(|_, _| S::zero()));
     }
     empty
 }

@@ -14,11 +14,13 @@ use alloc::vec::Vec;
 use super::chain::composite::{Composite, CompositeOrder};
 use super::chain::second_derivatives::SecondDerivatives;
 use super::chain::{Chain, Regrouping, Skeleton};
-use super::derivatives::columns;
+use super::derivatives::{columns, constants};
 use super::energy::moving;
 use super::forward::free;
 use super::lagrange_euler::LagrangeEuler;
-use super::matrix::{minus, negative, plus, symmetric, times, total, twice, zeros};
+use super::matrix::{
+    columns_of, minus, negative, plus, product, symmetric, times, total, twice, unit, zeros,
+};
 use super::{Arm, DhVariables, Formulation, JointPosition, SinCosPair};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
@@ -35,17 +37,6 @@ fn rates_of<S: Scalar>(multiplier: &[S], matrix: &[Vec<Dual<S>>]) -> Vec<S> {
     (0..matrix.len()).map(column).collect()
 }
 
-/// Rates of q at which one joint moves.
-fn unit<S: Scalar>(n: usize, joint: usize) -> Vec<S> {
-    let mut rates = zeros(n);
-    rates[joint] = S::one();
-    rates
-}
-
-fn constants<S: Scalar>(values: &[S]) -> Vec<Dual<S>> {
-    values.iter().cloned().map(Dual::constant).collect()
-}
-
 /// Returns all four by the composite bodies of the arm's chain, in base parameters.
 fn by_composites<S: Scalar>(
     arm: &Arm<S>,
@@ -57,10 +48,7 @@ fn by_composites<S: Scalar>(
     let links = arm.links.iter_mut().zip(at);
     let position = links.map(|(link, at)| match link.kind {
         JointKind::Revolute => {
-            link.theta = SinCosPair {
-                sin: S::zero(),
-                cos: S::one(),
-            };
+            link.theta = SinCosPair::straight();
             JointPosition::Revolute(at.theta.clone())
         }
         JointKind::Prismatic => {
@@ -89,7 +77,7 @@ impl Formulation {
         }
         let arm = arm.clone().without_friction();
         let torques = self.inverse_dynamics(&arm, at, qd, qdd);
-        weighed(multiplier, torques.iter())
+        product(multiplier, &torques)
     }
 
     /// Returns ∂²(λᵀτ)/∂q∂q, symmetric.
@@ -194,9 +182,9 @@ pub struct OfAccelerations<'a, S> {
 impl<'a, S: Scalar> OfAccelerations<'a, S> {
     /// Makes it from ∂(D μ)/∂q and what multiplies by D⁻¹ over the joints that move.
     pub fn new(driven: &[Vec<S>], by_inverse: impl Fn(&[S]) -> Vec<S>, moves: &'a [bool]) -> Self {
-        let column = |k: usize| driven.iter().map(|row| row[k].clone()).collect::<Vec<S>>();
+        let columns = columns_of(driven);
         let x = |k: usize| match moves[k] {
-            true => by_inverse(&column(k)),
+            true => by_inverse(&columns[k]),
             false => zeros(moves.len()),
         };
         OfAccelerations {

@@ -167,32 +167,14 @@ impl Exact {
 
     /// Returns the pair of a constant angle; multiples of π/2 give 0 and ±1.
     pub fn sincos(angle: &Angle) -> SinCosPair<Exact> {
-        let (turns, key) = reduce(angle);
-        let (sin, cos) = match key {
-            None => (Exact::zero(), Exact::one()),
-            Some((angle, Reflection::None)) => (generator(&angle, 1, 0), generator(&angle, 0, 1)),
-            Some((angle, Reflection::Negated)) => {
-                (generator(&angle, 1, 0).neg(), generator(&angle, 0, 1))
-            }
-            Some((angle, Reflection::Swapped)) => {
-                (generator(&angle, 0, 1), generator(&angle, 1, 0))
-            }
+        let (turns, [sin, cos]) = reduce(angle);
+        let (sin, cos) = match turns {
+            0 => (sin, cos),
+            1 => (cos, sin.neg()),
+            2 => (sin.neg(), cos.neg()),
+            _ => (cos.neg(), sin),
         };
-        match turns {
-            0 => SinCosPair { sin, cos },
-            1 => SinCosPair {
-                sin: cos,
-                cos: sin.neg(),
-            },
-            2 => SinCosPair {
-                sin: sin.neg(),
-                cos: cos.neg(),
-            },
-            _ => SinCosPair {
-                sin: cos.neg(),
-                cos: sin,
-            },
-        }
+        SinCosPair { sin, cos }
     }
 
     /// Returns the rational value, if no angle occurs.
@@ -303,18 +285,6 @@ impl Exact {
         }
         Exact(Form::Polynomial(Arc::new(terms)))
     }
-
-    fn plus(&self, other: &Exact) -> Exact {
-        if let (Form::Rational(a), Form::Rational(b)) = (&self.0, &other.0) {
-            return Exact::from(sum(a, b));
-        }
-        let mut terms = self.to_terms();
-        for (monomial, coefficient) in other.to_terms() {
-            let place = terms.entry(monomial).or_insert_with(Rational::zero);
-            *place = sum(place, &coefficient);
-        }
-        Exact::from_terms(terms)
-    }
 }
 
 impl From<Rational> for Exact {
@@ -331,10 +301,15 @@ impl Scalar for Exact {
         Exact::from(Rational::one())
     }
     fn add(&self, other: &Self) -> Self {
-        self.plus(other)
-    }
-    fn sub(&self, other: &Self) -> Self {
-        self.plus(&other.neg())
+        if let (Form::Rational(a), Form::Rational(b)) = (&self.0, &other.0) {
+            return Exact::from(sum(a, b));
+        }
+        let mut terms = self.to_terms();
+        for (monomial, coefficient) in other.to_terms() {
+            let place = terms.entry(monomial).or_insert_with(Rational::zero);
+            *place = sum(place, &coefficient);
+        }
+        Exact::from_terms(terms)
     }
     fn mul(&self, other: &Self) -> Self {
         match (&self.0, &other.0) {
@@ -433,21 +408,16 @@ fn multiply_into(
     }
 }
 
-/// The relation of an angle in (−π/2, π/2) to its generator's angle.
-enum Reflection {
-    /// The angle itself.
-    None,
-    /// The generator's is −angle.
-    Negated,
-    /// The generator's is π/2 − angle.
-    Swapped,
-}
-
-/// Returns quarter turns (0 to 3) and what remains: angle = turns·π/2 + remainder.
+/// Returns quarter turns (0 to 3), and sine and cosine of what remains: angle = turns·π/2 +
+/// remainder.
 ///
 /// Multiples of π are reduced to (0, π/4], so that π/3 and π/6 share their
 /// generators; radians only lose their sign, since they are no multiple.
-fn reduce(angle: &Angle) -> (u8, Option<(Arc<Angle>, Reflection)>) {
+fn reduce(angle: &Angle) -> (u8, [Exact; 2]) {
+    let generators = |angle: Angle| {
+        let angle = Arc::new(angle);
+        [generator(&angle, 1, 0), generator(&angle, 0, 1)]
+    };
     match angle {
         Angle::PiTimes(multiple) => {
             let halves = multiple * Rational::from_integer(2.into());
@@ -456,27 +426,24 @@ fn reduce(angle: &Angle) -> (u8, Option<(Arc<Angle>, Reflection)>) {
             let turns = num_integer::Integer::mod_floor(&whole.to_integer(), &4.into());
             let turns = u8::try_from(turns).unwrap_or(0);
             if rest.is_zero() {
-                return (turns, None);
+                return (turns, [Exact::zero(), Exact::one()]);
             }
             let half = Rational::new(1.into(), 2.into());
             // At the eighth turn itself either would do; this one makes the
             // opposite angle's pair (−s, c), so that the two cancel.
-            let (rest, reflection) = if rest > half || (rest == half && turns % 2 == 1) {
-                (Rational::one() - rest, Reflection::Swapped)
-            } else {
-                (rest, Reflection::None)
-            };
-            (
-                turns,
-                Some((Arc::new(Angle::PiTimes(rest * half)), reflection)),
-            )
+            if rest > half || (rest == half && turns % 2 == 1) {
+                let rest = Rational::one() - rest;
+                let [sin, cos] = generators(Angle::PiTimes(rest * half));
+                return (turns, [cos, sin]);
+            }
+            (turns, generators(Angle::PiTimes(rest * half)))
         }
-        Angle::Radians(value) if value.is_zero() => (0, None),
-        Angle::Radians(value) if value.is_negative() => (
-            0,
-            Some((Arc::new(Angle::Radians(-value)), Reflection::Negated)),
-        ),
-        Angle::Radians(_) => (0, Some((Arc::new(angle.clone()), Reflection::None))),
+        Angle::Radians(value) if value.is_zero() => (0, [Exact::zero(), Exact::one()]),
+        Angle::Radians(value) if value.is_negative() => {
+            let [sin, cos] = generators(Angle::Radians(-value));
+            (0, [sin.neg(), cos])
+        }
+        Angle::Radians(_) => (0, generators(angle.clone())),
     }
 }
 

@@ -49,7 +49,6 @@ enum Length {
 struct Facts {
     name: &'static str,
     symbol: &'static str,
-    noun: &'static str,
     given: Option<&'static str>,
     meaning: &'static str,
     length: Length,
@@ -62,7 +61,6 @@ const TABLE: [Facts; Argument::COUNT] = [
     Facts {
         name: "q",
         symbol: "q",
-        noun: "position",
         given: Some("q"),
         meaning: "Positions, rad or m.",
         length: Length::Joints,
@@ -72,7 +70,6 @@ const TABLE: [Facts; Argument::COUNT] = [
     Facts {
         name: "qd",
         symbol: "q̇",
-        noun: "velocity",
         given: Some("qd"),
         meaning: "Velocities, rad/s or m/s.",
         length: Length::Joints,
@@ -82,7 +79,6 @@ const TABLE: [Facts; Argument::COUNT] = [
     Facts {
         name: "qdd",
         symbol: "q̈",
-        noun: "acceleration",
         given: Some("qdd"),
         meaning: "Accelerations, rad/s² or m/s².",
         length: Length::Joints,
@@ -92,7 +88,6 @@ const TABLE: [Facts; Argument::COUNT] = [
     Facts {
         name: "tau",
         symbol: "τ",
-        noun: "torque",
         given: Some("torque"),
         meaning: "Torques, N·m or N.",
         length: Length::Joints,
@@ -102,7 +97,6 @@ const TABLE: [Facts; Argument::COUNT] = [
     Facts {
         name: "v",
         symbol: "v",
-        noun: "reference velocity",
         given: None,
         meaning: "Velocities wished for, rad/s or m/s.",
         length: Length::Joints,
@@ -112,7 +106,6 @@ const TABLE: [Facts; Argument::COUNT] = [
     Facts {
         name: "a",
         symbol: "a",
-        noun: "reference acceleration",
         given: None,
         meaning: "Accelerations wished for, rad/s² or m/s².",
         length: Length::Joints,
@@ -122,7 +115,6 @@ const TABLE: [Facts; Argument::COUNT] = [
     Facts {
         name: "g",
         symbol: "g",
-        noun: "gravity",
         given: None,
         meaning: "Acceleration of gravity in base axes, m/s²; where the base moves, less that of the base.",
         length: Length::Fixed(3),
@@ -132,7 +124,6 @@ const TABLE: [Facts; Argument::COUNT] = [
     Facts {
         name: "load",
         symbol: "load",
-        noun: "load",
         given: None,
         meaning: "What `load` returns of what the hand carries.",
         length: Length::Load,
@@ -142,7 +133,6 @@ const TABLE: [Facts; Argument::COUNT] = [
     Facts {
         name: "payload",
         symbol: "payload",
-        noun: "payload",
         given: None,
         meaning: "Mass, centre of mass and inertia of what the hand carries.",
         length: Length::Fixed(PAYLOAD),
@@ -152,7 +142,6 @@ const TABLE: [Facts; Argument::COUNT] = [
     Facts {
         name: "wrench",
         symbol: "w",
-        noun: "wrench",
         given: Some("hand_wrench"),
         meaning: "Force in N over moment in N·m that act on the frame, in its axes and about its point.",
         length: Length::Fixed(6),
@@ -162,7 +151,6 @@ const TABLE: [Facts; Argument::COUNT] = [
     Facts {
         name: "damping",
         symbol: "λ²",
-        noun: "damping",
         given: Some("damping"),
         meaning: "λ², zero or more, which is added to the diagonal before an inverse is taken.",
         length: Length::Fixed(1),
@@ -172,7 +160,6 @@ const TABLE: [Facts; Argument::COUNT] = [
     Facts {
         name: "multiplier",
         symbol: "λ",
-        noun: "multiplier",
         given: Some("multiplier"),
         meaning: "λ, by how much each joint counts: Lagrange multipliers, or the slope of a cost to go.",
         length: Length::Joints,
@@ -247,11 +234,6 @@ impl Argument {
         self.facts().given
     }
 
-    /// Returns what an entry is, in one or two words.
-    pub fn noun(self) -> &'static str {
-        self.facts().noun
-    }
-
     /// Returns a line for its documentation.
     pub fn meaning(self) -> &'static str {
         self.facts().meaning
@@ -264,11 +246,6 @@ impl Argument {
             Length::Fixed(length) => length,
             Length::Load => sizes.load,
         }
-    }
-
-    /// Returns whether it has an entry a joint.
-    pub fn is_of_joints(self) -> bool {
-        self.facts().length == Length::Joints
     }
 
     /// Returns the limit of a joint that says how far its entries reach; none where
@@ -302,9 +279,10 @@ mod tests {
             assert_eq!(argument.index(), index);
             assert_eq!(Argument::from_name(argument.name()), Some(argument));
         }
-        let of_joints = Argument::ALL.into_iter().filter(|a| a.is_of_joints());
+        let of_joints = |argument: &Argument| argument.facts().length == Length::Joints;
         let motion = Argument::JOINTS.into_iter();
-        assert!(of_joints.eq(motion.chain([Argument::Multiplier])));
+        let all = Argument::ALL.into_iter().filter(of_joints);
+        assert!(all.eq(motion.chain([Argument::Multiplier])));
         assert_eq!(Argument::from_name("t"), None);
     }
 }

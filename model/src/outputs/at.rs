@@ -17,7 +17,6 @@ use super::bundle::{BundleError, check_name, kept};
 use super::function::Definition;
 use super::quantity::{Facts, FrameChoice};
 use super::{Axis, Function, Quantity, Regrouped, Shape, Written};
-use crate::equations::Arm;
 use crate::equations::frames::{Axes, Rows, View};
 use crate::robot::Robot;
 use crate::scalar::Divide;
@@ -65,37 +64,34 @@ impl QuantityAt {
         &self.0.facts
     }
 
-    /// Returns the arm whose hand is the frame; none where the robot has no such frame, which
-    /// whoever generates refuses before.
-    fn seen<S: Clone>(self, arm: &Arm<S>) -> Option<Arm<S>> {
-        arm.seen(&self.0.view)
+    /// Computes something of the arm whose hand is the frame; nothing where the robot has no such
+    /// frame, which whoever generates refuses before.
+    fn of_frame<S: Divide>(
+        self,
+        at: &Written<'_, S>,
+        compute: impl Fn(Quantity, &Written<'_, S>) -> Vec<S>,
+    ) -> Vec<S> {
+        let arm = at.arm.seen(&self.0.view);
+        arm.map_or_else(Vec::new, |arm| {
+            compute(self.0.quantity, &Written { arm: &arm, ..*at })
+        })
     }
 
     pub(super) fn written<S: Divide>(self, at: &Written<'_, S>) -> Vec<S> {
-        let arm = self.seen(at.arm);
-        arm.map_or_else(Vec::new, |arm| {
-            self.0.quantity.written(&Written { arm: &arm, ..*at })
-        })
+        self.of_frame(at, |quantity, at| quantity.written(at))
     }
 
     pub(super) fn residual<S: Divide>(self, at: &Written<'_, S>, values: &[S]) -> Vec<S> {
-        let arm = self.seen(at.arm);
-        arm.map_or_else(Vec::new, |arm| {
-            let at = Written { arm: &arm, ..*at };
-            self.0.quantity.residual(&at, values)
-        })
+        self.of_frame(at, |quantity, at| quantity.residual(at, values))
     }
 
     pub(super) fn divisor<S: Divide>(self, at: &Written<'_, S>) -> Vec<S> {
-        let arm = self.seen(at.arm);
-        arm.map_or_else(Vec::new, |arm| {
-            self.0.quantity.divisor(&Written { arm: &arm, ..*at })
-        })
+        self.of_frame(at, |quantity, at| quantity.divisor(at))
     }
 
     pub(super) fn regrouped<S: Divide>(self, at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let textbook = at.textbook.as_ref()?;
-        let arm = self.seen(textbook.arm)?;
+        let arm = textbook.arm.seen(&self.0.view)?;
         let textbook = Written {
             arm: &arm,
             ..*textbook
@@ -165,15 +161,22 @@ impl Function {
             _ => FrameChoice::Frame,
         };
         match most {
-            Some(FrameChoice::None) | None => return Err(BundleError::NoFrame(function)),
+            Some(FrameChoice::None) | None => {
+                let message = format!("`{function}` is of no frame");
+                return Err(BundleError::new(message, "leave `@` and what follows out"));
+            }
             Some(most) if most < asked => {
-                let word = suffix(view, OF);
-                return Err(BundleError::NoAxes(function, word));
+                let message = format!("`{function}` has no choice of `{}`", suffix(view, OF));
+                return Err(BundleError::new(message, "it takes a frame alone"));
             }
             Some(_) => {}
         }
         let name = format!("{function}_{}{}", view.frame, suffix(view, '_'));
-        check_name(&name).map_err(|_| BundleError::Frame(view.frame.to_string()))?;
+        check_name(&name).map_err(|_| {
+            let frame: String = view.frame.chars().take(64).collect();
+            let help = "small letters, digits and single `_` between them, such as `camera_2`";
+            BundleError::new(format!("`{frame}` cannot name a frame"), help)
+        })?;
         let results = function.quantities().iter();
         let results: Vec<Quantity> = results.map(|quantity| seen(*quantity, view)).collect();
         let of = function.definition();
@@ -192,7 +195,7 @@ impl Function {
         let (name, rest) = text.split_once(AT).unwrap_or((text, ""));
         let name = name.trim();
         let function = Function::from_name(name);
-        let function = function.ok_or_else(|| BundleError::Unknown(name.to_string()))?;
+        let function = function.ok_or_else(|| BundleError::of_unknown(name))?;
         let mut words = rest.split(OF).map(str::trim);
         let frame = words.next().unwrap_or_default();
         let (mut axes, mut rows) = (None, None);
@@ -200,7 +203,11 @@ impl Function {
             let named = Axes::WORDS.iter().any(|(own, _)| *own == word);
             let place = if named { &mut axes } else { &mut rows };
             if !named && Rows::of(word).is_none() || place.replace(word).is_some() {
-                return Err(BundleError::Word(word.to_string()));
+                let word: String = word.chars().take(64).collect();
+                let message = format!("`{word}` is no choice of axes or components");
+                let help = "`mixed`, `local` or `world`; `linear`, `angular`, or some of \
+                            x, y, z, rx, ry and rz, such as `x_y_rz`";
+                return Err(BundleError::new(message, help));
             }
         }
         let of_word = |word: &str| {

@@ -10,15 +10,15 @@
 use alloc::vec::Vec;
 
 use super::formula::Formula;
-use super::forward_dynamics::{accelerations, rest};
-use super::operational::OF_HAND;
-use super::quantity::{Choice, Facts, FrameChoice, load, turns};
+use super::forward_dynamics::{Acceleration, accelerations, rest};
+use super::operational::{OF_HAND, OperationalBias};
+use super::quantity::{Choice, Facts, FrameChoice, load};
 use super::torques::torques;
-use super::{Argument, Axis, ErrorScale, Index, Motion, Regrouped, Shape, Written};
+use super::{Argument, Axis, ErrorScale, Motion, Regrouped, Shape, Written};
 use crate::equations::chain::{HandChoice, Unknowns};
 use crate::equations::contact::squared;
-use crate::equations::matrix::{minus, plus};
-use crate::equations::operational::{damped, products};
+use crate::equations::matrix::{minus, plus, products};
+use crate::equations::operational::damped;
 use crate::scalar::{Divide, Scalar};
 
 /// τ_i
@@ -52,6 +52,7 @@ impl Formula for ContactTorque {
         scale: ErrorScale::Load,
         given: Some("tau_with_wrench"),
         choices: Some(&[Choice::Recursion]),
+        inverts_inertia: false,
         gravity: true,
         frame: FrameChoice::Axes,
         hand: HandChoice::None,
@@ -93,10 +94,7 @@ impl Formula for ContactAcceleration {
             Argument::Wrench,
         ],
         shape: Shape::VECTOR,
-        unit: |at| match turns(at) {
-            0 => "m/s²",
-            _ => "rad/s²",
-        },
+        unit: Acceleration::FACTS.unit,
         given: Some("qdd_with_wrench"),
         choices: Some(&[Choice::Recursion, Choice::Travel]),
         gravity: true,
@@ -105,8 +103,6 @@ impl Formula for ContactAcceleration {
         hand: HandChoice::None,
         ..OF_HAND
     };
-
-    const INVERTS_INERTIA: bool = true;
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let motion = at.motion;
@@ -144,10 +140,7 @@ impl Formula for ContactWrench {
         summary: "Wrench ŵ, force over moment.",
         arguments: &[Argument::Position, Argument::Torque, Argument::Damping],
         shape: Shape(&[Axis::Fixed(6)]),
-        unit: |at| match at {
-            [Index::Fixed(..3)] => "N",
-            _ => "N·m",
-        },
+        unit: OperationalBias::FACTS.unit,
         given: Some("contact_wrench"),
         depends_on_base: true,
         frame: FrameChoice::Rows,

@@ -26,7 +26,7 @@ impl Formula for RotationInertia {
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let d = at.formulation.inertia_part(Part::Rotation, at.arm, at.at);
-        d.into_iter().flatten().collect()
+        d.concat()
     }
 }
 
@@ -38,19 +38,12 @@ impl Formula for TranslationInertia {
         field: "d_tran",
         letter: "Dtran",
         summary: "Inertia matrix of the links' translation D^tran.",
-        arguments: &[Argument::Position],
-        shape: Shape::MATRIX,
-        unit: |at| kilograms(turns(at)),
-        scale: ErrorScale::Inertia,
-        payload_dependence: PayloadDependence::Full,
-        ..Facts::PLAIN
+        ..RotationInertia::FACTS
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let d = at
-            .formulation
-            .inertia_part(Part::Translation, at.arm, at.at);
-        d.into_iter().flatten().collect()
+        let form = at.formulation;
+        form.inertia_part(Part::Translation, at.arm, at.at).concat()
     }
 }
 
@@ -85,12 +78,7 @@ impl Formula for TranslationCoriolis {
         field: "h_tran",
         letter: "htran",
         summary: "Coriolis and centripetal load of the links' translation h^tran.",
-        arguments: &[Argument::Position, Argument::Velocity],
-        shape: Shape::VECTOR,
-        unit: load,
-        scale: ErrorScale::Load,
-        payload_dependence: PayloadDependence::Full,
-        ..Facts::PLAIN
+        ..RotationCoriolis::FACTS
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

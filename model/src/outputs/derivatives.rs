@@ -11,7 +11,7 @@ use alloc::vec::Vec;
 
 use super::formula::Formula;
 use super::forward_dynamics::{InertiaInverse, accelerations, inverse};
-use super::quantity::{Choice, Facts, Index, turns};
+use super::quantity::{Choice, Facts, Index, by_turns, turns};
 use super::{Argument, PayloadDependence, Regrouped, Shape, Written};
 use crate::equations::chain::Unknowns;
 use crate::equations::following::{gathered_columns, spread};
@@ -29,11 +29,7 @@ impl Formula for TorqueByPosition {
         summary: "∂τ/∂q: row i has the slopes of τ_i.",
         arguments: &Argument::STATE,
         shape: Shape::MATRIX,
-        unit: |at| match turns(at) {
-            0 => "N/m",
-            1 => "N",
-            _ => "N·m",
-        },
+        unit: |at| by_turns(turns(at), ["N/m", "N", "N·m"]),
         given: Some("dtau_dq"),
         choices: Some(&[Choice::Travel]),
         payload_dependence: PayloadDependence::Torque,
@@ -42,17 +38,15 @@ impl Formula for TorqueByPosition {
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let motion = at.motion;
-        let slopes = at
-            .formulation
-            .torque_by_position(at.arm, at.at, &motion.qd, &motion.qdd);
-        slopes.into_iter().flatten().collect()
+        let (form, motion) = (at.formulation, at.motion);
+        form.torque_by_position(at.arm, at.at, &motion.qd, &motion.qdd)
+            .concat()
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let motion = at.motion;
         let slopes = at.composite.slopes(&motion.qd, &motion.qdd, at.form.travel);
-        Some(slopes.position.into_iter().flatten().collect())
+        Some(slopes.position.concat())
     }
 }
 
@@ -67,11 +61,7 @@ impl Formula for TorqueByVelocity {
         summary: "∂τ/∂q̇, damping on its diagonal.",
         arguments: &[Argument::Position, Argument::Velocity],
         shape: Shape::MATRIX,
-        unit: |at| match turns(at) {
-            0 => "N·s/m",
-            1 => "N·s",
-            _ => "N·m·s",
-        },
+        unit: |at| by_turns(turns(at), ["N·s/m", "N·s", "N·m·s"]),
         given: Some("dtau_dqd"),
         choices: Some(&[Choice::Travel]),
         payload_dependence: PayloadDependence::Torque,
@@ -79,16 +69,15 @@ impl Formula for TorqueByVelocity {
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let slopes = at
-            .formulation
-            .torque_by_velocity(at.arm, at.at, &at.motion.qd);
-        slopes.into_iter().flatten().collect()
+        let form = at.formulation;
+        form.torque_by_velocity(at.arm, at.at, &at.motion.qd)
+            .concat()
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let motion = at.motion;
         let slopes = at.composite.slopes(&motion.qd, &motion.qdd, at.form.travel);
-        Some(slopes.velocity.into_iter().flatten().collect())
+        Some(slopes.velocity.concat())
     }
 }
 
@@ -110,19 +99,13 @@ fn slopes<S: Divide>(at: &Regrouped<'_, S>) -> [Vec<S>; 2] {
     let inverse = inverse(at);
     let slopes = at.composite.slopes(&motion.qd, &qdd, form.travel);
     [slopes.position, slopes.velocity]
-        .map(|slopes| flat(against(&inverse, &gathered_columns(at.following, slopes))))
-}
-
-fn flat<S>(rows: Vec<Vec<S>>) -> Vec<S> {
-    rows.into_iter().flatten().collect()
+        .map(|slopes| against(&inverse, &gathered_columns(at.following, slopes)).concat())
 }
 
 fn written<S: Divide>(at: &Written<'_, S>) -> [Vec<S>; 2] {
-    let motion = at.motion;
-    let slopes =
-        at.formulation
-            .acceleration_slopes(at.arm, at.at, &motion.qd, &motion.tau, &motion.moves);
-    slopes.map(flat)
+    let (form, motion) = (at.formulation, at.motion);
+    form.acceleration_slopes(at.arm, at.at, &motion.qd, &motion.tau, &motion.moves)
+        .map(|slopes| slopes.concat())
 }
 
 /// Returns D X + S over the joints that move, for the slopes X of q̈ and S of τ.
@@ -155,12 +138,11 @@ impl Formula for AccelerationByPosition {
         },
         given: Some("dqdd_dq"),
         choices: Some(&[Choice::Travel]),
+        inverts_inertia: true,
         payload_dependence: PayloadDependence::Torque,
         gravity: true,
         ..Facts::PLAIN
     };
-
-    const INVERTS_INERTIA: bool = true;
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let [position, _] = written(at);
@@ -198,8 +180,6 @@ impl Formula for AccelerationByVelocity {
         ..AccelerationByPosition::FACTS
     };
 
-    const INVERTS_INERTIA: bool = true;
-
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let [_, velocity] = written(at);
         velocity
@@ -227,8 +207,6 @@ impl Formula for AccelerationByTorque {
         given: None,
         ..InertiaInverse::FACTS
     };
-
-    const INVERTS_INERTIA: bool = true;
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         InertiaInverse::written(at)

@@ -28,9 +28,6 @@ pub(super) trait Formula {
         None
     }
 
-    /// True if it exists only where D has an inverse.
-    const INVERTS_INERTIA: bool = false;
-
     /// Returns the symmetric matrix that it inverts beside D, row by row, of which the condition
     /// says how far rounding may move it; nothing if it inverts no other.
     fn divisor<S: Divide>(_: &Written<'_, S>) -> Vec<S> {
@@ -98,20 +95,20 @@ impl<S> Motion<S> {
     /// Returns the entries of an argument; of the positions none, and of what is no
     /// joint vector.
     pub fn of_mut(&mut self, argument: Argument) -> Option<&mut Vec<S>> {
-        match argument {
+        Some(match argument {
+            Argument::Velocity => &mut self.qd,
+            Argument::Acceleration => &mut self.qdd,
+            Argument::Torque => &mut self.tau,
+            Argument::ReferenceVelocity => &mut self.v,
+            Argument::ReferenceAcceleration => &mut self.a,
+            Argument::Multiplier => &mut self.multiplier,
             Argument::Position
-            | Argument::Wrench
-            | Argument::Damping
             | Argument::Gravity
             | Argument::Load
-            | Argument::Payload => None,
-            Argument::Velocity => Some(&mut self.qd),
-            Argument::Acceleration => Some(&mut self.qdd),
-            Argument::Torque => Some(&mut self.tau),
-            Argument::ReferenceVelocity => Some(&mut self.v),
-            Argument::ReferenceAcceleration => Some(&mut self.a),
-            Argument::Multiplier => Some(&mut self.multiplier),
-        }
+            | Argument::Payload
+            | Argument::Wrench
+            | Argument::Damping => return None,
+        })
     }
 }
 
@@ -119,22 +116,18 @@ impl<S: Clone> Motion<S> {
     /// Returns the motion of these joints alone.
     #[must_use]
     pub fn of_joints(&self, joints: &[usize]) -> Motion<S> {
-        let pick = |values: &[S]| joints.iter().map(|&joint| values[joint].clone()).collect();
         Motion {
-            q: joints.iter().map(|&joint| self.q[joint].clone()).collect(),
-            qd: pick(&self.qd),
-            qdd: pick(&self.qdd),
-            tau: pick(&self.tau),
-            v: pick(&self.v),
-            a: pick(&self.a),
+            q: picked(&self.q, joints),
+            qd: picked(&self.qd, joints),
+            qdd: picked(&self.qdd, joints),
+            tau: picked(&self.tau, joints),
+            v: picked(&self.v, joints),
+            a: picked(&self.a, joints),
             wrench: self.wrench.clone(),
             damping: self.damping.clone(),
-            multiplier: pick(&self.multiplier),
-            per_speed: joints
-                .iter()
-                .map(|&joint| self.per_speed[joint].clone())
-                .collect(),
-            moves: joints.iter().map(|&joint| self.moves[joint]).collect(),
+            multiplier: picked(&self.multiplier, joints),
+            per_speed: picked(&self.per_speed, joints),
+            moves: picked(&self.moves, joints),
             loading: self.loading.clone(),
         }
     }
@@ -255,7 +248,11 @@ impl<S: Scalar> Regrouped<'_, S> {
 
     /// Values over all joints of the arm, over those of the chain.
     pub(super) fn pick(&self, values: &[S]) -> Vec<S> {
-        let joints = self.joints.iter();
-        joints.map(|&joint| values[joint].clone()).collect()
+        picked(values, self.joints)
     }
+}
+
+/// Returns the values of these joints.
+fn picked<T: Clone>(values: &[T], joints: &[usize]) -> Vec<T> {
+    joints.iter().map(|&joint| values[joint].clone()).collect()
 }

@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 
 use super::contact::less;
 use super::formula::Formula;
-use super::quantity::{Choice, Facts, turns};
+use super::quantity::{Choice, Facts, by_turns, turns};
 use super::torques::torques;
 use super::{Argument, PayloadDependence, Regrouped, Shape, Written};
 use crate::equations::chain::{EliminatedTip, Unknowns};
@@ -71,13 +71,12 @@ impl Formula for Acceleration {
         },
         given: Some("forward_dynamics"),
         choices: Some(&[Choice::Recursion, Choice::Travel]),
+        inverts_inertia: true,
         payload_dependence: PayloadDependence::Torque,
         gravity: true,
         has_shoulder: true,
         ..Facts::PLAIN
     };
-
-    const INVERTS_INERTIA: bool = true;
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let motion = at.motion;
@@ -114,24 +113,18 @@ impl Formula for InertiaInverse {
         summary: "Inverse D⁻¹ of the inertia matrix.",
         arguments: &[Argument::Position],
         shape: Shape::MATRIX,
-        unit: |at| match turns(at) {
-            0 => "1/kg",
-            1 => "1/(kg·m)",
-            _ => "1/(kg·m²)",
-        },
+        unit: |at| by_turns(turns(at), ["1/kg", "1/(kg·m)", "1/(kg·m²)"]),
         given: Some("inertia_inverse"),
         choices: Some(&[Choice::Travel]),
+        inverts_inertia: true,
         payload_dependence: PayloadDependence::Torque,
         ..Facts::PLAIN
     };
 
-    const INVERTS_INERTIA: bool = true;
-
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let inverse = at
-            .formulation
-            .inertia_inverse(at.arm, at.at, &at.motion.moves);
-        inverse.into_iter().flatten().collect()
+        let form = at.formulation;
+        form.inertia_inverse(at.arm, at.at, &at.motion.moves)
+            .concat()
     }
 
     /// Returns D D⁻¹ − 1 over the joints that move.
@@ -150,6 +143,6 @@ impl Formula for InertiaInverse {
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        Some(inverse(at).into_iter().flatten().collect())
+        Some(inverse(at).concat())
     }
 }

@@ -9,13 +9,13 @@ use super::formula::Formula;
 use super::forward_dynamics::accelerations;
 use super::inverse_dynamics_second_derivatives::SHARED;
 use super::operational::factor;
-use super::quantity::{Facts, Index, turns};
+use super::quantity::{Facts, Index, by_turns, turns};
 use super::{Argument, Regrouped, Written};
 use crate::equations::chain::Unknowns;
 use crate::equations::chain::second_derivatives::SecondDerivatives;
 use crate::equations::factor::scatter;
 use crate::equations::forward::free;
-use crate::equations::operational::products;
+use crate::equations::matrix::products;
 use crate::equations::second_derivatives::OfAccelerations;
 use crate::scalar::Divide;
 
@@ -94,17 +94,12 @@ impl Formula for AccelerationByPositions {
             Argument::Torque,
             Argument::Multiplier,
         ],
-        unit: |at| match turns(at) {
-            0 => "1/(m²·s²)",
-            1 => "1/(m·s²)",
-            _ => "1/s²",
-        },
+        unit: |at| by_turns(turns(at), ["1/(m²·s²)", "1/(m·s²)", "1/s²"]),
         given: Some("d2qdd_dq_dq"),
+        inverts_inertia: true,
         gravity: true,
         ..SHARED
     };
-
-    const INVERTS_INERTIA: bool = true;
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let (motion, form) = (at.motion, at.formulation);
@@ -128,16 +123,11 @@ impl Formula for AccelerationByPositionAndVelocity {
         symbol: "∂²(λᵀq̈)/∂q∂q̇",
         summary: "∂²(λᵀq̈)/∂q∂q̇: row i has the slopes by q̇ of ∂(λᵀq̈)/∂q_i.",
         arguments: &[Argument::Position, Argument::Velocity, Argument::Multiplier],
-        unit: |at| match turns(at) {
-            0 => "1/(m²·s)",
-            1 => "1/(m·s)",
-            _ => "1/s",
-        },
+        unit: |at| by_turns(turns(at), ["1/(m²·s)", "1/(m·s)", "1/s"]),
         given: Some("d2qdd_dq_dqd"),
+        inverts_inertia: true,
         ..SHARED
     };
-
-    const INVERTS_INERTIA: bool = true;
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let (form, qd, inverted) = (at.formulation, &at.motion.qd, Inverted::new(at));
@@ -159,16 +149,10 @@ impl Formula for AccelerationByVelocities {
         letter: "q̈vv",
         symbol: "∂²(λᵀq̈)/∂q̇∂q̇",
         summary: "∂²(λᵀq̈)/∂q̇∂q̇, symmetric.",
-        unit: |at| match turns(at) {
-            0 => "1/m²",
-            1 => "1/m",
-            _ => "1",
-        },
+        unit: |at| by_turns(turns(at), ["1/m²", "1/m", "1"]),
         given: Some("d2qdd_dqd_dqd"),
         ..AccelerationByPositionAndVelocity::FACTS
     };
-
-    const INVERTS_INERTIA: bool = true;
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let (form, inverted) = (at.formulation, Inverted::new(at));
@@ -197,10 +181,9 @@ impl Formula for AccelerationByTorqueAndPosition {
             _ => "1/(kg·m²)",
         },
         given: Some("d2qdd_dtau_dq"),
+        inverts_inertia: true,
         ..SHARED
     };
-
-    const INVERTS_INERTIA: bool = true;
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let all = Inverted::new(at).of_accelerations(at);

@@ -106,16 +106,8 @@ impl Function {
 
     /// Returns what it has to do with a payload: as much as any of its results.
     pub fn payload_dependence(self) -> PayloadDependence {
-        let has = |payload_dependence| {
-            self.quantities()
-                .iter()
-                .any(|q| q.payload_dependence() == payload_dependence)
-        };
-        match (has(PayloadDependence::Full), has(PayloadDependence::Torque)) {
-            (true, _) => PayloadDependence::Full,
-            (false, true) => PayloadDependence::Torque,
-            (false, false) => PayloadDependence::None,
-        }
+        let all = self.quantities().iter().map(|q| q.payload_dependence());
+        all.max().unwrap_or(PayloadDependence::None)
     }
 
     /// Returns whether it depends on a parameter that can be an argument.
@@ -171,9 +163,7 @@ impl Function {
             columns,
         };
         let results = self.quantities().iter();
-        results
-            .flat_map(|quantity| quantity.written(&written))
-            .collect()
+        results.flat_map(|own| own.written(&written)).collect()
     }
 
     /// Returns what vanishes if these results over all joints solve the

@@ -4,7 +4,7 @@
 use alloc::vec::Vec;
 
 use super::formula::Formula;
-use super::quantity::{Choice, Facts, kilograms, turns};
+use super::quantity::{Choice, Facts, by_turns, kilograms, turns};
 use super::{Argument, PayloadDependence, Regrouped, Shape, Written};
 use crate::equations::chain::second_derivatives::SecondDerivatives;
 use crate::scalar::Divide;
@@ -49,11 +49,7 @@ impl Formula for TorqueByPositions {
             Argument::Acceleration,
             Argument::Multiplier,
         ],
-        unit: |at| match turns(at) {
-            0 => "N/m",
-            1 => "N",
-            _ => "N·m",
-        },
+        unit: |at| by_turns(turns(at), ["N/m", "N", "N·m"]),
         given: Some("d2tau_dq_dq"),
         gravity: true,
         ..SHARED
@@ -77,11 +73,7 @@ impl Formula for TorqueByPositionAndVelocity {
         symbol: "∂²(λᵀτ)/∂q∂q̇",
         summary: "∂²(λᵀτ)/∂q∂q̇: row i has the slopes by q̇ of ∂(λᵀτ)/∂q_i.",
         arguments: &[Argument::Position, Argument::Velocity, Argument::Multiplier],
-        unit: |at| match turns(at) {
-            0 => "N·s/m",
-            1 => "N·s",
-            _ => "N·m·s",
-        },
+        unit: |at| by_turns(turns(at), ["N·s/m", "N·s", "N·m·s"]),
         given: Some("d2tau_dq_dqd"),
         ..SHARED
     };

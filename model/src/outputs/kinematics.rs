@@ -17,7 +17,6 @@ use super::quantity::{Facts, FrameChoice};
 use super::{Argument, Axis, Index, PayloadDependence, Shape, Written};
 use crate::equations::kinematics::link_poses;
 use crate::equations::matrix::Columns;
-use crate::equations::newton_euler::Wrench as ForceAndMoment;
 use crate::scalar::Divide;
 
 /// [R | p]
@@ -56,10 +55,7 @@ impl Formula for LinkPoses {
         summary: "Poses [R | p] of the links' frames.",
         arguments: &[Argument::Position],
         shape: Shape(&[Axis::Joints, Axis::Fixed(3), Axis::Fixed(4)]),
-        unit: |at| match at {
-            [.., Index::Fixed(3)] => "m",
-            _ => "1",
-        },
+        unit: Pose::FACTS.unit,
         depends_on_base: true,
         of_links: true,
         ..Facts::PLAIN
@@ -93,8 +89,7 @@ impl Formula for Jacobian {
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let j = at.formulation.task_jacobian(at.arm, at.at);
-        j.into_iter().flatten().collect()
+        at.formulation.task_jacobian(at.arm, at.at).concat()
     }
 }
 
@@ -152,11 +147,7 @@ impl Formula for Wrench {
         let wrenches = at
             .formulation
             .wrenches(at.arm, at.at, &motion.qd, &motion.qdd);
-        flat(wrenches)
+        let numbers = wrenches.into_iter().flat_map(|w| [w.force, w.moment]);
+        numbers.flatten().collect()
     }
-}
-
-fn flat<S>(wrenches: Vec<ForceAndMoment<S>>) -> Vec<S> {
-    let numbers = wrenches.into_iter().flat_map(|w| [w.force, w.moment]);
-    numbers.flatten().collect()
 }

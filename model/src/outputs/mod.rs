@@ -44,6 +44,11 @@ mod passivity;
 mod regressors;
 mod torques;
 
+use alloc::vec::Vec;
+
+use crate::scalar::Divide;
+use formula::Formula;
+
 pub use argument::Argument;
 pub use at::{FunctionAt, QuantityAt};
 pub use bundle::{Bundle, BundleError};
@@ -188,10 +193,4 @@ registry! {
         AccelerationByTorqueAndPosition
     }
         "Second derivatives of the forward dynamics, of λᵀq̈ for a given λ.";
-
-    ; beside them:
-
-    /// The regrouped parameters of the arm with a payload.
-    load: Load { load: Load }
-        "Load: the regrouped parameters of the arm with a payload, once for each tool.";
 }

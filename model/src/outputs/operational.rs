@@ -15,7 +15,7 @@
 use alloc::vec::Vec;
 
 use super::formula::Formula;
-use super::quantity::{Choice, Facts, FrameChoice};
+use super::quantity::{Choice, Facts, FrameChoice, by_turns};
 use super::torques::torques;
 use super::{Argument, Axis, Index, PayloadDependence, Regrouped, Shape, Written};
 use crate::equations::chain::HandChoice;
@@ -34,6 +34,7 @@ pub(super) struct OperationalInertiaInverse;
 pub(super) const OF_HAND: Facts = Facts {
     choices: Some(&[Choice::Travel]),
     hand: HandChoice::Axes,
+    inverts_inertia: true,
     depends_on_base: true,
     payload_dependence: PayloadDependence::Torque,
     frame: FrameChoice::Rows,
@@ -84,9 +85,9 @@ pub(super) fn normal<S: Divide>(
 }
 
 /// Counts how many of two components are turns: of a unit in two powers of metres.
-pub(super) fn angular(at: &[Index]) -> usize {
-    let turns = |at: &&Index| matches!(at, Index::Fixed(3..) | Index::Turning);
-    at.iter().filter(turns).count()
+fn angular(at: &[Index]) -> i32 {
+    let turns = |at: &Index| i32::from(matches!(at, Index::Fixed(3..) | Index::Turning));
+    at.iter().map(turns).sum()
 }
 
 impl Formula for OperationalInertiaInverse {
@@ -96,16 +97,10 @@ impl Formula for OperationalInertiaInverse {
         summary: "Mobility Λ⁻¹ of the hand, linear over angular.",
         arguments: &[Argument::Position],
         shape: Shape(&[Axis::Fixed(6), Axis::Fixed(6)]),
-        unit: |at| match angular(at) {
-            0 => "1/kg",
-            1 => "1/(kg·m)",
-            _ => "1/(kg·m²)",
-        },
+        unit: |at| by_turns(angular(at), ["1/kg", "1/(kg·m)", "1/(kg·m²)"]),
         given: Some("operational_inertia_inverse"),
         ..OF_HAND
     };
-
-    const INVERTS_INERTIA: bool = true;
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         written_space(at).mobility().concat()
@@ -132,16 +127,10 @@ impl Formula for OperationalInertia {
         summary: "Inertia Λ of the hand, linear over angular.",
         arguments: &[Argument::Position, Argument::Damping],
         shape: Shape(&[Axis::Fixed(6), Axis::Fixed(6)]),
-        unit: |at| match angular(at) {
-            0 => "kg",
-            1 => "kg·m",
-            _ => "kg·m²",
-        },
+        unit: |at| by_turns(angular(at), ["kg", "kg·m", "kg·m²"]),
         given: Some("operational_inertia"),
         ..OF_HAND
     };
-
-    const INVERTS_INERTIA: bool = true;
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         written_space(at).inertia(&at.motion.damping[0]).concat()
@@ -190,8 +179,6 @@ impl Formula for ConsistentInverse {
         hand: HandChoice::Normal,
         ..OF_HAND
     };
-
-    const INVERTS_INERTIA: bool = true;
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let inverse = written_space(at).consistent_inverse(&at.motion.damping[0]);
@@ -256,8 +243,6 @@ impl Formula for OperationalBias {
         ..OF_HAND
     };
 
-    const INVERTS_INERTIA: bool = true;
-
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let motion = at.motion;
         let damping = &motion.damping[0];
@@ -305,8 +290,6 @@ impl Formula for NullSpace {
         hand: HandChoice::Normal,
         ..OF_HAND
     };
-
-    const INVERTS_INERTIA: bool = true;
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let motion = at.motion;

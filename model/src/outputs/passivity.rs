@@ -8,7 +8,7 @@
 use alloc::vec::Vec;
 
 use super::formula::Formula;
-use super::quantity::{Choice, Facts, load, turns};
+use super::quantity::{Choice, Facts, by_turns, load, turns};
 use super::{Argument, ErrorScale, PayloadDependence, Regrouped, Shape, Written};
 use crate::equations::energy::contracted;
 use crate::scalar::Divide;
@@ -23,11 +23,7 @@ impl Formula for CoriolisMatrix {
         summary: "Coriolis matrix C.",
         arguments: &[Argument::Position, Argument::Velocity],
         shape: Shape::MATRIX,
-        unit: |at| match turns(at) {
-            0 => "N·s/m",
-            1 => "N·s",
-            _ => "N·m·s",
-        },
+        unit: |at| by_turns(turns(at), ["N·s/m", "N·s", "N·m·s"]),
         choices: Some(&[Choice::Flows]),
         by_differences: true,
         payload_dependence: PayloadDependence::Torque,
@@ -36,7 +32,7 @@ impl Formula for CoriolisMatrix {
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let c = at.formulation.coriolis_matrix(at.arm, at.at, &at.motion.qd);
-        c.into_iter().flatten().collect()
+        c.concat()
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
@@ -45,7 +41,7 @@ impl Formula for CoriolisMatrix {
             true => at.composite.coriolis_matrix(qd, at.form.travel),
             false => contracted(&at.composite.christoffel(), qd),
         };
-        Some(c.into_iter().flatten().collect())
+        Some(c.concat())
     }
 }
 
@@ -85,7 +81,6 @@ impl Formula for Passivity {
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let motion = at.motion;
-        let torques = at.chain.passivity(at.at, &motion.qd, &motion.v, &motion.a);
-        Some(torques)
+        Some(at.chain.passivity(at.at, &motion.qd, &motion.v, &motion.a))
     }
 }

@@ -63,6 +63,8 @@ pub(super) struct Facts {
     pub hand: HandChoice,
     /// True if it is a matrix that is positive definite.
     pub definite: bool,
+    /// True if it exists only where D has an inverse.
+    pub inverts_inertia: bool,
     /// True if it depends on lengths that no torque depends on: where the
     /// first joints stand.
     pub depends_on_base: bool,
@@ -98,6 +100,7 @@ impl Facts {
         by_differences: false,
         hand: HandChoice::None,
         definite: false,
+        inverts_inertia: false,
         depends_on_base: false,
         payload_dependence: PayloadDependence::None,
         gravity: false,
@@ -227,6 +230,11 @@ impl Quantity {
         self.facts().definite
     }
 
+    /// Returns whether it exists only where D has an inverse.
+    pub fn inverts_inertia(self) -> bool {
+        self.facts().inverts_inertia
+    }
+
     /// Returns whether the chain formulas give it.
     pub fn is_regrouped(self) -> bool {
         self.facts().choices.is_some()
@@ -340,6 +348,15 @@ pub(super) fn kilograms(metres: i32) -> &'static str {
         0 => "kg",
         1 => "kg·m",
         _ => "kg·m²",
+    }
+}
+
+/// Returns the unit where so many turn: none, one, or more.
+pub(super) fn by_turns(turns: i32, [none, one, more]: [&'static str; 3]) -> &'static str {
+    match turns {
+        0 => none,
+        1 => one,
+        _ => more,
     }
 }
 

@@ -1,6 +1,6 @@
 //! The macro behind the list of outputs: two enumerations and the one place
-//! where their members are told apart. What comes along with others, and is not
-//! asked for by itself, stands behind `beside them`.
+//! where their members are told apart. `load` comes along with others, and is not
+//! asked for by itself.
 
 /// A row an output: its documentation, its name and its name in Rust, the file of the quantities
 /// that are its own, a line for the documentation of generated code, and what differs from
@@ -11,17 +11,13 @@ macro_rules! registry {
             $(#[$doc:meta])* $name:ident: $function:ident { $($file:ident: $($quantity:ident),+)? }
             $summary:literal $(, $field:ident: $value:expr)*;
         )*
-        ; beside them:
-        $(
-            $(#[$along_doc:meta])* $along_name:ident: $along:ident { $along_file:ident: $part:ident }
-            $along_summary:literal;
-        )*
     ) => {
         /// A function that can be generated.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Function {
             $($(#[$doc])* $function,)*
-            $($(#[$along_doc])* $along,)*
+            /// The regrouped parameters of the arm with a payload.
+            Load,
             /// Several of these in one, by a name of the user's.
             Bundle(bundle::Bundle),
             /// One of these at a frame.
@@ -35,10 +31,8 @@ macro_rules! registry {
                 #[doc = concat!("Of [`Function::", stringify!($function), "`].")]
                 $quantity,
             )+)?)*
-            $(
-                #[doc = concat!("Of [`Function::", stringify!($along), "`].")]
-                $part,
-            )*
+            /// Of [`Function::Load`].
+            Load,
             /// One of these at a frame.
             At(at::QuantityAt),
         }
@@ -61,14 +55,14 @@ macro_rules! registry {
                             )
                         }
                     },)*
-                    $(Function::$along => const {
+                    Function::Load => const {
                         &function::Definition::of(
-                            stringify!($along_name),
-                            stringify!($along),
-                            $along_summary,
-                            &[Quantity::$part],
+                            "load",
+                            "Load",
+                            "Load: the regrouped parameters of the arm with a payload, once for each tool.",
+                            &[Quantity::Load],
                         )
-                    },)*
+                    },
                     Function::Bundle(bundle) => bundle.definition(),
                     Function::At(at) => at.definition(),
                 }
@@ -81,8 +75,8 @@ macro_rules! registry {
 
             pub(in crate::outputs) fn facts(self) -> &'static quantity::Facts {
                 match self {
-                    $($($(Quantity::$quantity => &<$file::$quantity as formula::Formula>::FACTS,)+)?)*
-                    $(Quantity::$part => &<$along_file::$part as formula::Formula>::FACTS,)*
+                    $($($(Quantity::$quantity => &$file::$quantity::FACTS,)+)?)*
+                    Quantity::Load => &load::Load::FACTS,
                     Quantity::At(at) => at.facts(),
                 }
             }
@@ -91,68 +85,52 @@ macro_rules! registry {
             pub fn function(self) -> Function {
                 match self {
                     $($($(Quantity::$quantity => Function::$function,)+)?)*
-                    $(Quantity::$part => Function::$along,)*
+                    Quantity::Load => Function::Load,
                     Quantity::At(at) => at.quantity().function(),
                 }
             }
 
             /// Returns its entries by a textbook formulation, flat, row by row.
-            pub fn written<S: $crate::scalar::Divide>(self, at: &Written<'_, S>) -> ::alloc::vec::Vec<S> {
+            pub fn written<S: Divide>(self, at: &Written<'_, S>) -> Vec<S> {
                 match self {
-                    $($($(Quantity::$quantity => <$file::$quantity as formula::Formula>::written(at),)+)?)*
-                    $(Quantity::$part => <$along_file::$part as formula::Formula>::written(at),)*
+                    $($($(Quantity::$quantity => $file::$quantity::written(at),)+)?)*
+                    Quantity::Load => load::Load::written(at),
                     Quantity::At(own) => own.written(at),
                 }
             }
 
             /// Returns its entries by the chain formulas, over the chain's joints; `None`
             /// if these do not give it.
-            pub fn regrouped<S: $crate::scalar::Divide>(
-                self,
-                at: &Regrouped<'_, S>,
-            ) -> ::core::option::Option<::alloc::vec::Vec<S>> {
+            pub fn regrouped<S: Divide>(self, at: &Regrouped<'_, S>) -> Option<Vec<S>> {
                 match self {
-                    $($($(Quantity::$quantity => <$file::$quantity as formula::Formula>::regrouped(at),)+)?)*
-                    $(Quantity::$part => <$along_file::$part as formula::Formula>::regrouped(at),)*
+                    $($($(Quantity::$quantity => $file::$quantity::regrouped(at),)+)?)*
+                    Quantity::Load => load::Load::regrouped(at),
                     Quantity::At(own) => own.regrouped(at),
-                }
-            }
-
-            /// Returns whether it exists only where D has an inverse.
-            pub fn inverts_inertia(self) -> bool {
-                match self {
-                    $($($(Quantity::$quantity => <$file::$quantity as formula::Formula>::INVERTS_INERTIA,)+)?)*
-                    $(Quantity::$part => <$along_file::$part as formula::Formula>::INVERTS_INERTIA,)*
-                    Quantity::At(own) => own.quantity().inverts_inertia(),
                 }
             }
 
             /// Returns what vanishes if these entries over all joints are its
             /// own, by an equation that it solves; nothing if it solves none.
-            pub fn residual<S: $crate::scalar::Divide>(
-                self,
-                at: &Written<'_, S>,
-                values: &[S],
-            ) -> ::alloc::vec::Vec<S> {
+            pub fn residual<S: Divide>(self, at: &Written<'_, S>, values: &[S]) -> Vec<S> {
                 match self {
-                    $($($(Quantity::$quantity => <$file::$quantity as formula::Formula>::residual(at, values),)+)?)*
-                    $(Quantity::$part => <$along_file::$part as formula::Formula>::residual(at, values),)*
+                    $($($(Quantity::$quantity => $file::$quantity::residual(at, values),)+)?)*
+                    Quantity::Load => load::Load::residual(at, values),
                     Quantity::At(own) => own.residual(at, values),
                 }
             }
 
             /// Returns the symmetric matrix that it inverts beside D, row by row; nothing if it
             /// inverts no other.
-            pub fn divisor<S: $crate::scalar::Divide>(self, at: &Written<'_, S>) -> ::alloc::vec::Vec<S> {
+            pub fn divisor<S: Divide>(self, at: &Written<'_, S>) -> Vec<S> {
                 match self {
-                    $($($(Quantity::$quantity => <$file::$quantity as formula::Formula>::divisor(at),)+)?)*
-                    $(Quantity::$part => <$along_file::$part as formula::Formula>::divisor(at),)*
+                    $($($(Quantity::$quantity => $file::$quantity::divisor(at),)+)?)*
+                    Quantity::Load => load::Load::divisor(at),
                     Quantity::At(own) => own.divisor(at),
                 }
             }
 
             /// Returns its place among all of them; none of one at a frame.
-            pub fn index(self) -> ::core::option::Option<usize> {
+            pub fn index(self) -> Option<usize> {
                 Quantity::ALL.iter().position(|quantity| *quantity == self)
             }
         }

@@ -40,30 +40,20 @@ impl Formula for BaseRegressor {
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        written(at)
+        let (motion, form) = (at.motion, at.formulation);
+        form.regressor(at.arm, at.at, &motion.qd, &motion.qdd, at.columns)
+            .concat()
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        Some(regrouped(at))
+        let (motion, travel) = (at.motion, at.form.travel);
+        let rows = at.chain.regressor(at.at, &motion.qd, &motion.qdd, travel);
+        Some(rows.concat())
     }
 }
 
-/// Returns the columns by a textbook formulation.
-pub(super) fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-    let (motion, formulation) = (at.motion, at.formulation);
-    let rows = formulation.regressor(at.arm, at.at, &motion.qd, &motion.qdd, at.columns);
-    rows.into_iter().flatten().collect()
-}
-
-/// Returns the columns by the chain formulas.
-pub(super) fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Vec<S> {
-    let (motion, travel) = (at.motion, at.form.travel);
-    let rows = at.chain.regressor(at.at, &motion.qd, &motion.qdd, travel);
-    rows.into_iter().flatten().collect()
-}
-
 /// Returns the unit of an entry: of a torque over that of its parameter.
-pub(super) fn unit(at: &[Index]) -> &'static str {
+fn unit(at: &[Index]) -> &'static str {
     use crate::equations::regressor::LinkParameter;
     let metres = match at {
         [_, Index::Parameter(LinkParameter::Mass)] => 1,
@@ -88,23 +78,19 @@ impl Formula for LinkRegressor {
         letter: "Y",
         symbol: "Y over all links' parameters",
         summary: "Regressor Y over all links' parameters.",
-        arguments: &Argument::STATE,
         shape: Shape(&[Axis::Joints, Axis::LinkParameters]),
+        linear: None,
         unit,
         given: Some("regressor"),
-        choices: Some(&[Choice::Travel]),
-        // What it shares with what the chain formulas give saves a few.
-        starts_from_recursion: true,
-        gravity: true,
-        ..Facts::PLAIN
+        ..BaseRegressor::FACTS
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        written(at)
+        BaseRegressor::written(at)
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        Some(regrouped(at))
+        BaseRegressor::regrouped(at)
     }
 }
 
@@ -130,13 +116,13 @@ impl Formula for PassivityRegressor {
         let (motion, columns) = (at.motion, at.columns);
         let wished = [&motion.v[..], &motion.a[..]];
         let rows = (at.formulation).passivity_regressor(at.arm, at.at, &motion.qd, wished, columns);
-        rows.into_iter().flatten().collect()
+        rows.concat()
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let (motion, travel) = (at.motion, at.form.travel);
         let wished = [&motion.v[..], &motion.a[..]];
         let rows = (at.chain).passivity_regressor(at.at, &motion.qd, wished, travel);
-        Some(rows.into_iter().flatten().collect())
+        Some(rows.concat())
     }
 }

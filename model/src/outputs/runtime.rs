@@ -34,8 +34,8 @@ impl RuntimeParameter {
     }
 }
 
-/// The dependence of a quantity on a payload.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The dependence of a quantity on a payload, the least first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PayloadDependence {
     /// Nothing.
     None,

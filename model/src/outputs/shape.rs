@@ -86,11 +86,6 @@ impl Shape {
         places.reverse();
         places
     }
-
-    /// Returns whether it has an axis over base parameters.
-    pub fn is_over_base(self) -> bool {
-        self.0.contains(&Axis::BaseParameters)
-    }
 }
 
 impl Axis {

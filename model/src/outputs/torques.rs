@@ -116,13 +116,11 @@ impl Formula for Inertia {
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        let d = at.formulation.inertia(at.arm, at.at);
-        d.into_iter().flatten().collect()
+        at.formulation.inertia(at.arm, at.at).concat()
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        let d = at.composite.inertia(at.form.travel);
-        Some(d.into_iter().flatten().collect())
+        Some(at.composite.inertia(at.form.travel).concat())
     }
 }
 
@@ -186,12 +184,11 @@ impl Formula for Christoffel {
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let h = at.formulation.christoffel(at.arm, at.at);
-        h.into_iter().flatten().flatten().collect()
+        h.concat().concat()
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
-        let h = at.composite.christoffel();
-        Some(h.into_iter().flatten().flatten().collect())
+        Some(at.composite.christoffel().concat().concat())
     }
 }
 

@@ -47,10 +47,13 @@ pub(super) fn first_frame(first: &Axis) -> Columns<Wide> {
     let start: &Vector<Wide> = &base.axes[usize::from(near_x)];
     let across = along(start, &dot(start, z).neg(), z);
     let x = unit(&across).unwrap_or(*start);
-    Columns {
-        axes: [x, cross(z, &x), *z],
-        origin: along(&first.through, &back, z),
-    }
+    frame(x, z, along(&first.through, &back, z))
+}
+
+/// Returns the frame of these axes x and z at an origin.
+fn frame(x: Vector<Wide>, z: &Vector<Wide>, origin: Vector<Wide>) -> Columns<Wide> {
+    let axes = [x, cross(z, &x), *z];
+    Columns { axes, origin }
 }
 
 /// Returns the row from a frame on its axis to one on the next axis.
@@ -86,20 +89,16 @@ pub(super) fn to_link(here: &Columns<Wide>) -> Row {
     let along_own = Angle::recovered(&length(&cross(u, &own.axes[2])), &dot(u, &own.axes[2]));
     let keeps =
         along_own.quarter_turns().is_some_and(|n| n % 2 == 0) && theta.quarter_turns().is_some();
-    let theta = if keeps { theta } else { Angle::default() };
-    let x = match keeps {
-        true => own.axes[0],
-        false => here.axes[0],
+    let (theta, x) = match keeps {
+        true => (theta, own.axes[0]),
+        false => (Angle::default(), here.axes[0]),
     };
     Row {
         theta,
         a: Wide::zero(),
         alpha: Angle::default(),
         beta: Angle::default(),
-        frame: Columns {
-            axes: [x, cross(u, &x), *u],
-            origin: along(&here.origin, &d, u),
-        },
+        frame: frame(x, u, along(&here.origin, &d, u)),
         d,
     }
 }
@@ -119,10 +118,7 @@ fn askew(here: &Columns<Wide>, next: &Axis, normal: &Vector<Wide>) -> Row {
         theta: turn(here, &x),
         alpha: Angle::recovered(&dot(&cross(u, w), &x), &dot(u, w)),
         beta: Angle::default(),
-        frame: Columns {
-            axes: [x, cross(w, &x), *w],
-            origin: foot,
-        },
+        frame: frame(x, w, foot),
         d,
         a,
     }
@@ -148,10 +144,7 @@ fn parallel(here: &Columns<Wide>, next: &Axis, d: Wide, size: &Rational) -> Row 
         d,
         alpha: Angle::right_angles(if against { 2 } else { 0 }),
         beta: Angle::default(),
-        frame: Columns {
-            axes: [x, cross(&z, &x), z],
-            origin: along(&origin, &a, &x),
-        },
+        frame: frame(x, &z, along(&origin, &a, &x)),
         a,
     }
 }
@@ -176,10 +169,7 @@ fn nearly_parallel(here: &Columns<Wide>, next: &Axis, d: Wide, passes: &Vector<W
         d,
         alpha: Angle::recovered(&wy.neg(), &wz),
         beta: Angle::recovered(&wx, &level),
-        frame: Columns {
-            axes: [new_x, cross(w, &new_x), *w],
-            origin: along(&origin, &a, &x),
-        },
+        frame: frame(new_x, w, along(&origin, &a, &x)),
         a,
     }
 }

@@ -26,7 +26,8 @@ pub(super) fn outputs(cx: &mut Context, value: &Value, whose: &str) -> Option<Ve
             Some(Ok(bundle)) => bundle,
             Some(Err(error)) => {
                 let error = error.among(&outputs);
-                return cx.refuse(item, error.message(), &suggest::for_bundle(&error));
+                let help = suggest::for_bundle(&error);
+                return cx.refuse(item, error.message, &help);
             }
         };
         if outputs.iter().any(|other| output.is_namesake(*other)) {

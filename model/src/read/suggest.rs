@@ -8,90 +8,57 @@ use strsim::osa_distance;
 
 use crate::outputs::{BundleError, Function};
 
-/// Words of other tools and textbooks, with ours.
-const OTHER_WORDS: [(&str, &str); 54] = [
-    ("m", "mass"),
-    ("weight", "mass"),
-    ("r", "com"),
-    ("cog", "com"),
-    ("center_of_mass", "com"),
-    ("centre_of_mass", "com"),
-    ("i", "inertia"),
-    ("b", "viscous"),
-    ("damping", "viscous"),
-    ("coulomb_friction", "coulomb"),
-    ("dry_friction", "coulomb"),
-    ("width", "coulomb_width"),
-    ("jm", "armature"),
-    ("rotor", "armature"),
-    ("rotor_inertia", "armature"),
-    ("type", "kind"),
-    ("sigma", "kind"),
-    ("twist", "alpha"),
-    ("length", "a"),
-    ("qlim", "limits"),
-    ("effort", "torque"),
-    ("force", "torque"),
-    ("g", "gravity"),
-    ("dh", "convention"),
-    ("links", "joint"),
-    ("craig", "modified"),
-    ("mdh", "modified"),
-    ("classic", "standard"),
-    ("rotary", "revolute"),
-    ("continuous", "revolute"),
-    ("linear", "prismatic"),
-    ("sliding", "prismatic"),
-    ("rnea", "inverse_dynamics"),
-    ("id", "inverse_dynamics"),
-    ("aba", "forward_dynamics"),
-    ("fd", "forward_dynamics"),
-    ("crba", "inertia"),
-    ("mass_matrix", "inertia"),
-    ("inertia_matrix", "inertia"),
-    ("fk", "forward_kinematics"),
-    ("nle", "manipulator_equation"),
-    ("nonlinear_effects", "manipulator_equation"),
-    ("m", "inertia"),
-    ("d", "inertia"),
-    ("c", "coriolis"),
-    ("j", "jacobian"),
-    ("t", "forward_kinematics"),
-    ("y", "regressor"),
-    ("tau", "inverse_dynamics"),
-    ("qdd", "forward_dynamics"),
-    ("p", "potential_energy"),
-    ("lagrange", "lagrange_euler"),
-    ("newton", "newton_euler"),
-    ("rne", "newton_euler"),
+/// Our words, each with those of other tools and textbooks.
+const OTHER_WORDS: [(&str, &[&str]); 29] = [
+    ("mass", &["m", "weight"]),
+    ("com", &["r", "cog", "center_of_mass", "centre_of_mass"]),
+    (
+        "inertia",
+        &["i", "crba", "mass_matrix", "inertia_matrix", "m", "d"],
+    ),
+    ("viscous", &["b", "damping"]),
+    ("coulomb", &["coulomb_friction", "dry_friction"]),
+    ("coulomb_width", &["width"]),
+    ("armature", &["jm", "rotor", "rotor_inertia"]),
+    ("kind", &["type", "sigma"]),
+    ("alpha", &["twist"]),
+    ("a", &["length"]),
+    ("limits", &["qlim"]),
+    ("torque", &["effort", "force"]),
+    ("gravity", &["g"]),
+    ("convention", &["dh"]),
+    ("joint", &["links"]),
+    ("modified", &["craig", "mdh"]),
+    ("standard", &["classic"]),
+    ("revolute", &["rotary", "continuous"]),
+    ("prismatic", &["linear", "sliding"]),
+    ("inverse_dynamics", &["rnea", "id", "tau"]),
+    ("forward_dynamics", &["aba", "fd", "qdd"]),
+    ("forward_kinematics", &["fk", "t"]),
+    ("manipulator_equation", &["nle", "nonlinear_effects"]),
+    ("coriolis", &["c"]),
+    ("jacobian", &["j"]),
+    ("regressor", &["y"]),
+    ("potential_energy", &["p"]),
+    ("lagrange_euler", &["lagrange"]),
+    ("newton_euler", &["newton", "rne"]),
 ];
 
 /// Returns the likely fix of a bundle that cannot be read, with the output that was
 /// probably meant.
 pub fn for_bundle(error: &BundleError) -> String {
-    let meant = match error {
-        BundleError::Unknown(word) => closest(word, &Function::ALL.map(Function::name)),
-        _ => None,
-    };
-    match meant {
+    let word = error.unknown.as_deref();
+    match word.and_then(|word| closest(word, &Function::ALL.map(Function::name))) {
         Some(meant) => format!("did you mean `{meant}`?"),
-        None => error.help(),
+        None => error.help.clone(),
     }
 }
 
-/// Words for what has several keys: these, and what tells them apart.
-const SEVERAL: [(&str, &[&str], &str); 1] = [(
-    "friction",
-    &["viscous", "coulomb"],
-    "write `viscous` for friction that grows with the speed, `coulomb` for one that does not, or both",
-)];
-
-/// Returns the known key, or the several, that an unknown one probably stands for.
+/// Returns the known key, or both, that an unknown one probably stands for.
 pub(super) fn for_key(word: &str, known: &[&str]) -> Option<String> {
-    let has_all = |keys: &[&str]| keys.iter().all(|key| known.contains(key));
-    let mut several = SEVERAL.iter();
-    if let Some((.., help)) = several.find(|(other, keys, _)| *other == word && has_all(keys)) {
-        return Some((*help).into());
+    const FRICTION: &str = "write `viscous` for friction that grows with the speed, `coulomb` for one that does not, or both";
+    if word == "friction" && known.contains(&"viscous") && known.contains(&"coulomb") {
+        return Some(FRICTION.into());
     }
     closest(word, known).map(|meant| format!("did you mean `{meant}`?"))
 }
@@ -105,8 +72,9 @@ pub fn closest<'c>(word: &str, candidates: &[&'c str]) -> Option<&'c str> {
         return None;
     }
     let word = word.to_ascii_lowercase();
-    let others = OTHER_WORDS.iter().filter(|(other, _)| *other == word);
-    let mut words = iter::once(word.as_str()).chain(others.map(|(_, meant)| *meant));
+    let others = OTHER_WORDS.iter();
+    let others = others.filter(|(_, others)| others.contains(&word.as_str()));
+    let mut words = iter::once(word.as_str()).chain(others.map(|(own, _)| *own));
     let same = words.find_map(|word| candidates.iter().find(|known| **known == word));
     if let Some(same) = same {
         return Some(same);

@@ -286,9 +286,7 @@ impl Context {
         expected: &str,
         help: &str,
     ) -> Option<&'v [Value<'v>]> {
-        let Some(items) = value.as_array() else {
-            return self.wanted(value, expected, help);
-        };
+        let items = self.list(value, expected, help)?;
         if items.len() == length {
             return Some(items);
         }

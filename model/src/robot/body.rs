@@ -42,13 +42,11 @@ impl Inertia<Rational> {
             return Some(Defect::NegativeMoment);
         }
         let half = (&self.xx + &self.yy + &self.zz) / Rational::from_integer(2.into());
-        let mut second = tensor.clone();
-        for (i, row) in second.iter_mut().enumerate() {
-            for (k, entry) in row.iter_mut().enumerate() {
-                *entry = if i == k { &half - &*entry } else { -&*entry };
-            }
-        }
-        if !is_semidefinite(&second) {
+        let second = Inertia::symmetric(|i, k| match i == k {
+            true => &half - &tensor[i][k],
+            false => -&tensor[i][k],
+        });
+        if !is_semidefinite(&second.rows()) {
             return Some(Defect::Triangle);
         }
         (mass.is_zero() && !half.is_zero()).then_some(Defect::Massless)

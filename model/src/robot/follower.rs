@@ -160,7 +160,7 @@ impl Robot {
             let is_whole = own.multiplier.is_integer() && own.multiplier.abs() <= most;
             own.row < rows
                 && leader.is_some_and(|leader| leader.kind == own.joint.kind)
-                && matches!(own.offset, Position::Angle(_)) == turns
+                && own.offset.is_of(own.joint.kind)
                 && !own.multiplier.is_zero()
                 && (is_whole || !turns)
                 && !own.joint.has_coulomb()

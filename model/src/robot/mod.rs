@@ -29,6 +29,8 @@ mod write;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
+use core::cmp::Ordering;
+use core::fmt;
 
 use num_traits::Zero;
 
@@ -43,7 +45,9 @@ pub use frame::{HAND, is_frame_name};
 pub use placement::Placement;
 pub use warning::RobotWarning;
 
+pub(crate) use units::shown;
 pub use validate::suggested_name;
+pub(crate) use validate::{WORDS, is_snake};
 pub use write::{write, write_frame};
 
 /// Which of the two DH conventions the table is written in.
@@ -275,6 +279,18 @@ pub struct Limits {
     pub torque: Option<Rational>,
 }
 
+impl Limits {
+    /// Returns a limit but that of positions.
+    pub fn rate(&self, rate: Limit) -> Option<&Rational> {
+        match rate {
+            Limit::Position => None,
+            Limit::Velocity => self.velocity.as_ref(),
+            Limit::Acceleration => self.acceleration.as_ref(),
+            Limit::Torque => self.torque.as_ref(),
+        }
+    }
+}
+
 /// A limit of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Limit {
@@ -307,4 +323,30 @@ pub enum Position {
     Angle(Angle),
     /// The position of a prismatic joint, m.
     Length(Rational),
+}
+
+impl Position {
+    /// Returns whether a joint of this kind can have it.
+    pub(crate) fn is_of(&self, kind: JointKind) -> bool {
+        matches!(self, Position::Angle(_)) == (kind == JointKind::Revolute)
+    }
+
+    /// Compares two positions; none of an angle and a length.
+    pub(crate) fn compare(&self, other: &Self) -> Option<Ordering> {
+        match (self, other) {
+            (Position::Angle(a), Position::Angle(b)) => Some(a.cmp_value(b)),
+            (Position::Length(a), Position::Length(b)) => Some(a.cmp(b)),
+            _ => None,
+        }
+    }
+}
+
+/// As messages have it.
+impl fmt::Display for Position {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Position::Angle(angle) => angle.fmt(f),
+            Position::Length(length) => f.write_str(&shown(length)),
+        }
+    }
 }

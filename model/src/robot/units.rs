@@ -32,13 +32,18 @@ pub(super) fn whole(value: i64) -> Rational {
 }
 
 /// Returns a number as the file would have it.
-pub(super) fn shown(value: &Rational) -> String {
+pub(crate) fn shown(value: &Rational) -> String {
     write_decimal(value).unwrap_or_else(|| value.to_string())
 }
 
 /// Returns a thousandth of the number: metres of millimetres.
 fn thousandth(value: &Rational) -> String {
     shown(&(value / whole(1000)))
+}
+
+/// Returns the help about an angle that is too large for radians.
+fn degrees(value: &str) -> String {
+    format!("angles are in rad: of degrees, write \"{value}deg\"")
 }
 
 impl Findings {
@@ -64,12 +69,10 @@ impl Findings {
         ];
         let meant = units.iter().find(|(unit, _)| near(*unit));
         let meant = meant.map_or("gravity is in m/s²", |(_, meant)| *meant);
-        self.warning(
-            RobotWarning::UnusualGravity,
-            "gravity",
-            format!("the acceleration of gravity is {size:.4} m/s², far from the Earth's 9.81"),
-            &format!("{meant}: on the Earth it is [0, 0, -9.81] if z points up"),
-        );
+        let message =
+            format!("the acceleration of gravity is {size:.4} m/s², far from the Earth's 9.81");
+        let help = format!("{meant}: on the Earth it is [0, 0, -9.81] if z points up");
+        self.warning(RobotWarning::UnusualGravity, "gravity", message, &help);
     }
 
     /// Warns of gravity that points along the base's z more than along its other axes.
@@ -77,13 +80,10 @@ impl Findings {
         if !z.is_positive() || x.abs() > *z || y.abs() > *z {
             return;
         }
-        self.warning(
-            RobotWarning::UpwardGravity,
-            "gravity",
-            "gravity points upwards, along the base's z".to_owned(),
-            "it is the acceleration of what falls, [0, 0, -9.81] if z points up; of an arm that \
-             hangs, say base = { rpy = [\"pi\", 0, 0] }",
-        );
+        let message = "gravity points upwards, along the base's z".to_owned();
+        let help = "it is the acceleration of what falls, [0, 0, -9.81] if z points up; of an arm \
+                    that hangs, say base = { rpy = [\"pi\", 0, 0] }";
+        self.warning(RobotWarning::UpwardGravity, "gravity", message, help);
     }
 
     pub(super) fn doubtful_placement(&mut self, place: &str, placement: &Placement) {
@@ -101,28 +101,19 @@ impl Findings {
             JointKind::Revolute => ("d", "offset"),
             JointKind::Prismatic => ("offset", "theta"),
         };
-        for (key, angle) in [
-            ("alpha", &joint.alpha),
-            ("beta", &joint.beta),
-            (theta, &joint.theta),
-        ] {
-            self.doubtful_angle(&at(key), key, angle);
-        }
-        let longest = joint.com.iter().max_by_key(|x| x.abs());
-        let lengths = [("a", Some(&joint.a)), (d, Some(&joint.d)), ("com", longest)];
-        for (key, length) in lengths {
-            if let Some(length) = length {
-                self.doubtful_length(&at(key), key, length);
-            }
+        self.doubtful_angle(&at("alpha"), "alpha", &joint.alpha);
+        self.doubtful_angle(&at("beta"), "beta", &joint.beta);
+        self.doubtful_angle(&at(theta), theta, &joint.theta);
+        self.doubtful_length(&at("a"), "a", &joint.a);
+        self.doubtful_length(&at(d), d, &joint.d);
+        if let Some(longest) = joint.com.iter().max_by_key(|x| x.abs()) {
+            self.doubtful_length(&at("com"), "com", longest);
         }
         if joint.mass >= whole(MAX_MASS) {
             let mass = &joint.mass;
-            self.warning(
-                RobotWarning::LargeMass,
-                &at("mass"),
-                format!("the link's mass is {} kg: a tonne or more", shown(mass)),
-                &format!("masses are in kg: of grams, write {}", thousandth(mass)),
-            );
+            let message = format!("the link's mass is {} kg: a tonne or more", shown(mass));
+            let help = format!("masses are in kg: of grams, write {}", thousandth(mass));
+            self.warning(RobotWarning::LargeMass, &at("mass"), message, &help);
         }
         self.doubtful_limits(index, joint);
         self.doubtful_width(index, joint);
@@ -141,16 +132,13 @@ impl Findings {
             JointKind::Revolute => "rad/s",
             JointKind::Prismatic => "m/s",
         };
-        self.warning(
-            RobotWarning::LargeWidth,
-            &of_joint(index, "coulomb_width"),
-            format!(
-                "the sign of Coulomb friction is smoothed over {} {unit}, and the joint reaches {}",
-                shown(width),
-                shown(limit)
-            ),
-            "at such speeds it is a damping: take a tenth of the slowest speed that matters",
+        let (place, width, limit) = (of_joint(index, "coulomb_width"), shown(width), shown(limit));
+        let message = format!(
+            "the sign of Coulomb friction is smoothed over {width} {unit}, and the joint reaches \
+             {limit}"
         );
+        let help = "at such speeds it is a damping: take a tenth of the slowest speed that matters";
+        self.warning(RobotWarning::LargeWidth, &place, message, help);
     }
 
     fn doubtful_limits(&mut self, index: usize, joint: &Joint) {
@@ -160,26 +148,18 @@ impl Findings {
             ("acceleration", &joint.limits.acceleration),
         ] {
             if limit.as_ref().is_some_and(Zero::is_zero) {
-                self.warning(
-                    RobotWarning::ZeroLimit,
-                    &at(key),
-                    format!("the limit of {key} is 0: the joint never moves"),
-                    "leave it out where it is not known; a scene locks a joint that stands still",
-                );
+                let message = format!("the limit of {key} is 0: the joint never moves");
+                let help =
+                    "leave it out where it is not known; a scene locks a joint that stands still";
+                self.warning(RobotWarning::ZeroLimit, &at(key), message, help);
             }
         }
         for position in joint.limits.position.iter().flatten() {
             match position {
                 Position::Angle(Angle::Radians(value)) if value.abs() > whole(MAX_POSITION) => {
-                    self.warning(
-                        RobotWarning::LargeLimit,
-                        &at("position"),
-                        format!("a limit of {} rad is more than five turns", shown(value)),
-                        &format!(
-                            "angles are in rad: of degrees, write \"{}deg\"",
-                            shown(value)
-                        ),
-                    );
+                    let (place, value) = (at("position"), shown(value));
+                    let message = format!("a limit of {value} rad is more than five turns");
+                    self.warning(RobotWarning::LargeLimit, &place, message, &degrees(&value));
                     break;
                 }
                 Position::Length(value) if value.abs() > whole(MAX_LENGTH) => {
@@ -195,20 +175,14 @@ impl Findings {
         if *velocity <= whole(MAX_VELOCITY) {
             return;
         }
-        let (unit, help) = match joint.kind {
+        let (unit, of, meant) = match joint.kind {
             JointKind::Revolute => {
                 let radians = f64::nearest_rational(velocity) * core::f64::consts::PI / 180.0;
-                let help =
-                    format!("velocities are in rad/s: of degrees a second, write {radians:.4}");
-                ("rad/s", help)
+                ("rad/s", "degrees", format!("{radians:.4}"))
             }
-            JointKind::Prismatic => {
-                let metres = thousandth(velocity);
-                let help =
-                    format!("velocities are in m/s: of millimetres a second, write {metres}");
-                ("m/s", help)
-            }
+            JointKind::Prismatic => ("m/s", "millimetres", thousandth(velocity)),
         };
+        let help = format!("velocities are in {unit}: of {of} a second, write {meant}");
         let message = format!("a joint that reaches {} {unit} is fast", shown(velocity));
         self.warning(RobotWarning::LargeVelocity, &at("velocity"), message, &help);
     }
@@ -220,33 +194,18 @@ impl Findings {
         };
         let size = Angle::Radians(value.abs());
         if size.cmp_value(&Angle::right_angles(4)).is_gt() {
-            self.warning(
-                RobotWarning::LargeAngle,
-                place,
-                format!("{what} is {} rad: more than a turn", shown(value)),
-                &format!(
-                    "angles are in rad: of degrees, write \"{}deg\"",
-                    shown(value)
-                ),
-            );
+            let value = shown(value);
+            let message = format!("{what} is {value} rad: more than a turn");
+            self.warning(RobotWarning::LargeAngle, place, message, &degrees(&value));
         }
     }
 
     fn doubtful_length(&mut self, place: &str, what: &str, length: &Rational) {
         if length.abs() > whole(MAX_LENGTH) {
-            self.warning(
-                RobotWarning::LargeLength,
-                place,
-                format!(
-                    "{} is {} m: longer than {MAX_LENGTH} m",
-                    what,
-                    shown(length)
-                ),
-                &format!(
-                    "lengths are in m: of millimetres, write {}",
-                    thousandth(length)
-                ),
-            );
+            let (metres, less) = (shown(length), thousandth(length));
+            let message = format!("{what} is {metres} m: longer than {MAX_LENGTH} m");
+            let help = format!("lengths are in m: of millimetres, write {less}");
+            self.warning(RobotWarning::LargeLength, place, message, &help);
         }
     }
 }

@@ -92,7 +92,7 @@ impl Findings {
             "the name is empty".to_string()
         } else if name.chars().count() > Robot::MAX_NAME {
             format!("the name has more than {} characters", Robot::MAX_NAME)
-        } else if KEYWORDS.contains(&name) {
+        } else if is_keyword(name) {
             format!("{name:?} is a word of the Rust language")
         } else if !is_snake(name) {
             format!("{name:?} cannot name a Rust module")
@@ -111,13 +111,10 @@ impl Findings {
         let length = name.chars().count();
         if length == 0 || length > Robot::MAX_NAME || name.chars().any(char::is_control) {
             let most = Robot::MAX_NAME;
-            self.error(
-                place,
-                format!(
-                    "a joint's name has 1 to {most} characters, none of them a control character"
-                ),
-                "leave the name out if the joint has none",
+            let message = format!(
+                "a joint's name has 1 to {most} characters, none of them a control character"
             );
+            self.error(place, message, "leave the name out if the joint has none");
         } else if name.chars().any(units::turns_text) {
             let message = "a joint's name has no character that turns the direction of text";
             self.error(place, message, &units::without_turns(name));
@@ -125,9 +122,9 @@ impl Findings {
             && usize::try_from(number) != Ok(index + 1)
         {
             // Scenes name joints by either.
+            let joint = index + 1;
             let message = format!(
-                "joint {} is called {name:?}, which is a joint's number and not its own",
-                index + 1
+                "joint {joint} is called {name:?}, which is a joint's number and not its own"
             );
             self.error(place, message, &format!("write \"joint_{number}\""));
         }
@@ -278,20 +275,12 @@ impl Findings {
                 Position::Length(length) => self.size(place, length),
             }
         }
-        let order = match (kind, range) {
-            (JointKind::Revolute, [Position::Angle(low), Position::Angle(high)]) => {
-                low.cmp_value(high)
-            }
-            (JointKind::Prismatic, [Position::Length(low), Position::Length(high)]) => {
-                low.cmp(high)
-            }
-            _ => {
-                let message = "the limits are not of the joint's kind";
-                let help = "angles for a revolute joint, lengths for a prismatic one";
-                return self.error(place, message, help);
-            }
-        };
-        if order != Ordering::Less {
+        let [low, high] = range;
+        if !low.is_of(kind) || !high.is_of(kind) {
+            let message = "the limits are not of the joint's kind";
+            let help = "angles for a revolute joint, lengths for a prismatic one";
+            self.error(place, message, help);
+        } else if low.compare(high) != Some(Ordering::Less) {
             let message = "the lowest position is not below the highest";
             self.error(place, message, "write [lowest, highest]");
         }
@@ -313,29 +302,29 @@ impl Findings {
         };
         // A missing mass that leaves the tensor a possible one is usual in
         // published tables, and so is a broken one: either way only a warning.
-        self.warn(
-            RobotWarning::ImpossibleInertia,
-            place,
-            defect.message(),
-            help,
-        );
+        let warning = RobotWarning::ImpossibleInertia;
+        self.warn(warning, place, defect.message(), help);
     }
 }
 
-/// Words that cannot name a module, of all editions, reserved ones included.
-const KEYWORDS: [&str; 54] = [
+/// Words of Rust, of all editions, reserved ones included.
+pub(crate) const WORDS: [&str; 51] = [
     "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
     "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl",
     "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref",
     "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
-    "union", "unsafe", "unsized", "use", "virtual", "where", "while", "yield", "core", "std",
+    "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
 ];
 
-fn is_snake(name: &str) -> bool {
-    name.starts_with(|c: char| c.is_ascii_lowercase())
-        && name
-            .chars()
-            .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
+/// Returns whether no module can have this name.
+fn is_keyword(name: &str) -> bool {
+    WORDS.contains(&name) || ["union", "core", "std"].contains(&name)
+}
+
+/// Returns whether a name has small letters, digits and `_` only, a letter first.
+pub(crate) fn is_snake(name: &str) -> bool {
+    let known = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+    name.starts_with(|c: char| c.is_ascii_lowercase()) && name.chars().all(known)
 }
 
 /// Returns the nearest name that a robot can have: `"UR-10 e"` gives `ur_10_e`; none
@@ -355,7 +344,7 @@ pub fn suggested_name(name: &str) -> Option<String> {
     let better = better.trim_end_matches('_');
     let better = match better.chars().next()? {
         '0'..='9' => format!("robot_{better}"),
-        _ if KEYWORDS.contains(&better) => format!("{better}_robot"),
+        _ if is_keyword(better) => format!("{better}_robot"),
         _ => better.to_owned(),
     };
     (better.len() <= Robot::MAX_NAME).then_some(better)

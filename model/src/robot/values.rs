@@ -5,7 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt::Write;
 
-use super::{Inertia, Placement, Position};
+use super::{Placement, Position};
 use crate::number::parse::write_decimal;
 use crate::number::{Angle, Rational};
 
@@ -37,15 +37,20 @@ pub fn list(items: impl IntoIterator<Item = String>) -> String {
     format!("[{}]", items.join(", "))
 }
 
-/// Returns a table of `xyz` and `rpy`.
-pub fn placement(value: &Placement) -> String {
-    let (xyz, rpy) = (value.xyz.iter().map(number), value.rpy.iter().map(angle));
-    format!("{{ xyz = {}, rpy = {} }}", list(xyz), list(rpy))
+/// Returns an array of numbers.
+pub fn numbers<'v>(values: impl IntoIterator<Item = &'v Rational>) -> String {
+    list(values.into_iter().map(number))
 }
 
-/// Returns an array of the entries of a tensor.
-pub fn inertia(value: &Inertia<Rational>) -> String {
-    list(value.entries().map(number))
+/// Returns an array of the ends of a range.
+pub fn range(ends: &[Position; 2]) -> String {
+    list(ends.each_ref().map(position))
+}
+
+/// Returns a table of `xyz` and `rpy`.
+pub fn placement(value: &Placement) -> String {
+    let (xyz, rpy) = (numbers(&value.xyz), list(value.rpy.iter().map(angle)));
+    format!("{{ xyz = {xyz}, rpy = {rpy} }}")
 }
 
 /// Returns a value that the reader would not take for granted.

@@ -8,7 +8,7 @@ use alloc::format;
 use alloc::string::String;
 
 use super::values::{
-    angle, inertia, lines, list, number, placement, position, quoted, short_hash, table,
+    angle, lines, list, number, numbers, placement, position, quoted, range, short_hash, table,
     unless_zero, word,
 };
 use super::{Convention, Joint, JointKind, Placement, Robot};
@@ -25,7 +25,7 @@ pub fn write(robot: &Robot) -> String {
     let head = [
         ("name", Some(quoted(&robot.name))),
         ("convention", Some(quoted(convention))),
-        ("gravity", Some(list(robot.gravity.each_ref().map(number)))),
+        ("gravity", Some(numbers(&robot.gravity))),
     ];
     let placements = robot.placements();
     let placements = placements.map(|(key, value)| (key, value.map(placement)));
@@ -75,13 +75,7 @@ fn write_joint(text: &mut String, joint: &Joint) {
     };
     let limits = &joint.limits;
     let limits = table([
-        (
-            "position",
-            limits
-                .position
-                .as_ref()
-                .map(|ends| list(ends.each_ref().map(position))),
-        ),
+        ("position", limits.position.as_ref().map(range)),
         ("velocity", limits.velocity.as_ref().map(number)),
         ("acceleration", limits.acceleration.as_ref().map(number)),
         ("torque", limits.torque.as_ref().map(number)),
@@ -98,8 +92,8 @@ fn write_joint(text: &mut String, joint: &Joint) {
             ("theta", unless_zero(theta)),
             ("offset", unless_zero(offset)),
             ("mass", Some(number(&joint.mass))),
-            ("com", Some(list(joint.com.each_ref().map(number)))),
-            ("inertia", Some(inertia(&joint.inertia))),
+            ("com", Some(numbers(&joint.com))),
+            ("inertia", Some(numbers(joint.inertia.entries()))),
             ("viscous", unless_zero(number(&joint.viscous))),
             ("coulomb", unless_zero(number(&joint.coulomb))),
             ("coulomb_width", unless_zero(number(&joint.coulomb_width))),
@@ -114,7 +108,7 @@ fn write_joint(text: &mut String, joint: &Joint) {
 pub fn write_frame(text: &mut String, Placement { xyz, rpy }: &Placement) {
     let moves = xyz.iter().any(|x| !num_traits::Zero::is_zero(x));
     let turns = rpy.iter().any(|turn| !turn.is_zero());
-    let xyz = moves.then(|| list(xyz.iter().map(number)));
+    let xyz = moves.then(|| numbers(xyz));
     let rpy = turns.then(|| list(rpy.iter().map(angle)));
     lines(text, [("xyz", xyz), ("rpy", rpy)]);
 }

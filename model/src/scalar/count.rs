@@ -89,9 +89,6 @@ impl Scalar for Count<'_> {
             (One | MinusOne | Number, One | MinusOne | Number) => Number,
         }
     }
-    fn sub(&self, other: &Self) -> Self {
-        self.add(&other.neg())
-    }
     fn mul(&self, other: &Self) -> Self {
         match (self, other) {
             (Zero, _) | (_, Zero) => Zero,

@@ -116,9 +116,6 @@ impl<const PRIME: u64> Scalar for Modulo<PRIME> {
         let sum = self.0 + other.0;
         Modulo(if sum >= PRIME { sum - PRIME } else { sum })
     }
-    fn sub(&self, other: &Self) -> Self {
-        self.add(&other.neg())
-    }
     fn mul(&self, other: &Self) -> Self {
         let product = u128::from(self.0) * u128::from(other.0);
         // The part above 2⁶¹ counts EXCESS times. What that gives is below 2⁷¹, and again.

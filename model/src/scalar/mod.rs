@@ -33,7 +33,9 @@ pub trait Scalar: Clone {
     /// Returns `self + other`
     fn add(&self, other: &Self) -> Self;
     /// Returns `self − other`
-    fn sub(&self, other: &Self) -> Self;
+    fn sub(&self, other: &Self) -> Self {
+        self.add(&other.neg())
+    }
     /// Returns `self · other`
     fn mul(&self, other: &Self) -> Self;
     /// Returns `−self`

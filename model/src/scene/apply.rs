@@ -1,5 +1,7 @@
 //! The robot that a scene makes of a robot, exactly.
 
+use alloc::vec::Vec;
+
 use num_traits::Zero;
 
 use super::Scene;
@@ -30,16 +32,19 @@ impl Scene {
             carry(last, &payload.mass, &body);
         }
         for (i, joint) in robot.joints.iter_mut().enumerate() {
-            let limits = &mut joint.limits;
-            let bounds = &self.bounds;
-            let position = bounds.position.as_ref().and_then(|all| all.get(i));
-            let velocity = bounds.velocity.as_ref().and_then(|all| all.get(i));
-            let acceleration = bounds.acceleration.as_ref().and_then(|all| all.get(i));
-            limits.position = position.or(limits.position.as_ref()).cloned();
-            limits.velocity = velocity.or(limits.velocity.as_ref()).cloned();
-            limits.acceleration = acceleration.or(limits.acceleration.as_ref()).cloned();
+            let (limits, bounds) = (&mut joint.limits, &self.bounds);
+            bound(&mut limits.position, &bounds.position, i);
+            bound(&mut limits.velocity, &bounds.velocity, i);
+            bound(&mut limits.acceleration, &bounds.acceleration, i);
         }
         robot
+    }
+}
+
+/// Takes a range of the box for a limit, where there is one.
+fn bound<T: Clone>(limit: &mut Option<T>, all: &Option<Vec<T>>, joint: usize) {
+    if let Some(own) = all.as_ref().and_then(|all| all.get(joint)) {
+        *limit = Some(own.clone());
     }
 }
 
@@ -55,17 +60,15 @@ fn carry(link: &mut Joint, mass: &Rational, payload: &Body) {
     let reduced = &link.mass * &share;
     let d: [Rational; 3] = core::array::from_fn(|i| &payload.com[i] - &link.com[i]);
     let square: Rational = d.iter().map(|x| x * x).sum();
-    let own = |i: usize| &reduced * (&square - &d[i] * &d[i]);
-    let mixed = |i: usize, k: usize| -(&reduced * &d[i] * &d[k]);
-    let (a, b) = (&link.inertia, &payload.inertia);
-    link.inertia = Inertia {
-        xx: &a.xx + &b.xx + own(0),
-        yy: &a.yy + &b.yy + own(1),
-        zz: &a.zz + &b.zz + own(2),
-        xy: &a.xy + &b.xy + mixed(0, 1),
-        yz: &a.yz + &b.yz + mixed(1, 2),
-        xz: &a.xz + &b.xz + mixed(0, 2),
-    };
+    let (a, b) = (link.inertia.rows(), payload.inertia.rows());
+    link.inertia = Inertia::symmetric(|i, k| {
+        let product = &d[i] * &d[k];
+        let moved = match i == k {
+            true => &square - product,
+            false => -product,
+        };
+        &a[i][k] + &b[i][k] + &reduced * moved
+    });
     link.com = core::array::from_fn(|i| &link.com[i] + &share * &d[i]);
     link.mass = total;
 }

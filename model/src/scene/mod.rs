@@ -15,7 +15,7 @@ use alloc::vec::Vec;
 use crate::number::Rational;
 use crate::outputs::Function;
 use crate::robot::values::word;
-use crate::robot::{Inertia, Position};
+use crate::robot::{Inertia, Limit, Position};
 
 pub use write::write;
 
@@ -73,6 +73,17 @@ pub struct MotionBox {
     pub velocity: Option<Vec<Rational>>,
     /// Largest |q̈|.
     pub acceleration: Option<Vec<Rational>>,
+}
+
+impl MotionBox {
+    /// Returns the velocities or the accelerations; none of anything else.
+    pub(crate) fn rate(&self, rate: Limit) -> Option<&Vec<Rational>> {
+        match rate {
+            Limit::Velocity => self.velocity.as_ref(),
+            Limit::Acceleration => self.acceleration.as_ref(),
+            Limit::Position | Limit::Torque => None,
+        }
+    }
 }
 
 /// The largest error of a torque over the box.

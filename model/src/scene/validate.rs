@@ -16,9 +16,7 @@ use core::fmt::Display;
 use num_traits::Signed;
 
 use super::Scene;
-use crate::number::Rational;
-use crate::number::parse::write_decimal;
-use crate::robot::{Finding, Findings, Joint, JointKind, Position, Robot, RobotWarning, reach};
+use crate::robot::{Finding, Findings, Joint, JointKind, Robot, RobotWarning, reach};
 
 impl Scene {
     /// Returns every error and warning about the scene. Every later stage accepts a scene
@@ -109,7 +107,7 @@ impl<'a> Check<'a> {
             let Some(joint) = self.joint(*index) else {
                 continue;
             };
-            if !of_kind(joint.kind, at) {
+            if !at.is_of(joint.kind) {
                 let help = "an angle for a revolute joint, a length for a prismatic one";
                 self.error(place, "the position is not of the joint's kind", help);
                 continue;
@@ -121,15 +119,11 @@ impl<'a> Check<'a> {
                 (own.and_then(|all| all.get(*index)), "range in the box"),
             ] {
                 let Some([low, high]) = range else { continue };
-                let outside = compare(at, low) == Some(Ordering::Less)
-                    || compare(at, high) == Some(Ordering::Greater);
+                let outside = at.compare(low) == Some(Ordering::Less)
+                    || at.compare(high) == Some(Ordering::Greater);
                 if outside {
-                    let message = format!(
-                        "{} is locked outside its {whose}, {} to {}",
-                        self.robot.joint_label(*index),
-                        shown(low),
-                        shown(high)
-                    );
+                    let name = self.robot.joint_label(*index);
+                    let message = format!("{name} is locked outside its {whose}, {low} to {high}");
                     let help = match joint.kind {
                         JointKind::Revolute => {
                             "lock it where it can be; a number is in rad, degrees are written as \"90deg\""
@@ -161,30 +155,4 @@ impl<'a> Check<'a> {
             self.warn(warning, "payload/inertia", message, &help);
         }
     }
-}
-
-fn of_kind(kind: JointKind, at: &Position) -> bool {
-    matches!(
-        (kind, at),
-        (JointKind::Revolute, Position::Angle(_)) | (JointKind::Prismatic, Position::Length(_))
-    )
-}
-
-fn compare(a: &Position, b: &Position) -> Option<Ordering> {
-    match (a, b) {
-        (Position::Angle(a), Position::Angle(b)) => Some(a.cmp_value(b)),
-        (Position::Length(a), Position::Length(b)) => Some(a.cmp(b)),
-        _ => None,
-    }
-}
-
-fn shown(at: &Position) -> String {
-    match at {
-        Position::Angle(angle) => format!("{angle}"),
-        Position::Length(length) => decimal(length),
-    }
-}
-
-fn decimal(value: &Rational) -> String {
-    write_decimal(value).unwrap_or_else(|| format!("{value}"))
 }

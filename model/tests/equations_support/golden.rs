@@ -97,12 +97,9 @@ pub fn extreme<S: Scalar>(
         link(kind, [twist, pair(known("off"))], lengths, com, inertia)
     };
     let kinds = robot["types"].as_str().unwrap().chars();
+    let links = kinds.enumerate().map(own).collect();
     let gravity = triple(&robot["g"]).map(&number);
-    arm(
-        Convention::Standard,
-        gravity,
-        kinds.enumerate().map(own).collect(),
-    )
+    arm(Convention::Standard, gravity, links)
 }
 
 /// Returns max|a − b| / max|b|; the larger of the two when b is zero.
@@ -136,10 +133,6 @@ pub fn by_runtime(runtime: &Reference<f64>, state: &Value) -> [(&'static str, Ve
         runtime.gravity(&q),
     ]
     .map(|values| values.unwrap().as_slice().to_vec());
-    [
-        ("tau", tau),
-        ("c", c),
-        ("D", d.as_slice().to_vec()),
-        ("h", h),
-    ]
+    let d = d.as_slice().to_vec();
+    [("tau", tau), ("c", c), ("D", d), ("h", h)]
 }

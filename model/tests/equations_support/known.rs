@@ -20,9 +20,6 @@ impl Scalar for Known {
     fn add(&self, other: &Self) -> Self {
         Known(added(self.0, other.0))
     }
-    fn sub(&self, other: &Self) -> Self {
-        self.add(&other.neg())
-    }
     fn mul(&self, other: &Self) -> Self {
         Known(self.0.mul(&other.0))
     }

@@ -1,7 +1,7 @@
 //! Random general arms in the prime field: every parameter its own residue, so
 //! that no slip can hide behind a zero or a right angle.
 
-use dalembert_model::equations::friction::{Coulomb, Friction};
+use dalembert_model::equations::friction::Coulomb;
 use dalembert_model::equations::matrix::Columns;
 use dalembert_model::equations::{Arm, DhVariables, JointPosition, Link, SinCosPair};
 use dalembert_model::robot::{Convention, Inertia, JointKind};
@@ -37,12 +37,13 @@ pub fn case(convention: Convention, n: usize, bits: u32, points: &mut Points) ->
 
 /// Returns every pattern of kinds up to so many joints, in both conventions.
 pub fn every_kind(most: usize, points: &mut Points) -> Vec<Case> {
-    let patterns = (1..=most).flat_map(|n| (0..1 << n).map(move |bits| (n, bits)));
-    let all = CONVENTIONS
-        .into_iter()
-        .flat_map(|own| patterns.clone().map(move |of| (own, of)));
-    all.map(|(own, (n, bits))| case(own, n, bits, points))
-        .collect()
+    let mut all = Vec::new();
+    for convention in CONVENTIONS {
+        for n in 1..=most {
+            all.extend((0..1 << n).map(|bits| case(convention, n, bits, points)));
+        }
+    }
+    all
 }
 
 /// Draws the position of an arm.
@@ -63,35 +64,25 @@ pub fn pose(points: &mut Points) -> Columns<Field> {
     let turned = Columns::identity()
         .turn_z(&pair(points))
         .turn_y(&pair(points));
-    Columns {
-        axes: turned.turn_x(&pair(points)).axes,
-        origin: triple(points),
-    }
+    let axes = turned.turn_x(&pair(points)).axes;
+    let origin = triple(points);
+    Columns { axes, origin }
 }
 
 fn general_link(kind: JointKind, points: &mut Points) -> Link<Field> {
     let angles = [(); 2].map(|()| pair(points));
-    let [
-        lengths,
-        com,
-        [viscous, armature, force],
-        [width, per_speed, _],
-    ] = [(); 4].map(|()| triple(points));
+    let [lengths, com] = [(); 2].map(|()| triple(points));
+    let [viscous, armature, force, width, per_speed, _] = [(); 6].map(|()| points.field());
     let inertia = Inertia::of([(); 6].map(|()| points.field()));
-    let coulomb = Coulomb {
+    let mut link = link(kind, angles, lengths, com, inertia);
+    // Any three numbers: what formulations agree on rests on no relation of them.
+    link.friction.coulomb = Some(Coulomb {
         force,
         width,
         per_speed,
-    };
-    Link {
-        // Any three numbers: what formulations agree on rests on no relation of them.
-        friction: Friction {
-            viscous,
-            coulomb: Some(coulomb),
-        },
-        armature,
-        ..link(kind, angles, lengths, com, inertia)
-    }
+    });
+    (link.friction.viscous, link.armature) = (viscous, armature);
+    link
 }
 
 pub fn pair(points: &mut Points) -> SinCosPair<Field> {

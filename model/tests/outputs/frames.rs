@@ -8,13 +8,12 @@ use dalembert_model::equations::frames::NamedFrame;
 fn with_frames(case: &Case, points: &mut Points) -> Arm<Field> {
     let last = case.arm.links.len() - 1;
     let mut arm = case.arm.clone();
-    arm.frames.named = [("inner", 0), ("outer", last)]
-        .map(|(name, joint)| NamedFrame {
-            name: name.to_string(),
-            joint,
-            pose: pose(points),
-        })
-        .to_vec();
+    let mut named = |name: &str, joint: usize| NamedFrame {
+        name: name.to_string(),
+        joint,
+        pose: pose(points),
+    };
+    arm.frames.named = vec![named("inner", 0), named("outer", last)];
     arm.frames.links = arm.links.iter().map(|_| Some(pose(points))).collect();
     arm
 }
@@ -39,25 +38,17 @@ fn at_frame(text: &str, arm: &Arm<Field>, case: &Case, motion: &Motion<Field>) -
 fn matrix_product(a: &[Field], b: &[Field], inner: usize) -> Vec<Field> {
     let columns = b.len() / inner;
     let column = |k: usize| b[k..].iter().step_by(columns).copied().collect::<Vec<_>>();
-    let rows = a.chunks(inner);
-    rows.flat_map(|row| {
-        (0..columns)
-            .map(|k| dot(row, &column(k)))
-            .collect::<Vec<_>>()
-    })
-    .collect()
+    let entry = |at: usize| {
+        let row = at / columns * inner;
+        dot(&a[row..row + inner], &column(at % columns))
+    };
+    (0..a.len() / inner * columns).map(entry).collect()
 }
 
 fn one(n: usize) -> Vec<Field> {
-    (0..n * n)
-        .map(|at| {
-            if at.is_multiple_of(n + 1) {
-                Field::ONE
-            } else {
-                Field::ZERO
-            }
-        })
-        .collect()
+    let mut one = vec![Field::ZERO; n * n];
+    (0..n).for_each(|i| one[i * (n + 1)] = Field::ONE);
+    one
 }
 
 /// Every formulation agrees at every frame, in all axes and of chosen components; a frame
@@ -146,8 +137,7 @@ fn operational_space_fits_together() {
             }
             assert_eq!(of("null_space_projector"), projector);
             // μ, with what the joints are loaded with at this velocity.
-            let mut still = arm.clone().without_friction();
-            still.frames = arm.frames.clone();
+            let still = arm.clone().without_friction();
             let rest = vec![Field::ZERO; n];
             let exact = Formulation::LagrangeEuler;
             let loads = exact.inverse_dynamics(&still, &case.at, &motion.qd, &rest);

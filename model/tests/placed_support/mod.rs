@@ -4,7 +4,7 @@
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::Robot;
 use dalembert_model::scalar::field::Points;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{DVector, Matrix3, Vector3};
 
 use crate::support::vector;
 
@@ -19,7 +19,8 @@ pub struct Joint {
     rpy: [f64; 3],
     axis: [f64; 3],
     slides: bool,
-    body: Body,
+    /// That of the link, and what it carries.
+    bodies: Vec<Body>,
     viscous: f64,
     armature: f64,
 }
@@ -29,7 +30,6 @@ pub struct Arm {
     base: ([f64; 3], [f64; 3]),
     tool: ([f64; 3], [f64; 3]),
     joints: Vec<Joint>,
-    payload: Option<Body>,
 }
 
 /// Draws arms and states.
@@ -91,7 +91,7 @@ impl Drawn {
                     _ => axis,
                 },
                 slides: self.below(4) == 0,
-                body: self.body(),
+                bodies: vec![self.body()],
                 viscous: self.number(0.5).abs(),
                 armature: self.number(0.5).abs(),
             }
@@ -107,7 +107,6 @@ impl Drawn {
             base,
             tool,
             joints,
-            payload: None,
         }
     }
 
@@ -127,7 +126,7 @@ impl Drawn {
 impl Arm {
     /// Adds a load on the last link: that of the tests.
     pub fn payload(&mut self) {
-        self.payload = Some(Body {
+        self.joints.last_mut().unwrap().bodies.push(Body {
             mass: 2.5,
             com: Vector3::new(0.1, -0.2, 0.05),
             inertia: Matrix3::new(0.02, 0.001, 0.0, 0.001, 0.03, 0.0, 0.0, 0.0, 0.04),
@@ -135,7 +134,7 @@ impl Arm {
     }
 }
 
-/// Returns the robot file.
+/// Returns the robot file, without what is carried.
 pub fn file(arm: &Arm) -> String {
     let placed = |xyz: &[f64; 3], rpy: &[f64; 3]| format!("{{ xyz = {xyz:?}, rpy = {rpy:?} }}");
     let [base, tool] = [arm.base, arm.tool].map(|(xyz, rpy)| placed(&xyz, &rpy));
@@ -144,7 +143,7 @@ pub fn file(arm: &Arm) -> String {
     for joint in &arm.joints {
         let kind = ["revolute", "prismatic"][usize::from(joint.slides)];
         let places = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
-        let body = &joint.body;
+        let body = &joint.bodies[0];
         text += &format!(
             "[[joint]]\nkind = \"{kind}\"\nplacement = {}\naxis = {:?}\nmass = {:?}\ncom = {:?}\n\
              inertia = {:?}\nviscous = {:?}\narmature = {:?}\n",
@@ -203,9 +202,8 @@ fn by_frames(arm: &Arm, q: &[f64], qd: &[f64], qdd: &[f64]) -> (Vec<f64>, Pose) 
             turning += axis * qdd[i] + omega.cross(&(axis * qd[i]));
             omega += axis * qd[i];
         }
-        let carried = arm.payload.iter().filter(|_| i + 1 == arm.joints.len());
         let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
-        for body in std::iter::once(&joint.body).chain(carried) {
+        for body in &joint.bodies {
             let com = at.0 * body.com;
             let tensor = at.0 * body.inertia * at.0.transpose();
             let pull = body.mass * (moving + turning.cross(&com) + omega.cross(&omega.cross(&com)));
@@ -236,19 +234,14 @@ pub fn compare(arm: &Arm, robot: &Robot, drawn: &mut Drawn) -> f64 {
     let runtime = Reference::<f64>::from_robot(robot);
     let mut worst: f64 = 0.0;
     for _ in 0..4 {
-        let mut draw =
-            |most| -> Vec<f64> { arm.joints.iter().map(|_| drawn.number(most)).collect() };
-        let (q, qd, qdd) = (draw(3.0), draw(2.0), draw(5.0));
-        let (torques, hand) = by_frames(arm, &q, &qd, &qdd);
-        let [at, rates, accelerations] = [&q, &qd, &qdd].map(|x| vector(x));
-        let found = runtime
-            .inverse_dynamics(&at, &rates, &accelerations)
-            .unwrap();
-        let largest = torques.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        for (a, b) in found.iter().zip(&torques) {
-            worst = worst.max((a - b).abs() / largest);
-        }
-        let pose = runtime.hand(&at).unwrap();
+        let n = arm.joints.len();
+        let [q, qd, qdd] =
+            [3.0, 2.0, 5.0].map(|most| DVector::from_fn(n, |_, _| drawn.number(most)));
+        let (torques, hand) = by_frames(arm, q.as_slice(), qd.as_slice(), qdd.as_slice());
+        let torques = vector(&torques);
+        let found = runtime.inverse_dynamics(&q, &qd, &qdd).unwrap();
+        worst = worst.max((found - &torques).amax() / torques.amax());
+        let pose = runtime.hand(&q).unwrap();
         for k in 0..3 {
             worst = worst.max((Vector3::from(pose.axes[k]) - hand.0.column(k)).amax());
         }

@@ -4,7 +4,7 @@
 use std::fmt::Write;
 
 use crate::language::c99::{Names, float, is_bundle, is_number, is_told, largest, structure_name};
-use crate::language::{Language, Printed};
+use crate::language::{Language, Printed, list};
 use crate::program::Literal;
 
 /// The parts of a function of any number of states.
@@ -34,41 +34,34 @@ impl Columns {
         for argument in printed.arguments {
             let (name, length) = (argument.name(), argument.length(sizes));
             parameters.push(format!("const {float} *{restrict} {name}"));
-            let entries = (0..length).map(|index| format!("{name}[{}]", at(index)));
-            let entries: Vec<String> = entries.collect();
+            let entries = list((0..length).map(|index| format!("{name}[{}]", at(index))));
             // Writing to a string cannot fail.
             let _ = writeln!(
                 gathered,
-                "        const {float} {name}_s[{length}] = {{{}}};",
-                entries.join(", ")
+                "        const {float} {name}_s[{length}] = {{{entries}}};"
             );
             passed.push(format!("{name}_s"));
         }
-        for quantity in function.quantities() {
-            parameters.push(format!("{float} *{restrict} {}", quantity.field()));
+        if is_bundle(function) && !is_number(function) {
+            let kind = structure_name(function, names);
+            let _ = writeln!(gathered, "        {kind} result_s[1];");
+            passed.push("result_s".to_owned());
         }
-        if !is_number(function) {
-            let mut of = "";
-            if is_bundle(function) {
-                let kind = structure_name(function, names);
-                let _ = writeln!(gathered, "        {kind} result_s[1];");
-                passed.push("result_s".to_owned());
-                of = "result_s->";
+        for quantity in function.quantities() {
+            let (field, length) = (quantity.field(), quantity.len(sizes));
+            parameters.push(format!("{float} *{restrict} {field}"));
+            if is_number(function) {
+                continue;
             }
-            for quantity in function.quantities() {
-                let (field, length) = (quantity.field(), quantity.len(sizes));
-                let after = if is_bundle(function) { "" } else { "_s" };
-                if !is_bundle(function) {
-                    let _ = writeln!(gathered, "        {float} {field}_s[{length}];");
-                    passed.push(format!("{field}_s"));
-                }
-                for index in 0..length {
-                    let place = at(index);
-                    let _ = writeln!(
-                        stored,
-                        "        {field}[{place}] = {of}{field}{after}[{index}];"
-                    );
-                }
+            let mut array = format!("result_s->{field}");
+            if !is_bundle(function) {
+                array = format!("{field}_s");
+                let _ = writeln!(gathered, "        {float} {array}[{length}];");
+                passed.push(array.clone());
+            }
+            for index in 0..length {
+                let place = at(index);
+                let _ = writeln!(stored, "        {field}[{place}] = {array}[{index}];");
             }
         }
         Columns {
@@ -83,15 +76,14 @@ impl Columns {
     /// is told whether angles may be far, by another name.
     fn call(&self, printed: &Printed<'_>, names: &Names, is_told: bool) -> String {
         let (function, passed) = (printed.function, self.passed.join(", "));
-        let call = match is_told {
+        let mut call = match is_told {
             true => format!("{}(0, {passed})", names.of(&format!("{function}_any"))),
             false => format!("{}({passed})", names.of(function.name())),
         };
-        let before = match is_number(function) {
-            true => format!("{}[s] = ", function.quantities()[0].field()),
-            false => String::new(),
-        };
-        format!("        {before}{call};\n{}", self.stored)
+        if is_number(function) {
+            call = format!("{}[s] = {call}", function.quantities()[0].field());
+        }
+        format!("        {call};\n{}", self.stored)
     }
 }
 
@@ -116,11 +108,8 @@ pub(crate) fn batch(printed: &Printed<'_>, names: &Names) -> String {
         let far = largest(scalar) / joints.next_power_of_two() as f64;
         let (far, f) = (names.dialect().literal(Literal(far)), scalar.math_suffix());
         let near = (0..joints).map(|joint| format!("(fabs{f}(q_s[{joint}]) <= {far})"));
-        let near: Vec<String> = near.collect();
-        let when = format!(
-            "        if ({}) {{\n            continue;\n        }}\n",
-            near.join(" && ")
-        );
+        let near = near.collect::<Vec<String>>().join(" && ");
+        let when = format!("        if ({near}) {{\n            continue;\n        }}\n");
         again = body(false, &when);
     }
     format!(

@@ -9,7 +9,6 @@ use super::vectors;
 use crate::language::Printed;
 use crate::language::c99::largest;
 use crate::language::trig;
-use crate::program::ScalarType;
 
 /// The largest error of a sine or cosine with fused products, in u: the documentation of
 /// `dalembert-sines` proves it.
@@ -33,7 +32,7 @@ pub(crate) fn columns(printed: &Printed<'_>) -> String {
             "/// the processor has: the same bits on every one, but not those of [`{name}`]. Products are fused\n\
              /// in the sines and cosines as well, which are proved to err by at most {FUSED_ERROR} u, u = {}, up to\n\
              /// {:?} rad; beyond, they are libm's.",
-            if scalar == ScalarType::F64 { "2⁻⁵³" } else { "2⁻²⁴" },
+            scalar.of("2⁻⁵³", "2⁻²⁴"),
             largest(scalar)
         ),
     };

@@ -19,8 +19,8 @@ use std::fmt::Write;
 
 use crate::function::Argument;
 use crate::language::dialect::{Dialect, Lines};
-use crate::language::{Printed, angles, function, sines, speed, trig};
-use crate::program::{Code, Pair};
+use crate::language::{Printed, function, list, speed, trig};
+use crate::program::Code;
 
 /// Returns whether products are fused in the sines that are given, as they are in what reads them.
 pub(super) fn fuses_sines(code: &Code) -> bool {
@@ -33,23 +33,20 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>) {
     let code = printed.code;
     let dialect = Dialect::vectors(code.scalar);
     let mut body = String::new();
-    let computed = || {
-        let pairs = code.pairs.iter();
-        pairs.filter(|pair| !trig::is_together(pair, code))
-    };
-    for pair in computed() {
-        write_sines(&mut body, pair, dialect);
-    }
+    trig::write_each(&mut body, code, dialect, |function, angle| {
+        let method = if function == "sincos" { "both" } else { "each" };
+        let suffix = code.scalar.math_suffix();
+        format!("{angle}.{method}(libm::{function}{suffix})")
+    });
+    let is_computed = !body.is_empty();
     speed::write(&mut body, dialect, code, "dalembert_batch");
     function::write_steps(&mut body, code, dialect);
-    let results: Vec<String> = Lines::new(dialect, code).results().collect();
-    let results = results.join(", ");
+    let results = list(Lines::new(dialect, code).results());
     let first = printed.arguments.first().map_or("", |first| first.name());
     let of = match body.contains("of.all(") || results.contains("of.all(") {
         true => format!("        let of = {first}[0];\n"),
         false => String::new(),
     };
-    let is_computed = computed().next().is_some();
     let (count, n, entries) = (
         printed.arguments.len(),
         printed.sizes.joints,
@@ -59,13 +56,8 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>) {
         let is_read = function::reads_entry(code, argument)
             || (argument == Argument::Position && is_computed)
             || (argument.name() == first && !of.is_empty());
-        format!(
-            "{}{argument}",
-            if is_read { "" } else { "_" },
-            argument = argument.name()
-        )
+        marked(argument.name(), is_read)
     });
-    let arguments: Vec<String> = arguments.collect();
     let [sin, cos] = trig::taken_names(code);
     let _ = writeln!(
         text,
@@ -73,7 +65,7 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>) {
          fn vectors<V: dalembert_batch::Vector<{}>>([{}]: &[[V; {n}]; {count}], \
          &[{}]: &[V; {taken}], &[{}]: &[V; {taken}]) -> [V; {entries}] {{",
         code.scalar,
-        arguments.join(", "),
+        list(arguments),
         sin,
         cos,
         taken = trig::taken(code).count(),
@@ -85,39 +77,28 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>) {
     let _ = writeln!(text, "        [{results}]\n    }}");
 }
 
+/// Returns the name of an argument, marked where it is not read.
+fn marked(name: &str, is_read: bool) -> String {
+    format!("{}{name}", if is_read { "" } else { "_" })
+}
+
 /// Prints which angles sines are given of.
 fn write_angles(text: &mut String, printed: &Printed<'_>) {
     let (code, n, count) = (printed.code, printed.sizes.joints, printed.arguments.len());
     let angles: Vec<_> = trig::taken(code).map(|pair| pair.joint).collect();
-    let arguments = printed.arguments.iter().map(|argument| argument.name());
-    let is_read = |name: &str| name == "q" && !angles.is_empty();
-    let arguments: Vec<String> = arguments
-        .map(|name| format!("{}{name}", if is_read(name) { "" } else { "_" }))
-        .collect();
+    let arguments = printed.arguments.iter().map(|argument| {
+        let is_read = *argument == Argument::Position && !angles.is_empty();
+        marked(argument.name(), is_read)
+    });
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
         "    #[inline(always)]\n    \
          fn angles<V: dalembert_batch::Floats<{}>>([{}]: &[[V; {n}]; {count}]) -> [V; {}] {{",
         code.scalar,
-        arguments.join(", "),
+        list(arguments),
         angles.len()
     );
-    let angles: Vec<String> = angles.iter().map(|&own| angles::operand(own)).collect();
-    let _ = writeln!(text, "        [{}]\n    }}", angles.join(", "));
-}
-
-/// Prints the sines of an angle that are computed for themselves.
-fn write_sines(text: &mut String, pair: &Pair, dialect: Dialect) {
-    let (names, angle) = (
-        angles::names(pair.joint, pair.need),
-        angles::operand(pair.joint),
-    );
-    if let Some(kernel) = &pair.kernel {
-        return sines::write(text, &names, &angle, kernel, dialect);
-    }
-    let called = trig::called(pair.need);
-    let method = if called == "sincos" { "both" } else { "each" };
-    let library = format!("libm::{called}{}", dialect.scalar.math_suffix());
-    let _ = writeln!(text, "    let {names} = {angle}.{method}({library});");
+    let angles = list(angles.iter().map(|&own| trig::operand(own)));
+    let _ = writeln!(text, "        [{angles}]\n    }}");
 }

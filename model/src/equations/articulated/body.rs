@@ -1,18 +1,12 @@
-//! Motions of a frame, and what a body answers to them.
+//! What a body answers to the motions of a frame.
 
 use crate::equations::Link;
 use crate::equations::matrix::{
-    Vector, cross, difference, dot, opposite, plus, scaled, sum, tensor_times, zero_vector,
+    Vector, cross, difference, dot, identity, opposite, plus, scaled, sum, tensor_times,
+    transposed, zero_vector,
 };
-use crate::equations::newton_euler::Wrench;
+use crate::equations::screws::{Twist, Wrench};
 use crate::scalar::Divide;
-
-/// A velocity or acceleration of a frame: angular, and of its origin.
-#[derive(Clone, Debug)]
-pub(super) struct Motion<S> {
-    pub(super) turn: Vector<S>,
-    pub(super) shift: Vector<S>,
-}
 
 /// Rows of a 3×3 matrix.
 type Block<S> = [Vector<S>; 3];
@@ -26,33 +20,6 @@ pub(super) struct Articulated<S> {
     pub(super) shift: Block<S>,
 }
 
-impl<S: Divide> Motion<S> {
-    pub(super) fn rest() -> Self {
-        Motion {
-            turn: zero_vector(),
-            shift: zero_vector(),
-        }
-    }
-
-    pub(super) fn plus(&self, other: &Self) -> Self {
-        Motion {
-            turn: sum(&self.turn, &other.turn),
-            shift: sum(&self.shift, &other.shift),
-        }
-    }
-
-    /// Returns the spatial cross product of motions.
-    pub(super) fn cross(&self, other: &Self) -> Self {
-        Motion {
-            turn: cross(&self.turn, &other.turn),
-            shift: sum(
-                &cross(&self.turn, &other.shift),
-                &cross(&self.shift, &other.turn),
-            ),
-        }
-    }
-}
-
 impl<S: Divide> Articulated<S> {
     pub(super) fn zero() -> Self {
         let zero = || [zero_vector(), zero_vector(), zero_vector()];
@@ -64,19 +31,19 @@ impl<S: Divide> Articulated<S> {
     }
 
     /// Returns a rigid link about its frame's origin, and V × (I V) at its velocity.
-    pub(super) fn of(link: &Link<S>, velocity: &Motion<S>) -> (Self, Wrench<S>) {
+    pub(super) fn of(link: &Link<S>, velocity: &Twist<S>) -> (Self, Wrench<S>) {
         let (mass, com) = (&link.mass, &link.com);
         let first = scaled(mass, com);
         let about_centre: Block<S> = link.inertia.rows();
         // I + m (s̄·s̄ 1 − s̄ s̄ᵀ) = I − [m s̄]× [s̄]×
-        let steiner = rows_crossed(&columns_crossed(&first, &unit()), com);
+        let steiner = rows_crossed(&columns_crossed(&first, &identity()), com);
         let negated = steiner.map(|row| opposite(&row));
         let body = Articulated {
             turn: block_sum(&about_centre, &negated),
-            mixed: columns_crossed(&first, &unit()),
-            shift: unit().map(|row| scaled(mass, &row)),
+            mixed: columns_crossed(&first, &identity()),
+            shift: identity().map(|row| scaled(mass, &row)),
         };
-        let Motion { turn, shift } = velocity;
+        let Twist { turn, shift } = velocity;
         // At the centre of mass: ω × (m v_c), and about it ω × (I ω).
         let centre = sum(shift, &cross(turn, com));
         let force = cross(turn, &scaled(mass, &centre));
@@ -93,7 +60,7 @@ impl<S: Divide> Articulated<S> {
         }
     }
 
-    pub(super) fn times(&self, motion: &Motion<S>) -> Wrench<S> {
+    pub(super) fn times(&self, motion: &Twist<S>) -> Wrench<S> {
         let by = |block: &Block<S>, v: &Vector<S>| block.each_ref().map(|row| dot(row, v));
         Wrench {
             force: sum(
@@ -141,44 +108,12 @@ impl<S: Divide> Articulated<S> {
     }
 }
 
-/// Returns nothing.
-pub(super) fn no_wrench<S: Divide>() -> Wrench<S> {
-    Wrench {
-        force: zero_vector(),
-        moment: zero_vector(),
-    }
-}
-
-/// Returns both together.
-pub(super) fn add<S: Divide>(a: &Wrench<S>, b: &Wrench<S>) -> Wrench<S> {
-    Wrench {
-        force: sum(&a.force, &b.force),
-        moment: sum(&a.moment, &b.moment),
-    }
-}
-
-/// Returns a wrench times a factor.
-pub(super) fn by<S: Divide>(factor: &S, wrench: &Wrench<S>) -> Wrench<S> {
-    Wrench {
-        force: scaled(factor, &wrench.force),
-        moment: scaled(factor, &wrench.moment),
-    }
-}
-
 /// Returns the power of a wrench on a motion.
-pub(super) fn power<S: Divide>(wrench: &Wrench<S>, motion: &Motion<S>) -> S {
+pub(super) fn power<S: Divide>(wrench: &Wrench<S>, motion: &Twist<S>) -> S {
     plus(
         &dot(&wrench.moment, &motion.turn),
         &dot(&wrench.force, &motion.shift),
     )
-}
-
-fn unit<S: Divide>() -> Block<S> {
-    core::array::from_fn(|i| core::array::from_fn(|k| if i == k { S::one() } else { S::zero() }))
-}
-
-fn transposed<S: Divide>(block: &Block<S>) -> Block<S> {
-    core::array::from_fn(|i| core::array::from_fn(|k| block[k][i].clone()))
 }
 
 fn block_sum<S: Divide>(a: &Block<S>, b: &Block<S>) -> Block<S> {

@@ -8,7 +8,7 @@
 //! part d = Sᵀ I S + armature along it out of I. Nothing is assembled or
 //! factorised: D does not occur.
 //!
-//! - `body`: motions, and what a body answers to them
+//! - `body`: what a body answers to motions
 //! - `step`: from one frame to the next, through a joint
 
 mod body;
@@ -17,10 +17,10 @@ mod step;
 use alloc::vec::Vec;
 
 use super::matrix::{minus, opposite, over, plus, times, zero_vector};
-use super::newton_euler::Wrench;
+use super::screws::{Twist, Wrench};
 use super::{Arm, DhVariables};
 use crate::scalar::Divide;
-use body::{Articulated, Motion, add, by, no_wrench, power};
+use body::{Articulated, power};
 use step::Step;
 
 /// The values that the way out leaves for the way back.
@@ -32,7 +32,7 @@ struct Joint<S> {
     /// 1/d; zero of a joint that is held.
     inverse: S,
     /// Velocity product of the joint.
-    drift: Motion<S>,
+    drift: Twist<S>,
 }
 
 /// Returns q̈ of the joints that move, zero of the others, which are held where they
@@ -47,36 +47,36 @@ pub fn forward_dynamics<S: Divide>(
     let n = arm.links.len();
     let steps: Vec<Step<'_, S>> = (0..n).map(|i| Step::new(arm, i, at)).collect();
     // Velocities, outward.
-    let mut velocities: Vec<Motion<S>> = Vec::with_capacity(n);
+    let mut velocities: Vec<Twist<S>> = Vec::with_capacity(n);
     let mut drifts = Vec::with_capacity(n);
-    let rest = Motion::rest();
+    let rest = Twist::rest();
     for (i, step) in steps.iter().enumerate() {
         let before = velocities.last().unwrap_or(&rest);
         let own = step.along(&qd[i]);
-        let (velocity, drift) = step.outward(before, |frame| (frame.plus(&own), frame.cross(&own)));
+        let (velocity, drift) = step.outward(before, |frame| (frame.with(&own), frame.cross(&own)));
         velocities.push(velocity);
         drifts.push(drift);
     }
     // Articulated bodies, inward.
     let mut joints: Vec<Joint<S>> = Vec::with_capacity(n);
     let mut body = Articulated::zero();
-    let mut bias = no_wrench();
+    let mut bias = Wrench::zero();
     for (i, drift) in drifts.into_iter().enumerate().rev() {
         let (step, link) = (&steps[i], &arm.links[i]);
         let (own, own_bias) = Articulated::of(link, &velocities[i]);
-        let (whole, whole_bias) = (body.plus(&own), add(&bias, &own_bias));
+        let (whole, whole_bias) = (body.plus(&own), bias.with(&own_bias));
         let (whole, whole_bias) = step.at_joint(whole, whole_bias);
         let push = whole.times(&step.along(&S::one()));
-        let pivot = plus(&step.depends_on(&push), &link.armature);
+        let pivot = plus(step.depends_on(&push), &link.armature);
         let damped = minus(&tau[i], &link.friction.torque(&qd[i]));
-        let left = minus(&damped, &step.depends_on(&whole_bias));
+        let left = minus(&damped, step.depends_on(&whole_bias));
         let inverse = match moves[i] {
             true => over(&S::one(), &pivot),
             false => S::zero(),
         };
         let given = whole.without(&push, &inverse);
-        let moved = add(&whole_bias, &given.times(&drift));
-        let given_bias = add(&moved, &by(&times(&left, &inverse), &push));
+        let moved = whole_bias.with(&given.times(&drift));
+        let given_bias = moved.with(&push.scaled(&times(&left, &inverse)));
         (body, bias) = step.before_joint(given, given_bias);
         joints.push(Joint {
             push,
@@ -87,17 +87,17 @@ pub fn forward_dynamics<S: Divide>(
     }
     joints.reverse();
     // Accelerations, outward: the base rises instead of being pulled down.
-    let mut before = Motion {
+    let mut before = Twist {
         turn: zero_vector(),
         shift: opposite(&arm.gravity),
     };
     let mut accelerations = Vec::with_capacity(n);
     for (step, joint) in steps.iter().zip(&joints) {
         let (next, acceleration) = step.outward(&before, |frame| {
-            let frame = frame.plus(&joint.drift);
+            let frame = frame.with(&joint.drift);
             let left = minus(&joint.rest, &power(&joint.push, &frame));
             let acceleration = times(&left, &joint.inverse);
-            (frame.plus(&step.along(&acceleration)), acceleration)
+            (frame.with(&step.along(&acceleration)), acceleration)
         });
         accelerations.push(acceleration);
         before = next;

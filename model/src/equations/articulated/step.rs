@@ -1,10 +1,10 @@
 //! From one frame to the next, through a joint.
 
-use super::body::{Articulated, Motion};
-use crate::equations::matrix::{Columns, Vector, cross, sum, zero_vector};
-use crate::equations::newton_euler::Wrench;
+use super::body::Articulated;
+use crate::equations::matrix::{Columns, Vector, cross, sum};
+use crate::equations::screws::{Twist, Wrench};
 use crate::equations::{Arm, DhVariables, Link};
-use crate::robot::{Convention, JointKind};
+use crate::robot::Convention;
 use crate::scalar::Divide;
 
 /// From frame i−1 to frame i: where the joint is, and the constant way.
@@ -30,34 +30,21 @@ impl<'a, S: Divide> Step<'a, S> {
 
     /// Returns z at a rate: both conventions move about or along the z axis of the
     /// joint's frame, which is i−1 in standard DH and i in modified.
-    pub(super) fn along(&self, rate: &S) -> Motion<S> {
-        let axis = [S::zero(), S::zero(), rate.clone()];
-        match self.link.kind {
-            JointKind::Revolute => Motion {
-                turn: axis,
-                shift: zero_vector(),
-            },
-            JointKind::Prismatic => Motion {
-                turn: zero_vector(),
-                shift: axis,
-            },
-        }
+    pub(super) fn along(&self, rate: &S) -> Twist<S> {
+        Twist::of_joint(self.link.kind, [S::zero(), S::zero(), rate.clone()])
     }
 
     /// Returns the part of a wrench in the joint's frame that the joint feels.
-    pub(super) fn depends_on(&self, wrench: &Wrench<S>) -> S {
-        match self.link.kind {
-            JointKind::Revolute => wrench.moment[2].clone(),
-            JointKind::Prismatic => wrench.force[2].clone(),
-        }
+    pub(super) fn depends_on<'w>(&self, wrench: &'w Wrench<S>) -> &'w S {
+        &wrench.part(self.link.kind)[2]
     }
 
     /// Returns a motion of frame i−1 through the joint, then seen from frame i.
     pub(super) fn outward<T>(
         &self,
-        before: &Motion<S>,
-        joint: impl FnOnce(Motion<S>) -> (Motion<S>, T),
-    ) -> (Motion<S>, T) {
+        before: &Twist<S>,
+        joint: impl FnOnce(Twist<S>) -> (Twist<S>, T),
+    ) -> (Twist<S>, T) {
         match self.arm.convention {
             Convention::Standard => {
                 let (moved, other) = joint(before.clone());
@@ -68,10 +55,10 @@ impl<'a, S: Divide> Step<'a, S> {
     }
 
     /// Returns a motion from frame i−1 to frame i.
-    fn seen(&self, motion: &Motion<S>) -> Motion<S> {
+    fn seen(&self, motion: &Twist<S>) -> Twist<S> {
         let shift = sum(&motion.shift, &cross(&motion.turn, &self.lever));
         let turned = |v: &Vector<S>| self.link.to_link(self.arm.convention, self.at, v);
-        Motion {
+        Twist {
             turn: turned(&motion.turn),
             shift: turned(&shift),
         }
@@ -104,8 +91,7 @@ impl<'a, S: Divide> Step<'a, S> {
     /// Carries it from frame i to frame i−1.
     fn back(&self, body: &Articulated<S>, bias: &Wrench<S>) -> (Articulated<S>, Wrench<S>) {
         let turned = |v: &Vector<S>| self.link.to_previous(self.arm.convention, self.at, v);
-        let force = turned(&bias.force);
-        let moment = sum(&turned(&bias.moment), &cross(&self.lever, &force));
-        (body.carried(turned, &self.lever), Wrench { force, moment })
+        let bias = bias.carried(turned, &self.lever);
+        (body.carried(turned, &self.lever), bias)
     }
 }

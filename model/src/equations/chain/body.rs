@@ -2,7 +2,7 @@
 
 use super::{Rotation, apply};
 use crate::equations::matrix::{
-    Vector, minus, negative, plus, scaled, sum, times, twice, zero_vector,
+    Vector, dot, minus, negative, plus, scaled, sum, tensor_times, times, twice, zero_vector,
 };
 use crate::equations::{Link, SinCosPair};
 use crate::robot::Inertia;
@@ -104,11 +104,7 @@ impl<S: Scalar> Body<S> {
 
     /// Returns the same body with the opposite sign.
     pub fn negated(&self) -> Self {
-        Body {
-            mass: negative(&self.mass),
-            first: self.first.clone().map(|x| negative(&x)),
-            second: Inertia::symmetric(|i, j| negative(entry(&self.second, i, j))),
-        }
+        self.map(negative)
     }
 
     /// Returns it as seen from a frame in which this one is turned, then moved.
@@ -119,18 +115,13 @@ impl<S: Scalar> Body<S> {
     /// Returns it in other axes: r → R r.
     pub fn turned(&self, rotation: &Rotation<S>) -> Self {
         // R Σ, then (R Σ) Rᵀ.
-        let half: Rotation<S> = core::array::from_fn(|i| {
-            core::array::from_fn(|j| {
-                let column = [0, 1, 2].map(|k| entry(&self.second, k, j).clone());
-                crate::equations::matrix::dot(&rotation[i], &column)
-            })
-        });
+        let columns = self.second.rows();
+        let row = |own: &Vector<S>| columns.each_ref().map(|column| dot(own, column));
+        let half = rotation.each_ref().map(row);
         Body {
             mass: self.mass.clone(),
             first: apply(rotation, &self.first),
-            second: Inertia::symmetric(|i, j| {
-                crate::equations::matrix::dot(&half[i], &rotation[j])
-            }),
+            second: Inertia::symmetric(|i, j| dot(&half[i], &rotation[j])),
         }
     }
 
@@ -178,7 +169,7 @@ impl<S: Scalar> Body<S> {
 
     /// Returns Σ v
     pub fn second_times(&self, v: &Vector<S>) -> Vector<S> {
-        crate::equations::matrix::tensor_times(&self.second, v)
+        tensor_times(&self.second, v)
     }
 
     /// Returns it in another unit of length: torques keep their numbers, so a mass is multiplied

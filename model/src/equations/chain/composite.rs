@@ -9,13 +9,12 @@ use alloc::vec::Vec;
 use core::cmp::Ordering;
 
 use super::recursion::{AccelerationForm, MomentForm, Motion};
-use super::twist::Twist;
 use super::{Body, Chain, Displacement};
 use crate::equations::matrix::{
-    Vector, cross, dot, minus, negative, plus, scaled, sum, symmetric, times, twice, zero_vector,
+    Vector, cross, dot, minus, negative, plus, scaled, sum, symmetric, times, twice, z_across,
     zeros,
 };
-use crate::equations::newton_euler::Wrench;
+use crate::equations::screws::{Twist, Wrench};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
@@ -59,11 +58,11 @@ impl<'a, S: Scalar> Composite<'a, S> {
         bodies.reverse();
         let mut twists: Vec<Vec<Twist<S>>> = Vec::with_capacity(chain.links.len());
         for (m, link) in chain.links.iter().enumerate() {
-            let seen = |twist: &Twist<S>| twist.outward(link, &at[m]);
+            let seen = |twist: &Twist<S>| link.twist_outward(&at[m], twist);
             let mut row: Vec<Twist<S>> = Vec::with_capacity(m);
             if m > 0 {
                 row.extend(twists[m - 1].iter().map(seen));
-                row.push(seen(&own_twist(chain, m - 1)));
+                row.push(seen(&chain.links[m - 1].twist()));
             }
             twists.push(row);
         }
@@ -75,25 +74,20 @@ impl<'a, S: Scalar> Composite<'a, S> {
         }
     }
 
-    /// Computes force and moment of a unit acceleration of joint k on its composite.
-    pub(super) fn momentum(&self, k: usize) -> (Vector<S>, Vector<S>) {
+    /// Returns the wrench of a unit acceleration of joint k on its composite.
+    pub(super) fn momentum(&self, k: usize) -> Wrench<S> {
         let (link, body) = (&self.chain.links[k], &self.bodies[k]);
+        let second = &body.second;
         match link.kind {
-            JointKind::Revolute => {
-                let second = &body.second;
-                (
-                    mu(body),
-                    [
-                        negative(&second.xz),
-                        negative(&second.yz),
-                        plus(&second.xx, &second.yy),
-                    ],
-                )
-            }
-            JointKind::Prismatic => (
-                scaled(&body.mass, &link.axis),
-                cross(&body.first, &link.axis),
-            ),
+            JointKind::Revolute => Wrench {
+                force: z_across(&body.first),
+                moment: [
+                    negative(&second.xz),
+                    negative(&second.yz),
+                    plus(&second.xx, &second.yy),
+                ],
+            },
+            JointKind::Prismatic => slid(body, &link.axis),
         }
     }
 
@@ -106,12 +100,12 @@ impl<'a, S: Scalar> Composite<'a, S> {
 
     /// Returns D_0k … D_kk.
     fn inertia_column(&self, k: usize, travel: CompositeOrder) -> Vec<S> {
-        let (mut force, mut moment) = self.momentum(k);
+        let mut wrench = self.momentum(k);
         let mut column = Vec::with_capacity(k + 1);
         for i in (0..=k).rev() {
             let load = match travel {
-                CompositeOrder::Inward => self.chain.load(i, &force, &moment),
-                CompositeOrder::Outward => self.project(i, k, &force, &moment),
+                CompositeOrder::Inward => self.chain.load(i, &wrench),
+                CompositeOrder::Outward => self.project(i, k, &wrench),
             };
             let load = self.in_metres(k, load);
             column.push(if i == k {
@@ -120,7 +114,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
                 load
             });
             if travel == CompositeOrder::Inward && i > 0 {
-                (force, moment) = self.chain.to_previous(i, &self.at[i], &force, &moment);
+                wrench = self.chain.to_previous(i, self.at, &wrench);
             }
         }
         column.reverse();
@@ -148,44 +142,36 @@ impl<'a, S: Scalar> Composite<'a, S> {
 
     /// Returns h_ikm of all i < m.
     fn christoffel_row(&self, k: usize, m: usize) -> Vec<S> {
-        let (force, moment) = self.quadratic(m, &self.twist(k, m).turn);
+        let wrench = self.quadratic(m, &self.twist(k, m).turn);
         (0..m)
-            .map(|i| self.in_metres(m, self.project(i, m, &force, &moment)))
+            .map(|i| self.in_metres(m, self.project(i, m, &wrench)))
             .collect()
     }
 
     /// Returns c, length n.
     pub fn gravity(&self, travel: CompositeOrder) -> Vec<S> {
-        let mut c = Vec::with_capacity(self.chain.links.len());
-        match travel {
-            CompositeOrder::Outward => {
-                let mut gravity = self.chain.gravity.clone();
-                for (i, link) in self.chain.links.iter().enumerate() {
-                    gravity = link.inward(&self.at[i], &gravity);
-                    let body = &self.bodies[i];
-                    c.push(match link.kind {
-                        JointKind::Revolute => {
-                            let [x, y, _] = &body.first;
-                            minus(&times(y, &gravity[0]), &times(x, &gravity[1]))
-                        }
-                        JointKind::Prismatic => {
-                            let pull = dot(&scaled(&body.mass, &link.axis), &gravity);
-                            negative(&times(&pull, &self.chain.per_unit))
-                        }
-                    });
+        let chain = self.chain;
+        if travel == CompositeOrder::Inward {
+            // The weight of all links about each origin, links summed.
+            let rest = zeros(chain.links.len());
+            let (spin, couple) = (AccelerationForm::Column, MomentForm::SecondMoments);
+            return chain.inverse_dynamics(self.at, &rest, &rest, spin, couple);
+        }
+        let mut c = Vec::with_capacity(chain.links.len());
+        let mut gravity = chain.gravity.clone();
+        for (i, link) in chain.links.iter().enumerate() {
+            gravity = link.inward(&self.at[i], &gravity);
+            let body = &self.bodies[i];
+            c.push(match link.kind {
+                JointKind::Revolute => {
+                    let [x, y, _] = &body.first;
+                    minus(&times(y, &gravity[0]), &times(x, &gravity[1]))
                 }
-            }
-            CompositeOrder::Inward => {
-                // The weight of all links about each origin, links summed.
-                let rest = zeros(self.chain.links.len());
-                return self.chain.inverse_dynamics(
-                    self.at,
-                    &rest,
-                    &rest,
-                    AccelerationForm::Column,
-                    MomentForm::SecondMoments,
-                );
-            }
+                JointKind::Prismatic => {
+                    let pull = dot(&scaled(&body.mass, &link.axis), &gravity);
+                    negative(&times(&pull, &chain.per_unit))
+                }
+            });
         }
         c
     }
@@ -211,72 +197,63 @@ impl<'a, S: Scalar> Composite<'a, S> {
             // The motion of frame i with its own joint at rest.
             let still = before.next(link, &self.at[i], &S::zero(), &S::zero(), spin);
             let body = &self.bodies[i];
-            let (force, moment) = still.wrench(body, MomentForm::SecondMoments);
-            own.push(chain.load(i, &force, &moment));
+            let at_rest = still.wrench(body, MomentForm::SecondMoments);
+            own.push(chain.load(i, &at_rest));
             // Σ_k (2 − δ_km) Δ_k q̇_k for k ≤ m.
             let mut turn = still.omega.clone().map(|x| twice(&x));
             if link.kind == JointKind::Revolute {
                 turn[2] = plus(&turn[2], &rates[i]);
             }
-            let (force, moment) = self.quadratic(i, &turn);
-            let (push, twist) = self.momentum(i);
-            wrenches.push((
-                sum(
-                    &scaled(&rates[i], &force),
-                    &scaled(&accelerations[i], &push),
-                ),
-                sum(
-                    &scaled(&rates[i], &moment),
-                    &scaled(&accelerations[i], &twist),
-                ),
-            ));
+            let (drift, push) = (self.quadratic(i, &turn), self.momentum(i));
+            let both = |drift: &Vector<S>, push: &Vector<S>| {
+                sum(&scaled(&rates[i], drift), &scaled(&accelerations[i], push))
+            };
+            wrenches.push(Wrench {
+                force: both(&drift.force, &push.force),
+                moment: both(&drift.moment, &push.moment),
+            });
             before = before.next(link, &self.at[i], &rates[i], &accelerations[i], spin);
         }
         let mut torques = Vec::with_capacity(n);
-        let (mut force, mut moment) = (zero_vector(), exerted.clone());
+        let mut wrench = Wrench::couple(exerted.clone());
         for i in (0..n).rev() {
-            let (f, m) = &wrenches[i];
-            (force, moment) = (sum(&force, f), sum(&moment, m));
-            torques.push(plus(&chain.load(i, &force, &moment), &own[i]));
-            (force, moment) = chain.to_previous(i, &self.at[i], &force, &moment);
+            wrench = wrench.with(&wrenches[i]);
+            torques.push(plus(&chain.load(i, &wrench), &own[i]));
+            wrench = chain.to_previous(i, self.at, &wrench);
         }
         torques.reverse();
         torques
     }
 
-    /// Computes force and moment of Δ_k Δ_m on the composite body m, `turn` being the angular
-    /// part of Δ_k.
-    fn quadratic(&self, m: usize, turn: &Vector<S>) -> (Vector<S>, Vector<S>) {
+    /// Returns the wrench of Δ_k Δ_m on the composite body m, `turn` being the angular part of
+    /// Δ_k.
+    fn quadratic(&self, m: usize, turn: &Vector<S>) -> Wrench<S> {
         let (link, body) = (&self.chain.links[m], &self.bodies[m]);
         match link.kind {
             // A point r moves by z × r; turning that gives turn × (z × r).
             JointKind::Revolute => {
                 let [x, y, _] = body.second_times(turn);
-                (cross(turn, &mu(body)), [y, negative(&x), S::zero()])
+                Wrench {
+                    force: cross(turn, &z_across(&body.first)),
+                    moment: [y, negative(&x), S::zero()],
+                }
             }
             // Every point moves along the slide.
-            JointKind::Prismatic => {
-                let acceleration = cross(turn, &link.axis);
-                (
-                    scaled(&body.mass, &acceleration),
-                    cross(&body.first, &acceleration),
-                )
-            }
+            JointKind::Prismatic => slid(body, &cross(turn, &link.axis)),
         }
     }
 
     /// Returns the unit twist of joint i seen from frame m ≥ i.
     pub(super) fn twist(&self, i: usize, m: usize) -> Twist<S> {
-        if i == m {
-            own_twist(self.chain, m)
-        } else {
-            self.twists[m][i].clone()
+        match i == m {
+            true => self.chain.links[m].twist(),
+            false => self.twists[m][i].clone(),
         }
     }
 
     /// Returns what joint i feels of a wrench about the origin of frame m.
-    pub(super) fn project(&self, i: usize, m: usize, force: &Vector<S>, moment: &Vector<S>) -> S {
-        self.in_metres(i, self.twist(i, m).power(force, moment))
+    pub(super) fn project(&self, i: usize, m: usize, wrench: &Wrench<S>) -> S {
+        self.in_metres(i, wrench.along(&self.twist(i, m)))
     }
 
     /// Returns a load or rate of a slide, back from the chain's unit of length.
@@ -297,36 +274,17 @@ impl<'a, S: Scalar> Composite<'a, S> {
         }
     }
 
-    /// Returns a wrench about the origin of frame m, about that of the frame before.
-    pub(super) fn wrench_inward(&self, m: usize, wrench: &Wrench<S>) -> Wrench<S> {
-        let (force, moment) = self
-            .chain
-            .to_previous(m, &self.at[m], &wrench.force, &wrench.moment);
-        Wrench { force, moment }
-    }
-
     /// Returns a twist in the axes of frame j, seen from frame i ≥ j.
     pub(super) fn twist_outward(&self, twist: &Twist<S>, j: usize, i: usize) -> Twist<S> {
-        let out = |seen: Twist<S>, m: usize| seen.outward(&self.chain.links[m], &self.at[m]);
+        let out = |seen: Twist<S>, m: usize| self.chain.links[m].twist_outward(&self.at[m], &seen);
         (j + 1..=i).fold(twist.clone(), out)
     }
 }
 
-/// Returns z × ∫ r dm
-fn mu<S: Scalar>(body: &Body<S>) -> Vector<S> {
-    [negative(&body.first[1]), body.first[0].clone(), S::zero()]
-}
-
-fn own_twist<S: Scalar>(chain: &Chain<S>, i: usize) -> Twist<S> {
-    let link = &chain.links[i];
-    match link.kind {
-        JointKind::Revolute => Twist {
-            turn: link.axis.clone(),
-            shift: zero_vector(),
-        },
-        JointKind::Prismatic => Twist {
-            turn: zero_vector(),
-            shift: link.axis.clone(),
-        },
+/// Returns the wrench of a body whose points all have this acceleration.
+fn slid<S: Scalar>(body: &Body<S>, acceleration: &Vector<S>) -> Wrench<S> {
+    Wrench {
+        force: scaled(&body.mass, acceleration),
+        moment: cross(&body.first, acceleration),
     }
 }

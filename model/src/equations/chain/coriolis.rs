@@ -9,9 +9,8 @@ use alloc::vec::Vec;
 
 use super::composite::{Composite, CompositeOrder};
 use super::derivatives::{Flow, inertial, rate};
-use super::twist::Twist;
 use crate::equations::matrix::{dot, plus};
-use crate::equations::newton_euler::Wrench;
+use crate::equations::screws::{Twist, Wrench};
 use crate::scalar::Scalar;
 
 /// The contribution of one joint and its composite body.
@@ -49,7 +48,7 @@ impl<S: Scalar> Composite<'_, S> {
         let mut wrenches = [joints[i].felt.clone(), joints[i].push.clone()];
         let mut swing = joints[i].swing.clone();
         for j in (0..i).rev() {
-            wrenches = wrenches.map(|wrench| self.wrench_inward(j + 1, &wrench));
+            wrenches = wrenches.map(|wrench| self.chain.to_previous(j + 1, self.at, &wrench));
             swing = self.chain.links[j + 1].outward(&self.at[j + 1], &swing);
             let ([felt, push], twist) = (&wrenches, self.twist(j, j));
             matrix[j][i] = felt.along(&twist);
@@ -77,10 +76,10 @@ impl<S: Scalar> Composite<'_, S> {
         for (i, link) in chain.links.iter().enumerate().rev() {
             flow = flow.with(&Flow::of(&link.body, &velocities[i]));
             let rate = rate(link, &velocities[i]);
-            let (force, moment) = self.momentum(i);
+            let push = self.momentum(i);
             let turn = self.twist(i, i).turn;
             joints.push(Joint {
-                push: Wrench { force, moment },
+                push,
                 felt: flow
                     .half_of_turn(&turn)
                     .with(&inertial(&self.bodies[i], &rate)),

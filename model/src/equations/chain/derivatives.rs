@@ -9,14 +9,13 @@
 use alloc::vec::Vec;
 
 use super::composite::{Composite, CompositeOrder};
-use super::momentum::Velocity;
 use super::recursion::{AccelerationForm, MomentForm, Motion};
-use super::twist::Twist;
 use super::{Body, ChainLink, Displacement, Rotation};
 use crate::equations::matrix::{
-    Vector, cross, dot, minus, negative, plus, scaled, sum, tensor_times, times, twice, zero_vector,
+    Vector, across_z, cross, dot, minus, negative, plus, scaled, sum, tensor_times, times, twice,
+    zero_vector,
 };
-use crate::equations::newton_euler::Wrench;
+use crate::equations::screws::{Twist, Wrench};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
@@ -87,7 +86,7 @@ impl<S: Scalar> Composite<'_, S> {
         let mut wrenches = [&own.position.1, &own.velocity.1, &own.push].map(Wrench::clone);
         let mut swing = own.swing.clone();
         for j in (0..i).rev() {
-            wrenches = wrenches.map(|wrench| self.wrench_inward(j + 1, &wrench));
+            wrenches = wrenches.map(|wrench| self.chain.to_previous(j + 1, self.at, &wrench));
             swing = self.chain.links[j + 1].outward(&self.at[j + 1], &swing);
             let [position, velocity, push] = &wrenches;
             let [first, second] = &joints[j].drift;
@@ -122,19 +121,14 @@ impl<S: Scalar> Composite<'_, S> {
         let velocities = chain.velocities(self.at, qd);
         let motions = chain.motions(self.at, qd, qdd, AccelerationForm::Column);
         let mut flow = Flow::nothing();
-        let mut load = Wrench {
-            force: zero_vector(),
-            moment: zero_vector(),
-        };
+        let mut load = Wrench::zero();
         let mut joints = Vec::with_capacity(chain.links.len());
         for (i, link) in chain.links.iter().enumerate().rev() {
             flow = flow.with(&Flow::of(&link.body, &velocities[i]));
-            let (force, moment) = motions[i].wrench(&link.body, MomentForm::SecondMoments);
-            load = load.with(&Wrench { force, moment });
+            load = load.with(&motions[i].wrench(&link.body, MomentForm::SecondMoments));
             joints.push(self.own(i, &velocities[i], &motions[i], &flow, &load));
             flow = flow.carried(link, &self.at[i]);
-            let (force, moment) = chain.to_previous(i, &self.at[i], &load.force, &load.moment);
-            load = Wrench { force, moment };
+            load = chain.to_previous(i, self.at, &load);
         }
         joints.reverse();
         joints
@@ -143,7 +137,7 @@ impl<S: Scalar> Composite<'_, S> {
     fn own(
         &self,
         i: usize,
-        velocity: &Velocity<S>,
+        velocity: &Twist<S>,
         motion: &Motion<S>,
         flow: &Flow<S>,
         load: &Wrench<S>,
@@ -151,7 +145,7 @@ impl<S: Scalar> Composite<'_, S> {
         let (link, body) = (&self.chain.links[i], &self.bodies[i]);
         let twist = self.twist(i, i);
         let drift = drift(link, velocity, motion);
-        let (force, moment) = self.momentum(i);
+        let push = self.momentum(i);
         let [first, second] = &drift;
         let changing = flow.of_turn(&first.turn).with(&inertial(body, second));
         let turned = load.turned(&twist);
@@ -159,7 +153,7 @@ impl<S: Scalar> Composite<'_, S> {
             .of_turn(&twist.turn)
             .with(&inertial(body, &first.doubled()));
         Joint {
-            push: Wrench { force, moment },
+            push,
             swing: flow.swing(link),
             position: (changing.along(&twist), changing.with(&turned)),
             velocity: (velocity.along(&twist), velocity),
@@ -170,41 +164,35 @@ impl<S: Scalar> Composite<'_, S> {
 }
 
 /// Returns V × Δ: how the twist of a joint changes.
-pub(super) fn rate<S: Scalar>(link: &ChainLink<S>, velocity: &Velocity<S>) -> Twist<S> {
-    let across = |v: &Vector<S>| [v[1].clone(), negative(&v[0]), S::zero()];
+pub(super) fn rate<S: Scalar>(link: &ChainLink<S>, velocity: &Twist<S>) -> Twist<S> {
     match link.kind {
         JointKind::Revolute => Twist {
-            turn: across(&velocity.omega),
-            shift: across(&velocity.origin),
+            turn: across_z(&velocity.turn),
+            shift: across_z(&velocity.shift),
         },
         JointKind::Prismatic => Twist {
-            turn: zero_vector(),
-            shift: cross(&velocity.omega, &link.axis),
+            shift: cross(&velocity.turn, &link.axis),
+            ..Twist::rest()
         },
     }
 }
 
 /// Returns V × Δ and what it becomes at the rate of V: for a joint that turns the
 /// third column of U, with what the origin's motion adds.
-fn drift<S: Scalar>(
-    link: &ChainLink<S>,
-    velocity: &Velocity<S>,
-    motion: &Motion<S>,
-) -> [Twist<S>; 2] {
+fn drift<S: Scalar>(link: &ChainLink<S>, velocity: &Twist<S>, motion: &Motion<S>) -> [Twist<S>; 2] {
     let first = rate(link, velocity);
     let second = match link.kind {
         JointKind::Revolute => {
-            let a = &motion.acceleration;
-            let across = [a[1].clone(), negative(&a[0]), S::zero()];
-            let shift = cross(&velocity.origin, &first.turn);
+            let across = across_z(&motion.acceleration);
+            let shift = cross(&velocity.shift, &first.turn);
             Twist {
                 turn: motion.u[2].clone(),
                 shift: sum(&across, &shift.each_ref().map(twice)),
             }
         }
         JointKind::Prismatic => Twist {
-            turn: zero_vector(),
             shift: motion.u_times(&link.axis),
+            ..Twist::rest()
         },
     };
     [first, second]
@@ -233,15 +221,9 @@ impl<S: Scalar> Flow<S> {
 
     /// Returns V = v + ω × r over one body: ∫ V dm = m v + ω × s and
     /// ∫ V rᵀ dm = v sᵀ + [ω]× Σ.
-    pub(super) fn of(body: &Body<S>, velocity: &Velocity<S>) -> Self {
-        let Velocity { omega, origin } = velocity;
-        let sigma = &body.second;
-        let columns = [
-            [&sigma.xx, &sigma.xy, &sigma.xz],
-            [&sigma.xy, &sigma.yy, &sigma.yz],
-            [&sigma.xz, &sigma.yz, &sigma.zz],
-        ]
-        .map(|column| cross(omega, &column.map(S::clone)));
+    pub(super) fn of(body: &Body<S>, velocity: &Twist<S>) -> Self {
+        let (omega, origin) = (&velocity.turn, &velocity.shift);
+        let columns = body.second.rows().map(|column| cross(omega, &column));
         Flow {
             momentum: sum(&scaled(&body.mass, origin), &cross(omega, &body.first)),
             moment: core::array::from_fn(|row| {
@@ -269,7 +251,7 @@ impl<S: Scalar> Flow<S> {
         // Rows turn as r, then columns as V.
         let rows = self.moment.each_ref().map(|row| link.outward(at, row));
         let column = |c: usize| link.outward(at, &rows.each_ref().map(|row| row[c].clone()));
-        let columns = [column(0), column(1), column(2)];
+        let columns = [0, 1, 2].map(column);
         let lever = link.lever(at);
         Flow {
             moment: core::array::from_fn(|row| {

@@ -5,8 +5,10 @@
 //! joints before bring along, so that D q̈ = τ − p_z − (I w)_z with D = I_zz + A, A its rotor.
 //! What the joints before feel is I′ w + p′ with I′ = I − I_z I_zᵀ/D and p′ = p + I_z (τ − p_z)/D.
 
+use super::body::entry;
 use super::{Body, ChainLink, Displacement};
 use crate::equations::matrix::{Vector, cross, minus, over, plus, sum, times};
+use crate::equations::screws::Wrench;
 use crate::robot::Inertia;
 use crate::scalar::{Divide, Scalar};
 
@@ -43,25 +45,15 @@ impl<S: Scalar> Hinged<S> {
     }
 
     /// Returns it with a body whose origin is this high above the point, and its own wrench.
-    pub(super) fn with(
-        &self,
-        body: &Body<S>,
-        height: &S,
-        (force, moment): (Vector<S>, Vector<S>),
-    ) -> Self {
+    pub(super) fn with(&self, body: &Body<S>, height: &S, wrench: &Wrench<S>) -> Self {
         let lever = [S::zero(), S::zero(), height.clone()];
         let own = body.moved(&lever).tensor();
-        let (a, b) = (&self.inertia, &own);
         Hinged {
-            inertia: Inertia {
-                xx: plus(&a.xx, &b.xx),
-                yy: plus(&a.yy, &b.yy),
-                zz: plus(&a.zz, &b.zz),
-                xy: plus(&a.xy, &b.xy),
-                yz: plus(&a.yz, &b.yz),
-                xz: plus(&a.xz, &b.xz),
-            },
-            moment: sum(&self.moment, &sum(&moment, &cross(&lever, &force))),
+            inertia: Inertia::symmetric(|i, k| plus(entry(&self.inertia, i, k), entry(&own, i, k))),
+            moment: sum(
+                &self.moment,
+                &sum(&wrench.moment, &cross(&lever, &wrench.force)),
+            ),
         }
     }
 }

@@ -6,7 +6,7 @@
 //! - [`regrouping`]: the freedom that leaves the dynamics alone: where an origin
 //!   lies on its axis, which parameters a link keeps, the unit of length
 //! - [`pose`]: the chain at a position; the axes in which each link is seen
-//! - `momentum`: energies and momenta; `twist`: twists and wrenches
+//! - `momentum`: energies and momenta
 //! - [`recursion`]: the customised Newton–Euler recursion
 //! - `reference`: torques at accelerations by which the recursion becomes short
 //! - [`composite`]: D, h, h_ikm and c from composite bodies
@@ -19,7 +19,6 @@
 //! - `shoulder`: forward dynamics where the first axes meet in one point; `hinged`: what is
 //!   beyond, as these feel it
 //! - `spin`: forward dynamics where the last joint turns about a principal axis
-//! - `load`: bodies that links carry beside their own
 //! - `passivity`: D a + C v + c + b∘v by a recursion over two velocities
 //! - `form`: [`Form`]: the associations that these leave open
 //!
@@ -31,7 +30,6 @@ mod coriolis;
 pub mod derivatives;
 mod form;
 mod hinged;
-mod load;
 mod momentum;
 mod parallel;
 mod passivity;
@@ -45,7 +43,6 @@ pub mod second_derivatives;
 mod shoulder;
 pub mod skeleton;
 mod spin;
-mod twist;
 
 use alloc::vec::Vec;
 
@@ -60,7 +57,11 @@ pub use spin::EliminatedTip;
 
 use super::SinCosPair;
 use super::friction::Friction;
-use super::matrix::{Vector, difference, dot, opposite, plus, scaled, sum, times, zero_vector};
+use super::matrix::{
+    ABOUT_Z, Vector, cross, difference, dot, identity, opposite, scaled, sum, times, transposed,
+    zero_vector,
+};
+use super::screws::Twist;
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
@@ -234,9 +235,7 @@ impl<S: Scalar> ChainLink<S> {
     fn inward(&self, at: &Displacement<S>, v: &Vector<S>) -> Vector<S> {
         match at {
             Displacement::Turn(theta) => {
-                let v = apply_transposed(&self.rotation, v);
-                let [x, y] = theta.turn_back(&v[0], &v[1]);
-                [x, y, v[2].clone()]
+                theta.turn_back_in(ABOUT_Z, apply_transposed(&self.rotation, v))
             }
             Displacement::Slide(_) => v.clone(),
         }
@@ -245,11 +244,22 @@ impl<S: Scalar> ChainLink<S> {
     /// Components from frame i into frame i−1.
     fn outward(&self, at: &Displacement<S>, v: &Vector<S>) -> Vector<S> {
         match at {
-            Displacement::Turn(theta) => {
-                let [x, y] = theta.turn(&v[0], &v[1]);
-                apply(&self.rotation, &[x, y, v[2].clone()])
-            }
+            Displacement::Turn(theta) => apply(&self.rotation, &theta.turn_in(ABOUT_Z, v.clone())),
             Displacement::Slide(_) => v.clone(),
+        }
+    }
+
+    /// Returns the joint's unit twist.
+    fn twist(&self) -> Twist<S> {
+        Twist::of_joint(self.kind, self.axis.clone())
+    }
+
+    /// Returns a twist of frame i−1 as seen from frame i.
+    fn twist_outward(&self, at: &Displacement<S>, twist: &Twist<S>) -> Twist<S> {
+        let lever = self.lever(at);
+        Twist {
+            turn: self.inward(at, &twist.turn),
+            shift: self.inward(at, &sum(&twist.shift, &cross(&twist.turn, &lever))),
         }
     }
 
@@ -267,58 +277,26 @@ impl<S: Scalar> ChainLink<S> {
     }
 }
 
-fn unit_z<S: Scalar>() -> Vector<S> {
-    [S::zero(), S::zero(), S::one()]
-}
-
-fn identity<S: Scalar>() -> Rotation<S> {
-    core::array::from_fn(|i| core::array::from_fn(|j| if i == j { S::one() } else { S::zero() }))
-}
-
-fn turn_x<S: Scalar>(angle: &SinCosPair<S>) -> Rotation<S> {
-    let (s, c) = (&angle.sin, &angle.cos);
-    [
-        [S::one(), S::zero(), S::zero()],
-        [S::zero(), c.clone(), s.neg()],
-        [S::zero(), s.clone(), c.clone()],
-    ]
-}
-
-fn turn_y<S: Scalar>(angle: &SinCosPair<S>) -> Rotation<S> {
-    let (s, c) = (&angle.sin, &angle.cos);
-    [
-        [c.clone(), S::zero(), s.clone()],
-        [S::zero(), S::one(), S::zero()],
-        [s.neg(), S::zero(), c.clone()],
-    ]
-}
-
-fn turn_z<S: Scalar>(angle: &SinCosPair<S>) -> Rotation<S> {
-    let (s, c) = (&angle.sin, &angle.cos);
-    [
-        [c.clone(), s.neg(), S::zero()],
-        [s.clone(), c.clone(), S::zero()],
-        [S::zero(), S::zero(), S::one()],
-    ]
+/// Returns the rotation by an angle in the plane of two axes.
+fn turn<S: Scalar>(angle: &SinCosPair<S>, [i, j]: [usize; 2]) -> Rotation<S> {
+    let mut turned = identity();
+    [turned[i][i], turned[j][j]] = [angle.cos.clone(), angle.cos.clone()];
+    [turned[i][j], turned[j][i]] = [angle.sin.neg(), angle.sin.clone()];
+    turned
 }
 
 fn product<S: Scalar>(a: &Rotation<S>, b: &Rotation<S>) -> Rotation<S> {
-    let column = |j: usize| [b[0][j].clone(), b[1][j].clone(), b[2][j].clone()];
-    core::array::from_fn(|i| core::array::from_fn(|j| dot(&a[i], &column(j))))
+    let columns = transposed(b);
+    a.each_ref()
+        .map(|row| columns.each_ref().map(|column| dot(row, column)))
 }
 
 /// Returns R v
 fn apply<S: Scalar>(rotation: &Rotation<S>, v: &Vector<S>) -> Vector<S> {
-    core::array::from_fn(|i| dot(&rotation[i], v))
+    rotation.each_ref().map(|row| dot(row, v))
 }
 
 /// Returns Rᵀ v
 fn apply_transposed<S: Scalar>(rotation: &Rotation<S>, v: &Vector<S>) -> Vector<S> {
-    core::array::from_fn(|j| {
-        let xy = plus(
-            &times(&rotation[0][j], &v[0]),
-            &times(&rotation[1][j], &v[1]),
-        );
-        plus(&xy, &times(&rotation[2][j], &v[2]))
-    })
+    apply(&transposed(rotation), v)
 }

@@ -4,51 +4,35 @@
 use alloc::vec::Vec;
 
 use super::{Chain, ChainLink, Displacement};
-use crate::equations::matrix::{
-    Vector, cross, dot, halved, minus, plus, scaled, sum, tensor_times, times, zero_vector,
-};
+use crate::equations::matrix::{cross, dot, halved, minus, plus, scaled, sum, tensor_times, times};
+use crate::equations::screws::{Twist, Wrench};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
-/// The velocity of one link, in its own axes.
-#[derive(Clone, Debug)]
-pub(super) struct Velocity<S> {
-    /// ω
-    pub(super) omega: Vector<S>,
-    /// v of the origin.
-    pub(super) origin: Vector<S>,
-}
-
-impl<S: Scalar> Velocity<S> {
-    fn rest() -> Self {
-        Velocity {
-            omega: zero_vector(),
-            origin: zero_vector(),
-        }
-    }
-
+impl<S: Scalar> Twist<S> {
     /// Returns the velocity of the next link.
     fn next(&self, link: &ChainLink<S>, at: &Displacement<S>, rate: &S) -> Self {
-        let carried = sum(&self.origin, &cross(&self.omega, &link.lever(at)));
+        let carried = sum(&self.shift, &cross(&self.turn, &link.lever(at)));
         let own = scaled(rate, &link.axis);
-        let (omega, origin) = (link.inward(at, &self.omega), link.inward(at, &carried));
+        let (turn, shift) = (link.inward(at, &self.turn), link.inward(at, &carried));
         match link.kind {
-            JointKind::Revolute => Velocity {
-                omega: sum(&omega, &own),
-                origin,
+            JointKind::Revolute => Twist {
+                turn: sum(&turn, &own),
+                shift,
             },
-            JointKind::Prismatic => Velocity {
-                omega,
-                origin: sum(&origin, &own),
+            JointKind::Prismatic => Twist {
+                turn,
+                shift: sum(&shift, &own),
             },
         }
     }
 }
 
 impl<S: Scalar> Chain<S> {
-    pub(super) fn velocities(&self, at: &[Displacement<S>], qd: &[S]) -> Vec<Velocity<S>> {
+    /// Returns the velocity of every link, in its own axes.
+    pub(super) fn velocities(&self, at: &[Displacement<S>], qd: &[S]) -> Vec<Twist<S>> {
         let rates = self.rates(qd);
-        let mut before = Velocity::rest();
+        let mut before = Twist::rest();
         let mut velocities = Vec::with_capacity(self.links.len());
         for ((link, at), rate) in self.links.iter().zip(at).zip(&rates) {
             before = before.next(link, at, rate);
@@ -63,7 +47,7 @@ impl<S: Scalar> Chain<S> {
         let velocities = self.velocities(at, qd);
         let mut energy = S::zero();
         for ((link, velocity), rate) in self.links.iter().zip(&velocities).zip(qd) {
-            let Velocity { omega, origin } = velocity;
+            let (omega, origin) = (&velocity.turn, &velocity.shift);
             let body = &link.body;
             // Halves go into the constants.
             let half = body.tensor().map(halved);
@@ -88,17 +72,16 @@ impl<S: Scalar> Chain<S> {
         let velocities = self.velocities(at, qd);
         let n = self.links.len();
         let (mut momenta, mut slopes) = (Vec::with_capacity(n), Vec::with_capacity(n));
-        let (mut push, mut spin) = (zero_vector(), zero_vector());
+        let mut wrench = Wrench::zero();
         for (i, link) in self.links.iter().enumerate().rev() {
-            let Velocity { omega, origin } = &velocities[i];
+            let (omega, origin) = (&velocities[i].turn, &velocities[i].shift);
             let body = &link.body;
-            push = sum(
-                &push,
-                &sum(&scaled(&body.mass, origin), &cross(omega, &body.first)),
-            );
+            let own = sum(&scaled(&body.mass, origin), &cross(omega, &body.first));
+            wrench.force = sum(&wrench.force, &own);
             let own = tensor_times(&body.tensor(), omega);
-            spin = sum(&spin, &sum(&own, &cross(&body.first, origin)));
-            let load = self.load(i, &push, &spin);
+            wrench.moment = sum(&wrench.moment, &sum(&own, &cross(&body.first, origin)));
+            let load = self.load(i, &wrench);
+            let (push, spin) = (&wrench.force, &wrench.moment);
             momenta.push(plus(&load, &times(&link.armature, &qd[i])));
             slopes.push(match link.kind {
                 // (a × z)·b = a_y b_x − a_x b_y
@@ -107,10 +90,10 @@ impl<S: Scalar> Chain<S> {
                     &minus(&times(&origin[1], &push[0]), &times(&origin[0], &push[1])),
                 ),
                 JointKind::Prismatic => {
-                    times(&dot(&cross(omega, &link.axis), &push), &self.per_unit)
+                    times(&dot(&cross(omega, &link.axis), push), &self.per_unit)
                 }
             });
-            (push, spin) = self.to_previous(i, &at[i], &push, &spin);
+            wrench = self.to_previous(i, at, &wrench);
         }
         momenta.reverse();
         slopes.reverse();

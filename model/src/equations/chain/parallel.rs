@@ -16,7 +16,7 @@ use alloc::vec::Vec;
 
 use super::{Chain, Displacement, Form};
 use crate::equations::forward::solved;
-use crate::equations::matrix::{minus, plus, zero_vector};
+use crate::equations::matrix::{minus, plus, sums, zero_vector};
 use crate::scalar::{Divide, Scalar};
 
 /// A joint and the next one that moves about a parallel axis.
@@ -90,9 +90,7 @@ impl<S: Divide> Chain<S> {
         };
         solved_in_pairs(&pairs, d, [bias, tau], moves)
     }
-}
 
-impl<S: Divide> Chain<S> {
     /// Returns q̈ under τ, zero of joints that do not move, from the torques of the recursion at
     /// accelerations that shorten it.
     pub fn forward_dynamics(
@@ -108,9 +106,7 @@ impl<S: Divide> Chain<S> {
         let drive = |i: usize| self.drive(i, qd, reference);
         let taken = self.torques(at, &motion.links, form.couple, &zero_vector(), drive);
         let rest = self.accelerations(d, [&taken, tau], moves, unknowns);
-        let sums = rest.iter().zip(reference);
-        sums.map(|(rest, reference)| plus(rest, reference))
-            .collect()
+        sums(&rest, reference)
     }
 }
 

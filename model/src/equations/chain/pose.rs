@@ -11,7 +11,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::{Chain, ChainLink, Probe, Rotation};
-use crate::equations::matrix::{Vector, times};
+use crate::equations::matrix::{ABOUT_Z, times};
 use crate::equations::{JointPosition, SinCosPair};
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
@@ -52,11 +52,14 @@ impl<S: Scalar> Chain<S> {
     /// each turns against the first of its group.
     pub fn parallel(&self) -> Vec<Vec<(usize, bool)>> {
         let mut groups: Vec<Vec<(usize, bool)>> = Vec::new();
-        for (i, place) in self.places().iter().enumerate() {
-            let Some(place) = place else { continue };
-            match groups.last_mut() {
-                Some(group) if place.index > 1 => group.push((i, place.opposite)),
-                _ => groups.push(vec![(i, place.opposite)]),
+        let links = self.links.iter().enumerate();
+        for (i, link) in links.filter(|(_, link)| link.kind == JointKind::Revolute) {
+            match (sense(&link.rotation), groups.last_mut()) {
+                (Some(opposite), Some(group)) => {
+                    let (_, before) = group[group.len() - 1];
+                    group.push((i, before != opposite));
+                }
+                _ => groups.push(vec![(i, false)]),
             }
         }
         groups
@@ -74,39 +77,17 @@ impl<S: Scalar> Chain<S> {
     }
 
     fn places(&self) -> Vec<Option<FramePlacement>> {
-        let mut places: Vec<Option<FramePlacement>> = Vec::with_capacity(self.links.len());
-        let mut start = 0;
-        for (i, link) in self.links.iter().enumerate() {
-            if link.kind == JointKind::Prismatic {
-                places.push(None);
-                continue;
+        let mut places = vec![None; self.links.len()];
+        for group in self.parallel() {
+            let count = group.len();
+            for (before, &(i, opposite)) in group.iter().enumerate() {
+                places[i] = Some(FramePlacement {
+                    group: [group[0].0, group[count - 1].0],
+                    opposite,
+                    index: before + 1,
+                    count,
+                });
             }
-            let before = places.iter().flatten().next_back().cloned();
-            let place = match (sense(&link.rotation), before) {
-                (Some(opposite), Some(before)) => FramePlacement {
-                    group: [start, i],
-                    opposite: before.opposite != opposite,
-                    index: before.index + 1,
-                    count: 0,
-                },
-                _ => {
-                    start = i;
-                    FramePlacement {
-                        group: [i, i],
-                        opposite: false,
-                        index: 1,
-                        count: 0,
-                    }
-                }
-            };
-            places.push(Some(place));
-        }
-        let mut ends = (usize::MAX, 0, 0);
-        for place in places.iter_mut().rev().flatten() {
-            if ends.0 != place.group[0] {
-                ends = (place.group[0], place.group[1], place.index);
-            }
-            (place.group[1], place.count) = (ends.1, ends.2);
         }
         places
     }
@@ -120,7 +101,7 @@ impl<S: Scalar> Chain<S> {
             .iter()
             .zip(position)
             .map(|(link, q)| match q {
-                JointPosition::Revolute(_) if link.spins_freely => Some(still()),
+                JointPosition::Revolute(_) if link.spins_freely => Some(SinCosPair::straight()),
                 JointPosition::Revolute(pair) => Some(pair.compose(&link.theta)),
                 JointPosition::Prismatic(_) => None,
             })
@@ -133,10 +114,9 @@ impl<S: Scalar> Chain<S> {
             });
             members.fold(None, |sum: Option<SinCosPair<S>>, (j, member)| {
                 let angle = angles[j].clone()?;
-                let angle = if member.opposite {
-                    inverse(&angle)
-                } else {
-                    angle
+                let angle = match member.opposite {
+                    true => angle.reversed(),
+                    false => angle,
                 };
                 Some(match sum {
                     Some(sum) => sum.compose(&angle),
@@ -149,9 +129,15 @@ impl<S: Scalar> Chain<S> {
         let between = |from: usize, to: usize, place: &FramePlacement| {
             let turn = match from <= to {
                 true => sum(from, to, place),
-                false => sum(to, from, place).map(|turn| inverse(&turn)),
+                false => sum(to, from, place).map(|turn| turn.reversed()),
             };
-            turn.map(|turn| if place.opposite { inverse(&turn) } else { turn })
+            turn.map(|turn| {
+                if place.opposite {
+                    turn.reversed()
+                } else {
+                    turn
+                }
+            })
         };
         let mut chain = self.clone();
         let mut at = Vec::with_capacity(position.len());
@@ -162,9 +148,9 @@ impl<S: Scalar> Chain<S> {
             if let Some((seen, own)) = &before
                 && let Some(turn) = between(*seen, own.index, own)
             {
-                turned(&mut link.offset, &turn);
+                link.offset = turn.turn_in(ABOUT_Z, link.offset.clone());
                 if link.kind == JointKind::Prismatic {
-                    turned(&mut link.axis, &turn);
+                    link.axis = turn.turn_in(ABOUT_Z, link.axis.clone());
                     link.turn_bodies(&turn);
                 }
             }
@@ -186,7 +172,7 @@ impl<S: Scalar> Chain<S> {
                 _ => 0,
             };
             at.push(Displacement::Turn(
-                between(from, seen, place).unwrap_or_else(still),
+                between(from, seen, place).unwrap_or_else(SinCosPair::straight),
             ));
             before = Some((seen, place.clone()));
         }
@@ -205,7 +191,7 @@ impl<S: Scalar> ChainLink<S> {
 /// Returns whether an axis points against the one before; `None` if they are
 /// not parallel. R = Rz(β) leaves a turn about z as it is; past R = Rz(β) Rx(π)
 /// it turns the other way.
-fn sense<S: Scalar>(rotation: &Rotation<S>) -> Option<bool> {
+pub(super) fn sense<S: Scalar>(rotation: &Rotation<S>) -> Option<bool> {
     let along = &rotation[2][2];
     if along.is_one() {
         Some(false)
@@ -214,23 +200,4 @@ fn sense<S: Scalar>(rotation: &Rotation<S>) -> Option<bool> {
     } else {
         None
     }
-}
-
-fn still<S: Scalar>() -> SinCosPair<S> {
-    SinCosPair {
-        sin: S::zero(),
-        cos: S::one(),
-    }
-}
-
-fn inverse<S: Scalar>(turn: &SinCosPair<S>) -> SinCosPair<S> {
-    SinCosPair {
-        sin: turn.sin.neg(),
-        cos: turn.cos.clone(),
-    }
-}
-
-fn turned<S: Scalar>(v: &mut Vector<S>, by: &SinCosPair<S>) {
-    let [x, y] = by.turn(&v[0], &v[1]);
-    (v[0], v[1]) = (x, y);
 }

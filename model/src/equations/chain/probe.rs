@@ -3,8 +3,8 @@
 
 use alloc::vec::Vec;
 
-use super::{Body, Rotation};
-use crate::equations::matrix::Vector;
+use super::{Body, Rotation, Skeleton};
+use crate::equations::matrix::{Vector, times};
 use crate::scalar::Scalar;
 
 /// The cause of a column of a regressor: the column is its torque.
@@ -101,4 +101,21 @@ pub(super) fn probes<S: Scalar>(
             of: of(what)?,
         })
     })
+}
+
+impl<S: Scalar> Skeleton<S> {
+    /// Returns the skeleton whose bodies have its columns, each as often as its value says,
+    /// and which has columns no longer.
+    #[must_use]
+    pub fn with_values(mut self, values: &[S]) -> Skeleton<S> {
+        for link in &mut self.links {
+            for probe in core::mem::take(&mut link.probes) {
+                if let (Probed::Body(unit), Some(value)) = (&probe.of, values.get(probe.column)) {
+                    link.body = link.body.with(&unit.map(|x| times(value, x)));
+                }
+            }
+        }
+        self.columns = 0;
+        self
+    }
 }

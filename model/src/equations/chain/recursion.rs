@@ -10,6 +10,7 @@ use super::{Body, Chain, ChainLink, Displacement};
 use crate::equations::matrix::{
     Vector, cross, dot, minus, negative, opposite, plus, scaled, sum, times, twice, zero_vector,
 };
+use crate::equations::screws::Wrench;
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
@@ -122,17 +123,18 @@ impl<S: Scalar> Motion<S> {
         }
     }
 
-    /// Computes force and moment of a body in this motion.
-    pub(super) fn wrench(&self, body: &Body<S>, couple: MomentForm) -> (Vector<S>, Vector<S>) {
-        let force = sum(
-            &scaled(&body.mass, &self.acceleration),
-            &self.u_times(&body.first),
-        );
-        let moment = sum(
-            &self.couple(body, couple),
-            &cross(&body.first, &self.acceleration),
-        );
-        (force, moment)
+    /// Returns the wrench of a body in this motion.
+    pub(super) fn wrench(&self, body: &Body<S>, couple: MomentForm) -> Wrench<S> {
+        Wrench {
+            force: sum(
+                &scaled(&body.mass, &self.acceleration),
+                &self.u_times(&body.first),
+            ),
+            moment: sum(
+                &self.couple(body, couple),
+                &cross(&body.first, &self.acceleration),
+            ),
+        }
     }
 
     /// Returns ∫ r × (U r) dm
@@ -255,15 +257,11 @@ impl<S: Scalar> Chain<S> {
         drive: impl Fn(usize) -> S,
     ) -> Vec<S> {
         let mut torques = Vec::with_capacity(self.links.len());
-        let (mut force, mut moment) = (zero_vector(), exerted.clone());
+        let mut wrench = Wrench::couple(exerted.clone());
         for (i, link) in self.links.iter().enumerate().rev() {
-            let (body, motion) = (&link.body, &motions[i]);
-            let (own, own_moment) = motion.wrench(body, couple);
-            force = sum(&force, &own);
-            moment = sum(&moment, &own_moment);
-            let load = self.load(i, &force, &moment);
-            torques.push(plus(&load, &drive(i)));
-            (force, moment) = self.to_previous(i, &at[i], &force, &moment);
+            wrench = wrench.with(&motions[i].wrench(&link.body, couple));
+            torques.push(plus(&self.load(i, &wrench), &drive(i)));
+            wrench = self.to_previous(i, at, &wrench);
         }
         torques.reverse();
         torques
@@ -288,7 +286,8 @@ impl<S: Scalar> Chain<S> {
     }
 
     /// Returns the part of a wrench on link i that the joint feels.
-    pub(super) fn load(&self, i: usize, force: &Vector<S>, moment: &Vector<S>) -> S {
+    pub(super) fn load(&self, i: usize, wrench: &Wrench<S>) -> S {
+        let Wrench { force, moment } = wrench;
         match self.links[i].kind {
             JointKind::Revolute => moment[2].clone(),
             JointKind::Prismatic => times(&dot(force, &self.links[i].axis), &self.per_unit),
@@ -299,14 +298,14 @@ impl<S: Scalar> Chain<S> {
     pub(super) fn to_previous(
         &self,
         i: usize,
-        at: &Displacement<S>,
-        force: &Vector<S>,
-        moment: &Vector<S>,
-    ) -> (Vector<S>, Vector<S>) {
-        let link = &self.links[i];
-        let force = link.outward(at, force);
-        let moment = link.outward(at, moment);
-        let moment = sum(&moment, &cross(&link.lever(at), &force));
-        (force, moment)
+        at: &[Displacement<S>],
+        wrench: &Wrench<S>,
+    ) -> Wrench<S> {
+        let (link, at) = (&self.links[i], &at[i]);
+        let turned = wrench.in_axes(|v| link.outward(at, v));
+        Wrench {
+            moment: sum(&turned.moment, &cross(&link.lever(at), &turned.force)),
+            force: turned.force,
+        }
     }
 }

@@ -17,9 +17,9 @@ use alloc::vec::Vec;
 use super::composite::CompositeOrder;
 use super::probe::Probed;
 use super::recursion::{AccelerationForm, MomentForm, Motion};
-use super::twist::Twist;
-use super::{Chain, ChainLink, Displacement, unit_z};
+use super::{Chain, Displacement};
 use crate::equations::matrix::{Vector, cross, difference, dot, sum, times, zero_vector, zeros};
+use crate::equations::screws::Twist;
 use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
@@ -71,8 +71,11 @@ impl<S: Scalar> Chain<S> {
         let mut twists: Vec<Twist<S>> = Vec::with_capacity(n);
         let mut centres: Vec<Centre<S>> = Vec::new();
         for (i, link) in self.links.iter().enumerate() {
-            twists = twists.iter().map(|t| t.outward(link, &at[i])).collect();
-            twists.push(own_twist(link));
+            twists = twists
+                .iter()
+                .map(|t| link.twist_outward(&at[i], t))
+                .collect();
+            twists.push(link.twist());
             for centre in &mut centres {
                 let lever = link.lever(&at[i]);
                 centre.at = link.inward(&at[i], &difference(&centre.at, &lever));
@@ -92,15 +95,15 @@ impl<S: Scalar> Chain<S> {
                     }
                     Probed::Body(body) => body,
                 };
-                let (force, moment) = motions[i].wrench(body, MomentForm::SecondMoments);
+                let wrench = motions[i].wrench(body, MomentForm::SecondMoments);
                 let moments: Vec<Vector<S>> = centres
                     .iter()
-                    .map(|centre| sum(&moment, &cross(&force, &centre.at)))
+                    .map(|centre| sum(&wrench.moment, &cross(&wrench.force, &centre.at)))
                     .collect();
                 for (k, twist) in twists.iter().enumerate() {
                     let power = match widest(&centres, k) {
                         Some(centre) => dot(&twist.turn, &moments[centre]),
-                        None => twist.power(&force, &moment),
+                        None => wrench.along(twist),
                     };
                     rows[k][probe.column] = match self.links[k].kind {
                         JointKind::Revolute => power,
@@ -110,19 +113,6 @@ impl<S: Scalar> Chain<S> {
             }
         }
         rows
-    }
-}
-
-fn own_twist<S: Scalar>(link: &ChainLink<S>) -> Twist<S> {
-    match link.kind {
-        JointKind::Revolute => Twist {
-            turn: unit_z(),
-            shift: zero_vector(),
-        },
-        JointKind::Prismatic => Twist {
-            turn: zero_vector(),
-            shift: link.axis.clone(),
-        },
     }
 }
 

@@ -35,6 +35,20 @@ pub struct LinkRegrouping<S> {
     pub axes: i32,
 }
 
+impl<S: Scalar> LinkRegrouping<S> {
+    /// Returns that of a link which keeps nothing that can move.
+    fn base(origin: Vector<S>) -> Self {
+        LinkRegrouping {
+            origin,
+            mass: S::zero(),
+            first: S::zero(),
+            second: S::zero(),
+            keep_seconds: false,
+            axes: 0,
+        }
+    }
+}
+
 /// The regrouping of a chain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Regrouping<S> {
@@ -50,16 +64,11 @@ impl<S: Scalar> Regrouping<S> {
     /// Makes base parameters in metres: a revolute link keeps nothing that can move, and its
     /// origin lies after the constant step along the axis.
     pub fn base(skeleton: &Skeleton<S>) -> Self {
-        let links = skeleton.links.iter().map(|link| LinkRegrouping {
-            origin: match link.kind {
+        let links = skeleton.links.iter().map(|link| {
+            LinkRegrouping::base(match link.kind {
                 JointKind::Revolute => [S::zero(), S::zero(), link.d.clone()],
                 JointKind::Prismatic => zero_vector(),
-            },
-            mass: S::zero(),
-            first: S::zero(),
-            second: S::zero(),
-            keep_seconds: false,
-            axes: 0,
+            })
         });
         Regrouping {
             links: links.collect(),
@@ -108,10 +117,17 @@ impl<S: Scalar> Chain<S> {
 impl<S: Scalar> ChainLink<S> {
     /// Returns what of a body of the link moves to the link before.
     fn moving(&self, body: &Body<S>, keep: &LinkRegrouping<S>) -> Body<S> {
+        let mut moving = Body::zero();
         match self.kind {
-            JointKind::Revolute => on_axis(body, keep),
-            JointKind::Prismatic => second_moments(body, keep),
+            JointKind::Revolute => {
+                moving.mass = body.mass.sub(&keep.mass);
+                moving.first[2] = body.first[2].sub(&keep.first);
+                moving.second.zz = body.second.zz.sub(&keep.second);
+            }
+            JointKind::Prismatic if keep.keep_seconds => {}
+            JointKind::Prismatic => moving.second = body.second.clone(),
         }
+        moving
     }
 
     /// Returns what has moved, in the frame of the link before.
@@ -127,31 +143,7 @@ impl<S: Scalar> ChainLink<S> {
     /// Returns what the link keeps of a body where all moves that can, and what
     /// arrives at the link before, in its frame.
     pub fn split_base(&self, body: &Body<S>) -> (Body<S>, Body<S>) {
-        let nothing = LinkRegrouping {
-            origin: zero_vector(),
-            mass: S::zero(),
-            first: S::zero(),
-            second: S::zero(),
-            keep_seconds: false,
-            axes: 0,
-        };
-        let moving = self.moving(body, &nothing);
+        let moving = self.moving(body, &LinkRegrouping::base(zero_vector()));
         (body.with(&moving.negated()), self.arriving(&moving))
     }
-}
-
-fn on_axis<S: Scalar>(body: &Body<S>, keep: &LinkRegrouping<S>) -> Body<S> {
-    let mut moving = Body::zero();
-    moving.mass = body.mass.sub(&keep.mass);
-    moving.first[2] = body.first[2].sub(&keep.first);
-    moving.second.zz = body.second.zz.sub(&keep.second);
-    moving
-}
-
-fn second_moments<S: Scalar>(body: &Body<S>, keep: &LinkRegrouping<S>) -> Body<S> {
-    let mut moving = Body::zero();
-    if !keep.keep_seconds {
-        moving.second = body.second.clone();
-    }
-    moving
 }

@@ -11,11 +11,9 @@ use alloc::vec::Vec;
 use super::Body;
 use super::composite::{Composite, CompositeOrder};
 use super::derivatives::{Flow, Joint, inertial, rate};
-use super::momentum::Velocity;
-use super::twist::Twist;
 use crate::equations::matrix::{Vector, cross, difference, dot, plus, sum, times, twice};
 use crate::equations::matrix::{opposite, zero_vector};
-use crate::equations::newton_euler::Wrench;
+use crate::equations::screws::{Twist, Wrench};
 use crate::scalar::Scalar;
 
 /// Second derivatives of a number, n×n each.
@@ -132,7 +130,7 @@ impl<S: Scalar> Composite<'_, S> {
     }
 
     fn carried_inward(&self, m: usize, own: &Later<S>) -> Later<S> {
-        let wrench = |wrench| self.wrench_inward(m, wrench);
+        let wrench = |wrench| self.chain.to_previous(m, self.at, wrench);
         let turned = |vector| self.chain.links[m].outward(&self.at[m], vector);
         Later {
             force: wrench(&own.force),
@@ -212,11 +210,11 @@ fn later<S: Scalar>(
 
 /// Returns ∫ v × ℓ dm of a body, where points move by v = v₀ + ω × r and by ℓ = ℓ₀ + ν × r:
 /// (m v₀ + ω × s) × ℓ₀ + v₀ × (ν × s) + Σ (ω × ν), since (ω × r) × (ν × r) = r (r·(ω × ν)).
-fn crossed<S: Scalar>(body: &Body<S>, v: &Velocity<S>, l: &Velocity<S>) -> Vector<S> {
+fn crossed<S: Scalar>(body: &Body<S>, v: &Twist<S>, l: &Twist<S>) -> Vector<S> {
     let momentum = Flow::of(body, v).wrench().force;
     let straight = sum(
-        &cross(&momentum, &l.origin),
-        &cross(&v.origin, &cross(&l.omega, &body.first)),
+        &cross(&momentum, &l.shift),
+        &cross(&v.shift, &cross(&l.turn, &body.first)),
     );
-    sum(&straight, &body.second_times(&cross(&v.omega, &l.omega)))
+    sum(&straight, &body.second_times(&cross(&v.turn, &l.turn)))
 }

@@ -21,11 +21,12 @@ use super::composite::{Composite, CompositeOrder};
 use super::hinged::{Hinged, Solved};
 use super::reference::ReferenceMotion;
 use super::{Chain, ChainLink, Displacement, Form, apply, apply_transposed};
-use crate::equations::factor::Partial;
+use crate::equations::factor::{Factor, placed};
 use crate::equations::forward::free;
 use crate::equations::matrix::{
-    Vector, cross, minus, negative, plus, sum, symmetric, times, zero_vector, zeros,
+    Vector, cross, minus, negative, plus, sum, sums, symmetric, times, zero_vector, zeros,
 };
+use crate::equations::screws::Wrench;
 use crate::robot::{Inertia, JointKind};
 use crate::scalar::{Divide, Scalar};
 
@@ -104,8 +105,7 @@ impl<S: Divide> Composite<'_, S> {
         let motion = (self.chain).reference_motion(self.at, qd, moves, form.spin);
         let exerted = (form, &zero_vector());
         let rest = self.accelerations_by_shoulder(&heights, &motion, exerted, [qd, tau], moves);
-        let sums = rest.iter().zip(&motion.accelerations);
-        Some(sums.map(|(rest, own)| plus(rest, own)).collect())
+        Some(sums(&rest, &motion.accelerations))
     }
 
     /// Returns q̈ beyond a reference under τ, zero of joints that do not move, of a chain with a
@@ -126,33 +126,33 @@ impl<S: Divide> Composite<'_, S> {
         let wrench = |i: usize| reference.links[i].wrench(&chain.links[i].body, form.couple);
 
         // What τ leaves of the joints beyond, and the moment about the point.
-        let (mut force, mut moment) = (zero_vector(), exerted.clone());
+        let mut felt = Wrench::couple(exerted.clone());
         let mut left = zeros(n);
         for i in (first..n).rev() {
-            let (own, own_moment) = wrench(i);
-            (force, moment) = (sum(&force, &own), sum(&moment, &own_moment));
-            let load = chain.load(i, &force, &moment);
+            felt = felt.with(&wrench(i));
+            let load = chain.load(i, &felt);
             left[i] = minus(&tau[i], &plus(&load, &drive(i)));
             if i > first {
-                (force, moment) = chain.to_previous(i, &self.at[i], &force, &moment);
+                felt = chain.to_previous(i, self.at, &felt);
             }
         }
-        let lifted = cross(&lever, &force);
-        let mut moment = sum(&moment, &lifted);
+        let lifted = cross(&lever, &felt.force);
+        let mut moment = sum(&felt.moment, &lifted);
         let is_taken_back = chain.links[first].kind == JointKind::Revolute && moves[first];
         if is_taken_back {
             // Along its axis the joint passes on what it is given.
             moment[2] = plus(&lifted[2], &minus(&tau[first], &drive(first)));
         }
         let matrix = self.beyond(first, &lever, moves, form.travel);
-        let beyond = match is_taken_back {
-            true => Partial::new(&taken_back(matrix), 3),
-            false => Partial::new(&matrix, 3),
+        let matrix = match is_taken_back {
+            true => taken_back(matrix),
+            false => matrix,
         };
+        let beyond = Factor::partial(&matrix, 3);
         let joints: Vec<usize> = free(moves).into_iter().filter(|&i| i >= first).collect();
         let right = moment.iter().map(negative);
         let right = right.chain(joints.iter().map(|&i| left[i].clone()));
-        let right = beyond.eliminated(&right.collect::<Vec<S>>());
+        let right = beyond.halfway(&right.collect::<Vec<S>>());
         let (about, rest) = right.split_at(3);
         let entry = |i: usize, k: usize| beyond.left(k, i).clone();
         let mut hinged = Hinged {
@@ -164,7 +164,7 @@ impl<S: Divide> Composite<'_, S> {
         // The joints of the shoulder, inward and back.
         let mut solved: Vec<Option<Solved<S>>> = Vec::with_capacity(first);
         for (i, link) in chain.links[..first].iter().enumerate().rev() {
-            hinged = hinged.with(&link.body, &heights[i], wrench(i));
+            hinged = hinged.with(&link.body, &heights[i], &wrench(i));
             let mut own = None;
             if moves[i] {
                 let given = minus(&tau[i], &drive(i));
@@ -193,9 +193,7 @@ impl<S: Divide> Composite<'_, S> {
         let omega = chain.links[first].inward(&self.at[first], &omega);
         let known = omega.into_iter().chain(rest.iter().cloned()).collect();
         let all = beyond.substituted(known);
-        for (&joint, value) in joints.iter().zip(&all[3..]) {
-            found[joint] = value.clone();
-        }
+        let mut found = placed(found, &joints, all[3..].iter().cloned());
         if is_taken_back {
             found[first] = minus(&found[first], &all[2]);
         }
@@ -220,12 +218,12 @@ impl<S: Divide> Composite<'_, S> {
         ];
         for k in (first..chain.links.len()).filter(|&k| moves[k]) {
             let own = self.momentum(k);
-            let (mut force, mut moment) = own.clone();
+            let mut wrench = own.clone();
             let mut row = Vec::new();
             for i in (first..=k).rev() {
                 let load = match travel {
-                    CompositeOrder::Inward => chain.load(i, &force, &moment),
-                    CompositeOrder::Outward => self.project(i, k, &own.0, &own.1),
+                    CompositeOrder::Inward => chain.load(i, &wrench),
+                    CompositeOrder::Outward => self.project(i, k, &own),
                 };
                 let load = self.in_metres(k, load);
                 if i == k {
@@ -234,10 +232,10 @@ impl<S: Divide> Composite<'_, S> {
                     row.push(load);
                 }
                 if i > first {
-                    (force, moment) = chain.to_previous(i, &self.at[i], &force, &moment);
+                    wrench = chain.to_previous(i, self.at, &wrench);
                 }
             }
-            let moment = sum(&moment, &cross(lever, &force));
+            let moment = sum(&wrench.moment, &cross(lever, &wrench.force));
             row.extend(moment.iter().rev().map(|x| self.in_metres(k, x.clone())));
             row.reverse();
             lower.push(row);

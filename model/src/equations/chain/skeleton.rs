@@ -6,10 +6,13 @@
 
 use alloc::vec::Vec;
 
+use super::pose::sense;
 use super::probe::{Column, Probe, probes};
-use super::{Body, Rotation, apply, identity, product, turn_x, turn_y, turn_z, unit_z};
+use super::{Body, Rotation, apply, product, turn};
 use crate::equations::friction::Friction;
-use crate::equations::matrix::{Vector, plus, sum, zero_vector};
+use crate::equations::matrix::{
+    ABOUT_X, ABOUT_Y, ABOUT_Z, Vector, identity, plus, sum, unit_z, zero_vector,
+};
 use crate::equations::{Arm, JointPosition, SinCosPair};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
@@ -76,8 +79,8 @@ impl<S: Scalar> Skeleton<S> {
         let mut merged = false;
         for (joint, link) in arm.links.iter().enumerate() {
             let twist = match &link.beta {
-                None => turn_x(&link.alpha),
-                Some(beta) => product(&turn_x(&link.alpha), &turn_y(beta)),
+                None => turn(&link.alpha, ABOUT_X),
+                Some(beta) => product(&turn(&link.alpha, ABOUT_X), &turn(beta, ABOUT_Y)),
             };
             let along = [link.a.clone(), S::zero(), S::zero()];
             if arm.convention == Convention::Modified {
@@ -96,7 +99,7 @@ impl<S: Scalar> Skeleton<S> {
                     JointPosition::Prismatic(q) => (link.theta.clone(), plus(q, &link.d)),
                 };
                 moved = sum(&moved, &apply(&turned, &[S::zero(), S::zero(), d]));
-                turned = product(&turned, &turn_z(&theta));
+                turned = product(&turned, &turn(&theta, ABOUT_Z));
                 moved = sum(&moved, &apply(&turned, &reach));
                 turned = product(&turned, &rest);
                 if let Some(carrier) = links.last_mut() {
@@ -135,11 +138,8 @@ impl<S: Scalar> Skeleton<S> {
                 JointKind::Prismatic => {
                     segment.axis = apply(&turned, &unit_z());
                     segment.offset = sum(&moved, &apply(&turned, &slide));
-                    let turn = product(&turned, &turn_z(&link.theta));
-                    segment.theta = SinCosPair {
-                        sin: S::zero(),
-                        cos: S::one(),
-                    };
+                    let turn = product(&turned, &turn(&link.theta, ABOUT_Z));
+                    segment.theta = SinCosPair::straight();
                     moved = apply(&turn, &reach);
                     turned = product(&turn, &rest);
                 }
@@ -168,26 +168,20 @@ impl<S: Scalar> Segment<S> {
     /// Rx(π) Rz(−β).
     fn absorb_turn(&mut self) {
         let r = &self.rotation;
-        let opposite = if r[2][2].is_one() {
-            false
-        } else if r[2][2].neg().is_one() {
-            true
-        } else {
-            return;
+        let Some(opposite) = sense(r) else { return };
+        let own = SinCosPair {
+            sin: r[1][0].clone(),
+            cos: r[0][0].clone(),
         };
-        let (sin, cos) = (r[1][0].clone(), r[0][0].clone());
         let mut straight = identity();
-        let turn = if opposite {
+        let own = if opposite {
             straight[1][1] = S::one().neg();
             straight[2][2] = S::one().neg();
-            SinCosPair {
-                sin: sin.neg(),
-                cos,
-            }
+            own.reversed()
         } else {
-            SinCosPair { sin, cos }
+            own
         };
-        self.theta = turn.compose(&self.theta);
+        self.theta = own.compose(&self.theta);
         self.rotation = straight;
     }
 }

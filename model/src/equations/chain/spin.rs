@@ -30,7 +30,7 @@ use super::{Body, Chain, ChainLink, Displacement, Form, Unknowns};
 use crate::equations::SinCosPair;
 use crate::equations::forward::inverted;
 use crate::equations::matrix::{
-    Vector, dot, halved, minus, negative, over, plus, symmetric, times, total, twice, zeros,
+    Vector, dot, halved, minus, negative, over, plus, product, sums, symmetric, times, twice, zeros,
 };
 use crate::robot::JointKind;
 use crate::scalar::{Divide, Scalar};
@@ -157,10 +157,7 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         };
         let (motions, reference) = (&motion.links, &motion.accelerations);
         let tip = &motions[last - 1];
-        let unturned = Displacement::Turn(SinCosPair {
-            sin: S::zero(),
-            cos: S::one(),
-        });
+        let unturned = Displacement::Turn(SinCosPair::straight());
         let omega = link.inward(&unturned, &tip.omega);
         let left = minus(&tau[last], &link.friction.torque(&qd[last]));
         let (couple, own) = self.couple(&omega, &qd[last], &left);
@@ -190,12 +187,9 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
                 composite.accelerations_by_shoulder(&heights, &motion, exerted, loads, moves)
             }
         };
-        let products = self.brought();
-        let products = products.iter().zip(&rest).map(|(x, rest)| times(x, rest));
         let still = dot(&link.axis_before(), &tip.omega_dot);
-        let brought = plus(&still, &total(products));
-        let sums = rest.iter().zip(reference);
-        let mut qdd: Vec<S> = sums.map(|(rest, own)| plus(rest, own)).collect();
+        let brought = plus(&still, &product(&self.brought(), &rest));
+        let mut qdd = sums(&rest, reference);
         qdd.push(minus(
             &times(&left, &self.inverse),
             &times(&self.share, &brought),
@@ -209,7 +203,7 @@ impl<'a, S: Divide> EliminatedTip<'a, S> {
         let d = Composite::new(&self.chain, self.at()).inertia(travel);
         let inner = inverted(&d, &moves[..last]);
         let brought = self.brought();
-        let along = |row: &[S]| total(row.iter().zip(&brought).map(|(x, y)| times(x, y)));
+        let along = |row: &[S]| product(row, &brought);
         // The accelerations of the joints before under a unit torque of the last one.
         let given: Vec<S> = inner
             .iter()

@@ -13,15 +13,6 @@ use super::Link;
 use super::matrix::{Vector, opposite, plus, scaled, times, zero_vector};
 use crate::scalar::Scalar;
 
-/// A force and a moment.
-#[derive(Clone, Debug)]
-pub struct Wrench<S> {
-    /// N
-    pub force: Vector<S>,
-    /// N·m
-    pub moment: Vector<S>,
-}
-
 /// The motion of one link.
 #[derive(Clone, Debug)]
 pub(super) struct Motion<S> {

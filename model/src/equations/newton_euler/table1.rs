@@ -2,10 +2,12 @@
 
 use alloc::vec::Vec;
 
-use super::{Motion, Wrench, newton, with_drive};
+use super::{Motion, newton, with_drive};
 use crate::equations::matrix::{
-    Columns, Vector, centripetal, cross, dot, scaled, sum, tensor_times, twice, zero_vector,
+    Columns, Vector, centripetal, cross, dot, identity, scaled, sum, tensor_times, twice,
+    zero_vector,
 };
+use crate::equations::screws::Wrench;
 use crate::equations::{Arm, DhVariables, Link};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
@@ -38,11 +40,8 @@ pub fn inverse_dynamics<S: Scalar>(
     let joints = arm.links.iter().zip(&bodies).zip(&wrenches).enumerate();
     joints
         .map(|(i, ((link, body), wrench))| {
-            let load = match link.kind {
-                JointKind::Revolute => &wrench.moment,
-                JointKind::Prismatic => &wrench.force,
-            };
-            with_drive(link, &dot(load, &body.axis), &qd[i], &qdd[i])
+            let along = dot(wrench.part(link.kind), &body.axis);
+            with_drive(link, &along, &qd[i], &qdd[i])
         })
         .collect()
 }
@@ -75,7 +74,7 @@ pub(in crate::equations) fn tip_acceleration<S: Scalar>(
 
 fn wrenches_on<S: Scalar>(arm: &Arm<S>, bodies: &[Body<S>]) -> Vec<Wrench<S>> {
     let mut wrenches = Vec::with_capacity(bodies.len());
-    let [mut force, mut torque] = [zero_vector(), zero_vector()];
+    let mut wrench = Wrench::zero();
     for (i, (body, link)) in bodies.iter().zip(&arm.links).enumerate().rev() {
         let of_com = sum(
             &cross(&body.omega_dot, &body.com),
@@ -93,16 +92,13 @@ fn wrenches_on<S: Scalar>(arm: &Arm<S>, bodies: &[Body<S>]) -> Vec<Wrench<S>> {
                 [next.unwrap_or_else(zero_vector), body.com.clone()]
             }
         };
-        let carried = sum(&torque, &cross(&lever, &force));
-        torque = sum(
-            &sum(&carried, &cross(&centre, &inertial_force)),
-            &inertial_moment,
-        );
-        force = sum(&inertial_force, &force);
-        wrenches.push(Wrench {
-            force: force.clone(),
-            moment: torque.clone(),
-        });
+        let carried = sum(&wrench.moment, &cross(&lever, &wrench.force));
+        let moment = sum(&carried, &cross(&centre, &inertial_force));
+        wrench = Wrench {
+            moment: sum(&moment, &inertial_moment),
+            force: sum(&inertial_force, &wrench.force),
+        };
+        wrenches.push(wrench.clone());
     }
     wrenches.reverse();
     wrenches
@@ -118,7 +114,7 @@ fn bodies<S: Scalar>(
 ) -> Vec<Body<S>> {
     let mut bodies: Vec<Body<S>> = Vec::with_capacity(arm.links.len());
     let base = Body {
-        rotation: Columns::identity().axes,
+        rotation: identity(),
         axis: zero_vector(),
         lever: zero_vector(),
         com: zero_vector(),
@@ -130,10 +126,7 @@ fn bodies<S: Scalar>(
         let before = bodies.last().unwrap_or(&base);
         // Without the origin of frame i−1 the step's own origin is p_i*: no
         // difference of two large positions.
-        let from_before = Columns {
-            axes: before.rotation.clone(),
-            origin: zero_vector(),
-        };
+        let from_before = Columns::turned(before.rotation.clone());
         let frame = link.append(arm.convention, &at[i], &from_before);
         let axis = match arm.convention {
             Convention::Standard => before.rotation[2].clone(),
@@ -159,10 +152,7 @@ impl<S: Scalar> Body<S> {
         let Some(tool) = tool else {
             return self.acceleration.clone();
         };
-        let axes = Columns {
-            axes: self.rotation.clone(),
-            origin: zero_vector(),
-        };
+        let axes = Columns::turned(self.rotation.clone());
         let lever = axes.rotate(&tool.origin);
         let turning = cross(&self.omega_dot, &lever);
         let of_lever = sum(&turning, &centripetal(&self.omega, &lever));
@@ -204,10 +194,7 @@ impl<S: Scalar> Body<S> {
 
     /// Returns N_i = I ω̇_i + ω_i × (I ω_i) with I = ⁰R_i I_i ⁱR_0.
     fn euler(&self, link: &Link<S>) -> Vector<S> {
-        let frame = Columns {
-            axes: self.rotation.clone(),
-            origin: zero_vector(),
-        };
+        let frame = Columns::turned(self.rotation.clone());
         let tensor =
             |v: &Vector<S>| frame.rotate(&tensor_times(&link.inertia, &frame.rotate_back(v)));
         let spin = cross(&self.omega, &tensor(&self.omega));

@@ -70,10 +70,11 @@ pub fn inverse_dynamics<S: Scalar>(
         let (link, motion) = (&arm.links[i], &motions[i]);
         // The step to the next link; ⁿR_{n+1} = 1.
         let next = (i + 1 < n).then(|| LinkStep::new(arm, at, i + 1));
-        let force_here = match &next {
-            Some(next) => next.to_previous(&force),
-            None => force.clone(),
+        let turned = |v: &Vector<S>| match &next {
+            Some(next) => next.to_previous(v),
+            None => v.clone(),
         };
+        let force_here = turned(&force);
         let centre = sum(
             &motion.acceleration,
             &sum(
@@ -92,10 +93,7 @@ pub fn inverse_dynamics<S: Scalar>(
                         let moment = cross(&next.to_link(&lever), &force);
                         next.to_previous(&sum(&torque, &moment))
                     }
-                    (Some(next), Moment::RotateFirst | Moment::Differences) => {
-                        sum(&next.to_previous(&torque), &cross(&lever, &force_here))
-                    }
-                    (None, _) => sum(&torque, &cross(&lever, &force_here)),
+                    _ => sum(&turned(&torque), &cross(&lever, &force_here)),
                 };
                 (carried, sum(&lever, &link.com))
             }

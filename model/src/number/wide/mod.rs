@@ -170,8 +170,26 @@ impl Wide {
             exponent: exponent.saturating_add(power),
         })
     }
+}
 
-    fn sum(&self, other: &Wide) -> Wide {
+impl Scalar for Wide {
+    fn zero() -> Self {
+        Wide {
+            negative: false,
+            significand: [0; LIMBS],
+            exponent: 0,
+        }
+    }
+    fn one() -> Self {
+        let mut significand = [0; LIMBS];
+        significand[LIMBS - 1] = 1 << (u64::BITS - 1);
+        Wide {
+            negative: false,
+            significand,
+            exponent: 1 - BITS as i64,
+        }
+    }
+    fn add(&self, other: &Self) -> Self {
         if self.is_zero() {
             return *other;
         }
@@ -205,31 +223,6 @@ impl Wide {
                 exponent: high.exponent.saturating_sub(i64::from(shift)),
             },
         }
-    }
-}
-
-impl Scalar for Wide {
-    fn zero() -> Self {
-        Wide {
-            negative: false,
-            significand: [0; LIMBS],
-            exponent: 0,
-        }
-    }
-    fn one() -> Self {
-        let mut significand = [0; LIMBS];
-        significand[LIMBS - 1] = 1 << (u64::BITS - 1);
-        Wide {
-            negative: false,
-            significand,
-            exponent: 1 - BITS as i64,
-        }
-    }
-    fn add(&self, other: &Self) -> Self {
-        self.sum(other)
-    }
-    fn sub(&self, other: &Self) -> Self {
-        self.sum(&other.neg())
     }
     fn mul(&self, other: &Self) -> Self {
         if self.is_zero() || other.is_zero() {

@@ -70,21 +70,33 @@ impl Function {
             !matches!(part, Function::At(_)) && Function::from_name(part.name()) != Some(**part)
         };
         if let Some(part) = parts.iter().find(is_none) {
-            return Err(BundleError::Unknown(part.name().to_string()));
+            return Err(BundleError::of_unknown(part.name()));
         }
         if parts.len() < 2 {
-            return Err(BundleError::Few(parts.first().copied()));
+            let message = "a bundle has two parts at least".to_string();
+            let help = match parts.first() {
+                Some(part) => format!("ask for `{part}` by itself"),
+                None => "a bundle is NAME = OUTPUT + OUTPUT".to_string(),
+            };
+            return Err(BundleError::new(message, help));
         }
         let mut results: Vec<(Quantity, Function)> = Vec::new();
         for &part in &parts {
             for &quantity in part.quantities() {
-                for &(other, by) in &results {
-                    if other == quantity {
-                        return Err(BundleError::Twice(quantity, [by, part]));
-                    }
-                    if other.field() == quantity.field() {
-                        return Err(BundleError::SameField(quantity.field(), [by, part]));
-                    }
+                let field = quantity.field();
+                let same = |(other, _): &&(Quantity, Function)| other.field() == field;
+                if let Some(&(other, by)) = results.iter().find(same) {
+                    let one = "leave one of them out";
+                    return Err(if other != quantity {
+                        let message =
+                            format!("`{by}` and `{part}` would both be the field `{field}`");
+                        BundleError::new(message, "ask for one of them by itself")
+                    } else if by == part {
+                        BundleError::new(format!("`{by}` is in it twice"), one)
+                    } else {
+                        let both = format!("`{by}` and `{part}` both return {}", quantity.symbol());
+                        BundleError::new(both, one)
+                    });
                 }
                 results.push((quantity, part));
             }
@@ -131,21 +143,25 @@ impl Function {
     /// `NAME = PART + PART`.
     ///
     /// # Errors
-    /// [`BundleError`]; what names no function is a [`BundleError::Unknown`].
+    /// [`BundleError`]; of what names no function it has the word.
     pub fn parse(text: &str) -> Result<Function, BundleError> {
         let named = |word: &str| {
             let word = word.trim();
             if Function::is_at(word) {
                 return Function::parse_at(word);
             }
-            Function::from_name(word).ok_or_else(|| BundleError::Unknown(word.to_string()))
+            Function::from_name(word).ok_or_else(|| BundleError::of_unknown(word))
         };
         match text.split_once(IS) {
             Some((name, parts)) => {
                 let parts: Result<Vec<Function>, _> = parts.split(PLUS).map(named).collect();
                 Function::bundle(name.trim(), parts?)
             }
-            None if text.contains(PLUS) => Err(BundleError::Nameless(text.trim().to_string())),
+            None if text.contains(PLUS) => {
+                let parts = text.trim();
+                let message = format!("`{parts}` has no name");
+                Err(BundleError::new(message, format!("write NAME = {parts}")))
+            }
             None => named(text),
         }
     }

@@ -1,11 +1,12 @@
 //! What a bundle may be called: what is a function's name in every generated
 //! module, beside all that this may hold.
 
-use alloc::string::{String, ToString};
+use alloc::format;
+use alloc::string::String;
 
 use super::BundleError;
 use crate::outputs::Function;
-use crate::robot::ENDINGS;
+use crate::robot::{ENDINGS, WORDS, is_snake};
 
 /// The longest name.
 const MAX_BYTES: usize = 64;
@@ -21,44 +22,31 @@ const OWN: [&str; 7] = [
     "state_box",
 ];
 
-/// No function can have these names.
-const WORDS: [&str; 51] = [
-    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
-    "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl",
-    "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref",
-    "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
-    "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
-];
-
 /// Returns whether a bundle may have this name.
 pub(in crate::outputs) fn check(name: &str) -> Result<(), BundleError> {
-    let own = || name.to_string();
-    let known = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-    let is_name = name.starts_with(|c: char| c.is_ascii_lowercase())
-        && name.chars().all(known)
-        && !name.ends_with('_')
-        && !name.contains("__")
-        && name.len() <= MAX_BYTES;
-    if !is_name {
+    let bars = name.ends_with('_') || name.contains("__");
+    if !is_snake(name) || bars || name.len() > MAX_BYTES {
         // Whatever was written, a message has a line's length.
-        return Err(BundleError::Name(name.chars().take(MAX_BYTES).collect()));
-    }
-    if WORDS.contains(&name) {
-        return Err(BundleError::Keyword(own()));
-    }
-    if Function::from_name(name).is_some() {
-        return Err(BundleError::Output(own()));
+        let name: String = name.chars().take(MAX_BYTES).collect();
+        let help = "small letters, digits and single `_` between them, such as `servo_2`";
+        let message = format!("`{name}` is no name of a function");
+        return Err(BundleError::new(message, help));
     }
     let structure = camel(name);
     let is_taken = |f: Function| f.structure() == Some(structure.as_str());
-    if OWN.contains(&name) || Function::ALL.into_iter().any(is_taken) {
-        return Err(BundleError::Taken(own()));
-    }
-    let ending = ENDINGS.into_iter().find(|ending| name.ends_with(ending));
-    match ending {
-        Some(ending) => Err(BundleError::Ending(own(), ending)),
-        None => Ok(()),
-    }
+    let end = |ending: &'static str| Some((name.strip_suffix(ending)?, ending));
+    let message = if WORDS.contains(&name) {
+        format!("`{name}` is a word of Rust")
+    } else if Function::from_name(name).is_some() {
+        format!("`{name}` is an output by itself")
+    } else if OWN.contains(&name) || Function::ALL.into_iter().any(is_taken) {
+        format!("`{name}` has a meaning of its own in generated modules")
+    } else if let Some((of, ending)) = ENDINGS.into_iter().find_map(end) {
+        format!("`{name}` would end as the other way to call `{of}` does, `{ending}`")
+    } else {
+        return Ok(());
+    };
+    Err(BundleError::new(message, "call the bundle otherwise"))
 }
 
 /// Returns the struct of a function: `servo_state` returns a `ServoState`.

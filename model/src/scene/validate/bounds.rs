@@ -8,8 +8,8 @@ use core::cmp::Ordering;
 
 use num_traits::Signed;
 
-use super::{Check, compare, decimal, of_kind, shown};
-use crate::robot::{Limit, Position, RobotWarning};
+use super::Check;
+use crate::robot::{Limit, Position, RobotWarning, shown};
 
 /// The help for a box beyond the limits.
 const BEYOND: &str = "bounds hold over the whole range; taken as it stands";
@@ -40,11 +40,11 @@ impl Check<'_> {
             return;
         };
         let place = format!("box/position/#{}", index + 1);
-        if !of_kind(joint.kind, low) || !of_kind(joint.kind, high) {
+        if !low.is_of(joint.kind) || !high.is_of(joint.kind) {
             let help = "angles for a revolute joint, lengths for a prismatic one";
             return self.error(place, "the range is not of the joint's kind", help);
         }
-        if compare(low, high) != Some(Ordering::Less) {
+        if low.compare(high) != Some(Ordering::Less) {
             let message = "the range is empty: its lowest position is not below its highest";
             let help = "write [lowest, highest]; a joint that does not move is locked";
             return self.error(place, message, help);
@@ -56,11 +56,9 @@ impl Check<'_> {
         if self.scene.locked(index).is_some() {
             return;
         }
-        let below = |a, b| compare(a, b) == Some(Ordering::Less);
-        let (name, limits) = (
-            self.robot.joint_label(index),
-            format!("{} to {}", shown(lowest), shown(highest)),
-        );
+        let below = |a: &Position, b| a.compare(b) == Some(Ordering::Less);
+        let name = self.robot.joint_label(index);
+        let limits = format!("{lowest} to {highest}");
         if below(high, lowest) || below(highest, low) {
             let message = format!("{name} is never in this range: its limits are {limits}");
             let help = "a range has positions that the joint can take";
@@ -75,12 +73,8 @@ impl Check<'_> {
 
     /// Checks the ranges of velocities or accelerations. Zero is a range too: at rest.
     fn rates(&mut self, rate: Limit) {
-        let bounds = &self.scene.bounds;
-        let values = match rate {
-            Limit::Velocity => &bounds.velocity,
-            _ => &bounds.acceleration,
-        };
-        for (index, value) in values.iter().flatten().enumerate() {
+        let values = self.scene.bounds.rate(rate);
+        for (index, value) in values.into_iter().flatten().enumerate() {
             let key = rate.key();
             let place = format!("box/{key}/#{}", index + 1);
             if value.is_negative() {
@@ -89,15 +83,11 @@ impl Check<'_> {
                 self.error(place, message, help);
                 continue;
             }
-            let limits = self.joint(index).map(|joint| &joint.limits);
-            let limit = limits.and_then(|limits| match rate {
-                Limit::Velocity => limits.velocity.as_ref(),
-                _ => limits.acceleration.as_ref(),
-            });
+            let limit = self.joint(index).and_then(|joint| joint.limits.rate(rate));
             let beyond = limit.filter(|limit| value > limit && self.scene.locked(index).is_none());
             if let Some(limit) = beyond {
                 let (scene, name) = (&self.scene.name, self.robot.joint_label(index));
-                let limit = decimal(limit);
+                let limit = shown(limit);
                 let message = format!(
                     "the box of scene `{scene}` goes beyond the {key} limit of {name}, {limit}"
                 );

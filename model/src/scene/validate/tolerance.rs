@@ -90,12 +90,14 @@ impl Check<'_> {
             if scale != Scale::Actuator || !rows.contains(&index) {
                 continue;
             }
-            self.above_zero(index, Limit::Torque, limits.torque.as_ref());
-            if inertia {
-                self.above_zero(index, Limit::Acceleration, limits.acceleration.as_ref());
-            }
-            if coefficients {
-                self.above_zero(index, Limit::Velocity, limits.velocity.as_ref());
+            for (rate, of, is_needed) in [
+                (Limit::Torque, "", true),
+                (Limit::Acceleration, " of D", inertia),
+                (Limit::Velocity, " of h_ikm", coefficients),
+            ] {
+                if is_needed {
+                    self.above_zero(index, rate, of, limits.rate(rate));
+                }
             }
         }
     }
@@ -109,13 +111,8 @@ impl Check<'_> {
         }
     }
 
-    fn above_zero(&mut self, joint: usize, rate: Limit, limit: Option<&Rational>) {
+    fn above_zero(&mut self, joint: usize, rate: Limit, of: &str, limit: Option<&Rational>) {
         let (name, what) = (self.robot.joint_label(joint), rate.key());
-        let of = match rate {
-            Limit::Acceleration => " of D",
-            Limit::Velocity => " of h_ikm",
-            _ => "",
-        };
         match limit {
             None => {
                 let message = format!(
@@ -126,13 +123,7 @@ impl Check<'_> {
                 self.error("tolerance", message, &help);
             }
             Some(limit) if limit.is_zero() => {
-                let bounds = &self.scene.bounds;
-                let in_box = match rate {
-                    Limit::Velocity => bounds.velocity.is_some(),
-                    Limit::Acceleration => bounds.acceleration.is_some(),
-                    _ => false,
-                };
-                let place = match in_box {
+                let place = match self.scene.bounds.rate(rate).is_some() {
                     true => self.place(format_args!("box/{what}/#{}", joint + 1)),
                     false => {
                         let row = self.robot.row_of(joint) + 1;
