@@ -141,6 +141,18 @@ pub(crate) fn are_of(found: &Found, function: &str) -> bool {
     heads.all(|head| word(found.header, head).is_some_and(is_own))
 }
 
+/// Returns whether a text is the one function that says where a box is: no other one hides beside or
+/// inside it, since no line but one of a single brace closes any.
+pub(crate) fn is_box(found: &Found) -> bool {
+    let mut lines = found.text.lines().filter(|line| !line.is_empty());
+    let head = lines.next().unwrap_or("");
+    let before = format!("static inline int {}_in_box(", found.module);
+    let list = between(head, &before, ")");
+    list.is_some_and(|list| has_only(list, " ,[]"))
+        && lines.next() == Some("{")
+        && lines.all(|line| !line.contains('}') || line == "}")
+}
+
 /// Returns whether a text is the function of a name that writes these values into `pi`, each the
 /// nearest float.
 pub(crate) fn are_values(found: &Found, name: &str, values: &[Exact]) -> bool {

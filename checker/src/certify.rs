@@ -114,7 +114,7 @@ pub fn certify(
     };
     // It computes no dynamics: it says where a box is.
     let is_box = |found: &Found| match is_c {
-        true => found.name == format!("{}_in_box", found.module),
+        true => c99::is_box(found),
         false => found.name == "in_box",
     };
     let is_other = |found: &&Found| !is_beside(found) && !is_box(found);

@@ -161,6 +161,28 @@ p_base_parameters(double → p_base_parameters(float
     }
 }
 
+/// What says where a box is is one function: none stands before it or inside it.
+#[test]
+fn a_box_hides_nothing() {
+    let own = planar2r(
+        "gravity; scalar: f64; name: p; sincos: together; batch: on; language: c",
+        1,
+    );
+    let (before, behind) = own.text.split_at(own.text.rfind("#if ").unwrap());
+    let evil =
+        "static inline double p_evil_any(const int far, const double x)\n{\n    return x;\n}\n";
+    let inside = "static inline int p_in_box(const double q[P_RESTRICT 2])\n{\n    return 1;\n}\n";
+    let refusal = |item: &str| own.with(&format!("{before}{item}{behind}")).refusal();
+    assert_eq!(refusal(inside), None);
+    for hidden in [
+        format!("{evil}{inside}"),
+        inside.replace("{\n", "{\n    return 1;\n} double p_evil(double x) {\n"),
+        inside.replace(")\n", "); double p_evil(double x)\n"),
+    ] {
+        assert!(refusal(&hidden).is_some(), "{hidden}");
+    }
+}
+
 /// A name that is known means what the table says, at its frame, with its arguments in their order:
 /// who passes q̇ for q does so because a text has them in another one.
 #[test]
