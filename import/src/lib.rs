@@ -4,7 +4,7 @@
 //! file that says the same: every joint by its placement, as the URDF has it. An MJCF,
 //! MuJoCo's format, is read as the URDF that says the same; both are called URDF here.
 //!
-//! - `text`: a model's text, with what it includes
+//! - `text`: a model's text, and where in its files a place is; `include`: what an MJCF includes
 //! - `guard`: XML within limits
 //! - `urdf`: what a URDF says, each number with its digits and its place
 //! - `mjcf`: what an MJCF says, in the terms of a URDF
@@ -78,6 +78,7 @@ mod arms;
 mod beside;
 mod change;
 mod guard;
+mod include;
 mod lock;
 mod meant;
 mod merge;

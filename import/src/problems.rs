@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use dalembert_model::read::{Diagnostic, Diagnostics, Severity, closest};
 
-use crate::text::Text;
+use crate::text::{Text, place};
 
 /// More than these are counted, not listed.
 const MAX: usize = 200;
@@ -114,14 +114,6 @@ impl<'s> Problems<'s> {
             false => Err(Diagnostics(errors)),
         }
     }
-}
-
-/// Returns line and column of a byte, both from one.
-pub(crate) fn place(source: &str, byte: usize) -> (usize, usize) {
-    let before = source.get(..byte).unwrap_or_default();
-    let line = before.bytes().filter(|b| *b == b'\n').count() + 1;
-    let start = before.rfind('\n').map_or(0, |at| at + 1);
-    (line, before[start..].chars().count() + 1)
 }
 
 /// Returns the help for a name that there is not.

@@ -27,7 +27,7 @@ pub struct Snap {
 impl Snap {
     /// Returns the line of the URDF, from one.
     pub fn line(&self, source: &str) -> usize {
-        crate::problems::place(source, self.span.start).0
+        crate::text::place(source, self.span.start).0
     }
 }
 

@@ -1,34 +1,17 @@
 //! A model's text: of an MJCF that includes others, all of them as one.
 
-use std::collections::BTreeSet;
 use std::ops::Range;
-use std::path::Path;
 
 use dalembert_model::read::Diagnostic;
-
-use crate::problems::{Problems, place};
-use crate::{MAX_BYTES, guard};
-
-/// The most files of a model.
-const MAX_FILES: usize = 256;
 
 /// The text of a model, with what it includes in the places that include it.
 #[derive(Clone, Debug)]
 pub struct Text {
-    text: String,
+    pub(crate) text: String,
     /// The files by name, with their own texts.
-    files: Vec<(String, String)>,
+    pub(crate) files: Vec<(String, String)>,
     /// Parts of the text in their order: where each ends, its file, and where it is there.
-    parts: Vec<(usize, usize, usize)>,
-}
-
-/// A file that has not been read to its end.
-struct Open {
-    file: usize,
-    /// What of it is left to read.
-    rest: Range<usize>,
-    /// What it includes, the last first: where, and the names.
-    includes: Vec<(Range<usize>, String)>,
+    pub(crate) parts: Vec<(usize, usize, usize)>,
 }
 
 impl Text {
@@ -39,73 +22,6 @@ impl Text {
             files: vec![(name.to_owned(), text.clone())],
             text,
         }
-    }
-
-    /// Returns the text, with what it includes of files beside this one; `read` gives the
-    /// text of a file, or says why there is none.
-    ///
-    /// # Errors
-    /// What is wrong with an include, as [`Text::render`] prints it.
-    pub fn with_includes(
-        self,
-        path: &Path,
-        read: impl Fn(&Path) -> Result<String, String>,
-    ) -> Result<Text, String> {
-        if !self.text.contains("<include") || !self.text.contains("<mujoco") {
-            return Ok(self);
-        }
-        let mut made = Text {
-            text: String::new(),
-            files: self.files,
-            parts: Vec::new(),
-        };
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let mut seen = BTreeSet::from([path.to_owned()]);
-        let mut open = vec![made.open(0)?];
-        while let Some(file) = open.last_mut() {
-            let (index, at) = (file.file, file.rest.start);
-            let Some((span, name)) = file.includes.pop() else {
-                let rest = file.rest.clone();
-                open.pop();
-                made.take(index, rest);
-                continue;
-            };
-            file.rest.start = span.end;
-            made.take(index, at..span.start);
-            // As MuJoCo looks for it: beside the first file, then beside this one.
-            let own = Path::new(&made.files[index].0).parent();
-            let beside = [folder, own.unwrap_or(folder)].map(|folder| folder.join(&name));
-            let found = read(&beside[0]).map(|text| (&beside[0], text));
-            let found = found.or_else(|why| {
-                let own = read(&beside[1]).map(|text| (&beside[1], text));
-                own.map_err(|_| why)
-            });
-            let (whole, text) = match found {
-                Ok(found) => found,
-                Err(why) => {
-                    let message = format!("`{name}` cannot be read: {why}");
-                    let help = "a name is relative to the folder of the file that is imported";
-                    return Err(made.error(index, span, message, help));
-                }
-            };
-            if !seen.insert(whole.clone()) || made.files.len() == MAX_FILES {
-                let message = format!(
-                    "`{name}` is included a second time, or among more than {MAX_FILES} files"
-                );
-                return Err(made.error(index, span, message, "each file is included once"));
-            }
-            let others: usize = made.files.iter().map(|(_, text)| text.len()).sum();
-            if others + text.len() > MAX_BYTES {
-                let message = format!(
-                    "with this, the model is longer than {} MiB",
-                    MAX_BYTES >> 20
-                );
-                return Err(made.error(index, span, message, "is this a model of a robot?"));
-            }
-            made.files.push((whole.display().to_string(), text));
-            open.push(made.open(made.files.len() - 1)?);
-        }
-        Ok(made)
     }
 
     /// Returns the name of the first file, as messages call it.
@@ -159,56 +75,19 @@ impl Text {
         }
     }
 
-    fn take(&mut self, file: usize, span: Range<usize>) {
+    /// Adds a part of a file.
+    pub(crate) fn take(&mut self, file: usize, span: Range<usize>) {
         let start = span.start;
         let text = self.files[file].1.get(span).unwrap_or_default();
         self.text.push_str(text);
         self.parts.push((self.text.len(), file, start));
     }
+}
 
-    /// Finds what a file includes; of one that is included its root is left away.
-    fn open(&self, file: usize) -> Result<Open, String> {
-        let text = &self.files[file].1;
-        let mut problems = Problems::new(text);
-        let Some(document) = guard::parse(text, &mut problems) else {
-            return Err(self.rendered(file, problems));
-        };
-        let root = document.root_element();
-        let end = root.range().end;
-        let rest = match (root.first_child(), root.last_child()) {
-            _ if file == 0 => 0..text.len(),
-            (Some(first), Some(last)) => first.range().start..last.range().end,
-            _ => end..end,
-        };
-        let includes = root
-            .descendants()
-            .filter(|node| node.has_tag_name("include"));
-        let mut named = Vec::new();
-        for node in includes {
-            let Some(name) = node.attribute("file") else {
-                let help = "<include file=\"arm.xml\"/>";
-                let message = "<include> has no `file`".to_owned();
-                return Err(self.error(file, node.range(), message, help));
-            };
-            named.push((node.range(), name.to_owned()));
-        }
-        named.reverse();
-        Ok(Open {
-            file,
-            rest,
-            includes: named,
-        })
-    }
-
-    fn error(&self, file: usize, span: Range<usize>, message: String, help: &str) -> String {
-        let mut problems = Problems::new(&self.files[file].1);
-        problems.error(&span, message, help);
-        self.rendered(file, problems)
-    }
-
-    fn rendered(&self, file: usize, problems: Problems) -> String {
-        let (name, text) = &self.files[file];
-        let errors = problems.finish().err();
-        errors.map_or_else(String::new, |errors| errors.render(name, text))
-    }
+/// Returns line and column of a byte, both from one.
+pub(crate) fn place(source: &str, byte: usize) -> (usize, usize) {
+    let before = source.get(..byte).unwrap_or_default();
+    let line = before.bytes().filter(|b| *b == b'\n').count() + 1;
+    let start = before.rfind('\n').map_or(0, |at| at + 1);
+    (line, before[start..].chars().count() + 1)
 }
