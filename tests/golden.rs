@@ -14,7 +14,7 @@ const SINGLE: f64 = 1e-5;
 /// q, q̇ and q̈.
 type Motion = [Vec<f64>; 3];
 
-/// What a module computes at a state, matrices row by row, by the keys of what is known there. The
+/// The results of a module at a state, matrices row by row, by the keys of the known ones. The
 /// torques are the first.
 type Outputs = [(&'static str, Vec<f64>); 10];
 

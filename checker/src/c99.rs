@@ -54,8 +54,8 @@ const GCC: &str = "defined(__GNUC__) && !defined(__clang__)";
 const FUSES: &str = "defined(__GNUC__) && !defined(__clang__) && (defined(__FP_FAST_FMA) || \
      defined(__FP_FAST_FMAF))";
 
-/// How the parameters begin of what is told whether angles are far, and of what takes any number
-/// of states, and what their names end with.
+/// The first parameter and the ending of the name of a function that is told of far angles, and of
+/// one for any number of states.
 const KINDS: [(&str, &str); 2] = [("const int far, ", "_any"), ("const size_t n, ", "_batch")];
 
 /// Reads lines that have to be these; what a header does not call, it need not include, and clang
@@ -141,8 +141,8 @@ pub(crate) fn are_of(found: &Found, function: &str) -> bool {
     heads.all(|head| word(found.header, head).is_some_and(is_own))
 }
 
-/// Returns whether a text is the one function that says where a box is: no other one hides beside or
-/// inside it, since no line but one of a single brace closes any.
+/// Returns true if a text is the one function that says where a box is: none hides beside or inside
+/// it, since no line but one of a single brace closes any.
 pub(crate) fn is_box(found: &Found) -> bool {
     let mut lines = found.text.lines().filter(|line| !line.is_empty());
     let head = lines.next().unwrap_or("");

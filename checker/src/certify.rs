@@ -160,7 +160,7 @@ type Seen<'w> = HashMap<&'w str, (Result<(), Fault>, usize)>;
 struct Whole<'w> {
     /// The seed of all draws, from robot, claim and text.
     seed: String,
-    /// What is claimed in the scene.
+    /// The claims about the scene.
     claim: &'w Claim,
     constants: Vec<Exact>,
     /// The program that computes the load of a payload, if it is claimed.

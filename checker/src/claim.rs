@@ -42,10 +42,10 @@ const MOST_DEGREES: usize = 1 << 24;
 pub struct Claim {
     /// The version of the document.
     pub claim: u32,
-    /// Of a plan: the robot's name.
+    /// The robot's name, in a plan.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub robot: String,
-    /// Of a plan: the hash of the robot.
+    /// The hash of the robot, in a plan.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub input: String,
     /// The robot by rows, as generators take it, if its joints are placed.
@@ -87,12 +87,12 @@ pub struct Claimed {
     /// The values of these parameters, constants each.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub values: String,
-    /// Of a plan: what was searched for.
+    /// The search, in a plan.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub planned: Option<Planned>,
 }
 
-/// What a plan keeps beside a program, so that nobody searches again.
+/// A search that a plan keeps beside its program, so that nobody searches again.
 #[derive(Clone, Debug, Deserialize, Eq, Hash, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Planned {
@@ -116,7 +116,7 @@ pub struct Planned {
     /// The number of entries of the load, and their hash, where parameters are arguments.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load: Option<(usize, String)>,
-    /// What a tolerance left out, in words; the operations and sines that come back with each.
+    /// The values that a tolerance left out, in words, each with its operations and sines.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub left_out: Vec<(String, usize, usize)>,
 }

@@ -17,7 +17,7 @@ pub const MOST_BYTES: usize = 32 << 20;
 pub struct Found<'t> {
     /// The module that it is in; empty where the file is the module.
     pub module: &'t str,
-    /// What the macros of a header in C begin with.
+    /// The beginnings of the macros of a header in C.
     pub header: &'t str,
     /// Its name; empty of what is no function.
     pub name: &'t str,

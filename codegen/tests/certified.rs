@@ -87,7 +87,7 @@ impl Certified {
         fault.map(|fault| fault.to_string())
     }
 
-    /// Returns what is shown of its functions: all of them are.
+    /// Returns the findings about its functions: all of them are shown.
     #[track_caller]
     fn shown(&self, what: &str) -> Vec<Shown> {
         let report = self.report();

@@ -161,7 +161,7 @@ p_base_parameters(double → p_base_parameters(float
     }
 }
 
-/// What says where a box is is one function: none stands before it or inside it.
+/// The function that says where a box is hides no other: none stands before it or inside it.
 #[test]
 fn a_box_hides_nothing() {
     let own = planar2r(

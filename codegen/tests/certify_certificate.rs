@@ -42,7 +42,7 @@ impl Exact {
         Certificate::make(robot, exact, emitted, scalar, limits, &self.scales)
     }
 
-    /// Returns what so much of each T leaves of it.
+    /// Returns the program that remains within so much of each T.
     pub fn pruned(&self, tolerance: f64, settings: &PruneSettings) -> Pruned {
         let allowances: Vec<f64> = self.scales.iter().map(|t| t * tolerance).collect();
         prune(&self.program, &self.limits, &allowances, settings)
@@ -121,7 +121,7 @@ fn planar() -> Exact {
     torques(|_, _| vec![20.0, 10.0, 5.0])
 }
 
-/// What is of no joint is held to the tolerance too: of an energy not everything goes.
+/// A result of no joint is held to the tolerance too: of an energy not everything goes.
 #[test]
 fn an_energy_is_within_the_tolerance() {
     let near = "tolerance = { value = [1e-2, 5e-2], relative_to = \"range\" }; \
@@ -250,7 +250,7 @@ fn a_certificate_with_polynomials_holds_and_is_not_refuted() {
     }
 }
 
-/// Of the PUMA at 1e-6, the bar of the bench.
+/// The sines of the PUMA at 1e-6 keep the bar of the bench.
 #[test]
 fn operations_follow_from_the_tolerance() {
     let puma = support::robot("puma560");

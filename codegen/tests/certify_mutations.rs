@@ -152,7 +152,7 @@ fn execute(text: &str, state: &JointState) -> Option<Vec<f64>> {
     None
 }
 
-/// Returns what is shown of the results of a variant, if that is the tolerance.
+/// Returns the bounds of the results of a variant, if the tolerance is shown.
 fn shown(own: &Certified) -> Option<Vec<Bounded>> {
     let [line]: [_; 1] = own.report().ok()?.lines.try_into().ok()?;
     Some(line.result.ok()?.results)

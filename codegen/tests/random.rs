@@ -1,7 +1,7 @@
 //! Robots and robot files that nobody chose: any number of joints, both kinds, both conventions,
 //! full inertias, tilted gravity, odd angles, friction, and numbers of any size.
 //!
-//! What is generated for them is proved (or `generate` fails), and the emitted text stays within
+//! The code for them is proved (or `generate` fails), and the emitted text stays within
 //! the floating bound; a file gives an error or proved code, never a panic; and what was proved is
 //! never said to be contradicted. The reader's own fuzzing, of arbitrary bytes, is in the model's
 //! tests.

@@ -190,7 +190,7 @@ fn unknowns(model: &Model) -> Vec<Unknown> {
     unknowns
 }
 
-/// Returns what a column is a sum of, each with its factor.
+/// Returns the terms of a column, each with its factor.
 fn terms(model: &Model, column: Column) -> Vec<(Unknown, f64)> {
     let unknown = |parameter: Parameter| match parameter {
         Parameter::Link(joint, own) => Unknown::Link(joint, place(own)),

@@ -97,7 +97,7 @@ pub(crate) fn no_model() -> Error {
 /// Any robot, at run time: a robot file or a URDF, its functions compiled in memory.
 pub struct Loaded {
     arm: Arm,
-    /// What a fit needs: the columns, and the machine code of the regressor.
+    /// The columns of a fit, and the machine code of the regressor.
     fitted: Option<(Model, Arm)>,
     evaluated: Arc<AtomicU64>,
 }

@@ -104,7 +104,7 @@ impl Engine {
         })
     }
 
-    /// Returns whether a cluster computes, and not this machine.
+    /// Returns true if a cluster computes, and not this machine.
     pub fn is_cluster(&self) -> bool {
         self.is_cluster
     }

@@ -129,7 +129,7 @@ pub struct Job {
     pub logs: Vec<Log>,
     /// How far it is.
     pub progress: Arc<Progress>,
-    /// Whether it goes on.
+    /// The signal by which it goes on, or ends.
     pub going: Going,
     skip_bad: bool,
     threads: usize,

@@ -14,9 +14,9 @@ const MAX_FILES: usize = 256;
 /// A file that has not been read to its end.
 struct Open {
     file: usize,
-    /// What of it is left to read.
+    /// The part that is left to read.
     rest: Range<usize>,
-    /// What it includes, the last first: where, and the names.
+    /// The files that it includes, the last first: where, and their names.
     includes: Vec<(Range<usize>, String)>,
 }
 
@@ -25,7 +25,7 @@ impl Text {
     /// text of a file, or says why there is none.
     ///
     /// # Errors
-    /// What is wrong with an include, as [`Text::render`] prints it.
+    /// An include that is wrong, as [`Text::render`] prints it.
     pub fn with_includes(
         self,
         path: &Path,

@@ -41,7 +41,7 @@ impl Text {
         (name, place(text, at).0)
     }
 
-    /// Returns the same where there are several files.
+    /// Returns the name of the file of a place and its line there; none of a single file.
     pub(crate) fn in_file(&self, byte: usize) -> Option<(&str, usize)> {
         (self.files.len() > 1).then(|| self.line(byte))
     }

@@ -92,7 +92,7 @@ pub(crate) fn file(
     text
 }
 
-/// Returns what a joint follows; none where it moves by itself.
+/// Returns the joint that one follows; none where it moves by itself.
 fn mimic(own: &Joint, joints: &[&Joint]) -> Option<String> {
     let mimic = own.mimic.as_ref()?;
     let [multiplier, offset] = mimic.line.as_ref()?;
@@ -211,7 +211,7 @@ fn having<'u>(
     joints.iter().filter_map(own).collect()
 }
 
-/// Returns whether a limit is one that was never filled in.
+/// Returns true for a limit that was never filled in.
 fn is_no_limit(limit: &&Number) -> bool {
     !limit.value.is_positive()
 }

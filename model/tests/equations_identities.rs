@@ -101,7 +101,7 @@ fn all_rotary_chains_have_as_many_symbols_as_counted() {
     }
 }
 
-/// What is special about two robots, by their exact parameters: which h_ikm vanish or coincide.
+/// The special cases of two robots, by their exact parameters: the h_ikm that vanish or coincide.
 #[test]
 fn zeros_and_coincidences_are_those_known() {
     let exact = Formulation::LagrangeEuler;

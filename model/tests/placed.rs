@@ -127,7 +127,7 @@ fn nearly_parallel_axes_have_the_torques_of_the_frames() {
     }
 }
 
-/// What of a file is replaced by what, the line, and words of message and help.
+/// Words of a file, those in their place, the line, and words of message and help.
 const MISTAKES: &str = r#"
 axis = [0, 0, 1] | | 6 | has no `axis` | axis = [0, 0, 1]
 axis = [0, 0, 1] | axis = [0, 0, 0] | 9 | no direction | axis = [0, 0, 1]

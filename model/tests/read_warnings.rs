@@ -19,7 +19,7 @@ position = [-1, 1] | position = [-1, 1.5708] | 17 | from pi/2
 alpha = "pi/2" | alpha = 4.71238898038469 | 7 | 4.71238898038469 is read as 3*pi/2
 "#;
 
-/// The same of numbers that look like another unit's, and words of the help.
+/// Numbers that look like another unit's, those in their place, and words of the help.
 const OTHER_UNITS: &str = r#"
 [0, 0, -9.81] | [0, 0, -9810] | 3 | is 9810.0000 m/s² | mm/s²
 [0, 0, -9.81] | [0, 981, 0] | 3 | far from | cm/s²

@@ -433,7 +433,7 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Returns what an operation of the polynomials of a joint's angle is called.
+    /// Returns the name of an operation of the polynomials of a joint's angle.
     fn polynomial_name(&self, joint: usize, number: usize) -> String {
         match self.symbols {
             Some(_) => format!("x{}_{number}", joint + 1),

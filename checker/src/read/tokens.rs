@@ -17,12 +17,12 @@ const PAIRS: [&str; 7] = ["::", "->", "<=", "==", "!=", "&&", "++"];
 const SIGNS: &str = "+-*/=.,;:()[]{}<>&!? ";
 const RUST_SIGNS: &str = "+-*/=.,;:()[]{}<>&!? #";
 
-/// Returns whether a character is one of names.
+/// Returns true for a character of a name.
 pub(crate) fn is_letter(c: char) -> bool {
     c.is_ascii_alphanumeric() || c == '_'
 }
 
-/// Returns whether a text has letters and these signs alone, and no comment.
+/// Returns true if a text has letters and these signs alone, and no comment.
 pub(crate) fn has_only(text: &str, signs: &str) -> bool {
     let known = |c: char| is_letter(c) || signs.contains(c);
     text.chars().all(known) && !text.contains("//") && !text.contains("/*")

@@ -23,7 +23,7 @@ pub(super) struct Motions {
     /// Joints that may have a velocity, and its largest magnitude.
     velocities: Vec<(usize, f64)>,
     accelerations: Vec<(usize, f64)>,
-    /// Of velocities, by their places.
+    /// The pairs of velocities, by their places.
     pairs: Vec<(usize, usize)>,
     joints: usize,
 }

@@ -12,7 +12,7 @@ use crate::function::Argument;
 use crate::program::{Input, Program};
 use crate::words::{Complaint, complaint};
 
-/// Returns whether the lists of a variant are as long as they should be.
+/// Returns true if the lists of a variant are as long as they should be.
 pub(super) fn has_lists(subject: &Subject<'_>) -> bool {
     let (limits, n) = (subject.limits, subject.setup.joints());
     let lists = [&limits.position, &limits.velocity, &limits.acceleration];

@@ -157,7 +157,7 @@ pub(crate) fn targets(printed: &Printed<'_>) -> Vec<String> {
     fields.collect()
 }
 
-/// Returns whether the function is told whether angles may be far, for which the crate's algorithm
+/// Returns true if the function is told that angles may be far, for which the crate's algorithm
 /// calls others: in batches that are vectors, where calls would be in the way.
 pub(crate) fn is_told(code: &Code, names: &Names) -> bool {
     names.language() == Language::C && trig::taken(code).next().is_some()

@@ -80,7 +80,7 @@ pub(super) fn operand(joint: usize) -> String {
     format!("q[{joint}]")
 }
 
-/// Returns whether an angle's sines are of those that one call gives.
+/// Returns true if one call gives an angle's sines with others.
 fn is_together(pair: &Pair, code: &Code) -> bool {
     code.library == Library::Together && pair.kernel.is_none()
 }

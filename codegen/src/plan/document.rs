@@ -191,7 +191,7 @@ fn taken(own: &Claimed, empty: &mut Program) -> Result<Vec<RuntimeParameter>, Co
     Ok(taken.filter(|own| is_taken(own.argument())).collect())
 }
 
-/// Returns what is read as a program with the arguments and results of an empty one.
+/// Returns the program that was read, with the arguments and results of an empty one.
 fn program(
     empty: &Program,
     read: &dalembert_checker::identity::program::Program<Exact>,

@@ -19,7 +19,7 @@ words! {
 }
 
 impl ScalarType {
-    /// Returns what this scalar has of two.
+    /// Returns the first value for f64, the second for f32.
     pub(crate) const fn of<T: Copy>(self, double: T, single: T) -> T {
         match self {
             ScalarType::F64 => double,

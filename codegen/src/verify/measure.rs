@@ -1,5 +1,5 @@
-//! What emitted text is compared with when it is run bit for bit: the generic runtime in f64, and
-//! how many times more than others a quantity may err.
+//! The reference for emitted text that is run bit for bit: the generic runtime in f64, and how many
+//! times more than others a quantity may err.
 
 use dalembert_model::equations::factor::submatrix;
 use dalembert_model::equations::forward::free;

@@ -69,7 +69,7 @@ pub struct Log {
 }
 
 impl Log {
-    /// Returns whether it has to be converted before a query can read it: recordings of ROS 2,
+    /// Returns true if it has to be converted before a query can read it: recordings of ROS 2,
     /// whose layout has nothing, logs without rates, and lists in other units.
     pub fn converts(&self) -> bool {
         let sources = self.layout.sources.iter().enumerate();

@@ -12,8 +12,8 @@ const JITTER: f64 = 0.1;
 pub(super) struct Rates {
     frequency: f64,
     filter: Option<(Differentiator, f64)>,
-    /// What later blocks need of earlier ones, at least a window less one: rows, times, and of
-    /// each joint position and torque.
+    /// The end of earlier blocks that later ones need, at least a window less one: rows, times, and
+    /// of each joint position and torque.
     rows: Vec<u64>,
     time: Vec<f64>,
     states: Vec<[Vec<f64>; 2]>,

@@ -115,7 +115,7 @@ impl Sample {
     }
 }
 
-/// Returns what is identified from the bytes of an aggregate.
+/// Returns the fit from the bytes of an aggregate.
 pub fn fitted(model: &Model, bytes: &[u8]) -> Fit {
     let kept = Accumulator::from_bytes(model, bytes).unwrap();
     fit(model, &kept).unwrap()

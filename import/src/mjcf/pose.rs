@@ -20,7 +20,7 @@ use crate::urdf::{Number, Origin, Value, start_tag};
 /// Angles are computed to more digits than this, in radians.
 const SAME: i32 = -15;
 
-/// The same pose as its digits stand and as they were meant.
+/// A pose as its digits stand, and as they were meant.
 type Both = [Columns<Wide>; 2];
 
 fn both_identities() -> Both {

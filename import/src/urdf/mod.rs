@@ -183,7 +183,7 @@ impl Reader<'_, '_, '_> {
         self.problems.error(span, message, help);
     }
 
-    /// Returns whether there are at most so many, after saying that there are more.
+    /// Returns true if there are at most so many; else says that there are more.
     pub(crate) fn are_few(
         &mut self,
         span: &Range<usize>,

@@ -138,7 +138,7 @@ impl<S: Scalar> Arm<S> {
         self
     }
 
-    /// Returns the same arm without gravity.
+    /// Returns the arm without gravity.
     pub(super) fn weightless(&self) -> Arm<S> {
         Arm {
             gravity: zero_vector(),

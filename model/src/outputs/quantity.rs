@@ -230,7 +230,7 @@ impl Quantity {
         self.facts().definite
     }
 
-    /// Returns whether it exists only where D has an inverse.
+    /// Returns true if it exists only where D has an inverse.
     pub fn inverts_inertia(self) -> bool {
         self.facts().inverts_inertia
     }

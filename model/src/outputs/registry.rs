@@ -31,7 +31,7 @@ macro_rules! registry {
                 #[doc = concat!("Of [`Function::", stringify!($function), "`].")]
                 $quantity,
             )+)?)*
-            /// Of [`Function::Load`].
+            /// The result of [`Function::Load`].
             Load,
             /// One of these at a frame.
             At(at::QuantityAt),

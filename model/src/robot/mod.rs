@@ -326,7 +326,7 @@ pub enum Position {
 }
 
 impl Position {
-    /// Returns whether a joint of this kind can have it.
+    /// Returns true if a joint of this kind can have it.
     pub(crate) fn is_of(&self, kind: JointKind) -> bool {
         matches!(self, Position::Angle(_)) == (kind == JointKind::Revolute)
     }

@@ -316,12 +316,12 @@ pub(crate) const WORDS: [&str; 51] = [
     "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
 ];
 
-/// Returns whether no module can have this name.
+/// Returns true if no module can have this name.
 fn is_keyword(name: &str) -> bool {
     WORDS.contains(&name) || ["union", "core", "std"].contains(&name)
 }
 
-/// Returns whether a name has small letters, digits and `_` only, a letter first.
+/// Returns true if a name has small letters, digits and `_` only, a letter first.
 pub(crate) fn is_snake(name: &str) -> bool {
     let known = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
     name.starts_with(|c: char| c.is_ascii_lowercase()) && name.chars().all(known)

@@ -226,7 +226,7 @@ fn leaves(best: &Pruned, allowances: &[f64]) -> bool {
     has_edits(&best.stages) && pairs.all(|(error, allowance)| *error <= MUCH * allowance)
 }
 
-/// What a variant is looked for.
+/// The aim of a search for a variant.
 #[derive(Clone, Copy)]
 pub(crate) struct Target<'a> {
     /// The exact program.

@@ -1,4 +1,4 @@
-//! What a body answers to the motions of a frame.
+//! The answer of a body to the motions of a frame.
 
 use crate::equations::Link;
 use crate::equations::matrix::{

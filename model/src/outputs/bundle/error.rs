@@ -11,7 +11,7 @@ use crate::outputs::Function;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct BundleError {
-    /// What is wrong.
+    /// The mistake.
     pub message: String,
     /// The likely fix.
     pub help: String,
@@ -46,8 +46,8 @@ impl BundleError {
         }
     }
 
-    /// Returns the same where these functions are known beside the outputs: a word
-    /// that is the name of a bundle among them is that.
+    /// Returns the error where these functions are known beside the outputs: a word that is the
+    /// name of a bundle among them is that.
     #[must_use]
     pub fn among(self, functions: &[Function]) -> BundleError {
         let word = self.unknown.as_deref();
