@@ -34,7 +34,7 @@ fn reference(name: &str) -> Reference<f64> {
         .join(name)
         .with_extension("toml");
     let source = std::fs::read_to_string(file).expect("a checked-in robot");
-    let reading = read::parse(&source, &read::Options::default()).expect("a good robot");
+    let reading = read::parse(&source).expect("a good robot");
     Reference::from_robot(&reading.robot)
 }
 

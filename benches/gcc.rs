@@ -21,7 +21,7 @@ impl Gcc {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let robot = root.join("generated/robots/puma560.toml");
         let source = std::fs::read_to_string(&robot).ok()?;
-        let reading = read::parse(&source, &read::Options::default()).ok()?;
+        let reading = read::parse(&source).ok()?;
         let request = Request {
             sincos: SinCos::Together,
             batch: true,

@@ -25,7 +25,7 @@ fn file(path: &str) -> PathBuf {
 fn robot(name: &str) -> Robot {
     let file = file(&format!("generated/robots/{name}.toml"));
     let source = fs::read_to_string(file).expect("a checked-in robot");
-    let reading = read::parse(&source, &read::Options::default());
+    let reading = read::parse(&source);
     reading.expect("a good robot").robot
 }
 

@@ -22,9 +22,7 @@ const TOLERANCE: f64 = 1e-6;
 fn the_bench_of_sines_is_up_to_date() {
     let file = root().join("generated/robots/puma560.toml");
     let source = fs::read_to_string(&file).unwrap();
-    let robot = read::parse(&source, &read::Options::default())
-        .unwrap()
-        .robot;
+    let robot = read::parse(&source).unwrap().robot;
     let request = Request {
         scalars: vec![ScalarType::F64],
         plan: plan_file::beside(&file).unwrap(),
@@ -36,7 +34,7 @@ fn the_bench_of_sines_is_up_to_date() {
     let limits = InputBox::of(&robot).unwrap();
     let scales = scale::actuator(&robot, program).unwrap();
     let (scalar, fineness) = (ScalarType::F64, BoundEffort::QUICK);
-    let libm = Certificate::make(&robot, program, program, scalar, &limits, &scales);
+    let libm = Certificate::make(program, program, scalar, &limits, &scales);
     // Rounding has its part of the tolerance, the polynomials have the rest.
     let pairs = scales.iter().zip(&libm.bounds);
     let allowances: Vec<f64> = pairs
@@ -44,7 +42,7 @@ fn the_bench_of_sines_is_up_to_date() {
         .collect();
     let sensitivity = Sensitivity::new(program, &limits, fineness);
     let sines = within(program, scalar, &limits.position, &allowances, &sensitivity).unwrap();
-    let certificate = libm.with_sines(&Setup::whole(&robot), &sines, &sensitivity);
+    let certificate = libm.with_sines(&sines, &sensitivity);
     for bound in &certificate.bounds {
         assert!(bound.total() <= TOLERANCE, "{bound:?}");
     }
@@ -78,7 +76,7 @@ fn the_recursion_in_symbols_is_up_to_date() {
     for name in ["puma560", "stanford", "ur10", "panda"] {
         let file = root().join(format!("generated/robots/{name}.toml"));
         let source = fs::read_to_string(&file).unwrap();
-        let reading = read::parse(&source, &read::Options::default()).unwrap();
+        let reading = read::parse(&source).unwrap();
         let setup = Setup::whole(&reading.robot);
         let function = Function::InverseDynamics;
         let traced = trace(setup.task(function), Formulation::NewtonEulerLink);

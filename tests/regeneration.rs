@@ -45,7 +45,7 @@ fn pages_have_the_counts_of_the_plans() {
     let mut all = BTreeMap::new();
     for (name, file) in robots {
         let source = fs::read_to_string(&file).unwrap();
-        let reading = read::parse(&source, &read::Options::default()).unwrap();
+        let reading = read::parse(&source).unwrap();
         let request = Request {
             plan: plan_file::beside(&file).unwrap(),
             ..Request::default().for_file(&reading.outputs)

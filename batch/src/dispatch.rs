@@ -4,15 +4,14 @@
 //! AVX2, f64: 16.8 ns with four lanes, 21 to 27 with eight).
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
-use core::marker::PhantomData;
-
-#[cfg(all(feature = "std", target_arch = "x86_64"))]
 use pulp::x86::{V3, V4};
 
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+use crate::Vector;
 use crate::block::ending;
 use crate::slices::{check_columns, run_columns};
 use crate::vector::BLOCK;
-use crate::{Float, Function, Unequal, Vector};
+use crate::{Float, Function, Unequal};
 
 /// The vectors that a batch is computed in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -80,17 +79,7 @@ where
     match states {
         0 => {}
         1..BLOCK => few_columns::<F, A, N, M, K>(vectors, arguments, results, states),
-        _ => {
-            let from = 0;
-            run(
-                vectors,
-                Columns::<F, A, N, M, K> {
-                    arguments,
-                    results,
-                    from,
-                },
-            );
-        }
+        _ => run::<F, A, N, M, K>(vectors, arguments, results, 0),
     }
     Ok(())
 }
@@ -111,78 +100,75 @@ fn few_columns<F, const A: usize, const N: usize, const M: usize, const K: usize
         .map(|columns| columns.each_ref().map(|column| &column[..]));
     let mut found = [[F::Scalar::default(); BLOCK]; M];
     let from = BLOCK - states;
-    let work = Columns::<F, A, N, M, K> {
-        arguments: slices.each_ref(),
-        results: &mut found.each_mut().map(|column| &mut column[..]),
-        from,
-    };
-    run(vectors, work);
+    let mut columns = found.each_mut().map(|column| &mut column[..]);
+    run::<F, A, N, M, K>(vectors, slices.each_ref(), &mut columns, from);
     for (column, found) in results.iter_mut().zip(&found) {
         column.copy_from_slice(&found[from..]);
     }
 }
 
-/// A computation that may run in any vectors.
-trait Work {
-    type Scalar: Float;
-
-    fn with<V: Vector<Self::Scalar>>(self, token: V::Token);
-}
-
-/// Does work in vectors, in code that is compiled for them.
-fn run<W: Work>(vectors: Vectors, work: W) {
+/// Runs a function over columns in vectors, in code that is compiled for them.
+fn run<F, const A: usize, const N: usize, const M: usize, const K: usize>(
+    vectors: Vectors,
+    arguments: [&[&[F::Scalar]; N]; A],
+    results: &mut [&mut [F::Scalar]; M],
+    from: usize,
+) where
+    F: Function<A, N, M, K>,
+{
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
     match vectors {
         Vectors::Avx512 => {
-            if let Some(simd) = V4::try_new() {
-                return simd.vectorize(In(work, simd, PhantomData::<<W::Scalar as Float>::Avx512>));
+            if let Some(token) = V4::try_new() {
+                return token.vectorize(Columns::<F, <F::Scalar as Float>::Avx512, A, N, M, K> {
+                    token,
+                    arguments,
+                    results,
+                    from,
+                });
             }
         }
         Vectors::Avx2 => {
-            if let Some(simd) = V3::try_new() {
-                return simd.vectorize(In(work, simd, PhantomData::<<W::Scalar as Float>::Avx2>));
+            if let Some(token) = V3::try_new() {
+                return token.vectorize(Columns::<F, <F::Scalar as Float>::Avx2, A, N, M, K> {
+                    token,
+                    arguments,
+                    results,
+                    from,
+                });
             }
         }
         Vectors::Portable => {}
     }
     let _ = vectors;
-    work.with::<<W::Scalar as Float>::Portable>(());
+    run_columns::<F, <F::Scalar as Float>::Portable, A, N, M, K>((), arguments, results, from);
 }
 
-/// Work in one kind of vectors.
+/// What [`run_columns`] takes, in one kind of vectors.
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
-struct In<W, T, V>(W, T, PhantomData<V>);
+struct Columns<'a, 'c, 'r, F, V, const A: usize, const N: usize, const M: usize, const K: usize>
+where
+    F: Function<A, N, M, K>,
+    V: Vector<F::Scalar>,
+{
+    token: V::Token,
+    arguments: [&'a [&'a [F::Scalar]; N]; A],
+    results: &'r mut [&'c mut [F::Scalar]; M],
+    from: usize,
+}
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
-impl<W: Work, V: Vector<W::Scalar>> pulp::NullaryFnOnce for In<W, V::Token, V> {
+impl<F, V, const A: usize, const N: usize, const M: usize, const K: usize> pulp::NullaryFnOnce
+    for Columns<'_, '_, '_, F, V, A, N, M, K>
+where
+    F: Function<A, N, M, K>,
+    V: Vector<F::Scalar>,
+{
     type Output = ();
 
     // Inlined into what is compiled for the vectors.
     #[inline(always)]
     fn call(self) {
-        self.0.with::<V>(self.1);
-    }
-}
-
-struct Columns<'a, 'c, 'r, F, const A: usize, const N: usize, const M: usize, const K: usize>
-where
-    F: Function<A, N, M, K>,
-{
-    arguments: [&'a [&'a [F::Scalar]; N]; A],
-    results: &'r mut [&'c mut [F::Scalar]; M],
-    /// The first state that is computed, of at least a block.
-    from: usize,
-}
-
-impl<F, const A: usize, const N: usize, const M: usize, const K: usize> Work
-    for Columns<'_, '_, '_, F, A, N, M, K>
-where
-    F: Function<A, N, M, K>,
-{
-    type Scalar = F::Scalar;
-
-    #[inline(always)]
-    fn with<V: Vector<F::Scalar>>(self, token: V::Token) {
-        run_columns::<F, V, A, N, M, K>(token, self.arguments, self.results, self.from);
+        run_columns::<F, V, A, N, M, K>(self.token, self.arguments, self.results, self.from);
     }
 }

@@ -108,10 +108,8 @@ fn evaluate(own: &Program<f64>, result: usize, angle: Interval, scalar: Scalar) 
         };
         (both, error)
     };
-    let results = own.run(leaf, apply).unwrap_or_default();
-    match results.get(result) {
-        Some((false, own)) => *own,
-        Some((true, (both, error))) => (both.map(|own| -own), *error),
-        None => ([Interval::NOTHING_KNOWN; 2], f64::INFINITY),
-    }
+    let opposite = |(both, error): Enclosed| (both.map(|own| -own), error);
+    let results = own.run(leaf, apply, opposite).unwrap_or_default();
+    let nothing = ([Interval::NOTHING_KNOWN; 2], f64::INFINITY);
+    results.get(result).copied().unwrap_or(nothing)
 }

@@ -28,9 +28,7 @@ pub(crate) fn at(program: &Program<Exact>, given: &[Vec<f64>]) -> Option<Vec<Int
         '*' | '×' => a * b,
         _ => Interval::NOTHING_KNOWN,
     };
-    let all = program.run(leaf, apply)?.into_iter();
-    let signed = all.map(|(negative, own)| if negative { -own } else { own });
-    Some(signed.collect())
+    program.run(leaf, apply, |own: Interval| -own)
 }
 
 /// Writes a program out over a ring: the size of each of its values that a result reads, and its

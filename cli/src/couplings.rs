@@ -53,6 +53,7 @@ pub fn couplings(robot: &Robot) -> Option<Vec<Coupling>> {
         0..=6 => Formulation::LagrangeEuler,
         _ => Formulation::NewtonEulerLink,
     };
+    let rows: Vec<usize> = (0..n).collect();
     let traced = trace(Setup::whole(robot).task(function), formulation).graph;
     let graph = traced.rebuild(Folding::Semantic);
     let mut outputs = graph.outputs.iter();
@@ -61,7 +62,7 @@ pub fn couplings(robot: &Robot) -> Option<Vec<Coupling>> {
     for &quantity in function.quantities() {
         let edges = outputs.by_ref().take(quantity.len(sizes)).enumerate();
         for (index, &edge) in edges.filter(|(index, _)| is_first(quantity, *index, n)) {
-            let name = quantity.entry(index, sizes);
+            let name = quantity.entry(index, &rows, sizes);
             let negative = edge.negative;
             let value = if graph.is_zero(edge) {
                 Value::Zero

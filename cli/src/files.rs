@@ -1,14 +1,14 @@
 //! Files that a run writes: refused before its work, written after it, all of them or none.
 
 use std::fmt::Display;
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, ErrorKind, Read, Write};
+use std::fs::{self, OpenOptions};
+use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf, is_separator};
 
+use dalembert_import::first_bytes;
 use tempfile::{Builder, NamedTempFile};
 
-use crate::context::Context;
-use crate::failure::Failure;
+use crate::output::{Context, Failure};
 use crate::terminal::print;
 
 /// The path that stands for standard output.
@@ -202,16 +202,6 @@ pub fn ends_in(path: Option<&Path>, ending: &str) -> Result<(), Failure> {
     )))
 }
 
-/// Returns the first `most` bytes of a file and reads no more, since a device may have no end.
-///
-/// # Errors
-/// The file cannot be opened or read.
-pub fn first(path: &Path, most: u64) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    File::open(path)?.take(most).read_to_end(&mut bytes)?;
-    Ok(bytes)
-}
-
 fn refused(path: &Path, why: impl Display) -> Failure {
     let path = path.display();
     Failure::Input(format!("error: `{path}` cannot be written: {why}"))
@@ -284,7 +274,7 @@ fn enter(path: &Path) -> io::Result<()> {
 /// Returns whether a file is new, empty, or says near its beginning that dalembert wrote it.
 fn is_ours(file: &Path) -> bool {
     // If the file cannot be read, the write reports why.
-    let head = first(file, HEAD).unwrap_or_default();
+    let head = first_bytes(file, HEAD).unwrap_or_default();
     let text = String::from_utf8_lossy(&head);
     let is_table = text.starts_with("tolerance,scalar,");
     let is_document = text.starts_with("{\"claim\":");

@@ -264,7 +264,7 @@ fn place(quantity: Quantity, entry: usize, robot: &Robot) -> String {
             let [row, column] = [entry / n, entry % n].map(|joint| robot.joint_label(joint));
             format!("row of {row}, column of {column}")
         }
-        _ => quantity.entry(entry, Sizes::whole(n)),
+        _ => quantity.entry(entry, &Vec::from_iter(0..n), Sizes::whole(n)),
     }
 }
 

@@ -3,7 +3,7 @@
 //!
 //! - `args`: the command line; `source`: robots and requests; `progress`: searches in the bar, and Ctrl-C
 //! - `report`: facts and tables, as text and as JSON; `terminal`: prints, beside the bar
-//! - `files`: writes all or none; `output`: what a subcommand returns, printed and written
+//! - `files`: writes all or none; `output`: what a subcommand takes and returns
 //! - `generate`, `renew`, `count`; `code`: the report of generated code
 //! - `import`, `new`, `show`, `outputs`; [`drawing`]: the arm in two views, as SVG
 //! - `verify`; [`measure`]: rounding errors against 256-bit arithmetic; [`extremes`]: the same in
@@ -19,13 +19,11 @@ mod args;
 mod certify;
 mod chart;
 mod code;
-mod context;
 mod count;
 pub mod couplings;
 pub mod drawing;
 pub mod explain;
 pub mod extremes;
-mod failure;
 mod files;
 mod generate;
 pub mod given;

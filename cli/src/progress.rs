@@ -61,7 +61,7 @@ impl Seen {
 
 impl Observer for Seen {
     fn step(&self, progress: &Progress) {
-        let (function, part) = (progress.function, progress.part);
+        let (function, part) = (progress.function, progress.part.name());
         let (round, rounds) = (progress.round, progress.rounds);
         let reached = match (&progress.best, rounds) {
             (Some(counts), _) => format!(": {counts}"),

@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 
 use dalembert_codegen::Language;
 use dalembert_codegen::workspace::claim;
+use dalembert_import::first_bytes;
 use dalembert_stamp::Stamp;
 
 use crate::certify::claim_of;
-use crate::files::{Files, first};
+use crate::files::Files;
 use crate::output::{Context, Done, Failure, Outcome};
 use crate::report::{Cell, Report, Table, cells};
 use crate::source::{Source, text};
@@ -152,7 +153,7 @@ fn walk(folder: &Path, all: &mut Vec<Found>) -> Result<(), Failure> {
         }
         if kind.is_file() && Language::of(&path).is_ok() {
             // An unreadable file counts as not generated.
-            let text = first(&path, MAX_BYTES).unwrap_or_default();
+            let text = first_bytes(&path, MAX_BYTES).unwrap_or_default();
             let path = path.strip_prefix(".").unwrap_or(&path);
             all.extend(stamped(path, String::from_utf8_lossy(&text).into_owned()));
         }

@@ -6,13 +6,12 @@ use dalembert_codegen::workspace::{generate_anew, plan_file};
 use dalembert_codegen::{
     Asked, Function, Generated, Plan, Problem, Request, RobotFileError, ScalarType,
 };
-use dalembert_import::{Options, Unopened, open};
+use dalembert_import::{Options, Unopened, first_bytes, open};
 use dalembert_model::number::Rational;
 use dalembert_model::read::Reading;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 
-use crate::files::first;
 use crate::output::{Context, Failure};
 use crate::progress;
 
@@ -149,7 +148,7 @@ fn problems_of(problems: &[Problem]) -> String {
 /// # Errors
 /// The file cannot be read, is longer than `most` bytes, or is not UTF-8.
 pub fn text(path: &Path, most: u64) -> Result<String, Failure> {
-    let bytes = first(path, most + 1).map_err(|error| system(path, &error))?;
+    let bytes = first_bytes(path, most + 1).map_err(|error| system(path, &error))?;
     let shown = path.display();
     if bytes.len() as u64 > most {
         return Err(Failure::Input(format!(

@@ -1,9 +1,7 @@
 //! The paper's Table 3 beside the operation counts of the textbook formulas.
 
 use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};
-use dalembert_model::number::Exact;
 use dalembert_model::robot::{JointKind, Robot};
-use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::count::{Count, Counter};
 
 /// Returns operation counts of three formulations for the torques of a robot: multiplications and
@@ -43,17 +41,7 @@ fn paper(formulation: Formulation, n: u64) -> [u64; 2] {
 /// Counts multiplications and additions with a robot's numbers: zeros and ones cost nothing.
 fn as_written(formulation: Formulation, robot: &Robot) -> [u64; 2] {
     let counter = Counter::new();
-    let arm = Arm::from_robot(robot, &mut |constant: &Exact| {
-        if constant.is_zero() {
-            Count::Zero
-        } else if constant.is_one() {
-            Count::One
-        } else if constant.neg().is_one() {
-            Count::MinusOne
-        } else {
-            Count::Number
-        }
-    });
+    let arm = Arm::from_robot(robot, &mut Count::constant);
     let links = arm.links.iter();
     let position: Vec<_> = links
         .map(|link| match link.kind {
@@ -66,7 +54,7 @@ fn as_written(formulation: Formulation, robot: &Robot) -> [u64; 2] {
         .collect();
     let rates = vec![counter.value(); arm.links.len()];
     formulation.inverse_dynamics(&arm, &arm.at(&position), &rates, &rates);
-    [counter.multiplications(), counter.additions()]
+    counter.counts().into()
 }
 
 #[cfg(test)]

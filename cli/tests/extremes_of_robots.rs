@@ -78,7 +78,7 @@ fn points(masses: [&str; 2]) -> Robot {
     };
     let head = "name = \"points\"\nconvention = \"standard\"\ngravity = [0, -9.81, 0]\n";
     let source = head.to_owned() + &masses.map(joint).concat();
-    read::parse(&source, &read::Options::default())
+    read::parse(&source)
         .unwrap_or_else(|errors| panic!("{errors}"))
         .robot
 }

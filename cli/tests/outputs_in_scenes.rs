@@ -31,8 +31,8 @@ fn scenes_select_along_axes_over_joints() {
             let sizes = emitted.sizes;
             let all = sizes.over(3);
             for index in 0..quantity.len(sizes) {
-                let name = quantity.entry_over(index, &[2, 0], sizes);
-                let same = |i: &usize| quantity.entry(*i, all) == name;
+                let name = quantity.entry(index, &[2, 0], sizes);
+                let same = |i: &usize| quantity.entry(*i, &[0, 1, 2], all) == name;
                 let i = (0..quantity.len(all)).find(same).unwrap();
                 let (a, b) = (found[at + index], full[start + i]);
                 let u = emitted.scalar.unit_roundoff();

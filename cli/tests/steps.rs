@@ -46,7 +46,7 @@ fn a_scene_is_explained() {
     let scene = "\n[scene.hold]\noutputs = [\"gravity\"]\njoints = [2, 1]\nlock = { 3 = \"pi/6\" }\n\
          tolerance = { value = 0.3, relative_to = \"range\" }\n";
     let reading = support::reading_with("planar3r", scene);
-    let request = Request::default().in_scene(&reading.scenes[0]);
+    let request = Request::default().choose(None, None, Some(&reading.scenes[0]));
     let explained = explain(&reading.robot, &request).unwrap().remove(0);
     let setup = Setup::in_scene(&reading.robot, Some(&reading.scenes[0])).unwrap();
     let (last, exact) = explained.rows.split_last().unwrap();

@@ -10,6 +10,7 @@ use crate::bound::magnitude::relative;
 use crate::bound::sample::{climb, draw};
 use crate::bound::sensitivity::{Rounding, rounding};
 use crate::certificate::Certificate;
+use crate::function::Argument;
 use crate::interval::Interval;
 use crate::language::read::{Signature, TextError};
 use crate::program::{Code, ScalarType};
@@ -199,9 +200,9 @@ fn nudged(
     let n = state.q.len();
     for _ in 0..coordinates {
         let coordinate = random.below(3 * n);
-        let (kind, joint) = (coordinate / n, coordinate % n);
-        let range = [&limits.position, &limits.velocity, &limits.acceleration][kind][joint];
-        let x = &mut [&mut next.q, &mut next.qd, &mut next.qdd][kind][joint];
+        let (argument, joint) = (Argument::STATE[coordinate / n], coordinate % n);
+        let range = limits.of_argument(argument)[joint];
+        let x = &mut next.entries_mut(argument)[joint];
         *x = (*x + reach * range.width() * (random.unit() - 0.5)).clamp(range.low(), range.high());
     }
     next
@@ -220,12 +221,9 @@ pub(crate) fn held(state: &JointState, scalar: ScalarType, limits: &InputBox) ->
             _ => near,
         })
     };
-    let hold =
-        |values: &[f64], ranges: &[Interval]| values.iter().zip(ranges).map(inside).collect();
-    JointState {
-        q: hold(&state.q, &limits.position),
-        qd: hold(&state.qd, &limits.velocity),
-        qdd: hold(&state.qdd, &limits.acceleration),
-        ..JointState::default()
-    }
+    JointState::new(|argument| {
+        let ranges = limits.of_argument(argument);
+        let entries = state.entries(argument).iter();
+        entries.zip(ranges).map(inside).collect()
+    })
 }

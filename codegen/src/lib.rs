@@ -18,7 +18,6 @@
 //! - `watch`: watching a long search, and ending it early
 //! - `search`: fewer operations, same function
 //! - `setup`: the robot in its scene: locked joints, results asked for
-//! - `trace`: the equations as a graph
 //! - `seeds`: the formulations to start from, tuned to the robot
 //! - `edits`: programs with less work in them, and how far they are off
 //! - `sincos`: sine and cosine by polynomials with proved errors
@@ -71,7 +70,6 @@ mod sincos;
 mod split;
 mod states;
 mod task;
-mod trace;
 mod verify;
 mod watch;
 mod words;

@@ -5,7 +5,7 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
-use dalembert_model::read::{self, Diagnostic, Options, closest};
+use dalembert_model::read::{self, Diagnostic, closest};
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 
@@ -61,7 +61,7 @@ impl RobotFile {
 
     fn parse_bytes(bytes: &[u8], shown: &str) -> Result<RobotFile, RobotFileError> {
         let source = String::from_utf8_lossy(bytes).into_owned();
-        match read::parse_bytes(bytes, &Options::default()) {
+        match read::parse_bytes(bytes) {
             Ok(reading) => Ok(RobotFile {
                 robot: reading.robot,
                 outputs: reading.outputs,

@@ -45,6 +45,16 @@ impl JointState {
         state
     }
 
+    /// Makes the state of joints that stand still.
+    pub fn at_rest(q: Vec<f64>) -> JointState {
+        JointState {
+            qd: vec![0.0; q.len()],
+            qdd: vec![0.0; q.len()],
+            q,
+            ..JointState::default()
+        }
+    }
+
     /// Returns the entries of an argument.
     pub fn entries(&self, argument: Argument) -> &[f64] {
         match argument {

@@ -11,31 +11,22 @@ use std::sync::Arc;
 
 use crate::function::Function;
 use crate::program::Counts;
+use crate::words::words;
 
-/// A part of the search for a function.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Part {
-    /// The formulations are traced and their regrouping is tuned.
-    Formulations,
-    /// Discovery and extraction in turns.
-    Search,
-    /// The program is proved and measured.
-    Proof,
-    /// Searching for what a tolerance allows to leave out.
-    Omissions,
-    /// Errors are bounded.
-    Bounds,
-}
-
-impl fmt::Display for Part {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Part::Formulations => "formulations",
-            Part::Search => "search",
-            Part::Proof => "proof",
-            Part::Omissions => "omissions",
-            Part::Bounds => "bounds",
-        })
+words! {
+    /// A part of the search for a function.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub enum Part: "part of a search" {
+        /// The formulations are traced and their regrouping is tuned.
+        Formulations = "formulations",
+        /// Discovery and extraction in turns.
+        Search = "search",
+        /// The program is proved and measured.
+        Proof = "proof",
+        /// Searching for what a tolerance allows to leave out.
+        Omissions = "omissions",
+        /// Errors are bounded.
+        Bounds = "bounds",
     }
 }
 

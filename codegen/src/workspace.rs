@@ -9,10 +9,9 @@ pub use crate::approximate::{
     sines::within,
 };
 pub use crate::bound::{
-    definite::{Indefinite, least_eigenvalue},
+    definite::least_eigenvalue,
     input_box::InputBox,
     magnitude::{BoxEffort, magnitudes},
-    ranges::Overflow,
     sample::{climb, draw},
     sensitivity::{BoundEffort, Sensitivity, rounding},
 };
@@ -40,13 +39,13 @@ pub use crate::language::{
 pub use crate::parallel::each;
 pub use crate::plan::{Edited, Entry, file as plan_file};
 pub use crate::program::{
-    Code, Input, Library, Literal, Need, Operand, Operation, Output, Pair, Step, Steps, Trig,
+    Code, Input, Library, Literal, Need, Operand, Operation, Output, Pair, Step, Steps,
     kernel::{Angle, Kernel},
     machine::Machine,
 };
 pub use crate::random::Random;
 pub use crate::search::{Limits, Pass, Schedule, cost, price, search as search_graphs};
-pub use crate::seeds::{Source, skeleton, skeleton_for, trace_chain};
+pub use crate::seeds::{Source, skeleton, skeleton_for, trace, trace_chain};
 pub use crate::setup::{
     Posed, SceneKey, Setup, Task,
     base::{BaseParameters, Parameter},
@@ -56,7 +55,6 @@ pub use crate::sincos::{AngleKernel, Sines, choose::Candidates, stated};
 pub use crate::split::ErrorByCause;
 pub use crate::states::{JointState, SEED, STATES, State, positions, seeded};
 pub use crate::task::Job;
-pub use crate::trace::{Trace, trace};
 pub use crate::verify::{
     exact::{Disproof, Proof, prove, prove_same},
     measure::{Emitted, Granted, LEAST_PART, Runtime},

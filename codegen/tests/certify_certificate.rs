@@ -3,8 +3,8 @@
 
 use dalembert_codegen::workspace::{
     BoundEffort, BoxEffort, Certificate, Folding, InputBox, Interval, Library, Literal, Node,
-    Printed, PruneSettings, Pruned, Sensitivity, Setup, Sines, Stage, difference, falsify,
-    magnitudes, omissions, prune, scale, stated, within, write_function,
+    Printed, PruneSettings, Pruned, Sensitivity, Sines, Stage, difference, falsify, magnitudes,
+    omissions, prune, scale, stated, within, write_function,
 };
 use dalembert_codegen::{Function, Program, ScalarType};
 use dalembert_model::number::Rational;
@@ -38,8 +38,8 @@ impl Exact {
 
     /// Returns the certificate of a program in its place.
     pub fn certificate(&self, emitted: &Program, scalar: ScalarType) -> Certificate {
-        let (robot, exact, limits) = (&self.robot, &self.program, &self.limits);
-        Certificate::make(robot, exact, emitted, scalar, limits, &self.scales)
+        let (exact, limits) = (&self.program, &self.limits);
+        Certificate::make(exact, emitted, scalar, limits, &self.scales)
     }
 
     /// Returns the program that remains within so much of each T.
@@ -61,7 +61,7 @@ impl Exact {
     fn with_sines(&self, scalar: ScalarType, sines: &Sines) -> Certificate {
         let sensitivity = Sensitivity::new(&self.program, &self.limits, BoundEffort::CERTIFY);
         let libm = self.certificate(&self.program, scalar);
-        libm.with_sines(&Setup::whole(&self.robot), sines, &sensitivity)
+        libm.with_sines(sines, &sensitivity)
     }
 }
 

@@ -1,12 +1,12 @@
 //! D stays positive definite where terms were left out, and that is certified.
 
 use dalembert_codegen::workspace::{
-    Edit, EditSite, Folding, Indefinite, JointState, PruneSettings, Pruned, Random, Stage,
-    ToleranceError, draw, least_eigenvalue, prune, scale,
+    Edit, EditSite, Folding, JointState, PruneSettings, Pruned, Random, Stage, ToleranceError,
+    draw, least_eigenvalue, prune, scale,
 };
-use dalembert_codegen::{Function, GenerateError, Program, ScalarType, generate};
+use dalembert_codegen::{Complaint, Function, GenerateError, Program, ScalarType, generate};
 use dalembert_model::number::Rational;
-use dalembert_model::read::{Options, parse};
+use dalembert_model::read::parse;
 use dalembert_model::robot::Robot;
 
 use crate::certify_certificate::Exact;
@@ -27,7 +27,7 @@ fn certified(exact: &Exact, emitted: &Program) -> Option<f64> {
 }
 
 /// Returns the bound that is found, or why there is none.
-fn least(exact: &Exact, emitted: &Program) -> Result<f64, Indefinite> {
+fn least(exact: &Exact, emitted: &Program) -> Result<f64, Complaint> {
     least_eigenvalue(emitted, ScalarType::F64, &[], &exact.limits)
 }
 
@@ -111,15 +111,15 @@ fn a_link_without_inertia_is_named() {
     let zero = Rational::default;
     let refused = |robot: Robot| {
         let exact = inertia(robot);
-        least(&exact, &exact.program).unwrap_err()
+        let why = least(&exact, &exact.program).unwrap_err();
+        why.to_string()
     };
     let mut robot = support::robot("planar3r");
     let last = &mut robot.joints[2];
     last.mass = zero();
     last.inertia = last.inertia.map(|_| zero());
     let why = refused(robot);
-    assert_eq!(why, Indefinite::Massless { joint: 2 });
-    assert!(why.to_string().contains("joint 3"), "{why}");
+    assert!(why.contains("joint 3 moves nothing"), "{why}");
 
     // Nothing but a point mass at the tip: singular where the arm is
     // stretched, though every diagonal entry is positive.
@@ -129,11 +129,13 @@ fn a_link_without_inertia_is_named() {
         joint.com = [zero(), zero(), zero()];
     }
     robot.joints[0].mass = zero();
-    assert_eq!(refused(robot), Indefinite::Unproved);
+    let why = refused(robot);
+    assert!(why.contains("could not be shown"), "{why}");
 
     let mut robot = support::robot("planar2r");
     robot.joints[1].inertia.zz = Rational::from_integer((-1).into());
-    assert_eq!(refused(robot), Indefinite::Negative { joint: 1 });
+    let why = refused(robot);
+    assert!(why.contains("a motion of joint 2"), "{why}");
 }
 
 /// An attack: a tolerance that admits polynomials with which D of the emitted
@@ -151,12 +153,7 @@ fn sines_that_are_off_leave_d_positive() {
     for emitted in &generated.emitted {
         for at in 0..=1000 {
             let elbow = f64::from(at) / 100.0 - 5.0;
-            let state = JointState {
-                q: vec![0.3, elbow],
-                qd: vec![0.0; 2],
-                qdd: vec![0.0; 2],
-                ..JointState::default()
-            };
+            let state = JointState::at_rest(vec![0.3, elbow]);
             let d = emitted.run(&state);
             assert!(d[0] > 0.0 && d[0] * d[3] > d[1] * d[2], "{elbow}: {d:?}");
         }
@@ -168,7 +165,7 @@ fn sines_that_are_off_leave_d_positive() {
 #[test]
 fn an_inertia_that_no_body_has_is_named() {
     let source = include_str!("../../cli/tests/data/negative_energy.toml");
-    let refused = parse(source, &Options::default()).unwrap_err().to_string();
+    let refused = parse(source).unwrap_err().to_string();
     assert!(refused.contains("a principal moment is negative"));
     // No file may have it, but a robot that a program made.
     let possible = source.replace("0.05, 0, 0.3, 0]", "0.05, 0, 0, 0]");
@@ -186,6 +183,6 @@ fn an_inertia_that_no_body_has_is_named() {
         let GenerateError::Tolerance(_, ToleranceError::Indefinite(why)) = why else {
             panic!("{said}")
         };
-        assert_eq!(why, Indefinite::Negative { joint: 0 });
+        assert!(why.message.contains("a motion of joint 1"), "{why}");
     }
 }

@@ -12,7 +12,7 @@ use dalembert_codegen::workspace::{
 };
 use dalembert_codegen::{Function, Generated, Plan, generate};
 use dalembert_model::number::{Exact, Rational};
-use dalembert_model::read::{Options, parse};
+use dalembert_model::read::parse;
 use dalembert_model::scalar::Scalar;
 use serde_json::Value;
 
@@ -384,7 +384,7 @@ fn scenes() {
         let digit = random.below(10).to_string();
         let mut own = honest[tried % 2].clone();
         own.robot.replace_range(at..=at, &digit);
-        let robot = parse(&own.robot, &Options::default()).ok();
+        let robot = parse(&own.robot).ok();
         let Some(robot) = robot.filter(|_| own.robot != ROBOT) else {
             continue;
         };

@@ -6,9 +6,9 @@
 //! never said to be contradicted. The reader's own fuzzing, of arbitrary bytes, is in the model's
 //! tests.
 
-use dalembert_codegen::workspace::{Random, seeded};
+use dalembert_codegen::workspace::{Random, Word, seeded};
 use dalembert_codegen::{Function, GenerateError, Request, ScalarType, Start, generate};
-use dalembert_model::read::{Options, parse};
+use dalembert_model::read::parse;
 use dalembert_model::robot::write;
 
 use crate::support::draw::{Draw, robots};
@@ -60,7 +60,7 @@ fn every_start_leads_to_the_same_function() {
     let small = robots(16, 0xa9ee).filter(|(_, robot, _)| robot.joints.len() <= 3);
     for (seed, robot, mut draw) in small {
         let function = function(robot.joints.len(), &mut draw);
-        for start in Start::all() {
+        for (_, start) in Start::all() {
             let mut request = Request::new(&[function]);
             request.start = start;
             let found = generate(&robot, &request);
@@ -139,7 +139,7 @@ fn accepted_files_give_proved_code() {
     let (mut accepted, mut proved) = (0, 0);
     for _ in 0..runs {
         let source = file(&mut random);
-        let Ok(reading) = parse(&source, &Options::default()) else {
+        let Ok(reading) = parse(&source) else {
             continue;
         };
         accepted += 1;

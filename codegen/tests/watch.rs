@@ -63,7 +63,7 @@ fn an_early_end_keeps_the_best_so_far() {
     for until in [Part::Formulations, Part::Search] {
         let (generated, seen) = watched(two(), Effort::Thorough, Some(until));
         let rounds = seen.iter().filter(|p| p.part == Part::Search).count();
-        assert!(rounds <= 1, "{until}: {rounds} rounds");
+        assert!(rounds <= 1, "{until:?}: {rounds} rounds");
         for function in &generated.functions {
             let passes = &function.passes;
             let began = passes.iter().find(|s| s.name == "fingerprints").unwrap();
@@ -121,10 +121,10 @@ fn an_early_end_is_no_worse_than_the_quick_search() {
     assert!(!quick.ended && leaves_out(&quick));
     for until in [Part::Formulations, Part::Search] {
         let ended = run(Effort::Thorough, Some(until));
-        assert!(ended.ended && leaves_out(&ended), "{until}");
+        assert!(ended.ended && leaves_out(&ended), "{until:?}");
         for (ended, quick) in ended.functions.iter().zip(&quick.functions) {
             let [ours, theirs] = [ended, quick].map(|own| price(&own.program.counts()));
-            assert!(ours <= theirs, "{until}: {ours}, quick: {theirs}");
+            assert!(ours <= theirs, "{until:?}: {ours}, quick: {theirs}");
         }
     }
 }

@@ -10,7 +10,7 @@ use std::error::Error;
 use dalembert_fit::random::{Random, within};
 use dalembert_fit::simulate::{Recording, record};
 use dalembert_fit::{
-    Accumulator, Effort, Model, Options, consistent, cross_validation, excite, fit, identified,
+    Accumulator, Effort, Model, consistent, cross_validation, excite, fit, identified,
 };
 use dalembert_model::read::parse_bytes;
 use dalembert_model::robot::write;
@@ -25,8 +25,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         _ => return Err(usage.into()),
     };
     let bytes = std::fs::read(&path).map_err(|why| format!("{path}: {why}"))?;
-    let reading = parse_bytes(&bytes, &Default::default()).map_err(|why| why.to_string())?;
-    let model = Model::new(&reading.robot, &Options::default())?;
+    let reading = parse_bytes(&bytes).map_err(|why| why.to_string())?;
+    let model = Model::new(&reading.robot)?;
     let n = model.joints();
 
     // The arm that is logged: parameters a fifth off, and friction.

@@ -51,7 +51,7 @@ pub use excite::{Effort, excite};
 pub use fit::{Fit, fit};
 pub use fourier::Trajectory;
 pub use limits::Limits;
-pub use model::{Column, Model, Options};
+pub use model::{Column, Model};
 pub use robot_file::identified;
 pub use suspect::{Change, Suspicion, suspect};
 pub use watch::Watch;

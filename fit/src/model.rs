@@ -23,33 +23,8 @@ use crate::limits::Limits;
 use crate::random::{Random, within};
 use derive::candidates;
 
-/// What is identified beside the links' parameters.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Options {
-    /// Inertias of the drives' rotors.
-    pub armature: bool,
-    /// Viscous friction.
-    pub viscous: bool,
-    /// Coulomb friction.
-    pub coulomb: bool,
-    /// A constant that is added to each measured torque.
-    pub offset: bool,
-    /// Width w of Coulomb friction, rad/s or m/s, of joints of which the file has none.
-    pub coulomb_width: f64,
-}
-
-impl Default for Options {
-    /// Returns all of them, with a width of 0.01.
-    fn default() -> Self {
-        Options {
-            armature: true,
-            viscous: true,
-            coulomb: true,
-            offset: true,
-            coulomb_width: 0.01,
-        }
-    }
-}
+/// Width w of Coulomb friction, rad/s or m/s, of joints of which the file has none.
+const COULOMB_WIDTH: f64 = 0.01;
 
 /// What a column of the regressor is the torque of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,7 +41,6 @@ pub enum Column {
 #[derive(Clone, Debug)]
 pub struct Model {
     robot: Robot,
-    options: Options,
     limits: Vec<Limits>,
     columns: Vec<Column>,
     /// Each base parameter as a sum of the robot's own.
@@ -85,12 +59,7 @@ impl Model {
     /// # Errors
     /// [`Error::NoBaseParameters`] where odd angles between joints make them too long, and
     /// [`Error::Option`].
-    pub fn new(robot: &Robot, options: &Options) -> Result<Model, Error> {
-        if !(options.coulomb_width > 0.0 && options.coulomb_width.is_finite()) {
-            return Err(Error::Option(
-                "`coulomb_width` has to be a positive number, such as 0.01 rad/s",
-            ));
-        }
+    pub fn new(robot: &Robot) -> Result<Model, Error> {
         if !robot.followers.is_empty() {
             return Err(Error::Option(
                 "joints that follow others (`mimic`) are not identified: fit the arm without them, \
@@ -105,7 +74,7 @@ impl Model {
             ));
         }
         let n = robot.joints.len();
-        let scene = Setup::whole(&candidates(robot, options));
+        let scene = Setup::whole(&candidates(robot));
         let base = scene.base(Quantity::BaseRegressor);
         let base = base.map_err(|why| Error::NoBaseParameters(why.to_string()))?;
         let arm = Arm::from_robot(robot, &mut Exact::clone).fold_base();
@@ -121,19 +90,14 @@ impl Model {
             terms.map(|(of, x)| (*of, f64::nearest(x))).collect()
         };
         let mut columns: Vec<Column> = (0..base.columns.len()).map(Column::Base).collect();
-        if options.coulomb {
-            columns.extend((0..n).map(Column::Coulomb));
-        }
-        if options.offset {
-            columns.extend((0..n).map(Column::Offset));
-        }
+        columns.extend((0..n).map(Column::Coulomb));
+        columns.extend((0..n).map(Column::Offset));
         let width = |joint: &dalembert_model::robot::Joint| match joint.coulomb_width.is_zero() {
-            true => options.coulomb_width,
+            true => COULOMB_WIDTH,
             false => f64::nearest_rational(&joint.coulomb_width),
         };
         let mut model = Model {
             robot: robot.clone(),
-            options: options.clone(),
             limits,
             combinations: base.combinations.iter().map(each).collect(),
             chain: chain.map(f64::nearest),
@@ -155,14 +119,9 @@ impl Model {
     }
 
     /// Returns the robot whose generated `regressor` has the columns of the base parameters:
-    /// that of the file, with the drives that are identified.
+    /// that of the file, with its drives.
     pub fn generator_robot(&self) -> Robot {
-        candidates(&self.robot, &self.options)
-    }
-
-    /// Returns what is identified beside the links' parameters.
-    pub fn options(&self) -> &Options {
-        &self.options
+        candidates(&self.robot)
     }
 
     /// Returns the joints' limits.

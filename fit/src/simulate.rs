@@ -43,7 +43,7 @@ impl Recording {
     }
 
     /// Returns positions as the encoders tell them.
-    fn read(&self, q: &[f64]) -> Vec<f64> {
+    pub fn read(&self, q: &[f64]) -> Vec<f64> {
         let step = self.resolution;
         let read = |q: &f64| match step > 0.0 {
             true => step * libm::round(*q / step),

@@ -1,7 +1,7 @@
 //! Parts that merge give what the whole gives, and bytes come back.
 
 use dalembert_fit::random::Random;
-use dalembert_fit::{Accumulator, Error, Model, Options, fit};
+use dalembert_fit::{Accumulator, Error, Model, fit};
 
 use crate::support::{ARMS, State, accumulated, arm, file, model, states, torques};
 
@@ -139,11 +139,7 @@ fn bytes_are_refused_that_are_not_its_own() {
         Accumulator::from_bytes(&model, &infinite),
         Err(Error::Bytes(_))
     ));
-    let other = Options {
-        offset: false,
-        ..Options::default()
-    };
-    let other = Model::new(&file("puma560"), &other).unwrap();
+    let other = Model::new(&file("stanford")).unwrap();
     assert_eq!(
         Accumulator::from_bytes(&other, &bytes),
         Err(Error::OtherModel)

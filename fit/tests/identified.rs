@@ -17,7 +17,7 @@ fn the_new_robot_file_has_the_parameters() {
         let free = fit(&model, &data).unwrap();
         let bodies = consistent(&model, &free).unwrap();
         let text = write(&identified(&model, &bodies).unwrap());
-        let read = parse(&text, &Default::default()).unwrap();
+        let read = parse(&text).unwrap();
         let again = crate::support::model(&read.robot);
         // Other masses: logs of one arm may be fitted from any file of it.
         assert_eq!(again.fingerprint(), model.fingerprint());

@@ -1,6 +1,6 @@
 //! Y π is the torque of the model's own equations, for π of the robot file.
 
-use dalembert_fit::{Column, Error, Model, Options};
+use dalembert_fit::{Column, Error, Model};
 use dalembert_model::reference::Reference;
 use nalgebra::DVector;
 
@@ -57,9 +57,7 @@ fn offsets_that_weights_give_as_well_have_no_column() {
         "/../model/tests/data/scara.toml"
     );
     let text = std::fs::read_to_string(path).unwrap();
-    let robot = dalembert_model::read::parse(&text, &Default::default())
-        .unwrap()
-        .robot;
+    let robot = dalembert_model::read::parse(&text).unwrap().robot;
     let slide = (robot.joints.iter())
         .position(|joint| joint.kind == dalembert_model::robot::JointKind::Prismatic)
         .unwrap();
@@ -83,13 +81,8 @@ fn wrong_input_is_told() {
             ..
         })
     ));
-    let options = Options {
-        coulomb_width: 0.0,
-        ..Options::default()
-    };
-    assert!(Model::new(&file("puma560"), &options).is_err());
     let mut still = file("puma560");
     still.joints[2].limits.velocity = Some(crate::support::number(0.0));
-    let why = Model::new(&still, &Options::default()).unwrap_err();
+    let why = Model::new(&still).unwrap_err();
     assert!(why.to_string().contains("more than zero"), "{why}");
 }

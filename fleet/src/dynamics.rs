@@ -7,8 +7,8 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use dalembert_fit::{Accumulator, Model, Options};
-use dalembert_jit::{Arm, Asked, Load, Native, Output, Place, Rows, RowsMut, Scalar};
+use dalembert_fit::{Accumulator, Model};
+use dalembert_jit::{Arm, Asked, Load, Native, Output, Place, Scalar};
 use dalembert_model::robot::{Robot, write};
 
 use crate::error::Error;
@@ -182,7 +182,7 @@ fn code(arm: &Arm) -> Result<&Native, Error> {
 }
 
 fn fitted(robot: &Robot) -> Result<(Model, Arm), Error> {
-    let model = Model::new(robot, &Options::default())?;
+    let model = Model::new(robot)?;
     let text = write(&model.generator_robot());
     let load = load(&Default::default(), Output::Regressor);
     let arm = Arm::parse(&text, "the robot with its drives", None, &load);
@@ -231,14 +231,8 @@ fn call(
     entries: usize,
 ) -> Result<(), Error> {
     let place = Place::columns(joints, states.count);
-    let read = [states.q, states.qd, states.qdd].map(|data| Rows {
-        data,
-        place: place.clone(),
-    });
-    let mut written = [RowsMut {
-        data: results,
-        place: Place::columns(entries, states.count),
-    }];
+    let read = [states.q, states.qd, states.qdd].map(|data| (data, place.clone()));
+    let mut written = [(results, Place::columns(entries, states.count))];
     let called = native.call_rows(&read, &mut written, states.count, 1);
     called.map_err(Error::new)
 }

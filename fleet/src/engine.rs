@@ -184,7 +184,7 @@ impl Engine {
             };
             arguments.push(scaled(time, factor));
         }
-        for (source, factors) in log.layout.sources.iter().zip(&log.columns.factors) {
+        for (source, factors) in log.layout.iter().zip(&log.columns.factors) {
             match source {
                 Some(Source::List(name)) => arguments.push(ident(name)),
                 Some(Source::Columns(names)) => {

@@ -24,7 +24,7 @@ fn imports_and_pictures_are_what_is_checked_in() {
             assert!(expected.len() < 60_000, "{name} is large");
         }
         // The robot file with its head gives the robot that was imported.
-        let reading = read::parse(&text(&entry.arm.robot_file()), &read::Options::default());
+        let reading = read::parse(&text(&entry.arm.robot_file()));
         assert_eq!(reading.unwrap().robot, entry.robot, "{}", entry.arm.name);
     }
 }

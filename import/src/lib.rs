@@ -99,7 +99,7 @@ use dalembert_model::robot::Robot;
 
 pub use arms::{Arms, Shared, arms};
 pub use change::{Change, Displacement, Motion};
-pub use open::{Opened, Unopened, is_model, open, open_text, read_robot};
+pub use open::{Opened, Unopened, first_bytes, is_model, open, open_text, read_robot};
 use problems::Problems;
 pub use snap::Snap;
 use snap::Snapping;
@@ -232,7 +232,7 @@ fn imported(source: &str, options: &Options, problems: &mut Problems) -> Option<
     }
     let (snapped, snaps, arm, change) = taken;
     let text = write::file(&snapped, &chain, &arm, (&snaps, stays), options, problems);
-    let reading = match read::parse(&text, &read::Options::default()) {
+    let reading = match read::parse(&text) {
         Ok(reading) => reading,
         Err(errors) => {
             problems.refused(&errors, &text);

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use dalembert_model::number::parse::parse_decimal;
-use dalembert_model::number::{Angle, Snap, Snapped};
+use dalembert_model::number::{Angle, Snapped};
 use dalembert_model::robot::Position;
 
 use crate::meant::meant;
@@ -113,7 +113,7 @@ pub(crate) fn right(angle: Angle) -> Angle {
     let Angle::Radians(value) = angle else {
         return angle;
     };
-    match Snap::RightAngles.apply(value) {
+    match Snapped::of_radians(value) {
         Snapped::Kept(angle) | Snapped::Taken(angle) | Snapped::Near { angle, .. } => angle,
     }
 }

@@ -63,7 +63,7 @@ pub fn open(path: &Path, options: &Options) -> Result<Opened, Unopened> {
 /// [`Unopened`]: a file cannot be read, is no text, or is included twice.
 pub fn open_text(path: &Path) -> Result<Text, Unopened> {
     let shown = path.display().to_string();
-    let bytes = first(path, MAX_BYTES as u64 + 1).map_err(Unopened::System)?;
+    let bytes = first_bytes(path, MAX_BYTES as u64 + 1).map_err(Unopened::System)?;
     if is_model(&bytes) {
         let wrong = |why: String| Unopened::Wrong(format!("error: `{shown}` {why}"));
         if bytes.len() > MAX_BYTES {
@@ -82,7 +82,7 @@ pub fn open_text(path: &Path) -> Result<Text, Unopened> {
         return Ok(Text::of(&shown, text.to_owned()));
     }
     // The reader of robot files says where it is none, or too long.
-    let errors = read::parse_bytes(&bytes, &read::Options::default()).err();
+    let errors = read::parse_bytes(&bytes).err();
     let errors = errors.map(|errors| errors.render(&shown, &String::from_utf8_lossy(&bytes)));
     Err(Unopened::Wrong(errors.unwrap_or_default()))
 }
@@ -100,7 +100,7 @@ pub fn read_robot(source: Text, options: &Options) -> Result<Opened, String> {
         Some(imported) => imported.text.clone(),
         None => source.as_str().to_owned(),
     };
-    let reading = read::parse(&robot_file, &read::Options::default());
+    let reading = read::parse(&robot_file);
     // What was imported was read once already.
     let reading = reading.map_err(|errors| errors.render(source.name(), &robot_file))?;
     Ok(Opened {
@@ -117,8 +117,11 @@ pub fn is_model(text: &[u8]) -> bool {
     text.trim_ascii_start().starts_with(b"<")
 }
 
-/// Returns the first bytes of a file: no more are read, since a device may have no end.
-fn first(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+/// Returns the first `most` bytes of a file and reads no more, since a device may have no end.
+///
+/// # Errors
+/// The file cannot be opened or read.
+pub fn first_bytes(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     File::open(path)?.take(most).read_to_end(&mut bytes)?;
     Ok(bytes)
@@ -130,6 +133,6 @@ fn included(path: &Path) -> Result<String, String> {
     if !found.is_file() {
         return Err("it is no file".to_owned());
     }
-    let bytes = first(path, MAX_BYTES as u64 + 1).map_err(|error| error.to_string())?;
+    let bytes = first_bytes(path, MAX_BYTES as u64 + 1).map_err(|error| error.to_string())?;
     String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())
 }

@@ -14,7 +14,7 @@ pub(crate) const MAX_NAMES: usize = 30;
 /// Collects them, in any order.
 #[derive(Default)]
 pub(crate) struct Problems<'s> {
-    source: &'s str,
+    pub(crate) source: &'s str,
     /// The source with the files that it is made of.
     text: Option<&'s Text>,
     found: Vec<Diagnostic>,

@@ -91,7 +91,7 @@ fn answers(seed: u64, cases: &[(String, Options)]) -> (usize, usize) {
                 Ok(imported) => {
                     made += 1;
                     assert_eq!(import(&source, &options).unwrap().text, imported.text);
-                    let again = read::parse(&imported.text, &read::Options::default()).unwrap();
+                    let again = read::parse(&imported.text).unwrap();
                     assert_eq!(again.robot, imported.robot);
                     let change = imported.change.map(|change| change.to_string());
                     assert!(change.is_none_or(|change| !change.contains("NaN")));

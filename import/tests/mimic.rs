@@ -70,7 +70,7 @@ fn limits_of_a_follower_are_its_leaders() {
         "{text}"
     );
     assert!(lift.position.is_some() && shoulder.position.is_some());
-    let again = dalembert_model::read::parse(&text, &Default::default()).unwrap();
+    let again = dalembert_model::read::parse(&text).unwrap();
     assert_eq!(again.robot, robot);
 }
 

@@ -198,7 +198,7 @@ fn exact_digits_are_no_warning() {
     for digits in ["1.5708", "1.5707963267948966", "-3.14159265358979"] {
         let source = ARM.replace("1.5708", digits);
         let text = taken(&source, &with(|o| o.exact = true)).text;
-        let reading = read::parse(&text, &read::Options::default()).unwrap();
+        let reading = read::parse(&text).unwrap();
         assert_eq!(reading.notes, [], "{text}");
     }
 }
@@ -465,7 +465,7 @@ fn torques_are_not_moved_unasked() {
     let near = with_snap("1.570796326797", false);
     has(&kept.text, &["rpy = [1.5708, 0, 0]"]);
     // Of digits that stay, the reader of robot files has nothing to say.
-    let again = read::parse(&kept.text, &read::Options::default()).unwrap();
+    let again = read::parse(&kept.text).unwrap();
     assert_eq!(again.notes, []);
     let stay = "rounded numbers stay as they are";
     assert!(notes(&kept).iter().any(|note| note.1.contains(stay)));

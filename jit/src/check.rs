@@ -4,7 +4,7 @@ use dalembert_codegen::workspace::{Argument, Code, Machine, State};
 
 use crate::compile::Signature;
 use crate::error::{CallError, CompileError};
-use crate::rows::{Place, Rows, RowsMut};
+use crate::rows::Place;
 
 /// How many states are compared.
 pub const STATES: usize = 64;
@@ -102,7 +102,7 @@ pub(crate) fn check_many<T: Machine + Default>(
     program: &Code,
     signature: &Signature,
     place: impl Fn(usize) -> Place,
-    call: impl Fn(&[Rows<'_, T>], &mut [RowsMut<'_, T>]) -> Result<(), CallError>,
+    call: impl Fn(&[(&[T], Place)], &mut [(&mut [T], Place)]) -> Result<(), CallError>,
 ) -> Result<(), CallError> {
     let states = drawn::<T>(signature);
     let data = signature.arguments.iter().enumerate();
@@ -116,26 +116,16 @@ pub(crate) fn check_many<T: Machine + Default>(
         data
     });
     let data: Vec<Vec<T>> = data.collect();
-    let rows = data
-        .iter()
-        .zip(&signature.arguments)
-        .map(|(data, &(_, len))| Rows {
-            data,
-            place: place(len),
-        });
-    let rows: Vec<Rows<'_, T>> = rows.collect();
+    let rows = data.iter().zip(&signature.arguments);
+    let rows = rows.map(|(data, &(_, len))| (data.as_slice(), place(len)));
+    let rows: Vec<(&[T], Place)> = rows.collect();
     let mut found: Vec<Vec<T>> = signature
         .results
         .iter()
         .map(|len| vec![T::default(); len * STATES])
         .collect();
-    let results = found
-        .iter_mut()
-        .zip(&signature.results)
-        .map(|(data, &len)| RowsMut {
-            data,
-            place: place(len),
-        });
+    let results = found.iter_mut().zip(&signature.results);
+    let results = results.map(|(data, &len)| (data.as_mut_slice(), place(len)));
     call(&rows, &mut results.collect::<Vec<_>>())?;
     for (state, arguments) in states.iter().enumerate() {
         let entries = |(found, &len): (&Vec<T>, &usize)| -> Vec<T> {

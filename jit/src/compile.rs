@@ -38,12 +38,6 @@ impl Signature {
 /// The name by which code calls [`crate::native`]'s library of sines.
 const LIBRARY: &str = "dalembert_sines_of";
 
-/// A module of machine code, and where its one function is.
-pub(crate) struct Linked {
-    pub(crate) module: JITModule,
-    pub(crate) entry: *const u8,
-}
-
 /// Layouts of the states that a function computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum States {
@@ -55,13 +49,13 @@ pub(crate) enum States {
     Adjacent,
 }
 
-/// Compiles a program.
+/// Compiles a program; returns the module of machine code, and where its one function is.
 pub(crate) fn compile(
     code: &Code,
     signature: &Signature,
     states: States,
     library: *const u8,
-) -> Result<Linked, CompileError> {
+) -> Result<(JITModule, *const u8), CompileError> {
     let mut flags = settings::builder();
     let verifies = cfg!(debug_assertions).to_string();
     for (name, value) in [
@@ -86,7 +80,7 @@ pub(crate) fn compile(
         .finalize_definitions()
         .map_err(CompileError::cranelift)?;
     let entry = module.get_finalized_function(function);
-    Ok(Linked { module, entry })
+    Ok((module, entry))
 }
 
 fn define(

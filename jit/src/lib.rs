@@ -57,7 +57,7 @@ pub use compile::Signature;
 pub use error::{CallError, CompileError, LoadError};
 pub use native::{MOST_ARGUMENTS, Native, Real};
 pub use request::{Cache, Load};
-pub use rows::{Place, Rows, RowsMut};
+pub use rows::Place;
 
 #[doc(inline)]
 pub use dalembert_codegen::ScalarType as Scalar;

@@ -14,8 +14,7 @@ use crate::error::LoadError;
 use crate::request::Load;
 
 pub(crate) fn read_robot(source: &str, name: &str) -> Result<Reading, LoadError> {
-    read::parse(source, &read::Options::default())
-        .map_err(|errors| LoadError::Robot(errors.render(name, source)))
+    read::parse(source).map_err(|errors| LoadError::Robot(errors.render(name, source)))
 }
 
 /// Reads, searches, proves and prints.

@@ -19,10 +19,10 @@ use dalembert_codegen::workspace::{Code, Machine};
 use dalembert_sines::text::Angle;
 
 use crate::check::{STATES, check, check_many};
-use crate::compile::{Linked, Signature, States, compile};
+use crate::compile::{Signature, States, compile};
 use crate::emit::{Call, Lanes};
 use crate::error::{CallError, CompileError};
-use crate::rows::{Place, Rows, RowsMut};
+use crate::rows::Place;
 
 /// Memory with a function in it.
 struct InMemory {
@@ -38,11 +38,14 @@ unsafe impl Send for InMemory {}
 unsafe impl Sync for InMemory {}
 
 impl InMemory {
-    fn new(linked: Linked) -> InMemory {
-        InMemory {
-            module: ManuallyDrop::new(linked.module),
-            entry: linked.entry,
-        }
+    fn of(code: &Code, signature: &Signature, states: States) -> Result<InMemory, CompileError> {
+        let library = match code.scalar {
+            ScalarType::F64 => library::<f64> as *const u8,
+            ScalarType::F32 => library::<f32> as *const u8,
+        };
+        let (module, entry) = compile(code, signature, states, library)?;
+        let module = ManuallyDrop::new(module);
+        Ok(InMemory { module, entry })
     }
 }
 
@@ -91,18 +94,11 @@ extern "C" fn library<T: Real>(angles: *mut T, count: usize, kind: usize) {
     // SAFETY: the code passes the address of a slot of its own frame that has room for
     // three times as many numbers and is aligned to them (whatever bits are there are a
     // number); nothing else refers to it until this returns. `T` is the scalar that it was
-    // compiled for, since `library_address` chose this function by it.
+    // compiled for, since `InMemory::of` chose this function by it.
     let all = unsafe { std::slice::from_raw_parts_mut(angles, 3 * count) };
     let (angles, pairs) = all.split_at_mut(count);
     let (sines, cosines) = pairs.split_at_mut(count);
     self::sines(angles, sines, cosines, kind);
-}
-
-fn library_address(scalar: ScalarType) -> *const u8 {
-    match scalar {
-        ScalarType::F64 => library::<f64> as *const u8,
-        ScalarType::F32 => library::<f32> as *const u8,
-    }
 }
 
 /// The machine code of a program.
@@ -112,18 +108,12 @@ pub struct Native {
     program: Code,
     signature: Signature,
     one: InMemory,
-    apart: Many,
-    adjacent: Many,
+    apart: OnceLock<Many>,
+    adjacent: OnceLock<Many>,
 }
 
-/// The code for many states.
-#[derive(Default)]
-struct Many {
-    /// Compiled when it is asked for.
-    code: OnceLock<Result<InMemory, CompileError>>,
-    /// The result of its comparison with the program.
-    checked: OnceLock<Result<(), CallError>>,
-}
+/// The code for many states, compiled and compared with the program when it is asked for.
+type Many = Result<InMemory, CallError>;
 
 impl Native {
     /// Compiles a program.
@@ -135,14 +125,12 @@ impl Native {
         if expected != found {
             return Err(CompileError::Results { expected, found });
         }
-        let library = library_address(program.scalar);
-        let one = compile(&program, &signature, States::One, library)?;
         let native = Native {
+            one: InMemory::of(&program, &signature, States::One)?,
             program,
             signature,
-            one: InMemory::new(one),
-            apart: Many::default(),
-            adjacent: Many::default(),
+            apart: OnceLock::new(),
+            adjacent: OnceLock::new(),
         };
         match native.program.scalar {
             ScalarType::F64 => native.check_one::<f64>()?,
@@ -157,7 +145,7 @@ impl Native {
         })
     }
 
-    fn check_many<T: Real>(&self, states: States) -> Result<(), CallError> {
+    fn check_many<T: Real>(&self, states: States, code: &InMemory) -> Result<(), CallError> {
         let place = |entries| match states {
             States::Adjacent => Place::columns(entries, STATES),
             _ => Place::rows(entries),
@@ -166,7 +154,7 @@ impl Native {
             &self.program,
             &self.signature,
             place,
-            |arguments, results| self.rows::<T>(arguments, results, STATES, 1, states),
+            |arguments, results| self.rows::<T>(code, arguments, results, STATES, 1),
         )
     }
 
@@ -223,58 +211,57 @@ impl Native {
         unsafe { one(addresses.as_ptr(), results.as_mut_ptr()) };
     }
 
-    /// Computes the results of many states, on so many threads at most.
+    /// Computes the results of many states, on so many threads at most, each argument and result
+    /// a slice with where the numbers lie in it.
     ///
     /// # Errors
     /// [`CallError`], if an entry is outside of its slice or two results are at one place.
     pub fn call_rows<T: Real>(
         &self,
-        arguments: &[Rows<'_, T>],
-        results: &mut [RowsMut<'_, T>],
+        arguments: &[(&[T], Place)],
+        results: &mut [(&mut [T], Place)],
         states: usize,
         threads: usize,
     ) -> Result<(), CallError> {
-        let read = arguments.iter().map(|rows| &rows.place);
-        let mut places = read.chain(results.iter().map(|rows| &rows.place));
+        let read = arguments.iter().map(|(_, place)| place);
+        let mut places = read.chain(results.iter().map(|(_, place)| place));
         let layout = match places.all(|place| place.state == 1) {
             true => States::Adjacent,
             false => States::Apart,
         };
-        self.prepare(layout)?;
-        self.rows(arguments, results, states, threads, layout)
+        self.rows(self.many(layout)?, arguments, results, states, threads)
     }
 
     fn rows<T: Real>(
         &self,
-        arguments: &[Rows<'_, T>],
-        results: &mut [RowsMut<'_, T>],
+        many: &InMemory,
+        arguments: &[(&[T], Place)],
+        results: &mut [(&mut [T], Place)],
         states: usize,
         threads: usize,
-        layout: States,
     ) -> Result<(), CallError> {
         self.check_scalar::<T>()?;
         let signature = &self.signature;
         count(signature.arguments.len(), arguments.len())?;
         count(signature.results.len(), results.len())?;
         let lengths = signature.arguments.iter().map(|&(_, len)| len);
-        for ((place, len), rows) in lengths.enumerate().zip(arguments) {
-            rows.place.check(place, len, states, rows.data.len())?;
+        for ((at, len), (data, place)) in lengths.enumerate().zip(arguments) {
+            place.check(at, len, states, data.len())?;
         }
-        for ((place, &len), rows) in signature.results.iter().enumerate().zip(&*results) {
-            let place = place + arguments.len();
-            rows.place.check(place, len, states, rows.data.len())?;
-            rows.place.check_apart(place, states)?;
+        for ((at, &len), (data, place)) in signature.results.iter().enumerate().zip(&*results) {
+            let at = at + arguments.len();
+            place.check(at, len, states, data.len())?;
+            place.check_apart(at, states)?;
         }
         let read: Vec<(*const T, &Place)> = arguments
             .iter()
-            .map(|rows| (rows.data.as_ptr(), &rows.place))
+            .map(|(data, place)| (data.as_ptr(), place))
             .collect();
         let written: Vec<(*mut T, &Place)> = results
             .iter_mut()
-            .map(|rows| (rows.data.as_mut_ptr(), &rows.place))
+            .map(|(data, place)| (data.as_mut_ptr(), &*place))
             .collect();
         let (read, written) = (Shared(read), Shared(written));
-        let many = self.many(layout)?;
         let lanes = Lanes::Vector.count(self.program.scalar);
         let threads = threads.clamp(1, (states / LEAST_STATES).max(1));
         // Whole vectors to all but the last.
@@ -353,20 +340,20 @@ impl Native {
     }
 
     fn many(&self, states: States) -> Result<&InMemory, CallError> {
-        let many = self.of(states).code.get_or_init(|| {
-            let library = library_address(self.program.scalar);
-            let linked = compile(&self.program, &self.signature, states, library)?;
-            Ok(InMemory::new(linked))
-        });
-        many.as_ref()
-            .map_err(|error| CallError::Compile(error.clone()))
-    }
-
-    fn of(&self, states: States) -> &Many {
-        match states {
+        let many = match states {
             States::Adjacent => &self.adjacent,
             _ => &self.apart,
-        }
+        };
+        let many = many.get_or_init(|| {
+            let code = InMemory::of(&self.program, &self.signature, states);
+            let code = code.map_err(CallError::Compile)?;
+            match self.program.scalar {
+                ScalarType::F64 => self.check_many::<f64>(states, &code)?,
+                ScalarType::F32 => self.check_many::<f32>(states, &code)?,
+            }
+            Ok(code)
+        });
+        many.as_ref().map_err(CallError::clone)
     }
 
     /// Compiles the code for many states in columns, which the first call of it does otherwise,
@@ -375,18 +362,7 @@ impl Native {
     /// # Errors
     /// [`CallError::Compile`].
     pub fn prepare_columns(&self) -> Result<(), CallError> {
-        self.prepare(States::Adjacent)
-    }
-
-    fn prepare(&self, states: States) -> Result<(), CallError> {
-        let checked = self
-            .of(states)
-            .checked
-            .get_or_init(|| match self.program.scalar {
-                ScalarType::F64 => self.check_many::<f64>(states),
-                ScalarType::F32 => self.check_many::<f32>(states),
-            });
-        checked.clone()
+        self.many(States::Adjacent).map(|_| ())
     }
 }
 

@@ -86,21 +86,3 @@ impl Place {
         }
     }
 }
-
-/// An argument of many states.
-#[derive(Clone, Debug)]
-pub struct Rows<'a, T> {
-    /// The numbers.
-    pub data: &'a [T],
-    /// Where they are.
-    pub place: Place,
-}
-
-/// A result of many states.
-#[derive(Debug)]
-pub struct RowsMut<'a, T> {
-    /// The numbers.
-    pub data: &'a mut [T],
-    /// Where they go.
-    pub place: Place,
-}

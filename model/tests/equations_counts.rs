@@ -32,7 +32,7 @@ fn torques<'a>(formulation: Formulation, arm: &Arm<Count<'a>>, counter: &'a Coun
     let at = arm.at(&position.collect::<Vec<_>>());
     let rates = vec![counter.value(); arm.links.len()];
     formulation.inverse_dynamics(arm, &at, &rates, &rates);
-    (counter.multiplications(), counter.additions())
+    counter.counts()
 }
 
 /// Returns the counts of a golden robot: its numbers are numbers, not values.

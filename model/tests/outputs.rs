@@ -6,7 +6,7 @@ mod slopes;
 
 use crate::equations_support::random::{self, CONVENTIONS, Case, case, fields, pair, pose};
 use dalembert_model::equations::chain::Body;
-use dalembert_model::equations::regressor::{Column, LinkParameter, of_links};
+use dalembert_model::equations::regressor::{Column, LinkParameter, Probed, of_links};
 use dalembert_model::equations::{Arm, DhVariables, Formulation, Link};
 use dalembert_model::outputs::{Argument, Axis, Function, Motion, Quantity, Sizes, Written};
 use dalembert_model::robot::{Convention, Inertia, JointKind};
@@ -165,9 +165,11 @@ fn columns(case: &Case, points: &mut Points) -> Vec<Column<Field>> {
             first: [(); 3].map(|()| points.field()),
             second: Inertia::of([(); 6].map(|()| points.field())),
         };
-        columns[10 * joint + place] = Column::Body { joint, body };
+        let of = Probed::Body(body);
+        columns[10 * joint + place] = Column { joint, of };
     }
-    (columns[4], columns[5]) = (Column::Armature(n - 1), Column::Viscous(0));
+    (columns[4].joint, columns[4].of) = (n - 1, Probed::Armature);
+    (columns[5].joint, columns[5].of) = (0, Probed::Viscous);
     columns
 }
 

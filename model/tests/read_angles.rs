@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::support::ratio;
 use dalembert_model::number::parse::{NumberError, parse_decimal, write_decimal};
-use dalembert_model::number::{Angle, Rational, Snap, Snapped};
-use dalembert_model::read::{Options, Severity, parse};
+use dalembert_model::number::{Angle, Rational, Snapped};
+use dalembert_model::read::{Severity, parse};
 use dalembert_model::scalar::field::Points;
 use num_traits::ToPrimitive;
 
@@ -63,7 +63,7 @@ fn ulps(value: f64, steps: i64) -> f64 {
 
 fn apply(value: f64) -> Snapped {
     // Through the shortest text, as a file has it.
-    Snap::RightAngles.apply(parse_decimal(&format!("{value:?}")).expect("a number"))
+    Snapped::of_radians(parse_decimal(&format!("{value:?}")).expect("a number"))
 }
 
 /// Four ulp and no more, 2e-15 and no more, 2π and no more, both signs.
@@ -90,7 +90,7 @@ fn snapping_at_its_borders() {
 /// Within 1e-3 of a right angle: kept, with a warning; zero is no exception.
 #[test]
 fn near_misses() {
-    let near = |text: &str| match Snap::RightAngles.apply(parse_decimal(text).expect("a number")) {
+    let near = |text: &str| match Snapped::of_radians(parse_decimal(text).expect("a number")) {
         Snapped::Near { multiple, .. } => Some(multiple),
         _ => None,
     };
@@ -119,24 +119,22 @@ fn in_a_file() {
     assert_eq!(written.to_f64(), FRAC_PI_2);
     let near = Angle::Radians(ratio(15_708, 10_000));
     let (note, warning) = (Some(Severity::Note), Some(Severity::Warning));
-    let (taken, never) = (Snap::RightAngles, Snap::Never);
     let is_read = "1.5707963267948966 is read as pi/2";
     let stays = "1.5708 is 3.7e-6 from pi/2; it stays as written";
-    for (alpha, snap, angle, severity, message) in [
-        (double, taken, quarter, note, is_read),
-        (double, never, written, warning, ""),
-        ("1.5708", taken, near, warning, stays),
-        ("0", never, Angle::default(), None, ""),
-        ("-0.0", taken, Angle::default(), None, ""),
-        ("\"45deg\"", never, eighth, None, ""),
+    for (alpha, angle, severity, message) in [
+        (double, quarter, note, is_read),
+        ("1.5708", near, warning, stays),
+        ("0", Angle::default(), None, ""),
+        ("-0.0", Angle::default(), None, ""),
+        ("\"45deg\"", eighth, None, ""),
     ] {
-        let reading = parse(&format!("{head}{alpha}"), &Options { snap }).expect("reads");
+        let reading = parse(&format!("{head}{alpha}")).expect("reads");
         assert_eq!(reading.robot.joints[0].alpha, angle, "{alpha}");
         let said = reading.notes.iter().map(|own| (own.severity, own.line));
         let expected = severity.map(|own| (own, 8));
         assert!(said.eq(expected), "{alpha}: {:?}", reading.notes);
         for note in &reading.notes {
-            assert!(message.is_empty() || note.message == message, "{note}");
+            assert_eq!(note.message, message);
         }
     }
 }

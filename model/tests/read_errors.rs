@@ -2,7 +2,7 @@
 //! and all at once. One row a case.
 
 use crate::support::{errors, has, only, replaced};
-use dalembert_model::read::{Diagnostic, MAX_BYTES, Options, parse, parse_bytes};
+use dalembert_model::read::{Diagnostic, MAX_BYTES, parse, parse_bytes};
 
 /// A good robot of one joint; the rows below put one thing wrong.
 pub const GOOD: &str = r#"name = "arm"
@@ -221,7 +221,7 @@ fn all_at_once() {
 #[test]
 fn rendering() {
     let source = GOOD.replace("viscous = 0.1", "\tviscuos = 0.1");
-    let errors = parse(&source, &Options::default()).expect_err("a slip");
+    let errors = parse(&source).expect_err("a slip");
     let rendered = "error: unknown key `viscuos`\n --> arm.toml:15:2\n   |\n15 |  viscuos = 0.1\n   \
                     |  ^^^^^^^\n   = help: did you mean `viscous`?\n";
     assert_eq!(errors.render("arm.toml", &source), rendered);
@@ -281,7 +281,7 @@ fn not_utf8() {
     let mut bytes = GOOD.as_bytes().to_vec();
     let at = GOOD.find("waist").expect("there");
     bytes[at] = 0xff;
-    let errors = parse_bytes(&bytes, &Options::default()).expect_err("not text");
+    let errors = parse_bytes(&bytes).expect_err("not text");
     assert_eq!((errors.0[0].line, errors.0[0].column), (5, 9));
     has(&errors.0[0], "not UTF-8", "");
 }

@@ -5,7 +5,7 @@
 use crate::support::{data, replaced, written};
 use dalembert_model::number::Angle;
 use dalembert_model::number::parse::parse_decimal;
-use dalembert_model::read::{Options, parse_bytes};
+use dalembert_model::read::parse_bytes;
 use dalembert_model::scalar::field::Points;
 
 fn below(points: &mut Points, n: usize) -> usize {
@@ -41,7 +41,7 @@ fn piece(random: &mut Points) -> &'static str {
 /// robots valid and able to go round.
 fn check(bytes: &[u8]) {
     let source = core::str::from_utf8(bytes).unwrap_or("");
-    match parse_bytes(bytes, &Options::default()) {
+    match parse_bytes(bytes) {
         Ok(reading) => {
             let robot = reading.robot;
             let wrong = robot.validate().iter().any(|f| f.is_error());

@@ -3,7 +3,7 @@
 
 use crate::support::{ROBOTS, generated, has, ratio, reading, refused, replaced, rows, written};
 use dalembert_model::number::{Angle, Rational};
-use dalembert_model::read::{Options, RobotWarning, Severity, parse};
+use dalembert_model::read::{RobotWarning, Severity, parse};
 use dalembert_model::robot::{Convention, Position, Robot};
 use num_traits::ToPrimitive;
 
@@ -131,7 +131,7 @@ fn known_robots_are_not_far_off() {
                 continue;
             }
             let source = std::fs::read_to_string(&path).unwrap();
-            let Ok(reading) = parse(&source, &Options::default()) else {
+            let Ok(reading) = parse(&source) else {
                 continue;
             };
             seen += 1;

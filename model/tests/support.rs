@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use dalembert_model::number::Rational;
-use dalembert_model::read::{Diagnostic, Options, Reading, parse};
+use dalembert_model::read::{Diagnostic, Reading, parse};
 use dalembert_model::robot::{Robot, write};
 use nalgebra::DVector;
 
@@ -26,18 +26,18 @@ pub fn generated(name: &str) -> String {
 /// Reads a robot file that is right.
 #[track_caller]
 pub fn reading(text: &str) -> Reading {
-    parse(text, &Options::default()).unwrap_or_else(|e| panic!("{}", e.render("arm.toml", text)))
+    parse(text).unwrap_or_else(|e| panic!("{}", e.render("arm.toml", text)))
 }
 
 /// Returns what is wrong with a robot file.
 pub fn errors(text: &str) -> Vec<Diagnostic> {
-    let errors = parse(text, &Options::default()).err();
+    let errors = parse(text).err();
     errors.map_or_else(Vec::new, |errors| errors.0)
 }
 
 /// Returns what is said of a robot file: what is wrong, or what is odd.
 pub fn said(text: &str) -> Vec<Diagnostic> {
-    match parse(text, &Options::default()) {
+    match parse(text) {
         Ok(reading) => reading.notes,
         Err(errors) => errors.0,
     }
@@ -46,7 +46,7 @@ pub fn said(text: &str) -> Vec<Diagnostic> {
 /// Returns the text of what is wrong with a robot file.
 #[track_caller]
 pub fn refused(text: &str) -> String {
-    let errors = parse(text, &Options::default()).expect_err(text);
+    let errors = parse(text).expect_err(text);
     errors.render("arm.toml", text)
 }
 

@@ -54,7 +54,7 @@ impl Waiting {
         let text = format!(
             "{}: {}{}",
             news.function,
-            news.part,
+            news.part.name(),
             best.unwrap_or_default()
         );
         let done = (news.rounds > 0).then(|| news.round as f64 / news.rounds as f64);

@@ -18,7 +18,7 @@
 use std::ffi::{CString, c_char, c_void};
 use std::ptr::null_mut;
 
-use dalembert_jit::{Place, Real, Rows, RowsMut, Scalar};
+use dalembert_jit::{Place, Real, Scalar};
 use numpy::npyffi::flags::NPY_ARRAY_WRITEABLE;
 use numpy::npyffi::{PY_ARRAY_API, npy_intp};
 use numpy::{Element, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
@@ -96,20 +96,14 @@ impl<T: Element> Layout<T> {
     }
 
     /// Returns the argument.
-    pub(crate) fn rows(&self) -> Rows<'_, T> {
-        Rows {
-            data: self.slice(),
-            place: self.place.clone(),
-        }
+    pub(crate) fn rows(&self) -> (&[T], Place) {
+        (self.slice(), self.place.clone())
     }
 
     /// Returns the result.
-    pub(crate) fn rows_mut(&mut self) -> RowsMut<'_, T> {
+    pub(crate) fn rows_mut(&mut self) -> (&mut [T], Place) {
         let place = self.place.clone();
-        RowsMut {
-            data: self.slice_mut(),
-            place,
-        }
+        (self.slice_mut(), place)
     }
 
     /// Finds an entry that is such: its state, and its place there.

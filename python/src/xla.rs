@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use dalembert_jit::{Arm, Function, Place, Real, Rows, RowsMut};
+use dalembert_jit::{Arm, Function, Place, Real};
 
 /// What programs may call: an arm, and the place of the function among its own. XLA keeps
 /// programs for as long as it likes, so nothing is taken out.
@@ -60,17 +60,12 @@ pub(crate) fn run<T: Real>(
             "{name}: expected {lengths:?} numbers of {states} states"
         ));
     }
-    let rows = arguments.iter().zip(&lengths).map(|(&data, &length)| Rows {
-        data,
-        place: Place::rows(length),
-    });
-    let rows: Vec<Rows<'_, T>> = rows.collect();
+    let rows = arguments.iter().zip(&lengths);
+    let rows = rows.map(|(&data, &length)| (data, Place::rows(length)));
+    let rows: Vec<(&[T], Place)> = rows.collect();
     let out = results.into_iter().zip(&signature.results);
-    let out = out.map(|(data, &length)| RowsMut {
-        data,
-        place: Place::rows(length),
-    });
-    let mut out: Vec<RowsMut<'_, T>> = out.collect();
+    let out = out.map(|(data, &length)| (data, Place::rows(length)));
+    let mut out: Vec<(&mut [T], Place)> = out.collect();
     let done = native.call_rows(&rows, &mut out, states, 1);
     done.map_err(|error| format!("{}: {error}", function.name()))
 }

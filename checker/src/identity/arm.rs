@@ -9,7 +9,7 @@ use num_traits::{ToPrimitive, Zero};
 use super::exact::Point;
 use super::number::Number;
 use super::robot::{Placement, Row, angle_of, number_of};
-use super::screw::{Body, Pose, Screw, Vector, cross, dot, opposite, scaled};
+use super::screw::{Body, Pose, Scalar, Screw, Vector, cross, dot, opposite, scaled};
 use super::setting::Setting;
 use super::state::State;
 
@@ -83,21 +83,33 @@ fn times([sin, cos]: [Number; 2], count: i64) -> [Number; 2] {
     (0..count.abs()).fold([0.into(), 1.into()], |all, _| turned(all, one))
 }
 
-impl Point {
-    /// Returns numbers, of which missing ones are zero.
-    fn list<const K: usize>(&self, list: [Option<&String>; K]) -> Result<[Number; K], String> {
-        let mut all = [Number::default(); K];
+/// What reads the numbers of a robot file.
+pub(super) trait Reading {
+    /// The numbers that it gives.
+    type Number: Scalar;
+
+    /// Reads a number; one that is missing is zero.
+    fn entry(&self, text: Option<&String>) -> Result<Self::Number, String>;
+
+    /// Reads an angle, of which it gives sine and cosine.
+    fn sines(&self, text: Option<&String>) -> Result<[Self::Number; 2], String>;
+
+    fn list<const K: usize>(
+        &self,
+        list: [Option<&String>; K],
+    ) -> Result<[Self::Number; K], String> {
+        let mut all: [Self::Number; K] = from_fn(|_| 0i64.into());
         for (one, text) in all.iter_mut().zip(list) {
-            *one = self.number(&number_of(text)?);
+            *one = self.entry(text)?;
         }
         Ok(all)
     }
 
-    fn turn(&self, axis: usize, text: Option<&String>) -> Result<Pose, String> {
-        Ok(Pose::turn(axis, self.angle(&angle_of(text)?)))
+    fn turn(&self, axis: usize, text: Option<&String>) -> Result<Pose<Self::Number>, String> {
+        Ok(Pose::turn(axis, self.sines(text)?))
     }
 
-    fn placement(&self, own: Option<&Placement>) -> Result<Pose, String> {
+    fn placement(&self, own: Option<&Placement>) -> Result<Pose<Self::Number>, String> {
         let own = own.cloned().unwrap_or_default();
         let [xyz, rpy] = [&own.xyz, &own.rpy].map(|list| entries(list.as_ref()));
         let mut pose = Pose::shift(self.list(xyz)?);
@@ -113,14 +125,57 @@ impl Point {
         mass: Option<&String>,
         com: Option<&[String; 3]>,
         inertia: Option<&[String; 6]>,
-    ) -> Result<(Body, Pose), String> {
-        let [mass] = self.list([mass])?;
+    ) -> Result<(Body<Self::Number>, Pose<Self::Number>), String> {
+        let mass = self.entry(mass)?;
+        let [x, y, z] = [0i64; 3].map(Self::Number::from);
         let [xx, yy, zz, xy, yz, xz] = self.list(entries(inertia))?;
-        let none = Number::default();
-        let body = Body::new([mass, none, none, none, xx, yy, zz, xy, yz, xz]);
+        let body = Body::new([mass, x, y, z, xx, yy, zz, xy, yz, xz]);
         Ok((body, Pose::shift(self.list(entries(com))?)))
     }
 
+    /// Returns the ways before and behind a joint's axis.
+    fn ways(&self, row: &Row, convention: Option<&str>) -> Result<[Pose<Self::Number>; 2], String> {
+        let (theta, d) = match row.turns() {
+            true => (&row.offset, &row.d),
+            false => (&row.theta, &row.offset),
+        };
+        let along = Pose::shift(self.list([None, None, d.as_ref()])?);
+        let along = self.turn(2, theta.as_ref())?.then(&along);
+        let across = Pose::shift(self.list([row.a.as_ref(), None, None])?);
+        let across = across.then(&self.turn(0, row.alpha.as_ref())?);
+        let none = Pose::shift([0i64; 3].map(Self::Number::from));
+        match (convention, &row.placement) {
+            (_, Some(placement)) => Ok([self.placement(Some(placement))?, none]),
+            (Some("modified"), None) => Ok([across, along]),
+            _ => {
+                let tilted = across.then(&self.turn(1, row.beta.as_ref())?);
+                Ok([none, along.then(&tilted)])
+            }
+        }
+    }
+
+    /// Returns the axis of a joint, between these ways.
+    fn axis(&self, row: &Row) -> Result<[Self::Number; 3], String> {
+        match &row.axis {
+            Some(axis) => self.list(entries(Some(axis))),
+            None => Ok([0i64, 0, 1].map(Self::Number::from)),
+        }
+    }
+}
+
+impl Reading for Point {
+    type Number = Number;
+
+    fn entry(&self, text: Option<&String>) -> Result<Number, String> {
+        Ok(self.number(&number_of(text)?))
+    }
+
+    fn sines(&self, text: Option<&String>) -> Result<[Number; 2], String> {
+        Ok(self.angle(&angle_of(text)?))
+    }
+}
+
+impl Point {
     /// Returns the joint that moves a row, and along which line.
     fn line(&self, setting: &Setting, row: usize) -> Result<Line, String> {
         let own = &setting.follows[row];
@@ -139,31 +194,9 @@ impl Point {
         let line = (whole(&own.times), pair, length);
         Ok(((leader, self.number(&own.times)), line))
     }
-
-    /// Returns the ways before and behind a joint's axis.
-    fn ways(&self, row: &Row, convention: Option<&str>) -> Result<[Pose; 2], String> {
-        let (theta, d) = match row.turns() {
-            true => (&row.offset, &row.d),
-            false => (&row.theta, &row.offset),
-        };
-        let along = Pose::shift(self.list([None, None, d.as_ref()])?);
-        let along = self.turn(2, theta.as_ref())?.then(&along);
-        let across = Pose::shift(self.list([row.a.as_ref(), None, None])?);
-        let across = across.then(&self.turn(0, row.alpha.as_ref())?);
-        let none = Pose::shift(Vector::default());
-        match (convention, &row.placement) {
-            (Some("standard"), None) => {
-                let tilted = across.then(&self.turn(1, row.beta.as_ref())?);
-                Ok([none, along.then(&tilted)])
-            }
-            (Some("modified"), None) => Ok([across, along]),
-            (None, Some(placement)) => Ok([self.placement(Some(placement))?, none]),
-            _ => Err("expected `convention` and rows, or placements".into()),
-        }
-    }
 }
 
-fn entries<const K: usize>(list: Option<&[String; K]>) -> [Option<&String>; K] {
+pub(super) fn entries<const K: usize>(list: Option<&[String; K]>) -> [Option<&String>; K] {
     from_fn(|k| list.map(|list| &list[k]))
 }
 
@@ -209,18 +242,20 @@ impl Arm {
     /// The first text that is no number, or no angle, and a joint that the equations do not have.
     pub fn read(setting: &Setting, point: &Point) -> Result<Arm, String> {
         let (file, scene) = (setting.file, setting.scene);
+        let convention = file.convention.as_deref();
         let mut frame = point.placement(file.base.as_ref())?;
         let mut joints: Vec<Joint> = Vec::new();
         for (index, row) in file.joint.iter().enumerate() {
             let in_joint = |why: &str| format!("joint {}: {why}", index + 1);
-            row.check(file.convention.as_deref()).map_err(in_joint)?;
-            let [before, behind] = point.ways(row, file.convention.as_deref())?;
+            row.check(convention).map_err(in_joint)?;
+            match (convention, &row.placement) {
+                (Some("standard" | "modified"), None) | (None, Some(_)) => {}
+                _ => return Err("expected `convention` and rows, or placements".into()),
+            }
+            let [before, behind] = point.ways(row, convention)?;
             let at = frame.then(&before);
             frame = at.then(&behind);
-            let along = match &row.axis {
-                Some(axis) => point.list(entries(Some(axis)))?,
-                None => [0.into(), 0.into(), 1.into()],
-            };
+            let along = point.axis(row)?;
             if dot(along, along).value(point.prime) != Some(1) {
                 return Err(in_joint("`axis` is no unit vector in the digits given"));
             }
@@ -239,7 +274,7 @@ impl Arm {
                     true => Screw(along, Vector::default()),
                     false => Screw(Vector::default(), along),
                 }),
-                origin: match file.convention.as_deref() {
+                origin: match convention {
                     Some("standard") => (at.origin, false),
                     _ => (frame.origin, true),
                 },

@@ -60,12 +60,14 @@ impl<C> Program<C> {
         steps.chain(outputs).any(is_such)
     }
 
-    /// Evaluates it, given the values of operands other than steps; none if one of them has none.
+    /// Returns its results, given the values of operands other than steps; none if one of them has
+    /// none.
     pub fn run<V: Clone>(
         &self,
         leaf: impl Fn(&Operand<C>) -> Option<V>,
         mut apply: impl FnMut(char, V, V) -> V,
-    ) -> Option<Vec<(bool, V)>> {
+        opposite: impl Fn(V) -> V,
+    ) -> Option<Vec<V>> {
         let mut values: Vec<V> = Vec::with_capacity(self.steps.len());
         let read = |values: &[V], own: &Operand<C>| match own {
             Operand::Step(step) => values.get(*step).cloned(),
@@ -75,9 +77,11 @@ impl<C> Program<C> {
             let value = apply(*operation, read(&values, left)?, read(&values, right)?);
             values.push(value);
         }
-        let outputs = self.outputs.iter();
-        let outputs = outputs.map(|(negative, own)| Some((*negative, read(&values, own)?)));
-        outputs.collect()
+        let output = |(negative, own): &(bool, Operand<C>)| {
+            let value = read(&values, own)?;
+            Some(if *negative { opposite(value) } else { value })
+        };
+        self.outputs.iter().map(output).collect()
     }
 }
 
@@ -92,15 +96,13 @@ impl Program<Exact> {
             Operand::Speed(joint) => state.speeds.get(*joint).copied(),
             Operand::Step(_) => None,
         };
-        let all = self.run(leaf, |operation, a, b| match operation {
+        let apply = |operation: char, a: Number, b: Number| match operation {
             '+' => a + b,
             '-' => a - b,
             '*' | '×' => a * b,
             _ => a / b,
-        })?;
-        let signed = all.into_iter();
-        let signed = signed.map(|(negative, own)| if negative { -own } else { own });
-        Some(signed.collect())
+        };
+        self.run(leaf, apply, |own: Number| -own)
     }
 
     /// Returns at least the degrees of numerator and denominator of its results, in inputs and
@@ -120,7 +122,7 @@ impl Program<Exact> {
             Operand::Constant(_) => Some(vec![0.0]),
             _ => Some(vec![1.0]),
         };
-        let all = self.run(leaf, |operation, a, b| match operation {
+        let apply = |operation: char, a: Vec<f64>, b: Vec<f64>| match operation {
             '+' | '-' => zip(a, b, f64::max),
             '*' | '×' => zip(a, b, |a, b| a + b),
             _ => {
@@ -129,8 +131,9 @@ impl Program<Exact> {
                 inverse.push(1.0);
                 zip(a, inverse, |a, b| a + b)
             }
-        });
-        let largest = |(_, mut own): (bool, Vec<f64>)| {
+        };
+        let all = self.run(leaf, apply, |own| own).unwrap_or_default();
+        let largest = |mut own: Vec<f64>| {
             let mut under = 0.0;
             for (index, divisor) in divisors.iter().enumerate().rev() {
                 let times = own.get(index + 1).copied().unwrap_or(0.0);
@@ -144,7 +147,6 @@ impl Program<Exact> {
             }
             own[0].max(under)
         };
-        let all = all.unwrap_or_default().into_iter();
-        all.map(largest).fold(0.0, f64::max)
+        all.into_iter().map(largest).fold(0.0, f64::max)
     }
 }

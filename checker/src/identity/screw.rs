@@ -5,30 +5,41 @@
 //! of all links add up without any frame between them.
 
 use std::array::from_fn;
+use std::ops::{Add, Mul, Neg};
 
 use super::number::Number;
 
+/// What vectors, poses and bodies are made of.
+pub(super) trait Scalar:
+    Clone + From<i64> + Add<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
+{
+}
+
+impl Scalar for Number {}
+
 pub(super) type Vector = [Number; 3];
 
-pub(super) fn sum(a: Vector, b: Vector) -> Vector {
-    from_fn(|i| a[i] + b[i])
+pub(super) fn sum<S: Scalar>(a: [S; 3], b: [S; 3]) -> [S; 3] {
+    from_fn(|i| a[i].clone() + b[i].clone())
 }
 
-pub(super) fn scaled(x: Number, a: Vector) -> Vector {
-    a.map(|a| x * a)
+pub(super) fn scaled<S: Scalar>(x: S, a: [S; 3]) -> [S; 3] {
+    a.map(|a| x.clone() * a)
 }
 
-pub(super) fn opposite(a: Vector) -> Vector {
+pub(super) fn opposite<S: Scalar>(a: [S; 3]) -> [S; 3] {
     a.map(|a| -a)
 }
 
-pub(super) fn dot(a: Vector, b: Vector) -> Number {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+pub(super) fn dot<S: Scalar>(a: [S; 3], b: [S; 3]) -> S {
+    let [x, y, z]: [S; 3] = from_fn(|i| a[i].clone() * b[i].clone());
+    x + y + z
 }
 
-pub(super) fn cross(a: Vector, b: Vector) -> Vector {
+pub(super) fn cross<S: Scalar>(a: [S; 3], b: [S; 3]) -> [S; 3] {
     let [i, k] = [[1, 2, 0], [2, 0, 1]];
-    from_fn(|axis| a[i[axis]] * b[k[axis]] - a[k[axis]] * b[i[axis]])
+    let product = |a: &[S; 3], b: &[S; 3], axis: usize| a[i[axis]].clone() * b[k[axis]].clone();
+    from_fn(|axis| product(&a, &b, axis) + -product(&b, &a, axis))
 }
 
 /// A motion (ω, v), or a wrench (n, f).
@@ -64,30 +75,50 @@ impl Screw {
 
 /// A turn R, by its columns, and a shift p: r ↦ R r + p.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pose {
-    pub(super) axes: [Vector; 3],
-    pub(super) origin: Vector,
+pub(super) struct Pose<S = Number> {
+    pub(super) axes: [[S; 3]; 3],
+    pub(super) origin: [S; 3],
 }
 
-impl Pose {
-    pub(super) fn shift(origin: Vector) -> Pose {
+impl<S: Scalar> Pose<S> {
+    pub(super) fn shift(origin: [S; 3]) -> Pose<S> {
         let axes = from_fn(|k| from_fn(|i| i64::from(i == k).into()));
         Pose { axes, origin }
     }
 
     /// Returns the turn about an axis of the frame, x being 0.
-    pub(super) fn turn(axis: usize, [sin, cos]: [Number; 2]) -> Pose {
+    pub(super) fn turn(axis: usize, [sin, cos]: [S; 2]) -> Pose<S> {
         let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
-        let mut pose = Pose::shift(Vector::default());
-        (pose.axes[next][next], pose.axes[next][last]) = (cos, sin);
+        let mut pose = Pose::shift([0i64; 3].map(S::from));
+        (pose.axes[next][next], pose.axes[next][last]) = (cos.clone(), sin.clone());
         (pose.axes[last][next], pose.axes[last][last]) = (-sin, cos);
         pose
     }
 
-    pub(super) fn rotate(&self, v: Vector) -> Vector {
-        from_fn(|i| self.axes[0][i] * v[0] + self.axes[1][i] * v[1] + self.axes[2][i] * v[2])
+    pub(super) fn rotate(&self, v: [S; 3]) -> [S; 3] {
+        let [x, y, z] = &self.axes;
+        from_fn(|i| dot([x, y, z].map(|axis| axis[i].clone()), v.clone()))
     }
 
+    pub(super) fn apply(&self, point: [S; 3]) -> [S; 3] {
+        sum(self.rotate(point), self.origin.clone())
+    }
+
+    pub(super) fn then(&self, next: &Pose<S>) -> Pose<S> {
+        let axes = next.axes.clone().map(|axis| self.rotate(axis));
+        let origin = self.apply(next.origin.clone());
+        Pose { axes, origin }
+    }
+
+    /// Returns [R | p], row by row.
+    pub(super) fn rows(&self) -> Vec<S> {
+        let [x, y, z] = &self.axes;
+        let row = |i: usize| [x, y, z, &self.origin].map(|column| column[i].clone());
+        (0..3).flat_map(row).collect()
+    }
+}
+
+impl Pose {
     pub(super) fn inverse(&self) -> Pose {
         let axes = from_fn(|k| from_fn(|i| self.axes[i][k]));
         let origin = opposite(self.back(self.origin));
@@ -99,26 +130,9 @@ impl Pose {
         self.axes.map(|axis| dot(axis, v))
     }
 
-    pub(super) fn apply(&self, point: Vector) -> Vector {
-        sum(self.rotate(point), self.origin)
-    }
-
-    pub(super) fn then(&self, next: &Pose) -> Pose {
-        let axes = next.axes.map(|axis| self.rotate(axis));
-        let origin = self.apply(next.origin);
-        Pose { axes, origin }
-    }
-
     pub(super) fn screw(&self, own: Screw) -> Screw {
         let turned = self.rotate(own.0);
         Screw(turned, sum(self.rotate(own.1), cross(self.origin, turned)))
-    }
-
-    /// Returns [R | p], row by row.
-    pub(super) fn rows(&self) -> Vec<Number> {
-        let [x, y, z] = self.axes;
-        let row = |i: usize| [x[i], y[i], z[i], self.origin[i]];
-        (0..3).flat_map(row).collect()
     }
 
     /// Returns the motion of a joint, by a sine and a cosine or by a length.
@@ -141,46 +155,55 @@ impl Pose {
 
 /// Mass, first moment and the tensor of inertia about the origin.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Body {
-    pub(super) mass: Number,
-    pub(super) first: Vector,
-    pub(super) tensor: [Vector; 3],
+pub(super) struct Body<S = Number> {
+    pub(super) mass: S,
+    pub(super) first: [S; 3],
+    pub(super) tensor: [[S; 3]; 3],
 }
 
-impl Body {
+impl<S: Scalar> Body<S> {
     /// Returns a body of m, m x, m y, m z, xx, yy, zz, xy, yz and xz.
-    pub(super) fn new([mass, x, y, z, xx, yy, zz, xy, yz, xz]: [Number; 10]) -> Body {
+    pub(super) fn new([mass, x, y, z, xx, yy, zz, xy, yz, xz]: [S; 10]) -> Body<S> {
+        let first_row = [xx, xy.clone(), xz.clone()];
         Body {
             mass,
             first: [x, y, z],
-            tensor: [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]],
+            tensor: [first_row, [xy, yy, yz.clone()], [xz, yz, zz]],
         }
     }
 
+    /// Returns the body moved by a pose.
+    pub(super) fn moved(&self, pose: &Pose<S>) -> Body<S> {
+        let p = pose.origin.clone();
+        let turned = pose.rotate(self.first.clone());
+        // R I Rᵀ, then Steiner from the old origin to the new one.
+        let half = self.tensor.clone().map(|row| pose.rotate(row));
+        let heavy = scaled(self.mass.clone(), p.clone());
+        let along = dot(p.clone(), turned.clone());
+        let twice = along.clone() + along + dot(heavy.clone(), p.clone());
+        let first = sum(turned.clone(), heavy.clone());
+        let product = |a: &[S; 3], i: usize, b: &[S; 3], k: usize| a[i].clone() * b[k].clone();
+        let entry = |i: usize, k: usize| {
+            let column = [0, 1, 2].map(|j: usize| half[j][k].clone());
+            let row = [0, 1, 2].map(|j: usize| pose.axes[j][i].clone());
+            let across = product(&p, i, &turned, k) + product(&turned, i, &p, k);
+            let own = dot(row, column) + -(across + product(&heavy, i, &p, k));
+            if i == k { own + twice.clone() } else { own }
+        };
+        Body {
+            mass: self.mass.clone(),
+            first,
+            tensor: from_fn(|i| from_fn(|k| entry(i, k))),
+        }
+    }
+}
+
+impl Body {
     pub(super) fn plus(&self, other: &Body) -> Body {
         Body {
             mass: self.mass + other.mass,
             first: sum(self.first, other.first),
             tensor: from_fn(|i| sum(self.tensor[i], other.tensor[i])),
-        }
-    }
-
-    /// Returns the body moved by a pose.
-    pub(super) fn moved(&self, pose: &Pose) -> Body {
-        let (p, turned) = (pose.origin, pose.rotate(self.first));
-        // R I Rᵀ, then Steiner from the old origin to the new one.
-        let half = self.tensor.map(|row| pose.rotate(row));
-        let twice = dot(p, turned) + dot(p, turned) + self.mass * dot(p, p);
-        let entry = |i: usize, k: usize| {
-            let column = [0, 1, 2].map(|j: usize| half[j][k]);
-            let row = [0, 1, 2].map(|j: usize| pose.axes[j][i]);
-            let across = p[i] * turned[k] + turned[i] * p[k] + self.mass * p[i] * p[k];
-            dot(row, column) - across + if i == k { twice } else { 0.into() }
-        };
-        Body {
-            mass: self.mass,
-            first: sum(turned, scaled(self.mass, p)),
-            tensor: from_fn(|i| from_fn(|k| entry(i, k))),
         }
     }
 

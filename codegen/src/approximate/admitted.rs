@@ -3,10 +3,11 @@
 use super::error::ToleranceError;
 use crate::bound::ranges::{RANGE_BOXES, overflows};
 use crate::certificate::Certificate;
-use crate::certificate::subject::is_same;
+use crate::certificate::bounds::is_same;
 use crate::edits::Omission;
 use crate::program::{Program, has_inertia};
 use crate::split::ErrorByCause;
+use crate::words::complaint;
 
 /// A variant that meets its tolerance.
 #[derive(Clone, Debug)]
@@ -51,34 +52,33 @@ impl Admitted {
 /// # Errors
 /// As of [`Admitted::within`].
 pub(super) fn within(certificate: &Certificate, tolerances: &[f64]) -> Result<(), ToleranceError> {
-    let mut pairs = certificate.bounds.iter().zip(tolerances);
-    // No number is within nothing.
-    let within = |bound: &ErrorByCause, tolerance: f64| bound.total() <= tolerance;
-    match pairs.position(|(bound, &tolerance)| !within(bound, tolerance)) {
-        None => in_range(certificate),
-        Some(index) => Err(ToleranceError::Above {
-            entry: certificate.emitted.entry(index),
-            scalar: certificate.scalar,
-            tolerance: tolerances[index],
-            bound: certificate.bounds[index],
-        }),
-    }
-}
-
-/// Bounds of rounding are of numbers that the scalar holds.
-fn in_range(certificate: &Certificate) -> Result<(), ToleranceError> {
     let Certificate {
         emitted,
         scalar,
         sines,
         limits,
+        bounds,
         ..
     } = certificate;
+    let wider = scalar.of("", ", or choose a wider scalar");
+    let mut pairs = bounds.iter().zip(tolerances);
+    // No number is within nothing.
+    let within = |bound: &ErrorByCause, tolerance: f64| bound.total() <= tolerance;
+    if let Some(index) = pairs.position(|(bound, &tolerance)| !within(bound, tolerance)) {
+        let (entry, bound, tolerance) = (emitted.entry(index), bounds[index], tolerances[index]);
+        return Err(ToleranceError::Above(complaint(format!(
+            "no variant in {scalar} can be certified to keep {entry} within {tolerance:.1e}: with \
+             nothing left out, the bound is {:.1e} for rounding and {:.1e} for sines and cosines; \
+             allow more{wider}",
+            bound.rounding, bound.sincos
+        ))));
+    }
+    // Bounds of rounding are of numbers that the scalar holds.
     match overflows(emitted, *scalar, sines, limits, RANGE_BOXES).first() {
         None => Ok(()),
-        Some(&first) => Err(ToleranceError::Overflow {
-            scalar: *scalar,
-            first,
-        }),
+        Some(first) => Err(ToleranceError::Overflow(complaint(format!(
+            "inside the box {first} in {scalar}, and no error is certified of what overflows: \
+             bound the box, choose other units{wider}"
+        )))),
     }
 }

@@ -17,18 +17,16 @@ use crate::approximate::prune::{PruneSettings, Pruned, Target};
 use crate::approximate::regrouping;
 use crate::approximate::sines;
 use crate::approximate::starts::Starts;
-use crate::bound::definite::{Indefinite, least_eigenvalue};
+use crate::bound::definite::least_eigenvalue;
 use crate::bound::input_box::InputBox;
 use crate::bound::scale;
 use crate::bound::sensitivity::BoundEffort;
 use crate::bound::sensitivity::Sensitivity;
-use crate::bound::turns::sine_positions;
 use crate::bound::work::Meter;
 use crate::certificate::Certificate;
-use crate::certificate::subject::Subject;
 use crate::edits::{Omission, omissions};
-use crate::program::{Library, Program, ScalarType, has_inertia};
-use crate::setup::Setup;
+use crate::program::{Program, ScalarType, has_inertia};
+use crate::setup::{SceneKey, Setup};
 use crate::states::JointState;
 use crate::watch::{FunctionWatch, Part};
 use crate::words::{Complaint, complaint};
@@ -52,7 +50,7 @@ pub struct ErrorBudget<'a> {
     /// Of the programs asked for last.
     sensitivities: RefCell<Vec<Rc<Sensitivity>>>,
     /// Whether the exact D can be shown to be positive definite, in the scalars asked for.
-    definite: RefCell<BTreeMap<ScalarType, Result<f64, Indefinite>>>,
+    definite: RefCell<BTreeMap<ScalarType, Result<f64, Complaint>>>,
 }
 
 /// The exact program's sensitivity and a variant's or two.
@@ -130,24 +128,22 @@ impl<'a> ErrorBudget<'a> {
         let mut known = self.definite.borrow_mut();
         for &scalar in scalars {
             let find = || least_eigenvalue(self.exact, scalar, &[], &self.limits);
-            let found = *known.entry(scalar).or_insert_with(find);
-            found.map_err(ToleranceError::Indefinite)?;
+            let found = known.entry(scalar).or_insert_with(find);
+            if let Err(why) = found {
+                let why = complaint(format!("the full model: {why}"));
+                return Err(ToleranceError::Indefinite(why));
+            }
         }
         Ok(())
     }
 
-    /// Returns what is claimed of a variant.
-    fn subject<'s>(&'s self, emitted: &'s Program) -> Subject<'s> {
-        Subject {
-            setup: self.setup,
-            exact: self.exact,
-            emitted,
-            limits: &self.limits,
-            scales: &self.scales,
+    /// Returns what is claimed of a variant, before anything of it is bounded.
+    fn draft(&self, emitted: &Program) -> Certificate {
+        Certificate {
+            scene: self.setup.scene().map(SceneKey::new),
             relative_to: Some(self.relative_to),
-            reached: &self.reached,
-            sines: &[],
-            library: Library::Libm,
+            reached: self.reached.clone(),
+            ..Certificate::draft(self.exact, emitted, &self.limits, &self.scales)
         }
     }
 
@@ -172,16 +168,13 @@ impl<'a> ErrorBudget<'a> {
                 .step(Part::Bounds, rounds, Some(emitted.counts()));
         };
         tell(0);
-        let subject = self.subject(emitted);
+        let draft = self.draft(emitted);
         let sensitivity = self.sensitivity(emitted, bound_effort);
-        let limits = self.left(&subject, scalars, tolerances, &sensitivity);
-        let model = subject.model(&limits, bound_effort);
+        let limits = self.left(&draft, scalars, tolerances, &sensitivity);
+        let model = draft.model(&limits, bound_effort);
         let certificate = |(index, &scalar)| {
             tell(1 + index);
-            Certificate {
-                lambda_min: subject.least_eigenvalue(scalar),
-                ..subject.claim(scalar, subject.bounds(scalar, &model, &sensitivity))
-            }
+            draft.clone().bounded(scalar, &model, &sensitivity)
         };
         let certificates = scalars.iter().enumerate().map(certificate);
         Admitted {
@@ -195,14 +188,14 @@ impl<'a> ErrorBudget<'a> {
     /// Returns what rounding leaves of each tolerance in every scalar, in the output's unit.
     fn left(
         &self,
-        subject: &Subject<'_>,
+        draft: &Certificate,
         scalars: &[ScalarType],
         tolerances: &[f64],
         sensitivity: &Sensitivity,
     ) -> Vec<f64> {
         let mut left = tolerances.to_vec();
         for &scalar in scalars {
-            let rounding = subject.rounding(scalar, sensitivity).into_iter();
+            let rounding = draft.rounding(scalar, sensitivity).into_iter();
             for ((left, t), rounding) in left.iter_mut().zip(tolerances).zip(rounding) {
                 *left = left.min(t * (1.0 - 1e-14) - rounding.total());
             }
@@ -224,7 +217,7 @@ impl<'a> ErrorBudget<'a> {
         scalars: &[ScalarType],
         tolerances: &[f64],
     ) -> Result<Admitted, Complaint> {
-        self.subject(emitted).check()?;
+        self.draft(emitted).check(self.setup)?;
         let certified = |effort| self.certified(emitted, left_out, scalars, tolerances, effort);
         let coarse = certified(BoundEffort::QUICK);
         Ok(
@@ -335,12 +328,12 @@ impl<'a> ErrorBudget<'a> {
             .map(|(left, scale)| (left * scale).max(0.0))
             .collect();
         let sensitivity = self.sensitivity(emitted, bound_effort);
-        let positions = sine_positions(self.setup.robot(), *scalar, &self.limits);
+        let positions = self.limits.sine_positions(self.setup.robot(), *scalar);
         // A tolerance may admit more than D bears.
         for part in [1.0, 0.1, 0.01] {
             let allowances: Vec<f64> = allowances.iter().map(|allowed| allowed * part).collect();
             let sines = sines::within(emitted, *scalar, &positions, &allowances, &sensitivity)?;
-            let found = certificate.with_sines(self.setup, &sines, &sensitivity);
+            let found = certificate.with_sines(&sines, &sensitivity);
             within(&found, tolerances).map_err(|why| complaint(why.to_string()))?;
             if found.lambda_min.is_some() || !has_inertia(emitted) {
                 return Ok(found);
@@ -363,7 +356,7 @@ impl<'a> ErrorBudget<'a> {
         bound_effort: BoundEffort,
     ) -> Result<Certificate, ToleranceError> {
         let sensitivity = self.sensitivity(emitted, bound_effort);
-        let found = certificate.with_emitted(self.setup, emitted.clone(), &sensitivity);
+        let found = certificate.with_emitted(emitted.clone(), &sensitivity);
         within(&found, tolerances)?;
         Ok(found)
     }

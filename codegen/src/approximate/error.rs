@@ -2,11 +2,8 @@
 
 use std::fmt;
 
-use crate::bound::definite::Indefinite;
-use crate::bound::ranges::Overflow;
 use crate::function::{Argument, Columns, Function};
-use crate::program::{Program, ScalarType};
-use crate::split::ErrorByCause;
+use crate::program::Program;
 use crate::words::{Complaint, complaint};
 
 /// Why no variant meets a tolerance.
@@ -16,25 +13,11 @@ pub enum ToleranceError {
     /// are no measure of its outputs; or it would take more work than may be done.
     Refused(Complaint),
     /// The full model's D cannot be shown to be positive definite.
-    Indefinite(Indefinite),
+    Indefinite(Complaint),
     /// What is computed inside the box may be more than the scalar holds.
-    Overflow {
-        /// In which scalar.
-        scalar: ScalarType,
-        /// The first step that may.
-        first: Overflow,
-    },
+    Overflow(Complaint),
     /// Already what sines and rounding cost cannot be shown to be less.
-    Above {
-        /// The output's name.
-        entry: String,
-        /// In which scalar.
-        scalar: ScalarType,
-        /// The output's tolerance.
-        tolerance: f64,
-        /// What can be shown of the exact program.
-        bound: ErrorByCause,
-    },
+    Above(Complaint),
 }
 
 /// Why errors of a function with Coulomb friction have no bound.
@@ -87,43 +70,12 @@ fn no_bound(why: &str) -> Complaint {
 impl fmt::Display for ToleranceError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            ToleranceError::Refused(why) => why.fmt(f),
-            ToleranceError::Overflow { scalar, first } => write!(
-                f,
-                "inside the box {first} in {scalar}, and no error is certified of what overflows: \
-                 bound the box, choose other units{}",
-                wider(*scalar)
-            ),
-            ToleranceError::Indefinite(why) => {
-                write!(f, "the full model: {why}")?;
-                match why {
-                    Indefinite::Negative { .. } => f.write_str(
-                        ", so a link that they move has an inertia that no body has: correct its \
-                         `inertia`, `mass` or `com`",
-                    ),
-                    _ => Ok(()),
-                }
-            }
-            ToleranceError::Above {
-                entry,
-                scalar,
-                tolerance,
-                bound,
-            } => write!(
-                f,
-                "no variant in {scalar} can be certified to keep {entry} within {tolerance:.1e}: with nothing \
-                 left out, the bound is {:.1e} for rounding and {:.1e} for sines and cosines; \
-                 allow more{}",
-                bound.rounding,
-                bound.sincos,
-                wider(*scalar)
-            ),
+            ToleranceError::Refused(why)
+            | ToleranceError::Indefinite(why)
+            | ToleranceError::Overflow(why)
+            | ToleranceError::Above(why) => why.fmt(f),
         }
     }
-}
-
-fn wider(scalar: ScalarType) -> &'static str {
-    scalar.of("", ", or choose a wider scalar")
 }
 
 impl std::error::Error for ToleranceError {}

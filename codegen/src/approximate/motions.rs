@@ -25,7 +25,6 @@ pub(super) struct Motions {
     accelerations: Vec<(usize, f64)>,
     /// The pairs of velocities, by their places.
     pairs: Vec<(usize, usize)>,
-    joints: usize,
 }
 
 impl Motions {
@@ -43,7 +42,6 @@ impl Motions {
                 .collect(),
             velocities,
             accelerations: of(Argument::Acceleration, &limits.acceleration),
-            joints: limits.joints(),
         }
     }
 
@@ -56,12 +54,7 @@ impl Motions {
     pub(super) fn states(&self, positions: &[Vec<f64>]) -> Vec<JointState> {
         let mut states = Vec::with_capacity(positions.len() * self.len());
         for q in positions {
-            let rest = JointState {
-                q: q.clone(),
-                qd: vec![0.0; self.joints],
-                qdd: vec![0.0; self.joints],
-                ..JointState::default()
-            };
+            let rest = JointState::at_rest(q.clone());
             let mut push = |set: &dyn Fn(&mut JointState)| {
                 let mut state = rest.clone();
                 set(&mut state);

@@ -12,7 +12,7 @@
 use crate::bound::sensitivity::Sensitivity;
 use crate::interval::Interval;
 use crate::program::kernel::{Kernel, KernelWriter};
-use crate::program::{Program, ScalarType, Trig};
+use crate::program::{Pair, Program, ScalarType};
 use crate::sincos::choose::{Candidates, Choice};
 use crate::sincos::proof::Errors;
 use crate::sincos::{self, AngleKernel, Sines};
@@ -82,7 +82,7 @@ fn uniform(
     allowances: &[f64],
     sensitivity: &Sensitivity,
 ) -> f64 {
-    let unit = |trig: &Trig| AngleKernel {
+    let unit = |trig: &Pair| AngleKernel {
         joint: trig.joint,
         range: Interval::ALL,
         form: String::new(),
@@ -111,7 +111,7 @@ fn groups(
     positions: &[Interval],
     error: f64,
 ) -> Vec<(Vec<usize>, Vec<Choice>)> {
-    let key = |trig: &Trig| {
+    let key = |trig: &Pair| {
         let range = sincos::range_of(trig.joint, positions);
         (range, trig.need)
     };

@@ -8,8 +8,6 @@
 //! The entries of the *emitted* code are meant: their exact values written
 //! out as trigonometric polynomials, and what rounding may add to each.
 
-use std::fmt;
-
 use crate::bound::expand::expand;
 use crate::bound::grid::{self, Wanted};
 use crate::bound::input_box::InputBox;
@@ -22,6 +20,7 @@ use crate::program::{Program, ScalarType};
 use crate::random::Random;
 use crate::sincos::AngleKernel;
 use crate::states::JointState;
+use crate::words::{Complaint, complaint};
 
 /// Points of the bound at most.
 const POINTS: usize = 1 << 24;
@@ -33,73 +32,25 @@ const SAMPLES: usize = 64;
 /// subtracted from, far beyond what doubles lose.
 const CERTAIN: f64 = 1e-6;
 
-/// Why D could not be shown to be positive definite.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Indefinite {
-    /// Two entries that must be equal are not the same value.
-    Asymmetric {
-        /// Zero-based joint of the row.
-        row: usize,
-        /// Zero-based joint of the column.
-        column: usize,
-    },
-    /// A diagonal entry that is not positive in the middle of the box.
-    Massless {
-        /// Zero-based joint.
-        joint: usize,
-    },
-    /// At a position of the box D is negative for a motion of the joints from this
-    /// one on.
-    Negative {
-        /// Zero-based joint.
-        joint: usize,
-    },
-    /// No lower bound above zero was found within the work allowed.
-    Unproved,
+/// Complains that no lower bound above zero was found within the work allowed.
+fn unproved() -> Complaint {
+    complaint(
+        "D could not be shown to be positive definite over the box: \
+         a link has no inertia, or almost none beside the others; or the box is too large",
+    )
 }
-
-impl fmt::Display for Indefinite {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Indefinite::Asymmetric { row, column } => write!(
-                f,
-                "D_{0}{1} and D_{1}{0} are not the same value",
-                row + 1,
-                column + 1
-            ),
-            Indefinite::Massless { joint } => write!(
-                f,
-                "D is singular: joint {} moves nothing that has inertia; \
-                 give its link mass, inertia or armature",
-                joint + 1
-            ),
-            Indefinite::Negative { joint } => write!(
-                f,
-                "D is not positive definite: at some position of the box a motion of joint {} and \
-                 those after it has a negative kinetic energy",
-                joint + 1
-            ),
-            Indefinite::Unproved => f.write_str(
-                "D could not be shown to be positive definite over the box: \
-                 a link has no inertia, or almost none beside the others; or the box is too large",
-            ),
-        }
-    }
-}
-
-impl std::error::Error for Indefinite {}
 
 /// Returns a lower bound, above zero, of the least eigenvalue of S D S over the box,
 /// D as code in the scalar computes it.
 ///
 /// # Errors
-/// [`Indefinite`]; a program without D has no least eigenvalue.
+/// Why D could not be shown to be positive definite; a program without D has no least eigenvalue.
 pub fn least_eigenvalue(
     program: &Program,
     scalar: ScalarType,
     sines: &[AngleKernel],
     limits: &InputBox,
-) -> Result<f64, Indefinite> {
+) -> Result<f64, Complaint> {
     shown(program, scalar, sines, limits, Wanted::Most)
 }
 
@@ -120,26 +71,32 @@ fn shown(
     sines: &[AngleKernel],
     limits: &InputBox,
     wanted: Wanted,
-) -> Result<f64, Indefinite> {
+) -> Result<f64, Complaint> {
     let n = program.rows.len();
-    let first = start(program).ok_or(Indefinite::Unproved)?;
+    let first = start(program).ok_or_else(unproved)?;
     // No box has the values of parameters that are arguments.
     let mut parameters = [Argument::Load, Argument::Gravity].iter();
     if parameters.any(|parameter| program.arguments.contains(parameter)) {
-        return Err(Indefinite::Unproved);
+        return Err(unproved());
     }
     let entry = |i: usize, j: usize| first + i * n + j;
     for i in 0..n {
         for j in 0..i {
             if program.dag.outputs[entry(i, j)] != program.dag.outputs[entry(j, i)] {
-                let (row, column) = (program.rows[i], program.rows[j]);
-                return Err(Indefinite::Asymmetric { row, column });
+                let (row, column) = (program.rows[i] + 1, program.rows[j] + 1);
+                return Err(complaint(format!(
+                    "D_{row}{column} and D_{column}{row} are not the same value"
+                )));
             }
         }
     }
     if let Some(row) = negative(program, limits, &entry) {
-        let joint = program.rows[row];
-        return Err(Indefinite::Negative { joint });
+        return Err(complaint(format!(
+            "D is not positive definite: at some position of the box a motion of joint {} and \
+             those after it has a negative kinetic energy, so a link that they move has an inertia \
+             that no body has: correct its `inertia`, `mass` or `com`",
+            program.rows[row] + 1
+        )));
     }
     let scales = scales(program, limits, entry)?;
     let lower: Vec<(usize, usize)> = (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
@@ -150,7 +107,7 @@ fn shown(
         outputs: outputs.collect(),
         ..graph
     };
-    let mut entries = expand(&graph, limits).ok_or(Indefinite::Unproved)?;
+    let mut entries = expand(&graph, limits).ok_or_else(unproved)?;
     let mut errors = Vec::new();
     for (polynomial, &(i, j)) in entries.iter_mut().zip(&lower) {
         // A power of two: exact.
@@ -161,8 +118,7 @@ fn shown(
         errors.push(costs[entry(i, j)].total() * scale);
     }
     let sliding = grid::sliding(&graph, limits.joints());
-    grid::least_eigenvalue(&entries, &errors, limits, &sliding, POINTS, wanted)
-        .ok_or(Indefinite::Unproved)
+    grid::least_eigenvalue(&entries, &errors, limits, &sliding, POINTS, wanted).ok_or_else(unproved)
 }
 
 /// Returns the row from which on D is not positive definite at one of some positions, the
@@ -181,7 +137,7 @@ fn negative(
     });
     let mut positions = std::iter::once(middle(limits)).chain(drawn);
     positions.find_map(|q| {
-        let d = code.run_at(&at_rest(q));
+        let d = code.run_at(&JointState::at_rest(q));
         let d = (0..n).map(|i| (0..n).map(|j| d[entry(i, j)]).collect());
         negative_pivot(d.collect())
     })
@@ -218,16 +174,6 @@ fn middle(limits: &InputBox) -> Vec<f64> {
     limits.position.iter().map(|q| q.mid()).collect()
 }
 
-fn at_rest(q: Vec<f64>) -> JointState {
-    let rest = vec![0.0; q.len()];
-    JointState {
-        q,
-        qd: rest.clone(),
-        qdd: rest,
-        ..JointState::default()
-    }
-}
-
 /// Returns where D starts among the outputs.
 fn start(program: &Program) -> Option<usize> {
     let quantities = program.function.quantities();
@@ -241,14 +187,17 @@ fn scales(
     program: &Program,
     limits: &InputBox,
     entry: impl Fn(usize, usize) -> usize,
-) -> Result<Vec<f64>, Indefinite> {
-    let middle = at_rest(middle(limits));
+) -> Result<Vec<f64>, Complaint> {
+    let middle = JointState::at_rest(middle(limits));
     let values = program.in_doubles().run_at(&middle);
     let scale = |i: usize| {
         let diagonal = values[entry(i, i)];
         if !(diagonal > 0.0 && diagonal.is_finite()) {
-            let joint = program.rows[i];
-            return Err(Indefinite::Massless { joint });
+            return Err(complaint(format!(
+                "D is singular: joint {} moves nothing that has inertia; \
+                 give its link mass, inertia or armature",
+                program.rows[i] + 1
+            )));
         }
         Ok(libm::exp2(-libm::round(0.5 * libm::log2(diagonal))))
     };

@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use dalembert_model::number::{Rational, Rounded};
-use dalembert_model::robot::{Joint, JointKind, Limits, Position, Robot};
+use dalembert_model::number::Rounded;
+use dalembert_model::robot::{Joint, JointKind, Limit, Position, Robot};
 
 use crate::function::{Argument, Function};
 use crate::interval::Interval;
-use crate::program::Input;
+use crate::program::{Input, Program, ScalarType};
 use crate::setup::Setup;
+use crate::sincos::stated;
 use crate::words::{Complaint, complaint};
 
 /// Intervals of joint positions, velocities and accelerations, one a joint.
@@ -67,9 +68,9 @@ impl InputBox {
         let mut lacking: BTreeMap<&'static str, Vec<usize>> = BTreeMap::new();
         for (joint, row) in setup.robot().joints.iter().enumerate() {
             // Where a limit is missing, the box is not returned.
-            let mut or_missing = |found: Option<Interval>, limit| {
+            let mut or_missing = |found: Option<Interval>, limit: Limit| {
                 found.unwrap_or_else(|| {
-                    lacking.entry(limit).or_default().push(joint);
+                    lacking.entry(limit.key()).or_default().push(joint);
                     Interval::ZERO
                 })
             };
@@ -79,22 +80,19 @@ impl InputBox {
                 limits.acceleration.push(Interval::ZERO);
                 continue;
             }
-            limits.position.push(or_missing(position(row), "position"));
-            let mut rate = |argument, limit: &Option<Rational>, what| {
+            limits
+                .position
+                .push(or_missing(position(row), Limit::Position));
+            let mut rate = |argument, limit| {
                 if !arguments.contains(&argument) {
                     return Interval::ZERO;
                 }
-                let most = limit.as_ref().map(f64::nearest_rational);
-                or_missing(most.map(Interval::symmetric), what)
+                let most = row.limits.rate(limit).map(f64::nearest_rational);
+                or_missing(most.map(Interval::symmetric), limit)
             };
-            let Limits {
-                velocity,
-                acceleration,
-                ..
-            } = &row.limits;
-            let velocity = rate(Argument::Velocity, velocity, "velocity");
+            let velocity = rate(Argument::Velocity, Limit::Velocity);
             limits.velocity.push(velocity);
-            let acceleration = rate(Argument::Acceleration, acceleration, "acceleration");
+            let acceleration = rate(Argument::Acceleration, Limit::Acceleration);
             limits.acceleration.push(acceleration);
         }
         match lacking.is_empty() {
@@ -129,6 +127,39 @@ impl InputBox {
         }
     }
 
+    /// Returns the positions over which sines must be good: those of the box, and [`stated`] angles
+    /// of a joint that [turns freely](turns_freely).
+    pub(crate) fn sine_positions(&self, robot: &Robot, scalar: ScalarType) -> Vec<Interval> {
+        let every = Interval::symmetric(stated(scalar));
+        let ranges = self.position.iter().enumerate();
+        let range = |(joint, range): (usize, &Interval)| match turns_freely(robot, joint) {
+            true => every,
+            false => *range,
+        };
+        ranges.map(range).collect()
+    }
+
+    /// Returns equal sub-boxes, at most `boxes`: the angles that a program reads are halved joint
+    /// after joint.
+    pub(super) fn sub_boxes(&self, program: &Program, boxes: usize) -> Vec<InputBox> {
+        let joints: Vec<usize> = program.trig().iter().map(|trig| trig.joint).collect();
+        let mut joints = joints.iter().cycle();
+        let mut all = vec![self.clone()];
+        while all.len() * 2 <= boxes
+            && let Some(&joint) = joints.next()
+        {
+            let halves = |sub: InputBox| {
+                sub.position[joint].split().map(|half| {
+                    let mut sub = sub.clone();
+                    sub.position[joint] = half;
+                    sub
+                })
+            };
+            all = all.into_iter().flat_map(halves).collect();
+        }
+        all
+    }
+
     /// Returns the values that an input takes.
     pub fn input(&self, input: Input) -> Interval {
         match input {
@@ -144,22 +175,25 @@ impl InputBox {
     }
 }
 
-fn value(position: &Position) -> f64 {
-    match position {
-        Position::Angle(angle) => angle.to_f64(),
-        Position::Length(length) => f64::nearest_rational(length),
-    }
+/// Returns whether a joint may stand anywhere, however many turns: it has no limits.
+/// Everything reads its sine and cosine, so that what holds over one turn
+/// holds wherever those two are good.
+pub(crate) fn turns_freely(robot: &Robot, joint: usize) -> bool {
+    robot
+        .joints
+        .get(joint)
+        .is_some_and(|joint| joint.kind == JointKind::Revolute && joint.limits.position.is_none())
 }
 
 /// Returns a position that need not be a double.
 fn around(at: &Position) -> Interval {
-    let near = value(at);
+    let near = at.to_f64();
     Interval::new(near.next_down(), near.next_up()).unwrap_or(Interval::point(near))
 }
 
 fn position(joint: &Joint) -> Option<Interval> {
     match (&joint.limits.position, joint.kind) {
-        (Some([low, high]), _) => Interval::new(value(low), value(high)),
+        (Some([low, high]), _) => Interval::new(low.to_f64(), high.to_f64()),
         (None, JointKind::Revolute) => Some(Interval::symmetric(std::f64::consts::PI)),
         (None, JointKind::Prismatic) => None,
     }
@@ -182,8 +216,7 @@ impl InputBox {
 mod tests {
     use super::*;
     use crate::bound::scale;
-    use crate::program::Program;
-    use dalembert_model::read::{Options, parse};
+    use dalembert_model::read::parse;
 
     /// A limit of zero is not a missing one: at rest for a box, nothing to be
     /// relative to for T.
@@ -195,7 +228,7 @@ mod tests {
                  kind = \"revolute\"\nmass = 1\ncom = [0, 0, 0]\ninertia = [1, 1, 1, 0, 0, 0]\n\
                  limits = {{ {limits} }}\n"
             );
-            parse(&source, &Options::default()).unwrap().robot
+            parse(&source).unwrap().robot
         };
         let program = |function| Program::empty(function, 1);
         let still = of("velocity = 0, acceleration = 0, torque = 0");

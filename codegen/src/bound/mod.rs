@@ -2,13 +2,13 @@
 //! searched or claimed.
 //!
 //! - [`input_box`]: the states for which a bound holds; [`scale`]: what errors
-//!   are relative to; [`sample`]: states of a box; [`turns`]: joints without limits
+//!   are relative to; [`sample`]: states of a box
 //! - [`magnitude`]: the largest magnitude of a program over a box: written out as
 //!   a trigonometric polynomial (`expand`) at a grid (`grid`), or by branch
 //!   and bound over polynomials in the rates ([`form`])
 //! - [`definite`]: whether D stays positive definite
 //! - [`sensitivity`]: what rounding costs; [`ranges`]: how large values become;
-//!   over the sub-boxes of `subdivide`, and written out. `distinct`: equal
+//!   over sub-boxes, and written out. `distinct`: equal
 //!   outputs once
 //! - `corners`: products of velocities at their worst together
 //! - `work`: work counted, for who cannot wait
@@ -25,6 +25,4 @@ pub(crate) mod ranges;
 pub(crate) mod sample;
 pub(crate) mod scale;
 pub(crate) mod sensitivity;
-mod subdivide;
-pub(crate) mod turns;
 pub(crate) mod work;

@@ -3,34 +3,15 @@
 //! The intervals are those of the rounding bound, so they contain what is
 //! computed, not only what is exact.
 
-use std::fmt;
-
 use crate::bound::input_box::InputBox;
 use crate::bound::sensitivity::{Constants, forward};
-use crate::bound::subdivide::sub_boxes;
 use crate::program::{Program, ScalarType};
 use crate::sincos::AngleKernel;
 
 /// Sub-boxes for the overflow of a certificate.
 pub(crate) const RANGE_BOXES: usize = 256;
 
-/// A step that the scalar may not hold.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Overflow {
-    /// Its index.
-    pub step: usize,
-    /// A bound of its magnitude.
-    pub magnitude: f64,
-}
-
-impl fmt::Display for Overflow {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Overflow { step, magnitude } = self;
-        write!(f, "t{} may reach {magnitude:e}: it may overflow", step + 1)
-    }
-}
-
-/// Returns the steps that may overflow over a box, from at most `boxes` sub-boxes; sines are
+/// Says which steps may overflow over a box, from at most `boxes` sub-boxes; sines are
 /// libm's where there are no polynomials for them.
 pub(crate) fn overflows(
     program: &Program,
@@ -38,11 +19,11 @@ pub(crate) fn overflows(
     sines: &[AngleKernel],
     limits: &InputBox,
     boxes: usize,
-) -> Vec<Overflow> {
+) -> Vec<String> {
     let ids: Vec<_> = program.dag.operations().map(|(id, ..)| id).collect();
     let mut magnitudes = vec![0.0f64; ids.len()];
     let constants = Constants::new(program, scalar, sines);
-    for sub in sub_boxes(program, limits, boxes) {
+    for sub in limits.sub_boxes(program, boxes) {
         let run = forward(&constants, &sub);
         for (most, id) in magnitudes.iter_mut().zip(&ids) {
             *most = most.max(run.values[*id as usize].magnitude());
@@ -52,6 +33,6 @@ pub(crate) fn overflows(
     let steps = magnitudes.into_iter().enumerate();
     steps
         .filter(|(_, magnitude)| *magnitude > largest)
-        .map(|(step, magnitude)| Overflow { step, magnitude })
+        .map(|(step, magnitude)| format!("t{} may reach {magnitude:e}: it may overflow", step + 1))
         .collect()
 }

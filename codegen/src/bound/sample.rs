@@ -1,6 +1,7 @@
 //! States that try to break a bound: corners, random states, hill climbing.
 
 use crate::bound::input_box::InputBox;
+use crate::function::Argument;
 use crate::interval::Interval;
 use crate::random::Random;
 use crate::states::JointState;
@@ -9,31 +10,24 @@ use crate::states::JointState;
 /// Errors are largest at the ends of the rates far more often than inside.
 pub fn draw(limits: &InputBox, random: &mut Random) -> JointState {
     let corners = random.below(4) > 0;
-    let rate = |x: &Interval, random: &mut Random| match random.below(8) {
-        _ if !corners => inside(*x, random.unit()),
-        0 => x.mid(),
-        k if k % 2 == 1 => x.low(),
-        _ => x.high(),
+    let mut entry = |argument, x: Interval| match argument {
+        Argument::Position => match random.below(16) {
+            0 => x.low(),
+            1 => x.high(),
+            2 => quarter(x, random),
+            _ => inside(x, random.unit()),
+        },
+        _ => match random.below(8) {
+            _ if !corners => inside(x, random.unit()),
+            0 => x.mid(),
+            k if k % 2 == 1 => x.low(),
+            _ => x.high(),
+        },
     };
-    JointState {
-        q: limits
-            .position
-            .iter()
-            .map(|x| match random.below(16) {
-                0 => x.low(),
-                1 => x.high(),
-                2 => quarter(*x, random),
-                _ => inside(*x, random.unit()),
-            })
-            .collect(),
-        qd: limits.velocity.iter().map(|x| rate(x, random)).collect(),
-        qdd: limits
-            .acceleration
-            .iter()
-            .map(|x| rate(x, random))
-            .collect(),
-        ..JointState::default()
-    }
+    JointState::new(|argument| {
+        let ranges = limits.of_argument(argument).iter();
+        ranges.map(|&range| entry(argument, range)).collect()
+    })
 }
 
 /// Returns a multiple of a quarter turn, where sines and cosines are extreme.
@@ -60,14 +54,10 @@ pub fn climb(
     let mut reach = 0.5;
     for step in 0..moves {
         let coordinate = random.below(3 * n);
-        let (kind, joint) = (coordinate / n, coordinate % n);
-        let range = [&limits.position, &limits.velocity, &limits.acceleration][kind][joint];
+        let (argument, joint) = (Argument::STATE[coordinate / n], coordinate % n);
+        let range = limits.of_argument(argument)[joint];
         let mut next = best.clone();
-        let x = match kind {
-            0 => &mut next.q[joint],
-            1 => &mut next.qd[joint],
-            _ => &mut next.qdd[joint],
-        };
+        let x = &mut next.entries_mut(argument)[joint];
         *x = match random.below(4) {
             0 => range.low(),
             1 => range.high(),

@@ -1,7 +1,7 @@
 //! T: what errors are relative to, and how large they may be against it.
 
 use dalembert_model::number::{Rational, Rounded};
-use dalembert_model::robot::{Limits, Robot};
+use dalembert_model::robot::{Limit, Robot};
 use dalembert_model::scene::Tolerance;
 
 use crate::bound::input_box::{InputBox, missing};
@@ -21,24 +21,24 @@ use crate::words::{Complaint, complaint};
 /// A joint without a limit that it needs, or with one of zero; a quantity of which torque limits
 /// are no measure.
 pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, Complaint> {
-    let read = |joint: usize, limit: &'static str, value: fn(&Limits) -> &Option<Rational>| {
-        let value = robot.joints.get(joint).map(|row| value(&row.limits));
-        match value.and_then(Option::as_ref).map(f64::nearest_rational) {
+    let read = |joint: usize, limit: Limit| {
+        let value = robot.joints.get(joint);
+        let value = value.and_then(|row| row.limits.rate(limit));
+        match value.map(f64::nearest_rational) {
             Some(value) if value > 0.0 => Ok(value),
             Some(_) => Err(complaint(format!(
-                "the limit `{limit}` of joint {} is 0: errors relative to the actuators need \
+                "the limit `{}` of joint {} is 0: errors relative to the actuators need \
                  one above 0; give that, or make them relative to the range",
+                limit.key(),
                 joint + 1
             ))),
-            None => Err(missing([(limit, vec![joint])])),
+            None => Err(missing([(limit.key(), vec![joint])])),
         }
     };
     // Down, so that an error relative to it is rounded up.
-    let torque = |joint| -> Result<f64, Complaint> {
-        Ok(read(joint, "torque", |limits| &limits.torque)?.next_down())
-    };
-    let velocity = |joint| read(joint, "velocity", |limits| &limits.velocity);
-    let acceleration = |joint| read(joint, "acceleration", |limits| &limits.acceleration);
+    let torque = |joint| -> Result<f64, Complaint> { Ok(read(joint, Limit::Torque)?.next_down()) };
+    let velocity = |joint| read(joint, Limit::Velocity);
+    let acceleration = |joint| read(joint, Limit::Acceleration);
     let inertia =
         |i, k| -> Result<f64, Complaint> { Ok((torque(i)? / acceleration(k)?).next_down()) };
     let (rows, sizes) = (&program.rows, program.sizes());

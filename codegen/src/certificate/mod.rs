@@ -9,25 +9,24 @@
 //!
 //! - this file: the claim, and how it is made
 //! - `shape` and `work`: a variant that a plan kept fits the scene, and is bounded in bounded time
-//! - [`subject`]: what a claim is about, and how its bounds are found
+//! - [`bounds`]: how its bounds are found
 
+pub(crate) mod bounds;
 mod shape;
-pub(crate) mod subject;
 mod work;
 
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scale;
 
-use crate::bound::input_box::InputBox;
+use crate::bound::input_box::{InputBox, turns_freely};
 use crate::bound::sensitivity::{BoundEffort, Sensitivity};
-use crate::bound::turns::turns_freely;
 use crate::interval::Interval;
+use crate::language::{Printed, function};
 use crate::program::{Library, Program, ScalarType};
-use crate::setup::{SceneKey, Setup};
-use crate::sincos::{AngleKernel, Sines};
+use crate::setup::SceneKey;
+use crate::sincos::Sines;
 use crate::split::ErrorByCause;
 use crate::states::JointState;
-use subject::{Subject, printed};
 
 /// A claim about one emitted function.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,35 +77,67 @@ impl Certificate {
             .map(|sine| sine.range)
     }
 
+    /// Returns what is claimed of an emitted program over a box relative to scales, before anything
+    /// of it is bounded or printed: of a whole robot, with a library's sines.
+    pub(crate) fn draft(
+        exact: &Program,
+        emitted: &Program,
+        limits: &InputBox,
+        scales: &[f64],
+    ) -> Certificate {
+        Certificate {
+            scene: None,
+            scalar: ScalarType::F64,
+            limits: limits.clone(),
+            scales: scales.to_vec(),
+            relative_to: None,
+            reached: Vec::new(),
+            exact: exact.clone(),
+            emitted: emitted.clone(),
+            text: String::new(),
+            library: Library::Libm,
+            sines: Sines::new(),
+            bounds: Vec::new(),
+            lambda_min: None,
+        }
+    }
+
+    /// Returns the claim in a scalar, with the edits' errors relative to the scales and the
+    /// sensitivity at hand.
+    pub(crate) fn bounded(
+        self,
+        scalar: ScalarType,
+        model: &[f64],
+        sensitivity: &Sensitivity,
+    ) -> Certificate {
+        let mut bounds = self.rounding(scalar, sensitivity);
+        for (bound, &error) in bounds.iter_mut().zip(model) {
+            bound.model = error;
+        }
+        Certificate {
+            scalar,
+            bounds,
+            lambda_min: self.least_eigenvalue(scalar),
+            ..self
+        }
+        .printed()
+    }
+
     /// Bounds the emitted program's error and writes the claim down.
     ///
     /// The exact program may be the one that is emitted.
     pub fn make(
-        robot: &Robot,
         exact: &Program,
         emitted: &Program,
         scalar: ScalarType,
         limits: &InputBox,
         scales: &[f64],
     ) -> Certificate {
-        let subject = Subject {
-            setup: &Setup::whole(robot),
-            exact,
-            emitted,
-            limits,
-            scales,
-            relative_to: None,
-            reached: &[],
-            sines: &[],
-            library: Library::Libm,
-        };
         let bound_effort = BoundEffort::CERTIFY;
+        let draft = Certificate::draft(exact, emitted, limits, scales);
         let sensitivity = Sensitivity::new(emitted, limits, bound_effort);
-        let bounds = subject.bounds(scalar, &subject.model(&[], bound_effort), &sensitivity);
-        Certificate {
-            lambda_min: subject.least_eigenvalue(scalar),
-            ..subject.claim(scalar, bounds)
-        }
+        let model = draft.model(&[], bound_effort);
+        draft.bounded(scalar, &model, &sensitivity)
     }
 
     /// Returns the claim's part about sines and rounding: of the emitted program by
@@ -126,35 +157,26 @@ impl Certificate {
 
     /// Returns the same claim with polynomials for sines; the edits' bounds stay.
     #[must_use]
-    pub fn with_sines(
-        &self,
-        setup: &Setup,
-        sines: &Sines,
-        sensitivity: &Sensitivity,
-    ) -> Certificate {
-        let subject = self.subject(setup, sines);
-        let mut bounds = subject.rounding(self.scalar, sensitivity);
-        for (bound, known) in bounds.iter_mut().zip(&self.bounds) {
-            bound.model = known.model;
-        }
-        Certificate {
-            // Sines that are off move D.
-            lambda_min: subject.least_eigenvalue(self.scalar),
-            ..subject.claim(self.scalar, bounds)
-        }
+    pub fn with_sines(&self, sines: &Sines, sensitivity: &Sensitivity) -> Certificate {
+        let model: Vec<f64> = self.bounds.iter().map(|bound| bound.model).collect();
+        let own = Certificate {
+            // Polynomials call nothing.
+            library: match sines.is_empty() {
+                true => self.library,
+                false => Library::Libm,
+            },
+            sines: sines.clone(),
+            ..self.clone()
+        };
+        own.bounded(self.scalar, &model, sensitivity)
     }
 
     /// Returns the same claim with another program for what is emitted, which is the same
     /// function: the edits' bounds stay.
     #[must_use]
-    pub fn with_emitted(
-        &self,
-        setup: &Setup,
-        emitted: Program,
-        sensitivity: &Sensitivity,
-    ) -> Certificate {
+    pub fn with_emitted(&self, emitted: Program, sensitivity: &Sensitivity) -> Certificate {
         let own = self.clone();
-        Certificate { emitted, ..own }.with_sines(setup, &self.sines, sensitivity)
+        Certificate { emitted, ..own }.with_sines(&self.sines, sensitivity)
     }
 
     /// Returns the claim about the text that calls this library, unless polynomials give its
@@ -171,7 +193,9 @@ impl Certificate {
     /// Returns the same claim with the text of its program.
     #[must_use]
     pub fn printed(self) -> Certificate {
-        let text = printed(&self.emitted, self.scalar, self.library, &self.sines);
+        let (emitted, library) = (&self.emitted, self.library);
+        let code = emitted.code(self.scalar, library, &self.sines);
+        let text = function::write(&Printed::of(emitted, &code), library, &[]);
         Certificate { text, ..self }
     }
 
@@ -182,23 +206,5 @@ impl Certificate {
         pairs
             .map(|(bound, scale)| (bound.total() * scale).next_up())
             .collect()
-    }
-
-    fn subject<'a>(&'a self, setup: &'a Setup, sines: &'a [AngleKernel]) -> Subject<'a> {
-        Subject {
-            setup,
-            exact: &self.exact,
-            emitted: &self.emitted,
-            limits: &self.limits,
-            scales: &self.scales,
-            relative_to: self.relative_to,
-            reached: &self.reached,
-            sines,
-            // Polynomials call nothing.
-            library: match sines.is_empty() {
-                true => self.library,
-                false => Library::Libm,
-            },
-        }
     }
 }

@@ -7,22 +7,27 @@
 
 use dalembert_model::robot::JointKind;
 
-use super::subject::Subject;
+use super::Certificate;
 use crate::function::Argument;
 use crate::program::{Input, Program};
+use crate::setup::Setup;
 use crate::words::{Complaint, complaint};
 
 /// Returns true if the lists of a variant are as long as they should be.
-pub(super) fn has_lists(subject: &Subject<'_>) -> bool {
-    let (limits, n) = (subject.limits, subject.setup.joints());
-    let lists = [&limits.position, &limits.velocity, &limits.acceleration];
-    let outputs = subject.emitted.dag.outputs.len();
-    lists.iter().all(|list| list.len() == n) && subject.scales.len() == outputs
+pub(super) fn has_lists(own: &Certificate, setup: &Setup) -> bool {
+    let lists = Argument::STATE.map(|argument| own.limits.of_argument(argument));
+    let (n, outputs) = (setup.joints(), own.emitted.dag.outputs.len());
+    lists.iter().all(|list| list.len() == n) && own.scales.len() == outputs
 }
 
 /// Checks that a program is of the function in the scene, and reads what that has.
-pub(super) fn check(name: &str, program: &Program, subject: &Subject<'_>) -> Result<(), Complaint> {
-    let (setup, function) = (subject.setup, subject.emitted.function);
+pub(super) fn check(
+    name: &str,
+    program: &Program,
+    setup: &Setup,
+    emitted: &Program,
+) -> Result<(), Complaint> {
+    let function = emitted.function;
     let signature = [
         ("function", program.function == function),
         ("number of joints", program.joints == setup.joints()),
@@ -42,15 +47,14 @@ pub(super) fn check(name: &str, program: &Program, subject: &Subject<'_>) -> Res
         )));
     }
     let mut inputs = program.dag.inputs();
-    inputs.try_for_each(|input| match wrong(subject, *input) {
+    inputs.try_for_each(|input| match wrong(setup, emitted, *input) {
         None => Ok(()),
         Some(why) => Err(complaint(format!("{name} reads `{}`: {why}", input.name()))),
     })
 }
 
 /// Returns why a program may not read an input.
-fn wrong(subject: &Subject<'_>, input: Input) -> Option<&'static str> {
-    let setup = subject.setup;
+fn wrong(setup: &Setup, emitted: &Program, input: Input) -> Option<&'static str> {
     let of = |joint: usize, kind: Option<JointKind>| match setup.robot().joints.get(joint) {
         None => Some("the robot has no such joint"),
         Some(_) if setup.lock(joint).is_some() => {
@@ -82,6 +86,6 @@ fn wrong(subject: &Subject<'_>, input: Input) -> Option<&'static str> {
             (argument, of(joint, kind))
         }
     };
-    let missing = !subject.emitted.arguments.contains(&argument);
+    let missing = !emitted.arguments.contains(&argument);
     wrong.or(missing.then_some("the function has no such argument in this scene"))
 }

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use super::arguments::described;
 use super::module::{function_doc, header};
 use super::state_box::StateBox;
-use super::{GeneratedFunction, c_sines, fused, parameters};
+use super::{GeneratedFunction, c_sines, parameters, said};
 use crate::function::Function;
 use crate::language::c99::{self, LONGEST, Names};
 use crate::language::{self, Language, Printed, columns, cuda};
@@ -148,7 +148,7 @@ pub(crate) fn write(
                 let _ = write!(text, "\n{structure}");
             }
             let mut doc = function_doc(job, generated, scalar);
-            let of_rust = fused::doc(&generated.program);
+            let of_rust = said::fused(&generated.program);
             if !of_rust.is_empty() {
                 doc.retain(|line| line.is_empty() || !of_rust.contains(line));
                 let of_c = "A product and the sum that alone reads it are one operation, `fma`, rounded \

@@ -7,11 +7,10 @@ use dalembert_model::robot::{Convention, Follower, JointKind, Position, Robot};
 
 use super::escape::escaped;
 use super::figures::{decimal, placed};
-use super::friction;
 use super::say;
 use super::scene::describe;
 use super::state_box::StateBox;
-use super::{arguments, fused, parameters, sines, variant};
+use super::{arguments, parameters, said, variant};
 use crate::emit::GeneratedFunction;
 use crate::language::{Printed, columns, comment, function, result};
 use crate::program::{Code, Counts, ScalarType};
@@ -244,7 +243,7 @@ pub(super) fn function_doc(
             ),
         },
     ];
-    lines.extend(fused::doc(&generated.program));
+    lines.extend(said::fused(&generated.program));
     if generated.program.divides() {
         let why = [
             "",
@@ -253,10 +252,10 @@ pub(super) fn function_doc(
         ];
         say(&mut lines, why);
     }
-    lines.extend(friction::doc(generated, setup));
+    lines.extend(said::friction(generated, setup));
     lines.extend(arguments::doc(generated.function, setup));
     lines.extend(parameters::doc(generated.function, setup));
-    lines.extend(sines::doc(generated.sines(scalar), scalar));
+    lines.extend(said::sines(generated.sines(scalar), scalar));
     if let Some(admitted) = &generated.admitted
         && let Some(certificate) = generated.certificate(scalar)
     {

@@ -65,7 +65,7 @@ pub(super) fn units(program: &Program, robot: &Robot) -> Vec<&'static str> {
 mod tests {
     use super::*;
     use crate::function::Function;
-    use dalembert_model::read::{Options, parse};
+    use dalembert_model::read::parse;
 
     /// T/q̈ and T/(q̇ q̇) by hand, for joints that turn and joints that slide.
     #[test]
@@ -77,7 +77,7 @@ mod tests {
         };
         let head = "name = \"arm\"\nconvention = \"standard\"\ngravity = [0, 0, -9.81]\n";
         let source = [head, &joint("revolute"), &joint("prismatic")].concat();
-        let robot = parse(&source, &Options::default()).unwrap().robot;
+        let robot = parse(&source).unwrap().robot;
         let of = |function| units(&Program::empty(function, 2), &robot).join(" ");
         assert_eq!(of(Function::InverseDynamics), "N·m N");
         assert_eq!(

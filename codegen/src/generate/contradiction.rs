@@ -116,7 +116,7 @@ mod tests {
     use crate::generate::generate;
     use crate::task::Request;
     use dalembert_model::number::{Exact, Rational};
-    use dalembert_model::read::{self, Options};
+    use dalembert_model::read;
     use dalembert_model::scalar::Scalar;
 
     /// A constant that is off in its fortieth digit is found, where doubles would see nothing.
@@ -124,7 +124,7 @@ mod tests {
     fn a_wrong_digit_is_found() {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
         let text = std::fs::read_to_string(folder.join("planar2r.toml")).unwrap();
-        let robot = read::parse(&text, &Options::default()).unwrap().robot;
+        let robot = read::parse(&text).unwrap().robot;
         let request = Request::new(&[Function::InverseDynamics]);
         let generated = generate(&robot, &request).unwrap();
         let reference = Reference::new(&Setup::whole(&robot));

@@ -94,7 +94,7 @@ mod tests {
     /// or an equal one, and only then.
     #[test]
     fn an_early_end_takes_nothing_better_away() {
-        let robot = read::parse(PENDULUM, &read::Options::default());
+        let robot = read::parse(PENDULUM);
         let robot = robot.unwrap().robot;
         let request = Request::new(&[Function::Gravity]);
         let good = generate(&robot, &request).unwrap();

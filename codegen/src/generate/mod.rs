@@ -3,20 +3,17 @@
 //! - `search`: a program from the plan, or searched for
 //! - `tolerate`: the cheapest variant that a scene's tolerance admits
 //! - [`mod@keep`]: what was generated, in a plan; [`claim`]: for the checker
-//! - [`early`]: a search that was ended early, and what programs are compared by
-//! - `anew`: plans of a robot or a scene that was edited since
+//! - `again`: what is searched for again: after an edit, and after an early end
 //! - `contradiction`: what was proved, tried
-//! - [`parameters`]: which parameters can be arguments; `frames`: which frames there are
+//! - [`parameters`]: which parameters can be arguments
 //! - [`language`]: what a language lacks
 //! - `range`: what a scalar cannot hold
 //! - [`error`]: why nothing was generated
 
-mod anew;
+mod again;
 pub(crate) mod claim;
 mod contradiction;
-pub(crate) mod early;
 pub(crate) mod error;
-mod frames;
 pub(crate) mod keep;
 pub(crate) mod language;
 pub(crate) mod parameters;
@@ -28,7 +25,8 @@ pub(crate) mod tolerate;
 
 use dalembert_checker::read::Text;
 use dalembert_model::outputs::RuntimeParameter;
-use dalembert_model::robot::Robot;
+use dalembert_model::read::closest;
+use dalembert_model::robot::{HAND, Robot};
 use dalembert_stamp::{Comment, Stamp};
 
 pub use crate::approximate::error::ToleranceError;
@@ -45,16 +43,16 @@ use crate::language::read::{Signature, TextError};
 use crate::parallel;
 use crate::program::{Code, Program, ScalarType, has_inertia};
 use crate::search::Effort;
+use crate::seeds::depends_on_coulomb;
 use crate::setup::{ParametersKey, Setup, input_hash};
 use crate::sincos::{self, SinCos, Sines};
 use crate::task::{Job, Prefer, Request};
-use crate::trace::depends_on_coulomb;
 use crate::verify::exact::prove;
 use crate::verify::measure::Emitted;
 use crate::verify::parameters::prove_base;
 use crate::verify::singular::without_inertia;
 use crate::words::{Complaint, complaint};
-pub use anew::generate_anew;
+pub use again::generate_anew;
 pub use error::GenerateError;
 use range::{check_constants, vanishing, warn_of_overflow};
 use search::{found, replay};
@@ -152,7 +150,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     let (mut functions, scalars) = functions(job)?;
     let ended = request.effort == Effort::Thorough && request.watch.is_over();
     if ended {
-        early::no_dearer_than_quick(job, &mut functions, &scalars);
+        again::no_dearer_than_quick(job, &mut functions, &scalars);
     }
     let mut warnings = Vec::from_iter(language::renamed(robot, asked, request));
     for generated in &mut functions {
@@ -228,7 +226,7 @@ fn check(robot: &Robot, request: &Request) -> Result<(), GenerateError> {
         }
     }
     for &function in &functions {
-        frames::check(robot, function)?;
+        check_frames(robot, function)?;
         if !robot.followers.is_empty() && !function.takes_followers() {
             return Err(GenerateError::follows(function));
         }
@@ -255,6 +253,23 @@ fn check(robot: &Robot, request: &Request) -> Result<(), GenerateError> {
     }
 }
 
+/// Refuses a function at a frame that a robot does not have.
+fn check_frames(robot: &Robot, function: Function) -> Result<(), GenerateError> {
+    let frames = robot.frames.iter();
+    let names: Vec<&str> = frames.map(|frame| frame.name.as_str()).collect();
+    let known = |frame: &&str| *frame == HAND || names.contains(frame);
+    let Some(frame) = function.frames().into_iter().find(|frame| !known(frame)) else {
+        return Ok(());
+    };
+    let fix = match (closest(frame, &names), names.as_slice()) {
+        (Some(meant), _) => format!("did you mean `{meant}`?"),
+        (None, []) => format!("it has `{HAND}`; others are [[frame]] tables of its file"),
+        (None, names) => format!("it has `{HAND}`, `{}`", names.join("`, `")),
+    };
+    let message = format!("`{}`: the robot has no frame `{frame}`", function.text());
+    Err(GenerateError::refused(function, message, fix))
+}
+
 type Found = (Vec<GeneratedFunction>, Vec<ScalarType>);
 
 /// Returns every function's program, with what a tolerance leaves of it, and the
@@ -271,7 +286,7 @@ fn functions(job: &Job<'_>) -> Result<Found, GenerateError> {
         ..request.clone()
     };
     match attempt(&job.with(cheapest)) {
-        Err(GenerateError::Tolerance(_, ToleranceError::Above { .. })) => attempt(job),
+        Err(GenerateError::Tolerance(_, ToleranceError::Above(_))) => attempt(job),
         found => found,
     }
 }
@@ -369,14 +384,12 @@ fn sines(
     generated: &GeneratedFunction,
     scalars: &[ScalarType],
 ) -> Result<Vec<(ScalarType, Sines)>, GenerateError> {
-    let SinCos::Polynomial { error } = job.request.sincos else {
-        return Ok(Vec::new());
-    };
-    if generated.admitted.is_some() {
-        // It has what its tolerance admits, or no sines.
+    // What has a tolerance has what that admits, or no sines.
+    if job.request.sincos != SinCos::Polynomial || generated.admitted.is_some() {
         return Ok(Vec::new());
     }
-    let (setup, error) = (job.setup, error.unwrap_or(SinCos::ERROR));
+    let error = job.request.sincos_error.unwrap_or(SinCos::ERROR);
+    let setup = job.setup;
     let fail = |why| GenerateError::SinCos(generated.function, why);
     let all = scalars.iter().map(|&scalar| {
         let positions = sincos::positions(setup.robot(), scalar);

@@ -60,7 +60,7 @@ pub fn admitted(
         // The narrow one first: it is the cheaper, in time if not in counts.
         choices = vec![vec![ScalarType::F32], vec![ScalarType::F64]];
     }
-    if matches!(request.sincos, SinCos::Polynomial { error: Some(_) })
+    if request.sincos_error.is_some()
         && let Some(program) = programs.first()
     {
         let message = "a scene's tolerance decides how exact its sines are";
@@ -81,9 +81,9 @@ pub fn admitted(
             Err(
                 GenerateError::Tolerance(
                     _,
-                    ToleranceError::Above { .. }
+                    ToleranceError::Above(_)
                     | ToleranceError::Indefinite(_)
-                    | ToleranceError::Overflow { .. },
+                    | ToleranceError::Overflow(_),
                 )
                 | GenerateError::SinCos(..),
             ) if index < last => {}
@@ -217,7 +217,7 @@ fn chosen(
                 }
             }
         }
-        SinCos::Polynomial { .. } => {
+        SinCos::Polynomial => {
             let all = |admitted: &Admitted| -> Result<Vec<Certificate>, Complaint> {
                 admitted.certificates.iter().map(with).collect()
             };

@@ -23,7 +23,7 @@ use super::called::Called;
 use super::dialect::{Dialect, Lines};
 use super::function::reads;
 pub(crate) use super::names::{LONGEST, Names, float};
-use super::{Language, Printed, speed, trig};
+use super::{Language, Printed, trig};
 use crate::function::{Function, Quantity};
 use crate::program::{Code, Input, Library, Pair, ScalarType};
 
@@ -213,7 +213,7 @@ pub(crate) fn write(printed: &Printed<'_>, names: &Names, is_told: bool) -> Stri
             }
         }
     }
-    speed::write(&mut text, dialect, code, "");
+    trig::write_speeds(&mut text, dialect, code, "");
     let mut line = |line: &str| {
         let _ = writeln!(text, "    {line}");
     };

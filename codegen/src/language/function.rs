@@ -10,7 +10,7 @@ use crate::dag::Id;
 use crate::function::{Argument, Function, Sizes};
 use crate::language::dialect::{Dialect, Lines};
 use crate::language::result::{self, array_type};
-use crate::language::{Printed, comment, list, speed, trig};
+use crate::language::{Printed, comment, list, trig};
 use crate::program::{Code, Input, Library, ScalarType};
 
 /// A function of more operations than this is printed in blocks.
@@ -39,7 +39,7 @@ pub fn write(printed: &Printed<'_>, library: Library, doc: &[String]) -> String 
     push(&mut text, format_args!("{} {{", signature(printed)));
     let dialect = Dialect::rust(printed.code.scalar);
     trig::write(&mut text, printed.code);
-    speed::write(&mut text, dialect, printed.code, library.path());
+    trig::write_speeds(&mut text, dialect, printed.code, library.path());
     write_steps(&mut text, printed.code, dialect);
     let lines = Lines::new(dialect, printed.code);
     result::write(&mut text, printed.function, printed.sizes, lines.results());

@@ -6,8 +6,7 @@
 //! - [`columns`]: functions of any number of states
 //! - [`function`]: one program as one function
 //! - [`result`]: the array or the struct that it ends with
-//! - `trig`: sines and cosines, by calls and as polynomials
-//! - `speed`: what Coulomb friction reads of speeds
+//! - `trig`: sines and cosines, by calls and as polynomials, and what friction reads of speeds
 //! - [`read`]: the printed text, and whether it is the program
 
 pub(crate) mod c99;
@@ -19,7 +18,6 @@ pub(crate) mod function;
 pub(crate) mod names;
 pub(crate) mod read;
 pub(crate) mod result;
-mod speed;
 mod trig;
 
 use std::path::Path;

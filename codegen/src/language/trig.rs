@@ -1,5 +1,5 @@
 //! The sines and cosines at the start of a function: called angle by angle, or
-//! together, or as polynomials.
+//! together, or as polynomials. And after them what is read of speeds.
 //!
 //! ```text
 //! let (s1, c1) = libm::sincos(q[0]);
@@ -18,7 +18,7 @@ use std::fmt::Write;
 use crate::language::dialect::{Dialect, Lines};
 use crate::language::list;
 use crate::program::kernel::Kernel;
-use crate::program::{Code, Input, Library, Pair};
+use crate::program::{Code, Input, Library, Literal, Operation, Pair};
 
 /// Prints them.
 pub(super) fn write(text: &mut String, code: &Code) {
@@ -100,4 +100,21 @@ pub(super) fn taken_names(code: &Code) -> [String; 2] {
     let sines = taken(code).map(|pair| name(pair.need.sin, Input::Sin(pair.joint)));
     let cosines = taken(code).map(|pair| name(pair.need.cos, Input::Cos(pair.joint)));
     [list(sines), list(cosines)]
+}
+
+/// Prints what Coulomb friction reads of speeds: one over the smoothed speed of a joint,
+/// `let r2 = 1.0 / libm::sqrt(qd[1] * qd[1] + 0.0001);`. Roots are correctly rounded, whoever
+/// computes them.
+pub(super) fn write_speeds(text: &mut String, dialect: Dialect, code: &Code, path: &str) {
+    let one = dialect.literal(Literal(1.0));
+    for own in &code.speeds {
+        let (name, joint) = (Input::PerSpeed(own.joint).name(), own.joint);
+        let square = dialect.literal(own.square);
+        let speed = format!("qd[{joint}]");
+        let product = dialect.operation(Operation::Mul, &speed, &speed);
+        let sum = format!("{product} + {square}");
+        let value = format!("{one} / {}", dialect.call(path, "sqrt", &sum));
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "    {}", dialect.declare(&name, &value));
+    }
 }

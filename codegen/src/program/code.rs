@@ -51,10 +51,9 @@ impl Code {
         kernel: impl Fn(usize) -> Option<Kernel>,
     ) -> Code {
         let literal = |value: &Exact| Literal(scalar.round(value));
-        let pairs = program.trig().into_iter().map(|trig| Pair {
-            joint: trig.joint,
-            need: trig.need,
-            kernel: kernel(trig.joint),
+        let pairs = program.trig().into_iter().map(|pair| Pair {
+            kernel: kernel(pair.joint),
+            ..pair
         });
         let speeds = program.speeds.iter().map(|own| Speed {
             joint: own.joint,

@@ -13,7 +13,6 @@ pub(crate) mod code;
 mod difference;
 pub(crate) mod kernel;
 pub(crate) mod library;
-mod literal;
 pub(crate) mod machine;
 pub(crate) mod scalar_type;
 pub(crate) mod speed;
@@ -30,8 +29,7 @@ use crate::function::{Argument, Columns, Function, Sizes};
 pub use code::{Code, Pair};
 pub use kernel::Need;
 pub use library::Library;
-pub use literal::Literal;
-pub use scalar_type::ScalarType;
+pub use scalar_type::{Literal, ScalarType};
 pub(crate) use speed::Speed;
 pub use steps::{Operand, Output, Step, Steps};
 
@@ -53,15 +51,6 @@ pub struct Program {
     /// The arithmetic in the order of the code, each leaf before the first operation that reads it,
     /// and the results in the order of the function's quantities.
     pub dag: Dag,
-}
-
-/// One sine/cosine evaluation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Trig {
-    /// The joint.
-    pub joint: usize,
-    /// The ones that are read.
-    pub need: Need,
 }
 
 impl Program {
@@ -135,8 +124,8 @@ impl Program {
         speeds
     }
 
-    /// Lists the sines and cosines that it reads, joints ascending.
-    pub fn trig(&self) -> Vec<Trig> {
+    /// Lists the sines and cosines that it reads, joints ascending, as a library computes them.
+    pub fn trig(&self) -> Vec<Pair> {
         let mut needs: BTreeMap<usize, Need> = BTreeMap::new();
         for input in self.dag.inputs() {
             match *input {
@@ -145,8 +134,12 @@ impl Program {
                 Input::PerSpeed(_) | Input::Entry(..) => {}
             }
         }
-        let needs = needs.into_iter();
-        needs.map(|(joint, need)| Trig { joint, need }).collect()
+        let pair = |(joint, need)| Pair {
+            joint,
+            need,
+            kernel: None,
+        };
+        needs.into_iter().map(pair).collect()
     }
 
     /// Counts the operations.

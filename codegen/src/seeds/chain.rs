@@ -7,19 +7,19 @@ use std::rc::Rc;
 use dalembert_model::equations::chain::composite::Composite;
 use dalembert_model::equations::chain::{Chain, Regrouping, Skeleton};
 use dalembert_model::equations::matrix::{Vector, scaled};
-use dalembert_model::equations::regressor::{Column, LinkParameter};
+use dalembert_model::equations::regressor::{Column, LinkParameter, Probed};
 use dalembert_model::equations::{Arm, DhVariables, Formulation};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::{Motion, Regrouped, RuntimeParameter, Shared, Written};
 
-use super::numbers::Numbers;
+use super::load::symbols;
+use super::trace::reader;
 use super::{Form, Seed, Source, Tuned};
 use crate::dag::symbol::Symbol;
 use crate::dag::{Builder, Dag, Folding};
 use crate::function::{Argument, Quantity};
 use crate::program::{Counts, Input};
 use crate::setup::{Setup, Task};
-use crate::trace::reader;
 
 /// Traces a function by the chain formulas; also the operations as executed.
 pub fn trace_chain(
@@ -30,8 +30,7 @@ pub fn trace_chain(
 ) -> (Dag, Counts) {
     let Task { setup, function } = task;
     let builder = Rc::new(RefCell::new(Builder::new(folding)));
-    let mut numbers = Numbers::new(task, &builder);
-    let mut chain = chain.map(|constant| numbers.symbol(constant));
+    let mut chain = symbols(task, chain, &builder);
     let mut gravity = None;
     if setup.takes(function, RuntimeParameter::Gravity) {
         let entry = |axis| Symbol::input(&builder, Input::Entry(Argument::Gravity, axis));
@@ -40,7 +39,6 @@ pub fn trace_chain(
         chain.gravity = scaled(&chain.per_unit, &in_frame_0);
         gravity = Some(taken);
     }
-    drop(numbers);
     let arguments = function.arguments();
     let whole = setup.motion(reader(&arguments, &builder), Symbol::constant);
     let rows = &setup.chained_rows();
@@ -126,9 +124,9 @@ pub fn skeleton_for(task: Task<'_>) -> Skeleton<Exact> {
         return with_columns(setup, &setup.columns(function, Exact::clone));
     }
     let last = setup.robot().rows().len().saturating_sub(1);
-    let columns = LinkParameter::ALL.map(|parameter| Column::Body {
+    let columns = LinkParameter::ALL.map(|parameter| Column {
         joint: last,
-        body: parameter.unit(),
+        of: Probed::Body(parameter.unit()),
     });
     with_columns(setup, &columns).with_values(&setup.unknowns().values())
 }

@@ -1,4 +1,4 @@
-//! The load's numbers: in which regrouping of the chain they are.
+//! The load's numbers: in which regrouping of the chain they are, and how formulas read them.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -6,17 +6,18 @@ use std::rc::Rc;
 use dalembert_model::equations::chain::Chain;
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::RuntimeParameter;
+use dalembert_model::scalar::Scalar;
 
 use super::chain::{skeleton_for, trace_chain};
 use super::descent::tuned;
-use super::numbers::Numbers;
 use super::start::Problem;
-use crate::dag::{Builder, Folding, Node};
+use crate::dag::symbol::Symbol;
+use crate::dag::{Builder, Folding, Node, signed};
 use crate::function::{Argument, Function};
 use crate::program::Input;
 use crate::search::Effort;
-use crate::setup::Setup;
-use crate::setup::load::LoadParameters;
+use crate::setup::load::Unknowns;
+use crate::setup::{Setup, Task};
 
 /// Returns the robot in its scene with the load's numbers, if a payload is an argument:
 /// those of the regrouping in which torques cost least, as far as torques depend on them. No
@@ -33,20 +34,61 @@ pub(crate) fn chosen(setup: Setup) -> Setup {
     let best = tuned(&Problem::new(task, Effort::Quick), &forms);
     let chain = Chain::new(&skeleton_for(task), &best.regrouping);
     let (graph, _) = trace_chain(task, &chain, best.form, Folding::Semantic);
-    let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
-    // As the trace meets them.
-    let mut numbers = Numbers::new(task, &builder);
-    chain.map(|number| numbers.symbol(number));
-    let met = numbers.met();
     let is_read = |index: usize| {
         let entry = Node::Input(Input::Entry(Argument::Load, index));
         graph.live().any(|(_, node)| *node == entry)
     };
-    let read = met
-        .into_iter()
-        .enumerate()
-        .filter(|(index, _)| is_read(*index));
-    let read: Vec<Exact> = read.map(|(_, number)| number).collect();
-    let load = LoadParameters::new(&setup, read, best.regrouping);
-    setup.with_load(load)
+    // As the trace meets them.
+    let met = met(&chain, &full.unknowns()).into_iter().enumerate();
+    let read = met.filter(|(index, _)| is_read(*index));
+    let read = read.map(|(_, number)| number).collect();
+    setup.with_load(read, best.regrouping)
+}
+
+/// Returns the numbers of a chain that depend on a payload, each once, as they are met.
+fn met(chain: &Chain<Exact>, unknowns: &Unknowns) -> Vec<Exact> {
+    let mut met: Vec<Exact> = Vec::new();
+    chain.map(|number| {
+        if unknowns.occur_in(number) && place(&met, number).is_none() {
+            met.push(signed(number, number.leads_negative()));
+        }
+    });
+    met
+}
+
+/// Returns the index of a number in a list, and whether it is negated there.
+fn place(numbers: &[Exact], number: &Exact) -> Option<(usize, bool)> {
+    let is_negative = number.leads_negative();
+    let size = signed(number, is_negative);
+    let at = numbers.iter().position(|known| *known == size)?;
+    Some((at, is_negative))
+}
+
+/// Returns a chain of symbols: numbers that depend on a payload are entries of the load, all that
+/// are met as long as none are chosen.
+pub(super) fn symbols(
+    task: Task<'_>,
+    chain: &Chain<Exact>,
+    builder: &Rc<RefCell<Builder>>,
+) -> Chain<Symbol> {
+    let Task { setup, function } = task;
+    if !setup.takes(function, RuntimeParameter::Payload) {
+        return chain.map(Symbol::constant);
+    }
+    let unknowns = setup.unknowns();
+    let numbers = match setup.load() {
+        Some(load) => load.numbers.clone(),
+        None => met(chain, &unknowns),
+    };
+    chain.map(|number| {
+        if !unknowns.occur_in(number) {
+            return Symbol::constant(number);
+        }
+        // A number that no torque depends on may have any value.
+        let Some((index, is_negative)) = place(&numbers, number) else {
+            return Symbol::zero();
+        };
+        let entry = Symbol::input(builder, Input::Entry(Argument::Load, index));
+        signed(&entry, is_negative)
+    })
 }

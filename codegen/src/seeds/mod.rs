@@ -5,26 +5,26 @@
 //! - [`chain`]: the chain forms ([`dalembert_model::equations::chain`]) in a regrouping
 //! - [`descent`]: the regrouping that is cheapest for the robot and the function;
 //!   [`tune`]: how a descent goes from one to the next
-//! - [`load`]: the numbers of the chain that a payload changes; `numbers`: how formulas
-//!   read them
+//! - [`load`]: the numbers of the chain that a payload changes, and how formulas read them
+//! - `trace`: a textbook formulation as it stands
 
 pub(crate) mod chain;
 pub(crate) mod descent;
 pub(crate) mod load;
-mod numbers;
 pub(crate) mod start;
+mod trace;
 pub(crate) mod tune;
 
 use dalembert_model::equations::Formulation;
 
 use crate::dag::Dag;
 use crate::program::Counts;
-use crate::setup::Task;
-use crate::trace::trace;
 pub(crate) use chain::{in_regrouping, regrouped};
 pub use chain::{skeleton, skeleton_for, trace_chain};
 pub(crate) use descent::{Limit, tuned};
 pub use start::Start;
+pub(crate) use trace::depends_on_coulomb;
+pub use trace::trace;
 pub(crate) use tune::{Tuned, neighbours};
 
 pub(crate) use dalembert_model::equations::chain::Form;
@@ -68,18 +68,8 @@ impl Source {
 pub struct Seed {
     /// Where it comes from.
     pub source: Source,
-    /// The graph, folded as it was built.
+    /// The graph, folded as it was built, nothing more.
     pub graph: Dag,
-    /// The operations of the formula as executed.
+    /// The operations of the formula as it was executed, before folding.
     pub traced: Counts,
-}
-
-/// Returns a textbook formulation, traced as it stands.
-pub(crate) fn textbook(task: Task<'_>, formulation: Formulation) -> Seed {
-    let trace = trace(task, formulation);
-    Seed {
-        source: Source::Textbook(formulation),
-        graph: trace.graph,
-        traced: trace.traced,
-    }
 }

@@ -5,7 +5,7 @@ use dalembert_model::equations::chain::{Chain, Regrouping};
 use dalembert_model::number::Exact;
 use dalembert_model::outputs::RuntimeParameter;
 
-use super::{Form, Limit, Seed, Source, Tuned, regrouped, skeleton_for, textbook, tuned};
+use super::{Form, Limit, Seed, Source, Tuned, regrouped, skeleton_for, trace, tuned};
 use crate::dag::Dag;
 use crate::function::Function;
 use crate::search::Effort;
@@ -33,11 +33,6 @@ pub enum Start {
 }
 
 impl Start {
-    /// Returns the choices of the command line and the macro.
-    pub fn all() -> impl Iterator<Item = Start> {
-        [Start::Auto].into_iter().chain(TEXTBOOK.map(Start::Only))
-    }
-
     /// Returns its name on the command line, in the macro and in plans.
     pub fn name(self) -> &'static str {
         match self {
@@ -53,9 +48,9 @@ impl Start {
         let function = task.function;
         let mut quantities = function.quantities().iter();
         match self {
-            Start::Only(form) => vec![Approach::of(vec![textbook(task, form)])],
+            Start::Only(form) => vec![Approach::of(vec![trace(task, form)])],
             Start::Auto if function == Function::Load => {
-                let mut definition = textbook(task, Formulation::NewtonEulerLink);
+                let mut definition = trace(task, Formulation::NewtonEulerLink);
                 definition.source = Source::Definition;
                 vec![Approach::of(vec![definition])]
             }
@@ -71,7 +66,8 @@ impl Word for Start {
     const WHAT: &'static str = "formulation";
 
     fn all() -> Vec<(&'static str, Start)> {
-        Start::all().map(|start| (start.name(), start)).collect()
+        let all = [Start::Auto].into_iter().chain(TEXTBOOK.map(Start::Only));
+        all.map(|start| (start.name(), start)).collect()
     }
 }
 
@@ -125,7 +121,7 @@ impl<'a> Problem<'a> {
 /// Lagrange–Euler's values and those of products of axes at hand. These are small, and what is
 /// dearer by itself often ends lower: all are searched from.
 fn by_textbook(problem: &Problem<'_>) -> Vec<Approach> {
-    let textbook = |form| textbook(problem.task, form);
+    let textbook = |form| trace(problem.task, form);
     let recursion = textbook(Formulation::NewtonEulerLink);
     let products = textbook(Formulation::LagrangeEuler);
     let printed = textbook(Formulation::NewtonEulerLinkAsPrinted);
@@ -164,7 +160,7 @@ fn by_chain(problem: &Problem<'_>) -> Approach {
     let mut quantities = function.quantities().iter();
     let is_loaded = setup.takes(function, RuntimeParameter::Payload);
     if !is_loaded && quantities.all(|quantity| quantity.starts_from_recursion()) {
-        let recursion = textbook(task, Formulation::NewtonEulerLink);
+        let recursion = trace(task, Formulation::NewtonEulerLink);
         seeds.push(recursion);
     }
     Approach {

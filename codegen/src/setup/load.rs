@@ -28,40 +28,6 @@ pub struct LoadParameters {
     pub regrouping: Regrouping<Exact>,
 }
 
-impl LoadParameters {
-    /// Creates the load of a chain in a regrouping, which has these numbers.
-    pub fn new(
-        setup: &Setup,
-        numbers: Vec<Exact>,
-        regrouping: Regrouping<Exact>,
-    ) -> LoadParameters {
-        let unknowns = setup.unknowns();
-        let rows = numbers.iter().map(|number| unknowns.row(number));
-        LoadParameters {
-            rows: rows.collect(),
-            numbers,
-            regrouping,
-        }
-    }
-
-    /// Returns the index of a number among the load's, and whether it is negated there.
-    pub fn place(&self, number: &Exact) -> Option<(usize, bool)> {
-        place(&self.numbers, number)
-    }
-}
-
-/// Returns the index of a number in a list, and whether it is negated there.
-pub(crate) fn place(numbers: &[Exact], number: &Exact) -> Option<(usize, bool)> {
-    let is_negative = number.leads_negative();
-    let number = if is_negative {
-        number.neg()
-    } else {
-        number.clone()
-    };
-    let at = numbers.iter().position(|known| *known == number)?;
-    Some((at, is_negative))
-}
-
 /// The parameters of a payload that is not known yet, about the origin and in the
 /// axes of the last link's frame.
 #[derive(Clone, Debug)]
@@ -71,6 +37,22 @@ pub struct Unknowns {
 }
 
 impl Setup {
+    /// Returns the robot with the load of a chain in a regrouping, which has these numbers.
+    #[must_use]
+    pub fn with_load(self, numbers: Vec<Exact>, regrouping: Regrouping<Exact>) -> Setup {
+        let unknowns = self.unknowns();
+        let rows = numbers.iter().map(|number| unknowns.row(number));
+        let load = LoadParameters {
+            rows: rows.collect(),
+            numbers,
+            regrouping,
+        };
+        Setup {
+            load: Some(load),
+            ..self
+        }
+    }
+
     /// Returns the parameters of a payload.
     pub fn unknowns(&self) -> Unknowns {
         let taken = self.constant_angles();

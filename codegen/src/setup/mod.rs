@@ -331,15 +331,6 @@ impl Setup {
         }
     }
 
-    /// Returns the robot with the numbers of the chain that a payload changes.
-    #[must_use]
-    pub fn with_load(self, load: LoadParameters) -> Setup {
-        Setup {
-            load: Some(load),
-            ..self
-        }
-    }
-
     /// Returns the numbers of the regrouped chain that a payload changes; none before they
     /// are chosen.
     pub fn load(&self) -> Option<&LoadParameters> {

@@ -23,48 +23,35 @@ mod tests;
 
 use crate::interval::Interval;
 use crate::program::kernel::Kernel;
-use crate::program::{Code, Library, Program, ScalarType, Trig};
-use crate::words::{Complaint, Word, complaint};
+use crate::program::{Code, Library, Pair, Program, ScalarType};
+use crate::words::{Complaint, complaint, words};
 use choose::Candidates;
 use dalembert_model::robot::{JointKind, Robot};
 use proof::Errors;
 
-/// How emitted code gets sines and cosines.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub enum SinCos {
-    /// By polynomials where a scene's tolerance admits them, else from the
-    /// library of the way in.
-    #[default]
-    Auto,
-    /// All angles of a function together, by `dalembert-sines`: good for every
-    /// angle, and vectors of them at a time up to 8192 rad (f32: 100).
-    Together,
-    /// From libm, good for every angle.
-    Libm,
-    /// By polynomials over the joints' ranges. The code needs no libm then,
-    /// and is wrong outside the ranges that its documentation names.
-    Polynomial {
-        /// The largest |computed − true| of each sine and cosine;
-        /// [`SinCos::ERROR`] if nothing is said. A scene's tolerance says it
-        /// by itself.
-        error: Option<f64>,
-    },
+words! {
+    /// How emitted code gets sines and cosines.
+    #[derive(Clone, Copy, Debug, Default, PartialEq)]
+    #[non_exhaustive]
+    pub enum SinCos: "source of sines" {
+        /// By polynomials where a scene's tolerance admits them, else from the
+        /// library of the way in.
+        #[default]
+        Auto = "auto",
+        /// All angles of a function together, by `dalembert-sines`: good for every
+        /// angle, and vectors of them at a time up to 8192 rad (f32: 100).
+        Together = "together",
+        /// From libm, good for every angle.
+        Libm = "libm",
+        /// By polynomials over the joints' ranges. The code needs no libm then,
+        /// and is wrong outside the ranges that its documentation names.
+        Polynomial = "polynomial",
+    }
 }
 
 impl SinCos {
     /// The error of polynomials for which none is given.
     pub const ERROR: f64 = 1e-6;
-
-    /// Returns its word.
-    pub fn name(self) -> &'static str {
-        match self {
-            SinCos::Auto => "auto",
-            SinCos::Libm => "libm",
-            SinCos::Together => "together",
-            SinCos::Polynomial { .. } => "polynomial",
-        }
-    }
 
     /// Returns the library of what is called, where `auto` is this one.
     pub fn library(self, auto: Library) -> Library {
@@ -72,22 +59,8 @@ impl SinCos {
             SinCos::Auto => auto,
             SinCos::Together => Library::Together,
             // Polynomials call nothing.
-            SinCos::Libm | SinCos::Polynomial { .. } => Library::Libm,
+            SinCos::Libm | SinCos::Polynomial => Library::Libm,
         }
-    }
-}
-
-/// The error of polynomials is left open.
-impl Word for SinCos {
-    const WHAT: &'static str = "source of sines";
-
-    fn all() -> Vec<(&'static str, SinCos)> {
-        vec![
-            ("auto", SinCos::Auto),
-            ("together", SinCos::Together),
-            ("libm", SinCos::Libm),
-            ("polynomial", SinCos::Polynomial { error: None }),
-        ]
     }
 }
 
@@ -164,7 +137,7 @@ pub(crate) fn polynomials(
 }
 
 fn one(
-    trig: &Trig,
+    trig: &Pair,
     scalar: ScalarType,
     range: Interval,
     error: f64,

@@ -7,7 +7,7 @@
 use dalembert_model::number::{Angle, Rational, Rounded};
 use num_traits::float::FloatCore;
 
-use crate::dag::{Edge, Id, Node};
+use crate::dag::{Id, Node};
 use crate::interval::Interval;
 use crate::program::kernel::{Kernel, KernelWriter};
 use crate::program::scalar_type::underflow;
@@ -85,34 +85,25 @@ pub(crate) fn split(kernel: &Kernel, scalar: ScalarType) -> Option<([f64; 3], Ke
     if dag.nodes.get(..expected.nodes.len()) != Some(&expected.nodes) {
         return None;
     }
-    // Nothing else may read what came before.
-    let mut left = KernelWriter::default();
-    let mut places: Vec<Id> = Vec::new();
-    let place = |id: Id, places: &[Id], left: &mut KernelWriter| match dag.node(id) {
-        _ if id == rest => Some(left.angle()),
-        Node::Constant(Literal(value)) => Some(left.literal(*value)),
-        Node::Apply(..) if id > rest => places.get((id - rest - 1) as usize).copied(),
-        _ => None,
+    // Nothing else may read what came before, but for its literals.
+    let is_left = |id: Id| match dag.node(id) {
+        Node::Constant(_) => true,
+        Node::Apply(..) => id >= rest,
+        Node::Input(_) => false,
     };
-    for (node, id) in dag.nodes.iter().zip(0..).skip(expected.nodes.len()) {
-        places.push(match node {
-            Node::Apply(operation, [a, b]) => {
-                let a = place(*a, &places, &mut left)?;
-                let b = place(*b, &places, &mut left)?;
-                left.apply(*operation, [a, b])
-            }
-            _ => place(id, &places, &mut left)?,
-        });
+    let operations = dag.nodes.iter().skip(expected.nodes.len());
+    let reads = operations.filter_map(Node::operands).flatten();
+    let mut reads = reads.chain(dag.outputs.iter().map(|edge| edge.node));
+    if !dag.is_straight() || !reads.all(is_left) {
+        return None;
     }
-    let outputs: Option<Vec<Edge>> = (dag.outputs.iter())
-        .map(|edge| {
-            let node = place(edge.node, &places, &mut left)?;
-            Some(Edge { node, ..*edge })
-        })
-        .collect();
-    let dag = left.finish(outputs?);
-    let need = kernel.need;
-    Some((constants, Kernel { need, dag }))
+    let mut dag = dag.clone();
+    dag.nodes[rest as usize] = Node::Input(crate::program::kernel::Angle);
+    let left = Kernel {
+        need: kernel.need,
+        dag: dag.map(|literal| *literal, |angle| *angle),
+    };
+    Some((constants, left))
 }
 
 /// Returns what is left of angles in a range; `None` if there are too many turns for

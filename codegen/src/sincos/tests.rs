@@ -146,9 +146,10 @@ fn operations_follow_from_error_and_range() {
 #[test]
 fn what_cannot_be_reached_is_said() {
     let robot_like = |error| {
-        let trig = Trig {
+        let trig = Pair {
             joint: 1,
             need: BOTH,
+            kernel: None,
         };
         one(&trig, ScalarType::F32, range(-PI, PI), error)
     };

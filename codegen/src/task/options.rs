@@ -68,7 +68,6 @@ struct Draft {
     outputs: Option<Vec<Function>>,
     scalars: Option<Vec<ScalarType>>,
     scene: Option<String>,
-    error: Option<f64>,
     request: Request,
 }
 
@@ -114,7 +113,7 @@ fn sincos_error(draft: &mut Draft, item: &str) -> Result<(), Complaint> {
     let error = item.replace('_', "").parse::<f64>().ok();
     let error = error.filter(|error| *error > 0.0 && *error < 1.0);
     let wrong = || Complaint::new("expected an error above 0 and below 1", "such as 1e-9");
-    draft.error = Some(error.ok_or_else(wrong)?);
+    draft.request.sincos_error = Some(error.ok_or_else(wrong)?);
     Ok(())
 }
 
@@ -311,14 +310,11 @@ impl Request {
             report("scene", draft.scene.as_deref().unwrap_or_default(), error);
             None
         });
-        match (&mut draft.request.sincos, draft.error) {
-            (SinCos::Polynomial { error }, own) => *error = own,
-            (_, Some(_)) => {
-                let message = "only polynomials have an error to choose";
-                let help = "add `sincos: polynomial`, or leave this out";
-                report("sincos_error", "", Complaint::new(message, help));
-            }
-            (_, None) => {}
+        let has_error = draft.request.sincos_error.is_some();
+        if has_error && draft.request.sincos != SinCos::Polynomial {
+            let message = "only polynomials have an error to choose";
+            let help = "add `sincos: polynomial`, or leave this out";
+            report("sincos_error", "", Complaint::new(message, help));
         }
         if !problems.is_empty() {
             return Err(problems);
@@ -333,10 +329,7 @@ impl Request {
         let outputs: Vec<String> = self.functions.iter().map(|own| own.text()).collect();
         let scalars: Vec<&str> = self.scalars.iter().map(|own| own.name()).collect();
         let parameters: Vec<&str> = self.parameters.iter().map(|own| own.name()).collect();
-        let error = match self.sincos {
-            SinCos::Polynomial { error: Some(error) } => format!("{error:?}"),
-            _ => String::new(),
-        };
+        let error = self.sincos_error.map(|error| format!("{error:?}"));
         let scene = self.scene.as_ref().map_or("", |scene| &scene.name);
         for (option, value) in [
             ("outputs", outputs.join(",").as_str()),
@@ -346,7 +339,7 @@ impl Request {
             ("prefer", self.prefer.name()),
             ("fma", self.fma.name()),
             ("sincos", self.sincos.name()),
-            ("sincos_error", &error),
+            ("sincos_error", &error.unwrap_or_default()),
             ("batch", if self.batch { "on" } else { "off" }),
             ("parameters", &parameters.join(",")),
             ("scene", scene),

@@ -61,6 +61,9 @@ pub struct Request {
     pub fma: Fma,
     /// The source of sines and cosines.
     pub sincos: SinCos,
+    /// The largest |computed − true| of each sine and cosine by polynomials; [`SinCos::ERROR`] if
+    /// nothing is said. A scene's tolerance says it by itself.
+    pub sincos_error: Option<f64>,
     /// Whose sines are called where `sincos` leaves the choice open.
     pub auto: Library,
     /// `true` for functions of any number of states beside those of one.
@@ -102,6 +105,7 @@ impl Default for Request {
             prefer: Prefer::default(),
             fma: Fma::default(),
             sincos: SinCos::default(),
+            sincos_error: None,
             auto: Library::default(),
             batch: false,
             language: Language::default(),
@@ -199,11 +203,5 @@ impl Request {
             self.functions = outputs.to_vec();
         }
         self
-    }
-
-    /// Returns the request in a scene, with its outputs and its scalar.
-    #[must_use]
-    pub fn in_scene(self, scene: &Scene) -> Request {
-        self.choose(None, None, Some(scene))
     }
 }

@@ -55,7 +55,7 @@ impl<'a> AccuracyFilter<'a> {
             false => (MAX_MEASURED, Formulation::NewtonEulerLink),
         };
         let is_measured = !is_lenient && task.setup.joints() <= most;
-        let textbook = is_measured.then(|| seeds::textbook(task, by).graph);
+        let textbook = is_measured.then(|| seeds::trace(task, by).graph);
         AccuracyFilter {
             task,
             reference: textbook.map(|textbook| estimate(task, &textbook)),

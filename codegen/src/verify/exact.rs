@@ -234,7 +234,7 @@ impl Program {
         for quantity in self.function.quantities() {
             let len = quantity.len(self.sizes());
             if index < len {
-                return quantity.entry_over(index, &self.rows, self.sizes());
+                return quantity.entry(index, &self.rows, self.sizes());
             }
             index -= len;
         }

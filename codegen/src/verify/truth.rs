@@ -270,7 +270,7 @@ impl Divide for TrueValue {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use dalembert_model::read::{self, Options};
+    use dalembert_model::read;
 
     /// An error of emitted code could hide where the reference knew less.
     #[test]
@@ -278,7 +278,7 @@ mod tests {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots");
         for name in ["planar3r", "stanford", "ur10", "panda"] {
             let text = std::fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap();
-            let robot = read::parse(&text, &Options::default()).unwrap().robot;
+            let robot = read::parse(&text).unwrap().robot;
             let setup = Setup::whole(&robot);
             let reference = Reference::new(&setup);
             for function in Function::ALL {

@@ -49,7 +49,7 @@ pub fn source(name: &str, more: &str) -> String {
 
 /// Reads the text of a robot file.
 pub fn read(source: &str) -> Reading {
-    read::parse(source, &read::Options::default()).unwrap_or_else(|errors| panic!("{errors}"))
+    read::parse(source).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
 /// Reads the text of a robot file without its scenes.

@@ -4,7 +4,7 @@ use dalembert_model::number::{Exact, Rational, Rounded};
 use dalembert_model::robot::Robot;
 use num_traits::{One, Zero};
 
-use super::{Column, Model, Options, state};
+use super::{Column, Model, state};
 use crate::dense::norms;
 use crate::random::Random;
 use crate::triangle::Triangle;
@@ -56,9 +56,12 @@ impl Model {
 
     /// Returns the hash of the robot without what is identified, with what decides the columns.
     pub(super) fn hashed(&self) -> [u8; 32] {
-        let mut bare = candidates(&self.robot, &self.options);
+        // What is identified, in the words of the bytes that there are.
+        const IDENTIFIED: &str = "Options { armature: true, viscous: true, coulomb: true, \
+                                  offset: true, coulomb_width: 0.01 }";
+        let mut bare = candidates(&self.robot);
         let count = self.columns.len();
-        bare.name = format!("{:?} {:?} {count}", self.options, self.widths);
+        bare.name = format!("{IDENTIFIED} {:?} {count}", self.widths);
         for joint in &mut bare.joints {
             joint.name = None;
             joint.limits = Default::default();
@@ -70,20 +73,13 @@ impl Model {
     }
 }
 
-/// Returns the robot with the drives whose columns are asked for: every rotor a unit of inertia,
-/// every joint a unit of viscous friction. Coulomb friction is not a base parameter.
-pub(super) fn candidates(robot: &Robot, options: &Options) -> Robot {
+/// Returns the robot with a drive for each joint: a unit of inertia of its rotor, a unit of viscous
+/// friction. Coulomb friction is not a base parameter.
+pub(super) fn candidates(robot: &Robot) -> Robot {
     let mut robot = robot.clone();
     for joint in &mut robot.joints {
         joint.coulomb = Rational::zero();
-        for (asked, own) in [
-            (options.armature, &mut joint.armature),
-            (options.viscous, &mut joint.viscous),
-        ] {
-            if asked {
-                *own = Rational::one();
-            }
-        }
+        (joint.armature, joint.viscous) = (Rational::one(), Rational::one());
     }
     robot
 }

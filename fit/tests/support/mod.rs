@@ -1,7 +1,7 @@
 //! Arms whose parameters are known, and what is taken for them at first.
 
 use dalembert_fit::random::{Random, normal, within};
-use dalembert_fit::{Accumulator, Model, Options};
+use dalembert_fit::{Accumulator, Model};
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::read::parse;
@@ -13,7 +13,7 @@ pub const ARMS: [&str; 3] = ["puma560", "ur10", "panda"];
 pub fn file(name: &str) -> Robot {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../generated/robots");
     let text = std::fs::read_to_string(format!("{folder}/{name}.toml")).unwrap();
-    parse(&text, &Default::default()).unwrap().robot
+    parse(&text).unwrap().robot
 }
 
 pub fn number(value: f64) -> Rational {
@@ -69,7 +69,7 @@ pub fn guess(truth: &Robot) -> Robot {
 }
 
 pub fn model(robot: &Robot) -> Model {
-    Model::new(robot, &Options::default()).unwrap()
+    Model::new(robot).unwrap()
 }
 
 /// Returns the model that an arm's data sheet gives, and π of the arm as it is.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use clap::Args;
 use dalembert_fit::random::{Random, normal, within};
 use dalembert_fit::simulate::{Collision, Controlled, Log, Recording, control};
-use dalembert_fit::{Effort, Model, Options, Trajectory, excite};
+use dalembert_fit::{Effort, Model, Trajectory, excite};
 use dalembert_model::number::Rational;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::robot::{Robot, write};
@@ -128,7 +128,7 @@ pub(super) async fn run(args: SimulateArgs, going: &Going) -> Result<String, Err
 impl Scene {
     fn new(args: SimulateArgs, loaded: Arc<Loaded>) -> Result<Scene, Error> {
         let robot = loaded.robot();
-        let model = Model::new(robot, &Options::default())?;
+        let model = Model::new(robot)?;
         let n = model.joints();
         let effort = Effort {
             starts: 8,
@@ -315,14 +315,8 @@ impl Scene {
                     }
                 }
             }
-            let [mut q, qd, qdd] = states;
-            let step = recording.resolution;
-            if step > 0.0 {
-                for q in &mut q {
-                    *q = step * libm::round(*q / step);
-                }
-            }
-            self.write(table, time, &[q, qd, qdd, tau])?;
+            let [q, qd, qdd] = states;
+            self.write(table, time, &[recording.read(&q), qd, qdd, tau])?;
             progress.add(count as u64);
         }
         Ok(())

@@ -96,7 +96,7 @@ impl<'a> Blocks<'a> {
         let builder = open(path)?;
         let layout = columns.layout(builder.schema())?;
         let mut names = vec![columns.time.as_str()];
-        for source in layout.sources.iter().flatten() {
+        for source in layout.iter().flatten() {
             names.extend(source.columns().iter().map(String::as_str));
         }
         let mask = projection(&builder, &names);
@@ -122,7 +122,7 @@ impl<'a> Blocks<'a> {
         without_nulls(&time, 1, &mut valid);
         // Of each joint an array, how many entries of it a row has, and which is the joint's.
         let mut columns: [Vec<(ArrayRef, usize, usize)>; 4] = Default::default();
-        for (source, columns) in self.layout.sources.iter().zip(&mut columns) {
+        for (source, columns) in self.layout.iter().zip(&mut columns) {
             match source {
                 None => {}
                 Some(Source::Columns(names)) => {

@@ -72,7 +72,7 @@ impl Log {
     /// Returns true if it has to be converted before a query can read it: recordings of ROS 2,
     /// whose layout has nothing, logs without rates, and lists in other units.
     pub fn converts(&self) -> bool {
-        let sources = self.layout.sources.iter().enumerate();
+        let sources = self.layout.iter().enumerate();
         let mut needs = sources.map(|(quantity, source)| match source {
             None => true,
             Some(Source::List(_)) => !self.columns.is_plain(quantity),
@@ -107,29 +107,27 @@ impl Clock {
 /// # Errors
 /// What is wrong with it.
 pub fn inspect(path: &Path, columns: &Columns, goes_on: &dyn Fn() -> bool) -> Result<Log, Bad> {
+    let mut log = Log {
+        name: path.to_owned(),
+        path: path.to_owned(),
+        rows: 0,
+        layout: [const { None }; 4],
+        columns: columns.clone(),
+        group: 0,
+    };
     if is_mcap(path) {
         std::fs::File::open(path).map_err(|why| Bad::whole(path, why))?;
-        return Ok(Log {
-            name: path.to_owned(),
-            path: path.to_owned(),
-            rows: 0,
-            layout: Layout {
-                sources: [const { None }; 4],
-            },
-            columns: columns.clone(),
-            group: 0,
-        });
+        return Ok(log);
     }
     let whole = |why: Error| Bad::whole(path, why);
     let builder = open(path).map_err(whole)?;
-    let layout = columns.layout(builder.schema()).map_err(whole)?;
+    log.layout = columns.layout(builder.schema()).map_err(whole)?;
     let metadata = builder.metadata().clone();
     let groups = metadata.row_groups().iter();
-    let group = groups
-        .map(|group| group.compressed_size().max(0) as u64)
-        .max();
-    let rows = metadata.file_metadata().num_rows().max(0) as u64;
-    if rows == 0 {
+    let sizes = groups.map(|group| group.compressed_size().max(0) as u64);
+    log.group = sizes.max().unwrap_or(0);
+    log.rows = metadata.file_metadata().num_rows().max(0) as u64;
+    if log.rows == 0 {
         return Err(Bad::whole(path, "it has no rows"));
     }
     let mask = projection(&builder, &[&columns.time]);
@@ -152,12 +150,5 @@ pub fn inspect(path: &Path, columns: &Columns, goes_on: &dyn Fn() -> bool) -> Re
             break;
         }
     }
-    Ok(Log {
-        name: path.to_owned(),
-        path: path.to_owned(),
-        rows,
-        layout,
-        columns: columns.clone(),
-        group: group.unwrap_or(0),
-    })
+    Ok(log)
 }

@@ -113,12 +113,8 @@ pub struct Columns {
     pub(crate) joint_names: Vec<String>,
 }
 
-/// Where the quantities of one log are.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Layout {
-    /// Positions, velocities, accelerations and torques; rates that are missing are none.
-    pub sources: [Option<Source>; 4],
-}
+/// Where positions, velocities, accelerations and torques of one log are; rates may be missing.
+pub type Layout = [Option<Source>; 4];
 
 impl Mapping {
     /// Resolves flags, file and defaults for a robot; flags go before the file.
@@ -239,11 +235,11 @@ impl Columns {
                 "column `{name}` is {kind}: a number or a timestamp was expected"
             )));
         }
-        let mut sources = [const { None }; 4];
-        for (quantity, source) in sources.iter_mut().enumerate() {
+        let mut layout = [const { None }; 4];
+        for (quantity, source) in layout.iter_mut().enumerate() {
             *source = self.source(quantity, schema)?;
         }
-        Ok(Layout { sources })
+        Ok(layout)
     }
 
     fn source(&self, quantity: usize, schema: &Schema) -> Result<Option<Source>, Error> {

@@ -148,7 +148,7 @@ fn a_payload_is_found() {
     let mut loaded = robot.robot().clone();
     let hand = loaded.joints.last_mut().unwrap();
     hand.mass = &hand.mass + &parse_decimal("0.5").unwrap();
-    let loaded = Model::new(&loaded, &Default::default()).unwrap();
+    let loaded = Model::new(&loaded).unwrap();
     let right = [model.parameters(), loaded.parameters()];
 
     let context = SessionContext::new();

@@ -60,7 +60,7 @@ fn read(node: Node) -> Option<(&'static str, impl Iterator<Item = &'static str>)
     Some((kind, keys.split(' ')))
 }
 
-impl<'a> Mjcf<'a, '_, '_, '_> {
+impl<'a> Mjcf<'a, '_, '_> {
     /// Reads all defaults.
     pub(super) fn classes(&mut self, root: Node<'a, '_>) {
         for top in children(root, "default") {
@@ -81,7 +81,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
     }
 
     fn new_class(&mut self, node: Node<'a, '_>, around: usize) -> Option<usize> {
-        let (name, _) = self.reader.attribute(node, "class")?;
+        let (name, _) = self.problems.attribute(node, "class")?;
         let new = self.classes.all.len();
         if new > MAX_CLASSES {
             let message = format!("there are more than {MAX_CLASSES} classes of defaults");
@@ -124,7 +124,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         if class.is_none() {
             let message = format!("there is no class `{}`", own.value());
             let help = instead(own.value(), names.keys().copied());
-            self.error_at(&own.range_value(), message, &help);
+            self.problems.error(&own.range_value(), message, &help);
         }
         class.unwrap_or(around)
     }

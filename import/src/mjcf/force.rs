@@ -9,7 +9,7 @@ use roxmltree::Node;
 use super::{Mjcf, within};
 use crate::urdf::{Number, Urdf};
 
-impl<'a> Mjcf<'a, '_, '_, '_> {
+impl<'a> Mjcf<'a, '_, '_> {
     /// Takes the forces of actuators for the joints' limits of torque: those of all that
     /// drive a joint together, or the joint's own limit where that is less.
     pub(super) fn forces(&mut self, root: Node<'a, '_>, urdf: &mut Urdf) {
@@ -54,7 +54,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             None => Rational::one(),
             Some((text, span)) => {
                 let first = text.split_ascii_whitespace().next().unwrap_or_default();
-                self.reader.parse(first, span)?.value.abs()
+                self.problems.parse(first, span)?.value.abs()
             }
         };
         let force = force?.map(|value| value * gear);

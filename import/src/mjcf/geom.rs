@@ -9,7 +9,7 @@ use roxmltree::Node;
 
 use super::Mjcf;
 use super::world::Item;
-use crate::urdf::{Inertial, Number};
+use crate::urdf::{Inertial, Number, constant};
 
 /// Shapes whose volume is known, with the sizes that they have.
 const SHAPES: [(&str, usize); 5] = [
@@ -28,7 +28,7 @@ pub(super) enum Weight {
     Unknown,
 }
 
-impl<'a> Mjcf<'a, '_, '_, '_> {
+impl<'a> Mjcf<'a, '_, '_> {
     /// Returns what a geom weighs, and where.
     pub(super) fn weight(&mut self, item: &Item<'a, '_>) -> Weight {
         let class = self.class_of(item.node, "class", item.class);
@@ -73,13 +73,13 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         let mut sizes = Vec::new();
         let (text, span) = self.text(node, class, "size")?;
         for word in text.split_ascii_whitespace().take(3) {
-            sizes.push(self.reader.parse(word, span.clone())?.value);
+            sizes.push(self.problems.parse(word, span.clone())?.value);
         }
         let at = match self.text(node, class, "fromto") {
             // How it is turned about its length matters to a box.
             Some(_) if *count == 3 => return None,
             Some((text, span)) => {
-                let ends: [Number; 6] = self.reader.list("fromto", text, span)?;
+                let ends: [Number; 6] = self.problems.list("fromto", text, span)?;
                 let (at, half) = self.between(node, ends)?;
                 sizes.truncate(1);
                 sizes.push(half);
@@ -92,7 +92,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             return None;
         }
         let (volume, moments) = moments(word, sizes);
-        let [ton, zero] = self.reader.constant(node, ["1000", "0"]);
+        let [ton, zero] = constant(node, ["1000", "0"]);
         let given = given.unwrap_or(ton);
         let mass = match key {
             "mass" => given.value.clone(),

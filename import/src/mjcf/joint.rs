@@ -12,7 +12,7 @@ use super::Mjcf;
 use super::pose::Pose;
 use super::world::Item;
 use crate::problems::instead;
-use crate::urdf::{Joint, Kind, Number, Value, start_tag};
+use crate::urdf::{Joint, Kind, Number, Value, constant, start_tag};
 
 const KINDS: [(&str, Kind); 4] = [
     ("hinge", Kind::Revolute),
@@ -21,7 +21,7 @@ const KINDS: [(&str, Kind); 4] = [
     ("ball", Kind::Ball),
 ];
 
-impl<'a> Mjcf<'a, '_, '_, '_> {
+impl<'a> Mjcf<'a, '_, '_> {
     /// Reads a joint at a place on what it hangs on, and returns it with its anchor in the
     /// body's frame; `None` after saying what is wrong.
     pub(super) fn joint(
@@ -33,7 +33,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         let Item { node, frame, .. } = item;
         let node = *node;
         let class = self.class_of(node, "class", item.class);
-        let span = start_tag(self.reader.source, node);
+        let span = start_tag(node);
         let still = Joint {
             name,
             kind: Kind::Floating,
@@ -50,15 +50,15 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
                 if found.is_none() {
                     let message = format!("`{word}` is no type of joint");
                     let help = instead(word, KINDS.iter().map(|(word, _)| *word));
-                    self.error_at(&span, message, &help);
+                    self.problems.error(&span, message, &help);
                 }
                 found?.1
             }
         };
         let [axis, pos] = [("axis", ["0", "0", "1"]), ("pos", ["0", "0", "0"])].map(|(key, or)| {
             match self.text(node, class, key) {
-                Some((text, span)) => self.reader.list(key, text, span),
-                None => Some(self.reader.constant(node, or)),
+                Some((text, span)) => self.problems.list(key, text, span),
+                None => Some(constant(node, or)),
             }
         });
         let (axis, pos) = (frame.rotate(&axis?), pos?);
@@ -72,7 +72,8 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         let any = [(); 3].map(|()| Wide::zero());
         let Some(along) = along.or((!kind.has_one_axis()).then_some(any)) else {
             let message = format!("the axis of joint `{}` has no direction", still.name);
-            self.error_at(&axis[0].span, message, "axis=\"0 0 1\"");
+            self.problems
+                .error(&axis[0].span, message, "axis=\"0 0 1\"");
             return None;
         };
         let mut place = at.shift(&anchor);
@@ -104,14 +105,14 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             if let Some(load) = load.as_ref().filter(|load| load.value.is_negative()) {
                 let message = format!("the {key} of joint `{}` is negative", still.name);
                 let help = "it adds inertia or takes energy out: zero or more";
-                self.error_at(&load.span, message, help);
+                self.problems.error(&load.span, message, help);
             }
         }
         let position = match self.is_limited(node, class, "limited", "range") {
             true => self.list::<2>(node, class, "range"),
             false => None,
         };
-        let position = self.reader.ordered(&still.name, position);
+        let position = self.problems.ordered(&still.name, position);
         let position = position.map(|range| range.map(|end| self.in_units(kind, end)));
         let joint = Joint {
             kind,

@@ -9,12 +9,12 @@ use super::Mjcf;
 use super::geom::Weight;
 use super::settings::FromGeoms;
 use super::world::Item;
-use crate::urdf::{Inertial, Link, Number, Unread, Urdf, start_tag};
+use crate::urdf::{Inertial, Link, Number, Unread, Urdf, constant, start_tag};
 
 const WRITE_IT: &str = "give the body an <inertial>; MuJoCo writes them all: \
     load the model with <compiler saveinertial=\"true\"/> and save it by mj_saveLastXML";
 
-impl<'a> Mjcf<'a, '_, '_, '_> {
+impl<'a> Mjcf<'a, '_, '_> {
     /// Reads the mass of a body, and returns that of its geoms, where they have it.
     pub(super) fn mass(&mut self, items: &[Item<'a, '_>], link: &mut Link) -> Vec<Inertial> {
         let own = items.iter().find(|item| item.node.has_tag_name("inertial"));
@@ -32,7 +32,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
                 Weight::Nothing => {}
                 Weight::Something(solid) => solids.push(*solid),
                 Weight::Unknown => link.unread.push(Unread {
-                    span: start_tag(self.reader.source, geom.node),
+                    span: start_tag(geom.node),
                     message: format!("the mass of body `{}` is that of its geoms", link.name),
                     help: WRITE_IT,
                 }),
@@ -55,7 +55,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         let own: Rational = own.map(|inertial| &inertial.mass.value).sum();
         if unread.is_some() || own.is_zero() {
             let message = "`settotalmass` is of bodies whose masses are not all known".to_owned();
-            self.error_at(&total.span, message, WRITE_IT);
+            self.problems.error(&total.span, message, WRITE_IT);
             return;
         }
         let ratio = &total.value / own;
@@ -108,7 +108,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
     fn inertial(&mut self, item: &Item<'a, '_>, body: &str) -> Option<Inertial> {
         let Item { node, frame, .. } = item;
         let at = self.pose(*node, 0);
-        let mass = self.reader.required(*node, "mass");
+        let mass = self.problems.required(*node, "mass");
         let [diagonal, full] = ["diaginertia", "fullinertia"].map(|key| node.has_attribute(key));
         let moments = match (diagonal, full) {
             (true, true) => {
@@ -117,15 +117,15 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
                 None
             }
             (_, true) => {
-                let (text, span) = self.reader.attribute(*node, "fullinertia")?;
-                self.reader.list("fullinertia", text, span)
+                let (text, span) = self.problems.attribute(*node, "fullinertia")?;
+                self.problems.list("fullinertia", text, span)
             }
             (is_given, false) => {
                 let [xx, yy, zz] = match is_given {
-                    true => self.reader.triple(*node, "diaginertia")?,
-                    false => self.reader.constant(*node, ["0", "0", "0"]),
+                    true => self.problems.triple(*node, "diaginertia")?,
+                    false => constant(*node, ["0", "0", "0"]),
                 };
-                let [xy, xz, yz] = self.reader.constant(*node, ["0", "0", "0"]);
+                let [xy, xz, yz] = constant(*node, ["0", "0", "0"]);
                 Some([xx, yy, zz, xy, xz, yz])
             }
         };
@@ -134,7 +134,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         if mass.value.is_negative() {
             let message = format!("the mass of body `{body}` is negative");
             let help = "a mass is zero or more, in kg";
-            self.error_at(&mass.span, message, help);
+            self.problems.error(&mass.span, message, help);
             return None;
         }
         let nothing = Rational::zero();
@@ -142,7 +142,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         if let Some(moment) = negative.into_iter().find(|own| own.value < nothing) {
             let message = format!("a moment of inertia of body `{body}` is negative");
             let help = "the inertia is about the centre of mass, in kg·m²";
-            self.error_at(&moment.span, message, help);
+            self.problems.error(&moment.span, message, help);
             return None;
         }
         Some(Inertial {

@@ -29,7 +29,7 @@ use std::ops::Range;
 use roxmltree::{Document, Node};
 
 use crate::problems::Problems;
-use crate::urdf::{Number, Reader, Urdf, start_tag};
+use crate::urdf::{Number, Urdf, start_tag};
 use classes::Classes;
 use settings::Settings;
 
@@ -45,12 +45,10 @@ const MANY: &[(&[&str], usize)] = &[
 
 /// Reads an MJCF; `None` after saying why there is none.
 pub(crate) fn read(document: &Document, problems: &mut Problems) -> Option<Urdf> {
-    let source = document.input_text();
     let root = document.root_element();
-    let span = start_tag(source, root);
-    let reader = Reader { source, problems };
+    let span = start_tag(root);
     let mut mjcf = Mjcf {
-        reader,
+        problems,
         settings: Settings::new(),
         classes: Classes::new(),
     };
@@ -65,7 +63,7 @@ pub(crate) fn read(document: &Document, problems: &mut Problems) -> Option<Urdf>
         links: Vec::new(),
         joints: Vec::new(),
         names: [BTreeSet::new(), BTreeSet::new()],
-        gravity: Some(mjcf.settings.gravity(root, &mjcf.reader)),
+        gravity: Some(mjcf.settings.gravity(root)),
         ties: Vec::new(),
     };
     mjcf.world(root, &mut urdf)?;
@@ -76,8 +74,8 @@ pub(crate) fn read(document: &Document, problems: &mut Problems) -> Option<Urdf>
 }
 
 /// Reads elements, reporting what is wrong with them.
-struct Mjcf<'a, 'r, 's, 'p> {
-    reader: Reader<'r, 's, 'p>,
+struct Mjcf<'a, 'p, 's> {
+    problems: &'p mut Problems<'s>,
     settings: Settings,
     classes: Classes<'a>,
 }
@@ -85,7 +83,7 @@ struct Mjcf<'a, 'r, 's, 'p> {
 /// The text of an attribute, with its place.
 type Text<'a> = (&'a str, Range<usize>);
 
-impl<'a> Mjcf<'a, '_, '_, '_> {
+impl<'a> Mjcf<'a, '_, '_> {
     /// Returns an attribute of an element, or what its class has for it.
     fn text(&self, node: Node<'a, '_>, class: usize, key: &str) -> Option<Text<'a>> {
         match node.attribute_node(key) {
@@ -108,7 +106,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         key: &str,
     ) -> Option<[Number; N]> {
         let (text, span) = self.text(node, class, key)?;
-        self.reader.list(key, text, span)
+        self.problems.list(key, text, span)
     }
 
     /// Returns whether an attribute, `true`, `false` or `auto`, is so; by itself it is if
@@ -119,7 +117,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             Some(("false", _)) => false,
             Some((word, span)) if word != "auto" => {
                 let message = format!("`{key}` is `{word}`");
-                self.error_at(&span, message, "true, false or auto");
+                self.problems.error(&span, message, "true, false or auto");
                 false
             }
             _ => self.settings.auto_limits && self.text(node, class, range).is_some(),
@@ -129,7 +127,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
     /// Returns whether there are no more elements than a robot has, after saying of which
     /// there are more.
     fn is_small(&mut self, root: Node) -> bool {
-        let span = start_tag(self.reader.source, root);
+        let span = start_tag(root);
         let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
         for node in root.descendants() {
             *counts.entry(node.tag_name().name()).or_default() += 1;
@@ -139,7 +137,10 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             .flat_map(|(tags, few)| tags.iter().map(move |tag| (*tag, *few)));
         for (tag, few) in counted {
             let count = counts.get(tag).copied().unwrap_or(0);
-            if !self.reader.are_few(&span, &format!("<{tag}>"), count, few) {
+            if !self
+                .problems
+                .are_few(&span, &format!("<{tag}>"), count, few)
+            {
                 return false;
             }
         }
@@ -147,17 +148,13 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
     }
 
     fn error(&mut self, node: Node, message: String, help: &str) {
-        let span = start_tag(self.reader.source, node);
-        self.error_at(&span, message, help);
-    }
-
-    fn error_at(&mut self, span: &Range<usize>, message: String, help: &str) {
-        self.reader.error(span, message, help);
+        let span = start_tag(node);
+        self.problems.error(&span, message, help);
     }
 
     fn note(&mut self, node: Node, message: String, help: &str) {
-        let span = start_tag(self.reader.source, node);
-        self.reader.problems.note(&span, message, help);
+        let span = start_tag(node);
+        self.problems.note(&span, message, help);
     }
 }
 

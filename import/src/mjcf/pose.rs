@@ -15,7 +15,7 @@ use roxmltree::Node;
 
 use super::Mjcf;
 use crate::meant::{self, NOTHING, power};
-use crate::urdf::{Number, Origin, Value, start_tag};
+use crate::urdf::{Number, Origin, Value, constant, start_tag};
 
 /// Angles are computed to more digits than this, in radians.
 const SAME: i32 = -15;
@@ -166,14 +166,14 @@ fn short(angle: &Angle) -> String {
 
 const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "euler", "xyaxes", "zaxis"];
 
-impl<'a> Mjcf<'a, '_, '_, '_> {
+impl<'a> Mjcf<'a, '_, '_> {
     /// Returns the position and the orientation of an element; `None` after saying what is
     /// wrong.
     pub(super) fn pose(&mut self, node: Node<'a, '_>, class: usize) -> Option<Pose> {
-        let span = start_tag(self.reader.source, node);
+        let span = start_tag(node);
         let xyz = match self.text(node, class, "pos") {
-            Some((text, span)) => self.reader.list("pos", text, span),
-            None => Some(self.reader.constant(node, ["0", "0", "0"])),
+            Some((text, span)) => self.problems.list("pos", text, span),
+            None => Some(constant(node, ["0", "0", "0"])),
         };
         let rotation = self.rotation(node, class);
         let (xyz, (rotation, place)) = (xyz?, rotation?);
@@ -212,22 +212,22 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         };
         let place = span.clone();
         let rotation = match key {
-            "quat" => of_quaternion(&self.reader.list(key, text, span)?),
+            "quat" => of_quaternion(&self.problems.list(key, text, span)?),
             "axisangle" => {
-                let [x, y, z, angle] = self.reader.list(key, text, span)?;
+                let [x, y, z, angle] = self.problems.list(key, text, span)?;
                 self.of_axis(&[x, y, z], &angle)
             }
             "euler" => {
-                let angles = self.reader.list(key, text, span)?;
+                let angles = self.problems.list(key, text, span)?;
                 Some(self.of_angles(&angles))
             }
-            "xyaxes" => of_axes(&self.reader.list(key, text, span)?),
-            _ => of_third_axis(&self.reader.list(key, text, span)?),
+            "xyaxes" => of_axes(&self.problems.list(key, text, span)?),
+            _ => of_third_axis(&self.problems.list(key, text, span)?),
         };
         if rotation.is_none() {
             let message = format!("`{key}` has no direction");
             let help = "a quaternion or an axis is not zero, and two axes are not parallel";
-            self.error_at(&place, message, help);
+            self.problems.error(&place, message, help);
         }
         Some((rotation?, Some(place)))
     }
@@ -239,7 +239,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         direction: &[Rational; 3],
         at: &[Rational; 3],
     ) -> Option<Pose> {
-        let span = start_tag(self.reader.source, node);
+        let span = start_tag(node);
         let number = |value: &Rational| Value::new(value.clone(), "", &span);
         let turned = Pose {
             both: of_third_axis(&direction.each_ref().map(number))?,

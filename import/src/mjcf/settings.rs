@@ -4,7 +4,7 @@ use num_traits::{Signed, Zero};
 use roxmltree::Node;
 
 use super::Mjcf;
-use crate::urdf::{Number, Reader};
+use crate::urdf::{Number, constant};
 
 /// What `compiler` says, for the whole file.
 #[derive(Clone, Debug)]
@@ -58,9 +58,9 @@ impl Settings {
     }
 
     /// Returns gravity in the axes of the world.
-    pub(super) fn gravity(&self, root: Node, reader: &Reader) -> [Number; 3] {
-        let still = reader.constant(root, ["0", "0", "0"]);
-        let usual = || reader.constant(root, ["0", "0", "-9.81"]);
+    pub(super) fn gravity(&self, root: Node) -> [Number; 3] {
+        let still = constant(root, ["0", "0", "0"]);
+        let usual = || constant(root, ["0", "0", "-9.81"]);
         match self.has_gravity {
             true => self.gravity.clone().unwrap_or_else(usual),
             false => still,
@@ -68,7 +68,7 @@ impl Settings {
     }
 }
 
-impl<'a> Mjcf<'a, '_, '_, '_> {
+impl<'a> Mjcf<'a, '_, '_> {
     /// Reads the settings of the whole file: where there are several, the last one counts.
     pub(super) fn settings(&mut self, root: Node<'a, '_>) {
         for node in root.children().filter(Node::is_element) {
@@ -113,13 +113,13 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             self.order(node, order);
         }
         for (index, key) in ["boundmass", "boundinertia"].into_iter().enumerate() {
-            let bound = self.reader.number(node, key);
+            let bound = self.problems.number(node, key);
             self.settings.least[index] = bound.filter(|bound| bound.value.is_positive());
         }
-        let total = self.reader.number(node, "settotalmass");
+        let total = self.problems.number(node, "settotalmass");
         self.settings.total = total.filter(|total| total.value.is_positive());
         if let Some([low, high]) = node.attribute_node("inertiagrouprange").and_then(|own| {
-            self.reader
+            self.problems
                 .list("inertiagrouprange", own.value(), own.range_value())
         }) {
             let whole = |number: &Number| i64::try_from(number.value.to_integer()).unwrap_or(0);
@@ -147,14 +147,14 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
 
     fn option(&mut self, node: Node<'a, '_>) {
         if node.has_attribute("gravity") {
-            self.settings.gravity = self.reader.triple(node, "gravity");
+            self.settings.gravity = self.problems.triple(node, "gravity");
         }
         let flags = node.children().filter(|child| child.has_tag_name("flag"));
         for flag in flags.filter_map(|flag| flag.attribute("gravity")) {
             self.settings.has_gravity = flag != "disable";
         }
         for key in ["density", "viscosity"] {
-            let medium = self.reader.number(node, key);
+            let medium = self.problems.number(node, key);
             if medium.is_some_and(|medium| !medium.value.is_zero()) {
                 let message = format!("the {key} of the medium is left out");
                 self.note(node, message, "the arm moves as in a vacuum");

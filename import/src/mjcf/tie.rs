@@ -10,7 +10,7 @@ use crate::lock::compare;
 use crate::problems::instead;
 use crate::urdf::{Mimic, Tie, Tied, Urdf, Value, start_tag};
 
-impl<'a> Mjcf<'a, '_, '_, '_> {
+impl<'a> Mjcf<'a, '_, '_> {
     /// Reads what ties joints and bodies.
     pub(super) fn ties(&mut self, root: Node<'a, '_>, urdf: &mut Urdf) {
         for node in within(root, "equality") {
@@ -19,7 +19,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             }
             match node.tag_name().name() {
                 "joint" => self.follower(node, urdf),
-                "connect" | "weld" => self.links_tied(root, node, urdf),
+                "connect" | "weld" => links_tied(root, node, urdf),
                 _ => {}
             }
         }
@@ -41,7 +41,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
                 "joint" => ("fixed tendon", Tied::Joints(names)),
                 _ => ("spatial tendon", Tied::Links(names)),
             };
-            urdf.ties.push(self.tie(node, word, ends));
+            urdf.ties.push(tie(node, word, ends));
         }
     }
 
@@ -50,13 +50,14 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         let class = self.class_of(node, "class", 0);
         let is_limited = self.is_limited(node, class, "limited", "range");
         let range = is_limited.then(|| self.list::<2>(node, class, "range"));
-        let Some((name, span)) = self.reader.attribute(joint, "joint") else {
+        let Some((name, span)) = self.problems.attribute(joint, "joint") else {
             return;
         };
-        let coefficient = self.reader.required(joint, "coef");
+        let coefficient = self.problems.required(joint, "coef");
         let Some(own) = urdf.joints.iter_mut().find(|own| own.name == name) else {
             let message = format!("there is no joint `{name}`");
-            self.error_at(&span, message, &instead(name, &urdf.names[1]));
+            self.problems
+                .error(&span, message, &instead(name, &urdf.names[1]));
             return;
         };
         for key in ["stiffness", "damping", "frictionloss", "armature"] {
@@ -103,26 +104,15 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         own.position = Some(position);
     }
 
-    fn tie(&self, node: Node, word: &str, ends: Tied) -> Tie {
-        let name = match node.attribute("name") {
-            Some(name) => format!("{word} `{name}`"),
-            None => word.to_owned(),
-        };
-        Tie {
-            span: start_tag(self.reader.source, node),
-            name,
-            ends,
-        }
-    }
-
     /// Reads a joint that follows another, or a polynomial of it.
     fn follower(&mut self, node: Node<'a, '_>, urdf: &mut Urdf) {
         let place = |this: &mut Self, key: &str| {
-            let (name, span) = this.reader.attribute(node, key)?;
+            let (name, span) = this.problems.attribute(node, key)?;
             let found = urdf.joints.iter().position(|joint| joint.name == name);
             if found.is_none() {
                 let message = format!("there is no joint `{name}`");
-                this.error_at(&span, message, &instead(name, &urdf.names[1]));
+                this.problems
+                    .error(&span, message, &instead(name, &urdf.names[1]));
             }
             found
         };
@@ -137,7 +127,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         let Some(other) = other else {
             // It stays where it is.
             urdf.ties
-                .push(self.tie(node, "equality", Tied::Joints(vec![name])));
+                .push(tie(node, "equality", Tied::Joints(vec![name])));
             return;
         };
         let Some(terms) = self.polynomial(node) else {
@@ -152,7 +142,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         });
         urdf.joints[own].mimic = Some(Mimic {
             joint: urdf.joints[other].name.clone(),
-            span: start_tag(self.reader.source, node),
+            span: start_tag(node),
             line,
         });
     }
@@ -168,30 +158,29 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         if words.clone().count() > terms.len() {
             let message = "`polycoef` has more than 5 numbers".to_owned();
             let help = "polycoef=\"0 1 0 0 0\" is the same as the other joint";
-            self.error_at(&own.range_value(), message, help);
+            self.problems.error(&own.range_value(), message, help);
             return None;
         }
         for (term, word) in terms.iter_mut().zip(words) {
-            *term = self.reader.parse(word, own.range_value())?.value;
+            *term = self.problems.parse(word, own.range_value())?.value;
         }
         Some(terms)
     }
+}
 
-    /// Reads two bodies that are held together, by their names or those of sites.
-    fn links_tied(&mut self, root: Node<'a, '_>, node: Node<'a, '_>, urdf: &mut Urdf) {
-        let keys = match node.has_attribute("site1") {
-            true => ["site1", "site2"],
-            false => ["body1", "body2"],
-        };
-        let names = keys.map(|key| node.attribute(key).unwrap_or("world"));
-        let links = names.map(|name| match urdf.names[0].contains(name) {
-            true => name.to_owned(),
-            false => body_of_site(root, name).unwrap_or(name).to_owned(),
-        });
-        let word = format!("equality `{}`", node.tag_name().name());
-        urdf.ties
-            .push(self.tie(node, &word, Tied::Links(links.into())));
-    }
+/// Reads two bodies that are held together, by their names or those of sites.
+fn links_tied(root: Node, node: Node, urdf: &mut Urdf) {
+    let keys = match node.has_attribute("site1") {
+        true => ["site1", "site2"],
+        false => ["body1", "body2"],
+    };
+    let names = keys.map(|key| node.attribute(key).unwrap_or("world"));
+    let links = names.map(|name| match urdf.names[0].contains(name) {
+        true => name.to_owned(),
+        false => body_of_site(root, name).unwrap_or(name).to_owned(),
+    });
+    let word = format!("equality `{}`", node.tag_name().name());
+    urdf.ties.push(tie(node, &word, Tied::Links(links.into())));
 }
 
 /// Returns the name of the body that a site is on.
@@ -200,4 +189,16 @@ fn body_of_site<'a>(root: Node<'a, '_>, name: &str) -> Option<&'a str> {
     let site = sites.find(|site| site.attribute("name") == Some(name))?;
     let mut bodies = site.ancestors().filter(|node| node.has_tag_name("body"));
     bodies.next()?.attribute("name")
+}
+
+fn tie(node: Node, word: &str, ends: Tied) -> Tie {
+    let name = match node.attribute("name") {
+        Some(name) => format!("{word} `{name}`"),
+        None => word.to_owned(),
+    };
+    Tie {
+        span: start_tag(node),
+        name,
+        ends,
+    }
 }

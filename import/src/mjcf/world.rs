@@ -43,7 +43,7 @@ impl Names {
     }
 }
 
-impl<'a> Mjcf<'a, '_, '_, '_> {
+impl<'a> Mjcf<'a, '_, '_> {
     /// Reads all bodies with their joints; `None` after saying why there are none.
     pub(super) fn world(&mut self, root: Node<'a, '_>, urdf: &mut Urdf) -> Option<()> {
         let world = link("world".to_owned(), urdf.span.clone());
@@ -67,7 +67,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             let own = self.body(next, urdf, &mut links, &mut joints);
             open.extend(own.into_iter().rev());
             let (what, count) = ("bodies, sites and weights", urdf.links.len());
-            if !self.reader.are_few(&urdf.span, what, count, MAX_LINKS) {
+            if !self.problems.are_few(&urdf.span, what, count, MAX_LINKS) {
                 return None;
             }
         }
@@ -80,8 +80,8 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         let links = urdf.links.iter().map(|link| (&link.name, &link.span));
         let moving = urdf.joints.iter().filter(|joint| joint.kind != Kind::Fixed);
         let moving = moving.map(|joint| (&joint.name, &joint.span));
-        self.reader.unique("body", links.clone());
-        self.reader.unique("joint", moving.clone());
+        self.problems.unique("body", links.clone());
+        self.problems.unique("joint", moving.clone());
         urdf.names = [
             links.map(|(name, _)| name.clone()).collect(),
             moving.map(|(name, _)| name.clone()).collect(),
@@ -136,7 +136,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         let Open { item, on } = open;
         let Item { node, class, frame } = item;
         let class = self.class_of(node, "childclass", class);
-        let span = start_tag(self.reader.source, node);
+        let span = start_tag(node);
         let name = match node.attribute("name") {
             Some(name) => name.to_owned(),
             None => links.fresh("body".to_owned()),
@@ -150,7 +150,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
             let word = part.node.tag_name().name();
             if MADE_ELSEWHERE.contains(&word) {
                 link.unread.push(Unread {
-                    span: start_tag(self.reader.source, part.node),
+                    span: start_tag(part.node),
                     message: format!("<{word}> on body `{name}` is not read"),
                     help: "save the model by MuJoCo's mj_saveLastXML, which writes it out",
                 });
@@ -232,7 +232,7 @@ impl<'a> Mjcf<'a, '_, '_, '_> {
         if !links.0.insert(name.to_owned()) {
             return;
         }
-        let span = start_tag(self.reader.source, item.node);
+        let span = start_tag(item.node);
         let at = item.frame.then(&own);
         urdf.joints.push(fixed([body, name], &span, &at));
         urdf.links.push(Link {

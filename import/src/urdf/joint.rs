@@ -7,8 +7,8 @@ use dalembert_model::robot::Position;
 use num_traits::{Signed, Zero};
 use roxmltree::Node;
 
-use super::{Number, Origin, Reader, Value, child, start_tag};
-use crate::problems::instead;
+use super::{Number, Origin, Value, child, constant, start_tag};
+use crate::problems::{Problems, instead};
 
 /// The kind of motion of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -96,7 +96,7 @@ pub(crate) struct Mimic {
     pub(crate) line: Option<[Rational; 2]>,
 }
 
-impl Reader<'_, '_, '_> {
+impl Problems<'_> {
     pub(super) fn joint(&mut self, node: Node) -> Option<Joint> {
         let (name, _) = self.attribute(node, "name")?;
         let kind = self.kind(node);
@@ -104,7 +104,7 @@ impl Reader<'_, '_, '_> {
             let Some(element) = child(node, end) else {
                 let message = format!("joint `{name}` has no <{end}>");
                 let help = format!("<{end} link=\"…\"/>");
-                let span = start_tag(self.source, node);
+                let span = start_tag(node);
                 self.error(&span, message, &help);
                 return None;
             };
@@ -115,7 +115,7 @@ impl Reader<'_, '_, '_> {
         let axis = match child(node, "axis") {
             Some(axis) => self.triple(axis, "xyz"),
             // As the format has it.
-            None => Some(self.constant(node, ["1", "0", "0"])),
+            None => Some(constant(node, ["1", "0", "0"])),
         };
         let (kind, axis) = (kind?, axis?);
         let moves = !matches!(kind, Kind::Fixed | Kind::Floating);
@@ -134,7 +134,7 @@ impl Reader<'_, '_, '_> {
         let position = match (lower, upper, limit) {
             (None, None, _) | (_, _, None) => None,
             (lower, upper, Some(limit)) => {
-                let [zero] = self.constant(limit, ["0"]);
+                let [zero] = constant(limit, ["0"]);
                 Some([lower.unwrap_or(zero.clone()), upper.unwrap_or(zero)])
             }
         };
@@ -148,7 +148,7 @@ impl Reader<'_, '_, '_> {
             let line = of("multiplier", 1).zip(of("offset", 0));
             Mimic {
                 joint: mimic.attribute("joint").unwrap_or_default().to_owned(),
-                span: start_tag(self.source, mimic),
+                span: start_tag(mimic),
                 line: line.map(|(multiplier, offset)| [multiplier, offset]),
             }
         });
@@ -164,7 +164,7 @@ impl Reader<'_, '_, '_> {
         }
         Some(Joint {
             name: name.to_owned(),
-            span: start_tag(self.source, node),
+            span: start_tag(node),
             kind,
             origin: origin?,
             parent: parent?,
@@ -210,7 +210,7 @@ impl Reader<'_, '_, '_> {
         if lower.value == upper.value {
             let message = format!("both limits of joint `{name}` are {}", lower.text);
             let help = "they are left out: a joint that does not move is `fixed`";
-            self.problems.warning(&lower.span, message, help);
+            self.warning(&lower.span, message, help);
             return None;
         }
         Some([lower, upper])
@@ -238,7 +238,7 @@ impl Reader<'_, '_, '_> {
             };
             let ratio = match ratio {
                 Some(ratio) => self.of_actuator(ratio),
-                None => Some(self.constant(inertia, ["1"])).map(|[one]| one),
+                None => Some(constant(inertia, ["1"])).map(|[one]| one),
             };
             let Some((inertia, ratio)) = self.of_actuator(inertia).zip(ratio) else {
                 continue;
@@ -261,7 +261,7 @@ impl Reader<'_, '_, '_> {
             return self.required(found, "value");
         }
         let text = found.text().unwrap_or_default().trim();
-        self.parse(text, start_tag(self.source, found))
+        self.parse(text, start_tag(found))
     }
 }
 

@@ -6,7 +6,8 @@ use dalembert_model::robot::Inertia;
 use num_traits::Signed;
 use roxmltree::Node;
 
-use super::{Number, Origin, Reader, child, start_tag};
+use super::{Number, Origin, child, start_tag};
+use crate::problems::Problems;
 
 /// A link.
 #[derive(Clone, Debug, Default)]
@@ -48,7 +49,7 @@ pub(crate) struct Inertial {
     pub(crate) inertia: Inertia<Number>,
 }
 
-impl Reader<'_, '_, '_> {
+impl Problems<'_> {
     pub(super) fn link(&mut self, node: Node) -> Option<Link> {
         let (name, _) = self.attribute(node, "name")?;
         let inertial = match child(node, "inertial") {
@@ -57,7 +58,7 @@ impl Reader<'_, '_, '_> {
         };
         Some(Link {
             name: name.to_owned(),
-            span: start_tag(self.source, node),
+            span: start_tag(node),
             inertial,
             ..Link::default()
         })
@@ -68,7 +69,7 @@ impl Reader<'_, '_, '_> {
         let [mass, inertia] = ["mass", "inertia"].map(|name| {
             let found = child(node, name);
             if found.is_none() {
-                let span = start_tag(self.source, node);
+                let span = start_tag(node);
                 let message = format!("the inertial of link `{link}` has no <{name}>");
                 let help = "an <inertial> has <mass value=\"…\"/> and <inertia ixx=\"…\" …/>; a link without mass has none";
                 self.error(&span, message, help);

@@ -19,7 +19,7 @@ use crate::problems::Problems;
 
 pub(crate) use joint::{Joint, Kind, Mimic};
 pub(crate) use link::{Inertial, Link, Role, Unread};
-pub(crate) use number::{Number, Origin, Value};
+pub(crate) use number::{Number, Origin, Value, constant};
 
 /// No robot has more links, or joints.
 pub(crate) const MAX_LINKS: usize = 1024;
@@ -113,38 +113,36 @@ impl Urdf {
 
 /// Reads a URDF; `None` after saying why there is none.
 pub(crate) fn read(document: &Document, problems: &mut Problems) -> Option<Urdf> {
-    let source = document.input_text();
     let root = document.root_element();
-    let span = start_tag(source, root);
+    let span = start_tag(root);
     if let Some(help) = other_format(root) {
         let message = format!("<{}> is no URDF", root.tag_name().name());
         problems.error(&span, message, help);
         return None;
     }
-    let mut reader = Reader { source, problems };
     let elements = |name: &'static str| root.children().filter(move |node| node.has_tag_name(name));
     let links: Vec<Link> = elements("link")
-        .filter_map(|node| reader.link(node))
+        .filter_map(|node| problems.link(node))
         .collect();
     let mut joints: Vec<Joint> = elements("joint")
-        .filter_map(|node| reader.joint(node))
+        .filter_map(|node| problems.joint(node))
         .collect();
     for node in elements("transmission") {
-        reader.transmission(node, &mut joints);
+        problems.transmission(node, &mut joints);
     }
-    reader.unique("link", links.iter().map(|link| (&link.name, &link.span)));
-    reader.unique(
+    problems.unique("link", links.iter().map(|link| (&link.name, &link.span)));
+    problems.unique(
         "joint",
         joints.iter().map(|joint| (&joint.name, &joint.span)),
     );
     for (what, count) in [("links", links.len()), ("joints", joints.len())] {
-        if !reader.are_few(&span, what, count, MAX_LINKS) {
+        if !problems.are_few(&span, what, count, MAX_LINKS) {
             return None;
         }
     }
     if links.is_empty() {
         let help = "a URDF has a <link> for every body";
-        reader.error(&span, "there are no links".to_owned(), help);
+        problems.error(&span, "there are no links".to_owned(), help);
         return None;
     }
     let names = ["link", "joint"].map(|kind| {
@@ -173,16 +171,7 @@ fn other_format(root: Node) -> Option<&'static str> {
 }
 
 /// Reads elements, reporting what is wrong with them.
-pub(crate) struct Reader<'r, 's, 'p> {
-    pub(crate) source: &'s str,
-    pub(crate) problems: &'r mut Problems<'p>,
-}
-
-impl Reader<'_, '_, '_> {
-    pub(crate) fn error(&mut self, span: &Range<usize>, message: String, help: &str) {
-        self.problems.error(span, message, help);
-    }
-
+impl Problems<'_> {
     /// Returns true if there are at most so many; else says that there are more.
     pub(crate) fn are_few(
         &mut self,
@@ -216,8 +205,9 @@ impl Reader<'_, '_, '_> {
 }
 
 /// Returns the start tag of an element: what a message points at.
-pub(crate) fn start_tag(source: &str, node: Node) -> Range<usize> {
+pub(crate) fn start_tag(node: Node) -> Range<usize> {
     let range = node.range();
+    let source = node.document().input_text();
     let text = source.get(range.clone()).unwrap_or_default();
     let line = text.lines().next().unwrap_or_default();
     let end = line.find('>').map_or(line.len(), |end| end + 1);

@@ -7,7 +7,8 @@ use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::Placement;
 use roxmltree::Node;
 
-use super::{Reader, start_tag};
+use super::start_tag;
+use crate::problems::Problems;
 
 /// A value of the file.
 #[derive(Clone, Debug, Default)]
@@ -52,14 +53,14 @@ impl Origin {
     }
 }
 
-impl Reader<'_, '_, '_> {
+impl Problems<'_> {
     /// Reads the `origin` of an element; the identity where there is none.
     pub(crate) fn origin(&mut self, node: Node) -> Option<Origin> {
         let origin = super::child(node, "origin");
         let at = origin.unwrap_or(node);
         let [xyz, rpy] = ["xyz", "rpy"].map(|key| match origin {
             Some(origin) if origin.has_attribute(key) => self.triple(origin, key),
-            _ => Some(self.constant(at, ["0", "0", "0"])),
+            _ => Some(constant(at, ["0", "0", "0"])),
         });
         let radians = |number: Number| number.map(|value| Angle::Radians(value).canonical());
         Some(Origin {
@@ -67,12 +68,6 @@ impl Reader<'_, '_, '_> {
             rpy: rpy?.map(radians),
             meant: None,
         })
-    }
-
-    /// Numbers that the format has where a file says nothing.
-    pub(crate) fn constant<const N: usize>(&self, node: Node, texts: [&str; N]) -> [Number; N] {
-        let span = start_tag(self.source, node);
-        texts.map(|text| Value::new(parse_decimal(text).unwrap_or_default(), text, &span))
     }
 
     /// Reads three numbers in one attribute.
@@ -138,7 +133,7 @@ impl Reader<'_, '_, '_> {
         if attribute.is_none() {
             let name = node.tag_name().name();
             let message = format!("<{name}> has no `{key}`");
-            let span = start_tag(self.source, node);
+            let span = start_tag(node);
             self.error(&span, message, &format!("<{name} {key}=\"…\">"));
         }
         attribute.map(|attribute| (attribute.value(), attribute.range_value()))
@@ -155,6 +150,12 @@ impl Reader<'_, '_, '_> {
             }
         }
     }
+}
+
+/// Returns numbers that the format has where a file says nothing.
+pub(crate) fn constant<const N: usize>(node: Node, texts: [&str; N]) -> [Number; N] {
+    let span = start_tag(node);
+    texts.map(|text| Value::new(parse_decimal(text).unwrap_or_default(), text, &span))
 }
 
 /// Returns `.5` and `5.` as 0.5 and 5, which other readers take too.

@@ -12,7 +12,7 @@ fn refused<T: Real>(native: &mut Native, fault: &str, plant: impl FnOnce(&mut Co
     let program = native.program.clone();
     plant(&mut native.program);
     let one = native.check_one::<T>();
-    let many = LAYOUTS.map(|states| native.check_many::<T>(states));
+    let many = LAYOUTS.map(|states| native.check_many::<T>(states, native.many(states).unwrap()));
     native.program = program;
     let differs = |error: &CompileError| matches!(error, CompileError::Differs { .. });
     assert!(one.as_ref().is_err_and(differs), "{fault}: {one:?}");
@@ -47,7 +47,7 @@ fn torques(scalar: ScalarType) -> Native {
 fn every_fault_is_found<T: Real>() {
     let mut native = torques(T::SCALAR);
     for states in LAYOUTS {
-        native.prepare(states).unwrap();
+        native.many(states).unwrap();
     }
     let operations: Vec<_> = native.program.dag.operations().collect();
     for (id, own, operands) in operations {
@@ -106,7 +106,7 @@ fn code_is_never_writable_and_is_unmapped_when_dropped() {
         let other = Native::compile(native.program.clone(), native.signature.clone());
         let other = other.unwrap();
         for states in LAYOUTS {
-            other.prepare(states).unwrap();
+            other.many(states).unwrap();
         }
         other
     });

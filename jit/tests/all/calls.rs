@@ -1,8 +1,6 @@
 //! Calls that are refused, and memory.
 
-use dalembert_jit::{
-    Arm, CallError, CompileError, Native, Place, Rows, RowsMut, Scalar, Signature,
-};
+use dalembert_jit::{Arm, CallError, CompileError, Native, Place, Scalar, Signature};
 
 use crate::support::{asking, robot};
 
@@ -51,15 +49,7 @@ fn places_outside_and_on_each_other_are_refused() {
     let q = [0.1; 20];
     let call = |read: Place, written: Place, states| {
         let mut c = [0.0; 20];
-        let rows = [Rows {
-            data: &q[..],
-            place: read,
-        }];
-        let mut results = [RowsMut {
-            data: &mut c[..],
-            place: written,
-        }];
-        native.call_rows(&rows, &mut results, states, 2)
+        native.call_rows(&[(&q[..], read)], &mut [(&mut c[..], written)], states, 2)
     };
     let place = |state, offsets: [usize; 2]| Place {
         state,

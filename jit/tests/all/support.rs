@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use dalembert_codegen::workspace::{Argument, Random, State};
-use dalembert_jit::{Arm, Cache, Load, Native, Output, Place, Real, Rows, RowsMut};
+use dalembert_jit::{Arm, Cache, Load, Native, Output, Place, Real};
 
 /// The robots of `generated/`.
 pub const ROBOTS: [&str; 6] = [
@@ -143,24 +143,16 @@ pub fn called<T: Real>(
     };
     let data: Vec<Vec<T>> = signature.arguments.iter().map(flat).collect();
     let rows = data.iter().zip(&signature.arguments);
-    let rows: Vec<Rows<'_, T>> = rows
-        .map(|(data, &(_, entries))| Rows {
-            data,
-            place: place(entries),
-        })
-        .collect();
+    let rows = rows.map(|(data, &(_, entries))| (data.as_slice(), place(entries)));
+    let rows: Vec<(&[T], Place)> = rows.collect();
     let mut found: Vec<Vec<T>> = signature
         .results
         .iter()
         .map(|entries| vec![T::default(); entries * states])
         .collect();
     let results = found.iter_mut().zip(&signature.results);
-    let mut results: Vec<RowsMut<'_, T>> = results
-        .map(|(data, &entries)| RowsMut {
-            data,
-            place: place(entries),
-        })
-        .collect();
+    let results = results.map(|(data, &entries)| (data.as_mut_slice(), place(entries)));
+    let mut results: Vec<(&mut [T], Place)> = results.collect();
     native
         .call_rows(&rows, &mut results, states, threads)
         .unwrap();

@@ -68,14 +68,7 @@ impl<S: Scalar> Loading<S> {
 pub fn carried<S: Scalar>(payload: &[S], frame: Option<&Columns<S>>) -> Link<S> {
     let entry = |index: usize| payload.get(index).cloned().unwrap_or_else(S::zero);
     let com = [1, 2, 3].map(entry);
-    let inertia = Inertia {
-        xx: entry(4),
-        yy: entry(5),
-        zz: entry(6),
-        xy: entry(7),
-        yz: entry(8),
-        xz: entry(9),
-    };
+    let inertia = Inertia::of([4, 5, 6, 7, 8, 9].map(entry));
     let (com, inertia) = match frame {
         None => (com, inertia),
         Some(frame) => (frame.apply(&com, &S::one()), frame.turn_tensor(&inertia)),

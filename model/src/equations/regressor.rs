@@ -9,8 +9,8 @@
 
 use alloc::vec::Vec;
 
-pub use super::chain::Column;
 use super::chain::body::{Body, entry};
+pub use super::chain::{Column, Probed};
 use super::factor::scatter;
 use super::matrix::{minus, times, zero_vector};
 use super::{Arm, DhVariables, Formulation, Link};
@@ -105,9 +105,9 @@ impl LinkParameter {
 pub fn of_links<S: Scalar>(joints: usize) -> Vec<Column<S>> {
     let of = |joint| {
         let all = LinkParameter::ALL.into_iter();
-        all.map(move |parameter| Column::Body {
+        all.map(move |parameter| Column {
             joint,
-            body: parameter.unit(),
+            of: Probed::Body(parameter.unit()),
         })
     };
     (0..joints).flat_map(of).collect()
@@ -120,10 +120,10 @@ pub fn of_drives<S>(robot: &Robot) -> Vec<Column<S>> {
     let joints = || robot.rows().into_iter().enumerate();
     let armatures = joints().filter(|(_, joint)| !joint.armature.is_zero());
     let viscous = joints().filter(|(_, joint)| !joint.viscous.is_zero());
-    let armatures = armatures.map(|(i, _)| Column::Armature(i));
-    armatures
-        .chain(viscous.map(|(i, _)| Column::Viscous(i)))
-        .collect()
+    let column = |of: Probed<S>, joint: usize| Column { joint, of };
+    let armatures = armatures.map(|(joint, _)| column(Probed::Armature, joint));
+    let viscous = viscous.map(|(joint, _)| column(Probed::Viscous, joint));
+    armatures.chain(viscous).collect()
 }
 
 impl Formulation {
@@ -172,11 +172,12 @@ fn differences<S: Scalar>(
     let n = arm.links.len();
     let empty = without_bodies(arm);
     let mut rows: Vec<Vec<S>> = (0..n).map(|_| Vec::with_capacity(columns.len())).collect();
-    for column in columns {
-        let entries = match column {
-            Column::Body { joint, body } => of_body(&empty, *joint, body, &torques),
-            Column::Armature(joint) => scatter(&[qdd[*joint].clone()], &[*joint], n),
-            Column::Viscous(joint) => scatter(&[qd[*joint].clone()], &[*joint], n),
+    for Column { joint, of } in columns {
+        let drive = |rates: &[S]| scatter(&[rates[*joint].clone()], &[*joint], n);
+        let entries = match of {
+            Probed::Body(body) => of_body(&empty, *joint, body, &torques),
+            Probed::Armature => drive(qdd),
+            Probed::Viscous => drive(qd),
         };
         for (row, entry) in rows.iter_mut().zip(entries) {
             row.push(entry);

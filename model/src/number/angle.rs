@@ -193,24 +193,14 @@ impl fmt::Display for Angle {
     }
 }
 
-/// When a number of radians counts as a multiple of π/2.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Snap {
-    /// Within 4 ulp of the multiple's double, at most 2e-15 from it, and not
-    /// beyond ±2π: `1.5707963267948966` is what other tools print for π/2,
-    /// and taken at its word no sine or cosine of it would be 0 or 1.
-    #[default]
-    RightAngles,
-    /// Never: every number of radians stays as written.
-    Never,
-}
-
-/// The reading of a number of radians.
+/// The reading of an angle.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Snapped {
     /// It stays as written, far from any right angle, or is exactly zero.
     Kept(Angle),
-    /// It counts as this multiple of π/2.
+    /// It counts as this multiple of π/2: within 4 ulp of the multiple's double, at most 2e-15
+    /// from it, and not beyond ±2π. `1.5707963267948966` is what other tools print for π/2,
+    /// and taken at its word no sine or cosine of it would be 0 or 1.
     Taken(Angle),
     /// It stays as written though it is within 1e-3 of `multiple`.
     Near {
@@ -223,9 +213,9 @@ pub enum Snapped {
     },
 }
 
-impl Snap {
-    /// Reads a number of radians under this rule.
-    pub fn apply(self, radians: Rational) -> Snapped {
+impl Snapped {
+    /// Reads a number of radians.
+    pub fn of_radians(radians: Rational) -> Self {
         // Beyond 1e15 doubles are further apart than the warning's distance.
         let Some(value) = radians.to_f64().filter(|v| v.abs() < 1e15) else {
             return Snapped::Kept(Angle::Radians(radians));
@@ -233,24 +223,22 @@ impl Snap {
         if radians.is_zero() {
             return Snapped::Kept(Angle::default());
         }
-        if self == Snap::RightAngles {
-            // Nonzero multiples up to ±2π, against their doubles. The
-            // difference of two doubles this close is exact.
-            for n in [1i8, 2, 3, 4] {
-                let multiple = f64::from(n) * core::f64::consts::FRAC_PI_2;
-                let ulp = f64::from_bits(multiple.to_bits() + 1) - multiple;
-                let off = (value.abs() - multiple).abs();
-                if off <= 4.0 * ulp && off <= 2e-15 && value.abs() <= core::f64::consts::TAU {
-                    let n = if value < 0.0 { -n } else { n };
-                    return Snapped::Taken(Angle::right_angles(n.into()));
-                }
+        // Nonzero multiples up to ±2π, against their doubles. The
+        // difference of two doubles this close is exact.
+        for n in [1i8, 2, 3, 4] {
+            let multiple = f64::from(n) * core::f64::consts::FRAC_PI_2;
+            let ulp = f64::from_bits(multiple.to_bits() + 1) - multiple;
+            let off = (value.abs() - multiple).abs();
+            if off <= 4.0 * ulp && off <= 2e-15 && value.abs() <= core::f64::consts::TAU {
+                let n = if value < 0.0 { -n } else { n };
+                return Snapped::Taken(Angle::right_angles(n.into()));
             }
         }
         Self::near(Angle::Radians(radians))
     }
 
     /// Reads an angle that stays as written, and notes a right angle close to it.
-    pub fn near(angle: Angle) -> Snapped {
+    pub fn near(angle: Angle) -> Self {
         let radians = angle.radians();
         let quarter = pi() / Rational::from_integer(2.into());
         let n = (&radians / &quarter).round();

@@ -18,7 +18,7 @@ mod text;
 mod trig;
 mod wide;
 
-pub use angle::{Angle, Snap, Snapped};
+pub use angle::{Angle, Snapped};
 pub use exact::{Exact, Extent};
 pub use round::Rounded;
 pub use text::NotExact;

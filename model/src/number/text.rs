@@ -81,17 +81,9 @@ impl FromStr for Exact {
 }
 
 fn parse_term(text: &str) -> Result<(Monomial, Rational), NotExact> {
-    // `sin(1*pi/5)` holds a `*` of its own.
-    let (coefficient, factors) = match text.split_once("*sin(") {
-        Some((coefficient, _)) if !coefficient.contains("cos(") => split_at(text, coefficient),
-        _ => match text.split_once("*cos(") {
-            Some((coefficient, _)) => split_at(text, coefficient),
-            None => (text, ""),
-        },
-    };
+    let (coefficient, mut rest) = text.split_at(text.find('*').unwrap_or(text.len()));
     let coefficient = rational(coefficient)?;
     let mut monomial = Monomial::new();
-    let mut rest = factors;
     while !rest.is_empty() {
         rest = rest.strip_prefix('*').ok_or(NotExact)?;
         let (is_sin, after) = match rest.strip_prefix("sin(") {
@@ -128,10 +120,6 @@ fn parse_term(text: &str) -> Result<(Monomial, Rational), NotExact> {
         rest = after;
     }
     Ok((monomial, coefficient))
-}
-
-fn split_at<'a>(text: &'a str, head: &'a str) -> (&'a str, &'a str) {
-    (head, &text[head.len()..])
 }
 
 fn parse_angle(text: &str) -> Result<Angle, NotExact> {

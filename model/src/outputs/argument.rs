@@ -1,5 +1,5 @@
-//! What functions read, as a table: joint vectors, and parameters that are
-//! arguments where somebody asks for that.
+//! What functions read: joint vectors, and parameters that are arguments where somebody asks
+//! for that.
 
 use super::Sizes;
 use crate::equations::load::PAYLOAD;
@@ -33,140 +33,6 @@ pub enum Argument {
     /// λ: by how much each torque, or acceleration, counts in what is differentiated twice.
     Multiplier,
 }
-
-/// The number of entries of an argument.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Length {
-    /// One a joint.
-    Joints,
-    /// So many, whatever the arm.
-    Fixed(usize),
-    /// As many as the arm has regrouped parameters that a payload changes.
-    Load,
-}
-
-/// The facts of an argument.
-struct Facts {
-    name: &'static str,
-    symbol: &'static str,
-    given: Option<&'static str>,
-    meaning: &'static str,
-    length: Length,
-    limit: Option<Limit>,
-    reach: f64,
-}
-
-/// In the order of [`Argument::ALL`].
-const TABLE: [Facts; Argument::COUNT] = [
-    Facts {
-        name: "q",
-        symbol: "q",
-        given: Some("q"),
-        meaning: "Positions, rad or m.",
-        length: Length::Joints,
-        limit: Some(Limit::Position),
-        reach: 1.0,
-    },
-    Facts {
-        name: "qd",
-        symbol: "q̇",
-        given: Some("qd"),
-        meaning: "Velocities, rad/s or m/s.",
-        length: Length::Joints,
-        limit: Some(Limit::Velocity),
-        reach: 3.0,
-    },
-    Facts {
-        name: "qdd",
-        symbol: "q̈",
-        given: Some("qdd"),
-        meaning: "Accelerations, rad/s² or m/s².",
-        length: Length::Joints,
-        limit: Some(Limit::Acceleration),
-        reach: 10.0,
-    },
-    Facts {
-        name: "tau",
-        symbol: "τ",
-        given: Some("torque"),
-        meaning: "Torques, N·m or N.",
-        length: Length::Joints,
-        limit: Some(Limit::Torque),
-        reach: 100.0,
-    },
-    Facts {
-        name: "v",
-        symbol: "v",
-        given: None,
-        meaning: "Velocities wished for, rad/s or m/s.",
-        length: Length::Joints,
-        limit: Some(Limit::Velocity),
-        reach: 3.0,
-    },
-    Facts {
-        name: "a",
-        symbol: "a",
-        given: None,
-        meaning: "Accelerations wished for, rad/s² or m/s².",
-        length: Length::Joints,
-        limit: Some(Limit::Acceleration),
-        reach: 10.0,
-    },
-    Facts {
-        name: "g",
-        symbol: "g",
-        given: None,
-        meaning: "Acceleration of gravity in base axes, m/s²; where the base moves, less that of the base.",
-        length: Length::Fixed(3),
-        limit: None,
-        reach: 9.81,
-    },
-    Facts {
-        name: "load",
-        symbol: "load",
-        given: None,
-        meaning: "What `load` returns of what the hand carries.",
-        length: Length::Load,
-        limit: None,
-        reach: 1.0,
-    },
-    Facts {
-        name: "payload",
-        symbol: "payload",
-        given: None,
-        meaning: "Mass, centre of mass and inertia of what the hand carries.",
-        length: Length::Fixed(PAYLOAD),
-        limit: None,
-        reach: 1.0,
-    },
-    Facts {
-        name: "wrench",
-        symbol: "w",
-        given: Some("hand_wrench"),
-        meaning: "Force in N over moment in N·m that act on the frame, in its axes and about its point.",
-        length: Length::Fixed(6),
-        limit: None,
-        reach: 100.0,
-    },
-    Facts {
-        name: "damping",
-        symbol: "λ²",
-        given: Some("damping"),
-        meaning: "λ², zero or more, which is added to the diagonal before an inverse is taken.",
-        length: Length::Fixed(1),
-        limit: None,
-        reach: 1.0,
-    },
-    Facts {
-        name: "multiplier",
-        symbol: "λ",
-        given: Some("multiplier"),
-        meaning: "λ, by how much each joint counts: Lagrange multipliers, or the slope of a cost to go.",
-        length: Length::Joints,
-        limit: None,
-        reach: 1.0,
-    },
-];
 
 impl Argument {
     /// The number of arguments.
@@ -210,13 +76,27 @@ impl Argument {
         self as usize
     }
 
-    fn facts(self) -> &'static Facts {
-        &TABLE[self.index()]
-    }
-
     /// Returns its name in generated code.
     pub fn name(self) -> &'static str {
-        self.facts().name
+        self.names()[0]
+    }
+
+    /// Returns its name in generated code, and its letter in the equations.
+    fn names(self) -> [&'static str; 2] {
+        match self {
+            Argument::Position => ["q", "q"],
+            Argument::Velocity => ["qd", "q̇"],
+            Argument::Acceleration => ["qdd", "q̈"],
+            Argument::Torque => ["tau", "τ"],
+            Argument::ReferenceVelocity => ["v", "v"],
+            Argument::ReferenceAcceleration => ["a", "a"],
+            Argument::Gravity => ["g", "g"],
+            Argument::Load => ["load", "load"],
+            Argument::Payload => ["payload", "payload"],
+            Argument::Wrench => ["wrench", "w"],
+            Argument::Damping => ["damping", "λ²"],
+            Argument::Multiplier => ["multiplier", "λ"],
+        }
     }
 
     /// Returns the argument of a name in generated code.
@@ -226,38 +106,80 @@ impl Argument {
 
     /// Returns its letter in the equations.
     pub fn symbol(self) -> &'static str {
-        self.facts().symbol
+        self.names()[1]
     }
 
     /// Returns its key in files of given states; none if these do not give it.
     pub fn given(self) -> Option<&'static str> {
-        self.facts().given
+        use Argument::{Acceleration, Damping, Multiplier, Position, Torque, Velocity, Wrench};
+        match self {
+            Torque => Some("torque"),
+            Wrench => Some("hand_wrench"),
+            Position | Velocity | Acceleration | Damping | Multiplier => Some(self.name()),
+            _ => None,
+        }
     }
 
     /// Returns a line for its documentation.
     pub fn meaning(self) -> &'static str {
-        self.facts().meaning
+        match self {
+            Argument::Position => "Positions, rad or m.",
+            Argument::Velocity => "Velocities, rad/s or m/s.",
+            Argument::Acceleration => "Accelerations, rad/s² or m/s².",
+            Argument::Torque => "Torques, N·m or N.",
+            Argument::ReferenceVelocity => "Velocities wished for, rad/s or m/s.",
+            Argument::ReferenceAcceleration => "Accelerations wished for, rad/s² or m/s².",
+            Argument::Gravity => {
+                "Acceleration of gravity in base axes, m/s²; where the base moves, less that of the base."
+            }
+            Argument::Load => "What `load` returns of what the hand carries.",
+            Argument::Payload => "Mass, centre of mass and inertia of what the hand carries.",
+            Argument::Wrench => {
+                "Force in N over moment in N·m that act on the frame, in its axes and about its point."
+            }
+            Argument::Damping => {
+                "λ², zero or more, which is added to the diagonal before an inverse is taken."
+            }
+            Argument::Multiplier => {
+                "λ, by how much each joint counts: Lagrange multipliers, or the slope of a cost to go."
+            }
+        }
     }
 
     /// Returns how many entries it has.
     pub fn length(self, sizes: Sizes) -> usize {
-        match self.facts().length {
-            Length::Joints => sizes.joints,
-            Length::Fixed(length) => length,
-            Length::Load => sizes.load,
+        match self {
+            Argument::Gravity => 3,
+            Argument::Load => sizes.load,
+            Argument::Payload => PAYLOAD,
+            Argument::Wrench => 6,
+            Argument::Damping => 1,
+            _ => sizes.joints,
         }
     }
 
     /// Returns the limit of a joint that says how far its entries reach; none where
     /// they are no joint's.
     pub fn limit(self) -> Option<Limit> {
-        self.facts().limit
+        match self {
+            Argument::Position => Some(Limit::Position),
+            Argument::Velocity | Argument::ReferenceVelocity => Some(Limit::Velocity),
+            Argument::Acceleration | Argument::ReferenceAcceleration => Some(Limit::Acceleration),
+            Argument::Torque => Some(Limit::Torque),
+            _ => None,
+        }
     }
 
     /// Returns how far its entries are taken to reach where a joint has no such
     /// limit (a position that turns: half a turn).
     pub fn reach(self) -> f64 {
-        self.facts().reach
+        match self {
+            Argument::Velocity | Argument::ReferenceVelocity => 3.0,
+            Argument::Acceleration | Argument::ReferenceAcceleration => 10.0,
+            Argument::Torque | Argument::Wrench => 100.0,
+            Argument::Gravity => 9.81,
+            _ => 1.0,
+        }
     }
 
     /// Returns the least that an entry is taken to be where a joint has no such limit.
@@ -274,12 +196,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_table_is_in_order() {
+    fn all_are_in_order() {
         for (index, argument) in Argument::ALL.into_iter().enumerate() {
             assert_eq!(argument.index(), index);
             assert_eq!(Argument::from_name(argument.name()), Some(argument));
         }
-        let of_joints = |argument: &Argument| argument.facts().length == Length::Joints;
+        let (two, three) = (Sizes::whole(2), Sizes::whole(3));
+        let of_joints = |own: &Argument| own.length(two) != own.length(three);
         let motion = Argument::JOINTS.into_iter();
         let all = Argument::ALL.into_iter().filter(of_joints);
         assert!(all.eq(motion.chain([Argument::Multiplier])));

@@ -14,7 +14,7 @@ use core::cmp::Ordering;
 use core::hash::{Hash, Hasher};
 
 use super::bundle::{BundleError, check_name, kept};
-use super::function::Definition;
+use super::function::{Definition, Made};
 use super::quantity::{Facts, FrameChoice};
 use super::{Axis, Function, Quantity, Regrouped, Shape, Written};
 use crate::equations::frames::{Axes, Rows, View};
@@ -27,7 +27,7 @@ const AT: char = '@';
 const OF: char = ':';
 
 /// A quantity at a frame. What it says of itself is kept for as long as the process runs,
-/// as that of a [`Bundle`](super::Bundle) is.
+/// as that of a [`Made`] function is.
 #[derive(Clone, Copy, Debug)]
 pub struct QuantityAt(&'static Viewed);
 
@@ -129,16 +129,6 @@ impl Ord for QuantityAt {
     }
 }
 
-/// An output at a frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct FunctionAt(&'static Definition);
-
-impl FunctionAt {
-    pub(super) fn definition(self) -> &'static Definition {
-        self.0
-    }
-}
-
 impl Function {
     /// Returns the same output at a frame, in these axes and components.
     ///
@@ -180,14 +170,14 @@ impl Function {
         let results = function.quantities().iter();
         let results: Vec<Quantity> = results.map(|quantity| seen(*quantity, view)).collect();
         let of = function.definition();
-        Ok(Function::At(FunctionAt(Box::leak(Box::new(Definition {
+        Ok(Function::At(Made::new(Definition {
             name: kept(name),
             summary: kept(format!("{} {}", of.summary, described(view))),
             results: Box::leak(results.into_boxed_slice()),
             structure: None,
             by_default: false,
             parts: &[],
-        })))))
+        })))
     }
 
     /// Returns the output of a text with a frame.

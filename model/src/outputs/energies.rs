@@ -118,12 +118,8 @@ impl Formula for MomentumSlope {
         letter: "s",
         symbol: "Cᵀq̇",
         summary: "Its slope Cᵀq̇ = ∂T/∂q.",
-        arguments: &[Argument::Position, Argument::Velocity],
-        shape: Shape::VECTOR,
         unit: load,
-        choices: Some(&[]),
-        payload_dependence: PayloadDependence::Torque,
-        ..Facts::PLAIN
+        ..Momentum::FACTS
     };
 
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {

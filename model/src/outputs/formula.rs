@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 use core::cell::OnceCell;
 
 use super::Argument;
+use super::operational::damped_mobility;
 use super::quantity::Facts;
 use crate::equations::chain::composite::Composite;
 use crate::equations::chain::second_derivatives::SecondDerivatives;
@@ -29,9 +30,13 @@ pub(super) trait Formula {
     }
 
     /// Returns the symmetric matrix that it inverts beside D, row by row, of which the condition
-    /// says how far rounding may move it; nothing if it inverts no other.
-    fn divisor<S: Divide>(_: &Written<'_, S>) -> Vec<S> {
-        Vec::new()
+    /// says how far rounding may move it: of what is damped Λ⁻¹ + λ² 1; nothing if it inverts no
+    /// other.
+    fn divisor<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
+        match Self::FACTS.arguments.contains(&Argument::Damping) {
+            true => damped_mobility(at).concat(),
+            false => Vec::new(),
+        }
     }
 
     /// Returns what vanishes if these entries over all joints are the
@@ -144,16 +149,7 @@ impl<S: Scalar> Motion<S> {
         let mut motion = self;
         for own in following {
             // In their order, so that each stands at its own row at last.
-            motion
-                .q
-                .insert(own.row, JointPosition::Prismatic(S::zero()));
-            motion.moves.insert(own.row, false);
-            motion.per_speed.insert(own.row, None);
-            for argument in Argument::ALL {
-                if let Some(entries) = motion.of_mut(argument) {
-                    entries.insert(own.row, S::zero());
-                }
-            }
+            motion.insert_still(own.row);
         }
         for own in following {
             motion.q[own.row] = motion.q[own.leader].followed_by(own);
@@ -172,15 +168,19 @@ impl<S: Scalar> Motion<S> {
     /// Returns the motion of an arm with one more link, that does not move.
     #[must_use]
     pub fn with_still_link(mut self) -> Motion<S> {
-        self.q.push(JointPosition::Prismatic(S::zero()));
-        self.moves.push(false);
-        self.per_speed.push(None);
+        self.insert_still(self.q.len());
+        self
+    }
+
+    fn insert_still(&mut self, row: usize) {
+        self.q.insert(row, JointPosition::Prismatic(S::zero()));
+        self.moves.insert(row, false);
+        self.per_speed.insert(row, None);
         for argument in Argument::ALL {
             if let Some(entries) = self.of_mut(argument) {
-                entries.push(S::zero());
+                entries.insert(row, S::zero());
             }
         }
-        self
     }
 }
 

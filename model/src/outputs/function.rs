@@ -1,5 +1,6 @@
 //! What a generated function is.
 
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::fmt;
 
@@ -51,6 +52,20 @@ impl Definition {
             by_default: false,
             parts: &[],
         }
+    }
+}
+
+/// A function that a user puts together: of the results of several others, or at a frame.
+///
+/// What it says of itself is kept for as long as the process runs: so a function
+/// is as small a value as a case of an enumeration, and a process names few. Two
+/// are equal if they say the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Made(pub(super) &'static Definition);
+
+impl Made {
+    pub(super) fn new(definition: Definition) -> Made {
+        Made(Box::leak(Box::new(definition)))
     }
 }
 
@@ -114,7 +129,7 @@ impl Function {
     pub fn depends_on(self, parameter: RuntimeParameter) -> bool {
         match parameter {
             RuntimeParameter::Payload => self.payload_dependence() == PayloadDependence::Torque,
-            RuntimeParameter::Gravity => self.quantities().iter().any(|q| q.feels_gravity()),
+            RuntimeParameter::Gravity => self.quantities().iter().any(|q| q.facts().gravity),
         }
     }
 

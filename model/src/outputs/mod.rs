@@ -50,10 +50,10 @@ use crate::scalar::Divide;
 use formula::Formula;
 
 pub use argument::Argument;
-pub use at::{FunctionAt, QuantityAt};
-pub use bundle::{Bundle, BundleError};
+pub use at::QuantityAt;
+pub use bundle::BundleError;
 pub use formula::{Motion, Regrouped, Shared, Written};
-pub use function::Columns;
+pub use function::{Columns, Made};
 pub use quantity::{ErrorScale, Index};
 pub use runtime::{PayloadDependence, RuntimeParameter};
 pub use shape::{Axis, Shape, Sizes};

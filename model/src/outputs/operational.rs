@@ -136,10 +136,6 @@ impl Formula for OperationalInertia {
         written_space(at).inertia(&at.motion.damping[0]).concat()
     }
 
-    fn divisor<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        damped_mobility(at).concat()
-    }
-
     /// Returns (Λ⁻¹ + λ² 1) Λ − 1
     fn residual<S: Divide>(at: &Written<'_, S>, inertia: &[S]) -> Vec<S> {
         let matrix = damped_mobility(at);
@@ -183,10 +179,6 @@ impl Formula for ConsistentInverse {
     fn written<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
         let inverse = written_space(at).consistent_inverse(&at.motion.damping[0]);
         inverse.concat()
-    }
-
-    fn divisor<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        damped_mobility(at).concat()
     }
 
     /// Returns D J̄ (Λ⁻¹ + λ² 1) − Jᵀ over the joints that move.
@@ -250,10 +242,6 @@ impl Formula for OperationalBias {
             .operational_bias(at.arm, at.at, &motion.qd, damping, &motion.moves)
     }
 
-    fn divisor<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        damped_mobility(at).concat()
-    }
-
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         let motion = at.motion;
         let (hand, qd) = (hand(at)?, &at.textbook.as_ref()?.motion.qd);
@@ -295,10 +283,6 @@ impl Formula for NullSpace {
         let motion = at.motion;
         let projector = written_space(at).null_space(&motion.damping[0], &motion.moves);
         projector.concat()
-    }
-
-    fn divisor<S: Divide>(at: &Written<'_, S>) -> Vec<S> {
-        damped_mobility(at).concat()
     }
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {

@@ -261,11 +261,6 @@ impl Quantity {
         self.facts().of_links || self.shape().0.contains(&Axis::LinkParameters)
     }
 
-    /// Returns whether it depends on gravity.
-    pub fn feels_gravity(self) -> bool {
-        self.facts().gravity
-    }
-
     /// Returns the joints of an entry over these rows, one for each axis over joints.
     pub fn joints(self, index: usize, rows: &[usize], sizes: Sizes) -> impl Iterator<Item = usize> {
         let places = self.shape().places(index, sizes.over(rows.len()));
@@ -306,15 +301,9 @@ impl Quantity {
         rows.indices().nth(place).unwrap_or(place)
     }
 
-    /// Returns the name of one entry, one-based: `D_12`, `h_123`, with separators
-    /// where a robot has more than nine joints, or an axis more entries.
-    pub fn entry(self, index: usize, sizes: Sizes) -> String {
-        let rows: Vec<usize> = (0..sizes.rows).collect();
-        self.entry_over(index, &rows, sizes)
-    }
-
-    /// Returns the name of one entry of a quantity that is over these joints.
-    pub fn entry_over(self, index: usize, rows: &[usize], sizes: Sizes) -> String {
+    /// Returns the name of one entry of a quantity over these joints, one-based: `D_12`, `h_123`,
+    /// with separators where a robot has more than nine joints, or an axis more entries.
+    pub fn entry(self, index: usize, rows: &[usize], sizes: Sizes) -> String {
         let letter = self.facts().letter;
         let sizes = sizes.over(rows.len());
         let places = self.shape().places(index, sizes);

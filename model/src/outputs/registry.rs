@@ -19,9 +19,9 @@ macro_rules! registry {
             /// The regrouped parameters of the arm with a payload.
             Load,
             /// Several of these in one, by a name of the user's.
-            Bundle(bundle::Bundle),
+            Bundle(Made),
             /// One of these at a frame.
-            At(at::FunctionAt),
+            At(Made),
         }
 
         /// A quantity that a function returns.
@@ -63,8 +63,7 @@ macro_rules! registry {
                             &[Quantity::Load],
                         )
                     },
-                    Function::Bundle(bundle) => bundle.definition(),
-                    Function::At(at) => at.definition(),
+                    Function::Bundle(made) | Function::At(made) => made.0,
                 }
             }
         }

@@ -15,7 +15,7 @@ use alloc::vec::Vec;
 use super::formula::Formula;
 use super::quantity::{Choice, Facts, kilograms, load, turns};
 use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape, Written};
-use crate::equations::matrix::{plus, times, zero_vector, zeros};
+use crate::equations::matrix::{plus, zero_vector, zeros};
 use crate::scalar::{Divide, Scalar};
 
 /// τ_i
@@ -29,15 +29,9 @@ pub(super) fn torques<S: Scalar>(at: &Regrouped<'_, S>, qdd: &[S]) -> Vec<S> {
     }
     let (gravity, exerted) = (&chain.gravity, zero_vector());
     let torques = at.composite.torques(gravity, qd, qdd, form.spin, &exerted);
-    let links = chain.links.iter().zip(torques).enumerate();
-    let torques = links.map(|(i, (link, torque))| {
-        let drive = plus(
-            &times(&link.armature, &qdd[i]),
-            &link.friction.torque(&qd[i]),
-        );
-        plus(&torque, &drive)
-    });
-    torques.collect()
+    let torques = torques.iter().enumerate();
+    let driven = torques.map(|(i, torque)| plus(torque, &chain.drive(i, qd, qdd)));
+    driven.collect()
 }
 
 impl Formula for Torque {

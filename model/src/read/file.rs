@@ -10,14 +10,12 @@ use super::placement::placement;
 use super::report::quote;
 use super::table::{Table, locate};
 use super::value::Context;
-use super::{guard, joint, link, mimic, scene, suggest, syntax};
-use crate::outputs::Function;
+use super::{Reading, guard, joint, link, mimic, scene, suggest, syntax};
 use crate::placed::{Placed, derive};
 use crate::robot::{Convention, Finding, Frame, Joint, Placement, Robot, RobotWarning};
-use crate::scene::Scene;
 
-/// Reads a robot, reporting to the sink; `None` only after an error.
-pub(super) fn read(source: &str, cx: &mut Context) -> Option<(Robot, Vec<Function>, Vec<Scene>)> {
+/// Reads a robot file, reporting to the sink; `None` only after an error.
+pub(super) fn read(source: &str, cx: &mut Context) -> Option<Reading> {
     if !guard::admits(source, &mut cx.sink) {
         return None;
     }
@@ -43,7 +41,12 @@ pub(super) fn read(source: &str, cx: &mut Context) -> Option<(Robot, Vec<Functio
     let scenes = keys.get("scene").filter(|_| !robot.joints.is_empty());
     let scenes = scenes.map_or_else(Vec::new, |scenes| scene::read(cx, &robot, &root, scenes));
     keys.finish(cx);
-    Some((robot, outputs.unwrap_or_default(), scenes))
+    Some(Reading {
+        robot,
+        outputs: outputs.unwrap_or_default(),
+        scenes,
+        notes: Vec::new(),
+    })
 }
 
 /// Reads the robot, and returns the findings about it.

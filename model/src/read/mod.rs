@@ -61,7 +61,6 @@ mod value;
 
 use alloc::vec::Vec;
 
-use crate::number::Snap;
 use crate::outputs::Function;
 use crate::robot::Robot;
 use crate::scene::Scene;
@@ -70,13 +69,6 @@ pub use crate::robot::{RobotWarning, Severity};
 pub use guard::MAX_BYTES;
 pub use report::{Diagnostic, Diagnostics};
 pub use suggest::{closest, for_bundle};
-
-/// The options of a reading.
-#[derive(Clone, Debug, Default)]
-pub struct Options {
-    /// When a number of radians counts as a multiple of π/2.
-    pub snap: Snap,
-}
 
 /// A robot file that was read.
 #[derive(Clone, Debug)]
@@ -97,9 +89,8 @@ pub struct Reading {
 /// # Errors
 /// Everything that is wrong with the file, at once and in its order; only an
 /// error of the TOML syntax hides those after it.
-pub fn parse(source: &str, options: &Options) -> Result<Reading, Diagnostics> {
+pub fn parse(source: &str) -> Result<Reading, Diagnostics> {
     let mut cx = value::Context {
-        snap: options.snap,
         sink: report::Sink::new(source),
         unread: Vec::new(),
     };
@@ -111,9 +102,9 @@ pub fn parse(source: &str, options: &Options) -> Result<Reading, Diagnostics> {
 ///
 /// # Errors
 /// As [`parse`], and if the bytes are not UTF-8.
-pub fn parse_bytes(bytes: &[u8], options: &Options) -> Result<Reading, Diagnostics> {
+pub fn parse_bytes(bytes: &[u8]) -> Result<Reading, Diagnostics> {
     match core::str::from_utf8(bytes) {
-        Ok(source) => parse(source, options),
+        Ok(source) => parse(source),
         Err(error) => Err(report::not_utf8(bytes, error.valid_up_to())),
     }
 }

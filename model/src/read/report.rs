@@ -8,9 +8,6 @@ use core::fmt;
 use core::ops::Range;
 
 use super::{Reading, RobotWarning, Severity};
-use crate::outputs::Function;
-use crate::robot::Robot;
-use crate::scene::Scene;
 
 /// More errors than this are counted, not listed.
 const MAX_LISTED: usize = 200;
@@ -203,12 +200,9 @@ impl Sink {
         (line.max(1), column + 1)
     }
 
-    /// Returns the robot with its notes, or the errors alone: with them, the rest is
+    /// Returns what was read with its notes, or the errors alone: with them, the rest is
     /// only in the way.
-    pub(super) fn finish(
-        mut self,
-        read: Option<(Robot, Vec<Function>, Vec<Scene>)>,
-    ) -> Result<Reading, Diagnostics> {
+    pub(super) fn finish(mut self, read: Option<Reading>) -> Result<Reading, Diagnostics> {
         self.found.sort_by_key(|d| d.span.start);
         let allowed = self.allowed;
         let known = |found: &Diagnostic| found.warning.is_some_and(|d| allowed.contains(&d));
@@ -225,12 +219,7 @@ impl Sink {
             }
         }
         match read {
-            Some((robot, outputs, scenes)) if errors.is_empty() => Ok(Reading {
-                robot,
-                outputs,
-                scenes,
-                notes,
-            }),
+            Some(reading) if errors.is_empty() => Ok(Reading { notes, ..reading }),
             _ => Err(Diagnostics(errors)),
         }
     }

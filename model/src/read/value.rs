@@ -14,12 +14,11 @@ use toml_span::value::ValueInner;
 use super::report::{Sink, quote};
 use super::{RobotWarning, foreign, suggest};
 use crate::number::parse::{parse_decimal, parse_fraction};
-use crate::number::{Angle, Rational, Snap, Snapped};
+use crate::number::{Angle, Rational, Snapped};
 use crate::robot::{Inertia, JointKind, Position};
 
-/// The diagnostics and the options of a reading.
+/// The diagnostics of a reading.
 pub(super) struct Context {
-    pub(super) snap: Snap,
     pub(super) sink: Sink,
     /// The places of values that are missing or cannot be read: others stand in for them, and
     /// nothing is reported of those.
@@ -156,9 +155,11 @@ impl Context {
     /// Reads an angle: radians as a number, or one of the text forms.
     pub(super) fn angle(&mut self, value: &Value) -> Option<Angle> {
         let snapped = match value.as_ref() {
-            ValueInner::Integer(_) | ValueInner::Float(_) => self.snap.apply(self.number(value)?),
+            ValueInner::Integer(_) | ValueInner::Float(_) => {
+                Snapped::of_radians(self.number(value)?)
+            }
             ValueInner::String(text) if Angle::parse(text).is_ok() => {
-                Snap::near(Angle::parse(text).unwrap_or_default())
+                Snapped::near(Angle::parse(text).unwrap_or_default())
             }
             other => {
                 let text = match other {

@@ -2,14 +2,14 @@
 
 use core::cell::Cell;
 
-use super::{Divide, Scalar};
+use super::Scalar;
+use crate::number::Exact;
 
 /// Where the operations of one evaluation are counted.
 #[derive(Debug, Default)]
 pub struct Counter {
     multiplications: Cell<u64>,
     additions: Cell<u64>,
-    divisions: Cell<u64>,
 }
 
 impl Counter {
@@ -23,20 +23,10 @@ impl Counter {
         Count::Value(self)
     }
 
-    /// Multiplications so far, halving included.
-    pub fn multiplications(&self) -> u64 {
-        self.multiplications.get()
-    }
-
-    /// Divisions so far; by a number that is known beforehand it is a
-    /// multiplication.
-    pub fn divisions(&self) -> u64 {
-        self.divisions.get()
-    }
-
-    /// Additions so far; subtraction and doubling are additions.
-    pub fn additions(&self) -> u64 {
-        self.additions.get()
+    /// Returns the multiplications so far, halving included, and the additions, with subtraction
+    /// and doubling.
+    pub fn counts(&self) -> (u64, u64) {
+        (self.multiplications.get(), self.additions.get())
     }
 }
 
@@ -58,15 +48,14 @@ pub enum Count<'a> {
 
 use Count::{MinusOne, Number, One, Value, Zero};
 
-impl Divide for Count<'_> {
-    fn div(&self, other: &Self) -> Self {
-        match (self, other) {
-            (_, One | MinusOne | Number) | (Zero, _) => self.mul(other),
-            (_, Value(counter)) => {
-                counter.divisions.set(counter.divisions.get() + 1);
-                Value(counter)
-            }
-            (_, Zero) => Number,
+impl Count<'_> {
+    /// Returns what is known beforehand of a constant.
+    pub fn constant(exact: &Exact) -> Self {
+        match () {
+            () if exact.is_zero() => Zero,
+            () if exact.is_one() => One,
+            () if exact.neg().is_one() => MinusOne,
+            () => Number,
         }
     }
 }

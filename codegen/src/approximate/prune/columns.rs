@@ -2,8 +2,7 @@
 //!
 //! Samples only rank candidates; what is admitted is certified.
 //!
-//! The operations are [`Step`]s, as in every program. Of their own are the edits,
-//! which lie over them: so a candidate is tried by running again what depends
+//! Over the operations lie the edits: so a candidate is tried by running again what depends
 //! on one node, and nothing else, and is taken back as quickly.
 
 use std::collections::BTreeSet;
@@ -11,16 +10,16 @@ use std::collections::BTreeSet;
 use super::side_by_side::Column;
 use crate::edits::{Edit, EditSite};
 use crate::function::Argument;
-use crate::program::{Input, Operand, Output, Program, Step, Steps};
+use crate::program::{Input, Operand, Operation, Program, Steps};
 use crate::states::JointState;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::number::{Exact, Rational, Rounded};
 
-/// What stands in a node's place. Edits know nodes: inputs and steps alike.
+/// What a step reads, or stands in a node's place. Both know nodes: inputs and steps alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Value {
     /// ±node
-    Node(u32, bool),
+    Node(usize, bool),
     /// A constant.
     Known(f64),
 }
@@ -33,6 +32,21 @@ impl Value {
             _ => self == other,
         }
     }
+
+    /// Returns the value or its negative.
+    pub(super) fn negated_if(self, negative: bool) -> Value {
+        match self {
+            Value::Known(c) => Value::Known(if negative { -c } else { c }),
+            Value::Node(node, sign) => Value::Node(node, sign != negative),
+        }
+    }
+}
+
+/// An operation on two values, nodes without a sign.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NodeStep {
+    pub operation: Operation,
+    pub operands: [Value; 2],
 }
 
 /// A program with the values that its inputs take. Its nodes are the inputs,
@@ -40,8 +54,8 @@ impl Value {
 #[derive(Clone, Debug)]
 pub(super) struct Nodes {
     pub inputs: Vec<Input>,
-    pub steps: Vec<Step<f64, usize>>,
-    pub outputs: Vec<Output<f64, usize>>,
+    pub steps: Vec<NodeStep>,
+    pub outputs: Vec<Value>,
     pub samples: usize,
     /// Values of the inputs, node after node.
     pub columns: Vec<f64>,
@@ -53,9 +67,21 @@ impl Nodes {
         let inputs = Vec::from_iter(inputs);
         let place = |input: &Input| inputs.binary_search(input).unwrap_or_default();
         let Steps { steps, outputs } = Steps::new(&program.dag, f64::nearest, place);
+        let value = |operand: &Operand<f64, usize>| match operand {
+            Operand::Input(place) => Value::Node(*place, false),
+            Operand::Step(step) => Value::Node(inputs.len() + step, false),
+            Operand::Constant(c) => Value::Known(*c),
+        };
+        let steps = steps.iter().map(|step| NodeStep {
+            operation: step.operation,
+            operands: [&step.left, &step.right].map(value),
+        });
+        let outputs = outputs
+            .iter()
+            .map(|output| value(&output.value).negated_if(output.negative));
         let mut nodes = Nodes {
-            steps,
-            outputs,
+            steps: steps.collect(),
+            outputs: outputs.collect(),
             inputs,
             samples: 0,
             columns: Vec::new(),
@@ -85,24 +111,6 @@ impl Nodes {
         }
     }
 
-    /// Returns the node that an operand reads, unless it is a constant.
-    pub(super) fn node_of(&self, operand: &Operand<f64, usize>) -> Option<usize> {
-        match operand {
-            Operand::Input(place) => Some(*place),
-            Operand::Step(step) => Some(self.inputs.len() + step),
-            Operand::Constant(_) => None,
-        }
-    }
-
-    /// Returns an operand, or its negative, as it would stand in a node's place.
-    pub(super) fn value(&self, operand: &Operand<f64, usize>, negative: bool) -> Value {
-        match operand {
-            Operand::Input(place) => Value::Node(*place as u32, negative),
-            Operand::Step(step) => Value::Node((self.inputs.len() + step) as u32, negative),
-            Operand::Constant(c) => Value::Known(if negative { -c } else { *c }),
-        }
-    }
-
     /// Returns the outputs, output after output.
     pub(super) fn values(&self, columns: &[f64]) -> Vec<f64> {
         let outputs = 0..self.outputs.len();
@@ -113,12 +121,12 @@ impl Nodes {
 
     /// Returns an output at every sample.
     pub(super) fn output(&self, output: usize, columns: &[f64]) -> Vec<f64> {
-        let (output, m) = (&self.outputs[output], self.samples);
-        match self.value(&output.value, output.negative) {
+        let m = self.samples;
+        match self.outputs[output] {
             Value::Known(c) => vec![c; m],
             Value::Node(node, negative) => {
                 let sign = if negative { -1.0 } else { 1.0 };
-                let column = &columns[node as usize * m..][..m];
+                let column = &columns[node * m..][..m];
                 column.iter().map(|x| sign * x).collect()
             }
         }
@@ -145,7 +153,7 @@ impl Nodes {
         match edit {
             Some(Value::Known(c)) => out.fill(c),
             Some(Value::Node(other, negative)) => {
-                let from = &before[other as usize * m..][..m];
+                let from = &before[other * m..][..m];
                 let sign = if negative { -1.0 } else { 1.0 };
                 for (out, x) in out.iter_mut().zip(from) {
                     *out = sign * x;
@@ -156,34 +164,25 @@ impl Nodes {
             }
             None => {
                 let step = &self.steps[node - self.inputs.len()];
-                let read = [&step.left, &step.right].map(|operand| self.column(operand, before));
+                let read = step.operands.map(|operand| self.column(operand, before));
                 step.operation.at_each(read, out);
             }
         }
     }
 
     /// Returns what an operation reads, from the columns of the nodes before it.
-    pub(super) fn column<'c>(
-        &self,
-        operand: &Operand<f64, usize>,
-        before: &'c [f64],
-    ) -> Column<'c> {
-        let m = self.samples;
+    pub(super) fn column<'c>(&self, operand: Value, before: &'c [f64]) -> Column<'c> {
         match operand {
-            Operand::Input(place) => Column::Each(&before[place * m..][..m]),
-            Operand::Step(step) => Column::Each(&before[(self.inputs.len() + step) * m..][..m]),
-            Operand::Constant(c) => Column::All(*c),
+            Value::Node(node, _) => Column::Each(&before[node * self.samples..][..self.samples]),
+            Value::Known(c) => Column::All(c),
         }
     }
 
     /// Constants that were changed, as short decimals.
     pub(super) fn shorten(&mut self, original: &Nodes) {
         for (step, original) in self.steps.iter_mut().zip(&original.steps) {
-            for (now, was) in [
-                (&mut step.left, original.left),
-                (&mut step.right, original.right),
-            ] {
-                if let (Operand::Constant(c), Operand::Constant(was)) = (now, was) {
+            for (now, was) in step.operands.iter_mut().zip(original.operands) {
+                if let (Value::Known(c), Value::Known(was)) = (now, was) {
                     *c = if (*c - was).abs() <= 1e-9 * was.abs() {
                         was
                     } else {
@@ -211,9 +210,9 @@ impl Nodes {
                     Value::Node(other, negative) => Edit {
                         place,
                         negative,
-                        value: match (other as usize).checked_sub(inputs) {
+                        value: match other.checked_sub(inputs) {
                             Some(step) => Operand::Step(step),
-                            None => Operand::Input(self.inputs[other as usize]),
+                            None => Operand::Input(self.inputs[other]),
                         },
                     },
                 })
@@ -223,11 +222,12 @@ impl Nodes {
             if edits[inputs + step].is_some() {
                 continue;
             }
-            for (place, now, was) in [
-                (EditSite::Left(step), new.left, was.left),
-                (EditSite::Right(step), new.right, was.right),
-            ] {
-                if let Operand::Constant(c) = now
+            let places = [EditSite::Left(step), EditSite::Right(step)];
+            for (place, (now, was)) in places
+                .into_iter()
+                .zip(new.operands.into_iter().zip(was.operands))
+            {
+                if let Value::Known(c) = now
                     && now != was
                 {
                     all.push(Edit::constant(place, decimal(c)));

@@ -2,7 +2,7 @@
 //! building a graph.
 
 use super::columns::{Nodes, Value};
-use crate::program::{Input, Operand, Operation};
+use crate::program::{Input, Operation};
 
 /// A sine/cosine pair weighs as much as this many operations, which its polynomials take.
 pub(super) const SINCOS: u32 = 8;
@@ -14,29 +14,18 @@ pub(super) fn price(nodes: &Nodes, edits: &[Option<Value>], scratch: &mut Scratc
     folded.clear();
     for (node, &edit) in edits.iter().enumerate() {
         let value = match edit {
-            Some(Value::Known(c)) => Folded::alias(Value::Known(c)),
-            Some(Value::Node(other, negative)) => {
-                Folded::alias(signed(folded[other as usize].value, negative))
-            }
-            None if node < inputs => Folded::alias(Value::Node(node as u32, false)),
+            Some(value) => Folded::alias(resolved(value, folded)),
+            None if node < inputs => Folded::alias(Value::Node(node, false)),
             None => fold(nodes, node, folded),
         };
         folded.push(value);
     }
     live.clear();
     live.resize(nodes.len(), false);
-    let mark = |value: Value, folded: &[Folded], live: &mut [bool]| {
-        let value = match value {
-            Value::Node(node, negative) => signed(folded[node as usize].value, negative),
-            known => known,
-        };
-        if let Value::Node(node, _) = value {
-            live[node as usize] = true;
-        }
-    };
     for output in &nodes.outputs {
-        let value = nodes.value(&output.value, output.negative);
-        mark(value, folded, live);
+        if let Value::Node(node, _) = resolved(*output, folded) {
+            live[node] = true;
+        }
     }
     let mut total = 0;
     for node in (inputs..nodes.len()).rev() {
@@ -46,7 +35,7 @@ pub(super) fn price(nodes: &Nodes, edits: &[Option<Value>], scratch: &mut Scratc
             total += 1;
             for value in [a, b] {
                 if let Value::Node(node, _) = value {
-                    live[node as usize] = true;
+                    live[node] = true;
                 }
             }
         }
@@ -97,24 +86,19 @@ impl Folded {
     }
 }
 
-fn signed(value: Value, negative: bool) -> Value {
+/// Returns what stands for a value, as far as nodes are folded.
+fn resolved(value: Value, folded: &[Folded]) -> Value {
     match value {
-        Value::Known(c) => Value::Known(if negative { -c } else { c }),
-        Value::Node(node, sign) => Value::Node(node, sign != negative),
+        Value::Node(node, negative) => folded[node].value.negated_if(negative),
+        known => known,
     }
 }
 
 fn fold(nodes: &Nodes, node: usize, folded: &[Folded]) -> Folded {
-    let inputs = nodes.inputs.len();
-    let step = &nodes.steps[node - inputs];
-    let resolve = |operand: &Operand<f64, usize>| match operand {
-        Operand::Input(place) => folded[*place].value,
-        Operand::Step(step) => folded[inputs + step].value,
-        Operand::Constant(c) => Value::Known(*c),
-    };
-    let (a, b) = (resolve(&step.left), resolve(&step.right));
+    let step = &nodes.steps[node - nodes.inputs.len()];
+    let [a, b] = step.operands.map(|operand| resolved(operand, folded));
     let minus = step.operation == Operation::Sub;
-    let own = Value::Node(node as u32, false);
+    let own = Value::Node(node, false);
     let operation = Folded {
         value: own,
         operands: Some([a, b]),
@@ -130,11 +114,11 @@ fn fold(nodes: &Nodes, node: usize, folded: &[Folded]) -> Folded {
                 return Folded::alias(Value::Known(0.0));
             }
             if c.abs() == 1.0 {
-                return Folded::alias(signed(x, c < 0.0));
+                return Folded::alias(x.negated_if(c < 0.0));
             }
             let (mut c, mut x) = (c, x);
             if let Value::Node(inner, negative) = x
-                && let Some((d, y)) = folded[inner as usize].scaled
+                && let Some((d, y)) = folded[inner].scaled
             {
                 (c, x) = (if negative { -c * d } else { c * d }, y);
             }
@@ -145,7 +129,7 @@ fn fold(nodes: &Nodes, node: usize, folded: &[Folded]) -> Folded {
             }
         }
         (Operation::Mul, ..) => operation,
-        (_, Value::Known(0.0), y) => Folded::alias(signed(y, minus)),
+        (_, Value::Known(0.0), y) => Folded::alias(y.negated_if(minus)),
         (_, x, Value::Known(0.0)) => Folded::alias(x),
         (_, Value::Node(x, s), Value::Node(y, t)) if x == y && (s == t) == minus => {
             Folded::alias(Value::Known(0.0))

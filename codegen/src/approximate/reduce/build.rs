@@ -6,7 +6,8 @@ use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::scalar::Scalar;
 
-use super::terms::{Model, Terms, nothing};
+use super::fit::Solution;
+use super::terms::{Terms, nothing};
 use crate::dag::{Builder as GraphBuilder, Dag, Folding};
 use crate::program::Program;
 use crate::search::{Effort, cost, search};
@@ -41,7 +42,7 @@ impl Builder<'_> {
     }
 
     /// Searches for the program of a model; outputs that it has not are zero.
-    pub(super) fn program(&self, model: &Model) -> Option<Program> {
+    pub(super) fn program(&self, model: &Solution) -> Option<Program> {
         let fitted = self.fitted(&model.terms, &model.factors);
         let (function, effort) = (self.exact.function, Effort::Quick);
         let forms = self.forms();

@@ -29,12 +29,14 @@ pub(super) struct Fit<'t> {
     sizes: Vec<f64>,
 }
 
-/// A solution.
+/// A model: terms with factors.
 #[derive(Clone, Debug)]
 pub(super) struct Solution {
-    /// A factor a term, in the order asked for.
+    /// Those that were asked for.
+    pub terms: Vec<usize>,
+    /// A factor a term.
     pub factors: Vec<f64>,
-    /// The largest error, one being the allowance.
+    /// The largest error at the samples, one being the allowance.
     pub error: f64,
     /// Returns by how much the squares grow without each term.
     pub saliency: Vec<f64>,
@@ -107,7 +109,8 @@ impl<'t> Fit<'t> {
     }
 
     /// Fits more closely than [`Fit::solve`], row by row, from its solution.
-    pub(super) fn refine(&self, of: &[usize], from: Solution, enough: f64) -> Solution {
+    pub(super) fn refine(&self, from: Solution, enough: f64) -> Solution {
+        let of = &from.terms.clone();
         let mut weights = vec![1.0; self.products.len()];
         let mut best = from;
         let mut now = best.factors.clone();
@@ -212,6 +215,7 @@ impl<'t> Fit<'t> {
         let saliency = factors.iter().enumerate();
         let saliency = saliency.map(|(k, x)| x * x / inverse[k * n + k]).collect();
         Solution {
+            terms: of.to_vec(),
             factors,
             error: f64::INFINITY,
             saliency,

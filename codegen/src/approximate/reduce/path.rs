@@ -2,7 +2,7 @@
 
 use super::build::Builder;
 use super::fit::{Fit, Solution};
-use super::terms::{Model, Terms};
+use super::terms::Terms;
 use crate::parallel;
 
 /// The largest error that a fit at the samples may have.
@@ -19,7 +19,7 @@ const COUNTED: usize = 8;
 const TRIED: usize = 5;
 
 /// Returns the models on the way from all terms to few.
-pub(super) fn eliminate(builder: &Builder<'_>, is_over: &dyn Fn() -> bool) -> Vec<Model> {
+pub(super) fn eliminate(builder: &Builder<'_>, is_over: &dyn Fn() -> bool) -> Vec<Solution> {
     let terms = builder.terms;
     let fit = Fit::new(terms);
     let singles = terms.all.iter().enumerate();
@@ -29,10 +29,10 @@ pub(super) fn eliminate(builder: &Builder<'_>, is_over: &dyn Fn() -> bool) -> Ve
     let mut solution = fit.solve(&now, ENOUGH);
     let mut models = Vec::new();
     while !is_over() {
-        let mut candidates = candidates(terms, &fit, &now, &solution);
+        let mut candidates = candidates(terms, &fit, &solution);
         candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
         candidates.truncate(COUNTED);
-        let paid = builder.price(&now);
+        let paid = builder.price(&solution.terms);
         let prices = parallel::each(&candidates, |(_, other)| builder.price(other));
         for ((loss, _), price) in candidates.iter_mut().zip(prices) {
             let saved = paid.saturating_sub(price) as f64;
@@ -43,41 +43,28 @@ pub(super) fn eliminate(builder: &Builder<'_>, is_over: &dyn Fn() -> bool) -> Ve
         let next = candidates.into_iter().find_map(|(_, other)| {
             let found = fit.solve(&other, ENOUGH);
             let found = match found.error > MOST && found.error < NEARLY {
-                true => fit.refine(&other, found, MOST),
+                true => fit.refine(found, MOST),
                 false => found,
             };
-            (found.error <= MOST).then_some((other, found))
+            (found.error <= MOST).then_some(found)
         });
         let Some(next) = next else { break };
-        (now, solution) = next;
-        models.push(model_of(&now, &solution));
+        models.push(next.clone());
+        solution = next;
     }
     models
 }
 
 /// Fits a model as closely as can be: that leaves more to prune with.
-pub(super) fn refined(terms: &Terms, model: &Model) -> Model {
+pub(super) fn refined(terms: &Terms, model: &Solution) -> Solution {
     let fit = Fit::new(terms);
     let from = fit.solve(&model.terms, 0.0);
-    let found = fit.refine(&model.terms, from, 0.0);
-    model_of(&model.terms, &found)
-}
-
-fn model_of(terms: &[usize], solution: &Solution) -> Model {
-    Model {
-        terms: terms.to_vec(),
-        factors: solution.factors.clone(),
-        error: solution.error,
-    }
+    fit.refine(from, 0.0)
 }
 
 /// Returns what can come next, one term less or two tied, with what the squares lose.
-fn candidates(
-    terms: &Terms,
-    fit: &Fit<'_>,
-    now: &[usize],
-    solution: &Solution,
-) -> Vec<(f64, Vec<usize>)> {
+fn candidates(terms: &Terms, fit: &Fit<'_>, solution: &Solution) -> Vec<(f64, Vec<usize>)> {
+    let now = &solution.terms;
     let n = now.len();
     let mut all: Vec<(f64, Vec<usize>)> = Vec::new();
     for (place, &loss) in solution.saliency.iter().enumerate() {

@@ -39,15 +39,6 @@ pub(super) struct Terms {
     pub motions: Motions,
 }
 
-/// A model: terms with factors.
-#[derive(Clone, Debug)]
-pub(super) struct Model {
-    pub terms: Vec<usize>,
-    pub factors: Vec<f64>,
-    /// The largest error at the samples, one being the allowance.
-    pub error: f64,
-}
-
 impl Terms {
     /// Computes the columns at sampled positions; `None` where results are no linear
     /// function of the links' parameters, one a row.

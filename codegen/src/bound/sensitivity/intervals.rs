@@ -13,7 +13,6 @@ use dalembert_model::number::Exact;
 
 use super::Rounding;
 use crate::bound::input_box::InputBox;
-use crate::bound::subdivide::sub_boxes;
 use crate::dag::{Id, Node};
 use crate::interval::Interval;
 use crate::interval::rounding::{self, Forward, binade};
@@ -31,7 +30,7 @@ pub(super) fn rounding(
 ) -> Vec<Rounding> {
     let program = constants.program;
     let mut worst = vec![Rounding::default(); program.dag.outputs.len()];
-    for sub in sub_boxes(program, limits, boxes) {
+    for sub in limits.sub_boxes(program, boxes) {
         for (worst, here) in worst.iter_mut().zip(over(constants, &sub)) {
             *worst = worst.each(here, f64::max);
         }

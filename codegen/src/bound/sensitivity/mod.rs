@@ -21,11 +21,8 @@
 //!   and what mixed adjoints can be off
 //! - `intervals`: interval arithmetic over sub-boxes; for programs that are
 //!   too large to be written out, narrow boxes and large errors
-//!
-//! `gradient`: the program of all adjoints.
 
 mod extremes;
-mod gradient;
 mod intervals;
 mod magnitudes;
 

@@ -19,7 +19,7 @@ use std::fmt::Write;
 
 use crate::function::Argument;
 use crate::language::dialect::{Dialect, Lines};
-use crate::language::{Printed, function, list, speed, trig};
+use crate::language::{Printed, function, list, trig};
 use crate::program::Code;
 
 /// Returns whether products are fused in the sines that are given, as they are in what reads them.
@@ -39,7 +39,7 @@ pub(super) fn write(text: &mut String, printed: &Printed<'_>) {
         format!("{angle}.{method}(libm::{function}{suffix})")
     });
     let is_computed = !body.is_empty();
-    speed::write(&mut body, dialect, code, "dalembert_batch");
+    trig::write_speeds(&mut body, dialect, code, "dalembert_batch");
     function::write_steps(&mut body, code, dialect);
     let results = list(Lines::new(dialect, code).results());
     let first = printed.arguments.first().map_or("", |first| first.name());

@@ -16,9 +16,8 @@
 //! [`crate::verify::parameters`] proves it.
 //!
 //! - `moments`: the moments that links keep; `origins`: about which points
-//! - `columns`: columns at random states, modulo a prime; `elimination`
+//! - `elimination`: columns at random states, modulo a prime, and which depend on others
 
-mod columns;
 mod elimination;
 mod moments;
 mod origins;
@@ -35,8 +34,7 @@ use dalembert_model::scalar::Scalar;
 use super::Setup;
 use crate::function::Quantity;
 use crate::words::Complaint;
-use columns::values;
-use elimination::{Reduced, reduced};
+use elimination::{Reduced, reduced, values};
 use moments::{MAX_TERMS, Moment, kept, parts};
 
 /// A parameter of the robot file, about the origin of the link's DH frame.
@@ -53,9 +51,9 @@ pub enum Parameter {
 impl Parameter {
     /// Returns the parameter of a drive's column.
     pub(crate) fn of_drive(column: &Column<Exact>) -> Parameter {
-        match *column {
-            Column::Viscous(joint) => Parameter::Viscous(joint),
-            Column::Armature(joint) | Column::Body { joint, .. } => Parameter::Armature(joint),
+        match column.of {
+            Probed::Viscous => Parameter::Viscous(column.joint),
+            Probed::Armature | Probed::Body(_) => Parameter::Armature(column.joint),
         }
     }
 }
@@ -125,9 +123,9 @@ impl BaseParameters {
             let back = transposed(turned);
             for &moment in kept(segment.kind) {
                 let body = moment.unit().moved(&regrouping.links[link].origin);
-                candidates.push(Column::Body {
+                candidates.push(Column {
                     joint: segment.joint,
-                    body: body.moved(&opposite(moved)).turned(&back),
+                    of: Probed::Body(body.moved(&opposite(moved)).turned(&back)),
                 });
                 places.push((link, moment));
             }

@@ -78,12 +78,7 @@ fn cost(frames: &Skeleton<Exact>, regrouping: &Regrouping<Exact>) -> u64 {
     }
     chain.columns = kept(JointKind::Revolute).len();
     let counter = Counter::new();
-    let chain = chain.map(|x| match x {
-        x if x.is_zero() => Count::Zero,
-        x if x.is_one() => Count::One,
-        x if x.neg().is_one() => Count::MinusOne,
-        _ => Count::Number,
-    });
+    let chain = chain.map(Count::constant);
     let value = || counter.value();
     let position = chain.links.iter().map(|link| match link.kind {
         JointKind::Revolute => JointPosition::Revolute(SinCosPair {
@@ -96,5 +91,6 @@ fn cost(frames: &Skeleton<Exact>, regrouping: &Regrouping<Exact>) -> u64 {
     let rates: Vec<Count<'_>> = position.iter().map(|_| value()).collect();
     let (chain, at) = chain.posed(&position);
     chain.regressor(&at, &rates, &rates, CompositeOrder::Outward);
-    counter.multiplications() + counter.additions()
+    let (multiplications, additions) = counter.counts();
+    multiplications + additions
 }

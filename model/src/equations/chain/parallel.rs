@@ -147,7 +147,7 @@ mod tests {
         let text = format!(
             "name = \"folded\"\nconvention = \"standard\"\ngravity = [0, 0, -9.81]\n{joints}"
         );
-        let robot = read::parse(&text, &read::Options::default()).unwrap().robot;
+        let robot = read::parse(&text).unwrap().robot;
         let arm = Arm::from_robot(&robot, &mut Exact::clone).fold_base();
         let skeleton = Skeleton::new(&arm, &[const { None }; 5]);
         Chain::new(&skeleton, &Regrouping::base(&skeleton))

@@ -90,10 +90,7 @@ impl<S: Scalar> Chain<S> {
     /// Returns D a + C v + c + (b + F∘r)∘v, length n.
     pub fn passivity(&self, at: &[Displacement<S>], qd: &[S], v: &[S], a: &[S]) -> Vec<S> {
         let motions = self.mixed_motions(at, qd, [v, a]);
-        let drive = |i: usize| {
-            let link = &self.links[i];
-            plus(&times(&link.armature, &a[i]), &link.friction.torque(&v[i]))
-        };
+        let drive = |i: usize| self.drive(i, v, a);
         let exerted = zero_vector();
         self.torques(at, &motions, MomentForm::SecondMoments, &exerted, drive)
     }

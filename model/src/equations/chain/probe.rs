@@ -7,32 +7,21 @@ use super::{Body, Rotation, Skeleton};
 use crate::equations::matrix::{Vector, times};
 use crate::scalar::Scalar;
 
-/// The cause of a column of a regressor: the column is its torque.
+/// A column of a regressor: the torque of what causes it.
 #[derive(Clone, Debug)]
-pub enum Column<S> {
-    /// A body that is fixed to a link.
-    Body {
-        /// The joint that moves the link.
-        joint: usize,
-        /// About the origin and in the axes of the link's DH frame.
-        body: Body<S>,
-    },
-    /// A unit of the rotor's inertia that a joint feels.
-    Armature(usize),
-    /// A unit of a joint's viscous friction.
-    Viscous(usize),
+pub struct Column<S> {
+    /// The joint that feels it or moves the link that it is fixed to.
+    pub joint: usize,
+    /// The cause; a body is about the origin and in the axes of the link's DH frame.
+    pub of: Probed<S>,
 }
 
 impl<S> Column<S> {
     /// Returns every number through `f`.
     pub fn map<T>(&self, mut f: impl FnMut(&S) -> T) -> Column<T> {
-        match self {
-            Column::Body { joint, body } => Column::Body {
-                joint: *joint,
-                body: body.map(&mut f),
-            },
-            Column::Armature(joint) => Column::Armature(*joint),
-            Column::Viscous(joint) => Column::Viscous(*joint),
+        Column {
+            joint: self.joint,
+            of: self.of.through(|body| body.map(&mut f)),
         }
     }
 }
@@ -57,6 +46,17 @@ pub enum Probed<S> {
     Viscous,
 }
 
+impl<S> Probed<S> {
+    /// Returns a body through `f`.
+    fn through<T>(&self, f: impl FnOnce(&Body<S>) -> Body<T>) -> Probed<T> {
+        match self {
+            Probed::Body(body) => Probed::Body(f(body)),
+            Probed::Armature => Probed::Armature,
+            Probed::Viscous => Probed::Viscous,
+        }
+    }
+}
+
 impl<S> Probe<S> {
     pub(super) fn is_body(&self) -> bool {
         matches!(self.of, Probed::Body(_))
@@ -69,11 +69,7 @@ impl<S> Probe<S> {
     ) -> Vec<Probe<T>> {
         let each = probes.iter().map(|probe| Probe {
             column: probe.column,
-            of: match &probe.of {
-                Probed::Body(body) => Probed::Body(f(body)),
-                Probed::Armature => Probed::Armature,
-                Probed::Viscous => Probed::Viscous,
-            },
+            of: probe.of.through(&mut f),
         });
         each.collect()
     }
@@ -87,19 +83,11 @@ pub(super) fn probes<S: Scalar>(
     turned: &Rotation<S>,
     moved: &Vector<S>,
 ) -> impl Iterator<Item = Probe<S>> {
-    let of = move |column: &Column<S>| match column {
-        Column::Body { joint: own, body } => {
-            (*own == joint).then(|| Probed::Body(body.carried(turned, moved)))
-        }
-        Column::Armature(own) => (*own == joint).then_some(Probed::Armature),
-        Column::Viscous(own) => (*own == joint).then_some(Probed::Viscous),
-    };
     let all = columns.iter().enumerate();
-    all.filter_map(move |(column, what)| {
-        Some(Probe {
-            column,
-            of: of(what)?,
-        })
+    let own = all.filter(move |(_, own)| own.joint == joint);
+    own.map(move |(column, own)| Probe {
+        column,
+        of: own.of.through(|body| body.carried(turned, moved)),
     })
 }
 

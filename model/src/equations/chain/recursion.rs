@@ -236,13 +236,7 @@ impl<S: Scalar> Chain<S> {
         couple: MomentForm,
     ) -> Vec<S> {
         let motions = self.motions(at, qd, qdd, spin);
-        let drive = |i: usize| {
-            let link = &self.links[i];
-            plus(
-                &times(&link.armature, &qdd[i]),
-                &link.friction.torque(&qd[i]),
-            )
-        };
+        let drive = |i: usize| self.drive(i, qd, qdd);
         self.torques(at, &motions, couple, &zero_vector(), drive)
     }
 

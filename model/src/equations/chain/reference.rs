@@ -64,7 +64,7 @@ impl<S: Scalar> Chain<S> {
     }
 
     /// Returns what the drive of a joint takes at its velocity and at this acceleration.
-    pub(super) fn drive(&self, joint: usize, qd: &[S], accelerations: &[S]) -> S {
+    pub(crate) fn drive(&self, joint: usize, qd: &[S], accelerations: &[S]) -> S {
         let link = &self.links[joint];
         let inertial = times(&link.armature, &accelerations[joint]);
         plus(&inertial, &link.friction.torque(&qd[joint]))

@@ -17,25 +17,11 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::function::Definition;
+use super::function::{Definition, Made};
 use super::{Columns, Function, Quantity};
 
 pub use error::BundleError;
 pub(super) use name::check as check_name;
-
-/// A function of the results of several others.
-///
-/// What it says of itself is kept for as long as the process runs: so a function
-/// is as small a value as a case of an enumeration, and a process names few. Two
-/// are equal if they say the same.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Bundle(&'static Definition);
-
-impl Bundle {
-    pub(in crate::outputs) fn definition(self) -> &'static Definition {
-        self.0
-    }
-}
 
 /// The sign between the parts of a bundle.
 const PLUS: char = '+';
@@ -102,14 +88,14 @@ impl Function {
             }
         }
         let results: Vec<Quantity> = results.into_iter().map(|(quantity, _)| quantity).collect();
-        Ok(Function::Bundle(Bundle(Box::leak(Box::new(Definition {
+        Ok(Function::Bundle(Made::new(Definition {
             name: kept(name.to_string()),
             summary: kept(summary(&parts)),
             results: Box::leak(results.into_boxed_slice()),
             structure: Some(kept(name::camel(name))),
             by_default: false,
             parts: Box::leak(parts.into_boxed_slice()),
-        })))))
+        })))
     }
 
     /// Returns its name as that of a type: `InverseDynamics`.
@@ -121,7 +107,7 @@ impl Function {
     /// its only part.
     pub fn parts(self) -> Vec<Function> {
         match self {
-            Function::Bundle(bundle) => bundle.definition().parts.to_vec(),
+            Function::Bundle(bundle) => bundle.0.parts.to_vec(),
             other => alloc::vec![other],
         }
     }
@@ -131,7 +117,7 @@ impl Function {
     pub fn text(self) -> String {
         match self {
             Function::Bundle(bundle) => {
-                let parts = bundle.definition().parts.iter();
+                let parts = bundle.0.parts.iter();
                 let parts: Vec<String> = parts.map(|part| part.text()).collect();
                 format!("{}{IS}{}", self.name(), parts.join("+"))
             }

@@ -5,7 +5,6 @@
 //! go through an operation together.
 
 use crate::approximate::prune::columns::{Nodes, Value};
-use crate::program::Output;
 
 /// Computes ∂output/∂node at every sample, node after node; `of` is where it is written: what
 /// many outputs share need not be had from the system for each.
@@ -13,16 +12,16 @@ pub(super) fn adjoints(
     nodes: &Nodes,
     edits: &[Option<Value>],
     columns: &[f64],
-    output: &Output<f64, usize>,
+    output: Value,
     of: &mut Vec<f64>,
 ) {
     let (m, inputs) = (nodes.samples, nodes.inputs.len());
     of.clear();
     of.resize(nodes.len() * m, 0.0);
-    let Some(top) = nodes.node_of(&output.value) else {
+    let Value::Node(top, negative) = output else {
         return;
     };
-    of[top * m..][..m].fill(if output.negative { -1.0 } else { 1.0 });
+    of[top * m..][..m].fill(if negative { -1.0 } else { 1.0 });
     for node in (0..=top).rev() {
         let (before, rest) = of.split_at_mut(node * m);
         let adjoint = &rest[..m];
@@ -33,7 +32,7 @@ pub(super) fn adjoints(
             Some(Value::Known(_)) => {}
             Some(Value::Node(other, negative)) => {
                 let sign = if negative { -1.0 } else { 1.0 };
-                let out = &mut before[other as usize * m..][..m];
+                let out = &mut before[other * m..][..m];
                 for (out, adjoint) in out.iter_mut().zip(adjoint) {
                     *out += sign * adjoint;
                 }
@@ -41,10 +40,9 @@ pub(super) fn adjoints(
             None if node < inputs => {}
             None => {
                 let step = &nodes.steps[node - inputs];
-                let operands = [&step.left, &step.right];
-                let read = operands.map(|operand| nodes.column(operand, columns));
-                for (side, operand) in operands.into_iter().enumerate() {
-                    if let Some(to) = nodes.node_of(operand) {
+                let read = step.operands.map(|operand| nodes.column(operand, columns));
+                for (side, operand) in step.operands.into_iter().enumerate() {
+                    if let Value::Node(to, _) = operand {
                         let sums = &mut before[to * m..][..m];
                         step.operation.add_parts(side, adjoint, read, sums);
                     }

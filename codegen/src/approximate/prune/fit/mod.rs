@@ -15,7 +15,6 @@ mod products;
 
 use super::columns::{Nodes, Value};
 use crate::approximate::motions::Motions;
-use crate::program::Operand;
 use adjoints::adjoints;
 pub(super) use products::LANES;
 pub(in crate::approximate) use products::dot;
@@ -36,9 +35,8 @@ const INERTIA: f64 = 3.0;
 
 /// What the constants can change.
 pub(super) struct Fit {
-    /// Which constant each column of J belongs to: op, and whether it is the
-    /// right operand.
-    places: Vec<(usize, bool)>,
+    /// Which constant each column of J belongs to: op, and which operand it is.
+    places: Vec<(usize, usize)>,
     /// J, weighted, without what the other columns can do by themselves.
     columns: Columns,
     /// R of JᵀJ + inertia = RᵀR, column by column.
@@ -70,24 +68,23 @@ impl Fit {
             if !live[node] || edits[node].is_some() {
                 continue;
             }
-            let (right, constant) = match (step.left, step.right) {
-                (Operand::Constant(_), Operand::Constant(_)) => continue,
-                (Operand::Constant(c), _) => (false, c),
-                (_, Operand::Constant(c)) => (true, c),
+            let (side, constant) = match step.operands {
+                [Value::Known(c), Value::Node(..)] => (0, c),
+                [Value::Node(..), Value::Known(c)] => (1, c),
                 _ => continue,
             };
             let inertia = INERTIA / constant.abs().max(1e-9);
-            all.push(((index, right), vec![0.0; rows], inertia));
+            all.push(((index, side), vec![0.0; rows], inertia));
         }
         let mut adjoint = Vec::new();
-        for (output, top) in nodes.outputs.iter().enumerate() {
+        for (output, &top) in nodes.outputs.iter().enumerate() {
             adjoints(nodes, edits, columns, top, &mut adjoint);
-            for ((index, right), column, _) in &mut all {
+            for ((index, side), column, _) in &mut all {
                 let step = &nodes.steps[*index];
-                let read = [&step.left, &step.right].map(|operand| nodes.column(operand, columns));
+                let read = step.operands.map(|operand| nodes.column(operand, columns));
                 let of = &adjoint[(inputs + *index) * m..][..m];
                 let out = &mut column[output * m..][..m];
-                step.operation.add_parts(usize::from(*right), of, read, out);
+                step.operation.add_parts(*side, of, read, out);
             }
         }
         for (_, column, _) in &mut all {
@@ -100,7 +97,7 @@ impl Fit {
     }
 
     /// Makes it from J's columns and the inertia of each.
-    fn of(all: Vec<((usize, bool), Vec<f64>, f64)>) -> Fit {
+    fn of(all: Vec<((usize, usize), Vec<f64>, f64)>) -> Fit {
         let mut fit = Fit {
             places: Vec::new(),
             columns: Columns::default(),
@@ -174,7 +171,7 @@ impl Fit {
     }
 
     /// Returns the changes of constants that do so; of those in `gone` none.
-    pub(super) fn changes(&self, errors: &[f64], gone: &[usize]) -> Vec<((usize, bool), f64)> {
+    pub(super) fn changes(&self, errors: &[f64], gone: &[usize]) -> Vec<((usize, usize), f64)> {
         let products = self
             .columns
             .columns
@@ -245,7 +242,7 @@ mod tests {
         let rows = 40 * LANES;
         let mut column = || (0..rows).map(|_| random.unit() - 0.5).collect::<Vec<f64>>();
         let mut errors = column();
-        let mut columns: Vec<_> = (0..6).map(|k| ((k, false), column(), 0.1)).collect();
+        let mut columns: Vec<_> = (0..6).map(|k| ((k, 0), column(), 0.1)).collect();
         for (_, column, _) in &columns {
             add(&mut errors, 0.5, column);
         }

@@ -24,8 +24,8 @@ pub(super) fn candidates(nodes: &Nodes, node: usize, columns: &[f64]) -> Vec<Val
         let step = &nodes.steps[index];
         if step.operation != Operation::Mul {
             let minus = step.operation == Operation::Sub;
-            values.push(nodes.value(&step.left, false));
-            values.push(nodes.value(&step.right, minus));
+            let [left, right] = step.operands;
+            values.extend([left, right.negated_if(minus)]);
         }
     }
     values
@@ -76,7 +76,7 @@ impl Alike {
         let mut alike: Vec<(f64, Value)> = before
             .filter_map(|(other, theirs)| {
                 let cosine = dot(mine, theirs.as_ref()?);
-                let value = Value::Node(other as u32, cosine < 0.0);
+                let value = Value::Node(other, cosine < 0.0);
                 (cosine.abs() > LEAST).then_some((cosine.abs(), value))
             })
             .collect();

@@ -1,8 +1,8 @@
 //! Constants corrected for what is left out.
 
 use super::{Greedy, State, TINY};
+use crate::approximate::prune::columns::Value;
 use crate::approximate::prune::fit::Fit;
-use crate::program::Operand;
 
 impl Greedy<'_> {
     /// Corrects constants until the worst error shrinks no more.
@@ -89,13 +89,8 @@ impl Greedy<'_> {
             *error *= weight;
         }
         let kept = state.nodes.steps.clone();
-        for ((step, right), change) in fit.changes(&errors, gone) {
-            let step = &mut state.nodes.steps[step];
-            let operand = match right {
-                true => &mut step.right,
-                false => &mut step.left,
-            };
-            if let Operand::Constant(c) = operand {
+        for ((step, side), change) in fit.changes(&errors, gone) {
+            if let Value::Known(c) = &mut state.nodes.steps[step].operands[side] {
                 *c += change;
             }
         }

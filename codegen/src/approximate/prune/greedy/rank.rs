@@ -6,7 +6,6 @@ use super::{Greedy, Ranked, State};
 use crate::approximate::prune::columns::Value;
 use crate::approximate::prune::fit::{Fit, LANES};
 use crate::approximate::prune::spares::MOST;
-use crate::program::Operand;
 use crate::random::Random;
 
 /// Errors in units of the allowance at which a candidate is not looked at any
@@ -46,7 +45,7 @@ impl Greedy<'_> {
             }
             // Right before a value stand its spares, which nothing reads yet.
             let spares = (inputs..node).rev().take_while(|&spare| !live[spare]);
-            values.extend(spares.take(MOST).map(|n| Value::Node(n as u32, false)));
+            values.extend(spares.take(MOST).map(|n| Value::Node(n, false)));
             let hopeless = &self.hopeless[node];
             values.retain(|value| !hopeless.iter().any(|other| value.is_like(other)));
             all.extend(values.into_iter().map(|value| (node, value)));
@@ -119,19 +118,12 @@ impl Greedy<'_> {
         self.dirty.resize(nodes.len(), false);
         let mut trial = std::mem::take(&mut self.trial);
         for k in node..nodes.len() {
-            let is_dirty =
-                |value: Value| matches!(value, Value::Node(n, _) if self.dirty[n as usize]);
-            let reads_dirty = |operand: &Operand<f64, usize>| {
-                nodes.node_of(operand).is_some_and(|node| self.dirty[node])
-            };
+            let is_dirty = |value: Value| matches!(value, Value::Node(n, _) if self.dirty[n]);
             let dirty = k == node
                 || match state.edits[k] {
                     Some(value) => is_dirty(value),
                     None if k < inputs => false,
-                    None => {
-                        let step = &nodes.steps[k - inputs];
-                        reads_dirty(&step.left) || reads_dirty(&step.right)
-                    }
+                    None => nodes.steps[k - inputs].operands.into_iter().any(is_dirty),
                 };
             if dirty {
                 self.dirty[k] = true;

@@ -1,5 +1,4 @@
-//! From a robot to the graph of one function: the equations run once with
-//! symbols.
+//! From a robot to the graph of one function: the equations run once with symbols.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -7,20 +6,12 @@ use std::rc::Rc;
 use dalembert_model::equations::Formulation;
 use dalembert_model::scalar::Scalar;
 
+use super::{Seed, Source};
 use crate::dag::symbol::Symbol;
-use crate::dag::{Builder, Dag, Folding, Node};
+use crate::dag::{Builder, Folding, Node};
 use crate::function::Argument;
-use crate::program::{Counts, Input};
+use crate::program::Input;
 use crate::setup::Task;
-
-/// A traced function.
-#[derive(Clone, Debug)]
-pub struct Trace {
-    /// Folded as it was built, nothing more.
-    pub graph: Dag,
-    /// The operations of the formula as it was executed, before folding.
-    pub traced: Counts,
-}
 
 /// Reads inputs of a state or of these arguments as symbols, others as zero: a search pairs
 /// whatever a graph has, and what nothing reads would only be in its way.
@@ -46,8 +37,8 @@ pub(crate) fn depends_on_coulomb(task: Task<'_>) -> bool {
     live.any(|(_, node)| matches!(node, Node::Input(Input::PerSpeed(_))))
 }
 
-/// Runs a formulation with symbols in a scene.
-pub fn trace(task: Task<'_>, formulation: Formulation) -> Trace {
+/// Returns a textbook formulation as it stands, run with symbols in a scene.
+pub fn trace(task: Task<'_>, formulation: Formulation) -> Seed {
     let Task { setup, function } = task;
     let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
     // As the textbook has it, a payload is a body and no load.
@@ -58,7 +49,8 @@ pub fn trace(task: Task<'_>, formulation: Formulation) -> Trace {
     let mut builder = builder.replace(Builder::new(Folding::Syntactic));
     let outputs = outputs.iter().map(|output| output.edge(&mut builder));
     let outputs = outputs.collect();
-    Trace {
+    Seed {
+        source: Source::Textbook(formulation),
         traced: builder.asked(),
         graph: builder.finish(outputs),
     }

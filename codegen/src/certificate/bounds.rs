@@ -1,0 +1,110 @@
+//! How a variant is checked, and the bounds of its claim found.
+
+use super::{Certificate, shape, work};
+use crate::bound::definite::least_eigenvalue;
+use crate::bound::magnitude::{magnitudes, magnitudes_within, relative};
+use crate::bound::sensitivity::{BoundEffort, Sensitivity};
+use crate::dag::Dag;
+use crate::edits::deviation;
+use crate::program::{Program, ScalarType, has_inertia};
+use crate::setup::Setup;
+use crate::split::ErrorByCause;
+use crate::verify::exact::prove_same;
+use crate::words::{Complaint, complaint};
+
+/// A bound that exceeds its limit by more than this factor is not tried at the limit.
+const NEAR: f64 = 1.07;
+
+impl Certificate {
+    /// Checks that the programs of a variant are of the function in this scene, and take bounded
+    /// work.
+    ///
+    /// # Errors
+    /// Why the variant is none.
+    pub(crate) fn check(&self, setup: &Setup) -> Result<(), Complaint> {
+        let programs = [
+            ("the exact program", &self.exact),
+            ("the emitted program", &self.emitted),
+        ];
+        let malformed = complaint(
+            "the variant is malformed: a list has the wrong length, or a step reads a step that \
+             does not come before it",
+        );
+        if !programs.iter().all(|(_, own)| own.dag.is_straight()) {
+            return Err(malformed);
+        }
+        for (name, program) in programs {
+            work::check(name, program)?;
+        }
+        if !shape::has_lists(self, setup) {
+            return Err(malformed);
+        }
+        for (name, program) in programs {
+            shape::check(name, program, setup, &self.emitted)?;
+        }
+        Ok(())
+    }
+
+    /// Returns the largest errors of the edits, one an output, relative to the scales: the part
+    /// of the bounds that every scalar shares, and the longest to find. If there are limits, in
+    /// the outputs' units, an output that is a little above its own is shown to be at most that,
+    /// if it can be: bounds by themselves exceed what is reached by some hundredths.
+    pub(crate) fn model(&self, limits: &[f64], bound_effort: BoundEffort) -> Vec<f64> {
+        if is_same(&self.exact, &self.emitted) {
+            return vec![0.0; self.scales.len()];
+        }
+        let error = deviation(&self.exact, &self.emitted);
+        let budget = bound_effort.budget;
+        let mut found = magnitudes(&error, &self.limits, &self.scales, budget);
+        let pairs = || found.iter().zip(limits);
+        let is_above = |(x, limit): (&f64, &f64)| x > limit;
+        if pairs().all(|(x, limit)| *x <= NEAR * limit) && pairs().any(is_above) {
+            let mut above = Vec::from_iter(0..limits.len());
+            above.retain(|&i| found[i] > limits[i]);
+            let above_limits: Vec<f64> = above.iter().map(|&i| limits[i]).collect();
+            let error = Dag {
+                outputs: above.iter().map(|&i| error.outputs[i]).collect(),
+                ..error
+            };
+            let shown = magnitudes_within(&error, &self.limits, &above_limits, budget);
+            for (index, shown) in above.into_iter().zip(shown.unwrap_or_default()) {
+                found[index] = shown;
+            }
+        }
+        let pairs = found.iter().zip(&self.scales);
+        pairs.map(|(&x, &scale)| relative(x, scale)).collect()
+    }
+
+    /// Returns what sines and rounding cost, relative to the scales.
+    pub(crate) fn rounding(
+        &self,
+        scalar: ScalarType,
+        sensitivity: &Sensitivity,
+    ) -> Vec<ErrorByCause> {
+        let found = sensitivity.rounding(scalar, &self.sines);
+        let pairs = found.iter().zip(&self.scales);
+        pairs
+            .map(|(rounding, &scale)| ErrorByCause {
+                model: 0.0,
+                sincos: relative(rounding.sincos, scale),
+                rounding: relative(rounding.arithmetic, scale),
+            })
+            .collect()
+    }
+
+    /// Returns a lower bound of the least eigenvalue of S D S, if D is an output and
+    /// not the model's; `None` as well if there is none above zero.
+    pub(super) fn least_eigenvalue(&self, scalar: ScalarType) -> Option<f64> {
+        // The cheap questions first.
+        let is_changed = || !self.sines.is_empty() || !is_same(&self.exact, &self.emitted);
+        if !has_inertia(&self.emitted) || !is_changed() {
+            return None;
+        }
+        least_eigenvalue(&self.emitted, scalar, &self.sines, &self.limits).ok()
+    }
+}
+
+/// Returns whether two programs are the same function: what differs is rounding.
+pub(crate) fn is_same(exact: &Program, emitted: &Program) -> bool {
+    exact == emitted || prove_same(exact, emitted).is_ok()
+}

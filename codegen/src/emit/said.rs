@@ -1,0 +1,85 @@
+//! What a function's documentation says of its sines, of Coulomb friction and of fused products:
+//! nothing where there are none.
+
+use super::figures::{bound_of, decimal};
+use super::generated::GeneratedFunction;
+use super::say;
+use crate::function::Argument;
+use crate::program::{Counts, Program, ScalarType};
+use crate::setup::Setup;
+use crate::sincos::AngleKernel;
+
+/// Returns what a function's documentation says about its sines.
+pub(super) fn sines(sines: &[AngleKernel], scalar: ScalarType) -> Vec<String> {
+    if sines.is_empty() {
+        return Vec::new();
+    }
+    let counts = Counts::default().with_kernels(sines.iter().map(|own| &own.kernel));
+    let (mul, add) = (counts.trig_mul, counts.trig_add);
+    let what =
+        format!("Sines and cosines are polynomials, {mul} mul, {add} add, with proved errors:");
+    let mut lines = Vec::new();
+    let head = "| angle | from | to | error | by |";
+    say(&mut lines, ["", &what, "", head, "|---|---|---|---|---|"]);
+    for sine in sines {
+        lines.push(format!(
+            "| q{} | {:?} | {:?} | {} | {} |",
+            sine.joint + 1,
+            scalar.above(sine.range.low()),
+            -scalar.above(-sine.range.high()),
+            bound_of(sine.errors.worst(), 2),
+            sine.form
+        ));
+    }
+    let outside = [
+        "",
+        "Outside these ranges they are no sines: the error grows with every step away. Ask",
+        "[`in_box`] whether a state is inside.",
+    ];
+    say(&mut lines, outside);
+    lines
+}
+
+/// Returns the equation of the friction that is in it, joint by joint; nothing of functions
+/// that have none in them.
+pub(super) fn friction(generated: &GeneratedFunction, setup: &Setup) -> Vec<String> {
+    let program = &generated.program;
+    if program.speeds.is_empty() {
+        return Vec::new();
+    }
+    let arguments = generated.function.arguments();
+    let wished = arguments.contains(&Argument::ReferenceVelocity);
+    let speed = if wished { "v_i" } else { "q̇_i" };
+    let friction =
+        format!("friction is F_i {speed}/√(q̇_i² + w_i²). In the proof each r_i is a variable.");
+    let head = [
+        "",
+        "With Coulomb friction: b_i stands for b_i + F_i r_i, r_i = 1/√(q̇_i² + w_i²), so that the",
+        &friction,
+        "",
+        "| joint | F | w |",
+        "|---|---|---|",
+    ];
+    let mut lines = head.map(String::from).to_vec();
+    for speed in &program.speeds {
+        let joint = &setup.robot().joints[speed.joint];
+        let (force, width) = (decimal(&joint.coulomb), decimal(&joint.coulomb_width));
+        lines.push(format!("| {} | {force} | {width} |", speed.joint + 1));
+    }
+    lines
+}
+
+/// Returns what a function's documentation says of them, if it has any.
+pub(super) fn fused(program: &Program) -> Vec<String> {
+    if !program.fuses() {
+        return Vec::new();
+    }
+    let lines = [
+        "",
+        "A product and the sum that alone reads it are one operation, fma, rounded once; the t of",
+        "that product is left out. `mul_add` needs `std`, and a build for a processor that has it",
+        "(`-C target-cpu=native`, or `-C target-feature=+fma`): any other calls a function for each,",
+        "slower by far than a product and a sum, with the same bits.",
+    ];
+    lines.map(String::from).to_vec()
+}
