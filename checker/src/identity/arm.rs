@@ -83,6 +83,9 @@ fn times([sin, cos]: [Number; 2], count: i64) -> [Number; 2] {
     (0..count.abs()).fold([0.into(), 1.into()], |all, _| turned(all, one))
 }
 
+/// A body about its centre of mass, and where that is.
+pub(super) type Carried<N> = (Body<N>, Pose<N>);
+
 /// What reads the numbers of a robot file.
 pub(super) trait Reading {
     /// The numbers that it gives.
@@ -125,7 +128,7 @@ pub(super) trait Reading {
         mass: Option<&String>,
         com: Option<&[String; 3]>,
         inertia: Option<&[String; 6]>,
-    ) -> Result<(Body<Self::Number>, Pose<Self::Number>), String> {
+    ) -> Result<Carried<Self::Number>, String> {
         let mass = self.entry(mass)?;
         let [x, y, z] = [0i64; 3].map(Self::Number::from);
         let [xx, yy, zz, xy, yz, xz] = self.list(entries(inertia))?;
