@@ -1,9 +1,5 @@
-//! D, h, h_ikm and c from composite bodies.
-//!
-//! The composite body m is everything from link m to the hand, rigid, about
-//! the origin of frame m. h_ikm = Tr(Δ_k Δ_m W_m Δ_iᵀ), W_m its
-//! pseudo-inertia, is the Lagrange–Euler sum with the sum over links taken
-//! first; Δ_j is the unit twist of joint j in frame m.
+//! D, h, h_ikm and c from composite bodies: the composite body m is everything from link m to
+//! the hand, rigid, about the origin of frame m.
 
 use alloc::vec::Vec;
 use core::cmp::Ordering;

@@ -1,9 +1,4 @@
-//! C from composite momenta.
-//!
-//! h_i = Σ h_ikm q̇_k q̇_m with h_ikm = h_imk, so that C_ik = Σ_m h_ikm q̇_m is half of
-//! ∂h_i/∂q̇_k. The slopes of τ by velocities have a composite momentum for each
-//! joint instead of a composite body for each pair of joints: n² powers of wrenches
-//! on twists, where the symbols by themselves are n³.
+//! C from composite momenta: half of the slopes of h by velocities.
 
 use alloc::vec::Vec;
 

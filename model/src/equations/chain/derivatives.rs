@@ -1,10 +1,4 @@
-//! ∂τ/∂q and ∂τ/∂q̇ from composite bodies.
-//!
-//! What turning joint j does to all that follows it is, seen from the base,
-//! its twist Δ_j carried along: Δ_j itself changes at the rate V × Δ_j, and
-//! that at the rate of V again. With the composite body and the composite
-//! momentum of link i, both read at frame i, each entry of the two matrices is
-//! the power of a wrench on a twist. `README.md` derives it.
+//! ∂τ/∂q and ∂τ/∂q̇ from composite bodies: each entry is the power of a wrench on a twist.
 
 use alloc::vec::Vec;
 

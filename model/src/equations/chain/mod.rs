@@ -1,28 +1,7 @@
 //! Both DH conventions as one kind of chain, with regrouped parameters.
 //!
-//! - this file: [`Chain`]: constant rotation, constant offset, then the joint
-//! - [`skeleton`]: what moves and what is constant, locked joints merged
-//! - [`body`]: mass, first and second moments about a frame's origin
-//! - [`regrouping`]: the freedom that leaves the dynamics alone: where an origin
-//!   lies on its axis, which parameters a link keeps, the unit of length
-//! - [`pose`]: the chain at a position; the axes in which each link is seen
-//! - `momentum`: energies and momenta
-//! - [`recursion`]: the customised Newton–Euler recursion
-//! - `reference`: torques at accelerations by which the recursion becomes short
-//! - [`composite`]: D, h, h_ikm and c from composite bodies
-//! - `coriolis`: C from composite momenta
-//! - [`derivatives`]: ∂τ/∂q and ∂τ/∂q̇ from composite bodies
-//! - [`second_derivatives`]: those of λᵀτ from composite bodies
-//! - [`probe`]: what is fixed to links beside their bodies; `regressor`: what
-//!   of torque it takes
-//! - `parallel`: D q̈ = τ − h − c in rates against the base, where axes are parallel
-//! - `shoulder`: forward dynamics where the first axes meet in one point; `hinged`: what is
-//!   beyond, as these feel it
-//! - `spin`: forward dynamics where the last joint turns about a principal axis
-//! - `passivity`: D a + C v + c + b∘v by a recursion over two velocities
-//! - `form`: [`Form`]: the associations that these leave open
-//!
-//! `README.md` beside this file derives each from the textbook form.
+//! `README.md` beside this file derives each module's formulas from the textbook form, in
+//! sections with the modules' names.
 
 pub mod body;
 pub mod composite;

@@ -1,16 +1,6 @@
-//! D q̈ = τ − h − c in the rates that links with parallel axes have against the base.
-//!
-//! Where joint b turns about an axis parallel to that of joint a before it, a unit rate
-//! of a, taken back by b, turns the links between them and moves all beyond b without a
-//! turn. With u_a = q̇_a and u_b = q̇_b ± q̇_a the twist of u_a is Δ_a ∓ Δ_b, whose angular
-//! part vanishes from b on. So what b to the hand has of Tᵀ D T (a, ·) is forces on a
-//! lever that is fixed to the links between, and of (a, a) it is mass on a lever: where
-//! these are one link, a constant.
-//!
-//! With q̇ = T u the equation becomes Tᵀ D T u̇ = Tᵀ (τ − h − c), positive definite where
-//! D is; u̇ gives q̈ back by a difference a joint. The differences of entries of D are
-//! formed as such and mostly are a number that these entries were the sum of: merged by
-//! value, neither the sum nor the difference is left.
+//! D q̈ = τ − h − c in the rates u that links with parallel axes have against the base,
+//! q̇ = T u. Differences of entries of D mostly are a number that these entries were the sum
+//! of: merged by value, neither the sum nor the difference is left.
 
 use alloc::vec::Vec;
 

@@ -1,11 +1,6 @@
 //! D a + C v + c + b∘v, the torques of a passivity-based controller, in one
-//! recursion.
-//!
-//! Accelerations are quadratic in the velocities, and the Christoffel symbols
-//! are symmetric: C(q, q̇) v is h as the bilinear form that it is the square
-//! of. So the recursion runs with both velocities at once, and every product
-//! of two components of ω becomes half the sum of their products with those of
-//! ν, the angular velocity that v gives.
+//! recursion over two velocities: products of components of ω become half the sum of
+//! their products with those of ν, the angular velocity that v gives.
 
 use alloc::vec::Vec;
 

@@ -1,11 +1,5 @@
-//! A chain at a position, and the axes in which each link is seen.
-//!
-//! Nothing says that a frame must turn with its link. Along parallel axes
-//! Rz(θ_i) Rz(θ_{i+1}) = Rz(θ_i + θ_{i+1}), so the frames of a group of links
-//! between them may stay behind or run ahead by whole joints: the link's
-//! moments and the steps between origins turn instead of the vectors of the
-//! recursion. Only the last frame of a group must turn with its link, if
-//! another link follows.
+//! A chain at a position, and the axes in which each link is seen: along parallel axes a frame
+//! may stay behind its link or run ahead by whole joints.
 
 use alloc::vec;
 use alloc::vec::Vec;

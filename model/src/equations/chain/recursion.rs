@@ -1,8 +1,5 @@
-//! The customised Newton–Euler recursion.
-//!
-//! With U r = ω̇ × r + ω × (ω × r) the acceleration of a point r of a link is
-//! v̇ + U r, so a regrouped link costs the few columns of U that its few
-//! moments need.
+//! The customised Newton–Euler recursion, by U with U r = ω̇ × r + ω × (ω × r): a regrouped
+//! link costs the few columns of U that its few moments need.
 
 use alloc::vec::Vec;
 

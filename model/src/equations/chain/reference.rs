@@ -1,15 +1,5 @@
-//! Torques at accelerations by which the recursion becomes short.
-//!
-//! D q̈ = τ − h − c is D (q̈ − a) = τ − τ(a) for any a, τ(a) being the torques at these
-//! accelerations. Joint i adds to ω̇ of its link along its own axis alone, so a_i may be what
-//! makes ω̇_z = ω_x ω_y there. Then
-//!
-//! ```text
-//! U_12 = ω_x ω_y − ω̇_z = 0        U_21 = ω_x ω_y + ω̇_z = 2 ω_x ω_y
-//! ```
-//!
-//! and no product with U_12 is left, of the step to the next link, of the force and of the
-//! couple; a is a difference a joint.
+//! Torques at accelerations a by which the recursion becomes short, D (q̈ − a) = τ − τ(a):
+//! those that make U_12 = ω_x ω_y − ω̇_z vanish.
 
 use alloc::vec::Vec;
 

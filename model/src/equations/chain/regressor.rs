@@ -2,15 +2,9 @@
 //! torque, each by itself, at one motion; of the torques of a passivity-based
 //! controller the same, at a motion with two velocities.
 //!
-//! ω, ω̇, U and v̇ of a link are the same for whatever is fixed to it, and so are
-//! the joints' twists Δ_k seen from its frame. With F = m v̇ + U s and
-//! N = s × v̇ + (the antisymmetric part of U Σ) of a body, its entry in row k ≤ i
-//! is the power of that wrench on Δ_k. A unit body has a single moment, so that
-//! a column of U or two are all that there is of its wrench.
-//!
-//! Where the axes of several joints meet, the wrench may be taken about that
-//! point instead: N + F × o once, and of each of these joints the angular part
-//! alone.
+//! An entry is the power of a body's wrench on a joint's twist. Where the axes of
+//! several joints meet, the wrench may be taken about that point instead: N + F × o
+//! once, and of each of these joints the angular part alone.
 
 use alloc::vec::Vec;
 

@@ -1,11 +1,5 @@
-//! The freedom in the parameters that leaves the dynamics alone.
-//!
-//! A mass distribution on the axis of a revolute joint moves the same way
-//! whether it belongs to the link or to the one before: its mass, its first
-//! moment along the axis and its second moment along the axis may be moved
-//! over in any amount. The links of a slide never turn against each other, so
-//! the second moments of the sliding link may move over whole. Nothing that
-//! reaches the base matters at all.
+//! The freedom in the parameters that leaves the dynamics alone: what of a link's moments may
+//! belong to the link before, where an origin lies, and the unit of length.
 
 use alloc::vec::Vec;
 

@@ -1,10 +1,5 @@
-//! Second derivatives of λᵀτ from composite bodies.
-//!
-//! λ is a virtual displacement: with ℓ what it moves a point by, and a its acceleration,
-//! λᵀτ = ∫ a·ℓ dm. Joint i turns all that follows it: Δ_i changes by Δ_i′ = Λ × Δ_i along
-//! λ, as by Δ̇_i and Δ̈_i along the motion, and what is turned as a whole keeps its value.
-//! So every entry is the power of a wrench of the later joint on a twist of the earlier:
-//! n² powers, from composite bodies, flows of V and of Λ, and forces. `README.md` derives it.
+//! Second derivatives of λᵀτ from composite bodies: every entry is the power of a wrench of
+//! the later joint on a twist of the earlier.
 
 use alloc::vec::Vec;
 

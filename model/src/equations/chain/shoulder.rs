@@ -1,19 +1,15 @@
 //! Forward dynamics of a chain whose first three joints or more turn about axes that meet.
 //!
-//! The point C where they meet stays where it is, so of all that the links beyond do to these
-//! joints, only the moment about C is felt: three components, whatever the number of joints.
-//! With ω̇ of the last link of the shoulder and ÿ of the joints beyond it
+//! Of all that the links beyond do to these joints, only the moment about the point is felt. With
+//! ω̇ of the last link of the shoulder and ÿ of the joints beyond it
 //!
 //! ```text
-//! ( I   N ) ( ω̇ )   ( μ − p )        I   inertia about C of all links beyond
-//! ( Nᵀ  D ) ( ÿ ) = ( τ − b )        N   moments about C of their unit accelerations
+//! ( I   N ) ( ω̇ )   ( μ − p )        I   inertia about the point of all links beyond
+//! ( Nᵀ  D ) ( ÿ ) = ( τ − b )        N   moments about it of their unit accelerations
 //! ```
 //!
 //! in the axes of the first link beyond. The joints beyond are eliminated from that, and what is
-//! left, I′ and p′ with μ = p′ + I′ ω̇, is that of an articulated body which turns about C: three by
-//! three entries where another articulated body has six by six, and two by two once a joint is
-//! eliminated. So entries of D between the shoulder and what is beyond are never formed, and no
-//! axis of the shoulder is turned into a frame beyond it.
+//! left is an articulated body that only turns.
 
 use alloc::vec::Vec;
 

@@ -1,8 +1,5 @@
-//! A chain before its regrouping is chosen: one segment a joint that moves.
-//!
-//! A locked joint is a constant step like any other. It contributes a
-//! rotation and an offset, its body joins the link before it (or the base,
-//! which feels nothing), and regrouping works through it.
+//! A chain before its regrouping is chosen: one segment a joint that moves. A joint that is
+//! locked is a constant step like any other, and its body joins the link before it.
 
 use alloc::vec::Vec;
 

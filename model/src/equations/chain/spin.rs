@@ -1,26 +1,12 @@
-//! Forward dynamics of a chain whose last joint turns about a principal axis.
-//!
-//! If the centre of mass of the last link is on its axis and the axis is a principal
-//! one, a unit acceleration of the joint is a couple along the axis and nothing else.
-//! With J the inertia about the axis, A the rotor's, s the part of the angular
-//! acceleration along the axis that the joints before bring along, and e what
-//! velocities alone ask for there, the joint's equation and the moment M on the link
-//! along the axis are
-//!
-//! ```text
-//! (J + A) q̈_n + J s + e = τ_n        M = J (q̈_n + s) + e
-//!                                      = J/(J + A) (τ_n − e) + A J/(J + A) s + e
-//! ```
-//!
-//! So the joints before feel a body that is fixed to link n−1, the last link as it is
-//! turned but with A J/(J + A) about the axis, and a couple that does not depend on q̈.
-//! This is the first step of eliminating joints from the hand inward, taken in the
-//! parameters: no entry of D is formed with J and cleared of it again. A link that is
-//! symmetric about its axis becomes constants of the one before.
+//! Forward dynamics of a chain whose last joint turns about a principal axis: the joints
+//! before feel a body that is fixed to link n−1, the last link as it is turned but with
+//! A J/(J + A) about the axis, and a couple that does not depend on q̈. J is the inertia
+//! about the axis, A the rotor's.
 //!
 //! The couple is that of the link's own turn. What of the tensor is symmetric about the
 //! axis gives J ω_z (ω × z); the rest, I_δ, has no trace and no component along the
-//! axis, and with ω′ of the frame before gives e = z·(ω′ × I_δ ω′) and 2 q̇_n z × I_δ ω′.
+//! axis, and with ω′ of the frame before gives e = z·(ω′ × I_δ ω′), the part along the axis
+//! that velocities alone ask for, and 2 q̇_n z × I_δ ω′.
 
 use alloc::vec::Vec;
 
