@@ -16,22 +16,13 @@ use super::{Arm, DhVariables};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
 
-/// A quantity as the sum of what the links' rotation and translation give.
-#[derive(Clone, Debug)]
-pub struct Split<T> {
-    /// Through I_s and the links' angular velocities.
-    pub rotation: T,
-    /// Through m_s and the velocities of the centres of mass.
-    pub translation: T,
-}
-
 /// A part of what moves with a link. As each is an arm, D and h of either
 /// may come from any formulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Part {
-    /// Its rotation, through I_s: a link without mass.
+    /// Its rotation, through I_s and its angular velocity: a link without mass.
     Rotation,
-    /// The translation of its centre of mass: all mass is there.
+    /// The translation of its centre of mass, through m_s: all mass is there.
     Translation,
 }
 
@@ -144,31 +135,31 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
 
     /// Returns D^rot_ij = Σ_s (ˢR_0 z_{i−1})ᵀ I_s (ˢR_0 z_{j−1}) and
     /// D^tran_ij = Σ_s m_s Jv_{s,j} · Jv_{s,i}, s ≥ max(i,j), n×n (eq. 4.2),
-    /// without the armature.
-    pub fn inertia_parts(&self) -> Split<Vec<Vec<S>>> {
+    /// without the armature, in the order of [`Part`].
+    pub fn inertia_parts(&self) -> [Vec<Vec<S>>; 2] {
         let spins: Vec<Vec<_>> = self
             .local
             .iter()
             .zip(&self.arm.links)
             .map(|(row, link)| row.iter().map(|z| tensor_times(&link.inertia, z)).collect())
             .collect();
-        Split {
-            rotation: pair_sums(&self.local, &spins),
-            translation: pair_sums(&self.jv, &self.momentum),
-        }
+        [
+            pair_sums(&self.local, &spins),
+            pair_sums(&self.jv, &self.momentum),
+        ]
     }
 
     /// Returns D = D^rot + D^tran, n×n, armature on the diagonal.
     pub fn inertia(&self) -> Vec<Vec<S>> {
-        let parts = self.inertia_parts();
-        let rows = parts.rotation.iter().zip(&parts.translation);
+        let [rotation, translation] = self.inertia_parts();
+        let rows = rotation.iter().zip(&translation);
         let mut d: Vec<Vec<S>> = rows.map(|(a, b)| sums(a, b)).collect();
         add_armature(self.arm, &mut d);
         d
     }
 
-    /// Returns h^rot and h^tran (eqs. 4.3, 4.4), each of length n.
-    pub fn velocity_parts(&self, qd: &[S]) -> Split<Vec<S>> {
+    /// Returns h^rot and h^tran (eqs. 4.3, 4.4), each of length n, in the order of [`Part`].
+    pub fn velocity_parts(&self, qd: &[S]) -> [Vec<S>; 2] {
         let n = self.axes.len();
         // What link s adds to every joint before it: the moment
         // I_s ˢR_0 α_s + ˢR_0 ω_s × (I_s ˢR_0 ω_s), where α_s is the printed
@@ -214,16 +205,16 @@ impl<'a, S: Scalar> Dalembert<'a, S> {
             let spin = cross(&omega_here, &tensor_times(&link.inertia, &omega_here));
             moments.push(sum(&tensor_times(&link.inertia, &alpha_here), &spin));
         }
-        Split {
-            rotation: joint_sums(&self.local, &moments),
-            translation: joint_sums(&self.momentum, &accelerations),
-        }
+        [
+            joint_sums(&self.local, &moments),
+            joint_sums(&self.momentum, &accelerations),
+        ]
     }
 
     /// Returns h = h^rot + h^tran.
     pub fn velocity_terms(&self, qd: &[S]) -> Vec<S> {
-        let parts = self.velocity_parts(qd);
-        sums(&parts.rotation, &parts.translation)
+        let [rotation, translation] = self.velocity_parts(qd);
+        sums(&rotation, &translation)
     }
 
     /// Returns c_i = −g·[z_{i−1} × Σ_{j≥i} m_j (r_j − p_{i−1})] for a rotary joint,

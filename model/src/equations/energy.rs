@@ -102,10 +102,7 @@ impl Formulation {
             return self.inertia(&part.of(arm), at);
         }
         let parts = Dalembert::new(arm, at).inertia_parts();
-        match part {
-            Part::Rotation => parts.rotation,
-            Part::Translation => parts.translation,
-        }
+        parts[part as usize].clone()
     }
 
     /// Returns h^rot or h^tran, length n.
@@ -120,10 +117,7 @@ impl Formulation {
             return self.velocity_terms(&part.of(arm), at, qd);
         }
         let parts = Dalembert::new(arm, at).velocity_parts(qd);
-        match part {
-            Part::Rotation => parts.rotation,
-            Part::Translation => parts.translation,
-        }
+        parts[part as usize].clone()
     }
 
     /// Returns U = −Σ_j m_j g·r_j, r_j from the origin of the base, not of frame 0:
