@@ -210,8 +210,8 @@ impl Steps<'_> {
 fn kept(arm: &Skeleton<Exact>) -> Regrouping<Exact> {
     let mut regrouping = Regrouping::base(arm);
     for (segment, link) in arm.links.iter().zip(&mut regrouping.links) {
-        let body = segment.body.moved(&opposite(&link.origin));
-        match segment.kind {
+        let body = segment.link.body.moved(&opposite(&link.origin));
+        match segment.link.kind {
             JointKind::Revolute => {
                 let [_, _, first] = body.first;
                 (link.mass, link.first, link.second) = (body.mass, first, body.second.zz);

@@ -83,7 +83,7 @@ impl Model {
         skeleton
             .links
             .iter_mut()
-            .for_each(|link| link.body = Body::zero());
+            .for_each(|segment| segment.link.body = Body::zero());
         let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
         let each = |terms: &Vec<(Parameter, Exact)>| {
             let terms = terms.iter();

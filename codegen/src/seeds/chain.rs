@@ -135,10 +135,11 @@ fn with_columns(setup: &Setup, columns: &[Column<Exact>]) -> Skeleton<Exact> {
     let arm = setup.arm(Exact::clone).fold_base();
     let mut skeleton = Skeleton::with_columns(&arm, &setup.merged(), columns);
     let fitted = setup.fitted_links().unwrap_or_default();
-    for (segment, link) in skeleton.links.iter_mut().zip(fitted) {
-        segment.body = link.body.clone();
-        segment.armature = link.armature.clone();
-        segment.friction.viscous = link.viscous.clone();
+    for (segment, fitted) in skeleton.links.iter_mut().zip(fitted) {
+        let link = &mut segment.link;
+        link.body = fitted.body.clone();
+        link.armature = fitted.armature.clone();
+        link.friction.viscous = fitted.viscous.clone();
     }
     skeleton
 }

@@ -202,7 +202,7 @@ fn alternatives(
     (metres.unit, metres.per_unit) = (Exact::one(), Exact::one());
     let chain = Chain::new(arm, &metres);
     let now = &metres.links[i];
-    let mut links = match arm.links[i].kind {
+    let mut links = match arm.links[i].link.kind {
         JointKind::Revolute => revolute(arm, &chain, now, i),
         JointKind::Prismatic => prismatic(&chain, now, i),
     };

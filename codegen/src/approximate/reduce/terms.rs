@@ -138,7 +138,7 @@ fn units(skeleton: &Skeleton<Exact>) -> Vec<(usize, FittedLink, Option<[usize; 2
     };
     for (link, segment) in skeleton.links.iter().enumerate() {
         let start = all.len();
-        let bodies = match segment.kind {
+        let bodies = match segment.link.kind {
             JointKind::Revolute => {
                 let about = [Exact::zero(), Exact::zero(), segment.d.clone()];
                 let bodies = vec![

@@ -121,7 +121,7 @@ impl BaseParameters {
         for (link, segment) in skeleton.links.iter().enumerate() {
             let (turned, moved) = &segment.dh;
             let back = transposed(turned);
-            for &moment in kept(segment.kind) {
+            for &moment in kept(segment.link.kind) {
                 let body = moment.unit().moved(&regrouping.links[link].origin);
                 candidates.push(Column {
                     joint: segment.joint,

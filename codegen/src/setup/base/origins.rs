@@ -42,22 +42,23 @@ pub(super) fn without_bodies(skeleton: &Skeleton<Exact>) -> Skeleton<Exact> {
     empty
         .links
         .iter_mut()
-        .for_each(|link| link.body = Body::zero());
+        .for_each(|segment| segment.link.body = Body::zero());
     empty
 }
 
 /// Returns the points where the joint's step and the next one begin.
 fn candidates(skeleton: &Skeleton<Exact>, link: usize) -> Vec<Vector<Exact>> {
-    let segment = &skeleton.links[link];
-    let next = skeleton.links.get(link + 1).map(|next| next.offset.clone());
+    let own = &skeleton.links[link].link;
+    let next = skeleton.links.get(link + 1);
+    let next = next.map(|next| next.link.offset.clone());
     let mut candidates = vec![zero_vector()];
-    match segment.kind {
+    match own.kind {
         JointKind::Revolute => candidates.extend(next.map(|[_, _, z]| {
             let [x, y] = [Exact::zero(), Exact::zero()];
             [x, y, z]
         })),
         JointKind::Prismatic => {
-            candidates.push(opposite(&segment.offset));
+            candidates.push(opposite(&own.offset));
             candidates.extend(next);
         }
     }

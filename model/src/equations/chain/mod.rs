@@ -99,26 +99,18 @@ impl<S: Scalar> Chain<S> {
         let mut links: Vec<ChainLink<S>> = Vec::with_capacity(skeleton.links.len());
         // How far the regrouping moved the origin before.
         let mut shift: Vector<S> = zero_vector();
-        for (segment, regrouping) in skeleton.links.iter().zip(&regrouping.links) {
-            let step = match segment.kind {
-                JointKind::Revolute => apply(&segment.rotation, &regrouping.origin),
+        for (Segment { link, .. }, regrouping) in skeleton.links.iter().zip(&regrouping.links) {
+            let step = match link.kind {
+                JointKind::Revolute => apply(&link.rotation, &regrouping.origin),
                 JointKind::Prismatic => regrouping.origin.clone(),
             };
+            let back = opposite(&regrouping.origin);
             links.push(ChainLink {
-                kind: segment.kind,
-                rotation: segment.rotation.clone(),
-                offset: sum(&difference(&segment.offset, &shift), &step),
-                axis: segment.axis.clone(),
-                theta: segment.theta.clone(),
-                body: segment.body.moved(&opposite(&regrouping.origin)),
-                probes: Probe::each(&segment.probes, |body| {
-                    body.moved(&opposite(&regrouping.origin))
-                }),
-                free: zero_vector(),
-                armature: segment.armature.clone(),
-                friction: segment.friction.clone(),
-                spins_freely: false,
+                offset: sum(&difference(&link.offset, &shift), &step),
+                body: link.body.moved(&back),
+                probes: Probe::each(&link.probes, |body| body.moved(&back)),
                 axes: regrouping.axes,
+                ..link.clone()
             });
             shift = regrouping.origin.clone();
         }

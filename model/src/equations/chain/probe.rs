@@ -3,7 +3,7 @@
 
 use alloc::vec::Vec;
 
-use super::{Body, Rotation, Skeleton};
+use super::{Body, Rotation, Segment, Skeleton};
 use crate::equations::matrix::{Vector, times};
 use crate::scalar::Scalar;
 
@@ -96,7 +96,7 @@ impl<S: Scalar> Skeleton<S> {
     /// and which has columns no longer.
     #[must_use]
     pub fn with_values(mut self, values: &[S]) -> Skeleton<S> {
-        for link in &mut self.links {
+        for Segment { link, .. } in &mut self.links {
             for probe in core::mem::take(&mut link.probes) {
                 if let (Probed::Body(unit), Some(value)) = (&probe.of, values.get(probe.column)) {
                     link.body = link.body.with(&unit.map(|x| times(value, x)));

@@ -58,9 +58,9 @@ impl<S: Scalar> Regrouping<S> {
     /// Makes base parameters in metres: a revolute link keeps nothing that can move, and its
     /// origin lies after the constant step along the axis.
     pub fn base(skeleton: &Skeleton<S>) -> Self {
-        let links = skeleton.links.iter().map(|link| {
-            LinkRegrouping::base(match link.kind {
-                JointKind::Revolute => [S::zero(), S::zero(), link.d.clone()],
+        let links = skeleton.links.iter().map(|segment| {
+            LinkRegrouping::base(match segment.link.kind {
+                JointKind::Revolute => [S::zero(), S::zero(), segment.d.clone()],
                 JointKind::Prismatic => zero_vector(),
             })
         });

@@ -5,8 +5,7 @@ use alloc::vec::Vec;
 
 use super::pose::sense;
 use super::probe::{Column, Probe, probes};
-use super::{Body, Rotation, apply, product, turn};
-use crate::equations::friction::Friction;
+use super::{Body, ChainLink, Rotation, apply, product, turn};
 use crate::equations::matrix::{
     ABOUT_X, ABOUT_Y, ABOUT_Z, Vector, identity, plus, sum, unit_z, zero_vector,
 };
@@ -30,29 +29,12 @@ pub struct Skeleton<S> {
 pub struct Segment<S> {
     /// Its place in the arm, from zero.
     pub joint: usize,
-    /// Revolute or prismatic.
-    pub kind: JointKind,
-    /// Revolute: axes of the frame at θ = 0 in those of the frame before.
-    /// Prismatic: the identity.
-    pub rotation: Rotation<S>,
-    /// Origin of the frame (at q = 0 if prismatic) in the frame before.
-    pub offset: Vector<S>,
-    /// Direction of the slide in the axes of the frame; z for a revolute joint.
-    pub axis: Vector<S>,
-    /// The pair of the constant added to q (revolute).
-    pub theta: SinCosPair<S>,
     /// The constant step along the axis of a revolute joint.
     pub d: S,
-    /// The body that moves with it, about the origin and in the axes of the frame.
-    pub body: Body<S>,
-    /// The probes that move with it, a column of a regressor each.
-    pub probes: Vec<Probe<S>>,
     /// The axes and the origin of the joint's own DH frame, in the frame.
     pub dh: (Rotation<S>, Vector<S>),
-    /// Rotor inertia felt at the joint.
-    pub armature: S,
-    /// The friction of the joint.
-    pub friction: Friction<S>,
+    /// The joint and what moves with it, before anything of it is regrouped.
+    pub link: ChainLink<S>,
 }
 
 impl<S: Scalar> Skeleton<S> {
@@ -99,7 +81,7 @@ impl<S: Scalar> Skeleton<S> {
                 turned = product(&turned, &turn(&theta, ABOUT_Z));
                 moved = sum(&moved, &apply(&turned, &reach));
                 turned = product(&turned, &rest);
-                if let Some(carrier) = links.last_mut() {
+                if let Some(Segment { link: carrier, .. }) = links.last_mut() {
                     carrier.body = carrier.body.with(&body.carried(&turned, &moved));
                     // A drive that is locked feels nothing.
                     let own = probes(columns, joint, &turned, &moved);
@@ -109,44 +91,46 @@ impl<S: Scalar> Skeleton<S> {
                 continue;
             }
             let slide = [S::zero(), S::zero(), link.d.clone()];
-            let mut segment = Segment {
-                joint,
+            let mut own = ChainLink {
                 kind: link.kind,
                 rotation: identity(),
                 offset: moved.clone(),
                 axis: unit_z(),
                 theta: link.theta.clone(),
-                d: link.d.clone(),
                 body: Body::zero(),
                 probes: Vec::new(),
-                dh: (identity(), zero_vector()),
+                free: zero_vector(),
                 armature: link.armature.clone(),
                 friction: link.friction.clone(),
+                spins_freely: false,
+                axes: 0,
             };
             match link.kind {
                 JointKind::Revolute => {
-                    segment.rotation = turned;
+                    own.rotation = turned;
                     if merged && !links.is_empty() {
-                        segment.absorb_turn();
+                        own.absorb_turn();
                     }
                     moved = sum(&slide, &reach);
                     turned = rest;
                 }
                 JointKind::Prismatic => {
-                    segment.axis = apply(&turned, &unit_z());
-                    segment.offset = sum(&moved, &apply(&turned, &slide));
+                    own.axis = apply(&turned, &unit_z());
+                    own.offset = sum(&moved, &apply(&turned, &slide));
                     let turn = product(&turned, &turn(&link.theta, ABOUT_Z));
-                    segment.theta = SinCosPair::straight();
+                    own.theta = SinCosPair::straight();
                     moved = apply(&turn, &reach);
                     turned = product(&turn, &rest);
                 }
             }
-            segment.body = body.carried(&turned, &moved);
-            segment
-                .probes
-                .extend(probes(columns, joint, &turned, &moved));
-            segment.dh = (turned.clone(), moved.clone());
-            links.push(segment);
+            own.body = body.carried(&turned, &moved);
+            own.probes.extend(probes(columns, joint, &turned, &moved));
+            links.push(Segment {
+                joint,
+                d: link.d.clone(),
+                dh: (turned.clone(), moved.clone()),
+                link: own,
+            });
             merged = false;
         }
         Skeleton {
@@ -157,7 +141,7 @@ impl<S: Scalar> Skeleton<S> {
     }
 }
 
-impl<S: Scalar> Segment<S> {
+impl<S: Scalar> ChainLink<S> {
     /// Makes what locked joints turn about parallel axes a part of θ, composed once instead of
     /// turning every vector.
     ///
