@@ -10,7 +10,7 @@ pub mod table1;
 pub mod table2;
 
 use super::Link;
-use super::matrix::{Vector, opposite, plus, scaled, times, zero_vector};
+use super::matrix::{Vector, opposite, plus, times, zero_vector};
 use crate::scalar::Scalar;
 
 /// The motion of one link.
@@ -31,11 +31,6 @@ impl<S: Scalar> Motion<S> {
             acceleration: opposite(gravity),
         }
     }
-}
-
-/// Returns F_i = m_i a_i, in any axes.
-fn newton<S: Scalar>(link: &Link<S>, acceleration: &Vector<S>) -> Vector<S> {
-    scaled(&link.mass, acceleration)
 }
 
 /// Returns what the drive adds to the torque of the chain: friction and the

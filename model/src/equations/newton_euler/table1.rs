@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::{Motion, newton, with_drive};
+use super::{Motion, with_drive};
 use crate::equations::matrix::{
     Columns, Vector, centripetal, cross, dot, identity, scaled, sum, tensor_times, twice,
     zero_vector,
@@ -22,10 +22,7 @@ struct Body<S> {
     lever: Vector<S>,
     /// s̄_i
     com: Vector<S>,
-    omega: Vector<S>,
-    omega_dot: Vector<S>,
-    /// v̇ of the origin of frame i.
-    acceleration: Vector<S>,
+    motion: Motion<S>,
 }
 
 /// Returns τ by the recursion of Table 1.
@@ -67,7 +64,10 @@ pub(in crate::equations) fn tip_acceleration<S: Scalar>(
     base: &Motion<S>,
 ) -> [Vector<S>; 2] {
     match bodies(arm, at, qd, qdd, base).pop() {
-        Some(last) => [last.acceleration_of(arm.tool.as_ref()), last.omega_dot],
+        Some(last) => [
+            last.acceleration_of(arm.tool.as_ref()),
+            last.motion.omega_dot,
+        ],
         None => [base.acceleration.clone(), base.omega_dot.clone()],
     }
 }
@@ -76,11 +76,12 @@ fn wrenches_on<S: Scalar>(arm: &Arm<S>, bodies: &[Body<S>]) -> Vec<Wrench<S>> {
     let mut wrenches = Vec::with_capacity(bodies.len());
     let mut wrench = Wrench::zero();
     for (i, (body, link)) in bodies.iter().zip(&arm.links).enumerate().rev() {
+        let motion = &body.motion;
         let of_com = sum(
-            &cross(&body.omega_dot, &body.com),
-            &centripetal(&body.omega, &body.com),
+            &cross(&motion.omega_dot, &body.com),
+            &centripetal(&motion.omega, &body.com),
         );
-        let inertial_force = newton(link, &sum(&body.acceleration, &of_com));
+        let inertial_force = scaled(&link.mass, &sum(&motion.acceleration, &of_com));
         let inertial_moment = body.euler(link);
 
         // The lever of f_{i+1}, and that of F_i, from the point the moment is
@@ -118,9 +119,7 @@ fn bodies<S: Scalar>(
         axis: zero_vector(),
         lever: zero_vector(),
         com: zero_vector(),
-        omega: base.omega.clone(),
-        omega_dot: base.omega_dot.clone(),
-        acceleration: base.acceleration.clone(),
+        motion: base.clone(),
     };
     for (i, link) in arm.links.iter().enumerate() {
         let before = bodies.last().unwrap_or(&base);
@@ -137,11 +136,9 @@ fn bodies<S: Scalar>(
             rotation: frame.axes,
             lever: frame.origin,
             axis,
-            omega: before.omega.clone(),
-            omega_dot: before.omega_dot.clone(),
-            acceleration: zero_vector(),
+            motion: before.motion.clone(),
         };
-        bodies.push(body.moved(arm.convention, link.kind, before, &qd[i], &qdd[i]));
+        bodies.push(body.moved(arm.convention, link.kind, &qd[i], &qdd[i]));
     }
     bodies
 }
@@ -150,44 +147,39 @@ impl<S: Scalar> Body<S> {
     /// Returns v̇ of a tool's origin, or of the frame's own.
     fn acceleration_of(&self, tool: Option<&Columns<S>>) -> Vector<S> {
         let Some(tool) = tool else {
-            return self.acceleration.clone();
+            return self.motion.acceleration.clone();
         };
         let axes = Columns::turned(self.rotation.clone());
         let lever = axes.rotate(&tool.origin);
-        let turning = cross(&self.omega_dot, &lever);
-        let of_lever = sum(&turning, &centripetal(&self.omega, &lever));
-        sum(&self.acceleration, &of_lever)
+        let turning = cross(&self.motion.omega_dot, &lever);
+        let of_lever = sum(&turning, &centripetal(&self.motion.omega, &lever));
+        sum(&self.motion.acceleration, &of_lever)
     }
 
-    /// Returns ω_i, ω̇_i and v̇_i from those of the link before.
-    fn moved(
-        mut self,
-        convention: Convention,
-        kind: JointKind,
-        before: &Self,
-        qd: &S,
-        qdd: &S,
-    ) -> Self {
+    /// Returns it with its own motion instead of that of the link before.
+    fn moved(mut self, convention: Convention, kind: JointKind, qd: &S, qdd: &S) -> Self {
+        let before = self.motion.clone();
+        let own = &mut self.motion;
         let rate = scaled(qd, &self.axis);
         if kind == JointKind::Revolute {
-            self.omega = sum(&before.omega, &rate);
+            own.omega = sum(&before.omega, &rate);
             let turning = sum(&scaled(qdd, &self.axis), &cross(&before.omega, &rate));
-            self.omega_dot = sum(&before.omega_dot, &turning);
+            own.omega_dot = sum(&before.omega_dot, &turning);
         }
         // The lever p_i* belongs to link i, or to link i−1 in modified DH.
-        let (omega, omega_dot) = match convention {
-            Convention::Standard => (&self.omega, &self.omega_dot),
-            Convention::Modified => (&before.omega, &before.omega_dot),
+        let turns = match convention {
+            Convention::Standard => &*own,
+            Convention::Modified => &before,
         };
         let of_lever = sum(
-            &cross(omega_dot, &self.lever),
-            &centripetal(omega, &self.lever),
+            &cross(&turns.omega_dot, &self.lever),
+            &centripetal(&turns.omega, &self.lever),
         );
-        self.acceleration = sum(&before.acceleration, &of_lever);
+        own.acceleration = sum(&before.acceleration, &of_lever);
         if kind == JointKind::Prismatic {
-            let coriolis = cross(&self.omega, &scaled(&twice(qd), &self.axis));
+            let coriolis = cross(&own.omega, &scaled(&twice(qd), &self.axis));
             let sliding = sum(&scaled(qdd, &self.axis), &coriolis);
-            self.acceleration = sum(&self.acceleration, &sliding);
+            own.acceleration = sum(&own.acceleration, &sliding);
         }
         self
     }
@@ -197,7 +189,7 @@ impl<S: Scalar> Body<S> {
         let frame = Columns::turned(self.rotation.clone());
         let tensor =
             |v: &Vector<S>| frame.rotate(&tensor_times(&link.inertia, &frame.rotate_back(v)));
-        let spin = cross(&self.omega, &tensor(&self.omega));
-        sum(&tensor(&self.omega_dot), &spin)
+        let spin = cross(&self.motion.omega, &tensor(&self.motion.omega));
+        sum(&tensor(&self.motion.omega_dot), &spin)
     }
 }

@@ -3,11 +3,12 @@
 
 use alloc::vec::Vec;
 
-use super::{Motion, newton, with_drive};
+use super::{Motion, with_drive};
 use crate::equations::matrix::{
     Vector, centripetal, cross, cross_z, dot, minus, negative, plus, scaled, sum, tensor_times,
-    times, twice, zero_vector,
+    times, twice,
 };
+use crate::equations::screws::Wrench;
 use crate::equations::{Arm, DhVariables, Link};
 use crate::robot::{Convention, Inertia, JointKind};
 use crate::scalar::Scalar;
@@ -65,7 +66,7 @@ pub fn inverse_dynamics<S: Scalar>(
     let n = arm.links.len();
     let mut torques = Vec::with_capacity(n);
     // f_{i+1} and n_{i+1}, in the axes of frame i+1.
-    let [mut force, mut torque] = [zero_vector(), zero_vector()];
+    let mut wrench = Wrench::zero();
     for i in (0..n).rev() {
         let (link, motion) = (&arm.links[i], &motions[i]);
         // The step to the next link; ⁿR_{n+1} = 1.
@@ -74,7 +75,7 @@ pub fn inverse_dynamics<S: Scalar>(
             Some(next) => next.to_previous(v),
             None => v.clone(),
         };
-        let force_here = turned(&force);
+        let force_here = turned(&wrench.force);
         let centre = sum(
             &motion.acceleration,
             &sum(
@@ -82,7 +83,7 @@ pub fn inverse_dynamics<S: Scalar>(
                 &centripetal(&motion.omega, &link.com),
             ),
         );
-        let inertial_force = newton(link, &centre);
+        let inertial_force = scaled(&link.mass, &centre);
         let inertial_moment = motion.euler(link, moment);
 
         let (carried, arm_of_centre) = match arm.convention {
@@ -90,34 +91,30 @@ pub fn inverse_dynamics<S: Scalar>(
                 let lever = link.lever_here(&at[i].d);
                 let carried = match (&next, moment) {
                     (Some(next), Moment::AsPrinted) => {
-                        let moment = cross(&next.to_link(&lever), &force);
-                        next.to_previous(&sum(&torque, &moment))
+                        let moment = cross(&next.to_link(&lever), &wrench.force);
+                        next.to_previous(&sum(&wrench.moment, &moment))
                     }
-                    _ => sum(&turned(&torque), &cross(&lever, &force_here)),
+                    _ => sum(&turned(&wrench.moment), &cross(&lever, &force_here)),
                 };
                 (carried, sum(&lever, &link.com))
             }
             Convention::Modified => {
                 let carried = match &next {
                     Some(next) => sum(
-                        &next.to_previous(&torque),
+                        &next.to_previous(&wrench.moment),
                         &cross(&next.lever_before(), &force_here),
                     ),
-                    None => torque.clone(),
+                    None => wrench.moment.clone(),
                 };
                 (carried, link.com.clone())
             }
         };
-        torque = sum(
-            &sum(&carried, &cross(&arm_of_centre, &inertial_force)),
-            &inertial_moment,
-        );
-        force = sum(&force_here, &inertial_force);
-
-        let load = match link.kind {
-            JointKind::Revolute => &torque,
-            JointKind::Prismatic => &force,
+        let moment = sum(&carried, &cross(&arm_of_centre, &inertial_force));
+        wrench = Wrench {
+            moment: sum(&moment, &inertial_moment),
+            force: sum(&force_here, &inertial_force),
         };
+        let load = wrench.part(link.kind);
         let along = match arm.convention {
             Convention::Standard => dot(load, &link.axis_here()),
             Convention::Modified => load[2].clone(),
