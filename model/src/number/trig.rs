@@ -72,28 +72,3 @@ fn series(x: &BigInt, w: usize) -> (BigInt, BigInt) {
     }
     (sin, cos)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use alloc::string::ToString;
-
-    #[test]
-    fn a_float_right_angle_keeps_its_tiny_cosine() {
-        let angle = Angle::Radians(Rational::from_float(core::f64::consts::FRAC_PI_2).unwrap());
-        let (sin, cos) = sin_cos(&angle, 200);
-        assert!((BigInt::one() << 200u32) - sin <= BigInt::one() << 100u32);
-        // cos of the double next to π/2 is 6.1232339957367658…e-17
-        let scaled = (cos * BigInt::from(10).pow(32)) >> 200u32;
-        assert_eq!(scaled.to_string(), "6123233995736765");
-    }
-
-    #[test]
-    fn a_huge_angle_is_reduced_exactly() {
-        // sin(1e22) is the classical reduction test.
-        let angle = Angle::Radians(Rational::from_integer(BigInt::from(10).pow(22)));
-        let (sin, _) = sin_cos(&angle, 128);
-        let scaled = (sin * BigInt::from(10).pow(16)) >> 128u32;
-        assert_eq!(scaled.to_string(), "-8522008497671889");
-    }
-}

@@ -291,9 +291,14 @@ mod tests {
     #[test]
     fn sines_are_exact_to_76_digits() {
         // By another library; the cosine of the double nearest to π/2 is 6e-17, where its own
-        // digits count.
+        // digits count, and the sine of 1e22 is the classical test of the reduction.
         let float = |x| Angle::Radians(Rational::from_float(x).unwrap());
         let cases = [
+            (
+                float(1e22),
+                "-0.8522008497671888017727058937530293682617621504100436562565093260259103",
+                "0.5232147853951389454975944733847094921409199724393879535272113921042982",
+            ),
             (
                 float(1e8),
                 "0.9316390271097260080275166536120429704729018385275364343082838951377085",
@@ -330,15 +335,6 @@ mod tests {
     }
 
     #[test]
-    fn quotients_are_as_exact() {
-        let (seven, third) = (ratio(7, 1), ratio(1, 3));
-        let off = seven.div(&third).sub(&ratio(21, 1)).magnitude();
-        assert!(off < 1e-74, "{off:e}");
-        assert_eq!(ratio(-6, 1).div(&ratio(4, 1)), ratio(-3, 2));
-        assert_eq!(seven.div(&Wide::zero()), Wide::zero());
-    }
-
-    #[test]
     fn magnitudes_are_rounded_up() {
         assert_eq!(ratio(3, 4).neg().magnitude(), 0.75);
         assert!(ratio(1, 3).magnitude() > 1.0 / 3.0);
@@ -351,18 +347,8 @@ mod tests {
         assert_eq!(Wide::from_f64(f64::NAN), None);
     }
 
-    #[test]
-    fn what_is_far_smaller_is_nothing_beside_it() {
-        let (one, tiny) = (Wide::one(), Wide::from_f64(1e-300).unwrap());
-        assert_eq!(one.add(&tiny), one);
-        assert_eq!(one.sub(&one), Wide::zero());
-        assert_eq!(tiny.sub(&Wide::zero()), tiny);
-        assert_eq!(Wide::zero().sub(&tiny), tiny.neg());
-        assert_eq!(one.half().add(&one.half()).sub(&one), Wide::zero());
-    }
-
-    /// Every operation, on numbers near each other and far apart, with few bits and
-    /// with many, is within 2⁻²⁵⁵ of what the rationals say.
+    /// Every operation, on zeros, on numbers near each other and far apart, with few bits
+    /// and with many, is within 2⁻²⁵⁵ of what the rationals say; a quotient by zero is zero.
     #[test]
     fn operations_are_those_of_rationals() {
         let mut points = Points::new(1);
@@ -381,11 +367,18 @@ mod tests {
         for _ in 0..20_000 {
             let (a, b) = (number(), number());
             let (x, y) = (a.to_rational(), b.to_rational());
+            let quotient = match b.is_zero() {
+                true => y.clone(),
+                false => &x / &y,
+            };
             let cases = [
                 (a.add(&b), &x + &y),
                 (a.sub(&b), &x - &y),
+                (a.sub(&a), &x - &x),
+                (a.half(), &x / Rational::from_integer(2.into())),
                 (a.sub(&a.add(&b)), &x - a.add(&b).to_rational()),
                 (a.mul(&b), &x * &y),
+                (a.div(&b), quotient),
             ];
             for (found, exact) in cases {
                 let off = (found.to_rational() - &exact).abs();
