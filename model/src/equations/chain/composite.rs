@@ -33,6 +33,13 @@ pub struct Composite<'a, S> {
     twists: Vec<Vec<Twist<S>>>,
 }
 
+/// What turning and driving a joint does to its composite body, about the origin and in the
+/// axes of a frame.
+pub(super) struct Acting<S, const WRENCHES: usize, const VECTORS: usize> {
+    pub(super) wrenches: [Wrench<S>; WRENCHES],
+    pub(super) vectors: [Vector<S>; VECTORS],
+}
+
 impl<'a, S: Scalar> Composite<'a, S> {
     /// Composes the bodies from the hand inward.
     pub fn new(chain: &'a Chain<S>, at: &'a [Displacement<S>]) -> Self {
@@ -266,6 +273,40 @@ impl<'a, S: Scalar> Composite<'a, S> {
         for (i, row) in matrix.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
                 *entry = self.in_metres(i, self.in_metres(j, entry.clone()));
+            }
+        }
+    }
+
+    /// Enters every pair of joints i ≤ k, by twists of i, the first of which is its own, and what
+    /// k does, both seen from one frame: what k does comes in to i, or twists of i go out to k.
+    pub(super) fn each_pair<const TWISTS: usize, const WRENCHES: usize, const VECTORS: usize>(
+        &self,
+        travel: CompositeOrder,
+        earlier: &[[Twist<S>; TWISTS]],
+        later: Vec<Acting<S, WRENCHES, VECTORS>>,
+        mut enter: impl FnMut([usize; 2], &[Twist<S>; TWISTS], &Acting<S, WRENCHES, VECTORS>),
+    ) {
+        let (chain, at) = (self.chain, self.at);
+        for (k, mut own) in later.into_iter().enumerate() {
+            enter([k, k], &earlier[k], &own);
+            match travel {
+                CompositeOrder::Inward => {
+                    for i in (0..k).rev() {
+                        let (link, turn) = (&chain.links[i + 1], &at[i + 1]);
+                        own.wrenches = (own.wrenches).map(|own| chain.to_previous(i + 1, at, &own));
+                        own.vectors = own.vectors.map(|own| link.outward(turn, &own));
+                        enter([i, k], &earlier[i], &own);
+                    }
+                }
+                CompositeOrder::Outward => {
+                    for (i, twists) in earlier.iter().enumerate().take(k) {
+                        let seen = core::array::from_fn(|place| match place {
+                            0 => self.twist(i, k),
+                            _ => self.twist_outward(&twists[place], i, k),
+                        });
+                        enter([i, k], &seen, &own);
+                    }
+                }
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::composite::{Composite, CompositeOrder};
+use super::composite::{Acting, Composite, CompositeOrder};
 use super::recursion::{AccelerationForm, MomentForm, Motion};
 use super::{Body, ChainLink, Displacement, Rotation};
 use crate::equations::matrix::{
@@ -57,14 +57,28 @@ impl<S: Scalar> Composite<'_, S> {
             position: blank(),
             velocity: blank(),
         };
-        for (i, joint) in joints.iter().enumerate() {
-            slopes.position[i][i] = joint.position.0.clone();
-            slopes.velocity[i][i] = joint.velocity.0.clone();
-            match travel {
-                CompositeOrder::Inward => self.inward_slopes(i, &joints, &mut slopes),
-                CompositeOrder::Outward => self.outward_slopes(i, &joints, &mut slopes),
+        let twists = joints.iter().enumerate().map(|(i, joint)| {
+            let [first, second] = joint.drift.clone();
+            [self.twist(i, i), first, second]
+        });
+        let acting = joints.iter().map(|joint| Acting {
+            wrenches: [&joint.position.1, &joint.velocity.1, &joint.push].map(Wrench::clone),
+            vectors: [joint.swing.clone()],
+        });
+        let (earlier, later) = (twists.collect::<Vec<_>>(), acting.collect::<Vec<_>>());
+        self.each_pair(travel, &earlier, later, |[j, i], twists, own| {
+            if j == i {
+                slopes.position[i][i] = joints[i].position.0.clone();
+                slopes.velocity[i][i] = joints[i].velocity.0.clone();
+                return;
             }
-        }
+            let [twist, first, second] = twists;
+            let ([position, velocity, push], [swing]) = (&own.wrenches, &own.vectors);
+            slopes.position[j][i] = position.along(twist);
+            slopes.velocity[j][i] = velocity.along(twist);
+            slopes.position[i][j] = plus(&dot(swing, &first.turn), &push.along(second));
+            slopes.velocity[i][j] = plus(&dot(swing, &twist.turn), &twice(&push.along(first)));
+        });
         for matrix in [&mut slopes.position, &mut slopes.velocity] {
             self.matrix_in_metres(matrix);
         }
@@ -72,41 +86,6 @@ impl<S: Scalar> Composite<'_, S> {
             slopes.velocity[i][i] = plus(&slopes.velocity[i][i], &link.friction.slope());
         }
         slopes
-    }
-
-    /// Wrenches of joint i come in to the joints before it.
-    fn inward_slopes(&self, i: usize, joints: &[Joint<S>], slopes: &mut Slopes<S>) {
-        let own = &joints[i];
-        let mut wrenches = [&own.position.1, &own.velocity.1, &own.push].map(Wrench::clone);
-        let mut swing = own.swing.clone();
-        for j in (0..i).rev() {
-            wrenches = wrenches.map(|wrench| self.chain.to_previous(j + 1, self.at, &wrench));
-            swing = self.chain.links[j + 1].outward(&self.at[j + 1], &swing);
-            let [position, velocity, push] = &wrenches;
-            let [first, second] = &joints[j].drift;
-            let twist = self.twist(j, j);
-            slopes.position[j][i] = position.along(&twist);
-            slopes.velocity[j][i] = velocity.along(&twist);
-            slopes.position[i][j] = plus(&dot(&swing, &first.turn), &push.along(second));
-            slopes.velocity[i][j] = plus(&dot(&swing, &twist.turn), &twice(&push.along(first)));
-        }
-    }
-
-    /// Twists of the joints before i, and how they change, go out to frame i.
-    fn outward_slopes(&self, i: usize, joints: &[Joint<S>], slopes: &mut Slopes<S>) {
-        let own = &joints[i];
-        for (j, joint) in joints.iter().enumerate().take(i) {
-            let twist = self.twist(j, i);
-            let drift = joint.drift.each_ref();
-            let [first, second] = drift.map(|drift| self.twist_outward(drift, j, i));
-            slopes.position[j][i] = own.position.1.along(&twist);
-            slopes.velocity[j][i] = own.velocity.1.along(&twist);
-            slopes.position[i][j] = plus(&dot(&own.swing, &first.turn), &own.push.along(&second));
-            slopes.velocity[i][j] = plus(
-                &dot(&own.swing, &twist.turn),
-                &twice(&own.push.along(&first)),
-            );
-        }
     }
 
     /// Returns what each joint contributes by itself, from the hand inward.

@@ -4,11 +4,11 @@
 use alloc::vec::Vec;
 
 use super::Body;
-use super::composite::{Composite, CompositeOrder};
+use super::composite::{Acting, Composite, CompositeOrder};
 use super::derivatives::{Flow, Joint, inertial, rate};
 use crate::equations::matrix::{Vector, cross, difference, dot, plus, sum, times, twice};
 use crate::equations::matrix::{opposite, zero_vector};
-use crate::equations::screws::{Twist, Wrench};
+use crate::equations::screws::Twist;
 use crate::scalar::Scalar;
 
 /// Second derivatives of a number, n×n each.
@@ -24,33 +24,13 @@ pub struct SecondDerivatives<S> {
     pub driven: Vec<Vec<S>>,
 }
 
-/// The twists of a joint that wrenches of later joints have power on.
-struct Earlier<S> {
-    /// Δ
-    own: Twist<S>,
-    /// Δ′
-    virtually: Twist<S>,
-    /// Δ̇
-    first: Twist<S>,
-    /// Δ̈
-    second: Twist<S>,
-}
+/// Δ, Δ′, Δ̇ and Δ̈ of a joint: the twists that wrenches of later joints have power on.
+type Earlier<S> = [Twist<S>; 4];
 
-/// What turning and driving a joint changes of its composite body.
-struct Later<S> {
-    /// Of the force ∫ a dm.
-    force: Wrench<S>,
-    /// Of the momentum ∫ ℓ dm of Λ.
-    momentum: Wrench<S>,
-    /// Of the force as its velocity grows.
-    damping: Wrench<S>,
-    /// The same as its acceleration grows.
-    push: Wrench<S>,
-    /// Of 2 ∫ v × ℓ dm.
-    couple: Vector<S>,
-    /// Of the same as its velocity grows.
-    swing: Vector<S>,
-}
+/// What turning and driving a joint changes of its composite body: of the force ∫ a dm, of the
+/// momentum ∫ ℓ dm of Λ, of the force as the joint's velocity grows and as its acceleration does;
+/// of 2 ∫ v × ℓ dm, and of the same as its velocity grows.
+type Later<S> = Acting<S, 4, 2>;
 
 impl<S: Scalar> Composite<'_, S> {
     /// Returns the second derivatives of λᵀτ; `driven` is ∂(D λ)/∂q, row i that of entry i.
@@ -68,23 +48,9 @@ impl<S: Scalar> Composite<'_, S> {
             velocity: blank(),
             driven: blank(),
         };
-        for (k, own) in later.into_iter().enumerate() {
-            all.enter(k, k, &earlier[k], &own);
-            match travel {
-                CompositeOrder::Inward => {
-                    let mut wrenches = own;
-                    for i in (0..k).rev() {
-                        wrenches = self.carried_inward(i + 1, &wrenches);
-                        all.enter(i, k, &earlier[i], &wrenches);
-                    }
-                }
-                CompositeOrder::Outward => {
-                    for (i, twists) in earlier.iter().enumerate().take(k) {
-                        all.enter(i, k, &self.carried_outward(twists, i, k), &own);
-                    }
-                }
-            }
-        }
+        self.each_pair(travel, &earlier, later, |joints, earlier, later| {
+            all.enter(joints, earlier, later);
+        });
         let matrices = [&mut all.position, &mut all.mixed, &mut all.velocity];
         for matrix in matrices.into_iter().chain([&mut all.driven]) {
             self.matrix_in_metres(matrix);
@@ -109,12 +75,8 @@ impl<S: Scalar> Composite<'_, S> {
             flow = flow.with(&Flow::of(&link.body, displacement));
             let own = crossed(&link.body, &velocities[i], displacement);
             couple = sum(&couple, &own);
-            let twists = Earlier {
-                own: self.twist(i, i),
-                virtually: rate(link, displacement),
-                first: joint.drift[0].clone(),
-                second: joint.drift[1].clone(),
-            };
+            let [first, second] = joint.drift.clone();
+            let twists = [self.twist(i, i), rate(link, displacement), first, second];
             let swing = opposite(&flow.swing(link));
             let wrenches = later(&self.bodies[i], joint, &twists, &flow, &couple, swing);
             pairs.push((twists, wrenches));
@@ -123,58 +85,26 @@ impl<S: Scalar> Composite<'_, S> {
         }
         pairs.into_iter().rev().unzip()
     }
-
-    fn carried_inward(&self, m: usize, own: &Later<S>) -> Later<S> {
-        let wrench = |wrench| self.chain.to_previous(m, self.at, wrench);
-        let turned = |vector| self.chain.links[m].outward(&self.at[m], vector);
-        Later {
-            force: wrench(&own.force),
-            momentum: wrench(&own.momentum),
-            damping: wrench(&own.damping),
-            push: wrench(&own.push),
-            couple: turned(&own.couple),
-            swing: turned(&own.swing),
-        }
-    }
-
-    fn carried_outward(&self, own: &Earlier<S>, from: usize, to: usize) -> Earlier<S> {
-        let out = |twist| self.twist_outward(twist, from, to);
-        Earlier {
-            own: self.twist(from, to),
-            virtually: out(&own.virtually),
-            first: out(&own.first),
-            second: out(&own.second),
-        }
-    }
 }
 
 impl<S: Scalar> SecondDerivatives<S> {
     /// Enters what joints i ≤ k have together, seen from one frame.
-    fn enter(&mut self, i: usize, k: usize, earlier: &Earlier<S>, later: &Later<S>) {
-        let Earlier {
-            own,
-            virtually,
-            first,
-            second,
-        } = earlier;
-        let powers = plus(&later.force.along(virtually), &later.momentum.along(second));
-        let position = plus(&powers, &dot(&later.couple, &first.turn));
+    fn enter(&mut self, [i, k]: [usize; 2], earlier: &Earlier<S>, later: &Later<S>) {
+        let [own, virtually, first, second] = earlier;
+        let [force, momentum, damping, push] = &later.wrenches;
+        let [couple, swing] = &later.vectors;
+        let powers = plus(&force.along(virtually), &momentum.along(second));
+        let position = plus(&powers, &dot(couple, &first.turn));
         self.position[i][k] = position.clone();
         self.position[k][i] = position;
-        let velocity = dot(&later.swing, &own.turn);
+        let velocity = dot(swing, &own.turn);
         self.velocity[i][k] = velocity.clone();
         self.velocity[k][i] = velocity;
-        self.mixed[i][k] = plus(
-            &later.damping.along(virtually),
-            &dot(&later.swing, &first.turn),
-        );
-        self.driven[k][i] = later.push.along(virtually);
+        self.mixed[i][k] = plus(&damping.along(virtually), &dot(swing, &first.turn));
+        self.driven[k][i] = push.along(virtually);
         // Of a joint by itself both ways give the same.
-        self.mixed[k][i] = plus(
-            &twice(&later.momentum.along(first)),
-            &dot(&later.couple, &own.turn),
-        );
-        self.driven[i][k] = later.momentum.along(own);
+        self.mixed[k][i] = plus(&twice(&momentum.along(first)), &dot(couple, &own.turn));
+        self.driven[i][k] = momentum.along(own);
     }
 }
 
@@ -182,24 +112,22 @@ impl<S: Scalar> SecondDerivatives<S> {
 fn later<S: Scalar>(
     body: &Body<S>,
     joint: &Joint<S>,
-    twists: &Earlier<S>,
+    [own, virtually, first, _]: &Earlier<S>,
     flow: &Flow<S>,
     couple: &Vector<S>,
     swing: Vector<S>,
 ) -> Later<S> {
-    let turned = flow.wrench().turned(&twists.own);
-    let within = difference(
-        &joint.flow.across(&twists.virtually),
-        &flow.across(&twists.first),
-    );
-    let changed = sum(&cross(&twists.own.turn, couple), &within);
-    Later {
-        force: joint.position.1.clone(),
-        momentum: turned.with(&inertial(body, &twists.virtually)),
-        damping: joint.velocity.1.clone(),
-        push: joint.push.clone(),
-        couple: changed.each_ref().map(twice),
-        swing,
+    let turned = flow.wrench().turned(own);
+    let within = difference(&joint.flow.across(virtually), &flow.across(first));
+    let changed = sum(&cross(&own.turn, couple), &within);
+    Acting {
+        wrenches: [
+            joint.position.1.clone(),
+            turned.with(&inertial(body, virtually)),
+            joint.velocity.1.clone(),
+            joint.push.clone(),
+        ],
+        vectors: [changed.each_ref().map(twice), swing],
     }
 }
 
