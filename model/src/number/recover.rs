@@ -15,9 +15,6 @@ use num_traits::{One, Signed, Zero};
 use super::{Angle, Rational, Rounded, Wide};
 use crate::scalar::Scalar;
 
-/// A value closer than 2^−`NEAR` to a number, in units of the size of what it
-/// was computed from, is that number.
-const NEAR: u32 = 200;
 /// The most bits of the denominator of a fraction that was meant.
 const SIMPLE: u64 = 90;
 /// The digits that everything else is rounded to.
@@ -26,7 +23,7 @@ const DIGITS: i64 = 20;
 /// Returns 2⁻²⁰⁰: what is closer to a number than this, in units of the size of what it was
 /// computed from, is that number.
 pub fn near() -> Rational {
-    Rational::new(BigInt::one(), BigInt::one() << NEAR)
+    Rational::new(BigInt::one(), BigInt::one() << 200u32)
 }
 
 /// Returns the fraction that a number computed from others of this size was meant to
