@@ -23,11 +23,11 @@ use crate::scalar::SinCosPair;
 
 /// An exact constant.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Exact(Form);
+pub struct Exact(pub(super) Form);
 
 /// Canonical: `Polynomial` only where a generator occurs, no zero coefficient.
 #[derive(Clone, Debug, Eq)]
-enum Form {
+pub(super) enum Form {
     Rational(Arc<Rational>),
     Polynomial(Arc<BTreeMap<Monomial, Rational>>),
 }
@@ -237,14 +237,6 @@ impl Exact {
                 }
                 Some(sum)
             }
-        }
-    }
-
-    /// Returns the polynomial's terms, for evaluation with an error bound.
-    pub(super) fn polynomial(&self) -> Option<&BTreeMap<Monomial, Rational>> {
-        match &self.0 {
-            Form::Rational(_) => None,
-            Form::Polynomial(terms) => Some(terms),
         }
     }
 

@@ -4,7 +4,7 @@ use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
-use super::exact::Monomial;
+use super::exact::{Form, Monomial};
 use super::small::nearest_double;
 use super::trig::{SLACK, sin_cos};
 use super::{Exact, Rational};
@@ -22,11 +22,9 @@ pub trait Rounded: Copy + PartialEq {
     fn from_exact_f64(value: f64) -> Self;
     /// Returns the nearest value of an exact constant; an infinity beyond the range.
     fn nearest(value: &Exact) -> Self {
-        match value.polynomial() {
-            None => value
-                .as_rational()
-                .map_or(Self::from_exact_f64(0.0), Self::nearest_rational),
-            Some(terms) => round_polynomial(terms),
+        match &value.0 {
+            Form::Rational(value) => Self::nearest_rational(value),
+            Form::Polynomial(terms) => round_polynomial(terms),
         }
     }
     /// Returns the nearest value of a rational; an infinity beyond the range.

@@ -6,7 +6,7 @@ use alloc::sync::Arc;
 use core::fmt;
 use core::str::FromStr;
 
-use super::exact::{Monomial, Power};
+use super::exact::{Form, Monomial, Power};
 use num_traits::Zero;
 
 use super::{Angle, Exact, Rational};
@@ -14,11 +14,9 @@ use super::{Angle, Exact, Rational};
 impl fmt::Display for Exact {
     /// Writes it without blanks; angles are in radians, or multiples of `pi`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Some(terms) = self.polynomial() else {
-            return match self.as_rational() {
-                Some(value) => write!(f, "{value}"),
-                None => Ok(()),
-            };
+        let terms = match &self.0 {
+            Form::Rational(value) => return write!(f, "{value}"),
+            Form::Polynomial(terms) => terms,
         };
         for (index, (monomial, coefficient)) in terms.iter().enumerate() {
             if index > 0 {
