@@ -96,28 +96,11 @@ pub struct DhVariables<S> {
 
 impl<S: Scalar> Arm<S> {
     /// Returns θ_i and d_i of every row at a position.
-    ///
-    /// The offset enters as a product of pairs, never as a sum of angles:
-    /// q + offset would lose |q|·u, or |offset|·u, of the angle.
     pub fn at(&self, position: &[JointPosition<S>]) -> Vec<DhVariables<S>> {
-        self.links
-            .iter()
-            .zip(position)
-            .map(|(link, q)| match q {
-                JointPosition::Revolute(pair) => DhVariables {
-                    theta: pair.compose(&link.theta),
-                    d: link.d.clone(),
-                },
-                JointPosition::Prismatic(q) => DhVariables {
-                    theta: link.theta.clone(),
-                    d: plus(q, &link.d),
-                },
-            })
-            .collect()
+        let links = self.links.iter().zip(position);
+        links.map(|(link, q)| link.at(q)).collect()
     }
-}
 
-impl<S: Scalar> Arm<S> {
     /// Returns the pose of frame 0 in base axes.
     pub(super) fn frame_0(&self) -> Columns<S> {
         self.base.clone().unwrap_or_else(Columns::identity)
@@ -185,6 +168,18 @@ impl<S: Clone> Arm<S> {
 }
 
 impl<S: Scalar> Link<S> {
+    /// Returns θ_i and d_i at a position.
+    ///
+    /// The offset enters as a product of pairs, never as a sum of angles:
+    /// q + offset would lose |q|·u, or |offset|·u, of the angle.
+    pub(super) fn at(&self, position: &JointPosition<S>) -> DhVariables<S> {
+        let (theta, d) = match position {
+            JointPosition::Revolute(pair) => (pair.compose(&self.theta), self.d.clone()),
+            JointPosition::Prismatic(q) => (self.theta.clone(), plus(q, &self.d)),
+        };
+        DhVariables { theta, d }
+    }
+
     /// Returns a link without mass on a slide whose frame, at position zero, is the one
     /// before.
     pub fn still() -> Link<S> {

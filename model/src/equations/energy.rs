@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 
 use super::dalembert::{Dalembert, Part};
+use super::derivatives::constants;
 use super::matrix::{
     Columns, Vector, columns_of, dot, halved, minus, negative, plus, product, products, scaled,
     sum, zero_vector, zeros,
@@ -41,8 +42,7 @@ impl Formulation {
         }
         let h = self.velocity_terms(arm, at, qd);
         let (arm_moving, at_moving) = moving(arm, at, qd);
-        let rates: Vec<Dual<S>> = qd.iter().cloned().map(Dual::constant).collect();
-        let p = self.momentum(&arm_moving, &at_moving, &rates);
+        let p = self.momentum(&arm_moving, &at_moving, &constants(qd));
         p.iter().zip(&h).map(|(p, h)| minus(&p.rate, h)).collect()
     }
 

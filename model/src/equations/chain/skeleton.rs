@@ -7,9 +7,9 @@ use super::pose::sense;
 use super::probe::{Column, Probe, probes};
 use super::{Body, ChainLink, Rotation, apply, product, turn};
 use crate::equations::matrix::{
-    ABOUT_X, ABOUT_Y, ABOUT_Z, Vector, identity, plus, sum, unit_z, zero_vector,
+    ABOUT_X, ABOUT_Y, ABOUT_Z, Vector, identity, sum, unit_z, zero_vector,
 };
-use crate::equations::{Arm, JointPosition, SinCosPair};
+use crate::equations::{Arm, DhVariables, JointPosition, SinCosPair};
 use crate::robot::{Convention, JointKind};
 use crate::scalar::Scalar;
 
@@ -73,10 +73,7 @@ impl<S: Scalar> Skeleton<S> {
             };
             let body = Body::of(link);
             if let Some(Some(lock)) = locks.get(joint) {
-                let (theta, d) = match lock {
-                    JointPosition::Revolute(pair) => (pair.compose(&link.theta), link.d.clone()),
-                    JointPosition::Prismatic(q) => (link.theta.clone(), plus(q, &link.d)),
-                };
+                let DhVariables { theta, d } = link.at(lock);
                 moved = sum(&moved, &apply(&turned, &[S::zero(), S::zero(), d]));
                 turned = product(&turned, &turn(&theta, ABOUT_Z));
                 moved = sum(&moved, &apply(&turned, &reach));
