@@ -10,6 +10,7 @@
 
 use alloc::vec::Vec;
 
+use super::kinematics::{at_lever, hand_of};
 use super::matrix::{Columns, Vector, cross, difference, scaled, sum, zero_vector};
 use super::{Arm, DhVariables, SinCosPair};
 use crate::robot::{Convention, JointKind};
@@ -56,16 +57,9 @@ fn levers<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> (Vector<S>, Vec<[Ve
 /// Returns the hand's pose in base axes.
 pub(super) fn hand<S: Scalar>(arm: &Arm<S>, at: &[DhVariables<S>]) -> Columns<S> {
     let frames = frames(arm, at);
-    let mut hand = frames[at.len()].clone();
-    if let Some(tool) = &arm.tool {
-        hand = hand.then(tool);
-    }
+    let hand = hand_of(arm, &frames);
     let lever = frames[0].rotate(&levers(arm, at).0);
-    hand.origin = match &arm.base {
-        None => lever,
-        Some(base) => sum(&base.origin, &lever),
-    };
-    hand
+    at_lever(arm, hand, lever)
 }
 
 /// Returns the columns of J in base axes at the hand, linear and angular.

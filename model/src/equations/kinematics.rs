@@ -52,12 +52,21 @@ fn poses_from<S: Scalar>(
 }
 
 /// Returns the pose of the hand, from those of the links.
-fn hand_of<S: Scalar>(arm: &Arm<S>, poses: &[Columns<S>]) -> Columns<S> {
+pub(super) fn hand_of<S: Scalar>(arm: &Arm<S>, poses: &[Columns<S>]) -> Columns<S> {
     let last = poses.last().cloned().unwrap_or_else(|| arm.frame_0());
     match &arm.tool {
         None => last,
         Some(tool) => last.then(tool),
     }
+}
+
+/// Returns a hand at the end of this lever from the origin of frame 0, in base axes.
+pub(super) fn at_lever<S: Scalar>(arm: &Arm<S>, hand: Columns<S>, lever: Vector<S>) -> Columns<S> {
+    let origin = match &arm.base {
+        None => lever,
+        Some(base) => sum(&base.origin, &lever),
+    };
+    Columns { origin, ..hand }
 }
 
 impl Formulation {
@@ -388,10 +397,7 @@ fn hand_by_levers<S: Scalar>(
     at: &[DhVariables<S>],
     levers: &[Columns<S>],
 ) -> Columns<S> {
-    let mut hand = levers.last().cloned().unwrap_or_else(|| arm.frame_0());
-    if let Some(tool) = &arm.tool {
-        hand = hand.then(tool);
-    }
+    let mut hand = hand_of(arm, levers);
     let outer = at.len().saturating_sub(2);
     if let Some(frame) = levers.get(outer) {
         let [mut x, ..] = arm.in_last_frame().axes;
@@ -404,11 +410,7 @@ fn hand_by_levers<S: Scalar>(
     let whole = levers
         .first()
         .map_or_else(zero_vector, |first| first.origin.clone());
-    hand.origin = match &arm.base {
-        None => whole,
-        Some(base) => sum(&base.origin, &whole),
-    };
-    hand
+    at_lever(arm, hand, whole)
 }
 
 /// Returns ∫ (r̈ − g) dm and ∫ r × (r̈ − g) dm of link i: from Ä J Aᵀ, whose last
