@@ -96,8 +96,7 @@ impl<'a> Task<'a> {
             motion.loading = Some(setup.loading(input, constant));
         } else if setup.takes(function, RuntimeParameter::Payload) {
             let frame = setup.payload_frame(constant);
-            let link = carried(&payload(input), frame.as_ref());
-            arm = arm.with_link(link);
+            arm.links.push(carried(&payload(input), frame.as_ref()));
             motion = motion.with_still_link();
             rows.push(rows.len());
         }

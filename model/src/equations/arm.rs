@@ -129,27 +129,11 @@ impl<S: Scalar> Arm<S> {
         }
     }
 
-    /// Returns the same arm with a link behind the last one.
-    #[must_use]
-    pub fn with_link(mut self, link: Link<S>) -> Arm<S> {
-        self.links.push(link);
-        self
-    }
-
     /// Returns the same arm without friction.
     #[must_use]
     pub fn without_friction(mut self) -> Arm<S> {
         for link in &mut self.links {
             link.friction = Friction::none();
-        }
-        self
-    }
-
-    /// Returns the same arm without Coulomb friction.
-    #[must_use]
-    pub fn without_coulomb(mut self) -> Arm<S> {
-        for link in &mut self.links {
-            link.friction.coulomb = None;
         }
         self
     }

@@ -127,8 +127,10 @@ impl Formulation {
         let n = at.len();
         let rubbed = rubbed(arm, qd);
         let run = |rates: &[S], growth: &[S]| {
-            let (arm, at) = moving(arm, at, rates);
-            let arm = arm.without_coulomb();
+            let (mut arm, at) = moving(arm, at, rates);
+            for link in &mut arm.links {
+                link.friction.coulomb = None;
+            }
             let grown = with_rates(qd, growth);
             // Coulomb friction takes of the torques what it takes, and by its own slope.
             let left = tau.iter().zip(&rubbed).zip(growth);
