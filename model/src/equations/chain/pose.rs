@@ -20,26 +20,30 @@ pub enum Displacement<S> {
 }
 
 /// A link's place among links that turn about parallel axes.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy)]
 struct FramePlacement {
-    /// The first link of the group and the last that turns.
-    group: [usize; 2],
-    /// True if the axis points against that of the first.
-    opposite: bool,
-    /// The group's revolute links up to and with this one.
+    /// Which of the groups it is in.
+    group: usize,
+    /// The group's links up to and with this one.
     index: usize,
-    /// The number of revolute links of the group.
-    count: usize,
 }
 
 impl<S: Scalar> Chain<S> {
     /// Returns by how many joints the frame of each link may turn less, and more, than its link.
     pub fn freedoms(&self) -> Vec<[i32; 2]> {
-        let bounds = |(i, place): (usize, &Option<FramePlacement>)| match place {
-            Some(place) => self.bounds(i, place),
-            None => [0, 0],
-        };
-        self.places().iter().enumerate().map(bounds).collect()
+        let groups = self.parallel();
+        let mut freedoms = vec![[0, 0]; self.links.len()];
+        for (g, group) in groups.iter().enumerate() {
+            // The last link that turns needs all turns if another group follows.
+            let is_followed = g + 1 < groups.len();
+            let free = group.len() - usize::from(is_followed);
+            let free = group[..free].iter().enumerate();
+            for (before, &(i, _)) in free.filter(|(_, (i, _))| !self.links[*i].spins_freely) {
+                let index = before + 1;
+                freedoms[i] = [-(index as i32), (group.len() - index) as i32];
+            }
+        }
+        freedoms
     }
 
     /// Returns the links that turn about parallel axes, group by group, and whether
@@ -59,37 +63,17 @@ impl<S: Scalar> Chain<S> {
         groups
     }
 
-    fn bounds(&self, i: usize, place: &FramePlacement) -> [i32; 2] {
-        let [_, last] = place.group;
-        let followed = self.links[last + 1..]
-            .iter()
-            .any(|link| link.kind == JointKind::Revolute);
-        if self.links[i].spins_freely || (followed && i == last) {
-            return [0, 0];
-        }
-        [-(place.index as i32), (place.count - place.index) as i32]
-    }
-
-    fn places(&self) -> Vec<Option<FramePlacement>> {
-        let mut places = vec![None; self.links.len()];
-        for group in self.parallel() {
-            let count = group.len();
-            for (before, &(i, opposite)) in group.iter().enumerate() {
-                places[i] = Some(FramePlacement {
-                    group: [group[0].0, group[count - 1].0],
-                    opposite,
-                    index: before + 1,
-                    count,
-                });
-            }
-        }
-        places
-    }
-
     /// Returns the chain at a position, every constant in the axes in which its link
     /// is seen, and how those turn: θ_i as pairs, and slides in its unit.
     pub fn posed(&self, position: &[JointPosition<S>]) -> (Chain<S>, Vec<Displacement<S>>) {
-        let places = self.places();
+        let (groups, freedoms) = (self.parallel(), self.freedoms());
+        let mut places = vec![None; self.links.len()];
+        for (group, links) in groups.iter().enumerate() {
+            for (before, &(i, _)) in links.iter().enumerate() {
+                let index = before + 1;
+                places[i] = Some(FramePlacement { group, index });
+            }
+        }
         let angles: Vec<Option<SinCosPair<S>>> = self
             .links
             .iter()
@@ -100,47 +84,41 @@ impl<S: Scalar> Chain<S> {
                 JointPosition::Prismatic(_) => None,
             })
             .collect();
-        // θ_a + … + θ_b about the axis of link a, of the group's links only.
-        let sum = |from: usize, to: usize, place: &FramePlacement| {
-            let members = (place.group[0]..=place.group[1]).filter_map(|j| {
-                let member = places[j].as_ref()?;
-                (member.index > from && member.index <= to).then_some((j, member))
-            });
-            members.fold(None, |sum: Option<SinCosPair<S>>, (j, member)| {
-                let angle = angles[j].clone()?;
-                let angle = match member.opposite {
-                    true => angle.reversed(),
-                    false => angle,
-                };
-                Some(match sum {
-                    Some(sum) => sum.compose(&angle),
-                    None => angle,
+        // The sum of their angles, about the axis of the first link of their group.
+        let sum = |links: &[(usize, bool)]| {
+            links
+                .iter()
+                .fold(None, |sum: Option<SinCosPair<S>>, &(j, opposite)| {
+                    let angle = angles[j].clone()?;
+                    let angle = match opposite {
+                        true => angle.reversed(),
+                        false => angle,
+                    };
+                    Some(match sum {
+                        Some(sum) => sum.compose(&angle),
+                        None => angle,
+                    })
                 })
-            })
         };
         // The turn from joint `from` to joint `to` of the group, about the
         // axis of the place.
-        let between = |from: usize, to: usize, place: &FramePlacement| {
+        let between = |from: usize, to: usize, place: FramePlacement| {
+            let links = &groups[place.group];
             let turn = match from <= to {
-                true => sum(from, to, place),
-                false => sum(to, from, place).map(|turn| turn.reversed()),
+                true => sum(&links[from..to]),
+                false => sum(&links[to..from]).map(|turn| turn.reversed()),
             };
-            turn.map(|turn| {
-                if place.opposite {
-                    turn.reversed()
-                } else {
-                    turn
-                }
-            })
+            let (_, opposite) = links[place.index - 1];
+            turn.map(|turn| if opposite { turn.reversed() } else { turn })
         };
         let mut chain = self.clone();
         let mut at = Vec::with_capacity(position.len());
         // Which turn of the group the frame before has made; its own.
         let mut before: Option<(usize, FramePlacement)> = None;
-        for (i, (q, place)) in position.iter().zip(&places).enumerate() {
+        for (i, (q, place)) in position.iter().zip(places).enumerate() {
             let link = &mut chain.links[i];
-            if let Some((seen, own)) = &before
-                && let Some(turn) = between(*seen, own.index, own)
+            if let Some((seen, own)) = before
+                && let Some(turn) = between(seen, own.index, own)
             {
                 link.offset = turn.turn_in(ABOUT_Z, link.offset.clone());
                 if link.kind == JointKind::Prismatic {
@@ -156,19 +134,19 @@ impl<S: Scalar> Chain<S> {
                 (JointPosition::Revolute(_), Some(place)) => place,
                 (JointPosition::Revolute(_), None) => continue,
             };
-            let [less, more] = self.bounds(i, place);
+            let [less, more] = freedoms[i];
             let seen = (place.index as i32 + link.axes.clamp(less, more)) as usize;
             if let Some(turn) = between(seen, place.index, place) {
                 link.turn_bodies(&turn);
             }
-            let from = match &before {
-                Some((seen, own)) if own.group == place.group => *seen,
+            let from = match before {
+                Some((seen, own)) if own.group == place.group => seen,
                 _ => 0,
             };
             at.push(Displacement::Turn(
                 between(from, seen, place).unwrap_or_else(SinCosPair::straight),
             ));
-            before = Some((seen, place.clone()));
+            before = Some((seen, place));
         }
         (chain, at)
     }
