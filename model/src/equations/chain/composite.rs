@@ -110,7 +110,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
                 CompositeOrder::Inward => self.chain.load(i, &wrench),
                 CompositeOrder::Outward => self.project(i, k, &wrench),
             };
-            let load = self.in_metres(k, load);
+            let load = self.chain.rescaled(k, load);
             column.push(if i == k {
                 plus(&load, &self.chain.links[i].armature)
             } else {
@@ -147,7 +147,7 @@ impl<'a, S: Scalar> Composite<'a, S> {
     fn christoffel_row(&self, k: usize, m: usize) -> Vec<S> {
         let wrench = self.quadratic(m, &self.twist(k, m).turn);
         (0..m)
-            .map(|i| self.in_metres(m, self.project(i, m, &wrench)))
+            .map(|i| self.chain.rescaled(m, self.project(i, m, &wrench)))
             .collect()
     }
 
@@ -256,23 +256,16 @@ impl<'a, S: Scalar> Composite<'a, S> {
 
     /// Returns what joint i feels of a wrench about the origin of frame m.
     pub(super) fn project(&self, i: usize, m: usize, wrench: &Wrench<S>) -> S {
-        self.in_metres(i, wrench.along(&self.twist(i, m)))
-    }
-
-    /// Returns a load or rate of a slide, back from the chain's unit of length.
-    pub(super) fn in_metres(&self, joint: usize, value: S) -> S {
-        match self.chain.links[joint].kind {
-            JointKind::Revolute => value,
-            JointKind::Prismatic => times(&value, &self.chain.per_unit),
-        }
+        self.chain.rescaled(i, wrench.along(&self.twist(i, m)))
     }
 
     /// Converts a matrix over the joints, whose rows and columns both have
     /// a unit.
     pub(super) fn matrix_in_metres(&self, matrix: &mut [Vec<S>]) {
+        let chain = self.chain;
         for (i, row) in matrix.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
-                *entry = self.in_metres(i, self.in_metres(j, entry.clone()));
+                *entry = chain.rescaled(i, chain.rescaled(j, entry.clone()));
             }
         }
     }

@@ -145,16 +145,19 @@ impl<S: Scalar> Chain<S> {
         self
     }
 
-    /// Returns a rate in the chain's unit: slides are scaled.
+    /// Returns a rate of a joint in the chain's unit of length, or a load of it or a slope by it
+    /// back from there: slides are scaled.
+    fn rescaled(&self, joint: usize, value: S) -> S {
+        match self.links[joint].kind {
+            JointKind::Revolute => value,
+            JointKind::Prismatic => times(&value, &self.per_unit),
+        }
+    }
+
+    /// Returns rates in the chain's unit.
     fn rates(&self, rates: &[S]) -> Vec<S> {
-        self.links
-            .iter()
-            .zip(rates)
-            .map(|(link, rate)| match link.kind {
-                JointKind::Revolute => rate.clone(),
-                JointKind::Prismatic => times(rate, &self.per_unit),
-            })
-            .collect()
+        let rates = rates.iter().cloned().take(self.links.len()).enumerate();
+        rates.map(|(i, rate)| self.rescaled(i, rate)).collect()
     }
 }
 

@@ -12,9 +12,8 @@ use super::composite::CompositeOrder;
 use super::probe::Probed;
 use super::recursion::{AccelerationForm, MomentForm, Motion};
 use super::{Chain, Displacement};
-use crate::equations::matrix::{Vector, cross, difference, dot, sum, times, zero_vector, zeros};
+use crate::equations::matrix::{Vector, cross, difference, dot, sum, zero_vector, zeros};
 use crate::equations::screws::Twist;
-use crate::robot::JointKind;
 use crate::scalar::Scalar;
 
 /// A point that several axes pass through.
@@ -99,10 +98,7 @@ impl<S: Scalar> Chain<S> {
                         Some(centre) => dot(&twist.turn, &moments[centre]),
                         None => wrench.along(twist),
                     };
-                    rows[k][probe.column] = match self.links[k].kind {
-                        JointKind::Revolute => power,
-                        JointKind::Prismatic => times(&power, &self.per_unit),
-                    };
+                    rows[k][probe.column] = self.rescaled(k, power);
                 }
             }
         }

@@ -221,7 +221,7 @@ impl<S: Divide> Composite<'_, S> {
                     CompositeOrder::Inward => chain.load(i, &wrench),
                     CompositeOrder::Outward => self.project(i, k, &own),
                 };
-                let load = self.in_metres(k, load);
+                let load = chain.rescaled(k, load);
                 if i == k {
                     row.push(plus(&load, &chain.links[k].armature));
                 } else if moves[i] {
@@ -232,7 +232,7 @@ impl<S: Divide> Composite<'_, S> {
                 }
             }
             let moment = sum(&wrench.moment, &cross(lever, &wrench.force));
-            row.extend(moment.iter().rev().map(|x| self.in_metres(k, x.clone())));
+            row.extend(moment.iter().rev().map(|x| chain.rescaled(k, x.clone())));
             row.reverse();
             lower.push(row);
         }
