@@ -293,10 +293,6 @@ impl<S: Scalar> Chain<S> {
         wrench: &Wrench<S>,
     ) -> Wrench<S> {
         let (link, at) = (&self.links[i], &at[i]);
-        let turned = wrench.in_axes(|v| link.outward(at, v));
-        Wrench {
-            moment: sum(&turned.moment, &cross(&link.lever(at), &turned.force)),
-            force: turned.force,
-        }
+        wrench.carried(|v| link.outward(at, v), &link.lever(at))
     }
 }
