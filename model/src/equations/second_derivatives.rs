@@ -63,9 +63,7 @@ fn by_composites<S: Scalar>(
 }
 
 impl Formulation {
-    /// Returns λᵀτ without friction. Lagrange–Euler takes the sums over joints before those over
-    /// links: Σ_j Tr(A J_j Vᵀ), where A and V are the sums of U_jk q̈_k + U_jkm q̇_k q̇_m, and of
-    /// U_ji λ_i, with what weight gives.
+    /// Returns λᵀτ without friction.
     fn virtual_power<S: Scalar>(
         self,
         arm: &Arm<S>,

@@ -19,6 +19,7 @@ use alloc::vec::Vec;
 use super::matrix::{minus, opposite, over, plus, times, zero_vector};
 use super::screws::{Twist, Wrench};
 use super::{Arm, DhVariables};
+use crate::robot::Convention;
 use crate::scalar::Divide;
 use body::{Articulated, power};
 use step::Step;
@@ -65,7 +66,8 @@ pub fn forward_dynamics<S: Divide>(
         let (step, link) = (&steps[i], &arm.links[i]);
         let (own, own_bias) = Articulated::of(link, &velocities[i]);
         let (whole, whole_bias) = (body.plus(&own), bias.with(&own_bias));
-        let (whole, whole_bias) = step.at_joint(whole, whole_bias);
+        // To the joint's frame, and from there to the one before.
+        let (whole, whole_bias) = step.back_in(Convention::Standard, whole, whole_bias);
         let push = whole.times(&step.along(&S::one()));
         let pivot = plus(step.depends_on(&push), &link.armature);
         let damped = minus(&tau[i], &link.friction.torque(&qd[i]));
@@ -77,7 +79,7 @@ pub fn forward_dynamics<S: Divide>(
         let given = whole.without(&push, &inverse);
         let moved = whole_bias.with(&given.times(&drift));
         let given_bias = moved.with(&push.scaled(&times(&left, &inverse)));
-        (body, bias) = step.before_joint(given, given_bias);
+        (body, bias) = step.back_in(Convention::Modified, given, given_bias);
         joints.push(Joint {
             push,
             rest: left,

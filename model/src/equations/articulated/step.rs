@@ -64,33 +64,18 @@ impl<'a, S: Divide> Step<'a, S> {
         }
     }
 
-    /// Carries it from frame i to the joint's frame.
-    pub(super) fn at_joint(
+    /// Carries it from frame i to frame i−1, in this convention alone: the joint's frame is the
+    /// latter in standard DH, and the former in modified.
+    pub(super) fn back_in(
         &self,
+        convention: Convention,
         body: Articulated<S>,
         bias: Wrench<S>,
     ) -> (Articulated<S>, Wrench<S>) {
-        match self.arm.convention {
-            Convention::Standard => self.back(&body, &bias),
-            Convention::Modified => (body, bias),
+        if self.arm.convention != convention {
+            return (body, bias);
         }
-    }
-
-    /// Carries it from the joint's frame to frame i−1.
-    pub(super) fn before_joint(
-        &self,
-        body: Articulated<S>,
-        bias: Wrench<S>,
-    ) -> (Articulated<S>, Wrench<S>) {
-        match self.arm.convention {
-            Convention::Standard => (body, bias),
-            Convention::Modified => self.back(&body, &bias),
-        }
-    }
-
-    /// Carries it from frame i to frame i−1.
-    fn back(&self, body: &Articulated<S>, bias: &Wrench<S>) -> (Articulated<S>, Wrench<S>) {
-        let turned = |v: &Vector<S>| self.link.to_previous(self.arm.convention, self.at, v);
+        let turned = |v: &Vector<S>| self.link.to_previous(convention, self.at, v);
         let bias = bias.carried(turned, &self.lever);
         (body.carried(turned, &self.lever), bias)
     }
