@@ -70,14 +70,12 @@ impl LinkParameter {
             LinkParameter::Mass => body.mass = S::one(),
             LinkParameter::First(axis) => body.first[axis] = S::one(),
             LinkParameter::Tensor(row, column) => {
-                // Σ = ½ tr(I)·1 − I
-                let half = S::one().half();
-                body.second = Inertia::symmetric(|i, j| match (i == j, row == column) {
-                    (true, true) if i == row => half.neg(),
-                    (true, true) => half.clone(),
-                    (false, false) if (i.min(j), i.max(j)) == (row, column) => S::one().neg(),
-                    _ => S::zero(),
+                let inertia = Inertia::symmetric(|i, k| match (i, k) == (row, column) {
+                    true => S::one(),
+                    false => S::zero(),
                 });
+                let link = Link::still();
+                body = Body::of(&Link { inertia, ..link });
             }
         }
         body
