@@ -59,42 +59,31 @@ pub use runtime::{PayloadDependence, RuntimeParameter};
 pub use shape::{Axis, Shape, Sizes};
 
 registry! {
-    /// τ(q, q̇, q̈): torques and forces, viscous damping included.
     inverse_dynamics: InverseDynamics { torques: Torque }
         "Inverse dynamics: the joint torques (forces) τ = D q̈ + h + c + b∘q̇.", by_default: true;
-    /// c(q): the gravity load.
     gravity: Gravity { torques: Gravity }
         "Gravity load c(q): the torques that hold the arm still.", by_default: true;
-    /// D(q): the inertia matrix.
     inertia: Inertia { torques: Inertia }
         "Inertia matrix D(q), symmetric; armature is on its diagonal.", by_default: true;
-    /// h(q, q̇): the Coriolis and centripetal load.
     coriolis: Coriolis { torques: Coriolis }
         "Coriolis and centripetal load h(q, q̇), damping not included.", by_default: true;
-    /// D, h and c in one function that shares their work.
     manipulator_equation: ManipulatorEquation {}
         "D(q), h(q, q̇) and c(q), with shared work.",
         results: &[Quantity::Inertia, Quantity::Coriolis, Quantity::Gravity],
         parts: &[Function::Inertia, Function::Coriolis, Function::Gravity],
         structure: Some("ManipulatorEquation");
-    /// D, every h_ikm and c in one function.
     dynamic_coefficients: DynamicCoefficients { torques: Christoffel }
         "D(q), every Christoffel symbol h_ikm(q) and c(q), with shared work.",
         results: &[Quantity::Inertia, Quantity::Christoffel, Quantity::Gravity],
         structure: Some("DynamicCoefficients");
-    /// T(q, q̇): the kinetic energy.
     kinetic_energy: KineticEnergy { energies: KineticEnergy }
         "Kinetic energy T = ½ q̇ᵀ D q̇ in joules, the rotors' part included.";
-    /// U(q): the potential energy.
     potential_energy: PotentialEnergy { energies: PotentialEnergy }
         "Potential energy U = -Σ m g·r in joules, r from the base's origin.";
-    /// D q̇ and Cᵀq̇.
     momentum: Momentum { energies: Momentum, MomentumSlope }
         "Momentum p = D q̇ and its slope Cᵀq̇ = ∂T/∂q: ṗ = τ + Cᵀq̇ - c - b∘q̇.";
-    /// C(q, q̇): the Coriolis matrix.
     coriolis_matrix: CoriolisMatrix { passivity: CoriolisMatrix }
         "Coriolis matrix C(q, q̇) of the Christoffel symbols: C q̇ = h, and Ḋ - 2C is skew.";
-    /// Contributions of the links' rotation and translation to D and h, and c.
     dalembert_terms: DalembertTerms {
         dalembert_terms:
         RotationInertia, TranslationInertia, RotationCoriolis, TranslationCoriolis
@@ -104,89 +93,65 @@ registry! {
             Quantity::RotationInertia, Quantity::TranslationInertia, Quantity::RotationCoriolis,
             Quantity::TranslationCoriolis, Quantity::Gravity,
         ];
-    /// The pose of the hand.
     forward_kinematics: ForwardKinematics { kinematics: Pose }
         "Forward kinematics: the pose [R | p] of the last frame in base axes, 3×4, lengths in metres.",
         by_default: true;
-    /// The pose of every link.
     link_poses: LinkPoses { kinematics: LinkPoses }
         "Poses [R | p] of every link's frame in base axes, n×3×4, lengths in metres.";
-    /// J(q): the Jacobian of the hand.
     jacobian: Jacobian { kinematics: Jacobian }
         "Jacobian J(q) of the last frame in base axes, 6×n: linear over angular velocity, at its origin.",
         by_default: true;
-    /// J̇ q̇: the acceleration of the hand that velocities alone give.
     jacobian_rate: JacobianRate { kinematics: JacobianRate }
         "J̇q̇, the acceleration of the last frame that its velocities alone give, linear over angular.";
-    /// Force and moment at every joint.
     reaction_wrenches: ReactionWrenches { kinematics: Wrench }
         "Force and moment that link i-1 exerts on link i in base axes, gravity included, n×6: for bearings and links.";
-    /// ∂τ/∂q, ∂τ/∂q̇ and D.
     inverse_dynamics_derivatives: InverseDynamicsDerivatives {
         derivatives: TorqueByPosition, TorqueByVelocity
     }
         "Derivatives of the inverse dynamics: ∂τ/∂q, ∂τ/∂q̇ and ∂τ/∂q̈ = D.",
         results: &[Quantity::TorqueByPosition, Quantity::TorqueByVelocity, Quantity::Inertia];
-    /// D a + C v + c + b∘v.
     passivity: Passivity { passivity: Passivity }
         "Passivity-based control: D a + C v + c + b∘v, with C of the Christoffel symbols.";
-    /// q̈(q, q̇, τ): forward dynamics.
     forward_dynamics: ForwardDynamics { forward_dynamics: Acceleration }
         "Forward dynamics: the accelerations q̈ = D⁻¹ (τ - h - c - b∘q̇).", by_default: true;
-    /// D⁻¹(q): the inverse of the inertia matrix.
     inertia_inverse: InertiaInverse { forward_dynamics: InertiaInverse }
         "Inverse D⁻¹(q) of the inertia matrix, symmetric.";
-    /// ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ.
     forward_dynamics_derivatives: ForwardDynamicsDerivatives {
         derivatives: AccelerationByPosition, AccelerationByVelocity, AccelerationByTorque
     }
         "Derivatives of the forward dynamics: ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ = D⁻¹.";
-    /// Y over the base parameters: τ = Y π.
     regressor: Regressor { regressors: BaseRegressor }
         "Regressor Y(q, q̇, q̈) over the base parameters, n×k: the joint torques (forces) are τ = Y π.";
-    /// Y over all inertial parameters of all links.
     full_regressor: FullRegressor { regressors: LinkRegressor }
         "Regressor Y(q, q̇, q̈) over all links' parameters, n×10n: the links' part of the joint torques is Y π. A link has m, m x, m y, m z, Ixx, Iyy, Izz, Ixy, Iyz, Ixz, about the origin of its DH frame.";
-    /// Y over the base parameters: D a + C v + c + b∘v = Y π.
     passivity_regressor: PassivityRegressor { regressors: PassivityRegressor }
         "Regressor Y(q, q̇, v, a) of passivity-based control over the base parameters, n×k: D a + C v + c + b∘v = Y π, with C of the Christoffel symbols.";
-    /// D q̇ and Cᵀq̇ − c − b∘q̇: what an observer of outside forces integrates.
     momentum_observer: MomentumObserver { energies: MomentumDrift }
         "Momentum p = D q̇ and its drift β = Cᵀq̇ - c - b∘q̇: ṗ = τ + β but for outside forces.",
         results: &[Quantity::Momentum, Quantity::MomentumDrift],
         structure: Some("MomentumObserver");
-    /// τ(q, q̇, q̈) beside a wrench that acts on the hand.
     inverse_dynamics_with_wrench: InverseDynamicsWithWrench { contact: ContactTorque }
         "Inverse dynamics while a wrench w acts on the hand: τ = D q̈ + h + c + b∘q̇ - Jᵀw.";
-    /// q̈(q, q̇, τ) under a wrench that acts on the hand.
     forward_dynamics_with_wrench: ForwardDynamicsWithWrench { contact: ContactAcceleration }
         "Forward dynamics while a wrench w acts on the hand: q̈ = D⁻¹ (τ + Jᵀw - h - c - b∘q̇).";
-    /// The wrench on the hand that joint torques say.
     contact_wrench: ContactWrench { contact: ContactWrench }
         "The wrench on the hand that the torques τ come from: ŵ = (J Jᵀ + λ² 1)⁻¹ J τ.";
-    /// Λ⁻¹ = J D⁻¹ Jᵀ: the mobility of the hand.
     operational_inertia_inverse: OperationalInertiaInverse { operational: OperationalInertiaInverse }
         "Mobility of the hand, the inverse of its inertia: Λ⁻¹ = J D⁻¹ Jᵀ, symmetric.";
-    /// Λ: the inertia of the hand.
     operational_inertia: OperationalInertia { operational: OperationalInertia }
         "Inertia of the hand, damped where the arm is singular: Λ = (J D⁻¹ Jᵀ + λ² 1)⁻¹, symmetric.";
-    /// J̄ = D⁻¹ Jᵀ Λ.
     consistent_inverse: ConsistentInverse { operational: ConsistentInverse }
         "Dynamically consistent inverse of the Jacobian: J̄ = D⁻¹ Jᵀ Λ, n×6.";
-    /// μ = Λ (J D⁻¹ (h + c) − J̇ q̇).
     operational_bias: OperationalBias { operational: OperationalBias }
         "Bias force of the hand: μ = Λ (J D⁻¹ (h + c) - J̇q̇), without friction.";
-    /// N = 1 − J̄ J.
     null_space_projector: NullSpaceProjector { operational: NullSpace }
         "Null-space projector N = 1 - J̄ J of velocities; Nᵀ is that of torques.";
-    /// Second derivatives of λᵀτ.
     inverse_dynamics_second_derivatives: InverseDynamicsSecondDerivatives {
         inverse_dynamics_second_derivatives:
         TorqueByPositions, TorqueByPositionAndVelocity, TorqueByVelocities,
         TorqueByAccelerationAndPosition
     }
         "Second derivatives of the inverse dynamics, of λᵀτ for a given λ.";
-    /// Second derivatives of λᵀq̈.
     forward_dynamics_second_derivatives: ForwardDynamicsSecondDerivatives {
         forward_dynamics_second_derivatives:
         AccelerationByPositions, AccelerationByPositionAndVelocity, AccelerationByVelocities,

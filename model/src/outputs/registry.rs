@@ -2,20 +2,20 @@
 //! where their members are told apart. `load` comes along with others, and is not
 //! asked for by itself.
 
-/// A row an output: its documentation, its name and its name in Rust, the file of the quantities
-/// that are its own, a line for the documentation of generated code, and what differs from
+/// A row an output: its name and its name in Rust, the file of the quantities that are its own,
+/// a line for its documentation, here and in generated code, and what differs from
 /// [`Definition::of`](function::Definition::of).
 macro_rules! registry {
     (
         $(
-            $(#[$doc:meta])* $name:ident: $function:ident { $($file:ident: $($quantity:ident),+)? }
+            $name:ident: $function:ident { $($file:ident: $($quantity:ident),+)? }
             $summary:literal $(, $field:ident: $value:expr)*;
         )*
     ) => {
         /// A function that can be generated.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Function {
-            $($(#[$doc])* $function,)*
+            $(#[doc = $summary] $function,)*
             /// The regrouped parameters of the arm with a payload.
             Load,
             /// Several of these in one, by a name of the user's.
