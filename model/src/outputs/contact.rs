@@ -1,11 +1,4 @@
 //! Torques, accelerations and a wrench that acts on the hand.
-//!
-//! τ = D q̈ + h + c + b∘q̇ − Jᵀw: what the drives give while w acts on the hand.
-//!
-//! q̈ = D⁻¹ (τ + Jᵀw − h − c − b∘q̇): how the arm moves while w acts on its hand.
-//!
-//! ŵ = (J Jᵀ + λ² 1)⁻¹ J τ: the wrench on the hand that torques of its alone say, such as
-//! those that an observer of momentum finds.
 
 use alloc::vec::Vec;
 
@@ -130,7 +123,7 @@ impl Formula for ContactAcceleration {
     }
 }
 
-/// ŵ_r
+/// ŵ_r: the wrench that torques of it alone say, such as those that an observer of momentum finds.
 pub(super) struct ContactWrench;
 
 impl Formula for ContactWrench {

@@ -1,9 +1,5 @@
 //! First derivatives of torques and accelerations.
 //!
-//! ∂τ/∂q, ∂τ/∂q̇ and D = ∂τ/∂q̈: what τ is linearised by.
-//!
-//! ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ = D⁻¹: what q̈(q, q̇, τ) is linearised by.
-//!
 //! With q̈ in the place of the free argument, D q̈ + h + c + b∘q̇ = τ holds for
 //! all q and q̇, so that D ∂q̈/∂q = −∂τ/∂q at that q̈, and likewise for q̇.
 

@@ -1,15 +1,4 @@
 //! Energies and momenta.
-//!
-//! T = ½ q̇ᵀ D q̇, the kinetic energy.
-//!
-//! U = −Σ m g·r, the potential energy.
-//!
-//! p = D q̇ and ∂T/∂q = Cᵀq̇, what an observer of disturbances integrates:
-//! ṗ = τ + Cᵀq̇ − c − b∘q̇.
-//!
-//! What an observer of outside forces integrates: p = D q̇ and β = Cᵀq̇ − c − b∘q̇, with
-//! ṗ = τ + β + τ_outside (De Luca and Mattone, "Sensorless robot collision detection and
-//! hybrid force/motion control", 2005).
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -132,7 +121,9 @@ impl Formula for MomentumSlope {
     }
 }
 
-/// β_i
+/// β_i = (Cᵀq̇ − c − b∘q̇)_i: what an observer of outside forces integrates with p = D q̇, as
+/// ṗ = τ + β + τ_outside (De Luca and Mattone, "Sensorless robot collision detection and
+/// hybrid force/motion control", 2005).
 pub(super) struct MomentumDrift;
 
 /// Returns Cᵀq̇ − c less the torques of friction.

@@ -1,8 +1,4 @@
-//! Accelerations under given torques.
-//!
-//! q̈ = D⁻¹ (τ − h − c − b∘q̇): how the arm moves under given torques.
-//!
-//! D⁻¹, the inverse of the inertia matrix.
+//! Accelerations under given torques, and the inverse of the inertia matrix.
 
 use alloc::vec::Vec;
 

@@ -1,14 +1,4 @@
 //! Where links and hand are, how they move, and what they exert on each other.
-//!
-//! ⁰A_n, the pose of the hand (eq. 2.1).
-//!
-//! ⁰A_i, the pose of every link (eq. 2.1).
-//!
-//! J, the Jacobian of the hand.
-//!
-//! J̇ q̇, what the hand is accelerated by without q̈.
-//!
-//! f_i and n_i, what the links exert on each other (Table 1).
 
 use alloc::vec::Vec;
 
@@ -19,7 +9,7 @@ use crate::equations::kinematics::link_poses;
 use crate::equations::matrix::Columns;
 use crate::scalar::Divide;
 
-/// [R | p]
+/// [R | p] of ⁰A_n (eq. 2.1)
 pub(super) struct Pose;
 
 impl Formula for Pose {
@@ -44,7 +34,7 @@ impl Formula for Pose {
     }
 }
 
-/// [R_i | p_i]
+/// [R_i | p_i] of ⁰A_i (eq. 2.1)
 pub(super) struct LinkPoses;
 
 impl Formula for LinkPoses {
@@ -120,7 +110,7 @@ impl Formula for JacobianRate {
     }
 }
 
-/// (f_i, n_i)
+/// (f_i, n_i) (Table 1)
 pub(super) struct Wrench;
 
 impl Formula for Wrench {

@@ -1,16 +1,4 @@
 //! Dynamics in the space of the hand.
-//!
-//! Λ⁻¹ = J D⁻¹ Jᵀ, the mobility of the hand: its acceleration under a unit wrench.
-//!
-//! Λ = (J D⁻¹ Jᵀ + λ² 1)⁻¹, the inertia of the hand.
-//!
-//! J̄ = D⁻¹ Jᵀ Λ, the inverse of J that moves the hand with the least kinetic energy.
-//!
-//! μ = Λ (J D⁻¹ (h + c) − J̇ q̇): the wrench that keeps the hand's velocity while the joints
-//! are driven by nothing else. Friction is no part of it.
-//!
-//! N = 1 − J̄ J: the part of a motion of the joints that the hand does not feel. Torques
-//! through Nᵀ do not accelerate it.
 
 use alloc::vec::Vec;
 
@@ -27,7 +15,7 @@ use crate::equations::matrix::zeros;
 use crate::equations::operational::{NormalEquations, TaskSpace, driven_by};
 use crate::scalar::Divide;
 
-/// (Λ⁻¹)_rs
+/// (Λ⁻¹)_rs: the acceleration of the hand under a unit wrench.
 pub(super) struct OperationalInertiaInverse;
 
 /// The facts of most quantities of the hand.
@@ -156,7 +144,7 @@ impl Formula for OperationalInertia {
     }
 }
 
-/// J̄_ir
+/// J̄_ir: the inverse of J that moves the hand with the least kinetic energy.
 pub(super) struct ConsistentInverse;
 
 impl Formula for ConsistentInverse {
@@ -215,7 +203,7 @@ impl Formula for ConsistentInverse {
     }
 }
 
-/// μ_r
+/// μ_r: the wrench that keeps the hand's velocity while the joints are driven by nothing else.
 pub(super) struct OperationalBias;
 
 impl Formula for OperationalBias {
@@ -259,7 +247,8 @@ impl Formula for OperationalBias {
     }
 }
 
-/// N_ik
+/// N_ik: the part of a motion of the joints that the hand does not feel. Torques through Nᵀ do
+/// not accelerate it.
 pub(super) struct NullSpace;
 
 impl Formula for NullSpace {

@@ -1,9 +1,4 @@
 //! The Coriolis matrix, and the torques of controllers that use it.
-//!
-//! C, the Coriolis matrix of the Christoffel symbols.
-//!
-//! D a + C v + c + b∘v: what passivity-based controllers (Slotine and Li) ask
-//! of a model, with v and a the velocity and the acceleration wished for.
 
 use alloc::vec::Vec;
 
@@ -53,7 +48,8 @@ pub(super) const ARGUMENTS: &[Argument] = &[
     Argument::ReferenceAcceleration,
 ];
 
-/// (D a + C v + c + b∘v)_i
+/// (D a + C v + c + b∘v)_i: what passivity-based controllers (Slotine and Li) ask of a model,
+/// with v and a the velocity and the acceleration wished for.
 pub(super) struct Passivity;
 
 impl Formula for Passivity {

@@ -1,16 +1,4 @@
 //! Matrices that torques are linear in parameters by.
-//!
-//! Y over the base parameters: τ = Y π with as few columns as there can be.
-//!
-//! Y over every inertial parameter of every link, dependent or not.
-//!
-//! Y over the base parameters in D a + C v + c + b∘v = Y π: what adaptive control
-//! (Slotine and Li) multiplies its estimate by.
-//!
-//! It is not the regressor of the torques at other arguments: C(q, q̇) v has two
-//! velocities. For the law that adapts the estimate, Y must be of that very form, with
-//! C of the Christoffel symbols: Ḋ − 2C is skew then, and so the energy of the error
-//! falls whatever the estimate is.
 
 use alloc::vec::Vec;
 
@@ -20,7 +8,7 @@ use super::quantity::{Choice, Facts};
 use super::{Argument, Axis, Index, Regrouped, Shape, Written};
 use crate::scalar::Divide;
 
-/// Y_ik
+/// Y_ik of τ = Y π, with as few columns as there can be.
 pub(super) struct BaseRegressor;
 
 impl Formula for BaseRegressor {
@@ -69,7 +57,7 @@ fn unit(at: &[Index]) -> &'static str {
     }
 }
 
-/// Y_ik
+/// Y_ik over every inertial parameter of every link, dependent or not.
 pub(super) struct LinkRegressor;
 
 impl Formula for LinkRegressor {
@@ -94,7 +82,12 @@ impl Formula for LinkRegressor {
     }
 }
 
-/// Y_ik
+/// Y_ik of D a + C v + c + b∘v = Y π: what adaptive control (Slotine and Li) multiplies its
+/// estimate by.
+///
+/// It is not the regressor of the torques at other arguments: C(q, q̇) v has two velocities. For
+/// the law that adapts the estimate, Y must be of that very form, with C of the Christoffel
+/// symbols: Ḋ − 2C is skew then, and so the energy of the error falls whatever the estimate is.
 pub(super) struct PassivityRegressor;
 
 impl Formula for PassivityRegressor {

@@ -1,14 +1,4 @@
 //! Torques, and the parts that they are sums of.
-//!
-//! τ = D q̈ + h + c + b∘q̇ (eq. 2.3).
-//!
-//! c, the gravity load (eqs. 2.15, 4.5).
-//!
-//! D, the inertia matrix (eqs. 2.13, 4.2).
-//!
-//! h, the Coriolis and centripetal load (eqs. 2.14, 4.3, 4.4).
-//!
-//! D, every Christoffel symbol h_ikm and c in one function.
 
 use alloc::vec::Vec;
 
@@ -18,7 +8,7 @@ use super::{Argument, ErrorScale, PayloadDependence, Quantity, Regrouped, Shape,
 use crate::equations::matrix::{plus, zero_vector, zeros};
 use crate::scalar::{Divide, Scalar};
 
-/// τ_i
+/// τ_i of τ = D q̈ + h + c + b∘q̇ (eq. 2.3)
 pub(super) struct Torque;
 
 /// Returns τ of a chain at its velocities and these accelerations.
@@ -62,7 +52,7 @@ impl Formula for Torque {
     }
 }
 
-/// c_i
+/// c_i (eqs. 2.15, 4.5)
 pub(super) struct Gravity;
 
 impl Formula for Gravity {
@@ -90,7 +80,7 @@ impl Formula for Gravity {
     }
 }
 
-/// D_ik
+/// D_ik (eqs. 2.13, 4.2)
 pub(super) struct Inertia;
 
 impl Formula for Inertia {
@@ -118,7 +108,7 @@ impl Formula for Inertia {
     }
 }
 
-/// h_i
+/// h_i (eqs. 2.14, 4.3, 4.4)
 pub(super) struct Coriolis;
 
 impl Formula for Coriolis {
