@@ -123,7 +123,7 @@ fn state(keys: &BTreeMap<String, Numbers>, n: usize) -> (GivenState, Vec<String>
     if !keys.contains_key("q") {
         wrong.push("`q` is missing".into());
     }
-    for (quantity, key) in known.keys().filter_map(|q| Some((q, q.given()?))) {
+    for (quantity, key) in known.keys().filter_map(|q| Some((q, q.facts().given?))) {
         let needed = quantity.arguments().iter().filter_map(|own| own.given());
         for missing in needed.filter(|need| *need != "q" && !keys.contains_key(*need)) {
             wrong.push(format!("`{missing}` is missing, which `{key}` depends on"));
@@ -156,7 +156,7 @@ fn state(keys: &BTreeMap<String, Numbers>, n: usize) -> (GivenState, Vec<String>
 /// Returns the keys of results, in the order of the list of outputs.
 fn results() -> impl Iterator<Item = (&'static str, Quantity)> {
     let all = Quantity::ALL.iter();
-    all.filter_map(|&quantity| Some((quantity.given()?, quantity)))
+    all.filter_map(|&quantity| Some((quantity.facts().given?, quantity)))
 }
 
 /// Returns the quantity of a key with a frame: `jacobian@camera:local`.
@@ -165,7 +165,7 @@ fn at_frame(key: &str) -> Option<(&'static str, Quantity)> {
     let (_, quantity) = results().find(|(own, _)| *own == name)?;
     let function = Function::parse(&format!("{}@{view}", quantity.function())).ok()?;
     let quantity = *function.quantities().first()?;
-    let own = quantity.given().filter(|own| *own == key)?;
+    let own = quantity.facts().given.filter(|own| *own == key)?;
     Some((own, quantity))
 }
 
@@ -297,7 +297,7 @@ pub(crate) fn describe(file: &str, states: &[GivenState], compared: &[Compared],
         let verdict = if agrees { "ok" } else { "DISAGREES" };
         table.row(cells![
             own.function.to_string(),
-            quantity.given().unwrap_or_else(|| quantity.symbol()),
+            quantity.facts().given.unwrap_or_else(|| quantity.symbol()),
             own.states,
             Cell::power(own.error, 1),
             Cell::power(BOUND, 1),

@@ -107,7 +107,7 @@ fn given_states(
     let known: BTreeSet<Quantity> = known.collect();
     let functions = request.functions.iter().copied();
     let returned: BTreeSet<Quantity> = functions.flat_map(given::quantities).collect();
-    let keys: Vec<&str> = known.iter().filter_map(|own| own.given()).collect();
+    let keys: Vec<&str> = known.iter().filter_map(|own| own.facts().given).collect();
     let why = if keys.is_empty() {
         "no state has any of tau, D, h, c".to_owned()
     } else if known.is_disjoint(&returned) {

@@ -32,7 +32,7 @@ fn states(file: &str, count: usize) -> Vec<Value> {
 fn asked(key: &str) -> Option<(Function, Quantity)> {
     let (name, view) = key.split_once('@').unwrap_or((key, ""));
     let mut known = Quantity::ALL.iter();
-    let quantity = known.find(|quantity| quantity.given() == Some(name))?;
+    let quantity = known.find(|quantity| quantity.facts().given == Some(name))?;
     let function = match view {
         "" => quantity.function(),
         view => {
@@ -41,7 +41,7 @@ fn asked(key: &str) -> Option<(Function, Quantity)> {
         }
     };
     let mut own = function.quantities().iter();
-    let quantity = own.find(|quantity| quantity.given() == Some(key))?;
+    let quantity = own.find(|quantity| quantity.facts().given == Some(key))?;
     Some((function, *quantity))
 }
 

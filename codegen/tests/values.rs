@@ -395,7 +395,7 @@ fn states_keep_to_the_limits() {
 /// No two keys of given states are one.
 #[test]
 fn keys_of_states_are_told_apart() {
-    let quantities = Quantity::ALL.iter().filter_map(|quantity| quantity.given());
+    let quantities = Quantity::ALL.iter().filter_map(|own| own.facts().given);
     let arguments = Argument::ALL.iter().filter_map(|argument| argument.given());
     let mut keys = BTreeSet::new();
     assert!(quantities.chain(arguments).all(|key| keys.insert(key)));

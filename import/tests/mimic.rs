@@ -42,7 +42,7 @@ fn the_runtime_gives_what_pinocchio_gives() {
         };
         let at = JointVectors::new(Argument::ALL.map(|argument| (argument, of(argument))));
         for &quantity in Quantity::ALL {
-            let Some(known) = quantity.given().and_then(|key| state.get(key)) else {
+            let Some(known) = quantity.facts().given.and_then(|key| state.get(key)) else {
                 continue;
             };
             let found = runtime.entries(quantity, &at).unwrap();

@@ -209,7 +209,7 @@ impl<T: Float> Reference<T> {
         }
         let mut motion = Motion::new(q, |argument| core::mem::take(&mut given[argument.index()]));
         motion.loading.clone_from(&at.loading);
-        let arm = match quantity.depends_on_base() {
+        let arm = match quantity.facts().depends_on_base {
             true => &self.whole,
             false => &self.arm,
         };

@@ -315,7 +315,7 @@ fn forward_dynamics_solves_the_equations_of_motion() {
         for bits in 1..1u32 << n.min(4) {
             let moves: Vec<bool> = (0..n).map(|i| i >= 4 || bits >> i & 1 == 1).collect();
             let motion = driven(&case, &moves, &mut points);
-            for &quantity in Quantity::ALL.iter().filter(|q| q.inverts_inertia()) {
+            for &quantity in Quantity::ALL.iter().filter(|q| q.facts().inverts_inertia) {
                 let recursion = Written {
                     formulation: Formulation::NewtonEulerLink,
                     arm: &case.arm,

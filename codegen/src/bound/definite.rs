@@ -177,7 +177,7 @@ fn middle(limits: &InputBox) -> Vec<f64> {
 /// Returns where D starts among the outputs.
 fn start(program: &Program) -> Option<usize> {
     let quantities = program.function.quantities();
-    let place = quantities.iter().position(|own| own.is_definite())?;
+    let place = quantities.iter().position(|own| own.facts().definite)?;
     let before = quantities[..place].iter();
     Some(before.map(|own| own.len(program.sizes())).sum())
 }

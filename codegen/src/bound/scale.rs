@@ -46,7 +46,7 @@ pub fn actuator(robot: &Robot, program: &Program) -> Result<Vec<f64>, Complaint>
     for quantity in program.function.quantities() {
         for index in 0..quantity.len(sizes) {
             let joints: Vec<usize> = quantity.joints(index, rows, sizes).collect();
-            scales.push(match (quantity.scale(), joints.as_slice()) {
+            scales.push(match (quantity.facts().scale, joints.as_slice()) {
                 (ErrorScale::Load, &[i]) => torque(i)?,
                 (ErrorScale::Inertia, &[i, k]) => inertia(i, k)?.min(inertia(k, i)?),
                 (ErrorScale::Coefficient, &[i, k, m]) => {

@@ -126,7 +126,7 @@ fn values(
 /// Returns the name of the constant π, if a function is over base parameters.
 pub(super) fn name(function: Function) -> Option<&'static str> {
     match function.columns() {
-        Columns::Base(quantity) => Some(quantity.linear()?.1),
+        Columns::Base(quantity) => Some(quantity.facts().linear?.1),
         Columns::Links | Columns::None => None,
     }
 }
@@ -140,7 +140,7 @@ fn over_base(
     let Columns::Base(quantity) = function.columns() else {
         return None;
     };
-    Some((quantity.linear()?, setup.base(quantity).ok()?))
+    Some((quantity.facts().linear?, setup.base(quantity).ok()?))
 }
 
 /// Returns a constant without factors of one and signs after signs.

@@ -23,8 +23,9 @@ pub(super) fn sentences(relative_to: Option<Scale>, quantities: &[Quantity]) -> 
 }
 
 fn actuators(quantities: &[Quantity]) -> Vec<String> {
-    let has = |scale| quantities.iter().any(|quantity| quantity.scale() == scale);
-    let loads = quantities.iter().filter(|q| q.scale() == ErrorScale::Load);
+    let has = |scale| quantities.iter().any(|q| q.facts().scale == scale);
+    let is_load = |q: &&Quantity| q.facts().scale == ErrorScale::Load;
+    let loads = quantities.iter().filter(is_load);
     let loads: Vec<&str> = loads.map(|quantity| quantity.symbol()).collect();
     let mut lines = Vec::new();
     if !loads.is_empty() {

@@ -81,8 +81,8 @@ pub(crate) fn shaped(quantity: Quantity, printed: &Printed<'_>) -> String {
     } else {
         ""
     };
-    let field = quantity.field();
-    format!("{field}{}{rows}: {}", lengths.concat(), quantity.summary())
+    let (field, summary) = (quantity.field(), quantity.facts().summary);
+    format!("{field}{}{rows}: {summary}", lengths.concat())
 }
 
 /// Whether the sines of a function are known to be near: of one state they are not, and in

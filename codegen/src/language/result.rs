@@ -22,7 +22,7 @@ pub(crate) fn structure(function: Function, sizes: Sizes, scalar: ScalarType) ->
     // Writing to a string cannot fail.
     let _ = writeln!(text, "pub struct {name} {{");
     for &quantity in function.quantities() {
-        let (doc, field) = (quantity.summary(), quantity.field());
+        let (doc, field) = (quantity.facts().summary, quantity.field());
         let array = array_type(quantity, sizes, scalar);
         let _ = writeln!(text, "    /// {doc}\n    pub {field}: {array},");
     }

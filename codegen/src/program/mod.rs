@@ -187,5 +187,5 @@ impl Program {
 /// Returns whether a program computes D.
 pub(crate) fn has_inertia(program: &Program) -> bool {
     let mut quantities = program.function.quantities().iter();
-    quantities.any(|quantity| quantity.is_definite())
+    quantities.any(|quantity| quantity.facts().definite)
 }

@@ -159,7 +159,7 @@ fn by_chain(problem: &Problem<'_>) -> Approach {
     // n² of work a link or more: no match. It has no load, but a body in the hand.
     let mut quantities = function.quantities().iter();
     let is_loaded = setup.takes(function, RuntimeParameter::Payload);
-    if !is_loaded && quantities.all(|quantity| quantity.starts_from_recursion()) {
+    if !is_loaded && quantities.all(|quantity| quantity.facts().starts_from_recursion) {
         let recursion = trace(task, Formulation::NewtonEulerLink);
         seeds.push(recursion);
     }

@@ -50,7 +50,7 @@ impl<'a> AccuracyFilter<'a> {
     /// recursion; for h_ikm, which it gives only by differences, Lagrange–Euler.
     pub(crate) fn new(task: Task<'a>, is_lenient: bool) -> Self {
         let mut quantities = task.function.quantities().iter();
-        let (most, by) = match quantities.any(|quantity| quantity.by_differences()) {
+        let (most, by) = match quantities.any(|quantity| quantity.facts().by_differences) {
             true => (MAX_WRITTEN, Formulation::LagrangeEuler),
             false => (MAX_MEASURED, Formulation::NewtonEulerLink),
         };

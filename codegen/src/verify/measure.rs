@@ -79,7 +79,7 @@ impl Runtime {
 
     /// Returns the factors by which a function's results may err more than others at a state.
     pub fn granted(&self, function: Function, state: &JointState) -> Granted {
-        let inverts = |quantity: &Quantity| quantity.inverts_inertia() || quantity.is_of_frame();
+        let inverts = |own: &Quantity| own.facts().inverts_inertia || own.is_of_frame();
         if !function.quantities().iter().any(inverts) {
             return Granted(Vec::new());
         }
@@ -93,7 +93,7 @@ impl Runtime {
         let quantities = function.quantities().iter().zip(&divisors);
         let factors = quantities.map(|(quantity, divisor)| {
             let own = condition(&floats(divisor)).max(1.0);
-            match quantity.inverts_inertia() {
+            match quantity.facts().inverts_inertia {
                 true => (*quantity, of_inertia * own),
                 false => (*quantity, own),
             }
@@ -105,7 +105,7 @@ impl Runtime {
     fn posed(&self, function: Function, state: &JointState) -> Posed<'_, Sparse<f64>> {
         let input = |input: Input| Sparse::Value(self.setup.input_at(input, state));
         let mut quantities = function.quantities().iter();
-        let arm = match quantities.any(|quantity| quantity.depends_on_base()) {
+        let arm = match quantities.any(|quantity| quantity.facts().depends_on_base) {
             true => &self.whole,
             false => &self.arm,
         };

@@ -121,7 +121,8 @@ impl Function {
 
     /// Returns what it has to do with a payload: as much as any of its results.
     pub fn payload_dependence(self) -> PayloadDependence {
-        let all = self.quantities().iter().map(|q| q.payload_dependence());
+        let all = self.quantities().iter();
+        let all = all.map(|q| q.facts().payload_dependence);
         all.max().unwrap_or(PayloadDependence::None)
     }
 
@@ -210,7 +211,7 @@ impl Function {
 
     /// Returns whether it exists only where D has an inverse.
     pub fn inverts_inertia(self) -> bool {
-        self.quantities().iter().any(|q| q.inverts_inertia())
+        self.quantities().iter().any(|q| q.facts().inverts_inertia)
     }
 
     /// Returns the associations of the chain formulas that differ for it, the usually

@@ -54,7 +54,7 @@ pub use at::QuantityAt;
 pub use bundle::BundleError;
 pub use formula::{Motion, Regrouped, Shared, Written};
 pub use function::{Columns, Made};
-pub use quantity::{ErrorScale, Index};
+pub use quantity::{ErrorScale, Facts, Index};
 pub use runtime::{PayloadDependence, RuntimeParameter};
 pub use shape::{Axis, Shape, Sizes};
 

@@ -23,11 +23,11 @@ pub(super) enum FrameChoice {
 }
 
 /// The conversion of a result's entries, with q̇, into those of given states.
-pub(in crate::outputs) type FromEntries = fn(&[f64], &[f64]) -> Vec<f64>;
+type FromEntries = fn(&[f64], &[f64]) -> Vec<f64>;
 
 /// The facts of a quantity, beside its formulas.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Facts {
+pub struct Facts {
     /// Its field in the structs that generated functions return.
     pub field: &'static str,
     /// Its letter in the equations and in the names of its entries.
@@ -53,7 +53,7 @@ pub(super) struct Facts {
     /// entries and q̇.
     pub given_as: Option<(Quantity, FromEntries)>,
     /// The choices that the chain formulas leave; `None` if they do not give it.
-    pub choices: Option<&'static [Choice]>,
+    pub(super) choices: Option<&'static [Choice]>,
     /// True if the textbook recursion is a start that may be the cheapest.
     pub starts_from_recursion: bool,
     /// True if recursions give it only by differences of torques, which costs
@@ -75,7 +75,7 @@ pub(super) struct Facts {
     /// True if joints whose axes meet at the base may be solved for as one.
     pub has_shoulder: bool,
     /// What may be chosen of the frame that it is of.
-    pub frame: FrameChoice,
+    pub(super) frame: FrameChoice,
     /// True if an entry a joint is of the link by itself: where joints follow others there
     /// are more links than coordinates.
     pub of_links: bool,
@@ -164,12 +164,6 @@ impl Quantity {
         self.facts().shape
     }
 
-    /// Returns, if it is over base parameters, what it gives with their values, and the constant
-    /// of generated code that has these.
-    pub fn linear(self) -> Option<(&'static str, &'static str)> {
-        self.facts().linear
-    }
-
     /// Returns how many numbers it has.
     pub fn len(self, sizes: Sizes) -> usize {
         self.shape().len(sizes)
@@ -185,24 +179,9 @@ impl Quantity {
         self.facts().field
     }
 
-    /// Returns a line of documentation for its field.
-    pub fn summary(self) -> &'static str {
-        self.facts().summary
-    }
-
     /// Returns its letter in the equations; `h_ikm` for the symbols that make up h.
     pub fn symbol(self) -> &'static str {
         self.facts().symbol()
-    }
-
-    /// Returns what an error is held against where actuators are the measure.
-    pub fn scale(self) -> ErrorScale {
-        self.facts().scale
-    }
-
-    /// Returns its key in files of given states.
-    pub fn given(self) -> Option<&'static str> {
-        self.facts().given
     }
 
     /// Returns what given states have of it, from its entries at a state of
@@ -214,40 +193,9 @@ impl Quantity {
         }
     }
 
-    /// Returns whether the textbook recursion is a start that may be the
-    /// cheapest.
-    pub fn starts_from_recursion(self) -> bool {
-        self.facts().starts_from_recursion
-    }
-
-    /// Returns whether recursions give it only by differences of torques.
-    pub fn by_differences(self) -> bool {
-        self.facts().by_differences
-    }
-
-    /// Returns whether it is a matrix that is positive definite.
-    pub fn is_definite(self) -> bool {
-        self.facts().definite
-    }
-
-    /// Returns true if it exists only where D has an inverse.
-    pub fn inverts_inertia(self) -> bool {
-        self.facts().inverts_inertia
-    }
-
     /// Returns whether the chain formulas give it.
     pub fn is_regrouped(self) -> bool {
         self.facts().choices.is_some()
-    }
-
-    /// Returns whether it depends on where the first joints stand.
-    pub fn depends_on_base(self) -> bool {
-        self.facts().depends_on_base
-    }
-
-    /// Returns what it has to do with a payload.
-    pub fn payload_dependence(self) -> PayloadDependence {
-        self.facts().payload_dependence
     }
 
     /// Returns whether it can be had at any frame.

@@ -72,7 +72,8 @@ macro_rules! registry {
             /// Every quantity of a function that can be asked for, in the order of these.
             pub const ALL: &[Quantity] = &[$($($(Quantity::$quantity,)+)?)*];
 
-            pub(in crate::outputs) fn facts(self) -> &'static quantity::Facts {
+            /// Returns what it says of itself, beside its formulas.
+            pub fn facts(self) -> &'static quantity::Facts {
                 match self {
                     $($($(Quantity::$quantity => &$file::$quantity::FACTS,)+)?)*
                     Quantity::Load => &load::Load::FACTS,

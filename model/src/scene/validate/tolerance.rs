@@ -61,7 +61,7 @@ impl Check<'_> {
 
     /// Returns whether the scene asks by name for a function with such a scale.
     fn is_scaled(&self, by: ErrorScale) -> bool {
-        let scaled = |f: &Function| f.quantities().iter().any(|q| q.scale() == by);
+        let scaled = |f: &Function| f.quantities().iter().any(|q| q.facts().scale == by);
         self.scene.outputs.iter().any(scaled)
     }
 
