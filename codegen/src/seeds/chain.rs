@@ -10,7 +10,7 @@ use dalembert_model::equations::matrix::{Vector, scaled};
 use dalembert_model::equations::regressor::{Column, LinkParameter, Probed};
 use dalembert_model::equations::{Arm, DhVariables, Formulation};
 use dalembert_model::number::Exact;
-use dalembert_model::outputs::{Motion, Regrouped, RuntimeParameter, Shared, Written};
+use dalembert_model::outputs::{Motion, Regrouped, RuntimeParameter, Written};
 
 use super::load::symbols;
 use super::trace::reader;
@@ -62,7 +62,7 @@ pub fn trace_chain(
             .iter()
             .filter_map(|own| own.among(rows))
             .collect::<Vec<_>>(),
-        shared: Shared::default(),
+        shared: Default::default(),
     };
     let sizes = setup.sizes(function);
     let mut outputs = Vec::new();

@@ -218,26 +218,9 @@ pub struct Regrouped<'a, S> {
     pub joints: &'a [usize],
     /// Those of the chain that follow others, by their places in it.
     pub following: &'a [Following<S>],
-    /// What several quantities are read off.
-    pub shared: Shared<S>,
-}
-
-/// What several quantities of one function are read off, computed where it is first asked for.
-#[derive(Clone, Debug)]
-pub struct Shared<S> {
-    /// The second derivatives of λᵀτ.
-    pub(super) of_torques: OnceCell<SecondDerivatives<S>>,
-    /// The second derivatives of λᵀq̈.
-    pub(super) of_accelerations: OnceCell<SecondDerivatives<S>>,
-}
-
-impl<S> Default for Shared<S> {
-    fn default() -> Self {
-        Shared {
-            of_torques: OnceCell::new(),
-            of_accelerations: OnceCell::new(),
-        }
-    }
+    /// What several quantities are read off, computed where it is first asked for: the second
+    /// derivatives of λᵀτ, and those of λᵀq̈.
+    pub shared: [OnceCell<SecondDerivatives<S>>; 2],
 }
 
 impl<S: Scalar> Regrouped<'_, S> {

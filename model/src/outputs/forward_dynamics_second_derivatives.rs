@@ -79,7 +79,7 @@ fn regrouped<'a, S: Divide>(at: &'a Regrouped<'_, S>) -> &'a SecondDerivatives<S
             driven: all.by_torque_and_position(),
         }
     };
-    at.shared.of_accelerations.get_or_init(all)
+    at.shared[1].get_or_init(all)
 }
 
 impl Formula for AccelerationByPositions {

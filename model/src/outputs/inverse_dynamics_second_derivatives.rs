@@ -26,7 +26,7 @@ fn regrouped<'a, S: Divide>(at: &'a Regrouped<'_, S>) -> &'a SecondDerivatives<S
     let motion = at.motion;
     let given = [&motion.qd[..], &motion.qdd, &motion.multiplier];
     let all = || at.composite.second_derivatives(given, at.form.travel);
-    at.shared.of_torques.get_or_init(all)
+    at.shared[0].get_or_init(all)
 }
 
 /// The facts of all second derivatives, as far as they are the same.

@@ -52,7 +52,7 @@ use formula::Formula;
 pub use argument::Argument;
 pub use at::QuantityAt;
 pub use bundle::BundleError;
-pub use formula::{Motion, Regrouped, Shared, Written};
+pub use formula::{Motion, Regrouped, Written};
 pub use function::{Columns, Made};
 pub use quantity::{ErrorScale, Facts, Index};
 pub use runtime::{PayloadDependence, RuntimeParameter};
