@@ -124,10 +124,6 @@ impl Position {
         }
     }
 
-    fn is_below(&self, other: &Position) -> bool {
-        self.number() < other.number()
-    }
-
     fn max_of(self, other: Position) -> Position {
         if self.is_below(&other) { other } else { self }
     }

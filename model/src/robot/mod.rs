@@ -29,7 +29,6 @@ mod write;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
-use core::cmp::Ordering;
 use core::fmt;
 
 use num_traits::Zero;
@@ -331,12 +330,12 @@ impl Position {
         matches!(self, Position::Angle(_)) == (kind == JointKind::Revolute)
     }
 
-    /// Compares two positions; none of an angle and a length.
-    pub(crate) fn compare(&self, other: &Self) -> Option<Ordering> {
+    /// Returns whether it is below another one of its kind.
+    pub(crate) fn is_below(&self, other: &Self) -> bool {
         match (self, other) {
-            (Position::Angle(a), Position::Angle(b)) => Some(a.cmp_value(b)),
-            (Position::Length(a), Position::Length(b)) => Some(a.cmp(b)),
-            _ => None,
+            (Position::Angle(a), Position::Angle(b)) => a.cmp_value(b).is_lt(),
+            (Position::Length(a), Position::Length(b)) => a < b,
+            _ => false,
         }
     }
 }

@@ -8,7 +8,6 @@ use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
-use core::cmp::Ordering;
 
 use num_traits::{Signed, Zero};
 
@@ -280,7 +279,7 @@ impl Findings {
             let message = "the limits are not of the joint's kind";
             let help = "angles for a revolute joint, lengths for a prismatic one";
             self.error(place, message, help);
-        } else if low.compare(high) != Some(Ordering::Less) {
+        } else if !low.is_below(high) {
             let message = "the lowest position is not below the highest";
             self.error(place, message, "write [lowest, highest]");
         }

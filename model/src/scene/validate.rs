@@ -10,7 +10,6 @@ mod tolerance;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
-use core::cmp::Ordering;
 use core::fmt::Display;
 
 use num_traits::Signed;
@@ -119,9 +118,7 @@ impl<'a> Check<'a> {
                 (own.and_then(|all| all.get(*index)), "range in the box"),
             ] {
                 let Some([low, high]) = range else { continue };
-                let outside = at.compare(low) == Some(Ordering::Less)
-                    || at.compare(high) == Some(Ordering::Greater);
-                if outside {
+                if at.is_below(low) || high.is_below(at) {
                     let name = self.robot.joint_label(*index);
                     let message = format!("{name} is locked outside its {whose}, {low} to {high}");
                     let help = match joint.kind {

@@ -4,7 +4,6 @@
 
 use alloc::format;
 use alloc::vec::Vec;
-use core::cmp::Ordering;
 
 use num_traits::Signed;
 
@@ -44,7 +43,7 @@ impl Check<'_> {
             let help = "angles for a revolute joint, lengths for a prismatic one";
             return self.error(place, "the range is not of the joint's kind", help);
         }
-        if low.compare(high) != Some(Ordering::Less) {
+        if !low.is_below(high) {
             let message = "the range is empty: its lowest position is not below its highest";
             let help = "write [lowest, highest]; a joint that does not move is locked";
             return self.error(place, message, help);
@@ -56,14 +55,13 @@ impl Check<'_> {
         if self.scene.locked(index).is_some() {
             return;
         }
-        let below = |a: &Position, b| a.compare(b) == Some(Ordering::Less);
         let name = self.robot.joint_label(index);
         let limits = format!("{lowest} to {highest}");
-        if below(high, lowest) || below(highest, low) {
+        if high.is_below(lowest) || highest.is_below(low) {
             let message = format!("{name} is never in this range: its limits are {limits}");
             let help = "a range has positions that the joint can take";
             self.error(place, message, help);
-        } else if below(low, lowest) || below(highest, high) {
+        } else if low.is_below(lowest) || highest.is_below(high) {
             let scene = &self.scene.name;
             let message =
                 format!("the box of scene `{scene}` goes beyond the limits of {name}, {limits}");
