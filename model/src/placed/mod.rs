@@ -79,7 +79,6 @@ pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<(), NoDirection> {
         let link = frame::pose(&placed.placement);
         Ok(row::Axis {
             along: link.rotate(&axis),
-            through: link.origin,
             link,
         })
     });

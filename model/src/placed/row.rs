@@ -20,9 +20,7 @@ const PARALLEL: f64 = 7e-46;
 pub(super) struct Axis {
     /// Its direction.
     pub(super) along: Vector<Wide>,
-    /// A point of it: the origin of the link's own frame.
-    pub(super) through: Vector<Wide>,
-    /// The link's own frame at q = 0.
+    /// The link's own frame at q = 0, whose origin is a point of it.
     pub(super) link: Columns<Wide>,
 }
 
@@ -40,14 +38,14 @@ pub(super) struct Row {
 /// be, or to the base's y where the axis is along x.
 pub(super) fn first_frame(first: &Axis) -> Columns<Wide> {
     let z = &first.along;
-    let back = dot(&first.through, z).neg();
+    let back = dot(&first.link.origin, z).neg();
     let base = Columns::identity();
     // Along x: within 26°.
     let near_x = z[0].magnitude() > 0.9;
     let start: &Vector<Wide> = &base.axes[usize::from(near_x)];
     let across = along(start, &dot(start, z).neg(), z);
     let x = unit(&across).unwrap_or(*start);
-    frame(x, z, along(&first.through, &back, z))
+    frame(x, z, along(&first.link.origin, &back, z))
 }
 
 /// Returns the frame of these axes x and z at an origin.
@@ -67,7 +65,7 @@ pub(super) fn to_axis(here: &Columns<Wide>, next: &Axis, size: &Rational) -> Row
         return parallel(here, next, beside, size);
     }
     let origin = along(&here.origin, &beside, u);
-    let p = difference(&next.through, &origin);
+    let p = difference(&next.link.origin, &origin);
     // Where the next axis passes the plane beside the link's origin.
     let drop = dot(&p, u).over(&dot(&next.along, u));
     let passes = drop.map(|drop| along(&p, &drop.neg(), &next.along));
@@ -106,7 +104,7 @@ pub(super) fn to_link(here: &Columns<Wide>) -> Row {
 /// Returns one common normal.
 fn askew(here: &Columns<Wide>, next: &Axis, normal: &Vector<Wide>) -> Row {
     let (u, w) = (&here.axes[2], &next.along);
-    let p = difference(&next.through, &here.origin);
+    let p = difference(&next.link.origin, &here.origin);
     let x = near(here, unit(normal).unwrap_or_else(|| here.axes[0]));
     // p = d u + a x − s w
     let square = dot(normal, normal);
@@ -128,7 +126,7 @@ fn askew(here: &Columns<Wide>, next: &Axis, normal: &Vector<Wide>) -> Row {
 fn parallel(here: &Columns<Wide>, next: &Axis, d: Wide, size: &Rational) -> Row {
     let u = &here.axes[2];
     let origin = along(&here.origin, &d, u);
-    let p = difference(&next.through, &origin);
+    let p = difference(&next.link.origin, &origin);
     let across = along(&p, &dot(&p, u).neg(), u);
     let distance = length(&across);
     let apart = !is_nothing(&distance, size);

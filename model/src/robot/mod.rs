@@ -17,7 +17,6 @@
 mod body;
 mod findings;
 mod follower;
-mod frame;
 mod placement;
 pub(crate) mod reach;
 mod units;
@@ -39,14 +38,12 @@ pub use body::Defect;
 pub(crate) use findings::Findings;
 pub use findings::{Finding, Severity};
 pub use follower::Follower;
-pub(crate) use frame::ENDINGS;
-pub use frame::{HAND, is_frame_name};
 pub use placement::Placement;
 pub use warning::RobotWarning;
 
 pub(crate) use units::shown;
-pub use validate::suggested_name;
-pub(crate) use validate::{WORDS, is_snake};
+pub(crate) use validate::{ENDINGS, WORDS, is_plain, is_snake};
+pub use validate::{HAND, is_frame_name, suggested_name};
 pub use write::{write, write_frame};
 
 /// Which of the two DH conventions the table is written in.

@@ -13,13 +13,21 @@ use num_traits::{Signed, Zero};
 
 use super::body::Defect;
 use super::findings::{Finding, Findings, of_joint};
-use super::frame::{HAND, is_frame_name};
 use super::{Convention, Joint, JointKind, Placement, Position, Robot, RobotWarning, reach, units};
 use crate::number::parse::in_range;
 use crate::number::{Angle, Rational, Rounded};
 
 /// The widths over which the sign of Coulomb friction may be smoothed.
 const WIDTHS: core::ops::RangeInclusive<f64> = 1e-9..=1e9;
+
+/// The name by which a robot's own hand is a frame, too.
+pub const HAND: &str = "hand";
+
+/// The longest name of a frame, in bytes: functions are called after it.
+const MAX_FRAME_NAME: usize = 48;
+
+/// The endings of the other ways to call a function.
+pub(crate) const ENDINGS: [&str; 2] = ["_batch", "_columns"];
 
 impl Robot {
     /// Returns every error and warning about the robot. Every later stage accepts a robot
@@ -320,10 +328,23 @@ fn is_keyword(name: &str) -> bool {
     WORDS.contains(&name) || ["union", "core", "std"].contains(&name)
 }
 
-/// Returns true if a name has small letters, digits and `_` only, a letter first.
-pub(crate) fn is_snake(name: &str) -> bool {
+/// Returns true if a name has small letters, digits and `_` only.
+pub(crate) fn is_plain(name: &str) -> bool {
     let known = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-    name.starts_with(|c: char| c.is_ascii_lowercase()) && name.chars().all(known)
+    name.chars().all(known)
+}
+
+/// Returns true if a plain name has a letter first.
+pub(crate) fn is_snake(name: &str) -> bool {
+    name.starts_with(|c: char| c.is_ascii_lowercase()) && is_plain(name)
+}
+
+/// Returns whether a frame may have this name: small letters, digits and single `_`
+/// between them, and no ending that is one of functions' own.
+pub fn is_frame_name(name: &str) -> bool {
+    let is_own = ENDINGS.iter().any(|ending| name.ends_with(ending));
+    let bars = name.starts_with('_') || name.ends_with('_') || name.contains("__");
+    (1..=MAX_FRAME_NAME).contains(&name.len()) && is_plain(name) && !bars && !is_own
 }
 
 /// Returns the nearest name that a robot can have: `"UR-10 e"` gives `ur_10_e`; none

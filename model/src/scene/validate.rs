@@ -15,7 +15,7 @@ use core::fmt::Display;
 use num_traits::Signed;
 
 use super::Scene;
-use crate::robot::{Finding, Findings, Joint, JointKind, Robot, RobotWarning, reach};
+use crate::robot::{Finding, Findings, Joint, JointKind, Robot, RobotWarning, is_plain, reach};
 
 impl Scene {
     /// Returns every error and warning about the scene. Every later stage accepts a scene
@@ -58,8 +58,7 @@ impl<'a> Check<'a> {
 
     fn name(&mut self) {
         let name = &self.scene.name;
-        let good = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-        if name.is_empty() || name.len() > Robot::MAX_NAME || !name.chars().all(good) {
+        if name.is_empty() || name.len() > Robot::MAX_NAME || !is_plain(name) {
             let message = format!("{name:?} cannot end the name of a Rust module");
             let help = "the generated module is called after robot and scene: lower-case letters, digits and underscores";
             self.error("", message, help);
