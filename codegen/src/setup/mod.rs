@@ -298,8 +298,8 @@ impl Setup {
             if is_zero(Argument::Velocity) {
                 motion.per_speed[joint] = self.per_speed_at_rest(joint).map(|x| constant(&x));
             }
-            for argument in Argument::ALL.into_iter().filter(|own| is_zero(*own)) {
-                if let Some(entries) = motion.of_mut(argument) {
+            for (argument, entries) in motion.vectors_mut() {
+                if is_zero(argument) {
                     entries[joint] = S::zero();
                 }
             }

@@ -97,23 +97,16 @@ impl<S> Motion<S> {
         }
     }
 
-    /// Returns the entries of an argument; of the positions none, and of what is no
-    /// joint vector.
-    pub fn of_mut(&mut self, argument: Argument) -> Option<&mut Vec<S>> {
-        Some(match argument {
-            Argument::Velocity => &mut self.qd,
-            Argument::Acceleration => &mut self.qdd,
-            Argument::Torque => &mut self.tau,
-            Argument::ReferenceVelocity => &mut self.v,
-            Argument::ReferenceAcceleration => &mut self.a,
-            Argument::Multiplier => &mut self.multiplier,
-            Argument::Position
-            | Argument::Gravity
-            | Argument::Load
-            | Argument::Payload
-            | Argument::Wrench
-            | Argument::Damping => return None,
-        })
+    /// Returns the arguments that have an entry a joint, but for the positions.
+    pub fn vectors_mut(&mut self) -> [(Argument, &mut Vec<S>); 6] {
+        [
+            (Argument::Velocity, &mut self.qd),
+            (Argument::Acceleration, &mut self.qdd),
+            (Argument::Torque, &mut self.tau),
+            (Argument::ReferenceVelocity, &mut self.v),
+            (Argument::ReferenceAcceleration, &mut self.a),
+            (Argument::Multiplier, &mut self.multiplier),
+        ]
     }
 }
 
@@ -121,20 +114,14 @@ impl<S: Clone> Motion<S> {
     /// Returns the motion of these joints alone.
     #[must_use]
     pub fn of_joints(&self, joints: &[usize]) -> Motion<S> {
-        Motion {
-            q: picked(&self.q, joints),
-            qd: picked(&self.qd, joints),
-            qdd: picked(&self.qdd, joints),
-            tau: picked(&self.tau, joints),
-            v: picked(&self.v, joints),
-            a: picked(&self.a, joints),
-            wrench: self.wrench.clone(),
-            damping: self.damping.clone(),
-            multiplier: picked(&self.multiplier, joints),
-            per_speed: picked(&self.per_speed, joints),
-            moves: picked(&self.moves, joints),
-            loading: self.loading.clone(),
+        let mut motion = self.clone();
+        motion.q = picked(&self.q, joints);
+        motion.per_speed = picked(&self.per_speed, joints);
+        motion.moves = picked(&self.moves, joints);
+        for (_, entries) in motion.vectors_mut() {
+            *entries = picked(entries, joints);
         }
+        motion
     }
 }
 
@@ -153,10 +140,7 @@ impl<S: Scalar> Motion<S> {
         }
         for own in following {
             motion.q[own.row] = motion.q[own.leader].followed_by(own);
-            for argument in Argument::ALL {
-                let Some(entries) = motion.of_mut(argument) else {
-                    continue;
-                };
+            for (argument, entries) in motion.vectors_mut() {
                 if argument != Argument::Torque {
                     entries[own.row] = own.motion(&entries[own.leader]);
                 }
@@ -176,10 +160,8 @@ impl<S: Scalar> Motion<S> {
         self.q.insert(row, JointPosition::Prismatic(S::zero()));
         self.moves.insert(row, false);
         self.per_speed.insert(row, None);
-        for argument in Argument::ALL {
-            if let Some(entries) = self.of_mut(argument) {
-                entries.insert(row, S::zero());
-            }
+        for (_, entries) in self.vectors_mut() {
+            entries.insert(row, S::zero());
         }
     }
 }

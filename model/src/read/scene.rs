@@ -8,8 +8,8 @@ use core::ops::Range;
 use toml_span::Value;
 
 use super::report::quote;
-use super::table::{Table, locate, span_of_key};
-use super::value::Context;
+use super::table::{Table, locate};
+use super::value::{Context, bytes_of};
 use super::{link, outputs};
 use crate::robot::{Follower, Joint, JointKind, Position, Robot};
 use crate::scene::{Float, MotionBox, Payload, Scale, Scene, Tolerance};
@@ -27,7 +27,7 @@ pub(super) fn read(cx: &mut Context, robot: &Robot, root: &Value, scenes: &Value
         let Some(mut keys) = Table::open(cx, value, place, name, HELP) else {
             continue;
         };
-        keys.span = span_of_key(key);
+        keys.span = bytes_of(key.span);
         let scene = scene(cx, robot, &key.name, &mut keys);
         for finding in scene.validate(robot) {
             let own = finding.place.strip_prefix(&keys.place);
@@ -41,7 +41,7 @@ pub(super) fn read(cx: &mut Context, robot: &Robot, root: &Value, scenes: &Value
                 Some(own) => (value, own),
                 None => (root, finding.place.as_str()),
             };
-            let span = locate(value, span_of_key(key), &cx.sink.source, place);
+            let span = locate(value, bytes_of(key.span), &cx.sink.source, place);
             let (warning, message) = (finding.warning, finding.message);
             cx.sink.found(warning, span, message, &finding.help);
         }
@@ -127,7 +127,7 @@ fn lock(cx: &mut Context, robot: &Robot, keys: &mut Table) -> Option<Vec<(usize,
         let table = Table::open(cx, value, place, "lock", &help)?;
         let mut locks = Vec::new();
         for (key, value) in table.entries() {
-            let joint = joint(cx, robot, &key.name, span_of_key(key));
+            let joint = joint(cx, robot, &key.name, bytes_of(key.span));
             locks.push(joint.and_then(|joint| {
                 let at = cx.position(value, kind(robot, joint))?;
                 Some((joint, at))

@@ -10,7 +10,7 @@ use toml_span::value::{Key, Table as Entries};
 
 use super::report::quote;
 use super::suggest;
-use super::value::{Context, first_line, span_of};
+use super::value::{Context, bytes_of, first_line};
 
 /// A table that is read key by key.
 pub(super) struct Table<'v> {
@@ -40,7 +40,7 @@ impl<'v> Table<'v> {
         Some(Table {
             entries,
             place: place.into(),
-            span: first_line(&cx.sink.source, span_of(value)),
+            span: first_line(&cx.sink.source, bytes_of(value.span)),
             name: name.into(),
             known: Vec::new(),
         })
@@ -131,14 +131,9 @@ impl<'v> Table<'v> {
             let help =
                 help.unwrap_or_else(|| format!("{} has: {}", self.name, self.known.join(", ")));
             let message = format!("unknown key {}", quote(&key.name));
-            cx.sink.error(span_of_key(key), message, &help);
+            cx.sink.error(bytes_of(key.span), message, &help);
         }
     }
-}
-
-/// Returns the bytes of a key.
-pub(super) fn span_of_key(key: &Key) -> Range<usize> {
-    key.span.start..key.span.end.max(key.span.start)
 }
 
 fn in_order<'v>(entries: &'v Entries<'v>) -> Vec<(&'v Key<'v>, &'v Value<'v>)> {
@@ -167,12 +162,14 @@ pub(super) fn locate(
         let found = match (value.as_table(), value.as_array(), index) {
             (Some(entries), _, Some(index)) => in_order(entries)
                 .get(index)
-                .map(|(key, value)| (key.span.start..span_of(value).end, *value)),
+                .map(|(key, value)| (key.span.start..bytes_of(value.span).end, *value)),
             (Some(entries), ..) => {
                 let found = entries.get(step).or_else(|| entries.get(instead));
-                found.map(|value| (span_of(value), value))
+                found.map(|value| (bytes_of(value.span), value))
             }
-            (_, Some(items), Some(index)) => items.get(index).map(|item| (span_of(item), item)),
+            (_, Some(items), Some(index)) => {
+                items.get(index).map(|item| (bytes_of(item.span), item))
+            }
             _ => None,
         };
         let Some(found) = found else { break };

@@ -8,8 +8,8 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use toml_span::Value;
 use toml_span::value::ValueInner;
+use toml_span::{Span, Value};
 
 use super::report::{Sink, quote};
 use super::{RobotWarning, foreign, suggest};
@@ -25,10 +25,10 @@ pub(super) struct Context {
     pub(super) unread: Vec<String>,
 }
 
-/// Returns the bytes of a value. The parser leaves the quotes of a string out,
+/// Returns the bytes of a key or a value. The parser leaves the quotes of a string out,
 /// and for an empty one points at the quote alone.
-pub(super) fn span_of(value: &Value) -> Range<usize> {
-    value.span.start..value.span.end.max(value.span.start)
+pub(super) fn bytes_of(span: Span) -> Range<usize> {
+    span.start..span.end.max(span.start)
 }
 
 /// Returns the part of a span on its first line: the part that a message points at.
@@ -49,7 +49,7 @@ impl Context {
 
     /// Returns the literal of a number as it stands in the source.
     fn literal(&self, value: &Value) -> String {
-        let literal = self.sink.source.get(span_of(value));
+        let literal = self.sink.source.get(bytes_of(value.span));
         literal.unwrap_or_default().to_string()
     }
 
@@ -60,7 +60,7 @@ impl Context {
         message: impl Into<String>,
         help: &str,
     ) -> Option<T> {
-        let span = first_line(&self.sink.source, span_of(value));
+        let span = first_line(&self.sink.source, bytes_of(value.span));
         self.sink.error(span, message.into(), help);
         None
     }
@@ -186,7 +186,7 @@ impl Context {
             Snapped::Taken(angle) => {
                 let message = format!("{text} is read as {angle}");
                 let help = format!("write {} to say so", written(&angle));
-                self.sink.note(span_of(value), message, &help);
+                self.sink.note(bytes_of(value.span), message, &help);
                 angle
             }
             Snapped::Near {
@@ -199,7 +199,7 @@ impl Context {
                 let help = format!("write {} if you mean it", written(&multiple));
                 let warning = RobotWarning::NearRightAngle;
                 self.sink
-                    .found(Some(warning), span_of(value), message, &help);
+                    .found(Some(warning), bytes_of(value.span), message, &help);
                 angle
             }
         })
