@@ -211,24 +211,20 @@ impl Quantity {
 
     /// Returns the joints of an entry over these rows, one for each axis over joints.
     pub fn joints(self, index: usize, rows: &[usize], sizes: Sizes) -> impl Iterator<Item = usize> {
-        let places = self.shape().places(index, sizes.over(rows.len()));
-        let axes = self.shape().0.iter().zip(places);
-        let of = |(axis, place): (&Axis, usize)| match axis {
-            Axis::Joints => rows.get(place).copied(),
-            Axis::Fixed(_) | Axis::LinkParameters | Axis::BaseParameters | Axis::Load => None,
-        };
-        axes.filter_map(of).collect::<Vec<_>>().into_iter()
+        let mut places = self.shape().places(index, sizes.over(rows.len()));
+        places.retain(|(axis, _)| *axis == Axis::Joints);
+        let joints = places.into_iter();
+        joints.filter_map(move |(_, place)| rows.get(place).copied())
     }
 
     /// Returns the unit of an entry over these rows of a robot.
     pub fn unit(self, index: usize, rows: &[usize], sizes: Sizes, robot: &Robot) -> &'static str {
-        let places = self.shape().places(index, sizes.over(rows.len()));
         let turns = |place: usize| {
             let joint = rows.get(place).and_then(|&joint| robot.joints.get(joint));
             joint.is_some_and(|joint| joint.kind == JointKind::Revolute)
         };
-        let axes = self.shape().0.iter().zip(places);
-        let indices = axes.map(|(axis, place)| match axis {
+        let axes = self.shape().places(index, sizes.over(rows.len()));
+        let indices = axes.into_iter().map(|(axis, place)| match axis {
             Axis::Fixed(_) => Index::Fixed(self.component(place)),
             Axis::Joints if turns(place) => Index::Turning,
             Axis::Joints => Index::Sliding,
@@ -254,15 +250,13 @@ impl Quantity {
     pub fn entry(self, index: usize, rows: &[usize], sizes: Sizes) -> String {
         let letter = self.facts().letter;
         let sizes = sizes.over(rows.len());
-        let places = self.shape().places(index, sizes);
-        let digit = |(axis, place): (&Axis, usize)| match axis {
-            Axis::Joints => rows.get(place).map_or(0, |joint| joint + 1).to_string(),
-            Axis::Fixed(_) | Axis::LinkParameters | Axis::BaseParameters | Axis::Load => {
-                (place + 1).to_string()
-            }
+        let number = |(axis, place): (Axis, usize)| match axis {
+            Axis::Joints => rows.get(place).map_or(0, |joint| joint + 1),
+            _ => place + 1,
         };
         let is_long = sizes.joints > 9 || self.shape().lengths(sizes).any(|length| length > 9);
-        let digits: Vec<String> = self.shape().0.iter().zip(places).map(digit).collect();
+        let places = self.shape().places(index, sizes).into_iter();
+        let digits: Vec<String> = places.map(|at| number(at).to_string()).collect();
         match digits.as_slice() {
             [] => letter.to_string(),
             digits => format!("{letter}_{}", digits.join(if is_long { "," } else { "" })),

@@ -32,7 +32,7 @@ impl Quantity {
         let places: Vec<usize> = to.iter().filter_map(place).collect();
         let sizes = sizes.over(to.len());
         let entry = |index: usize| {
-            let axes = shape.0.iter().zip(shape.places(index, sizes));
+            let axes = shape.places(index, sizes).into_iter();
             // The place of the entry among those there are.
             let at = axes.fold(0, |at, (axis, place)| match axis {
                 Axis::Joints => at * from.len() + places[place],

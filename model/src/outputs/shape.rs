@@ -76,12 +76,13 @@ impl Shape {
         self.lengths(sizes).product()
     }
 
-    /// Returns the place of a number along each axis, the outermost first.
-    pub fn places(self, mut index: usize, sizes: Sizes) -> Vec<usize> {
-        let mut places: Vec<usize> = Vec::with_capacity(self.0.len());
-        for length in self.lengths(sizes).rev() {
-            places.push(index % length.max(1));
-            index /= length.max(1);
+    /// Returns the axes with the place of a number along each, the outermost first.
+    pub fn places(self, mut index: usize, sizes: Sizes) -> Vec<(Axis, usize)> {
+        let mut places = Vec::with_capacity(self.0.len());
+        for axis in self.0.iter().rev() {
+            let length = axis.length(sizes).max(1);
+            places.push((*axis, index % length));
+            index /= length;
         }
         places.reverse();
         places
@@ -110,10 +111,10 @@ mod tests {
         let shape = Shape(&[Axis::Fixed(2), Axis::Joints]);
         let three = Sizes::whole(3);
         assert_eq!(shape.len(three), 6);
-        let places: Vec<Vec<usize>> = (0..6).map(|index| shape.places(index, three)).collect();
-        assert_eq!(places[0], [0, 0]);
-        assert_eq!(places[2], [0, 2]);
-        assert_eq!(places[5], [1, 2]);
+        for (index, places) in [(0, [0, 0]), (2, [0, 2]), (5, [1, 2])] {
+            let found = shape.places(index, three).into_iter();
+            assert!(found.map(|(_, place)| place).eq(places));
+        }
         assert_eq!(Shape::SCALAR.len(three), 1);
         assert!(Shape::SCALAR.places(0, three).is_empty());
     }
@@ -131,6 +132,7 @@ mod tests {
             base: 36,
             load: 0,
         };
-        assert_eq!(base.places(37, sizes), [1, 1]);
+        let places = [(Axis::Joints, 1), (Axis::BaseParameters, 1)];
+        assert_eq!(base.places(37, sizes), places);
     }
 }

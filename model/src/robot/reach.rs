@@ -5,16 +5,13 @@ use alloc::string::String;
 
 use num_traits::{Signed, Zero};
 
-use super::findings::{Findings, of_joint};
 use super::units::{shown, whole};
-use super::{Inertia, Joint, Placement, Position, Robot, RobotWarning};
+use super::{Inertia, Joint, Placement, Position, Robot};
 use crate::number::{Rational, Rounded};
 
-/// A body whose mass is further from its centre than this many times the arm's reach
-/// was probably given in kg·mm².
+/// A body whose mass is further from its centre than this many times the arm's reach, or
+/// metres for an arm without lengths, was probably given in kg·mm².
 const MAX_GYRATION: i64 = 3;
-/// The distance, in metres, for an arm without lengths.
-const MAX_GYRATION_ALONE: i64 = 3;
 
 /// Returns the largest reach of an arm, m, without its base: zero of one without
 /// lengths.
@@ -51,7 +48,7 @@ pub(crate) fn large_inertia(
         .max()
         .filter(|most| most.is_positive())?;
     let most = match reach.is_zero() {
-        true => whole(MAX_GYRATION_ALONE),
+        true => whole(MAX_GYRATION),
         false => whole(MAX_GYRATION) * reach,
     };
     if !mass.is_positive() || *largest <= &most * &most * mass {
@@ -76,13 +73,4 @@ pub(crate) fn large_inertia(
             "inertias are in kg·m²: of kg·mm², write {less} for {largest}; it is taken as it stands"
         ),
     ))
-}
-
-impl Findings {
-    pub(super) fn doubtful_inertia(&mut self, index: usize, joint: &Joint, reach: &Rational) {
-        if let Some((message, help)) = large_inertia(&joint.inertia, &joint.mass, reach) {
-            let place = of_joint(index, "inertia");
-            self.warn(RobotWarning::LargeInertia, place, message, &help);
-        }
-    }
 }

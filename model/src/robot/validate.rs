@@ -67,7 +67,11 @@ impl Robot {
         for (index, joint) in rows.into_iter().enumerate() {
             findings.joint(index, joint);
             findings.doubtful_joint(index, joint);
-            findings.doubtful_inertia(index, joint, &reach);
+            let large = reach::large_inertia(&joint.inertia, &joint.mass, &reach);
+            if let Some((message, help)) = large {
+                let place = of_joint(index, "inertia");
+                findings.warn(RobotWarning::LargeInertia, place, message, &help);
+            }
             if let Some(placement) = placed.get(index) {
                 findings.placement(&of_joint(index, "placement"), placement);
             }
