@@ -56,8 +56,7 @@ impl QuantityAt {
 
     /// Returns the frame and what is asked of it as words: `camera:local:linear`.
     pub fn words(self) -> String {
-        let view = self.0.view;
-        format!("{}{}", view.frame, suffix(view, OF))
+        words(self.0.view)
     }
 
     pub(super) fn facts(self) -> &'static Facts {
@@ -190,9 +189,13 @@ impl Function {
         let frame = words.next().unwrap_or_default();
         let (mut axes, mut rows) = (None, None);
         for word in words {
-            let named = Axes::WORDS.iter().any(|(own, _)| *own == word);
-            let place = if named { &mut axes } else { &mut rows };
-            if !named && Rows::of(word).is_none() || place.replace(word).is_some() {
+            let named = Axes::WORDS.into_iter().find(|(own, _)| *own == word);
+            let is_taken = match (named, Rows::of(word)) {
+                (Some((_, own)), _) => axes.replace(own).is_some(),
+                (None, Some(own)) => rows.replace(own).is_some(),
+                (None, None) => true,
+            };
+            if is_taken {
                 let word: String = word.chars().take(64).collect();
                 let message = format!("`{word}` is no choice of axes or components");
                 let help = "`mixed`, `local` or `world`; `linear`, `angular`, or some of \
@@ -200,14 +203,10 @@ impl Function {
                 return Err(BundleError::new(message, help));
             }
         }
-        let of_word = |word: &str| {
-            let mut all = Axes::WORDS.into_iter();
-            all.find(|(own, _)| *own == word).map(|(_, axes)| axes)
-        };
         let view = View {
             frame: kept(frame.chars().take(Robot::MAX_NAME + 1).collect()),
-            axes: axes.and_then(of_word).unwrap_or_default(),
-            rows: rows.and_then(Rows::of).unwrap_or_default(),
+            axes: axes.unwrap_or_default(),
+            rows: rows.unwrap_or_default(),
         };
         Function::at(function, view)
     }
@@ -222,9 +221,8 @@ impl Function {
         let Some(Quantity::At(at)) = self.quantities().first() else {
             return None;
         };
-        let view = at.view();
-        let name = at.quantity().function().name();
-        Some(format!("{name}{AT}{}{}", view.frame, suffix(view, OF)))
+        let function = at.quantity().function();
+        Some(format!("{function}{AT}{}", at.words()))
     }
 
     /// Returns the frames that it is at, each once.
@@ -239,6 +237,11 @@ impl Function {
         }
         frames
     }
+}
+
+/// Returns the frame of a view and its words.
+fn words(view: View) -> String {
+    format!("{}{}", view.frame, suffix(view, OF))
 }
 
 /// Returns the words of a view, each with a sign before it.
@@ -273,7 +276,7 @@ fn described(view: View) -> String {
 /// Returns a quantity at a frame.
 fn seen(quantity: Quantity, view: View) -> Quantity {
     let of = quantity.facts();
-    let at = format!("{}{}", view.frame, suffix(view, OF));
+    let at = words(view);
     let components = |axis: &Axis| match axis {
         Axis::Fixed(6) if of.frame >= FrameChoice::Rows => Axis::Fixed(view.rows.count()),
         other => *other,
@@ -328,33 +331,5 @@ mod tests {
         assert_eq!(bundle.frames(), ["camera", "hand"]);
         let fields: Vec<&str> = bundle.quantities().iter().map(|q| q.field()).collect();
         assert_eq!(fields, ["jacobian_camera", "jacobian_hand", "c"]);
-    }
-
-    /// Texts, and below each what is said of it.
-    const REFUSED: &str = "\
-gravity@camera
-`gravity` is of no frame: leave `@` and what follows out
-forward_kinematics@camera:local
-`forward_kinematics` has no choice of `:local`: it takes a frame alone
-jacobian@Camera
-`Camera` cannot name a frame: small letters, digits and single `_` between them, such as `camera_2`
-jacobian@
-`` cannot name a frame: small letters, digits and single `_` between them, such as `camera_2`
-jacobian@camera_batch
-`camera_batch` cannot name a frame: small letters, digits and single `_` between them, such as `camera_2`
-jacobian@camera:lokal
-`lokal` is no choice of axes or components: `mixed`, `local` or `world`; `linear`, `angular`, or some of x, y, z, rx, ry and rz, such as `x_y_rz`
-jacobian@camera:local:world
-`world` is no choice of axes or components: `mixed`, `local` or `world`; `linear`, `angular`, or some of x, y, z, rx, ry and rz, such as `x_y_rz`
-see=jacobian@camera+jacobian@camera
-`jacobian_camera` is in it twice: leave one of them out";
-
-    #[test]
-    fn what_is_no_frame_is_refused_by_name() {
-        let lines: Vec<&str> = REFUSED.lines().collect();
-        for [text, expected] in lines.as_chunks::<2>().0 {
-            let error = Function::parse(text).unwrap_err();
-            assert_eq!(error.to_string(), *expected, "{text}");
-        }
     }
 }

@@ -270,10 +270,26 @@ Servo=inertia+jacobian
 =inertia+jacobian
 `` is no name of a function: small letters, digits and single `_` between them, such as `servo_2`
 a__b=inertia+jacobian
-`a__b` is no name of a function: small letters, digits and single `_` between them, such as `servo_2`";
+`a__b` is no name of a function: small letters, digits and single `_` between them, such as `servo_2`
+gravity@camera
+`gravity` is of no frame: leave `@` and what follows out
+forward_kinematics@camera:local
+`forward_kinematics` has no choice of `:local`: it takes a frame alone
+jacobian@Camera
+`Camera` cannot name a frame: small letters, digits and single `_` between them, such as `camera_2`
+jacobian@
+`` cannot name a frame: small letters, digits and single `_` between them, such as `camera_2`
+jacobian@camera_batch
+`camera_batch` cannot name a frame: small letters, digits and single `_` between them, such as `camera_2`
+jacobian@camera:lokal
+`lokal` is no choice of axes or components: `mixed`, `local` or `world`; `linear`, `angular`, or some of x, y, z, rx, ry and rz, such as `x_y_rz`
+jacobian@camera:local:world
+`world` is no choice of axes or components: `mixed`, `local` or `world`; `linear`, `angular`, or some of x, y, z, rx, ry and rz, such as `x_y_rz`
+see=jacobian@camera+jacobian@camera
+`jacobian_camera` is in it twice: leave one of them out";
 
     #[test]
-    fn what_cannot_be_in_one_is_refused_by_name() {
+    fn what_cannot_be_is_refused_by_name() {
         let lines: Vec<&str> = REFUSED.lines().collect();
         for [text, expected] in lines.as_chunks::<2>().0 {
             let error = Function::parse(text).unwrap_err();
