@@ -40,7 +40,6 @@ pub(crate) struct Link {
     pub(crate) pose: Columns<Wide>,
     pub(crate) placement: Placement,
     pub(crate) axis: Vector<Wide>,
-    pub(crate) mass: Rational,
     pub(crate) body: Body,
 }
 
@@ -62,19 +61,17 @@ pub(crate) fn arm(urdf: &Urdf, chain: &Chain, problems: &mut Problems) -> Option
                 (pose.clone(), placement(&pose, &size))
             }
         };
-        let (mass, body) = body(urdf, moving, &size)?;
         Some(Link {
             pose,
             placement,
+            body: body(urdf, moving, &size)?,
             axis: direction_of(joint)?,
-            mass,
-            body,
         })
     });
     let links: Vec<Link> = links.collect::<Option<_>>()?;
     let empty = chain.moving.iter().zip(&links).filter(|(_, link)| {
         let body = &link.body.inertia.rows();
-        link.mass.is_zero() && body.iter().flatten().all(Zero::is_zero)
+        link.body.mass.is_zero() && body.iter().flatten().all(Zero::is_zero)
     });
     let empty = empty.filter_map(|(moving, _)| {
         let child = &urdf.joints[moving.joint].child.0;
@@ -194,44 +191,45 @@ fn direction_of(joint: &Joint) -> Option<Vector<Wide>> {
     direction(&joint.axis.each_ref().map(|x| x.value.clone()))
 }
 
-/// Mass and body of everything that a joint moves, in its child's frame; lengths of the
+/// Returns everything that a joint moves as one body, in its child's frame; lengths of the
 /// chain are of this size.
-fn body(urdf: &Urdf, moving: &Moving, size: &Rational) -> Option<(Rational, Body)> {
-    let mut parts: Vec<(Rational, Body)> = Vec::new();
+fn body(urdf: &Urdf, moving: &Moving, size: &Rational) -> Option<Body> {
+    let mut parts: Vec<Body> = Vec::new();
     for (link, steps) in &moving.links {
         let Some(inertial) = &urdf.links[*link].inertial else {
             continue;
         };
         let own = Body {
+            mass: inertial.mass.value.clone(),
             com: [(); 3].map(|()| Rational::zero()),
             inertia: inertial.inertia.map(|entry| entry.value.clone()),
         };
         let origin = inertial.origin.placement();
         let at = way(urdf, steps)?.then(&pose(&origin));
         let size = size + origin.size();
-        parts.push((inertial.mass.value.clone(), moved(&own, &at, &size)));
+        parts.push(moved(&own, &at, &size));
     }
-    let total: Rational = parts.iter().map(|(mass, _)| mass).sum();
+    let mass: Rational = parts.iter().map(|part| &part.mass).sum();
     let centre: [Rational; 3] = core::array::from_fn(|i| {
-        let moment: Rational = parts.iter().map(|(mass, body)| mass * &body.com[i]).sum();
-        match total.is_zero() {
+        let moment: Rational = parts.iter().map(|part| &part.mass * &part.com[i]).sum();
+        match mass.is_zero() {
             true => moment,
-            false => moment / &total,
+            false => moment / &mass,
         }
     });
     let entry = |i: usize, k: usize| {
-        let parts = parts.iter().map(|(mass, body)| {
+        let parts = parts.iter().map(|part| {
             // m (d·d 1 − d dᵀ)
-            let d: [Rational; 3] = core::array::from_fn(|i| &body.com[i] - &centre[i]);
+            let d: [Rational; 3] = core::array::from_fn(|i| &part.com[i] - &centre[i]);
             let square: Rational = d.iter().map(|x| x * x).sum();
             let diagonal = if i == k { square } else { Rational::zero() };
-            &body.inertia.rows()[i][k] + mass * (diagonal - &d[i] * &d[k])
+            &part.inertia.rows()[i][k] + &part.mass * (diagonal - &d[i] * &d[k])
         });
         short(parts.sum())
     };
     let inertia = Inertia::symmetric(entry);
     let com = centre.clone().map(short);
-    Some((total, Body { com, inertia }))
+    Some(Body { mass, com, inertia })
 }
 
 /// Returns a decimal that a person would write, or 20 digits.

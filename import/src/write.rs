@@ -183,7 +183,7 @@ fn joint(text: &mut String, joint: &Joint, link: &Link, options: &Options) {
         ("kind", Some(quoted(kind))),
         ("placement", Some(placement(&as_read(&link.placement)))),
         ("axis", Some(list(axis))),
-        ("mass", Some(number(&link.mass))),
+        ("mass", Some(number(&link.body.mass))),
         ("com", Some(list(link.body.com.iter().map(number)))),
         ("inertia", Some(numbers(link.body.inertia.entries()))),
         ("viscous", viscous),

@@ -284,7 +284,7 @@ fn parts(one: &Link, other: &Link, slides: bool) -> Parts {
         rows.each_ref().map(wide)
     });
     let rows = [0, 1, 2].map(|i| vectors(&tensor[i], &other_tensor[i]));
-    let mass = f64::nearest_rational(&one.mass.abs()).next_up();
+    let mass = f64::nearest_rational(&one.body.mass.abs()).next_up();
     Parts {
         slides,
         turn: Pair::new(1.0, next_up_unless_zero(placed + turned)),

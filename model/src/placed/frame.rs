@@ -9,9 +9,11 @@ use crate::number::{Angle, Rational, Wide};
 use crate::robot::{Inertia, Placement};
 use crate::scalar::Scalar;
 
-/// Where a body's mass is, in a frame.
+/// A body, in a frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Body {
+    /// Mass, kg.
+    pub mass: Rational,
     /// Centre of mass, m.
     pub com: [Rational; 3],
     /// Inertia about it in the frame's axes, kg·m².
@@ -65,6 +67,7 @@ pub fn moved(body: &Body, pose: &Columns<Wide>, size: &Rational) -> Body {
     let entries = body.inertia.rows();
     let moments: Rational = entries.iter().flatten().map(Signed::abs).sum();
     Body {
+        mass: body.mass.clone(),
         com: com.each_ref().map(|x| recovered(x, &size)),
         inertia: turned.map(|x| recovered(x, &moments)),
     }

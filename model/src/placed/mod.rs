@@ -108,6 +108,7 @@ pub fn derive(robot: &mut Robot, placed: &[Placed]) -> Result<(), NoDirection> {
         joint.alpha = row.alpha;
         joint.beta = row.beta;
         let own = Body {
+            mass: joint.mass.clone(),
             com: joint.com.clone(),
             inertia: joint.inertia.clone(),
         };

@@ -4,9 +4,9 @@ use alloc::vec::Vec;
 
 use num_traits::Zero;
 
-use super::Scene;
+use super::{Payload, Scene};
 use crate::number::Rational;
-use crate::placed::{Body, frame};
+use crate::placed::frame;
 use crate::robot::{Inertia, Joint, Robot};
 
 impl Scene {
@@ -21,15 +21,11 @@ impl Scene {
         }
         let frame = robot.payload_frame.clone();
         if let (Some(payload), Some(last)) = (&self.payload, robot.last_row_mut()) {
-            let own = Body {
-                com: payload.com.clone(),
-                inertia: payload.inertia.clone(),
+            let payload = match &frame {
+                None => payload.clone(),
+                Some(frame) => frame::moved(payload, &frame::pose(frame), &frame.size()),
             };
-            let body = match &frame {
-                None => own,
-                Some(frame) => frame::moved(&own, &frame::pose(frame), &frame.size()),
-            };
-            carry(last, &payload.mass, &body);
+            carry(last, &payload);
         }
         for (i, joint) in robot.joints.iter_mut().enumerate() {
             let (limits, bounds) = (&mut joint.limits, &self.bounds);
@@ -50,12 +46,11 @@ fn bound<T: Clone>(limit: &mut Option<T>, all: &Option<Vec<T>>, joint: usize) {
 
 /// Makes a link and what is fixed to it, in the same frame, one: with d between the centres of
 /// mass and μ = m₁m₂/(m₁ + m₂), I = I₁ + I₂ + μ (d·d 1 − d dᵀ).
-fn carry(link: &mut Joint, mass: &Rational, payload: &Body) {
-    let total = &link.mass + mass;
-    let share = if total.is_zero() {
-        Rational::zero()
-    } else {
-        mass / &total
+fn carry(link: &mut Joint, payload: &Payload) {
+    let total = &link.mass + &payload.mass;
+    let share = match total.is_zero() {
+        true => Rational::zero(),
+        false => &payload.mass / &total,
     };
     let reduced = &link.mass * &share;
     let d: [Rational; 3] = core::array::from_fn(|i| &payload.com[i] - &link.com[i]);

@@ -15,8 +15,9 @@ use alloc::vec::Vec;
 use crate::number::Rational;
 use crate::outputs::Function;
 use crate::robot::values::word;
-use crate::robot::{Inertia, Limit, Position};
+use crate::robot::{Limit, Position};
 
+pub use crate::placed::Body as Payload;
 pub use write::write;
 
 /// A use of a robot. Joints are zero-based here; people count from one.
@@ -38,7 +39,8 @@ pub struct Scene {
     pub velocity_zero: bool,
     /// q̈ = 0: the same for accelerations.
     pub acceleration_zero: bool,
-    /// The payload on the last link.
+    /// The payload on the last link, given in that one's own frame: in the robot's
+    /// [`payload_frame`](crate::robot::Robot::payload_frame).
     pub payload: Option<Payload>,
     /// The ranges of the motion, instead of the robot's limits.
     pub bounds: MotionBox,
@@ -46,18 +48,6 @@ pub struct Scene {
     pub tolerance: Option<Tolerance>,
     /// The scalar; `None` if the scene leaves that to the request.
     pub scalar: Option<Float>,
-}
-
-/// A body fixed to the last link, given in its own frame: in the robot's
-/// [`payload_frame`](crate::robot::Robot::payload_frame).
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Payload {
-    /// Mass, kg.
-    pub mass: Rational,
-    /// Centre of mass in that frame, m.
-    pub com: [Rational; 3],
-    /// About its centre of mass, in the axes of that frame, kg·m².
-    pub inertia: Inertia<Rational>,
 }
 
 /// Ranges of motion, an entry a joint; what is missing is the robot's limit.
