@@ -52,25 +52,19 @@ pub(super) fn format_of(source: &str) -> Option<(&'static str, &'static str)> {
 /// Returns the message and the help about a character that TOML does not take.
 pub(super) fn character(c: char) -> Option<(String, &'static str)> {
     let code = u32::from(c);
-    let named = |what: &str| format!("the character `{c}` (U+{code:04X}) is {what}");
-    if DASHES.contains(&c) {
-        return Some((
-            named("no minus sign of TOML"),
-            "write the minus of the keyboard, `-`",
-        ));
-    }
-    if QUOTES.contains(&c) {
-        return Some((
-            named("no quotation mark of TOML"),
-            "write the quotation mark of the keyboard, `\"`",
-        ));
-    }
-    SPACES.contains(&c).then(|| {
-        (
-            format!("the invisible character U+{code:04X} is no space of TOML"),
-            "write an ordinary space",
-        )
-    })
+    let (what, help) = if DASHES.contains(&c) {
+        ("no minus sign", "write the minus of the keyboard, `-`")
+    } else if QUOTES.contains(&c) {
+        let help = "write the quotation mark of the keyboard, `\"`";
+        ("no quotation mark", help)
+    } else if SPACES.contains(&c) {
+        let message = format!("the invisible character U+{code:04X} is no space of TOML");
+        return Some((message, "write an ordinary space"));
+    } else {
+        return None;
+    };
+    let message = format!("the character `{c}` (U+{code:04X}) is {what} of TOML");
+    Some((message, help))
 }
 
 /// Returns the help for a text that would be a number or an angle but for one of these

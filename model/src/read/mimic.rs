@@ -1,7 +1,7 @@
 //! `mimic` of a joint: which other it follows, and along which line.
 
 use alloc::format;
-use alloc::string::{String, ToString};
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use num_traits::{One, Signed, Zero};
@@ -62,45 +62,44 @@ fn one<'v>(
     let (leader, multiplier, offset) = (leader?, multiplier?, offset?);
     let most = Rational::from_integer(Follower::MAX_TURNS.into());
     let is_whole = |number: &Rational| number.is_integer() && number.abs() <= most;
-    let (message, help) = if leader == row {
-        ("a joint that follows itself".to_string(), HELP.to_string())
-    } else if joints[leader].kind != joint.kind {
-        (
-            "one of both joints turns, and the other slides".to_string(),
-            "a joint follows another of its own kind".to_string(),
-        )
-    } else if multiplier.is_zero() {
-        (
-            "a multiplier of 0: the joint never moves".to_string(),
-            "one that stands still is a part of its link".to_string(),
-        )
-    } else if turns && !is_whole(&multiplier) {
-        let inverse = multiplier.recip();
-        let other: String = match is_whole(&inverse) {
-            true => {
-                format!(": let that joint mimic this one, with multiplier = {inverse}")
-            }
-            false => String::new(),
-        };
-        let of = if other.is_empty() { " of an angle" } else { "" };
-        (
-            format!("a joint that turns {multiplier} times as far"),
-            format!("sines are of whole multiples{of}, up to {most}{other}"),
-        )
-    } else if joint.has_coulomb() {
-        (
-            "`coulomb` of a joint that follows another".to_string(),
-            "give it to the joint that leads, times the size of the multiplier".to_string(),
-        )
-    } else {
-        return Some(Mimic {
-            leader,
-            multiplier,
-            offset,
+    if leader == row {
+        return cx.refuse(value, "a joint that follows itself", HELP);
+    }
+    if joints[leader].kind != joint.kind {
+        let message = "one of both joints turns, and the other slides";
+        return cx.refuse(value, message, "a joint follows another of its own kind");
+    }
+    if multiplier.is_zero() {
+        let message = "a multiplier of 0: the joint never moves";
+        return cx.refuse(
             value,
-        });
-    };
-    cx.refuse(value, message, &help)
+            message,
+            "one that stands still is a part of its link",
+        );
+    }
+    if turns && !is_whole(&multiplier) {
+        let inverse = multiplier.recip();
+        let (of, other) = match is_whole(&inverse) {
+            true => (
+                "",
+                format!(": let that joint mimic this one, with multiplier = {inverse}"),
+            ),
+            false => (" of an angle", String::new()),
+        };
+        let message = format!("a joint that turns {multiplier} times as far");
+        let help = format!("sines are of whole multiples{of}, up to {most}{other}");
+        return cx.refuse(value, message, &help);
+    }
+    if joint.has_coulomb() {
+        let help = "give it to the joint that leads, times the size of the multiplier";
+        return cx.refuse(value, "`coulomb` of a joint that follows another", help);
+    }
+    Some(Mimic {
+        leader,
+        multiplier,
+        offset,
+        value,
+    })
 }
 
 /// Takes the joints of a robot that follow others out of its coordinates. One that
