@@ -1,7 +1,7 @@
 //! Scenes of robot files: every key, and the text that says the same.
 
 use crate::support::{errors, has, only, ratio, reading, replaced, rows};
-use dalembert_model::number::{Angle, Rational};
+use dalembert_model::number::Angle;
 use dalembert_model::outputs::Function;
 use dalembert_model::read::{Diagnostic, RobotWarning};
 use dalembert_model::robot::{Position, Severity};
@@ -112,30 +112,6 @@ scalar = "f64"
     let mut other = pick.clone();
     other.velocity_zero = false;
     assert_ne!(pick.short_hash(), other.short_hash());
-}
-
-/// The payload and the last link are one body: the same total mass, centre of
-/// mass, and inertia about any point.
-#[test]
-fn a_payload_is_part_of_the_last_link() {
-    let load = "{ mass = 1.5, com = [0.1, 0.2, 0.4], inertia = [1, 2, 2, 0, 0, 0.5] }";
-    let reading = reading(&with(&format!("payload = {load}")));
-    let (bare, loaded) = (&reading.robot, reading.scenes[0].apply(&reading.robot));
-    assert_eq!(bare.joints[..2], loaded.joints[..2]);
-    let (link, both) = (&bare.joints[2], &loaded.joints[2]);
-    assert_eq!(both.mass, ratio(2, 1));
-    // (0.5·(0.1, 0, 0) + 1.5·(0.1, 0.2, 0.4))/2
-    assert_eq!(both.com, [ratio(1, 10), ratio(3, 20), ratio(3, 10)]);
-    // Steiner by hand, about the origin of the frame.
-    let about_origin = |mass: &Rational, com: &[Rational; 3], xx: &Rational, xz: &Rational| {
-        let [x, y, z] = com;
-        (xx + mass * (y * y + z * z), xz - mass * x * z)
-    };
-    let own = about_origin(&link.mass, &link.com, &link.inertia.xx, &link.inertia.xz);
-    let com = [ratio(1, 10), ratio(1, 5), ratio(2, 5)];
-    let load = about_origin(&ratio(3, 2), &com, &ratio(1, 1), &ratio(1, 2));
-    let all = about_origin(&both.mass, &both.com, &both.inertia.xx, &both.inertia.xz);
-    assert_eq!((own.0 + load.0, own.1 + load.1), all);
 }
 
 /// One mistake each, and words of the message or the help.
