@@ -288,7 +288,6 @@ fn seen(quantity: Quantity, view: View) -> Quantity {
         summary: kept(format!("{} {}", of.summary, described(view))),
         shape: Shape(Box::leak(axes.into_boxed_slice())),
         given: of.given.map(|key| kept(format!("{key}{AT}{at}"))),
-        given_as: None,
         ..*of
     };
     Quantity::At(QuantityAt(Box::leak(Box::new(Viewed {

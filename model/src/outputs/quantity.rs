@@ -22,9 +22,6 @@ pub(super) enum FrameChoice {
     Rows,
 }
 
-/// The conversion of a result's entries, with q̇, into those of given states.
-type FromEntries = fn(&[f64], &[f64]) -> Vec<f64>;
-
 /// The facts of a quantity, beside its formulas.
 #[derive(Clone, Copy, Debug)]
 pub struct Facts {
@@ -49,9 +46,6 @@ pub struct Facts {
     pub scale: ErrorScale,
     /// Its key in files of given states.
     pub given: Option<&'static str>,
-    /// The quantity that given states have in its stead, and how that follows from its
-    /// entries and q̇.
-    pub given_as: Option<(Quantity, FromEntries)>,
     /// The choices that the chain formulas leave; `None` if they do not give it.
     pub(super) choices: Option<&'static [Choice]>,
     /// True if the textbook recursion is a start that may be the cheapest.
@@ -94,7 +88,6 @@ impl Facts {
         unit: |_| "",
         scale: ErrorScale::None,
         given: None,
-        given_as: None,
         choices: None,
         starts_from_recursion: false,
         by_differences: false,
@@ -182,15 +175,6 @@ impl Quantity {
     /// Returns its letter in the equations; `h_ikm` for the symbols that make up h.
     pub fn symbol(self) -> &'static str {
         self.facts().symbol()
-    }
-
-    /// Returns what given states have of it, from its entries at a state of
-    /// these velocities.
-    pub fn as_given(self, values: &[f64], qd: &[f64]) -> (Quantity, Vec<f64>) {
-        match self.facts().given_as {
-            Some((quantity, convert)) => (quantity, convert(values, qd)),
-            None => (self, values.to_vec()),
-        }
     }
 
     /// Returns whether the chain formulas give it.

@@ -159,7 +159,6 @@ impl Formula for Christoffel {
         // Twice per metre where both rates are of length, the force once.
         unit: |at| kilograms(turns(at) - 1),
         scale: ErrorScale::Coefficient,
-        given_as: Some((Quantity::Coriolis, contract)),
         choices: Some(&[]),
         by_differences: true,
         payload_dependence: PayloadDependence::Torque,
@@ -173,6 +172,17 @@ impl Formula for Christoffel {
 
     fn regrouped<S: Divide>(at: &Regrouped<'_, S>) -> Option<Vec<S>> {
         Some(at.composite.christoffel().concat().concat())
+    }
+}
+
+impl Quantity {
+    /// Returns what given states have of it, from its entries at a state of these velocities:
+    /// instead of h_ikm they have h.
+    pub fn as_given(self, values: &[f64], qd: &[f64]) -> (Quantity, Vec<f64>) {
+        match self {
+            Quantity::Christoffel => (Quantity::Coriolis, contract(values, qd)),
+            own => (own, values.to_vec()),
+        }
     }
 }
 
