@@ -11,7 +11,7 @@ use alloc::string::{String, ToString};
 use num_traits::{Signed, Zero};
 
 use super::findings::{Findings, of_joint};
-use super::{Joint, JointKind, Placement, Position, RobotWarning};
+use super::{Joint, JointKind, Limit, Placement, Position, RobotWarning};
 use crate::number::parse::write_decimal;
 use crate::number::{Angle, Rational, Rounded};
 
@@ -142,12 +142,10 @@ impl Findings {
     }
 
     fn doubtful_limits(&mut self, index: usize, joint: &Joint) {
-        let at = |key| of_joint(index, &format!("limits/{key}"));
-        for (key, limit) in [
-            ("velocity", &joint.limits.velocity),
-            ("acceleration", &joint.limits.acceleration),
-        ] {
-            if limit.as_ref().is_some_and(Zero::is_zero) {
+        let at = |key: &str| of_joint(index, &format!("limits/{key}"));
+        for rate in [Limit::Velocity, Limit::Acceleration] {
+            if joint.limits.rate(rate).is_some_and(Zero::is_zero) {
+                let key = rate.key();
                 let message = format!("the limit of {key} is 0: the joint never moves");
                 let help =
                     "leave it out where it is not known; a scene locks a joint that stands still";

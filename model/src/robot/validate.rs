@@ -13,7 +13,9 @@ use num_traits::{Signed, Zero};
 
 use super::body::Defect;
 use super::findings::{Finding, Findings, of_joint};
-use super::{Convention, Joint, JointKind, Placement, Position, Robot, RobotWarning, reach, units};
+use super::{
+    Convention, Joint, JointKind, Limit, Placement, Position, Robot, RobotWarning, reach, units,
+};
 use crate::number::parse::in_range;
 use crate::number::{Angle, Rational, Rounded};
 
@@ -187,7 +189,7 @@ impl Findings {
     }
 
     fn joint(&mut self, index: usize, joint: &Joint) {
-        let at = |key| of_joint(index, key);
+        let at = |key: &str| of_joint(index, key);
         // The constant part of the variable is called offset in the file.
         let (d, theta) = match joint.kind {
             JointKind::Revolute => ("d", "offset"),
@@ -211,17 +213,12 @@ impl Findings {
         if let Some(frame) = &joint.frame {
             self.placement(&at("frame"), frame);
         }
-        let limits = &joint.limits;
-        for (key, limit) in [
-            ("limits/velocity", &limits.velocity),
-            ("limits/acceleration", &limits.acceleration),
-            ("limits/torque", &limits.torque),
-        ] {
-            if let Some(limit) = limit {
-                self.not_negative(&at(key), limit);
+        for rate in [Limit::Velocity, Limit::Acceleration, Limit::Torque] {
+            if let Some(limit) = joint.limits.rate(rate) {
+                self.not_negative(&at(&format!("limits/{}", rate.key())), limit);
             }
         }
-        if let Some(range) = &limits.position {
+        if let Some(range) = &joint.limits.position {
             self.range(&at("limits/position"), joint.kind, range);
         }
         self.body(&at("inertia"), joint);
