@@ -7,7 +7,6 @@
 //! - `at`: one of them at a frame of the robot
 //! - `quantity`: what a result is: its [`Shape`], names, unit and error scale
 //! - `shape`: the axes of a result, and what their lengths follow from
-//! - `select`: entries over some rows of an arm from those over others
 //! - `argument`: what functions read
 //! - `runtime`: parameters of the arm that are arguments on request
 //! - `formula`: what is said of a quantity, and what its formulas are given
@@ -27,7 +26,6 @@ mod quantity;
 #[macro_use]
 mod registry;
 mod runtime;
-mod select;
 mod shape;
 
 mod contact;

@@ -6,10 +6,9 @@ use alloc::vec::Vec;
 use toml_span::Value;
 
 use super::outputs::outputs;
-use super::placement::placement;
 use super::report::quote;
 use super::table::{Table, locate};
-use super::value::Context;
+use super::value::{Context, placement};
 use super::{Reading, guard, joint, link, mimic, scene, suggest, syntax};
 use crate::placed::{Placed, derive};
 use crate::robot::{Convention, Finding, Frame, Joint, Placement, Robot, RobotWarning};

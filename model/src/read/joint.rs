@@ -6,9 +6,8 @@ use core::ops::Range;
 use num_traits::Zero;
 use toml_span::Value;
 
-use super::placement::placement;
 use super::table::Table;
-use super::value::Context;
+use super::value::{Context, placement};
 use crate::number::{Angle, Rational};
 use crate::placed::Placed;
 use crate::robot::{Joint, JointKind, Limits};

@@ -3,7 +3,7 @@
 //! The text passes through, in this order:
 //! - `guard`: size, depth and count limits, before anything recursive runs
 //! - `toml-span`, for the structure and the spans; its numbers are not used
-//! - `file`, `joint`, `mimic`, `link`, `scene`, `outputs`, `placement`: the keys of the file, through `table` and `value`
+//! - `file`, `joint`, `mimic`, `link`, `scene`, `outputs`: the keys of the file, through `table` and `value`
 //! - [`Robot::validate`] and [`Scene::validate`], whose findings name places of the file, which
 //!   `table` finds in it
 //!
@@ -51,7 +51,6 @@ mod joint;
 mod link;
 mod mimic;
 mod outputs;
-mod placement;
 mod report;
 mod scene;
 mod suggest;

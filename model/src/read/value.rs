@@ -12,10 +12,11 @@ use toml_span::value::ValueInner;
 use toml_span::{Span, Value};
 
 use super::report::{Sink, quote};
+use super::table::Table;
 use super::{RobotWarning, foreign, suggest};
 use crate::number::parse::{parse_decimal, parse_fraction};
 use crate::number::{Angle, Rational, Snapped};
-use crate::robot::{Inertia, JointKind, Position};
+use crate::robot::{Inertia, JointKind, Placement, Position};
 
 /// The diagnostics of a reading.
 pub(super) struct Context {
@@ -35,6 +36,17 @@ pub(super) fn bytes_of(span: Span) -> Range<usize> {
 pub(super) fn first_line(source: &str, span: Range<usize>) -> Range<usize> {
     let line = source.get(span.clone()).and_then(|s| s.lines().next());
     span.start..span.start + line.map_or(1, |line| line.trim_end().len().max(1))
+}
+
+/// Returns the placement of an optional key.
+pub(super) fn placement(
+    cx: &mut Context,
+    keys: &mut Table,
+    key: &'static str,
+) -> Option<Placement> {
+    let help = format!("{key} = {{ xyz = [0, 0, 0.1], rpy = [0, \"pi/2\", 0] }}");
+    let placement = keys.table(cx, key, &help, Context::placement);
+    placement.and_then(Placement::unless_identity)
 }
 
 impl Context {
@@ -211,6 +223,24 @@ impl Context {
             Some(JointKind::Prismatic) => self.length(value).map(Position::Length),
             _ => self.angle(value).map(Position::Angle),
         }
+    }
+
+    /// Reads the placement that a table says, among other keys.
+    pub(super) fn placement(&mut self, table: &mut Table) -> Option<Placement> {
+        const XYZ: &str = "xyz = [x, y, z], in m";
+        const RPY: &str = "rpy = [roll, pitch, yaw], turns about the fixed axes x, y and z, e.g. [0, \"pi/2\", 0]";
+        let xyz = match table.get("xyz") {
+            None => Some(Placement::default().xyz),
+            Some(value) => self.array(value, XYZ, Self::length),
+        };
+        let rpy = match table.get("rpy") {
+            None => Some(Placement::default().rpy),
+            Some(value) => self.array(value, RPY, Self::angle),
+        };
+        Some(Placement {
+            xyz: xyz?,
+            rpy: rpy?,
+        })
     }
 
     /// Reads a text.
