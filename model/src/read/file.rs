@@ -5,7 +5,6 @@ use alloc::vec::Vec;
 
 use toml_span::Value;
 
-use super::outputs::outputs;
 use super::report::quote;
 use super::table::{Table, locate};
 use super::value::{Context, placement};
@@ -35,7 +34,7 @@ pub(super) fn read(source: &str, cx: &mut Context) -> Option<Reading> {
                 .found(finding.warning, span, finding.message, &finding.help);
         }
     }
-    let outputs = keys.optional(cx, "outputs", |cx, value| outputs(cx, value, "a robot"));
+    let outputs = keys.optional(cx, "outputs", |cx, value| cx.outputs(value, "a robot"));
     // Without joints, every joint of a scene would be unknown as well.
     let scenes = keys.get("scene").filter(|_| !robot.joints.is_empty());
     let scenes = scenes.map_or_else(Vec::new, |scenes| scene::read(cx, &robot, &root, scenes));

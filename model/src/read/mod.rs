@@ -3,7 +3,7 @@
 //! The text passes through, in this order:
 //! - `guard`: size, depth and count limits, before anything recursive runs
 //! - `toml-span`, for the structure and the spans; its numbers are not used
-//! - `file`, `joint`, `mimic`, `link`, `scene`, `outputs`: the keys of the file, through `table` and `value`
+//! - `file`, `joint`, `mimic`, `link`, `scene`: the keys of the file, through `table` and `value`
 //! - [`Robot::validate`] and [`Scene::validate`], whose findings name places of the file, which
 //!   `table` finds in it
 //!
@@ -50,7 +50,6 @@ mod guard;
 mod joint;
 mod link;
 mod mimic;
-mod outputs;
 mod report;
 mod scene;
 mod suggest;

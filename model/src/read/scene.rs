@@ -7,10 +7,10 @@ use core::ops::Range;
 
 use toml_span::Value;
 
+use super::link;
 use super::report::quote;
 use super::table::{Table, locate};
 use super::value::{Context, bytes_of};
-use super::{link, outputs};
 use crate::robot::{Follower, Joint, JointKind, Position, Robot};
 use crate::scene::{Float, MotionBox, Payload, Scale, Scene, Tolerance};
 
@@ -54,9 +54,7 @@ pub(super) fn read(cx: &mut Context, robot: &Robot, root: &Value, scenes: &Value
 fn scene(cx: &mut Context, robot: &Robot, name: &str, keys: &mut Table) -> Scene {
     const JOINTS: &str = "joints = [1, 2, \"elbow\"]: numbers from 1, or names";
     const GRAVITY: &str = "gravity = [0, 0, -9.81], or [0, 0, 0] for none";
-    let outputs = keys.optional(cx, "outputs", |cx, value| {
-        outputs::outputs(cx, value, "a scene")
-    });
+    let outputs = keys.optional(cx, "outputs", |cx, value| cx.outputs(value, "a scene"));
     Scene {
         name: name.to_string(),
         outputs: outputs.unwrap_or_default(),
