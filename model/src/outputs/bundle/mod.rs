@@ -5,12 +5,8 @@
 //! whoever asks what a function returns, reads or is called need not know which
 //! of the two it is. [`Function::ManipulatorEquation`] is one that is always
 //! there.
-//!
-//! - `name`: what a bundle may be called, and its struct
-//! - `error`: why there is no such bundle
 
 mod error;
-mod name;
 
 use alloc::boxed::Box;
 use alloc::format;
@@ -19,15 +15,29 @@ use alloc::vec::Vec;
 
 use super::function::{Definition, Made};
 use super::{Columns, Function, Quantity};
+use crate::robot::{ENDINGS, WORDS, is_snake};
 
 pub use error::BundleError;
-pub(super) use name::check as check_name;
 
 /// The sign between the parts of a bundle.
 const PLUS: char = '+';
 
 /// The sign between its name and them.
 const IS: char = '=';
+
+/// The longest name of a bundle.
+const MAX_BYTES: usize = 64;
+
+/// Names that modules use otherwise; with each the struct of the name is taken too.
+const OWN: [&str; 7] = [
+    "angles",
+    "in_box",
+    "load",
+    "payload",
+    "result",
+    "robot",
+    "state_box",
+];
 
 impl Function {
     /// Returns a function of this name that returns what all of these return, in their
@@ -49,7 +59,7 @@ impl Function {
         name: &str,
         parts: impl IntoIterator<Item = Function>,
     ) -> Result<Function, BundleError> {
-        name::check(name)?;
+        check_name(name)?;
         let parts: Vec<Function> = parts.into_iter().flat_map(Function::parts).collect();
         // What comes along with others is no output.
         let is_none = |part: &&Function| {
@@ -92,7 +102,7 @@ impl Function {
             name: kept(name.to_string()),
             summary: kept(summary(&parts)),
             results: Box::leak(results.into_boxed_slice()),
-            structure: Some(kept(name::camel(name))),
+            structure: Some(kept(camel(name))),
             by_default: false,
             parts: Box::leak(parts.into_boxed_slice()),
         })))
@@ -100,7 +110,7 @@ impl Function {
 
     /// Returns its name as that of a type: `InverseDynamics`.
     pub fn camel(self) -> String {
-        name::camel(self.name())
+        camel(self.name())
     }
 
     /// Returns the functions that it bundles, in their order; a function that is none is
@@ -171,6 +181,42 @@ impl Function {
         let same_structure = self.structure().is_some() && self.structure() == other.structure();
         self.name() == other.name() || same_structure
     }
+}
+
+/// Returns whether a bundle may have this name.
+pub(super) fn check_name(name: &str) -> Result<(), BundleError> {
+    let bars = name.ends_with('_') || name.contains("__");
+    if !is_snake(name) || bars || name.len() > MAX_BYTES {
+        // Whatever was written, a message has a line's length.
+        let name: String = name.chars().take(MAX_BYTES).collect();
+        let help = "small letters, digits and single `_` between them, such as `servo_2`";
+        let message = format!("`{name}` is no name of a function");
+        return Err(BundleError::new(message, help));
+    }
+    let structure = camel(name);
+    let is_taken = |f: Function| f.structure() == Some(structure.as_str());
+    let end = |ending: &'static str| Some((name.strip_suffix(ending)?, ending));
+    let message = if WORDS.contains(&name) {
+        format!("`{name}` is a word of Rust")
+    } else if Function::from_name(name).is_some() {
+        format!("`{name}` is an output by itself")
+    } else if OWN.contains(&name) || Function::ALL.into_iter().any(is_taken) {
+        format!("`{name}` has a meaning of its own in generated modules")
+    } else if let Some((of, ending)) = ENDINGS.into_iter().find_map(end) {
+        format!("`{name}` would end as the other way to call `{of}` does, `{ending}`")
+    } else {
+        return Ok(());
+    };
+    Err(BundleError::new(message, "call the bundle otherwise"))
+}
+
+/// Returns the struct of a function: `servo_state` returns a `ServoState`.
+fn camel(name: &str) -> String {
+    let words = name.split('_').map(|word| {
+        let (first, rest) = word.split_at(word.len().min(1));
+        first.to_ascii_uppercase() + rest
+    });
+    words.collect()
 }
 
 /// Returns a line for its documentation.
