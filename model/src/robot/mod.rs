@@ -3,10 +3,9 @@
 //! One [`Joint`] per row of the DH table; everything is SI, angles are exact
 //! ([`Angle`]), all other numbers are exact rationals.
 //!
-//! - `placement`: where a frame is in another, [`Placement`]
-//! - `findings`: errors and warnings, each at a place of the robot file ([`Finding`])
+//! - `findings`: errors and warnings, each at a place of the robot file ([`Finding`]), and the
+//!   names by which a file silences them ([`RobotWarning`])
 //! - `follower`: joints that follow others, rows without a coordinate ([`Follower`])
-//! - `warning`: the names of warnings, by which a file silences them ([`RobotWarning`])
 //! - `validate`: checks of robots, from files and from code ([`Robot::validate`])
 //! - `reach`: how far an arm reaches, and inertias too large for that
 //! - `units`: sizes that were probably meant in another unit
@@ -17,12 +16,10 @@
 mod body;
 mod findings;
 mod follower;
-mod placement;
 pub(crate) mod reach;
 mod units;
 mod validate;
 pub mod values;
-mod warning;
 mod write;
 
 use alloc::format;
@@ -30,16 +27,14 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
 
-use num_traits::Zero;
+use num_traits::{Signed, Zero};
 
 use crate::number::{Angle, Rational};
 
 pub use body::Defect;
 pub(crate) use findings::Findings;
-pub use findings::{Finding, Severity};
+pub use findings::{Finding, RobotWarning, Severity};
 pub use follower::Follower;
-pub use placement::Placement;
-pub use warning::RobotWarning;
 
 pub(crate) use units::shown;
 pub(crate) use validate::{ENDINGS, WORDS, is_plain, is_snake};
@@ -110,6 +105,36 @@ pub struct Robot {
     pub followers: Vec<Follower>,
     /// Frames that are fixed to links, by their names; at most [`Robot::MAX_FRAMES`].
     pub frames: Vec<Frame>,
+}
+
+/// A pose of a frame in another: its origin at `xyz`, its axes turned by `rpy`.
+///
+/// The angles are those of URDF: about the fixed axes x, y and z of the other
+/// frame, in this order, so that R = Rz(yaw) Ry(pitch) Rx(roll).
+#[derive(Clone, Debug, PartialEq, Eq, Default)]
+pub struct Placement {
+    /// The origin, m.
+    pub xyz: [Rational; 3],
+    /// Roll, pitch and yaw.
+    pub rpy: [Angle; 3],
+}
+
+impl Placement {
+    /// Returns whether it moves nothing.
+    pub fn is_identity(&self) -> bool {
+        self.xyz.iter().all(Zero::is_zero) && self.rpy.iter().all(Angle::is_zero)
+    }
+
+    /// Returns |x| + |y| + |z|, in metres: the scale of errors of lengths that are computed from it.
+    pub fn size(&self) -> Rational {
+        self.xyz.iter().map(Signed::abs).sum()
+    }
+
+    /// Returns the placement, unless it moves nothing: one that is left out says the
+    /// same.
+    pub fn unless_identity(self) -> Option<Self> {
+        (!self.is_identity()).then_some(self)
+    }
 }
 
 /// A frame that is fixed to a link.
