@@ -5,7 +5,7 @@
 //!   are relative to; [`sample`]: states of a box
 //! - [`magnitude`]: the largest magnitude of a program over a box: written out as
 //!   a trigonometric polynomial (`expand`) at a grid (`grid`), or by branch
-//!   and bound over polynomials in the rates ([`form`])
+//!   and bound over polynomials in the rates
 //! - [`definite`]: whether D stays positive definite
 //! - [`sensitivity`]: what rounding costs; [`ranges`]: how large values become;
 //!   over sub-boxes, and written out. `distinct`: equal
@@ -17,7 +17,6 @@ pub(crate) mod corners;
 pub(crate) mod definite;
 mod distinct;
 mod expand;
-pub(crate) mod form;
 mod grid;
 pub(crate) mod input_box;
 pub(crate) mod magnitude;

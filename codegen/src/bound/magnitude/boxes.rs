@@ -10,10 +10,13 @@
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
+use super::forms::Forms;
 use super::{BoxEffort, relative};
-use crate::bound::form::{Forms, Scratch};
 use crate::bound::input_box::InputBox;
 use crate::dag::Dag;
+
+/// Positions of a smaller range are not halved.
+const NARROW: f64 = 1e-9;
 
 /// Bounds as [`magnitudes`](super::magnitudes), by sub-boxes alone.
 pub(super) fn branch_and_bound(
@@ -23,93 +26,51 @@ pub(super) fn branch_and_bound(
     goal: f64,
     budget: BoxEffort,
 ) -> Vec<f64> {
-    let forms = Forms::new(graph, whole.joints());
-    let mut search = Search {
-        forms: &forms,
-        scales,
-        scratch: Scratch::default(),
-        serial: 0,
+    let Some(forms) = Forms::new(graph, whole.joints()) else {
+        return vec![f64::INFINITY; graph.outputs.len()];
     };
-    let first = search.leaf(whole.clone());
-    let mut leaves = BTreeMap::from([(search.place(&first), first)]);
-    while search.serial < budget.boxes {
+    // A magnitude's bits are in its order; a sub-box comes before others that are no better.
+    let place = |magnitudes: &[f64], made| (priority(magnitudes, scales).to_bits(), Reverse(made));
+    let first = forms.magnitudes(whole);
+    let mut made = 1;
+    // What is not halved yet.
+    let mut leaves = BTreeMap::from([(place(&first, made), (whole.clone(), first))]);
+    while made < budget.boxes {
         let Some(worst) = leaves.last_entry() else {
             break;
         };
-        let leaf = worst.get();
-        if priority(&leaf.magnitudes, scales) <= goal || leaf.axis == usize::MAX {
+        let (sub, magnitudes) = worst.get();
+        let Some(axis) = widest(&forms, sub).filter(|_| priority(magnitudes, scales) > goal) else {
             break;
-        }
-        let leaf = worst.remove();
-        for half in leaf.sub.position[leaf.axis].split() {
-            let mut sub = leaf.sub.clone();
-            sub.position[leaf.axis] = half;
-            let mut child = search.leaf(sub);
+        };
+        let (parent, parents) = worst.remove();
+        for half in parent.position[axis].split() {
+            let mut sub = parent.clone();
+            sub.position[axis] = half;
+            let mut own = forms.magnitudes(&sub);
             // What holds over the parent holds over its half.
-            for (mine, parents) in child.magnitudes.iter_mut().zip(&leaf.magnitudes) {
+            for (mine, parents) in own.iter_mut().zip(&parents) {
                 *mine = mine.min(*parents);
             }
-            leaves.insert(search.place(&child), child);
+            made += 1;
+            leaves.insert(place(&own, made), (sub, own));
         }
     }
     let mut most = vec![0.0f64; graph.outputs.len()];
-    for leaf in leaves.into_values() {
-        for (most, magnitude) in most.iter_mut().zip(&leaf.magnitudes) {
-            *most = most.max(*magnitude);
+    for (_, magnitudes) in leaves.into_values() {
+        for (most, magnitude) in most.iter_mut().zip(magnitudes) {
+            *most = most.max(magnitude);
         }
     }
     most
 }
 
-/// A sub-box that is not halved yet.
-struct Leaf {
-    sub: InputBox,
-    magnitudes: Vec<f64>,
-    axis: usize,
-}
-
-struct Search<'a> {
-    forms: &'a Forms,
-    scales: &'a [f64],
-    scratch: Scratch,
-    serial: usize,
-}
-
-impl Search<'_> {
-    fn leaf(&mut self, sub: InputBox) -> Leaf {
-        self.forms.evaluate(&sub, &mut self.scratch);
-        let outputs = self.forms.outputs(&sub, &self.scratch);
-        let magnitudes: Vec<f64> = outputs.iter().map(|x| x.magnitude()).collect();
-        self.serial += 1;
-        Leaf {
-            axis: self.axis(&sub),
-            sub,
-            magnitudes,
-        }
-    }
-
-    /// Returns the place of the leaf that was made last: before the others that are no better.
-    fn place(&self, leaf: &Leaf) -> (u64, Reverse<usize>) {
-        // A magnitude's bits are in its order.
-        let priority = priority(&leaf.magnitudes, self.scales);
-        (priority.to_bits(), Reverse(self.serial))
-    }
-
-    /// Returns the widest position that matters.
-    fn axis(&self, sub: &InputBox) -> usize {
-        let positions = self.forms.positions.iter().copied();
-        positions
-            .filter(|&joint| sub.position[joint].width() > 1e-9)
-            .fold((usize::MAX, 0.0), |(best, width), joint| {
-                let mine = sub.position[joint].width();
-                if mine > width {
-                    (joint, mine)
-                } else {
-                    (best, width)
-                }
-            })
-            .0
-    }
+/// Returns the widest position that matters, the first of equal ones.
+fn widest(forms: &Forms, sub: &InputBox) -> Option<usize> {
+    let width = |joint: &usize| sub.position[*joint].width();
+    let joints = forms.positions.iter().copied().rev();
+    let wide = joints.filter(|joint| width(joint) > NARROW);
+    wide.max_by(|a, b| width(a).total_cmp(&width(b)))
 }
 
 /// Returns the worst output against its scale. A scale of zero demands an exact

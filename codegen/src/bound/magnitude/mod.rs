@@ -2,9 +2,10 @@
 //! trigonometric polynomials and at a grid (`grid`); if they are too large for that,
 //! by branch and bound.
 //!
-//! - `boxes`: branch and bound
+//! - `boxes`: branch and bound; `forms`: over polynomials in the rates
 
 mod boxes;
+mod forms;
 
 use crate::bound::distinct::Distinct;
 use crate::bound::expand::{Polynomial, expand};
