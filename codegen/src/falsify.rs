@@ -116,7 +116,7 @@ impl<'c> Falsifier<'c> {
             certificate,
             emitted: Code::parse(&certificate.text, &signature)?,
             exact: program.in_doubles(),
-            granted: rounding(program, ScalarType::F64, &[], limits, 64),
+            granted: rounding(program, ScalarType::F64, &[], limits),
             falsification: Falsification {
                 observed: vec![0.0; certificate.scales.len()],
                 violation: None,

@@ -13,7 +13,7 @@ pub use crate::bound::{
     input_box::InputBox,
     magnitude::{BoxEffort, magnitudes},
     sample::{climb, draw},
-    sensitivity::{BoundEffort, Sensitivity, rounding},
+    sensitivity::{BoundEffort, Sensitivity},
 };
 pub use crate::certificate::Certificate;
 pub use crate::dag::{Dag, Edge, Fingerprint, Folding, Id, Leaves, Node, Points};

@@ -1,13 +1,16 @@
 //! Variants that a tolerance admits, with their claims.
 
 use super::error::ToleranceError;
-use crate::bound::ranges::{RANGE_BOXES, overflows};
+use crate::bound::sensitivity::overflows;
 use crate::certificate::Certificate;
 use crate::certificate::bounds::is_same;
 use crate::edits::Omission;
 use crate::program::{Program, has_inertia};
 use crate::split::ErrorByCause;
 use crate::words::complaint;
+
+/// Sub-boxes for the overflow of a certificate.
+const RANGE_BOXES: usize = 256;
 
 /// A variant that meets its tolerance.
 #[derive(Clone, Debug)]

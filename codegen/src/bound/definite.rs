@@ -100,7 +100,7 @@ fn shown(
     }
     let scales = scales(program, limits, entry)?;
     let lower: Vec<(usize, usize)> = (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
-    let costs = rounding(program, scalar, sines, limits, 64);
+    let costs = rounding(program, scalar, sines, limits);
     let graph = Stage::unedited(program.clone()).edited(Folding::Syntactic);
     let outputs = lower.iter().map(|&(i, j)| graph.outputs[entry(i, j)]);
     let graph = Dag {

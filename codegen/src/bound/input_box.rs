@@ -46,7 +46,7 @@ impl InputBox {
     /// # Errors
     /// A limit of motion that the robot does not have.
     pub fn of(robot: &Robot) -> Result<InputBox, Complaint> {
-        InputBox::reading(&Setup::whole(robot), &Function::InverseDynamics.arguments())
+        InputBox::within(&Setup::whole(robot), Function::InverseDynamics)
     }
 
     /// Returns the states of a robot in its scene that a function reads: its box, or the robot's
@@ -56,10 +56,7 @@ impl InputBox {
     /// # Errors
     /// As [`InputBox::of`].
     pub fn within(setup: &Setup, function: Function) -> Result<InputBox, Complaint> {
-        InputBox::reading(setup, &setup.arguments(function))
-    }
-
-    fn reading(setup: &Setup, arguments: &[Argument]) -> Result<InputBox, Complaint> {
+        let arguments = setup.arguments(function);
         let mut limits = InputBox {
             position: Vec::new(),
             velocity: Vec::new(),

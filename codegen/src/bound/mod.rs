@@ -7,9 +7,8 @@
 //!   a trigonometric polynomial (`expand`) at a grid (`grid`), or by branch
 //!   and bound over polynomials in the rates
 //! - [`definite`]: whether D stays positive definite
-//! - [`sensitivity`]: what rounding costs; [`ranges`]: how large values become;
-//!   over sub-boxes, and written out. `distinct`: equal
-//!   outputs once
+//! - [`sensitivity`]: what rounding costs, over sub-boxes and written out; what may overflow.
+//!   `distinct`: equal outputs once
 //! - `corners`: products of velocities at their worst together
 //! - `work`: work counted, for who cannot wait
 
@@ -20,7 +19,6 @@ mod expand;
 mod grid;
 pub(crate) mod input_box;
 pub(crate) mod magnitude;
-pub(crate) mod ranges;
 pub(crate) mod sample;
 pub(crate) mod scale;
 pub(crate) mod sensitivity;

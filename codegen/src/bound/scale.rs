@@ -96,7 +96,7 @@ pub(crate) fn tolerances(program: &Program, tolerance: &Tolerance) -> Vec<f64> {
 /// understated; and the state at which it does.
 pub fn range(program: &Program, limits: &InputBox) -> Vec<(f64, JointState)> {
     let exact = program.in_doubles();
-    let granted = rounding(program, ScalarType::F64, &[], limits, 64);
+    let granted = rounding(program, ScalarType::F64, &[], limits);
     let mut random = Random::new(0x7a46e);
     let mut reached = Vec::new();
     for (output, granted) in granted.iter().enumerate() {

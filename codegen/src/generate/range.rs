@@ -8,7 +8,7 @@ use dalembert_model::scalar::field::{Field, ProofField};
 
 use super::GenerateError;
 use crate::bound::input_box::InputBox;
-use crate::bound::ranges::overflows;
+use crate::bound::sensitivity::overflows;
 use crate::dag::{Node, Points};
 use crate::function::Argument;
 use crate::program::{Program, ScalarType};

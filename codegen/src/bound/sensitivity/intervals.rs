@@ -38,12 +38,39 @@ pub(super) fn rounding(
     worst
 }
 
+/// Says which steps may overflow over a box, from at most `boxes` sub-boxes; sines are
+/// libm's where there are no polynomials for them. The intervals contain what is computed, not
+/// only what is exact.
+pub(crate) fn overflows(
+    program: &Program,
+    scalar: ScalarType,
+    sines: &[AngleKernel],
+    limits: &InputBox,
+    boxes: usize,
+) -> Vec<String> {
+    let ids: Vec<_> = program.dag.operations().map(|(id, ..)| id).collect();
+    let mut magnitudes = vec![0.0f64; ids.len()];
+    let constants = Constants::new(program, scalar, sines);
+    for sub in limits.sub_boxes(program, boxes) {
+        let run = forward(&constants, &sub);
+        for (most, id) in magnitudes.iter_mut().zip(&ids) {
+            *most = most.max(run.values[*id as usize].magnitude());
+        }
+    }
+    let largest = scalar.of(f64::MAX, f32::MAX.into());
+    let steps = magnitudes.into_iter().enumerate();
+    steps
+        .filter(|(_, magnitude)| *magnitude > largest)
+        .map(|(step, magnitude)| format!("t{} may reach {magnitude:e}: it may overflow", step + 1))
+        .collect()
+}
+
 /// A program's constants in a scalar, with what rounding takes from them: exact
 /// numbers are slow to bound, so it is done once and not in every sub-box.
 /// And the errors of polynomials for sines, which hold in every sub-box.
-pub(in crate::bound) struct Constants<'p> {
+pub(super) struct Constants<'p> {
     pub program: &'p Program,
-    pub scalar: ScalarType,
+    scalar: ScalarType,
     /// The range and the error of each node that is a constant.
     nodes: Vec<Option<(Interval, f64)>>,
     sines: Vec<(usize, Errors)>,
@@ -53,7 +80,7 @@ pub(in crate::bound) struct Constants<'p> {
 
 impl<'p> Constants<'p> {
     /// Rounds a program's constants.
-    pub(in crate::bound) fn new(
+    pub(super) fn new(
         program: &'p Program,
         scalar: ScalarType,
         sines: &[AngleKernel],
@@ -168,7 +195,7 @@ fn rounded(constant: &Exact, scalar: ScalarType) -> (Interval, f64) {
 }
 
 /// Runs a program with every operation widened by its rounding.
-pub(in crate::bound) fn forward(constants: &Constants<'_>, sub: &InputBox) -> Forward {
+fn forward(constants: &Constants<'_>, sub: &InputBox) -> Forward {
     let leaf = |id, node: &Node| constants.leaf(id, node, sub);
     rounding::forward(&constants.program.dag, leaf, |id, _, exact| {
         constants.rounding(id, exact.magnitude())

@@ -33,7 +33,8 @@ use crate::dag::Node;
 use crate::program::{Program, ScalarType};
 use crate::sincos::AngleKernel;
 use extremes::Extremes;
-pub(super) use intervals::{Constants, forward};
+use intervals::Constants;
+pub(crate) use intervals::overflows;
 
 /// How fine a bound is: the finer, the tighter and the dearer. Every one is
 /// sound.
@@ -97,16 +98,18 @@ impl Rounding {
     }
 }
 
-/// Bounds the rounding over a box, one bound an output, from at most `boxes` sub-boxes. Sines are
-/// libm's where there are no polynomials for them, whose errors are as they are claimed.
-pub fn rounding(
+/// Sub-boxes of a bound that is found at once.
+const FEW: usize = 64;
+
+/// Bounds the rounding over a box at once, one bound an output. Sines are libm's where there are
+/// no polynomials for them, whose errors are as they are claimed.
+pub(crate) fn rounding(
     program: &Program,
     scalar: ScalarType,
     sines: &[AngleKernel],
     limits: &InputBox,
-    boxes: usize,
 ) -> Vec<Rounding> {
-    intervals::rounding(&Constants::new(program, scalar, sines), limits, boxes)
+    intervals::rounding(&Constants::new(program, scalar, sines), limits, FEW)
 }
 
 /// What every bound of a program's rounding over a box needs, whatever the
