@@ -20,7 +20,7 @@ const FLOOR: f64 = 0.02;
 
 /// The products of all terms, block by block: what least squares need.
 pub(super) struct Fit<'t> {
-    terms: &'t Terms,
+    pub terms: &'t Terms,
     /// Rows a block.
     block: usize,
     /// Of each block: products of the terms with each other and with the function.

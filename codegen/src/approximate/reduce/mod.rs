@@ -29,6 +29,7 @@ use crate::program::Program;
 use crate::random::Random;
 use crate::setup::Setup;
 use build::Builder;
+use fit::Fit;
 use terms::Terms;
 
 /// The seed of the sampled positions.
@@ -55,14 +56,19 @@ pub(super) fn programs(setup: &Setup, target: Target<'_>) -> Vec<Program> {
         terms: &terms,
     };
     let is_over = || target.watch.is_over();
-    let models = path::eliminate(&builder, &is_over);
+    let fit = Fit::new(&terms);
+    let models = path::eliminate(&builder, &fit, &is_over);
     // The smallest that leaves so much.
     let of = |most: &f64| models.iter().rposition(|model| model.error <= *most);
     let mut places: Vec<usize> = USES.iter().filter_map(of).collect();
     places.dedup();
     let mut programs: Vec<Program> = parallel::each(&places, |&place| match is_over() {
         true => None,
-        false => builder.program(&path::refined(&terms, &models[place])),
+        false => {
+            // As closely as can be: that leaves more to prune with.
+            let from = fit.solve(&models[place].terms, 0.0);
+            builder.program(&fit.refine(from, 0.0))
+        }
     })
     .into_iter()
     .flatten()

@@ -2,7 +2,6 @@
 
 use super::build::Builder;
 use super::fit::{Fit, Solution};
-use super::terms::Terms;
 use crate::parallel;
 
 /// The largest error that a fit at the samples may have.
@@ -19,17 +18,19 @@ const COUNTED: usize = 8;
 const TRIED: usize = 5;
 
 /// Returns the models on the way from all terms to few.
-pub(super) fn eliminate(builder: &Builder<'_>, is_over: &dyn Fn() -> bool) -> Vec<Solution> {
-    let terms = builder.terms;
-    let fit = Fit::new(terms);
-    let singles = terms.all.iter().enumerate();
+pub(super) fn eliminate(
+    builder: &Builder<'_>,
+    fit: &Fit<'_>,
+    is_over: &dyn Fn() -> bool,
+) -> Vec<Solution> {
+    let singles = fit.terms.all.iter().enumerate();
     let singles = singles.filter(|(_, term)| term.stands_for.is_none());
     let mut now: Vec<usize> = singles.map(|(index, _)| index).collect();
     now.retain(|&term| fit.is_something(term));
     let mut solution = fit.solve(&now, ENOUGH);
     let mut models = Vec::new();
     while !is_over() {
-        let mut candidates = candidates(terms, &fit, &solution);
+        let mut candidates = candidates(fit, &solution);
         candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
         candidates.truncate(COUNTED);
         let paid = builder.price(&solution.terms);
@@ -55,15 +56,8 @@ pub(super) fn eliminate(builder: &Builder<'_>, is_over: &dyn Fn() -> bool) -> Ve
     models
 }
 
-/// Fits a model as closely as can be: that leaves more to prune with.
-pub(super) fn refined(terms: &Terms, model: &Solution) -> Solution {
-    let fit = Fit::new(terms);
-    let from = fit.solve(&model.terms, 0.0);
-    fit.refine(from, 0.0)
-}
-
 /// Returns what can come next, one term less or two tied, with what the squares lose.
-fn candidates(terms: &Terms, fit: &Fit<'_>, solution: &Solution) -> Vec<(f64, Vec<usize>)> {
+fn candidates(fit: &Fit<'_>, solution: &Solution) -> Vec<(f64, Vec<usize>)> {
     let now = &solution.terms;
     let n = now.len();
     let mut all: Vec<(f64, Vec<usize>)> = Vec::new();
@@ -72,7 +66,7 @@ fn candidates(terms: &Terms, fit: &Fit<'_>, solution: &Solution) -> Vec<(f64, Ve
         other.remove(place);
         all.push((loss, other));
     }
-    for (tied, term) in terms.all.iter().enumerate() {
+    for (tied, term) in fit.terms.all.iter().enumerate() {
         let Some(of) = term.stands_for.filter(|_| fit.is_something(tied)) else {
             continue;
         };

@@ -2,20 +2,17 @@
 //!
 //! A constant may take any value at no cost. To first order the outputs'
 //! errors at the samples are E + J·δ with δ the changes of the constants and
-//! J from [`adjoints`]. With Cholesky's factor of JᵀJ, what no change of
+//! J from [`Nodes::adjoints`]. With Cholesky's factor of JᵀJ, what no change of
 //! constants takes away from E costs two products with J: quick enough to rank
 //! every candidate by, above all if candidates share them.
 //!
 //! - this file: J, and what the constants leave
-//! - `adjoints`: reverse differentiation, sample by sample
 //! - `products`: J with many errors side by side
 
-mod adjoints;
 mod products;
 
 use super::columns::{Nodes, Value};
 use crate::approximate::motions::Motions;
-use adjoints::adjoints;
 pub(super) use products::LANES;
 pub(in crate::approximate) use products::dot;
 use products::{Columns, gram};
@@ -78,7 +75,7 @@ impl Fit {
         }
         let mut adjoint = Vec::new();
         for (output, &top) in nodes.outputs.iter().enumerate() {
-            adjoints(nodes, edits, columns, top, &mut adjoint);
+            nodes.adjoints(edits, columns, top, &mut adjoint);
             for ((index, side), column, _) in &mut all {
                 let step = &nodes.steps[*index];
                 let read = step.operands.map(|operand| nodes.column(operand, columns));
