@@ -344,7 +344,7 @@ impl<'a> ErrorBudget<'a> {
     }
 
     /// Returns a variant of which another program is emitted that is the same function: its
-    /// roundings are bounded anew.
+    /// roundings are bounded anew, the edits' bounds stay.
     ///
     /// # Errors
     /// [`ToleranceError::Above`], as of any variant.
@@ -356,7 +356,11 @@ impl<'a> ErrorBudget<'a> {
         bound_effort: BoundEffort,
     ) -> Result<Certificate, ToleranceError> {
         let sensitivity = self.sensitivity(emitted, bound_effort);
-        let found = certificate.with_emitted(emitted.clone(), &sensitivity);
+        let own = Certificate {
+            emitted: emitted.clone(),
+            ..certificate.clone()
+        };
+        let found = own.with_sines(&own.sines, &sensitivity);
         within(&found, tolerances)?;
         Ok(found)
     }

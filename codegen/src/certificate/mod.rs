@@ -171,14 +171,6 @@ impl Certificate {
         own.bounded(self.scalar, &model, sensitivity)
     }
 
-    /// Returns the same claim with another program for what is emitted, which is the same
-    /// function: the edits' bounds stay.
-    #[must_use]
-    pub fn with_emitted(&self, emitted: Program, sensitivity: &Sensitivity) -> Certificate {
-        let own = self.clone();
-        Certificate { emitted, ..own }.with_sines(&self.sines, sensitivity)
-    }
-
     /// Returns the claim about the text that calls this library, unless polynomials give its
     /// sines. The bounds stay: the sines of every library are taken to be within one ulp.
     #[must_use]

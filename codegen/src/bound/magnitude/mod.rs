@@ -73,23 +73,19 @@ fn bounds(
     goal: f64,
     aim: fn(f64) -> Aim,
 ) -> Vec<f64> {
-    let (graph, scales, distinct) = distinct_outputs(graph, scales);
-    let aims = scales.iter().map(|&scale| aim(scale));
-    let most = written_out(&graph, whole, aims, budget);
-    let most = most.unwrap_or_else(|| branch_and_bound(&graph, whole, &scales, goal, budget));
-    distinct.scatter(&most)
-}
-
-/// Returns equal outputs once: a sign does not matter to a magnitude; a scale does to the search.
-fn distinct_outputs(graph: &Dag, scales: &[f64]) -> (Dag, Vec<f64>, Distinct) {
+    // Equal outputs once: a sign does not matter to a magnitude; a scale does to the search.
     let pairs = graph.outputs.iter().zip(scales);
     let keys = pairs.map(|(edge, scale)| Some((edge.node, scale.to_bits())));
     let distinct = Distinct::by(keys);
+    let scales = distinct.pick(scales);
     let graph = Dag {
         outputs: distinct.pick(&graph.outputs),
         ..graph.clone()
     };
-    (graph, distinct.pick(scales), distinct)
+    let aims = scales.iter().map(|&scale| aim(scale));
+    let most = written_out(&graph, whole, aims, budget);
+    let most = most.unwrap_or_else(|| branch_and_bound(&graph, whole, &scales, goal, budget));
+    distinct.scatter(&most)
 }
 
 /// Bounds at a grid, if there is one. After the first that is not within what it is to be, no
