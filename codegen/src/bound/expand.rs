@@ -176,27 +176,11 @@ fn leaf(input: Input, limits: &InputBox) -> Option<Polynomial> {
 }
 
 fn sum(a: &Polynomial, b: &Polynomial, minus: bool) -> Polynomial {
-    let mut out = Vec::with_capacity(a.len() + b.len());
-    let (mut i, mut j) = (0, 0);
-    let sign = |x: Interval| if minus { -x } else { x };
-    while i < a.len() || j < b.len() {
-        match (a.get(i), b.get(j)) {
-            (Some(x), Some(y)) if x.0 == y.0 => {
-                out.push((x.0, x.1 + sign(y.1)));
-                (i, j) = (i + 1, j + 1);
-            }
-            (Some(x), other) if other.is_none_or(|y| x.0 < y.0) => {
-                out.push(*x);
-                i += 1;
-            }
-            (_, Some(y)) => {
-                out.push((y.0, sign(y.1)));
-                j += 1;
-            }
-            _ => break,
-        }
-    }
-    out
+    let signed = |&(key, x): &(Key, Interval)| (key, if minus { -x } else { x });
+    let mut terms = Vec::with_capacity(a.len() + b.len());
+    terms.extend_from_slice(a);
+    terms.extend(b.iter().map(signed));
+    added_up(terms)
 }
 
 fn product(a: &Polynomial, b: &Polynomial) -> Option<Polynomial> {
@@ -225,7 +209,7 @@ fn product(a: &Polynomial, b: &Polynomial) -> Option<Polynomial> {
 
 /// Adds equal keys' coefficients up, in the order that they come in.
 pub(super) fn added_up(mut terms: Polynomial) -> Polynomial {
-    // Stable: the sums are rounded in that order.
+    // Stable: the sums are rounded in that order, and runs that are sorted are merged.
     terms.sort_by_key(|&(key, _)| key);
     terms.dedup_by(|next, sum| {
         let same = next.0 == sum.0;

@@ -78,15 +78,6 @@ impl Interval {
         self.low.abs().max(self.high.abs())
     }
 
-    /// Returns the least |x|.
-    pub fn mignitude(self) -> f64 {
-        if self.contains(0.0) {
-            0.0
-        } else {
-            self.low.abs().min(self.high.abs())
-        }
-    }
-
     /// Returns a number inside, near the middle.
     pub fn mid(self) -> f64 {
         (0.5 * self.low + 0.5 * self.high).clamp(self.low, self.high)
@@ -124,7 +115,11 @@ impl Interval {
 
     /// Returns x²
     pub fn square(self) -> Interval {
-        let (least, most) = (self.mignitude(), self.magnitude());
+        let least = match self.contains(0.0) {
+            true => 0.0,
+            false => self.low.abs().min(self.high.abs()),
+        };
+        let most = self.magnitude();
         let low = (least * least).next_down().max(0.0);
         checked(low, (most * most).next_up())
     }
