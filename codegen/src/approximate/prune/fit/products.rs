@@ -124,17 +124,8 @@ pub(super) fn gram(columns: &[&[f64]]) -> Vec<Vec<f64>> {
             .filter(|(index, _)| live[*index])
         {
             let a = &columns[index][block.clone()];
-            let mut others = (0..=index).filter(|other| live[*other]);
-            while let Some(first) = others.next() {
-                let b = &columns[first][block.clone()];
-                match others.next() {
-                    Some(second) => {
-                        let [x, y] = dots(a, [b, &columns[second][block.clone()]]);
-                        row[first] += x;
-                        row[second] += y;
-                    }
-                    None => row[first] += dot(a, b),
-                }
+            for (other, sum) in row.iter_mut().enumerate().filter(|(other, _)| live[*other]) {
+                *sum += dot(a, &columns[other][block.clone()]);
             }
         }
     }
@@ -152,39 +143,6 @@ fn add(a: &mut Lanes, x: f64, b: &Lanes) {
     a[5] += x * b[5];
     a[6] += x * b[6];
     a[7] += x * b[7];
-}
-
-/// Returns [`dot`] with two columns: each is the one that it would be alone, and what both read
-/// is read once.
-fn dots(a: &[f64], [b, c]: [&[f64]; 2]) -> [f64; 2] {
-    let len = a.len().min(b.len()).min(c.len());
-    let (a, b, c) = (&a[..len], &b[..len], &c[..len]);
-    let (mut sums, mut others) = ([0.0; 8], [0.0; 8]);
-    let mut k = 0;
-    while k + 8 <= len {
-        sums[0] += a[k] * b[k];
-        others[0] += a[k] * c[k];
-        sums[1] += a[k + 1] * b[k + 1];
-        others[1] += a[k + 1] * c[k + 1];
-        sums[2] += a[k + 2] * b[k + 2];
-        others[2] += a[k + 2] * c[k + 2];
-        sums[3] += a[k + 3] * b[k + 3];
-        others[3] += a[k + 3] * c[k + 3];
-        sums[4] += a[k + 4] * b[k + 4];
-        others[4] += a[k + 4] * c[k + 4];
-        sums[5] += a[k + 5] * b[k + 5];
-        others[5] += a[k + 5] * c[k + 5];
-        sums[6] += a[k + 6] * b[k + 6];
-        others[6] += a[k + 6] * c[k + 6];
-        sums[7] += a[k + 7] * b[k + 7];
-        others[7] += a[k + 7] * c[k + 7];
-        k += 8;
-    }
-    let rest = |b: &[f64]| -> f64 { a[k..].iter().zip(&b[k..]).map(|(x, y)| x * y).sum() };
-    [
-        sums.iter().sum::<f64>() + rest(b),
-        others.iter().sum::<f64>() + rest(c),
-    ]
 }
 
 /// Computes a product in eight sums side by side: a fixed order, and no chain of additions.
@@ -206,21 +164,4 @@ pub(in crate::approximate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     }
     let rest: f64 = a[k..].iter().zip(&b[k..]).map(|(x, y)| x * y).sum();
     sums.iter().sum::<f64>() + rest
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::random::Random;
-
-    /// Bit by bit, whatever the length.
-    #[test]
-    fn two_products_at_once_are_those_of_each() {
-        let mut random = Random::new(3);
-        for len in [0, 5, 8, 31, 512] {
-            let mut column = || (0..len).map(|_| random.unit() - 0.5).collect::<Vec<f64>>();
-            let [a, b, c] = [column(), column(), column()];
-            assert_eq!(dots(&a, [&b, &c]), [dot(&a, &b), dot(&a, &c)]);
-        }
-    }
 }
