@@ -57,14 +57,8 @@ pub(super) fn price(nodes: &Nodes, edits: &[Option<Value>], scratch: &mut Scratc
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scratch {
     folded: Vec<Folded>,
-    live: Vec<bool>,
-}
-
-impl Scratch {
-    /// Returns which nodes the last priced program computes.
-    pub(super) fn live(&self) -> &[bool] {
-        &self.live
-    }
+    /// Which nodes the last priced program computes.
+    pub live: Vec<bool>,
 }
 
 /// A node after folding: another value, or an operation.

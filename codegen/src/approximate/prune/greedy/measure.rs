@@ -61,7 +61,7 @@ impl Greedy<'_> {
 
     /// Returns the columns of the constants that the program that was priced last does not read.
     pub(super) fn gone(&self, state: &State, fit: &Fit) -> Vec<usize> {
-        let (live, inputs) = (self.scratch.live(), state.nodes.inputs.len());
+        let (live, inputs) = (&self.scratch.live, state.nodes.inputs.len());
         fit.of_ops(|op| !live[inputs + op])
     }
 

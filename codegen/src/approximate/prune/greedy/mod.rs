@@ -151,7 +151,7 @@ impl<'a> Greedy<'a> {
                 self.mirror(&columns);
                 let before = self.settled(state, &columns, &fit).sum;
                 let paid = self.price(state);
-                let live = self.scratch.live().to_vec();
+                let live = self.scratch.live.clone();
                 ranked
                     .retain(|c| state.edits[c.node].is_none() && live[c.node] && !refused[c.node]);
                 let count = self.ranked_again.min(ranked.len());
@@ -230,7 +230,7 @@ impl<'a> Greedy<'a> {
         self.price(&state);
         let inputs = state.nodes.inputs.len();
         for (index, was) in original.steps.iter().enumerate() {
-            if !self.scratch.live()[inputs + index] {
+            if !self.scratch.live[inputs + index] {
                 state.nodes.steps[index] = *was;
             }
         }

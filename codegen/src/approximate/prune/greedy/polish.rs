@@ -54,7 +54,7 @@ impl Greedy<'_> {
 
     pub(super) fn fit(&mut self, state: &State, columns: &[f64]) -> Fit {
         self.price(state);
-        let (live, weights) = (self.scratch.live(), &self.weights);
+        let (live, weights) = (&self.scratch.live, &self.weights);
         let State { nodes, edits } = state;
         Fit::new(nodes, edits, live, columns, self.motions, weights)
     }

@@ -29,7 +29,7 @@ impl Greedy<'_> {
         self.mirror(columns);
         let before = self.settled(state, columns, fit).sum;
         let paid = self.price(state);
-        let live = self.scratch.live().to_vec();
+        let live = self.scratch.live.clone();
         let alike = Alike::new(&state.nodes, columns, &live, self.motions, self.alike);
         let mut all = Vec::new();
         let inputs = state.nodes.inputs.len();
