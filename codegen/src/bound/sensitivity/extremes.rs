@@ -41,9 +41,8 @@ impl Extremes {
     /// Bounds the values and adjoints of a program over a box, each with at most `points` points
     /// of a grid; with none, no angle is looked at. `None` if the polynomials are too large.
     pub(super) fn new(program: &Program, limits: &InputBox, points: usize) -> Option<Extremes> {
-        let gradient = Gradient::new(program);
-        let graph = &gradient.graph;
-        let sliding = grid::sliding(graph, limits.joints());
+        let (graph, rows) = gradient(program);
+        let sliding = grid::sliding(&graph, limits.joints());
         let each = points.min(FULL * points / graph.outputs.len().max(1));
         let closeness = GridEffort {
             points: if each < FEWEST { 0 } else { each },
@@ -51,69 +50,53 @@ impl Extremes {
             starts: STARTS,
         };
         let mut most = vec![Some(0.0); graph.nodes.len()];
-        visit(graph, limits, &mut |node, polynomial| {
+        visit(&graph, limits, &mut |node, polynomial| {
             let harmonics = grid::harmonics(polynomial, limits.joints());
             most[node] = harmonics.map(|harmonics| {
                 grid::magnitude(harmonics, limits, &sliding, Aim::Least, closeness)
             });
         })?;
         let most: Vec<f64> = most.into_iter().collect::<Option<_>>()?;
-        let by_node = |own: &[(Id, Edge)]| {
+        let by_node = |own: &Vec<(Id, Edge)>| {
             let mut all = vec![0.0; program.dag.nodes.len()];
             for (id, edge) in own {
                 all[*id as usize] = most[edge.index()];
             }
             all
         };
+        let mut rows = rows.iter().map(by_node);
         Some(Extremes {
-            values: by_node(&gradient.values),
-            adjoints: gradient.adjoints.iter().map(|own| by_node(own)).collect(),
+            values: rows.next()?,
+            adjoints: rows.collect(),
         })
     }
 }
 
-/// A graph with the value of each operation and, output by output, the derivatives
-/// of the output with respect to them: all of them its outputs.
-struct Gradient {
-    graph: Dag,
-    /// The value of each operation, in the graph.
-    values: Vec<(Id, Edge)>,
-    /// The derivatives of each output, with respect to each operation, sine and cosine that it
-    /// depends on.
-    adjoints: Vec<Vec<(Id, Edge)>>,
-}
-
-impl Gradient {
-    /// Differentiates every output of a program.
-    fn new(program: &Program) -> Gradient {
-        let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
-        let dag = &program.dag;
-        let input = |input| Symbol::input(&builder, input);
-        let values = dag.values(&(Symbol::constant, input));
-        let mut adjoints = Vec::new();
-        let mut derivatives = Vec::with_capacity(dag.outputs.len());
-        for output in &dag.outputs {
-            dag.adjoints(output.node, &values, &mut adjoints);
-            let own = adjoints.iter().zip(&dag.nodes).enumerate().rev();
-            let own = own.filter(|(_, (adjoint, node))| !adjoint.is_zero() && errs(node));
-            let own = own.map(|(index, (adjoint, _))| (index as Id, adjoint.clone()));
-            derivatives.push(own.collect::<Vec<_>>());
-        }
-        let edge = |(id, value): &(Id, Symbol)| (*id, value.edge(&mut builder.borrow_mut()));
-        let operations = dag.operations();
-        let values = operations.map(|(id, ..)| edge(&(id, values[id as usize].clone())));
-        let values: Vec<_> = values.collect();
-        let adjoints = derivatives.iter().map(|own| own.iter().map(edge).collect());
-        let adjoints: Vec<Vec<_>> = adjoints.collect();
-        let edges = values.iter().chain(adjoints.iter().flatten());
-        let outputs = edges.map(|(_, edge)| *edge).collect();
-        let builder = builder.replace(Builder::new(Folding::Syntactic));
-        Gradient {
-            graph: builder.finish(outputs),
-            values,
-            adjoints,
-        }
+/// Returns a graph whose outputs are the value of each operation and, output by output, the
+/// derivatives of the output with respect to each operation, sine and cosine that it depends on;
+/// and these outputs, the values first, with the node that each is of.
+fn gradient(program: &Program) -> (Dag, Vec<Vec<(Id, Edge)>>) {
+    let builder = Rc::new(RefCell::new(Builder::new(Folding::Syntactic)));
+    let dag = &program.dag;
+    let input = |input| Symbol::input(&builder, input);
+    let values = dag.values(&(Symbol::constant, input));
+    let operations = dag.operations();
+    let operations = operations.map(|(id, ..)| (id, values[id as usize].clone()));
+    let mut rows: Vec<Vec<(Id, Symbol)>> = vec![operations.collect()];
+    let mut adjoints = Vec::new();
+    for output in &dag.outputs {
+        dag.adjoints(output.node, &values, &mut adjoints);
+        let own = adjoints.iter().zip(&dag.nodes).enumerate().rev();
+        let own = own.filter(|(_, (adjoint, node))| !adjoint.is_zero() && errs(node));
+        let own = own.map(|(index, (adjoint, _))| (index as Id, adjoint.clone()));
+        rows.push(own.collect());
     }
+    let edge = |(id, value): &(Id, Symbol)| (*id, value.edge(&mut builder.borrow_mut()));
+    let rows = rows.iter().map(|row| row.iter().map(edge).collect());
+    let rows: Vec<Vec<(Id, Edge)>> = rows.collect();
+    let outputs = rows.iter().flatten().map(|(_, edge)| *edge).collect();
+    let builder = builder.replace(Builder::new(Folding::Syntactic));
+    (builder.finish(outputs), rows)
 }
 
 /// Returns whether a node may be off by more than its literal: operations, sines and cosines.
