@@ -1,18 +1,18 @@
 //! The program of a model.
 
-use dalembert_model::equations::chain::{Body, Chain, Form, Regrouping};
+use dalembert_model::equations::chain::Body;
 use dalembert_model::equations::matrix::scaled;
 use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::number::{Exact, Rational};
 use dalembert_model::scalar::Scalar;
 
 use super::fit::Solution;
-use super::terms::{Terms, nothing};
+use super::terms::{Terms, nothing, traced};
 use crate::dag::{Builder as GraphBuilder, Dag, Folding};
 use crate::program::Program;
 use crate::search::{Effort, cost, search};
 use crate::seeds::start::Problem;
-use crate::seeds::{self, regrouped, skeleton, trace_chain, tuned};
+use crate::seeds::{regrouped, skeleton, tuned};
 use crate::setup::{FittedLink, Setup};
 
 /// A writer of programs for the models of one function.
@@ -27,25 +27,14 @@ impl Builder<'_> {
     pub(super) fn price(&self, terms: &[usize]) -> u64 {
         let factors: Vec<f64> = (0..terms.len()).map(|k| 1.37 + 0.1709 * k as f64).collect();
         let fitted = self.fitted(terms, &factors);
-        let Some(&form) = self.forms().first() else {
-            return u64::MAX;
-        };
-        let skeleton = skeleton(&fitted);
-        let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
-        let graph = trace_chain(
-            fitted.task(self.exact.function),
-            &chain,
-            form,
-            Folding::Semantic,
-        );
-        cost(&graph.0)
+        traced(&fitted, self.exact.function).map_or(u64::MAX, |graph| cost(&graph))
     }
 
     /// Searches for the program of a model; outputs that it has not are zero.
     pub(super) fn program(&self, model: &Solution) -> Option<Program> {
         let fitted = self.fitted(&model.terms, &model.factors);
         let (function, effort) = (self.exact.function, Effort::Quick);
-        let forms = self.forms();
+        let forms = function.forms();
         let task = fitted.task(function);
         let tuned = tuned(&Problem::new(task, effort), &forms);
         let seeds = regrouped(task, &forms, &tuned);
@@ -61,13 +50,9 @@ impl Builder<'_> {
         Some(self.exact.with_graph(&builder.finish(outputs)))
     }
 
-    fn forms(&self) -> Vec<Form> {
-        self.exact.function.forms()
-    }
-
     /// Returns the chain with these terms, and the rows that are not zero.
     fn fitted(&self, terms: &[usize], factors: &[f64]) -> Setup {
-        let mut links = nothing(&seeds::skeleton(self.setup));
+        let mut links = nothing(&skeleton(self.setup));
         for (&term, &factor) in terms.iter().zip(factors) {
             let term = &self.terms.all[term];
             add(&mut links[term.link], &term.unit, &short(factor));

@@ -7,7 +7,8 @@ use dalembert_model::scalar::Scalar;
 
 use crate::approximate::motions::Motions;
 use crate::approximate::prune::Target;
-use crate::dag::Folding;
+use crate::dag::{Dag, Folding};
+use crate::function::Function;
 use crate::program::Program;
 use crate::seeds::{skeleton, trace_chain};
 use crate::setup::{FittedLink, Setup};
@@ -77,10 +78,7 @@ impl Terms {
             let mut links = nothing(&skeleton);
             links[link] = unit.clone();
             let fitted = setup.fitted(links, &exact.rows);
-            let skeleton = crate::seeds::skeleton(&fitted);
-            let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
-            let form = *function.forms().first()?;
-            let graph = trace_chain(fitted.task(function), &chain, form, Folding::Semantic).0;
+            let graph = traced(&fitted, function)?;
             let values = terms.values(&fitted.task(function).program(&graph), &states);
             let outputs = terms.outputs.iter();
             let column = outputs.flat_map(|&output| {
@@ -107,6 +105,14 @@ impl Terms {
         }
         values
     }
+}
+
+/// Returns a chain's formulas as they stand; `None` if it has none.
+pub(super) fn traced(setup: &Setup, function: Function) -> Option<Dag> {
+    let skeleton = skeleton(setup);
+    let chain = Chain::new(&skeleton, &Regrouping::base(&skeleton));
+    let form = *function.forms().first()?;
+    Some(trace_chain(setup.task(function), &chain, form, Folding::Semantic).0)
 }
 
 /// Returns links without mass, drives without inertia or friction.
