@@ -36,12 +36,11 @@ pub(super) fn check(place: &str, program: &Program) -> Result<(), Complaint> {
         cost = cost.saturating_add(work(&extent));
     }
     limit(place, "units of work for its constants", cost, MAX_COST)?;
-    // The size of each step, and whether the step is that constant itself.
-    let mut sizes: Vec<(Size, bool)> = Vec::new();
+    let mut sizes: Vec<Size> = Vec::new();
     for (index, step) in steps.steps.iter().enumerate() {
         let [left, right] = [&step.left, &step.right].map(|operand| read(&sizes, operand));
         let value = operate(step.operation, left, right);
-        if let (Some(extent), _) = &value {
+        if let Some((extent, _)) = &value {
             admit(&format!("{place}, t{}", index + 1), extent)?;
         }
         sizes.push(value);
@@ -82,34 +81,30 @@ fn admit(place: &str, extent: &Extent) -> Result<(), Complaint> {
     limit(place, "degrees of a constant", extent.degree, MAX_DEGREE)
 }
 
-/// How large the constant in a value can become by folding: the value itself,
-/// or the factor in front of it.
-type Size = Option<Extent>;
+/// How large the constant in a value can become by folding, and whether it is the value itself,
+/// or else the factor in front of it; `None` of a value without one.
+type Size = Option<(Extent, bool)>;
 
-fn read(steps: &[(Size, bool)], operand: &Operand) -> (Size, bool) {
+fn read(steps: &[Size], operand: &Operand) -> Size {
     match operand {
-        Operand::Constant(constant) => (Some(constant.extent()), true),
-        Operand::Input(_) => (None, false),
-        Operand::Step(index) => steps.get(*index).copied().unwrap_or_default(),
+        Operand::Constant(constant) => Some((constant.extent(), true)),
+        Operand::Input(_) => None,
+        Operand::Step(index) => steps.get(*index).copied().flatten(),
     }
 }
 
-fn operate(operation: Operation, a: (Size, bool), b: (Size, bool)) -> (Size, bool) {
-    let ((Some(x), x_is), (Some(y), y_is)) = (a, b) else {
-        // A constant times a value is a factor in front of it, any other
-        // operation with a value is a value without one.
-        return match (operation, a, b) {
-            (Operation::Mul | Operation::Fused, (size @ Some(_), true), (None, _))
-            | (Operation::Mul | Operation::Fused, (None, _), (size @ Some(_), true)) => {
-                (size, false)
-            }
-            _ => (None, false),
-        };
-    };
-    match operation {
-        Operation::Mul | Operation::Fused if x_is || y_is => (Some(product(&x, &y)), x_is && y_is),
-        Operation::Add | Operation::Sub if x_is && y_is => (Some(sum(&x, &y)), true),
-        _ => (None, false),
+fn operate(operation: Operation, a: Size, b: Size) -> Size {
+    let is_product = matches!(operation, Operation::Mul | Operation::Fused);
+    match (a, b) {
+        (Some((x, x_is)), Some((y, y_is))) => match operation {
+            _ if is_product && (x_is || y_is) => Some((product(&x, &y), x_is && y_is)),
+            Operation::Add | Operation::Sub if x_is && y_is => Some((sum(&x, &y), true)),
+            _ => None,
+        },
+        // A constant times a value is a factor in front of it, any other operation with a value is
+        // a value without one.
+        (Some((x, true)), None) | (None, Some((x, true))) if is_product => Some((x, false)),
+        _ => None,
     }
 }
 
