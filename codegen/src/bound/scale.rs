@@ -15,7 +15,8 @@ use crate::words::{Complaint, complaint};
 
 /// Returns the torque limits of the actuators. For an entry of D the inertia, for one
 /// of h_ikm the coefficient, that alone takes the whole limit at the largest
-/// rates, of the smaller of D_ik and D_ki: then D's scales are symmetric.
+/// rates, of the smaller of D_ik and D_ki: then D's scales are symmetric. So limits are above
+/// zero here, where a box may have rates of zero.
 ///
 /// # Errors
 /// A joint without a limit that it needs, or with one of zero; a quantity of which torque limits
