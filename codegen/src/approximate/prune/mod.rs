@@ -35,7 +35,9 @@ use crate::random::Random;
 use crate::search::Effort;
 use crate::verify::exact::prove_same;
 use crate::watch::FunctionWatch;
+use columns::Nodes;
 pub(super) use fit::dot;
+use greedy::{Greedy, State};
 use search::Search;
 pub(crate) use search::cost;
 use tally::Tally;
@@ -375,19 +377,13 @@ pub(crate) fn appraise(target: Target<'_>, program: &Program) -> u32 {
     let mut random = Random::new(SEED);
     let motions = Motions::new(target.exact, target.limits);
     let positions = motions::positions(target.limits, target.settings.samples, &mut random);
-    let search = Search {
-        target,
-        base: Pruned {
-            stages: Vec::new(),
-            program: program.clone(),
-            errors: Vec::new(),
-        },
-        paid: 0,
-        motions: &motions,
-        tally: &Tally::new(&target),
-        guesses: 1,
-        retries: 0,
-        is_direct: false,
-    };
-    search.appraise(&positions, 1.0, &mut random)
+    let states = motions.states(&positions);
+    let truth = target.exact.in_doubles().run_at_many(&states).concat();
+    let nodes = Nodes::new(program, &states);
+    let (allowances, settings) = (target.allowances.to_vec(), target.settings);
+    let prices = vec![1.0; allowances.len()];
+    let mut greedy = Greedy::new(&nodes, &motions, &truth, allowances, prices, settings);
+    let mut state = State::unedited(nodes);
+    greedy.drop_all(&mut state, 0.0, &mut random);
+    greedy.price(&state)
 }

@@ -64,17 +64,6 @@ struct Found {
 }
 
 impl Search<'_> {
-    /// Returns what would stay if errors at the samples decided, weighed as by
-    /// [`cost`]; nothing is certified.
-    pub(super) fn appraise(&self, positions: &[Vec<f64>], share: f64, random: &mut Random) -> u32 {
-        let prices = vec![1.0; self.target.allowances.len()];
-        let (original, truth) = self.sampled(&self.motions.states(positions));
-        let mut greedy = self.greedy(&original, &truth, &vec![share; prices.len()], &prices);
-        let mut state = State::unedited(original);
-        greedy.drop_all(&mut state, 0.0, random);
-        greedy.price(&state)
-    }
-
     /// Returns the cheapest variant found, if it is cheaper than what was there.
     /// `share`: how much of the allowances sampled errors may use at first, and, of long
     /// programs, what was learned of that.
