@@ -60,44 +60,28 @@ pub(in crate::bound) fn harmonics(polynomial: &Polynomial, joints: usize) -> Opt
     Some(terms)
 }
 
-/// Returns cos^c·sin^s, s at most 1, as Σ part·cos kθ, or Σ part·sin kθ if s is 1.
+/// Returns cos^c·sin^s, s at most 1, as Σ part·cos kθ, or Σ part·sin kθ if s is 1: by
+/// cos^c = Σ_j (c over j)/2^c·cos (c − 2j)θ.
 fn of_power((c, s): (u32, u32)) -> Vec<(u32, f64)> {
-    if (c, s) == (0, 0) {
-        return vec![(0, 1.0)];
-    }
-    // cos^c = Σ_k part_k·cos kθ: cos θ·cos kθ = ½ cos (k + 1)θ + ½ cos (k − 1)θ.
-    let mut cosines = vec![0.0; c as usize + 2];
-    cosines[0] = 1.0;
-    for _ in 0..c {
-        let mut next = vec![0.0; cosines.len()];
-        for (k, &part) in cosines.iter().enumerate().filter(|(_, part)| **part != 0.0) {
-            match k {
-                0 => next[1] += part,
-                _ => {
-                    next[k + 1] += 0.5 * part;
-                    next[k - 1] += 0.5 * part;
-                }
-            }
-        }
-        cosines = next;
-    }
-    let mut parts = vec![0.0; cosines.len() + 1];
-    for (k, &part) in cosines.iter().enumerate() {
-        match (s, k) {
-            (0, _) => parts[k] += part,
-            (_, 0) => parts[1] += part,
+    let mut parts = vec![0.0; c as usize + 2];
+    let mut part = libm::exp2(-f64::from(c));
+    for j in 0..=c {
+        let k = f64::from(c) - 2.0 * f64::from(j);
+        match s {
+            0 => parts[k.abs() as usize] += part,
             // sin θ·cos kθ = ½ sin (k + 1)θ − ½ sin (k − 1)θ
             _ => {
-                parts[k + 1] += 0.5 * part;
-                parts[k - 1] -= 0.5 * part;
+                for (k, half) in [(k + 1.0, 0.5), (k - 1.0, -0.5)] {
+                    parts[k.abs() as usize] += half * part * k.signum();
+                }
+                // sin 0θ is nothing.
+                parts[0] = 0.0;
             }
         }
+        part = part * f64::from(c - j) / f64::from(j + 1);
     }
-    let from = s as usize;
-    let all = parts.into_iter().enumerate().skip(from);
-    all.filter(|(_, part)| *part != 0.0)
-        .map(|(k, part)| (k as u32, part))
-        .collect()
+    let all = (0..).zip(parts);
+    all.filter(|(_, part)| *part != 0.0).collect()
 }
 
 #[cfg(test)]
