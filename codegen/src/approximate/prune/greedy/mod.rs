@@ -172,26 +172,23 @@ impl<'a> Greedy<'a> {
                 taken += 1;
                 ranked.retain(|c| c.score.is_finite());
                 ranked.sort_by(|a, b| a.score.total_cmp(&b.score));
-                let kept = state.nodes.steps.clone();
                 state.edits[node] = Some(value);
+                let edited = state.nodes.run(&state.edits);
                 if reused < self.reuses
-                    && let Some(corrected) = self.corrected(state, &fit)
+                    && let Some(corrected) = self.corrected(state, edited.clone(), &fit)
                 {
                     (columns, reused) = (corrected, reused + 1);
                     continue;
                 }
                 reused = 0;
-                let edited = state.nodes.run(&state.edits);
                 let refitted = self.fit(state, &edited);
-                columns = self.correct(state, edited, &refitted, &[]);
-                if self.potential(&self.errors(&state.nodes, &columns)).worst > 1.0 {
+                if let Some(corrected) = self.corrected(state, edited, &refitted) {
+                    (columns, fit) = (corrected, refitted);
+                } else {
                     // Constants cannot make up for it as hoped.
                     state.edits[node] = None;
-                    state.nodes.steps = kept;
                     columns = state.nodes.run(&state.edits);
                     refused[node] = true;
-                } else {
-                    fit = refitted;
                 }
             }
             if taken == 0 {

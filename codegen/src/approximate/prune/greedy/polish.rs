@@ -13,7 +13,7 @@ impl Greedy<'_> {
         let mut best = (worst, state.nodes.steps.clone());
         for _ in 0..rounds {
             let fit = self.fit(state, &columns);
-            columns = self.correct(state, columns, &fit, &[]);
+            columns = self.correct(state, columns, &fit);
             let errors = self.errors(&state.nodes, &columns);
             let worst = self.potential(&errors).worst;
             if worst < best.0 {
@@ -59,14 +59,17 @@ impl Greedy<'_> {
         Fit::new(nodes, edits, live, columns, self.motions, weights)
     }
 
-    /// Returns the columns under edits that came after a fit, constants corrected by it; `None`,
-    /// and constants as they were, if they cannot make up for the edits so.
-    pub(super) fn corrected(&mut self, state: &mut State, fit: &Fit) -> Option<Vec<f64>> {
+    /// Returns the columns under edits that may have come after a fit, constants corrected by it;
+    /// `None`, and constants as they were, if they cannot make up for the edits so.
+    pub(super) fn corrected(
+        &mut self,
+        state: &mut State,
+        edited: Vec<f64>,
+        fit: &Fit,
+    ) -> Option<Vec<f64>> {
         self.price(state);
-        let gone = self.gone(state, fit);
         let kept = state.nodes.steps.clone();
-        let edited = state.nodes.run(&state.edits);
-        let columns = self.correct(state, edited, fit, &gone);
+        let columns = self.correct(state, edited, fit);
         if self.potential(&self.errors(&state.nodes, &columns)).worst <= 1.0 {
             return Some(columns);
         }
@@ -74,22 +77,17 @@ impl Greedy<'_> {
         None
     }
 
-    /// Changes constants against the errors of the edits, but those `gone` from the fit;
-    /// the new columns from the present ones.
-    pub(super) fn correct(
-        &self,
-        state: &mut State,
-        columns: Vec<f64>,
-        fit: &Fit,
-        gone: &[usize],
-    ) -> Vec<f64> {
+    /// Changes constants against the errors of the edits, but those that the program that was
+    /// priced last does not read; the new columns from the present ones.
+    fn correct(&self, state: &mut State, columns: Vec<f64>, fit: &Fit) -> Vec<f64> {
+        let gone = self.gone(state, fit);
         let mut errors = self.errors(&state.nodes, &columns);
         let before = self.potential(&errors).worst;
         for (error, weight) in errors.iter_mut().zip(&self.weights) {
             *error *= weight;
         }
         let kept = state.nodes.steps.clone();
-        for ((step, side), change) in fit.changes(&errors, gone) {
+        for ((step, side), change) in fit.changes(&errors, &gone) {
             if let Value::Known(c) = &mut state.nodes.steps[step].operands[side] {
                 *c += change;
             }
