@@ -1,24 +1,15 @@
 //! A plan's variant fits the scene: the function, arguments and results of the robot in its
 //! scene, and nothing read that they do not have.
 //!
-//! Everything after this may take for granted that lists are as long as they
-//! should be, that operands come before their users, and that every input is
-//! an argument's entry that the function may read.
+//! Everything after this may take for granted that there are as many results as the function has,
+//! so as many as scales, and that every input is an argument's entry that the function may read.
 
 use dalembert_model::robot::JointKind;
 
-use super::Certificate;
 use crate::function::Argument;
 use crate::program::{Input, Program};
 use crate::setup::Setup;
 use crate::words::{Complaint, complaint};
-
-/// Returns true if the lists of a variant are as long as they should be.
-pub(super) fn has_lists(own: &Certificate, setup: &Setup) -> bool {
-    let lists = Argument::STATE.map(|argument| own.limits.of_argument(argument));
-    let (n, outputs) = (setup.joints(), own.emitted.dag.outputs.len());
-    lists.iter().all(|list| list.len() == n) && own.scales.len() == outputs
-}
 
 /// Checks that a program is of the function in the scene, and reads what that has.
 pub(super) fn check(

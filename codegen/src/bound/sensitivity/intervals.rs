@@ -1,8 +1,5 @@
-//! Adjoints in interval arithmetic over sub-boxes.
-//!
-//! **Soundness.** The intervals contain x̂ *and* x ([`rounding`]), and adjoints
-//! computed from them contain the mixed ones of the [model](super): the sum bounds
-//! the whole error, not only its first order.
+//! Adjoints in interval arithmetic over sub-boxes, sound as [`rounding`](crate::interval::rounding)
+//! says.
 //!
 //! The dependency of values on common angles is lost: for programs that were
 //! searched, the bound is hundreds of times what is seen unless the box is
