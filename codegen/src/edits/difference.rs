@@ -22,12 +22,7 @@ impl Stage {
     /// Returns the edited program's graph, folded; what nothing reads is gone.
     pub fn edited(&self, folding: Folding) -> Dag {
         let mut run = Run::new(self, Builder::new(folding));
-        run.steps();
-        let outputs = std::mem::take(&mut run.program.outputs);
-        let values = outputs
-            .iter()
-            .map(|own| run.after(&own.value).negated_if(own.negative));
-        let values = values.collect();
+        let values = run.outputs(Run::after);
         run.builder.finish(values)
     }
 
@@ -55,12 +50,7 @@ pub fn difference(stages: &[Stage]) -> Dag {
     let mut sums: Vec<Edge> = Vec::new();
     for stage in stages {
         let mut run = Run::new(stage, builder);
-        run.steps();
-        let outputs = std::mem::take(&mut run.program.outputs);
-        let deltas = outputs
-            .iter()
-            .map(|own| run.delta(&own.value).negated_if(own.negative));
-        let deltas: Vec<Edge> = deltas.collect();
+        let deltas = run.outputs(Run::delta);
         builder = run.builder;
         sums = if sums.is_empty() {
             deltas
@@ -78,9 +68,8 @@ struct Run<'a> {
     /// The edit of each place; its first, if a place has several.
     edits: BTreeMap<EditSite, &'a Edit>,
     builder: Builder,
-    exact: Vec<Edge>,
-    edited: Vec<Edge>,
-    deltas: Vec<Edge>,
+    /// x, x' and Δx of each step.
+    values: Vec<[Edge; 3]>,
 }
 
 impl<'a> Run<'a> {
@@ -90,9 +79,7 @@ impl<'a> Run<'a> {
             program: stage.program.dag.steps(),
             edits: edits.map(|edit| (edit.place, edit)).collect(),
             builder,
-            exact: Vec::new(),
-            edited: Vec::new(),
-            deltas: Vec::new(),
+            values: Vec::new(),
         }
     }
 
@@ -104,7 +91,7 @@ impl<'a> Run<'a> {
         match operand {
             Operand::Input(input) => self.builder.input(*input),
             Operand::Constant(constant) => self.builder.constant(constant),
-            Operand::Step(index) => self.exact[*index],
+            Operand::Step(index) => self.values[*index][0],
         }
     }
 
@@ -115,7 +102,7 @@ impl<'a> Run<'a> {
                 None => self.builder.input(*input),
             },
             Operand::Constant(constant) => self.builder.constant(constant),
-            Operand::Step(index) => self.edited[*index],
+            Operand::Step(index) => self.values[*index][1],
         }
     }
 
@@ -137,7 +124,7 @@ impl<'a> Run<'a> {
                 None => self.builder.zero(),
             },
             Operand::Constant(_) => self.builder.zero(),
-            Operand::Step(index) => self.deltas[*index],
+            Operand::Step(index) => self.values[*index][2],
         }
     }
 
@@ -159,7 +146,6 @@ impl<'a> Run<'a> {
             let [a, a_after, da] = self.operand(&step.left, EditSite::Left(index));
             let [b, b_after, db] = self.operand(&step.right, EditSite::Right(index));
             let exact = self.builder.apply(step.operation, a, b);
-            self.exact.push(exact);
             let (edited, delta) = match self.edit(EditSite::Step(index)) {
                 None => (
                     self.builder.apply(step.operation, a_after, b_after),
@@ -183,9 +169,17 @@ impl<'a> Run<'a> {
                     (edited, self.builder.add(moved, rest))
                 }
             };
-            self.edited.push(edited);
-            self.deltas.push(delta);
+            self.values.push([exact, edited, delta]);
         }
+    }
+
+    /// Runs the steps, and returns what is asked for of each output.
+    fn outputs(&mut self, of: fn(&mut Self, &Operand) -> Edge) -> Vec<Edge> {
+        self.steps();
+        let outputs = std::mem::take(&mut self.program.outputs).into_iter();
+        outputs
+            .map(|own| of(self, &own.value).negated_if(own.negative))
+            .collect()
     }
 
     fn unedited(&mut self, operation: Operation, [b, da, db, a_after]: [Edge; 4]) -> Edge {
