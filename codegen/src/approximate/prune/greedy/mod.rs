@@ -46,6 +46,7 @@ pub(super) struct Greedy<'a> {
     /// Of each output at each position.
     levels: Vec<f64>,
     scratch: Scratch,
+    /// The columns that candidates are tried on.
     trial: Vec<f64>,
     dirty: Vec<bool>,
     /// What cannot stand in each node's place.
@@ -109,7 +110,7 @@ impl<'a> Greedy<'a> {
             levels: vec![1.0; weights.len() / motions.len()],
             weights,
             scratch: Scratch::default(),
-            trial: vec![0.0; nodes.len() * m],
+            trial: Vec::new(),
             dirty: Vec::new(),
             hopeless: vec![Vec::new(); nodes.len()],
             never: vec![Vec::new(); nodes.len()],
@@ -148,7 +149,6 @@ impl<'a> Greedy<'a> {
             ranked.sort_by(|a, b| a.score.total_cmp(&b.score));
             let mut taken = 0;
             while taken < fresh {
-                self.mirror(&columns);
                 let before = self.settled(state, &columns, &fit).sum;
                 let paid = self.price(state);
                 let live = self.scratch.live.clone();

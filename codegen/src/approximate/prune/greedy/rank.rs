@@ -26,7 +26,6 @@ impl Greedy<'_> {
         noise: f64,
         random: &mut Random,
     ) -> Vec<Ranked> {
-        self.mirror(columns);
         let before = self.settled(state, columns, fit).sum;
         let paid = self.price(state);
         let live = self.scratch.live.clone();
@@ -72,6 +71,8 @@ impl Greedy<'_> {
         (before, paid): (f64, u32),
     ) -> Vec<Option<f64>> {
         let mut scores = vec![None; candidates.len()];
+        self.trial.clear();
+        self.trial.extend_from_slice(columns);
         // Together as long as their errors stay at hand.
         for (candidates, scores) in candidates.chunks(LANES).zip(scores.chunks_mut(LANES)) {
             let mut attempts = Vec::new();
@@ -103,14 +104,8 @@ impl Greedy<'_> {
         scores
     }
 
-    /// Takes the columns that candidates are tried on.
-    pub(super) fn mirror(&mut self, columns: &[f64]) {
-        self.trial.clear();
-        self.trial.extend_from_slice(columns);
-    }
-
-    /// Returns the program if a node's edit is new and the columns, which are
-    /// [mirrored](Self::mirror), are not.
+    /// Returns the program if a node's edit is new and the columns, of which `trial` is a copy, are
+    /// not.
     fn retry(&mut self, state: &State, columns: &[f64], fit: &Fit, node: usize) -> Attempt {
         let nodes = &state.nodes;
         let (m, inputs) = (nodes.samples, nodes.inputs.len());
