@@ -30,9 +30,10 @@ pub(super) fn branch_and_bound(
         return vec![f64::INFINITY; graph.outputs.len()];
     };
     // A magnitude's bits are in its order; a sub-box comes before others that are no better.
-    let place = |magnitudes: &[f64], made| (priority(magnitudes, scales).to_bits(), Reverse(made));
+    let place =
+        |magnitudes: &[f64], made: usize| (priority(magnitudes, scales).to_bits(), Reverse(made));
     let first = forms.magnitudes(whole);
-    let mut made = 1;
+    let mut made: usize = 1;
     // What is not halved yet.
     let mut leaves = BTreeMap::from([(place(&first, made), (whole.clone(), first))]);
     while made < budget.boxes {
