@@ -3,9 +3,9 @@
 use std::fmt;
 
 use dalembert_model::outputs::RuntimeParameter;
-use dalembert_model::read::{closest, for_bundle};
+use dalembert_model::read::closest;
 
-use crate::function::{BundleError, Function};
+use crate::function::Function;
 
 /// A value that users name by a word.
 pub trait Word: Copy {
@@ -137,21 +137,4 @@ pub fn parse<W: Word>(text: &str) -> Result<W, Complaint> {
         let message = format!("unknown {} `{text}`", W::WHAT);
         Complaint::unknown(message, text, &W::known(), "")
     })
-}
-
-/// Returns the bundle that a text makes, `NAME=OUTPUT+OUTPUT`.
-///
-/// ```
-/// use dalembert_codegen::workspace::bundle;
-///
-/// assert_eq!(bundle("still=inertia+gravity").unwrap().name(), "still");
-/// let error = bundle("still=inertia+gravty").unwrap_err();
-/// assert_eq!(error.to_string(), "unknown output `gravty`: did you mean `gravity`?");
-/// ```
-///
-/// # Errors
-/// What is wrong with it, and the likely fix.
-pub fn bundle(text: &str) -> Result<Function, Complaint> {
-    let complain = |error: BundleError| Complaint::new(error.message.as_str(), for_bundle(&error));
-    Function::parse(text).map_err(complain)
 }

@@ -63,7 +63,7 @@ pub use crate::verify::{
     truth::{Reference, TrueValue},
 };
 pub use crate::watch::{Observer, Part, Progress};
-pub use crate::words::{Word, bundle, parse};
+pub use crate::words::{Word, parse};
 pub use dalembert_checker::read::Text;
 
 pub mod scale {

@@ -15,8 +15,6 @@ use crate::program::{
     Code, Input, Library, Literal, Operand, Operation, Output, Pair, Program, ScalarType, Speed,
     Step, Steps,
 };
-use crate::sincos::AngleKernel;
-use crate::words::Complaint;
 
 /// The arguments of a function, and what its results' lengths follow from.
 #[derive(Clone, Copy, Debug)]
@@ -87,24 +85,6 @@ impl Code {
     pub fn parse(text: &str, signature: &Signature<'_>) -> Result<Code, TextError> {
         let names = Names::new("", Language::Rust, signature.scalar);
         Code::read(&Text::rust(text)?, signature, &names, false)
-    }
-
-    /// Compares with the program and its sines, in the text's scalar: every
-    /// operation, every literal with its exact value rounded once, polynomials
-    /// literal by literal; angles that are not among `sines` are the library's.
-    ///
-    /// # Errors
-    /// The first difference.
-    pub fn matches(
-        &self,
-        program: &Program,
-        library: Library,
-        sines: &[AngleKernel],
-    ) -> Result<(), Complaint> {
-        match self.difference(&program.code(self.scalar, library, sines)) {
-            None => Ok(()),
-            Some(difference) => Err(difference),
-        }
     }
 }
 
