@@ -9,8 +9,8 @@ use std::fs;
 use std::path::Path;
 
 use dalembert_codegen::workspace::{
-    BoundEffort, Certificate, InputBox, Library, Printed, Sensitivity, Setup, plan_file, scale,
-    trace, within, write_function,
+    BoundEffort, Certificate, InputBox, Library, Sensitivity, Setup, plan_file, scale, trace,
+    within, write_function,
 };
 use dalembert_codegen::{Function, Request, ScalarType, generate};
 use dalembert_model::equations::Formulation;
@@ -60,7 +60,7 @@ fn the_bench_of_sines_is_up_to_date() {
         ("polynomials", Library::Libm, sines.as_slice(), ""),
     ] {
         let code = program.code(scalar, library, sines);
-        let code = write_function(&Printed::of(program, &code), library, &[]);
+        let code = write_function(program, &code, library, &[]);
         text += &format!(
             "\n#[allow(clippy::all, clippy::pedantic)]\npub mod {name} {{\n{before}{code}}}\n"
         );
@@ -82,7 +82,7 @@ fn the_recursion_in_symbols_is_up_to_date() {
         let traced = trace(setup.task(function), Formulation::NewtonEulerLink);
         let program = setup.task(function).program(&traced.graph);
         let code = program.in_doubles();
-        let code = write_function(&Printed::of(&program, &code), Library::Libm, &[]);
+        let code = write_function(&program, &code, Library::Libm, &[]);
         text +=
             &format!("\n#[allow(clippy::all, clippy::pedantic)]\npub mod {name} {{\n{code}}}\n");
     }

@@ -31,7 +31,6 @@ pub use crate::generate::{
 };
 pub use crate::interval::Interval;
 pub use crate::language::{
-    Printed,
     function::write as write_function,
     names::Names,
     read::{Signature, TextError},

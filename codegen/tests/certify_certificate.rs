@@ -3,8 +3,8 @@
 
 use dalembert_codegen::workspace::{
     BoundEffort, BoxEffort, Certificate, Folding, InputBox, Interval, Library, Literal, Node,
-    Printed, PruneSettings, Pruned, Sensitivity, Sines, Stage, difference, falsify, magnitudes,
-    omissions, prune, scale, stated, within, write_function,
+    PruneSettings, Pruned, Sensitivity, Sines, Stage, difference, falsify, magnitudes, omissions,
+    prune, scale, stated, within, write_function,
 };
 use dalembert_codegen::{Function, Program, ScalarType};
 use dalembert_model::number::Rational;
@@ -280,7 +280,7 @@ fn polynomials_that_are_not_as_exact_as_claimed_are_caught() {
         *value *= 1.0 + 1e-2;
         let code = exact.program.code(honest.scalar, Library::Libm, &changed);
         let mut lie = honest.clone();
-        lie.text = write_function(&Printed::of(&exact.program, &code), Library::Libm, &[]);
+        lie.text = write_function(&exact.program, &code, Library::Libm, &[]);
         lie.sines = changed;
         let found = falsify(&lie, 2000, 2, 3).unwrap();
         assert!(found.violation.is_some(), "{index}: {:?}", found.observed);

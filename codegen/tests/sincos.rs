@@ -5,7 +5,7 @@ use core::f64::consts::{FRAC_PI_2, PI};
 
 use dalembert_codegen::workspace::{
     AngleKernel, Candidates, Code, Dag, Edge, ErrorByCause, Input, Interval, Library, Node,
-    Printed, Signature, write_function,
+    Signature, write_function,
 };
 use dalembert_codegen::{Function, Program, ScalarType};
 
@@ -96,7 +96,7 @@ fn kernels_of_narrow_ranges_are_read_back() {
             errors: choice.errors,
         }];
         let code = program.code(scalar, Library::Libm, &sines);
-        let text = write_function(&Printed::of(&program, &code), Library::Libm, &[]);
+        let text = write_function(&program, &code, Library::Libm, &[]);
         let found = Code::parse(&text, &Signature::of(&program, scalar)).unwrap();
         assert_eq!(found.difference(&code), None, "{}\n{text}", sines[0].form);
     }

@@ -21,7 +21,7 @@ use dalembert_model::scene::Scale;
 use crate::bound::input_box::{InputBox, turns_freely};
 use crate::bound::sensitivity::{BoundEffort, Sensitivity};
 use crate::interval::Interval;
-use crate::language::{Printed, function};
+use crate::language::function;
 use crate::program::{Library, Program, ScalarType};
 use crate::setup::SceneKey;
 use crate::sincos::Sines;
@@ -187,7 +187,7 @@ impl Certificate {
     pub fn printed(self) -> Certificate {
         let (emitted, library) = (&self.emitted, self.library);
         let code = emitted.code(self.scalar, library, &self.sines);
-        let text = function::write(&Printed::of(emitted, &code), library, &[]);
+        let text = function::write(emitted, &code, library, &[]);
         Certificate { text, ..self }
     }
 

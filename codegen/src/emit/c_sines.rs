@@ -4,27 +4,26 @@ use std::collections::BTreeSet;
 
 use dalembert_sines::text::Angle;
 
-use crate::language::Printed;
 use crate::language::c99::{Names, float, largest};
 use crate::language::called::Called;
 use crate::language::dialect::Lines;
 use crate::program::kernel::Kernel;
-use crate::program::{Library, Literal};
+use crate::program::{Code, Library, Literal};
 use crate::sincos::routine::routine;
 
-/// Writes what the functions call: of a number of angles each, a loop that compilers make vectors
-/// of; of one angle for functions that are called at many states.
-pub(super) fn write<'p>(
+/// Writes what functions of so many joints call: of a number of angles each, a loop that compilers
+/// make vectors of; of one angle for functions that are called at many states.
+pub(super) fn write<'c>(
     text: &mut String,
-    functions: impl Iterator<Item = Printed<'p>>,
+    functions: impl Iterator<Item = (usize, &'c Code)>,
     names: &Names,
     is_batch: bool,
 ) {
     let (mut counts, mut is_alone) = (BTreeSet::new(), false);
-    for printed in functions {
-        match Called::of(printed.code, printed.sizes.joints, names, is_batch) {
+    for (joints, code) in functions {
+        match Called::of(code, joints, names, is_batch) {
             Some(called) => _ = counts.insert(called.angles.len()),
-            None => is_alone |= printed.code.library == Library::Together,
+            None => is_alone |= code.library == Library::Together,
         }
     }
     let words = Words::of(names);

@@ -9,7 +9,7 @@ use super::state_box::StateBox;
 use super::{GeneratedFunction, c_sines, parameters, said};
 use crate::function::Function;
 use crate::language::c99::{self, LONGEST, Names};
-use crate::language::{self, Language, Printed, columns, cuda};
+use crate::language::{self, Language, columns, cuda};
 use crate::program::{Code, Library, ScalarType};
 use crate::task::Job;
 
@@ -131,9 +131,8 @@ pub(crate) fn write(
         let names = Names::new(&name, request.language, scalar);
         comment(&mut text, &header(robot, setup, functions, scalar));
         let is_batch = request.batch;
-        let printed = functions.iter().zip(codes);
-        let printed = printed.map(|(own, code)| Printed::of(&own.program, code));
-        c_sines::write(&mut text, printed, &names, is_batch);
+        let joints = functions.iter().map(|own| own.program.joints);
+        c_sines::write(&mut text, joints.zip(codes), &names, is_batch);
         if let Some(state_box) = StateBox::of(functions, setup, scalar) {
             state_box.write_c(&mut text, scalar, &names);
         }
@@ -143,12 +142,12 @@ pub(crate) fn write(
             if !earlier.any(|other| other.function.columns() == function.columns()) {
                 text.push_str(&parameters::write_c(function, setup, &names));
             }
-            let printed = Printed::of(&generated.program, code);
-            if let Some(structure) = c99::structure(&printed, &names) {
+            let (program, sizes) = (&generated.program, generated.program.sizes());
+            if let Some(structure) = c99::structure(program, &names) {
                 let _ = write!(text, "\n{structure}");
             }
             let mut doc = function_doc(job, generated, scalar);
-            let of_rust = said::fused(&generated.program);
+            let of_rust = said::fused(program);
             if !of_rust.is_empty() {
                 doc.retain(|line| line.is_empty() || !of_rust.contains(line));
                 let of_c = "A product and the sum that alone reads it are one operation, `fma`, rounded \
@@ -162,8 +161,8 @@ pub(crate) fn write(
                 }
             }
             doc.push(String::new());
-            for argument in printed.arguments {
-                let (name, length) = (argument.name(), argument.length(printed.sizes));
+            for argument in &program.arguments {
+                let (name, length) = (argument.name(), argument.length(sizes));
                 let mut lines = described(*argument, setup).into_iter();
                 let first = lines.next().unwrap_or_default();
                 doc.push(format!("{name}[{length}]: {first}"));
@@ -171,8 +170,8 @@ pub(crate) fn write(
             }
             for quantity in function.quantities() {
                 let rows = setup.rows();
-                let count = quantity.len(printed.sizes);
-                let units = (0..count).map(|i| quantity.unit(i, rows, printed.sizes, robot));
+                let count = quantity.len(sizes);
+                let units = (0..count).map(|i| quantity.unit(i, rows, sizes, robot));
                 let mut units: Vec<&str> = units.collect();
                 units.dedup();
                 units.truncate(4);
@@ -180,16 +179,16 @@ pub(crate) fn write(
                     true => format!(" Units: {}.", units.join(", ")),
                     false => String::new(),
                 };
-                doc.push(format!("{}{units}", c99::shaped(*quantity, &printed)));
+                doc.push(format!("{}{units}", c99::shaped(*quantity, sizes)));
             }
             comment(&mut text, &doc);
             let is_told = is_batch && c99::is_told(code, &names);
-            text.push_str(&c99::write(&printed, &names, is_told));
+            text.push_str(&c99::write(program, code, &names, is_told));
             if is_told {
-                let _ = write!(text, "\n{}", c99::single(&printed, &names));
+                let _ = write!(text, "\n{}", c99::single(program, &names));
             }
             if is_batch {
-                let _ = write!(text, "\n{}", columns::batch(&printed, &names));
+                let _ = write!(text, "\n{}", columns::batch(program, code, &names));
             }
         }
     }

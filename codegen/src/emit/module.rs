@@ -12,7 +12,7 @@ use super::scene::describe;
 use super::state_box::StateBox;
 use super::{arguments, parameters, said, variant};
 use crate::emit::GeneratedFunction;
-use crate::language::{Printed, columns, comment, function, result};
+use crate::language::{columns, comment, function, result};
 use crate::program::{Code, Counts, ScalarType};
 use crate::setup::Setup;
 use crate::task::Job;
@@ -54,8 +54,8 @@ pub(crate) fn write(
     }
     for (index, (generated, code)) in functions.iter().zip(codes).enumerate() {
         text.push('\n');
-        let printed = Printed::of(&generated.program, code);
-        if let Some(structure) = result::structure(printed.function, printed.sizes, scalar) {
+        let program = &generated.program;
+        if let Some(structure) = result::structure(program.function, program.sizes(), scalar) {
             let _ = writeln!(text, "{structure}");
         }
         // One π for all that are over the same columns.
@@ -65,9 +65,9 @@ pub(crate) fn write(
             text.push_str(&parameters::constant(generated.function, setup, scalar));
         }
         let doc = function_doc(job, generated, scalar);
-        text.push_str(&function::write(&printed, request.library(), &doc));
+        text.push_str(&function::write(program, code, request.library(), &doc));
         if request.batch {
-            let _ = write!(text, "\n{}", columns::columns(&printed));
+            let _ = write!(text, "\n{}", columns::columns(program, code));
         }
     }
     text

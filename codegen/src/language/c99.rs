@@ -23,9 +23,9 @@ use super::called::Called;
 use super::dialect::{Dialect, Lines};
 use super::function::reads;
 pub(crate) use super::names::{LONGEST, Names, float};
-use super::{Language, Printed, trig};
-use crate::function::{Function, Quantity};
-use crate::program::{Code, Input, Library, Pair, ScalarType};
+use super::{Language, trig};
+use crate::function::{Function, Quantity, Sizes};
+use crate::program::{Code, Input, Library, Pair, Program, ScalarType};
 
 impl Dialect {
     /// Returns C99.
@@ -53,13 +53,13 @@ pub(crate) fn is_number(function: Function) -> bool {
 }
 
 /// Returns the struct that a bundle's results are in.
-pub(crate) fn structure(printed: &Printed<'_>, names: &Names) -> Option<String> {
-    let function = printed.function;
+pub(crate) fn structure(program: &Program, names: &Names) -> Option<String> {
+    let (function, sizes) = (program.function, program.sizes());
     is_bundle(function).then(|| {
-        let float = float(printed.code.scalar);
+        let float = float(names.dialect().scalar);
         let fields = function.quantities().iter().map(|quantity| {
-            let (field, length) = (quantity.field(), quantity.len(printed.sizes));
-            let doc = shaped(*quantity, printed);
+            let (field, length) = (quantity.field(), quantity.len(sizes));
+            let doc = shaped(*quantity, sizes);
             format!("    /* {doc} */\n    {float} {field}[{length}];\n")
         });
         let (fields, kind) = (fields.collect::<String>(), structure_name(function, names));
@@ -73,8 +73,8 @@ pub(crate) fn structure_name(function: Function, names: &Names) -> String {
 }
 
 /// Returns a quantity with its unit and its axes.
-pub(crate) fn shaped(quantity: Quantity, printed: &Printed<'_>) -> String {
-    let lengths = quantity.shape().lengths(printed.sizes);
+pub(crate) fn shaped(quantity: Quantity, sizes: Sizes) -> String {
+    let lengths = quantity.shape().lengths(sizes);
     let lengths: Vec<String> = lengths.map(|length| format!("[{length}]")).collect();
     let rows = if lengths.len() > 1 {
         ", row by row"
@@ -90,15 +90,16 @@ pub(crate) fn shaped(quantity: Quantity, printed: &Printed<'_>) -> String {
 pub(crate) const FAR: [&str; 2] = ["1", "far"];
 
 /// Returns the head of a function; of one that is told whether angles may be far, by another name.
-pub(crate) fn head(printed: &Printed<'_>, names: &Names, is_told: bool) -> String {
-    let (function, sizes, float) = (printed.function, printed.sizes, float(printed.code.scalar));
+pub(crate) fn head(program: &Program, names: &Names, is_told: bool) -> String {
+    let (function, sizes) = (program.function, program.sizes());
+    let float = float(names.dialect().scalar);
     let restrict = names.constant("RESTRICT");
     let (mut parameters, mut name) = (Vec::new(), function.name().to_owned());
     if is_told {
         parameters.push("const int far".to_owned());
         name += "_any";
     }
-    for argument in printed.arguments {
+    for argument in &program.arguments {
         let (name, length) = (argument.name(), argument.length(sizes));
         parameters.push(format!("const {float} {name}[{restrict} {length}]"));
     }
@@ -132,27 +133,27 @@ fn written(function: Function) -> Vec<&'static str> {
 }
 
 /// Prints the function of one state where there is one that is told more.
-pub(crate) fn single(printed: &Printed<'_>, names: &Names) -> String {
-    let function = printed.function;
+pub(crate) fn single(program: &Program, names: &Names) -> String {
+    let function = program.function;
     let called = names.of(&format!("{function}_any"));
-    let arguments = printed.arguments.iter().map(|argument| argument.name());
+    let arguments = program.arguments.iter().map(|argument| argument.name());
     let mut passed = vec![FAR[0]];
     passed.extend(arguments.chain(written(function)));
-    let (head, passed) = (head(printed, names, false), passed.join(", "));
+    let (head, passed) = (head(program, names, false), passed.join(", "));
     let back = if is_number(function) { "return " } else { "" };
     format!("{head}\n{{\n    {back}{called}({passed});\n}}\n")
 }
 
 /// Returns where the numbers of a result go, in their order; none of a number that is returned.
-pub(crate) fn targets(printed: &Printed<'_>) -> Vec<String> {
-    let function = printed.function;
+fn targets(program: &Program) -> Vec<String> {
+    let (function, sizes) = (program.function, program.sizes());
     if is_number(function) {
         return Vec::new();
     }
     let before = if is_bundle(function) { "result->" } else { "" };
     let fields = function.quantities().iter().flat_map(|quantity| {
         let field = quantity.field();
-        (0..quantity.len(printed.sizes)).map(move |index| format!("{before}{field}[{index}]"))
+        (0..quantity.len(sizes)).map(move |index| format!("{before}{field}[{index}]"))
     });
     fields.collect()
 }
@@ -164,16 +165,16 @@ pub(crate) fn is_told(code: &Code, names: &Names) -> bool {
 }
 
 /// Prints the function.
-pub(crate) fn write(printed: &Printed<'_>, names: &Names, is_told: bool) -> String {
-    let (code, dialect) = (printed.code, names.dialect());
+pub(crate) fn write(program: &Program, code: &Code, names: &Names, is_told: bool) -> String {
+    let dialect = names.dialect();
     let far = FAR[usize::from(is_told)];
-    let mut text = format!("{}\n{{\n", head(printed, names, is_told));
+    let mut text = format!("{}\n{{\n", head(program, names, is_told));
     let mut line = |line: &str| {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "    {line}");
     };
     line(&names.constant("UNFUSED"));
-    let called = Called::of(code, printed.sizes.joints, names, is_told);
+    let called = Called::of(code, program.joints, names, is_told);
     let is_called = |pair: &&Pair| called.is_some() && pair.kernel.is_none();
     let (by_call, alone): (Vec<&Pair>, Vec<&Pair>) = code.pairs.iter().partition(is_called);
     for pair in alone {
@@ -219,11 +220,11 @@ pub(crate) fn write(printed: &Printed<'_>, names: &Names, is_told: bool) -> Stri
     };
     let lines = Lines::new(dialect, code);
     lines.statements().for_each(|statement| line(&statement));
-    let arguments = printed.arguments.iter();
+    let arguments = program.arguments.iter();
     for argument in arguments.filter(|argument| !reads(code, **argument)) {
         line(&format!("(void){};", argument.name()));
     }
-    let targets = targets(printed);
+    let targets = targets(program);
     for (index, value) in lines.results().enumerate() {
         match targets.get(index) {
             Some(target) => line(&format!("{target} = {value};")),

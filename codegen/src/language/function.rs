@@ -10,8 +10,8 @@ use crate::dag::Id;
 use crate::function::{Argument, Function, Sizes};
 use crate::language::dialect::{Dialect, Lines};
 use crate::language::result::{self, array_type};
-use crate::language::{Printed, comment, list, trig};
-use crate::program::{Code, Input, Library, ScalarType};
+use crate::language::{comment, list, trig};
+use crate::program::{Code, Input, Library, Program, ScalarType};
 
 /// A function of more operations than this is printed in blocks.
 pub(crate) const FLAT: usize = 1000;
@@ -33,16 +33,21 @@ pub(crate) const PAYLOAD: &str = "Payload";
 pub(crate) const GRAVITY: &str = "Gravity";
 
 /// Prints the function, whose roots are this library's; `doc` stands above it, one line an item.
-pub fn write(printed: &Printed<'_>, library: Library, doc: &[String]) -> String {
+pub fn write(program: &Program, code: &Code, library: Library, doc: &[String]) -> String {
     let mut text = comment("///", doc);
     push(&mut text, format_args!("#[must_use]"));
-    push(&mut text, format_args!("{} {{", signature(printed)));
-    let dialect = Dialect::rust(printed.code.scalar);
-    trig::write(&mut text, printed.code);
-    trig::write_speeds(&mut text, dialect, printed.code, library.path());
-    write_steps(&mut text, printed.code, dialect);
-    let lines = Lines::new(dialect, printed.code);
-    result::write(&mut text, printed.function, printed.sizes, lines.results());
+    push(&mut text, format_args!("{} {{", signature(program, code)));
+    let dialect = Dialect::rust(code.scalar);
+    trig::write(&mut text, code);
+    trig::write_speeds(&mut text, dialect, code, library.path());
+    write_steps(&mut text, code, dialect);
+    let lines = Lines::new(dialect, code);
+    result::write(
+        &mut text,
+        program.function,
+        program.sizes(),
+        lines.results(),
+    );
     text.push_str("}\n");
     text
 }
@@ -96,11 +101,11 @@ fn last_uses(code: &Code) -> Vec<Id> {
 }
 
 /// Returns the signature, without a brace.
-fn signature(printed: &Printed<'_>) -> String {
-    let (function, sizes, scalar) = (printed.function, printed.sizes, printed.code.scalar);
-    let arguments = printed.arguments.iter().map(|&argument| {
+fn signature(program: &Program, code: &Code) -> String {
+    let (function, sizes, scalar) = (program.function, program.sizes(), code.scalar);
+    let arguments = program.arguments.iter().map(|&argument| {
         // An argument that this robot's function does not depend on.
-        let is_read = reads(printed.code, argument);
+        let is_read = reads(code, argument);
         let mark = if is_read { "" } else { "_" };
         let kind = argument_type(argument, sizes, scalar);
         format!("{mark}{}: &{kind}", argument.name())

@@ -22,8 +22,7 @@ mod trig;
 
 use std::path::Path;
 
-use crate::function::{Argument, Function, Sizes};
-use crate::program::{Code, Program, ScalarType};
+use crate::program::ScalarType;
 use crate::words::words;
 
 words! {
@@ -88,30 +87,4 @@ pub(crate) fn comment(mark: &str, lines: &[String]) -> String {
         line => format!("{mark} {line}\n"),
     });
     marked.collect()
-}
-
-/// A function as it is printed: its code over literals, and what it is called with and
-/// returns.
-#[derive(Clone, Copy, Debug)]
-pub struct Printed<'a> {
-    /// Which function.
-    pub function: Function,
-    /// The arguments there are, in order.
-    pub arguments: &'a [Argument],
-    /// What the lengths of arguments and results follow from.
-    pub sizes: Sizes,
-    /// What it does.
-    pub code: &'a Code,
-}
-
-impl<'a> Printed<'a> {
-    /// Returns a program that this code was made of.
-    pub fn of(program: &'a Program, code: &'a Code) -> Printed<'a> {
-        Printed {
-            function: program.function,
-            arguments: &program.arguments,
-            sizes: program.sizes(),
-            code,
-        }
-    }
 }

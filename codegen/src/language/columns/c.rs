@@ -3,9 +3,10 @@
 
 use std::fmt::Write;
 
+use crate::function::Function;
 use crate::language::c99::{Names, float, is_bundle, is_number, is_told, largest, structure_name};
-use crate::language::{Language, Printed, list};
-use crate::program::Literal;
+use crate::language::{Language, list};
+use crate::program::{Code, Literal, Program};
 
 /// The parts of a function of any number of states.
 struct Columns {
@@ -21,9 +22,9 @@ struct Columns {
 
 impl Columns {
     /// Returns columns in which entry i of state s is at `i * n + s`.
-    fn of(printed: &Printed<'_>, names: &Names, restrict: &str) -> Columns {
-        let (function, sizes) = (printed.function, printed.sizes);
-        let float = float(printed.code.scalar);
+    fn of(program: &Program, names: &Names, restrict: &str) -> Columns {
+        let (function, sizes) = (program.function, program.sizes());
+        let float = float(names.dialect().scalar);
         let (mut parameters, mut passed) = (vec!["const size_t n".to_owned()], Vec::new());
         let (mut gathered, mut stored) = (String::new(), String::new());
         let at = |index: usize| match index {
@@ -31,7 +32,7 @@ impl Columns {
             1 => "n + s".to_owned(),
             more => format!("({more}U * n) + s"),
         };
-        for argument in printed.arguments {
+        for argument in &program.arguments {
             let (name, length) = (argument.name(), argument.length(sizes));
             parameters.push(format!("const {float} *{restrict} {name}"));
             let entries = list((0..length).map(|index| format!("{name}[{}]", at(index))));
@@ -74,8 +75,8 @@ impl Columns {
 
     /// Returns the lines that call the function of one state, and write its results; of one that
     /// is told whether angles may be far, by another name.
-    fn call(&self, printed: &Printed<'_>, names: &Names, is_told: bool) -> String {
-        let (function, passed) = (printed.function, self.passed.join(", "));
+    fn call(&self, function: Function, names: &Names, is_told: bool) -> String {
+        let passed = self.passed.join(", ");
         let mut call = match is_told {
             true => format!("{}(0, {passed})", names.of(&format!("{function}_any"))),
             false => format!("{}({passed})", names.of(function.name())),
@@ -89,22 +90,22 @@ impl Columns {
 
 /// Prints the function of any number of states, in columns: entry i of state s is at
 /// `i * n + s`.
-pub(crate) fn batch(printed: &Printed<'_>, names: &Names) -> String {
+pub(crate) fn batch(program: &Program, code: &Code, names: &Names) -> String {
     if names.language() == Language::Cuda {
-        return kernel(printed, names);
+        return kernel(program, names);
     }
     let [restrict, simd] = ["RESTRICT", "SIMD"].map(|word| names.constant(word));
-    let (is_told, function) = (is_told(printed.code, names), printed.function);
-    let columns = Columns::of(printed, names, &restrict);
+    let (is_told, function) = (is_told(code, names), program.function);
+    let columns = Columns::of(program, names, &restrict);
     let gathered = &columns.gathered;
     let body = |is_told: bool, when: &str| {
-        let call = columns.call(printed, names, is_told);
+        let call = columns.call(function, names, is_told);
         format!("    for (s = 0U; s < n; ++s) {{\n{gathered}{when}{call}    }}\n")
     };
     // Where an angle may be far, once more.
     let mut again = String::new();
     if is_told {
-        let (scalar, joints) = (printed.code.scalar, printed.sizes.joints);
+        let (scalar, joints) = (code.scalar, program.joints);
         let far = largest(scalar) / joints.next_power_of_two() as f64;
         let (far, f) = (names.dialect().literal(Literal(far)), scalar.math_suffix());
         let near = (0..joints).map(|joint| format!("(fabs{f}(q_s[{joint}]) <= {far})"));
@@ -126,9 +127,9 @@ pub(crate) fn batch(printed: &Printed<'_>, names: &Names) -> String {
 
 /// Prints the kernel: a thread for each state, and for every state after as many as there are
 /// threads.
-fn kernel(printed: &Printed<'_>, names: &Names) -> String {
-    let function = printed.function;
-    let columns = Columns::of(printed, names, "__restrict__");
+fn kernel(program: &Program, names: &Names) -> String {
+    let function = program.function;
+    let columns = Columns::of(program, names, "__restrict__");
     format!(
         "/* {} at n states, in columns: entry i of state s stands at i * n + s. Any number of\n \
          * threads in one dimension: each takes a state, then the one as many further on as there are\n \
@@ -140,6 +141,6 @@ fn kernel(printed: &Printed<'_>, names: &Names) -> String {
         names.of(&format!("{function}_batch")),
         columns.parameters.join(", "),
         columns.gathered,
-        columns.call(printed, names, false)
+        columns.call(function, names, false)
     )
 }
