@@ -1,8 +1,6 @@
 //! What a module says of parameters that are arguments: the types of a payload and
 //! of its load, and where gravity comes from.
 
-use std::fmt::Write;
-
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 
@@ -39,9 +37,7 @@ pub(super) fn types(setup: &Setup, scalar: ScalarType) -> String {
     text += "/// A body that is fixed to the last link, beside what the robot file has there: see\n\
              /// [`Payload::new`], whose arguments these are, in their order.\n";
     newtype(&mut text, PAYLOAD, scalar, 10);
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        text,
+    text += &format!(
         "impl {PAYLOAD} {{\n\
          /// Nothing is carried.\n\
          pub const NONE: {PAYLOAD} = {PAYLOAD}([0.0; 10]);\n\
@@ -53,7 +49,7 @@ pub(super) fn types(setup: &Setup, scalar: ScalarType) -> String {
          #[must_use]\n\
          pub const fn new(mass: {scalar}, com: [{scalar}; 3], inertia: [{scalar}; 6]) -> {PAYLOAD} {{\n    \
          let ([x, y, z], [xx, yy, zz, xy, yz, xz]) = (com, inertia);\n    \
-         {PAYLOAD}([mass, x, y, z, xx, yy, zz, xy, yz, xz])\n}}\n}}"
+         {PAYLOAD}([mass, x, y, z, xx, yy, zz, xy, yz, xz])\n}}\n}}\n"
     );
     text += "/// The regrouped parameters that a payload changes: what [`load`] returns, and what the other\n\
              /// functions take. Compute it once for each tool; its numbers are this module's own.\n";
@@ -92,13 +88,11 @@ pub(super) fn described(argument: Argument, setup: &Setup) -> Vec<String> {
 
 /// Writes a type of so many numbers.
 fn newtype(text: &mut String, name: &str, scalar: ScalarType, length: usize) {
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        text,
+    *text += &format!(
         "#[derive(Clone, Copy, Debug, PartialEq)]\n#[repr(transparent)]\n\
          pub struct {name}(pub [{scalar}; {length}]);\n\
          impl ::core::ops::Deref for {name} {{\n    type Target = [{scalar}; {length}];\n    \
-         #[inline(always)]\n    fn deref(&self) -> &[{scalar}; {length}] {{\n        &self.0\n    }}\n}}"
+         #[inline(always)]\n    fn deref(&self) -> &[{scalar}; {length}] {{\n        &self.0\n    }}\n}}\n"
     );
 }
 

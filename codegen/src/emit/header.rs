@@ -1,7 +1,6 @@
 //! The header of a robot in C or CUDA: guard, macros, sines, structs and functions of each scalar.
 
 use std::collections::BTreeSet;
-use std::fmt::Write;
 
 use super::arguments::described;
 use super::module::{function_doc, header};
@@ -85,9 +84,7 @@ pub(crate) fn write(
         true => (GCC, ", \"no-tree-pre\""),
         false => (FUSES, ""),
     };
-    // Writing to a string cannot fail.
-    let _ = write!(
-        text,
+    text += &format!(
         "#ifndef {guard}\n#define {guard}\n\n\
          #ifdef __FAST_MATH__\n\
          #error \"-ffast-math changes what is computed: compile without it\"\n\
@@ -116,8 +113,7 @@ pub(crate) fn write(
                  #define {simd} _Pragma(\"clang loop vectorize(assume_safety)\")\n"
             ),
         };
-        let _ = write!(
-            text,
+        text += &format!(
             "\n/* States of a batch are independent of one another. */\n\
              #if {GCC}\n\
              #define {simd} _Pragma(\"GCC ivdep\")\n\
@@ -144,7 +140,7 @@ pub(crate) fn write(
             }
             let (program, sizes) = (&generated.program, generated.program.sizes());
             if let Some(structure) = c99::structure(program, &names) {
-                let _ = write!(text, "\n{structure}");
+                text += &format!("\n{structure}");
             }
             let mut doc = function_doc(job, generated, scalar);
             let of_rust = said::fused(program);
@@ -185,27 +181,24 @@ pub(crate) fn write(
             let is_told = is_batch && c99::is_told(code, &names);
             text.push_str(&c99::write(program, code, &names, is_told));
             if is_told {
-                let _ = write!(text, "\n{}", c99::single(program, &names));
+                text += &format!("\n{}", c99::single(program, &names));
             }
             if is_batch {
-                let _ = write!(text, "\n{}", columns::batch(program, code, &names));
+                text += &format!("\n{}", columns::batch(program, code, &names));
             }
         }
     }
     if request.language == Language::Cuda {
         text.push_str(cuda::NO_PRODUCTS);
     }
-    let _ = write!(
-        text,
-        "\n#if {when}\n#pragma GCC pop_options\n#endif\n\n#endif\n"
-    );
+    text += &format!("\n#if {when}\n#pragma GCC pop_options\n#endif\n\n#endif\n");
     text
 }
 
 /// Lines as a comment.
 fn comment(text: &mut String, lines: &[String]) {
     let lines: Vec<String> = lines.iter().map(|line| plain(line)).collect();
-    let _ = write!(text, "\n/*\n{} */\n", language::comment(" *", &lines));
+    *text += &format!("\n/*\n{} */\n", language::comment(" *", &lines));
 }
 
 /// Returns a line that ends no comment and begins none; without the marks of Rust's documentation.

@@ -1,8 +1,6 @@
 //! The file of a robot in Rust: the contents of one module in one scalar, with header, table,
 //! structs and functions.
 
-use std::fmt::Write;
-
 use dalembert_model::robot::{Convention, Follower, JointKind, Position, Robot};
 
 use super::escape::escaped;
@@ -34,17 +32,13 @@ pub(crate) fn write(
     let mut text = comment("//!", &header(robot, setup, functions, scalar));
     // One operation a line, whatever the formatter of the user's crate thinks.
     // Only this way of telling it so is stable as an inner attribute.
-    let _ = writeln!(
-        text,
-        "#![cfg_attr(rustfmt, rustfmt_skip)]\n#![allow({ALLOWED})]\n"
-    );
-    let _ = writeln!(text, "/// The number of joints.\npub const N: usize = {n};");
+    text += &format!("#![cfg_attr(rustfmt, rustfmt_skip)]\n#![allow({ALLOWED})]\n\n");
+    text += &format!("/// The number of joints.\npub const N: usize = {n};\n");
     let rows = setup.rows();
     if setup.scene().is_some() {
-        let _ = writeln!(
-            text,
+        text += &format!(
             "/// The joints that results are over, in their order, from zero.\n\
-             pub const JOINTS: [usize; {}] = {rows:?};",
+             pub const JOINTS: [usize; {}] = {rows:?};\n",
             rows.len()
         );
     }
@@ -56,7 +50,7 @@ pub(crate) fn write(
         text.push('\n');
         let program = &generated.program;
         if let Some(structure) = result::structure(program.function, program.sizes(), scalar) {
-            let _ = writeln!(text, "{structure}");
+            text += &format!("{structure}\n");
         }
         // One π for all that are over the same columns.
         let columns = generated.function.columns();
@@ -67,7 +61,7 @@ pub(crate) fn write(
         let doc = function_doc(job, generated, scalar);
         text.push_str(&function::write(program, code, request.library(), &doc));
         if request.batch {
-            let _ = write!(text, "\n{}", columns::columns(program, code));
+            text += &format!("\n{}", columns::columns(program, code));
         }
     }
     text

@@ -1,8 +1,6 @@
 //! The base parameters of a regressor: each as a combination of the robot
 //! file's, and the values that they have.
 
-use std::fmt::Write;
-
 use dalembert_model::number::Exact;
 use num_traits::{One, Signed};
 
@@ -71,15 +69,13 @@ pub(super) fn constant(function: Function, setup: &Setup, scalar: ScalarType) ->
     let Some((name, values)) = values(function, setup, scalar) else {
         return text;
     };
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        text,
+    text += &format!(
         "/// π of this robot: the values of the base parameters, a column of [`{function}`] each.\n\
-         pub const {name}: [{scalar}; {}] = [",
+         pub const {name}: [{scalar}; {}] = [\n",
         values.len()
     );
     for value in &values {
-        let _ = writeln!(text, "    {},", value.text(scalar));
+        text += &format!("    {},\n", value.text(scalar));
     }
     text.push_str("];\n\n");
     text
@@ -93,18 +89,16 @@ pub(super) fn write_c(function: Function, setup: &Setup, names: &Names) -> Strin
         return text;
     };
     let (float, restrict) = (float(dialect.scalar), names.constant("RESTRICT"));
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        text,
+    text += &format!(
         "\n/*\n * π of this robot: the values of the base parameters, a column of\n * `{}` each.\n */\n\
-         {} void {}({float} pi[{restrict} {}])\n{{",
+         {} void {}({float} pi[{restrict} {}])\n{{\n",
         names.of(function.name()),
         dialect.function,
         names.of(&name.to_lowercase()),
         values.len()
     );
     for (index, value) in values.iter().enumerate() {
-        let _ = writeln!(text, "    pi[{index}] = {};", dialect.literal(*value));
+        text += &format!("    pi[{index}] = {};\n", dialect.literal(*value));
     }
     text.push_str("}\n");
     text
@@ -176,7 +170,7 @@ fn combination(terms: &[(Parameter, Exact)]) -> String {
             Some(value) => format!("{} ", decimal(&value.abs())),
             None => format!("({}) ", plain(factor)),
         };
-        let _ = write!(text, "{sign}{factor}{parameter}");
+        text += &format!("{sign}{factor}{parameter}");
     }
     text
 }

@@ -4,8 +4,6 @@
 //! The module says it in numbers, `BOX`, and asks for a caller whether a state
 //! is inside, `in_box`. A controller does that before it trusts a torque.
 
-use std::fmt::Write;
-
 use super::GeneratedFunction;
 use super::variant::held;
 use crate::certificate::Certificate;
@@ -50,12 +48,11 @@ impl StateBox {
              /// module hold; an infinite end bounds nothing.\n\
              pub const BOX: StateBox = StateBox {\n",
         );
-        // Writing to a string cannot fail.
         for (argument, column) in &self.columns {
-            let _ = writeln!(text, "    {}: [", argument.name());
+            *text += &format!("    {}: [\n", argument.name());
             for range in column {
                 let [low, high] = ends(*range, scalar);
-                let _ = writeln!(text, "        [{low}, {high}],");
+                *text += &format!("        [{low}, {high}],\n");
             }
             text.push_str("    ],\n");
         }
@@ -67,9 +64,8 @@ impl StateBox {
         );
         for (argument, column) in &self.columns {
             let (what, n) = (argument.meaning(), column.len());
-            let _ = writeln!(
-                text,
-                "    /// {what}\n    pub {}: [[{scalar}; 2]; {n}],",
+            *text += &format!(
+                "    /// {what}\n    pub {}: [[{scalar}; 2]; {n}],\n",
                 argument.name()
             );
         }
@@ -83,17 +79,13 @@ impl StateBox {
             format!("{}: &[{scalar}; {}]", argument.name(), column.len())
         });
         let parameters = list(parameters);
-        let _ = writeln!(
-            text,
-            "pub fn in_box({parameters}) -> bool {{\n    let inside = true;"
-        );
+        *text += &format!("pub fn in_box({parameters}) -> bool {{\n    let inside = true;\n");
         for (argument, column) in &self.columns {
             let name = argument.name();
             for joint in (0..column.len()).filter(|&joint| column[joint].is_some()) {
-                let _ = writeln!(
-                    text,
+                *text += &format!(
                     "    let inside = inside & (BOX.{name}[{joint}][0] <= {name}[{joint}]) & \
-                     ({name}[{joint}] <= BOX.{name}[{joint}][1]);"
+                     ({name}[{joint}] <= BOX.{name}[{joint}][1]);\n"
                 );
             }
         }
@@ -108,9 +100,7 @@ impl StateBox {
             let (name, length) = (argument.name(), column.len());
             format!("const {float} {name}[{restrict} {length}]")
         });
-        // Writing to a string cannot fail.
-        let _ = write!(
-            text,
+        *text += &format!(
             "\n/* Whether a state is where the functions hold, ends included: 1 or 0. The error bounds\n \
              * hold only there. A state with a NaN is not inside. */\n\
              {} int {}({})\n{{\n    int inside = 1;\n",
@@ -122,10 +112,9 @@ impl StateBox {
             let name = argument.name();
             for (joint, range) in column.iter().enumerate().filter(|(_, r)| r.is_some()) {
                 let [low, high] = ends(*range, scalar).map(|end| dialect.digits(&end));
-                let _ = writeln!(
-                    text,
+                *text += &format!(
                     "    if (!(({low} <= {name}[{joint}]) && ({name}[{joint}] <= {high}))) {{\n        \
-                     inside = 0;\n    }}"
+                     inside = 0;\n    }}\n"
                 );
             }
         }

@@ -15,8 +15,6 @@
 //! }
 //! ```
 
-use std::fmt::Write;
-
 use dalembert_sines::{LARGEST, LARGEST_F32};
 
 use super::called::Called;
@@ -169,10 +167,7 @@ pub(crate) fn write(program: &Program, code: &Code, names: &Names, is_told: bool
     let dialect = names.dialect();
     let far = FAR[usize::from(is_told)];
     let mut text = format!("{}\n{{\n", head(program, names, is_told));
-    let mut line = |line: &str| {
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "    {line}");
-    };
+    let mut line = |line: &str| text += &format!("    {line}\n");
     line(&names.constant("UNFUSED"));
     let called = Called::of(code, program.joints, names, is_told);
     let is_called = |pair: &&Pair| called.is_some() && pair.kernel.is_none();
@@ -215,9 +210,7 @@ pub(crate) fn write(program: &Program, code: &Code, names: &Names, is_told: bool
         }
     }
     trig::write_speeds(&mut text, dialect, code, "");
-    let mut line = |line: &str| {
-        let _ = writeln!(text, "    {line}");
-    };
+    let mut line = |line: &str| text += &format!("    {line}\n");
     let lines = Lines::new(dialect, code);
     lines.statements().for_each(|statement| line(&statement));
     let arguments = program.arguments.iter();

@@ -4,8 +4,6 @@
 //! compared with the program operation by operation. Long functions are cut
 //! into blocks (see [`BLOCK`]); names stay unique.
 
-use std::fmt::Write;
-
 use crate::dag::Id;
 use crate::function::{Argument, Function, Sizes};
 use crate::language::dialect::{Dialect, Lines};
@@ -35,8 +33,7 @@ pub(crate) const GRAVITY: &str = "Gravity";
 /// Prints the function, whose roots are this library's; `doc` stands above it, one line an item.
 pub fn write(program: &Program, code: &Code, library: Library, doc: &[String]) -> String {
     let mut text = comment("///", doc);
-    push(&mut text, format_args!("#[must_use]"));
-    push(&mut text, format_args!("{} {{", signature(program, code)));
+    text += &format!("#[must_use]\n{} {{\n", signature(program, code));
     let dialect = Dialect::rust(code.scalar);
     trig::write(&mut text, code);
     trig::write_speeds(&mut text, dialect, code, library.path());
@@ -58,7 +55,7 @@ pub(super) fn write_steps(text: &mut String, code: &Code, dialect: Dialect) {
     let ids: Vec<Id> = code.dag.operations().map(|(id, ..)| id).collect();
     if ids.len() <= FLAT {
         for line in lines.statements() {
-            push(text, format_args!("    {line}"));
+            *text += &format!("    {line}\n");
         }
         return;
     }
@@ -79,12 +76,11 @@ pub(super) fn write_steps(text: &mut String, code: &Code, dialect: Dialect) {
         // A block hands on what is read after it: that much is live.
         let live = block.iter().filter(|&&id| last_use[id as usize] >= end);
         let live: String = live.map(|&id| format!("{}, ", lines.operand(id))).collect();
-        push(text, format_args!("    let ({}) = {{", live.trim_end()));
+        *text += &format!("    let ({}) = {{\n", live.trim_end());
         for line in block.iter().filter_map(|&id| lines.statement(id)) {
-            push(text, format_args!("        {line}"));
+            *text += &format!("        {line}\n");
         }
-        push(text, format_args!("        ({})", live.trim_end()));
-        push(text, format_args!("    }};"));
+        *text += &format!("        ({})\n    }};\n", live.trim_end());
     }
 }
 
@@ -148,10 +144,4 @@ pub(super) fn reads_entry(code: &Code, argument: Argument) -> bool {
         Input::PerSpeed(_) => argument == Argument::Velocity,
         Input::Sin(_) | Input::Cos(_) => false,
     })
-}
-
-/// Appends a line. Writing to a string cannot fail.
-fn push(text: &mut String, line: std::fmt::Arguments<'_>) {
-    let _ = text.write_fmt(line);
-    text.push('\n');
 }

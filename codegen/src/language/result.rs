@@ -1,7 +1,5 @@
 //! The arrays and the struct that a function ends with.
 
-use std::fmt::Write;
-
 use crate::function::{Function, Quantity, Sizes};
 use crate::language::list;
 use crate::program::ScalarType;
@@ -19,12 +17,11 @@ pub(crate) fn structure(function: Function, sizes: Sizes, scalar: ScalarType) ->
     let name = function.structure()?;
     let mut text = format!("/// What [`{function}`] returns.\n");
     text.push_str("#[derive(Clone, Copy, Debug, PartialEq)]\n");
-    // Writing to a string cannot fail.
-    let _ = writeln!(text, "pub struct {name} {{");
+    text += &format!("pub struct {name} {{\n");
     for &quantity in function.quantities() {
         let (doc, field) = (quantity.facts().summary, quantity.field());
         let array = array_type(quantity, sizes, scalar);
-        let _ = writeln!(text, "    /// {doc}\n    pub {field}: {array},");
+        text += &format!("    /// {doc}\n    pub {field}: {array},\n");
     }
     text.push_str("}\n");
     Some(text)
@@ -46,14 +43,14 @@ pub(super) fn write(
                 Function::Load => ["Load(", ")"],
                 _ => [""; 2],
             };
-            let _ = write!(text, "    {before}");
+            *text += &format!("    {before}");
             write_array(text, &mut items, &lengths, 1);
-            let _ = writeln!(text, "{after}");
+            *text += &format!("{after}\n");
         }
         Some(name) => {
-            let _ = writeln!(text, "    {name} {{");
+            *text += &format!("    {name} {{\n");
             for quantity in function.quantities() {
-                let _ = write!(text, "        {}: ", quantity.field());
+                *text += &format!("        {}: ", quantity.field());
                 let lengths: Vec<usize> = quantity.shape().lengths(sizes).collect();
                 write_array(text, &mut items, &lengths, 2);
                 text.push_str(",\n");
@@ -74,16 +71,16 @@ fn write_array(
     match *lengths {
         [] => text.push_str(&items.next().unwrap_or_default()),
         [length] => {
-            let _ = write!(text, "[{}]", list(items.take(length)));
+            *text += &format!("[{}]", list(items.take(length)));
         }
         [length, ref inner @ ..] => {
             text.push_str("[\n");
             for _ in 0..length {
-                let _ = write!(text, "{indent}    ");
+                *text += &format!("{indent}    ");
                 write_array(text, items, inner, depth + 1);
                 text.push_str(",\n");
             }
-            let _ = write!(text, "{indent}]");
+            *text += &format!("{indent}]");
         }
     }
 }

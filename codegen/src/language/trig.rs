@@ -13,8 +13,6 @@
 //! };
 //! ```
 
-use std::fmt::Write;
-
 use crate::language::dialect::{Dialect, Lines};
 use crate::language::list;
 use crate::program::kernel::Kernel;
@@ -29,9 +27,8 @@ pub(super) fn write(text: &mut String, code: &Code) {
     let angles = list(taken(code).map(|pair| operand(pair.joint)));
     if !angles.is_empty() {
         let ([sin, cos], suffix) = (taken_names(code), code.scalar.math_suffix());
-        let _ = writeln!(
-            text,
-            "    let ([{sin}], [{cos}]) = dalembert_sines::sincos{suffix}(&[{angles}]);"
+        *text += &format!(
+            "    let ([{sin}], [{cos}]) = dalembert_sines::sincos{suffix}(&[{angles}]);\n"
         );
     }
 }
@@ -54,8 +51,7 @@ pub(super) fn write_each(
         match &pair.kernel {
             Some(kernel) => write_kernel(text, &names, &angle, kernel, dialect),
             None => {
-                // Writing to a string cannot fail.
-                let _ = writeln!(text, "    let {names} = {};", call(function, &angle));
+                *text += &format!("    let {names} = {};\n", call(function, &angle));
             }
         }
     }
@@ -64,15 +60,15 @@ pub(super) fn write_each(
 /// Prints the block of the polynomials of an angle, an operation a line.
 fn write_kernel(text: &mut String, names: &str, angle: &str, kernel: &Kernel, dialect: Dialect) {
     let lines = Lines::of_kernel(dialect, kernel, angle, "x");
-    let _ = writeln!(text, "    let {names} = {{");
+    *text += &format!("    let {names} = {{\n");
     for line in lines.statements() {
-        let _ = writeln!(text, "        {line}");
+        *text += &format!("        {line}\n");
     }
     let mut result = list(lines.results());
     if kernel.dag.outputs.len() != 1 {
         result = format!("({result})");
     }
-    let _ = writeln!(text, "        {result}\n    }};");
+    *text += &format!("        {result}\n    }};\n");
 }
 
 /// Returns the operand that sines are taken of.
@@ -114,7 +110,6 @@ pub(super) fn write_speeds(text: &mut String, dialect: Dialect, code: &Code, pat
         let product = dialect.operation(Operation::Mul, &speed, &speed);
         let sum = format!("{product} + {square}");
         let value = format!("{one} / {}", dialect.call(path, "sqrt", &sum));
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "    {}", dialect.declare(&name, &value));
+        *text += &format!("    {}\n", dialect.declare(&name, &value));
     }
 }

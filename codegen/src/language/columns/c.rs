@@ -1,8 +1,6 @@
 //! Functions of any number of states in C and CUDA, in columns: entry i of state s stands at
 //! `i * n + s`.
 
-use std::fmt::Write;
-
 use crate::function::Function;
 use crate::language::c99::{Names, float, is_bundle, is_number, is_told, largest, structure_name};
 use crate::language::{Language, list};
@@ -36,16 +34,12 @@ impl Columns {
             let (name, length) = (argument.name(), argument.length(sizes));
             parameters.push(format!("const {float} *{restrict} {name}"));
             let entries = list((0..length).map(|index| format!("{name}[{}]", at(index))));
-            // Writing to a string cannot fail.
-            let _ = writeln!(
-                gathered,
-                "        const {float} {name}_s[{length}] = {{{entries}}};"
-            );
+            gathered += &format!("        const {float} {name}_s[{length}] = {{{entries}}};\n");
             passed.push(format!("{name}_s"));
         }
         if is_bundle(function) && !is_number(function) {
             let kind = structure_name(function, names);
-            let _ = writeln!(gathered, "        {kind} result_s[1];");
+            gathered += &format!("        {kind} result_s[1];\n");
             passed.push("result_s".to_owned());
         }
         for quantity in function.quantities() {
@@ -57,12 +51,12 @@ impl Columns {
             let mut array = format!("result_s->{field}");
             if !is_bundle(function) {
                 array = format!("{field}_s");
-                let _ = writeln!(gathered, "        {float} {array}[{length}];");
+                gathered += &format!("        {float} {array}[{length}];\n");
                 passed.push(array.clone());
             }
             for index in 0..length {
                 let place = at(index);
-                let _ = writeln!(stored, "        {field}[{place}] = {array}[{index}];");
+                stored += &format!("        {field}[{place}] = {array}[{index}];\n");
             }
         }
         Columns {

@@ -18,8 +18,6 @@
 //! It is a text of its own, since one that both took would slow down the other: unoptimised, each
 //! operator of a type that nobody knows is a call.
 
-use std::fmt::Write;
-
 use crate::function::Argument;
 use crate::language::c99::largest;
 use crate::language::dialect::{Dialect, Lines};
@@ -67,15 +65,13 @@ pub(crate) fn columns(program: &Program, code: &Code) -> String {
     let parameters: String = parameters
         .map(|name| format!("{name}: &[&[{scalar}]; {n}], "))
         .collect();
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        text,
+    text += &format!(
         "}}\n\n/// [`{name}`] at any number of states in columns: a slice for every entry of an argument, and of\n\
          /// the result in the order of its text. It is computed with the vectors that\n\
          {bits}\n\
          ///\n/// # Errors\n/// The slices are of different lengths; then nothing is computed.\n\
          pub fn {name}_columns({parameters}results: &mut [&mut [{scalar}]; {entries}]) -> Result<(), dalembert_batch::Unequal> {{\n    \
-         dalembert_batch::columns::<{kind}, {sizes}>([{}], results)\n}}",
+         dalembert_batch::columns::<{kind}, {sizes}>([{}], results)\n}}\n",
         arguments.join(", "),
     );
     text
@@ -117,11 +113,10 @@ fn write_vectors(text: &mut String, program: &Program, code: &Code) {
         marked(argument.name(), is_read)
     });
     let [sin, cos] = trig::taken_names(code);
-    let _ = writeln!(
-        text,
+    *text += &format!(
         "\n    #[inline(always)]\n    \
          fn vectors<V: dalembert_batch::Vector<{}>>([{}]: &[[V; {n}]; {count}], \
-         &[{}]: &[V; {taken}], &[{}]: &[V; {taken}]) -> [V; {entries}] {{",
+         &[{}]: &[V; {taken}], &[{}]: &[V; {taken}]) -> [V; {entries}] {{\n",
         code.scalar,
         list(arguments),
         sin,
@@ -130,9 +125,9 @@ fn write_vectors(text: &mut String, program: &Program, code: &Code) {
     );
     text.push_str(&of);
     for line in body.lines() {
-        let _ = writeln!(text, "    {line}");
+        *text += &format!("    {line}\n");
     }
-    let _ = writeln!(text, "        [{results}]\n    }}");
+    *text += &format!("        [{results}]\n    }}\n");
 }
 
 /// Returns the name of an argument, marked where it is not read.
@@ -148,15 +143,13 @@ fn write_angles(text: &mut String, program: &Program, code: &Code) {
         let is_read = *argument == Argument::Position && !angles.is_empty();
         marked(argument.name(), is_read)
     });
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        text,
+    *text += &format!(
         "    #[inline(always)]\n    \
-         fn angles<V: dalembert_batch::Floats<{}>>([{}]: &[[V; {n}]; {count}]) -> [V; {}] {{",
+         fn angles<V: dalembert_batch::Floats<{}>>([{}]: &[[V; {n}]; {count}]) -> [V; {}] {{\n",
         code.scalar,
         list(arguments),
         angles.len()
     );
     let angles = list(angles.iter().map(|&own| trig::operand(own)));
-    let _ = writeln!(text, "        [{angles}]\n    }}");
+    *text += &format!("        [{angles}]\n    }}\n");
 }
