@@ -29,12 +29,10 @@ impl Operation {
         Operation::Fused,
     ];
 
-    /// Returns the operation of a symbol of Rust's.
-    pub fn from_symbol(symbol: &str) -> Option<Operation> {
-        let is = |operation: &Operation| {
-            *operation != Operation::Fused && symbol.chars().eq([operation.symbol()])
-        };
-        Operation::ALL.into_iter().find(is)
+    /// Returns the operation of a symbol.
+    pub fn from_symbol(symbol: char) -> Option<Operation> {
+        let mut all = Operation::ALL.into_iter();
+        all.find(|operation| operation.symbol() == symbol)
     }
 
     /// Returns its symbol, Rust's but for a fused product, which has none there.

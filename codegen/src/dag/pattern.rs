@@ -69,6 +69,7 @@ pub(crate) fn evaluate(
             },
             ("neg", [a]) => a.negated_if(true),
             (symbol, [a, b]) => {
+                let symbol = symbol.parse().expect("a symbol");
                 let operation = Operation::from_symbol(symbol).expect("an operation");
                 builder.apply(operation, *a, *b)
             }

@@ -8,7 +8,7 @@ use super::state_box::StateBox;
 use super::{GeneratedFunction, c_sines, parameters, said};
 use crate::function::Function;
 use crate::language::c99::{self, LONGEST, Names};
-use crate::language::{self, Language, columns, cuda};
+use crate::language::{self, Language, columns};
 use crate::program::{Code, Library, ScalarType};
 use crate::task::Job;
 
@@ -19,6 +19,24 @@ const FUSES: &str = "defined(__GNUC__) && !defined(__clang__) && \
 /// gcc. It inlines only functions that have the options of those that call them, and makes no
 /// vectors without masks where it first computes (`tree-pre`) what follows of an angle that is far.
 const GCC: &str = "defined(__GNUC__) && !defined(__clang__)";
+
+/// What headers in CUDA define, once the one of the robot's names is there.
+const PRODUCTS: &str = "
+/* Each operation is rounded, on the device too: no product becomes one with a sum. */
+#if defined(__CUDA_ARCH__)
+#define DALEMBERT_MUL(a, b) __dmul_rn((a), (b))
+#define DALEMBERT_MULF(a, b) __fmul_rn((a), (b))
+#else
+#define DALEMBERT_MUL(a, b) ((a) * (b))
+#define DALEMBERT_MULF(a, b) ((a) * (b))
+#endif
+";
+
+/// What they define no more at their end.
+const NO_PRODUCTS: &str = "
+#undef DALEMBERT_MUL
+#undef DALEMBERT_MULF
+";
 
 /// Returns the first name that some C compiler does not take: too long, of other letters, or of two.
 pub(crate) fn misnamed(
@@ -101,7 +119,7 @@ pub(crate) fn write(
          #endif\n"
     );
     if request.language == Language::Cuda {
-        text.push_str(cuda::PRODUCTS);
+        text.push_str(PRODUCTS);
     } else if has_loops {
         let simd = names.constant("SIMD");
         // It warns where it cannot, of loops that call the C library.
@@ -189,7 +207,7 @@ pub(crate) fn write(
         }
     }
     if request.language == Language::Cuda {
-        text.push_str(cuda::NO_PRODUCTS);
+        text.push_str(NO_PRODUCTS);
     }
     text += &format!("\n#if {when}\n#pragma GCC pop_options\n#endif\n\n#endif\n");
     text

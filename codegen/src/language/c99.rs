@@ -18,27 +18,12 @@
 use dalembert_sines::{LARGEST, LARGEST_F32};
 
 use super::called::Called;
-use super::dialect::{Dialect, Lines};
+use super::dialect::Lines;
 use super::function::reads;
 pub(crate) use super::names::{LONGEST, Names, float};
 use super::{Language, trig};
 use crate::function::{Function, Quantity, Sizes};
 use crate::program::{Code, Input, Library, Pair, Program, ScalarType};
-
-impl Dialect {
-    /// Returns C99.
-    pub(crate) const fn c99(scalar: ScalarType) -> Dialect {
-        Dialect {
-            scalar,
-            function: "static inline",
-            declaration: scalar.of("const double {} = {};", "const float {} = {};"),
-            product: "{} * {}",
-            fused: scalar.of("fma({}, {}, {})", "fmaf({}, {}, {})"),
-            negative: "-{}",
-            literal: scalar.of("{}", "{}F"),
-        }
-    }
-}
 
 /// Returns whether the function's results are one struct: a bundle's are.
 pub(crate) fn is_bundle(function: Function) -> bool {

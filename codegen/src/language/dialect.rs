@@ -45,6 +45,30 @@ impl Dialect {
         }
     }
 
+    /// Returns C99.
+    pub(crate) const fn c99(scalar: ScalarType) -> Dialect {
+        Dialect {
+            scalar,
+            function: "static inline",
+            declaration: scalar.of("const double {} = {};", "const float {} = {};"),
+            product: "{} * {}",
+            fused: scalar.of("fma({}, {}, {})", "fmaf({}, {}, {})"),
+            negative: "-{}",
+            literal: scalar.of("{}", "{}F"),
+        }
+    }
+
+    /// Returns CUDA: C, but for what a function begins with and for products, which a compiler for
+    /// the device makes one operation with a sum unless they say that they are rounded: a macro, an
+    /// intrinsic on the device and `*` elsewhere.
+    pub(crate) const fn cuda(scalar: ScalarType) -> Dialect {
+        Dialect {
+            function: "static __host__ __device__ inline",
+            product: scalar.of("DALEMBERT_MUL({}, {})", "DALEMBERT_MULF({}, {})"),
+            ..Dialect::c99(scalar)
+        }
+    }
+
     /// Returns the line that gives a value its name.
     pub(crate) fn declare(&self, name: &str, value: &str) -> String {
         filled(self.declaration, &[name, value])

@@ -1,7 +1,7 @@
 //! Programs as flat text of a language, printed and read back.
 //!
 //! - [`dialect`]: how a language writes a line, one table for printing and reading
-//! - [`c99`]: functions in C, and [`mod@cuda`] what CUDA has besides
+//! - [`c99`]: functions in C and CUDA
 //! - [`called`]: sines in C that one call gives
 //! - [`columns`]: functions of any number of states
 //! - [`function`]: one program as one function
@@ -12,7 +12,6 @@
 pub(crate) mod c99;
 pub(crate) mod called;
 pub(crate) mod columns;
-pub(crate) mod cuda;
 pub(crate) mod dialect;
 pub(crate) mod function;
 pub(crate) mod names;

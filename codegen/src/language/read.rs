@@ -152,13 +152,7 @@ pub(crate) fn graph<V, C: Clone + Eq + Hash, I: Clone + Eq + Hash>(
         other => Operand::Input(input(other)),
     };
     let steps = program.steps.iter().map(|(operation, [left, right])| Step {
-        operation: match operation {
-            '+' => Operation::Add,
-            '-' => Operation::Sub,
-            '*' => Operation::Mul,
-            '×' => Operation::Fused,
-            _ => Operation::Div,
-        },
+        operation: Operation::from_symbol(*operation).unwrap_or(Operation::Div),
         left: operand(left),
         right: operand(right),
     });
