@@ -37,15 +37,6 @@ fn read(text: &str) -> Result<Code, usize> {
     })
 }
 
-#[test]
-fn what_was_emitted_reads() {
-    let program = read(TEXT).unwrap();
-    let counts = program.counts();
-    assert_eq!((counts.mul, counts.add, counts.sincos), (2, 1, 2));
-    assert_eq!(program.dag.outputs.len(), 2);
-    assert!(program.dag.outputs[1].negative);
-}
-
 /// Changes of the text, by the line that is refused.
 const REFUSED: &str = "
 1 | gravity → inertia
