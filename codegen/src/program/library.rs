@@ -25,14 +25,6 @@ impl Library {
         }
     }
 
-    /// Returns the assumption about called sines that bounds rest on.
-    pub fn assumption(self) -> &'static str {
-        match self {
-            Library::Libm => "sin and cos are libm's, within one ulp",
-            Library::Together => "sin and cos are dalembert-sines', within one ulp",
-        }
-    }
-
     /// Returns sine and cosine as it computes them, to the last bit.
     pub fn pair<T: Machine>(self, angle: T, need: Need) -> (T, T) {
         match (self, need.sin, need.cos) {
