@@ -13,7 +13,6 @@ mod rounds;
 use std::hint::black_box;
 
 use dalembert::batch::{Vectors, columns_in, parallel};
-use dalembert_codegen::Fma;
 use dalembert_model::scalar::field::Points;
 
 #[path = "generated/puma560_batch.rs"]
@@ -177,7 +176,7 @@ fn main() {
         |name: &str| chosen.is_empty() || chosen.iter().any(|part| name.contains(part.as_str()));
     let clock = ports::clock();
     println!("clock: {clock:.3} GHz");
-    let compile = |name: &str, functions: &[Output], fma: Fma| {
+    let compile = |name: &str, functions: &[Output], fma: bool| {
         // Else gcc makes no vectors of 256 bits.
         let narrow = ["-march=x86-64-v3", "-fno-tree-pre"];
         let wide = ["-march=x86-64-v4", "-mprefer-vector-width=512"];
@@ -191,7 +190,7 @@ fn main() {
     };
     let dynamics = [Output::InverseDynamics, Output::ForwardDynamics];
     if is_chosen("torques") || is_chosen("accelerations") {
-        let mut gcc = compile("batch", &dynamics, Fma::Off);
+        let mut gcc = compile("batch", &dynamics, false);
         if is_chosen("torques") {
             bench!("torques, f64", puma560, f64, inverse_dynamics,
                 InverseDynamicsBatch, 6, clock, gcc, 0, is_alone: true);
@@ -206,7 +205,7 @@ fn main() {
         }
     }
     if is_chosen("fused") {
-        let mut gcc = compile("fused", &dynamics, Fma::On);
+        let mut gcc = compile("fused", &dynamics, true);
         bench!("fused torques, f64", fused, f64, inverse_dynamics,
             InverseDynamicsBatch, 6, clock, gcc, 0, is_alone: false);
         bench!("fused torques, f32", fused_f32, f32, inverse_dynamics,
@@ -221,7 +220,7 @@ fn main() {
             Output::InverseDynamicsDerivatives,
             Output::ForwardDynamicsDerivatives,
         ];
-        let mut gcc = compile("derivatives", &functions, Fma::Off);
+        let mut gcc = compile("derivatives", &functions, false);
         bench!("derivatives of torques, f64", derivatives, f64, inverse_dynamics_derivatives,
             InverseDynamicsDerivativesBatch, 108, clock, gcc, 0, is_alone: false);
         bench!("derivatives of torques, f32", derivatives_f32, f32, inverse_dynamics_derivatives,

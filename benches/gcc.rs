@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Child, ChildStdout, Command, Stdio};
 
 use dalembert_codegen::workspace::plan_file;
-use dalembert_codegen::{Fma, Function, Language, Request, SinCos, generate};
+use dalembert_codegen::{Function, Language, Request, SinCos, generate};
 use dalembert_model::read;
 
 /// A running program.
@@ -17,7 +17,7 @@ pub struct Gcc {
 
 impl Gcc {
     /// Compiles the functions with these options; `None` where there is no gcc, or it refuses.
-    pub fn start(name: &str, functions: &[Function], fma: Fma, options: &[&str]) -> Option<Gcc> {
+    pub fn start(name: &str, functions: &[Function], fma: bool, options: &[&str]) -> Option<Gcc> {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let robot = root.join("generated/robots/puma560.toml");
         let source = std::fs::read_to_string(&robot).ok()?;

@@ -91,6 +91,6 @@ pub use search::Effort;
 pub use seeds::Start;
 pub use sincos::SinCos;
 pub use task::options::{OPTIONS, OptionRow, Problem, Purpose};
-pub use task::{Fma, Prefer, Request};
+pub use task::{Prefer, Request};
 pub use watch::Watch;
 pub use words::Complaint;

@@ -12,7 +12,7 @@ use dalembert_model::scene::Tolerance;
 
 use crate::program::Program;
 use crate::setup::Setup;
-pub use request::{Fma, Prefer, Request};
+pub use request::{Prefer, Request};
 
 /// A request for a robot in its scene.
 #[derive(Clone, Copy, Debug)]
@@ -44,8 +44,8 @@ impl<'a> Job<'a> {
     /// was asked for.
     pub(crate) fn finished(&self, program: &Program) -> Program {
         match self.request.fma {
-            Fma::On => program.fused(),
-            Fma::Off => program.clone(),
+            true => program.fused(),
+            false => program.clone(),
         }
     }
 }

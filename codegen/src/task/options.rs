@@ -9,7 +9,7 @@ use dalembert_model::read::for_bundle;
 use dalembert_model::scene::Scene;
 use dalembert_stamp::Asked;
 
-use super::request::{Fma, Prefer, Request};
+use super::request::{Prefer, Request};
 use crate::function::Function;
 use crate::program::ScalarType;
 use crate::sincos::SinCos;
@@ -183,7 +183,7 @@ pub static OPTIONS: [OptionRow; 13] = [
         doc: "Whether a product and the sum that alone reads it are one operation, `mul_add`, \
               rounded once. The code needs std, and a build for a processor that has it \
               (-C target-cpu=native): any other calls a slow function for each",
-        words: Fma::known,
+        words: bool::known,
         is_list: false,
         set: |draft, item| parse(item).map(|value| draft.request.fma = value),
     },
@@ -331,19 +331,20 @@ impl Request {
         let parameters: Vec<&str> = self.parameters.iter().map(|own| own.name()).collect();
         let error = self.sincos_error.map(|error| format!("{error:?}"));
         let scene = self.scene.as_ref().map_or("", |scene| &scene.name);
+        let word = |is_on: bool| if is_on { "on" } else { "off" };
         for (option, value) in [
             ("outputs", outputs.join(",").as_str()),
             ("scalar", &scalars.join(",")),
             ("formulation", self.start.name()),
             ("effort", self.effort.name()),
             ("prefer", self.prefer.name()),
-            ("fma", self.fma.name()),
+            ("fma", word(self.fma)),
             ("sincos", self.sincos.name()),
             ("sincos_error", &error.unwrap_or_default()),
-            ("batch", if self.batch { "on" } else { "off" }),
+            ("batch", word(self.batch)),
             ("parameters", &parameters.join(",")),
             ("scene", scene),
-            ("plan", if self.has_no_plan { "off" } else { "on" }),
+            ("plan", word(!self.has_no_plan)),
             ("name", self.module.as_deref().unwrap_or("")),
         ] {
             // All of them are options.

@@ -31,19 +31,6 @@ words! {
     }
 }
 
-words! {
-    /// Fusing a product with the sum that alone reads it, or not.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-    pub enum Fma: "choice" {
-        /// Every operation is rounded.
-        #[default]
-        Off = "off",
-        /// A product and its sum are one operation, `mul_add`, and rounded once. It
-        /// needs `std`, and a processor that has it.
-        On = "on",
-    }
-}
-
 /// A request for code.
 #[derive(Clone, Debug)]
 pub struct Request {
@@ -57,8 +44,9 @@ pub struct Request {
     pub effort: Effort,
     /// The preference among programs.
     pub prefer: Prefer,
-    /// Fused products: a product and its sum are rounded once.
-    pub fma: Fma,
+    /// `true` if a product and the sum that alone reads it are one operation, `mul_add`, and rounded
+    /// once. It needs `std`, and a processor that has it.
+    pub fma: bool,
     /// The source of sines and cosines.
     pub sincos: SinCos,
     /// The largest |computed − true| of each sine and cosine by polynomials; [`SinCos::ERROR`] if
@@ -103,7 +91,7 @@ impl Default for Request {
             start: Start::default(),
             effort: Effort::default(),
             prefer: Prefer::default(),
-            fma: Fma::default(),
+            fma: false,
             sincos: SinCos::default(),
             sincos_error: None,
             auto: Library::default(),
