@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use dalembert_model::equations::friction::per_speed;
 use dalembert_model::number::Exact;
 use dalembert_model::scalar::Divide;
 
 use super::kernel::{Kernel, Need};
 use super::machine::Machine;
-use super::{Counts, Input, Library, Literal, Program, ScalarType, Speed};
+use super::{Counts, Input, Library, Literal, Program, ScalarType};
 use crate::dag::lanes::{LANES, Lanes};
 use crate::dag::{Dag, Leaves};
 use crate::function::Argument;
@@ -38,6 +39,26 @@ pub struct Pair {
     pub need: Need,
     /// The polynomials, unless a library is called.
     pub kernel: Option<Kernel>,
+}
+
+/// A joint whose r = 1/√(q̇² + w²) may be read beside the velocity: it smooths Coulomb friction over
+/// a width w. The code squares the velocity, adds the square of the width, takes the root and
+/// divides one by it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Speed<C = Exact> {
+    /// The joint, zero-based.
+    pub joint: usize,
+    /// w²: exact, or the literal that it was rounded to.
+    pub square: C,
+}
+
+impl Speed<Literal> {
+    /// Returns r as the code computes it, from the velocities; none if there is none of
+    /// the joint.
+    pub fn run<T: Machine>(&self, qd: &[T]) -> Option<T> {
+        let qd = qd.get(self.joint)?;
+        Some(per_speed(qd, &T::literal(self.square.0), |x| x.root()))
+    }
 }
 
 impl Code {

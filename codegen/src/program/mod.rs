@@ -15,7 +15,6 @@ pub(crate) mod kernel;
 pub(crate) mod library;
 pub(crate) mod machine;
 pub(crate) mod scalar_type;
-pub(crate) mod speed;
 pub(crate) mod steps;
 
 use std::collections::BTreeMap;
@@ -26,11 +25,11 @@ use dalembert_model::scalar::Scalar;
 pub use crate::dag::{Counts, Input, Operation};
 use crate::dag::{Dag, Edge, Id, Node};
 use crate::function::{Argument, Columns, Function, Sizes};
+pub(crate) use code::Speed;
 pub use code::{Code, Pair};
 pub use kernel::Need;
 pub use library::Library;
 pub use scalar_type::{Literal, ScalarType};
-pub(crate) use speed::Speed;
 pub use steps::{Operand, Output, Step, Steps};
 
 /// Straight-line code with exact constants: what is proved and emitted.
