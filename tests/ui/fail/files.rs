@@ -1,23 +1,5 @@
 //! Robot files.
 
-// A bad number in the robot file.
-dalembert::dynamics! {
-    mod bad_number_in_file = "robots/bad_number.toml";
-    outputs: gravity;
-}
-
-// The file is TOML, but no robot.
-dalembert::dynamics! {
-    mod empty_file = "robots/empty.toml";
-    outputs: gravity;
-}
-
-// Legal TOML of what no robot may be: each value at its line, all at once.
-dalembert::dynamics! {
-    mod impossible_robot = "robots/impossible.toml";
-    outputs: gravity;
-}
-
 // No such file.
 dalembert::dynamics! {
     mod missing_file = "robots/planar2.toml";
@@ -33,12 +15,6 @@ dalembert::dynamics! {
 // Every error of the file at once, each with its line.
 dalembert::dynamics! {
     mod mistakes_in_file = "robots/mistakes.toml";
-    outputs: gravity;
-}
-
-// The file is no TOML.
-dalembert::dynamics! {
-    mod not_a_robot_file = "robots/notes.txt";
     outputs: gravity;
 }
 

@@ -13,8 +13,8 @@ dalembert::dynamics! {
         convention = "standard"
         gravity = [0, nan, 0]
         [[joint]]
-        kind = "revolut"
-        a = 1
+        kind = "revolute"
+        mass = 0
     "#;
     outputs: gravity;
 }
