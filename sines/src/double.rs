@@ -3,7 +3,7 @@
 //! The parts of π/2: 40 bits, 38 bits and the rest to 2⁻¹³⁵. The polynomials
 //! are minimax (Remez) on |r| ≤ 0.7854, rounded coefficient by coefficient
 //! with the others fitted again: relative error of the sine below 2⁻⁵⁷·⁸⁸, of
-//! the cosine, absolute, below 2⁻⁶⁴·¹⁸ (`tests/polynomials.rs`).
+//! the cosine, absolute, below 2⁻⁶⁴·¹⁸ (`tests.rs`).
 
 use crate::angle::Angle;
 use crate::number::{Number, Products};

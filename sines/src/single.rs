@@ -3,7 +3,7 @@
 //! The parts of π/2: 17 bits, 18 bits and the rest to 2⁻⁶³. The polynomials are
 //! minimax (Remez) on |r| ≤ 0.78545, rounded coefficient by coefficient with
 //! the others fitted again: relative error of the sine below 2⁻²⁷·⁹, of the
-//! cosine, absolute, below 2⁻³³·¹ (`tests/polynomials.rs`).
+//! cosine, absolute, below 2⁻³³·¹ (`tests.rs`).
 
 use crate::angle::Angle;
 use crate::number::{Number, Products};

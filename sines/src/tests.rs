@@ -5,12 +5,11 @@
 extern crate std;
 
 use dalembert_model::number::{Angle as Turn, Rational, Rounded};
+use dalembert_model::scalar::field::Points;
 use std::vec::Vec;
 
-use crate::angle::{Angle, alone, singly, together};
-use crate::number::{self, Fused};
-use crate::vectors::{self, TwoDoubles};
-use crate::{double, single};
+use crate::angle::{Angle, singly};
+use crate::{double, single, vectors};
 
 fn exact(x: f64) -> Rational {
     Rational::from_float(x).unwrap()
@@ -153,56 +152,16 @@ fn no_angle_is_nearer_to_a_quarter_turn_than_stated() {
     assert!((-26.33..-26.32).contains(&single), "{single}");
 }
 
-/// Fused, too: five angles in vectors, four of them side by side, have the bits of each alone,
-/// which are other ones than those of rounded products; and where the polynomials are for none,
-/// they say so.
-#[test]
-fn fused_angles_have_the_same_bits_in_vectors_and_alone() {
-    let (mut random, mut others) = (7u64, 0);
-    for _ in 0..500 {
-        let angles: [f64; 10] = core::array::from_fn(|_| {
-            random = random.wrapping_mul(6364136223846793005).wrapping_add(1);
-            20.0 * ((random >> 11) as f64 / (1u64 << 53) as f64 - 0.5)
-        });
-        let lanes: [TwoDoubles; 5] =
-            core::array::from_fn(|k| TwoDoubles::from_array([angles[k], angles[5 + k]]));
-        let (sines, cosines, usual) = together::<f64, Fused, _, 5>(&lanes);
-        assert!(usual);
-        for (k, angle) in angles.into_iter().enumerate() {
-            let (sin, cos) = alone::<f64, Fused>(angle);
-            let own = [sines, cosines].map(|found| found[k % 5].to_array()[k / 5].to_bits());
-            assert_eq!(own, [sin.to_bits(), cos.to_bits()], "{angle}");
-            others += usize::from(alone::<f64, number::Rounded>(angle) != (sin, cos));
-        }
-    }
-    assert!(others > 10, "{others}");
-    for far in [8192.5, f64::NAN, f64::INFINITY] {
-        let lanes = [TwoDoubles::from_array([0.5, far]); 3];
-        assert!(!together::<f64, Fused, _, 3>(&lanes).2);
-        let (own, library) = (alone::<f64, Fused>(far), libm::sincos(far));
-        assert_eq!(own.0.to_bits(), library.0.to_bits());
-        assert_eq!(own.1.to_bits(), library.1.to_bits());
-    }
-    let zero = alone::<f64, Fused>(-0.0);
-    assert!(zero.0 == 0.0 && zero.0.is_sign_negative() && zero.1 == 1.0);
-}
-
 /// Which of the two is taken is a matter of time alone: whole vectors, a rest,
 /// unusual angles among others.
 #[test]
 fn vectors_and_single_angles_have_the_same_bits() {
-    let mut bits = 1u64;
+    let mut points = Points::new(1);
     for round in 0..500 {
-        let angles: [f64; 21] = core::array::from_fn(|_| {
-            bits = bits
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
-            let unit = (bits >> 11) as f64 / (1u64 << 53) as f64 - 0.5;
-            match round % 4 {
-                0 => f64::from_bits(bits),
-                1 => unit * 4.0 * f64::LARGEST,
-                _ => unit * 7.0,
-            }
+        let angles: [f64; 21] = core::array::from_fn(|_| match round % 4 {
+            0 => f64::from_bits(points.bits()),
+            1 => points.unit() * 2.0 * f64::LARGEST,
+            _ => points.unit() * 3.5,
         });
         let singles = angles.map(|x| x as f32);
         let (a, b) = (singly(&angles), vectors::together(&angles));

@@ -8,6 +8,7 @@ mod reference;
 
 use dalembert_model::number::Wide;
 use dalembert_model::scalar::Scalar;
+use dalembert_model::scalar::field::Points;
 use dalembert_sines::{LARGEST, LARGEST_F32, sincos, sincosf};
 use reference::{Reference, ulp, ulps};
 
@@ -16,23 +17,6 @@ const PROVED: [f64; 2] = [0.90, 0.85];
 
 /// The number of angles in one call.
 const TOGETHER: usize = 8;
-
-/// Numbers in [0, 1), by Vigna's splitmix64.
-struct Random(u64);
-
-impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
 
 /// The worst of sines and cosines so far, and where.
 #[derive(Clone, Copy, Default)]
@@ -88,13 +72,13 @@ fn near_quarters(neighbours: u64) -> impl Iterator<Item = f64> {
 }
 
 fn within(reach: f64, points: u64, seed: u64) -> impl Iterator<Item = f64> {
-    let mut random = Random(seed);
-    (0..points).map(move |_| (2.0 * random.unit() - 1.0) * reach)
+    let mut random = Points::new(seed);
+    (0..points).map(move |_| random.unit() * reach)
 }
 
 /// Returns points of every size from 2⁻⁴⁰ on.
 fn of_every_size(points: u64) -> impl Iterator<Item = f64> {
-    let mut random = Random(7);
+    let mut random = Points::new(7);
     let (least, most) = ((-40f64).exp2().to_bits(), LARGEST.to_bits());
     (0..points).map(move |_| f64::from_bits(least + random.bits() % (most - least)))
 }
