@@ -37,7 +37,7 @@ macro_rules! scalar {
 
 macro_rules! vector {
     ($token:ident, $lanes:literal, $float:ident, $vector:ident, $raw:ident, $bits:ident,
-     $raw_bits:ident, $unsigned:ident; $add:ident, $sub:ident, $mul:ident, $div:ident, $neg:ident,
+     $raw_bits:ident, $raised:literal; $add:ident, $sub:ident, $mul:ident, $div:ident, $neg:ident,
      $sqrt:ident, $fused:ident, $abs:ident, $at_most:ident, $all:ident; $xor:ident, $and:ident,
      $plus:ident, $minus:ident, $power:ident, $shift:ident; |$mask:ident| $every:expr) => {
         #[doc = concat!("`", stringify!($raw), "`, with what shows that there are such.")]
@@ -97,7 +97,7 @@ macro_rules! vector {
 
             #[inline(always)]
             fn raised(bits: $bits) -> $bits {
-                $bits(bits.0, bits.0.$shift::<{ $unsigned::BITS as _ }>(bits.1))
+                $bits(bits.0, bits.0.$shift::<$raised>(bits.1))
             }
 
             #[inline(always)]
@@ -131,7 +131,7 @@ macro_rules! doubles {
     ($token:ident, $lanes:literal, $vector:ident, $raw:ident, $bits:ident, $raw_bits:ident,
      $shift:ident, |$mask:ident| $every:expr) => {
         vector!(
-            $token, $lanes, f64, $vector, $raw, $bits, $raw_bits, SixtyTwo;
+            $token, $lanes, f64, $vector, $raw, $bits, $raw_bits, 62;
             add_f64s, sub_f64s, mul_f64s, div_f64s, neg_f64s, sqrt_f64s, mul_add_f64s, abs_f64s,
             less_than_or_equal_f64s, splat_f64s;
             xor_u64s, and_u64s, add_u64s, sub_u64s, splat_u64s, $shift; |$mask| $every
@@ -143,26 +143,12 @@ macro_rules! floats {
     ($token:ident, $lanes:literal, $vector:ident, $raw:ident, $bits:ident, $raw_bits:ident,
      $shift:ident, |$mask:ident| $every:expr) => {
         vector!(
-            $token, $lanes, f32, $vector, $raw, $bits, $raw_bits, Thirty;
+            $token, $lanes, f32, $vector, $raw, $bits, $raw_bits, 30;
             add_f32s, sub_f32s, mul_f32s, div_f32s, neg_f32s, sqrt_f32s, mul_add_f32s, abs_f32s,
             less_than_or_equal_f32s, splat_f32s;
             xor_u32s, and_u32s, add_u32s, sub_u32s, splat_u32s, $shift; |$mask| $every
         );
     };
-}
-
-/// By how many bits a count of quarter turns is raised, in a word of 64 bits.
-struct SixtyTwo;
-
-impl SixtyTwo {
-    const BITS: u8 = 62;
-}
-
-/// In a word of 32.
-struct Thirty;
-
-impl Thirty {
-    const BITS: u8 = 30;
 }
 
 doubles!(
