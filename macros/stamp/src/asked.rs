@@ -215,14 +215,4 @@ mod tests {
             assert_eq!(asked, Asked::default(), "{option}");
         }
     }
-
-    #[test]
-    fn unknown_options_are_named() {
-        let said = |text: &str| text.parse::<Asked>().unwrap_err().to_string();
-        let near = "unknown option `output`: did you mean `outputs`?";
-        assert_eq!(said("output: gravity"), near);
-        let far = "unknown option `sinc`: known: outputs, scalar, formulation, \
-            effort, prefer, fma, sincos, sincos_error, batch, parameters, scene, plan, name";
-        assert_eq!(said("sinc: on"), far);
-    }
 }
