@@ -58,44 +58,21 @@ def pinocchio_of(path: Path, joints: list[str]):
     return pin.buildReducedModel(model, others, pin.neutral(model))
 
 
-def torques_by_casadi(model):
-    """Return Newton–Euler in link axes over CasADi's symbols, for Pinocchio's model."""
+def torques_by_casadi(path: Path):
+    """Return a robot file's torques but for damping, as `peers` writes them over CasADi's symbols."""
     import casadi
-    from casadi import SX, cross, mtimes
 
-    n = model.nv
-    assert all(model.joints[k + 1].shortname() == "JointModelRZ" for k in range(n))
-    q, qd, qdd = (SX.sym(name, n) for name in ("q", "qd", "qdd"))
-    z = SX(casadi.sparsify(casadi.DM([0, 0, 1])))
-    w = dw = SX(3, 1)
-    a = SX(casadi.sparsify(casadi.DM(-model.gravity.linear)))
-    turns, places, forces, moments = [], [], [], []
-    for k in range(n):
-        placement, link = model.jointPlacements[k + 1], model.inertias[k + 1]
-        exact = SX(casadi.sparsify(casadi.DM(np.round(placement.rotation, 9))))
-        c, s = casadi.cos(q[k]), casadi.sin(q[k])
-        zero, one = SX(1, 1), SX(1)
-        own = casadi.vertcat(
-            casadi.horzcat(c, -s, zero), casadi.horzcat(s, c, zero), casadi.horzcat(zero, zero, one)
-        )
-        turn = mtimes(exact, own)
-        place = SX(casadi.sparsify(casadi.DM(placement.translation)))
-        a = mtimes(turn.T, a + cross(dw, place) + cross(w, cross(w, place)))
-        w, dw = mtimes(turn.T, w), mtimes(turn.T, dw)
-        dw = dw + cross(w, z * qd[k]) + z * qdd[k]
-        w = w + z * qd[k]
-        centre = SX(casadi.sparsify(casadi.DM(link.lever)))
-        inertia = SX(casadi.DM(link.inertia))
-        force = link.mass * (a + cross(dw, centre) + cross(w, cross(w, centre)))
-        moment = mtimes(inertia, dw) + cross(w, mtimes(inertia, w)) + cross(centre, force)
-        turns.append(turn), places.append(place), forces.append(force), moments.append(moment)
-    tau, force, moment = [], SX(3, 1), SX(3, 1)
-    for k in reversed(range(n)):
-        force, moment = forces[k] + force, moments[k] + moment
-        tau.append(moment[2])
-        force, moment = mtimes(turns[k], force), mtimes(turns[k], moment)
-        moment = moment + cross(places[k], force)
-    function = casadi.Function("rnea", [q, qd, qdd], [casadi.vertcat(*reversed(tau))])
+    sys.path.insert(0, str(ROOT / "benches/peers"))
+    from model import Arm
+    from symbolic import Chain
+
+    arm = Arm(path)
+    # A URDF's 1.57079632679 is a right angle to whoever counts operations.
+    arm.place = [(np.round(rotation, 9), place) for rotation, place in arm.place]
+    chain = Chain(arm)
+    q, qd, qdd = chain.q, chain.qd, chain.qdd
+    torques = chain.newton_euler(qd, qdd, arm.gravity, None)
+    function = casadi.Function("rnea", [q, qd, qdd], [torques])
     with tempfile.TemporaryDirectory() as folder:
         here = os.getcwd()
         os.chdir(folder)
@@ -125,9 +102,8 @@ def dynibo_of(path: Path, joints: list[str]):
 
 
 def rust_batch(arm, folder: Path):
-    """Return the Rust batch of the same arm, compiled for AVX2."""
+    """Return the Rust batch of the folder's `arm.toml`, compiled for AVX2."""
     n = len(arm.joints)
-    arm.save(folder / "arm.toml")
     generate = "generate arm.toml -o batch.rs --batch --sincos together --scalar f64"
     command = [sys.executable, "-m", "dalembert", *generate.split(), "--outputs=inverse_dynamics"]
     subprocess.run(command, cwd=folder, check=True, capture_output=True)
@@ -243,8 +219,9 @@ def main() -> None:
     damping = model.damping * one[1]
     results = {"pin.rnea with damping": pin.rnea(model, data, *one) + damping}
     with tempfile.TemporaryDirectory() as folder:
+        arm.save(Path(folder) / "arm.toml")
         try:
-            function = torques_by_casadi(model)
+            function = torques_by_casadi(Path(folder) / "arm.toml")
             mapped, transposed = function.map(STATES), [x.T.copy() for x in (q, qd, qdd)]
             many["CasADi's map of compiled C"] = (STATES, lambda: mapped(*transposed))
             results["CasADi with damping"] = np.array(function(*one)).ravel() + damping
