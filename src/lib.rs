@@ -313,25 +313,6 @@ pub mod matrices;
 /// }
 /// let (q, qdd) = ([0.3, 0.5, 0.0], [1.0, 2.0, 0.0]);
 /// let tau: [f64; 2] = arm::inverse_dynamics(&q, &qdd);
-/// # // The wrist and its load are one body with the forearm: at 0.4 + 0.1 (cos, sin)(pi/6) m.
-/// # let (a1, a2) = (0.3f64, 0.3f64 + 0.5);
-/// # let (turn, l) = (std::f64::consts::PI / 6.0, [0.5, 0.4, 0.1]);
-/// # let (a3, [w1, w2]) = (a2 + turn, [1.0, 3.0]);
-/// # let at = |m: f64, i: f64, l2: f64, l3: f64| {
-/// #     // A body at l1, l2, l3 along the links: torques about both joints, without velocities.
-/// #     let x = [l[0] * a1.cos(), l2 * a2.cos() + l3 * a3.cos()];
-/// #     let y = [l[0] * a1.sin(), l2 * a2.sin() + l3 * a3.sin()];
-/// #     let acc = [-(y[0] * w1 + y[1] * w2), x[0] * w1 + x[1] * w2 + 9.81];
-/// #     let turning = |x: f64, y: f64| m * (x * acc[1] - y * acc[0]) + i * w2;
-/// #     [turning(x[0] + x[1], y[0] + y[1]), turning(x[1], y[1])]
-/// # };
-/// # let bodies = [at(1.0, 0.1, 0.2, 0.0), at(0.2, 0.0, 0.4, 0.1), at(0.5, 0.01, 0.4, 0.1)];
-/// # let upper = 2.0 * 0.25 * (9.81 * a1.cos() + 0.25) + 0.1;
-/// # let sum = |k: usize| bodies.iter().map(|body| body[k]).sum::<f64>();
-/// # let exact = [upper + sum(0), sum(1)];
-/// # for ((tau, exact), limit) in tau.iter().zip(exact).zip([60.0, 30.0]) {
-/// #     assert!((tau - exact).abs() <= 1e-2 * limit, "{tau} {exact}");
-/// # }
 /// ```
 ///
 /// Arguments keep an entry for every joint, results are over `joints`. With a
