@@ -7,7 +7,6 @@ mod extremes_not_finite;
 mod extremes_of_chains;
 mod extremes_of_robots;
 mod extremes_support;
-mod identities_in_time;
 mod outputs_in_scenes;
 mod pages;
 #[path = "../../codegen/tests/support/mod.rs"]
