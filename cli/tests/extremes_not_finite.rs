@@ -1,11 +1,9 @@
 //! NaN and ±inf reach the outputs that depend on them: exactly those in
 //! emitted code, at least those in the generic runtime.
 
-use dalembert_cli::measure::Code;
-use dalembert_codegen::workspace::{Input, JointState, Node, seeded};
+use dalembert_codegen::workspace::{Input, JointState, Node, Runtime, seeded};
 use dalembert_codegen::{Function, Generated, Program, Request, ScalarType, generate};
 
-use crate::extremes_support::runtime::runtime;
 use crate::robots::robot;
 
 /// An entry of the state: 0, 1 or 2 for q, q̇ or q̈, and the joint.
@@ -41,13 +39,17 @@ fn with(state: &JointState, place: Entry, value: f64) -> JointState {
     state
 }
 
-/// Returns which outputs change with an input at some of the states.
-fn sensitive(code: &Code<'_>, states: &[JointState], place: Entry) -> Vec<bool> {
+/// Returns which results of a function change with an input at some of the states.
+fn sensitive(
+    run: impl Fn(&JointState) -> Vec<f64>,
+    states: &[JointState],
+    place: Entry,
+) -> Vec<bool> {
     let mut sensitive = Vec::new();
     for state in states {
         let rows = [&state.q, &state.qd, &state.qdd];
         let moved = with(state, place, rows[place.0][place.1] + 0.7);
-        let [a, b] = [state, &moved].map(&code.run);
+        let [a, b] = [state, &moved].map(&run);
         let size = a.iter().fold(0.0f64, |most, x| most.max(x.abs()));
         sensitive.resize(a.len(), false);
         for (sensitive, (a, b)) in sensitive.iter_mut().zip(a.iter().zip(&b)) {
@@ -69,19 +71,20 @@ fn what_is_not_finite_reaches_what_depends_on_it() {
             functions, emitted, ..
         } = generate(&robot, &request).unwrap();
         let states = seeded(&robot, 4, 11);
+        let runtime = Runtime::new(&robot);
         let doubles = emitted.iter().filter(|e| e.scalar == ScalarType::F64);
         for (generated, emitted) in functions.iter().zip(doubles) {
             let function = generated.function;
             assert_eq!(emitted.function, function);
-            let runtime = runtime(&robot, function, ScalarType::F64);
+            let run = |state: &JointState| runtime.run(function, state);
             for place in (0..3).flat_map(|row| (0..robot.joints.len()).map(move |j| Entry(row, j)))
             {
                 let dependent = dependent(&generated.program, place);
-                let sensitive = sensitive(&runtime, &states, place);
+                let sensitive = sensitive(run, &states, place);
                 for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
                     let state = with(&states[0], place, bad);
                     let results = emitted.run(&state);
-                    let of_runtime = (runtime.run)(&state);
+                    let of_runtime = run(&state);
                     for index in 0..results.len() {
                         let at =
                             || format!("{name} {function} {index} {} {} {bad}", place.0, place.1);

@@ -1,6 +1,6 @@
-//! The 114 extreme states, f64 and f32, for the generic runtime and emitted code, each by its
-//! criterion. Without optimisation only the first case of each category, and no search for long
-//! arms; release mode takes minutes.
+//! The 114 extreme states, f64 and f32, for emitted code, each by its criterion; the model's tests
+//! have the generic runtime there. Without optimisation only the first case of each category, and
+//! no search for long arms; release mode takes minutes.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -12,7 +12,6 @@ use dalembert_codegen::{Function, Request, ScalarType, Start, generate};
 use dalembert_model::equations::Formulation;
 use dalembert_model::robot::Robot;
 
-use crate::extremes_support::runtime::runtime;
 use crate::extremes_support::{Extreme, drawn_like, read};
 
 const IS_SLOW: bool = cfg!(debug_assertions);
@@ -71,7 +70,7 @@ fn every_category_meets_its_criterion_in_f32() {
 
 fn categories_meet_their_criteria(scalar: ScalarType, range: Range<usize>) {
     let mut robots: Vec<(Robot, Bench, Vec<Emitted>)> = Vec::new();
-    let mut worst: BTreeMap<(String, &str), [f64; 2]> = BTreeMap::new();
+    let mut worst: BTreeMap<String, [f64; 2]> = BTreeMap::new();
     let mut failures = Vec::new();
     let cases = read(scalar);
     assert_eq!(cases.len(), 114);
@@ -87,46 +86,40 @@ fn categories_meet_their_criteria(scalar: ScalarType, range: Range<usize>) {
         let (_, bench, emitted) = &robots[known];
         let scales = drawn_like(robot, state);
         for own in emitted {
-            let codes = [
-                ("runtime", runtime(robot, own.function, scalar)),
-                ("emitted", Code::emitted(own)),
-            ];
-            for (subject, code) in codes {
-                // The error of a vector is relative to its size at this state.
-                let alone = [state.clone()];
-                for found in bench.measure(&code, &alone, &alone) {
-                    // Out of the scalar's range on purpose.
-                    if case.category.starts_with("f32overflow") && scalar == ScalarType::F32 {
-                        let truth = bench.truth(own.function, state);
-                        let largest = f64::from(f32::MAX);
-                        let beyond = truth.iter().any(|x| x.magnitude() > largest);
-                        // No result may be finite where the truth is out of range.
-                        assert!(!beyond || found.overflows, "{}", case.id);
-                        continue;
-                    }
-                    let held = held(&case.category);
-                    let is_vector = match found.quantity {
-                        Quantity::Torque => held != Held::Entries,
-                        // D is large somewhere in every state; h and c may vanish.
-                        quantity => quantity == Quantity::Inertia,
-                    };
-                    let mut entry = 0.0;
-                    if found.quantity == Quantity::Torque {
-                        entry = bench.measure(&code, &alone, &scales)[0].entry;
-                        let key = (case.category.clone(), subject);
-                        let worst = worst.entry(key).or_default();
-                        *worst = [worst[0].max(found.vector), worst[1].max(entry)];
-                    }
-                    let is_off = entry > ENTRY && held != Held::Vector;
-                    if is_off || is_vector && found.vector > VECTOR {
-                        failures.push(format!("{} {scalar} {subject} {found:?} {entry}", case.id));
-                    }
+            let code = Code::emitted(own);
+            // The error of a vector is relative to its size at this state.
+            let alone = [state.clone()];
+            for found in bench.measure(&code, &alone, &alone) {
+                // Out of the scalar's range on purpose.
+                if case.category.starts_with("f32overflow") && scalar == ScalarType::F32 {
+                    let truth = bench.truth(own.function, state);
+                    let largest = f64::from(f32::MAX);
+                    let beyond = truth.iter().any(|x| x.magnitude() > largest);
+                    // No result may be finite where the truth is out of range.
+                    assert!(!beyond || found.overflows, "{}", case.id);
+                    continue;
+                }
+                let held = held(&case.category);
+                let is_vector = match found.quantity {
+                    Quantity::Torque => held != Held::Entries,
+                    // D is large somewhere in every state; h and c may vanish.
+                    quantity => quantity == Quantity::Inertia,
+                };
+                let mut entry = 0.0;
+                if found.quantity == Quantity::Torque {
+                    entry = bench.measure(&code, &alone, &scales)[0].entry;
+                    let worst = worst.entry(case.category.clone()).or_default();
+                    *worst = [worst[0].max(found.vector), worst[1].max(entry)];
+                }
+                let is_off = entry > ENTRY && held != Held::Vector;
+                if is_off || is_vector && found.vector > VECTOR {
+                    failures.push(format!("{} {scalar} {found:?} {entry}", case.id));
                 }
             }
         }
     }
-    for ((category, subject), [vector, entry]) in worst {
-        println!("{category} {subject} {scalar}: {vector:.1} / {entry:.1}");
+    for (category, [vector, entry]) in worst {
+        println!("{category} {scalar}: {vector:.1} / {entry:.1}");
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }

@@ -1,7 +1,5 @@
 //! The extreme cases as robots with exact parameters.
 
-pub mod runtime;
-
 use std::path::PathBuf;
 
 use dalembert_codegen::ScalarType;
