@@ -201,6 +201,7 @@ pub mod matrices;
 /// // file: once for each tool.
 /// let tool = Payload::new(0.5, [0.0, 0.0, 0.1], [1e-3, 1e-3, 1e-3, 0.0, 0.0, 0.0]);
 /// let load: Load = arm::load(&tool);
+/// # assert_eq!(tool[0], 0.5);
 /// let q = [0.3, -0.5];
 /// let upright = arm::gravity(&q, &Gravity([0.0, -9.81, 0.0]), &load);
 /// let on_its_side = arm::gravity(&q, &Gravity([9.81, 0.0, 0.0]), &load);
