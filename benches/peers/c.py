@@ -15,8 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from model import Arm
-from peers import FLAGS, HERE, ROBOTS, ROOT, TIMED, TURNS, error, expected, lines, machine, said
+from peers import FLAGS, HERE, ROBOTS, ROOT, TIMED, TURNS, agrees, built, expected, machine, prepared, said
 from symbolic import Chain
 
 OUTPUTS = ",".join(TIMED)
@@ -55,9 +54,7 @@ def pinocchios(work, robot):
 
 def compiled(work, program, source, name, arm, results, more):
     """Builds a program; seconds, bytes of code and bytes of stack of the function alone."""
-    define = [f'-DSOURCE="{source}"', f"-DNAME={name}", f"-DJOINTS={arm.n}", f"-DRESULTS={results}"]
-    build = ["gcc", *FLAGS, *define, *more, f"-I{work}", str(HERE / "time.c"), "-lm"]
-    subprocess.run([*build, "-o", work / program], check=True, cwd=work)
+    built("gcc", work, work / program, source, name, arm, results, more)
     alone = work / "alone.c"
     call = "void call(const double* s, double* r) { NAME(s, s + J, s + 2 * J, r%s); }"
     rest = ", r + J * J, r + 2 * J * J" if "-DOURS=3" in more else ""
@@ -83,10 +80,7 @@ def run(work, dalembert):
     work = Path(work).resolve()
     rows, random = [], np.random.default_rng(20)
     for robot in ROBOTS:
-        arm = Arm(ROOT / "generated/robots" / f"{robot}.toml")
-        states = random.uniform(-3, 3, (200, 3 * arm.n))
-        (work / f"{robot}.states").write_text(lines(states))
-        (work / f"{robot}.urdf").write_text(arm.urdf())
+        arm, states = prepared(work, robot, random)
         ours = {fma: header(work, dalembert, robot, fma) for fma in (True, False)}
         functions, other = Chain(arm).functions(), pinocchios(work, robot)
         for function in TIMED:
@@ -108,9 +102,7 @@ def run(work, dalembert):
                 program = re.sub(r"\W", "_", f"{robot}_{function}_{library}")
                 costs = compiled(work, program, source, name, arm, len(truth[0]), more)
                 command = [work / program, work / f"{robot}.states"]
-                off = error(said([command[0], "values", command[1]]), truth)
-                if off > (1e-12 if function.startswith("inverse") else 1e-9):
-                    raise SystemExit(f"{robot}: {library}'s {function} is off by {off:.1e}")
+                agrees(command, truth, robot, library, function)
                 row[library] = [command, [], *costs]
             for _ in range(TURNS):
                 for library in sources:

@@ -70,8 +70,29 @@ def said(command):
     return np.array([[float(x) for x in line.split()] for line in out.splitlines()])
 
 
-def error(found, truth):
-    return max(np.abs(f - t).max() / np.abs(t).max() for f, t in zip(found, truth))
+def prepared(work, robot, random):
+    """A robot and states of it; both are in the folder, too."""
+    arm = Arm(ROOT / "generated/robots" / f"{robot}.toml")
+    states = random.uniform(-3, 3, (200, 3 * arm.n))
+    (work / f"{robot}.states").write_text(lines(states))
+    (work / f"{robot}.urdf").write_text(arm.urdf())
+    return arm, states
+
+
+def built(compiler, work, program, source, name, arm, results, more=()):
+    """Compiles a function in C into a program that computes and times it."""
+    define = [f'-DSOURCE="{source}"', f"-DNAME={name}", f"-DJOINTS={arm.n}", f"-DRESULTS={results}"]
+    command = [compiler, *FLAGS, *define, *more, f"-I{work}", str(HERE / "time.c"), "-lm"]
+    subprocess.run([*command, "-o", program], check=True, cwd=work)
+
+
+def agrees(command, truth, robot, library, function):
+    """Compares values: what inverts D is that much off for every library, Pinocchio too."""
+    pairs = zip(said([command[0], "values", *command[1:]]), truth)
+    off = max(np.abs(found - true).max() / np.abs(true).max() for found, true in pairs)
+    print(f"{robot} {function} {library}: agrees to {off:.0e}", file=sys.stderr)
+    if off > (1e-12 if function.startswith("inverse") else 1e-9):
+        raise SystemExit(f"{robot}: {library}'s {function} is off by {off:.1e}")
 
 
 def machine():
@@ -96,10 +117,7 @@ def run(work, binary):
     said_by = dict(compilers())
     rows, random = [], np.random.default_rng(20)
     for robot in ROBOTS:
-        arm = Arm(ROOT / "generated/robots" / f"{robot}.toml")
-        states = random.uniform(-3, 3, (200, 3 * arm.n))
-        (work / f"{robot}.states").write_text(lines(states))
-        (work / f"{robot}.urdf").write_text(arm.urdf())
+        arm, states = prepared(work, robot, random)
         chain = [
             [slides, *r.flatten(), *p, m, *c, *i.flatten()]
             for slides, (r, p), m, c, i in zip(
@@ -119,14 +137,7 @@ def run(work, binary):
             }
             for compiler in said_by:
                 program = f"./{robot}_{name}_{compiler}"
-                define = [
-                    f'-DSOURCE="{source}"',
-                    f"-DNAME={name}",
-                    f"-DJOINTS={arm.n}",
-                    f"-DRESULTS={len(truth[0])}",
-                ]
-                build = [compiler, *FLAGS, *define, f"-I{work}", str(HERE / "time.c"), "-lm"]
-                subprocess.run([*build, "-o", program], check=True)
+                built(compiler, work, program, source, name, arm, len(truth[0]))
                 commands[f"CasADi, {compiler}"] = [program, f"{robot}.states"]
             if name in TIMED[:2]:
                 for crate in ("dynibo", "phyz"):
@@ -137,11 +148,7 @@ def run(work, binary):
                     other = Arm(ROOT / "generated/robots" / f"{robot}.toml")
                     other.gravity = np.array([0, 0, -9.80665])
                     good = list(expected(other, name, states))
-                off = error(said([command[0], "values", *command[1:]]), good)
-                print(f"{robot} {name} {library}: agrees to {off:.0e}", file=sys.stderr)
-                # What inverts D is that much off for every one of them, Pinocchio too.
-                if off > (1e-12 if name.startswith("inverse") else 1e-9):
-                    raise SystemExit(f"{robot}: {library}'s {name} is off by {off:.1e}")
+                agrees(command, good, robot, library, name)
             times = {library: [] for library in commands}
             for _ in range(TURNS):
                 for library, command in commands.items():
