@@ -203,7 +203,7 @@ class Chain:
 
     def factored(self, d, rhs):
         """D x = rhs by LDLᵀ from the last joint on, which keeps the zeros of an arm."""
-        n = self.n
+        n = d.shape[0]
         a = [[d[i, j] for j in range(n)] for i in range(n)]
         low = [[0] * n for _ in range(n)]
         inverse = [None] * n
@@ -280,30 +280,8 @@ class Chain:
         return ca.horzcat(*column)
 
     def solved(self, matrix, *columns):
-        """matrix X = columns, by LDLᵀ without exchanges, which is positive definite."""
-        n = matrix.shape[0]
-        a = [[matrix[i, j] for j in range(n)] for i in range(n)]
-        low, inverse = [[0] * n for _ in range(n)], [None] * n
-        for k in range(n):
-            inverse[k] = 1 / a[k][k]
-            for i in range(k + 1, n):
-                low[i][k] = a[i][k] * inverse[k]
-            for i in range(k + 1, n):
-                for j in range(k + 1, i + 1):
-                    a[i][j] = a[i][j] - low[i][k] * a[j][k]
-                    a[j][i] = a[i][j]
-        result = []
-        for b in columns:
-            x = [b[i] for i in range(n)]
-            for k in range(n):
-                for i in range(k):
-                    x[k] = x[k] - low[k][i] * x[i]
-            for k in reversed(range(n)):
-                x[k] = x[k] * inverse[k]
-                for i in range(k + 1, n):
-                    x[k] = x[k] - low[i][k] * x[i]
-            result.append(ca.vertcat(*x))
-        return ca.horzcat(*result)
+        """matrix X = columns, whose factors are one after `cse`."""
+        return ca.horzcat(*(self.factored(matrix, column) for column in columns))
 
     def operational(self):
         """name → function of the hand's dynamics, from D of fewest operations."""
