@@ -9,8 +9,8 @@ mod rounds;
 use std::hint::black_box;
 use std::path::Path;
 
+use dalembert_codegen::RobotFile;
 use dalembert_generated::{panda, puma560, puma560_f32, stanford, ur10};
-use dalembert_model::read;
 use dalembert_model::reference::Reference;
 use dalembert_model::scalar::field::Points;
 use nalgebra::DVector;
@@ -29,13 +29,8 @@ const ROUNDS: usize = 1001;
 /// Returns the generic runtime of a checked-in robot.
 fn reference(name: &str) -> Reference<f64> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let file = root
-        .join("generated/robots")
-        .join(name)
-        .with_extension("toml");
-    let source = std::fs::read_to_string(file).expect("a checked-in robot");
-    let reading = read::parse(&source).expect("a good robot");
-    Reference::from_robot(&reading.robot)
+    let file = RobotFile::read(&root.join(format!("generated/robots/{name}.toml")));
+    Reference::from_robot(&file.expect("a checked-in robot").robot)
 }
 
 /// States that no constant folds and no branch of a sine is learnt from.

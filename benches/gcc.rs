@@ -5,9 +5,7 @@ use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Child, ChildStdout, Command, Stdio};
 
-use dalembert_codegen::workspace::plan_file;
-use dalembert_codegen::{Function, Language, Request, SinCos, generate};
-use dalembert_model::read;
+use dalembert_codegen::{Function, Language, Request, RobotFile, SinCos, generate};
 
 /// A running program.
 pub struct Gcc {
@@ -19,18 +17,16 @@ impl Gcc {
     /// Compiles the functions with these options; `None` where there is no gcc, or it refuses.
     pub fn start(name: &str, functions: &[Function], fma: bool, options: &[&str]) -> Option<Gcc> {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let robot = root.join("generated/robots/puma560.toml");
-        let source = std::fs::read_to_string(&robot).ok()?;
-        let reading = read::parse(&source).ok()?;
+        let file = RobotFile::read(&root.join("generated/robots/puma560.toml")).ok()?;
         let request = Request {
             sincos: SinCos::Together,
             batch: true,
             language: Language::C,
-            plan: plan_file::beside(&robot).ok()?,
+            plan: file.plan,
             fma,
             ..Request::new(functions)
         };
-        let text = generate(&reading.robot, &request).ok()?.text();
+        let text = generate(&file.robot, &request).ok()?.text();
         // In the order of the functions, f64 and then f32.
         let heads = text
             .lines()

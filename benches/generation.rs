@@ -5,40 +5,26 @@
 
 mod rounds;
 
-use std::fs;
 use std::hint::black_box;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use dalembert_codegen::workspace::plan_file;
-use dalembert_codegen::{Function, Request, generate};
-use dalembert_model::read;
-use dalembert_model::robot::Robot;
+use dalembert_codegen::{Function, Request, RobotFile, generate};
 use rounds::Rounds;
 
 /// Rounds in which each variant runs once.
 const ROUNDS: usize = 7;
 
-fn file(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
-}
-
-fn robot(name: &str) -> Robot {
-    let file = file(&format!("generated/robots/{name}.toml"));
-    let source = fs::read_to_string(file).expect("a checked-in robot");
-    let reading = read::parse(&source);
-    reading.expect("a good robot").robot
-}
-
 fn searches(name: &str) {
-    let robot = robot(name);
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let file = RobotFile::read(&root.join(format!("generated/robots/{name}.toml")));
+    let RobotFile { robot, plan, .. } = file.expect("a checked-in robot");
     let all = Request {
         functions: Function::ALL[..6].to_vec(),
         ..Request::default()
     };
     let torques = Request::new(&[Function::InverseDynamics]);
-    let toml = file(&format!("generated/robots/{name}.toml"));
     let planned = Request {
-        plan: plan_file::beside(&toml).expect("a readable plan"),
+        plan,
         ..torques.clone()
     };
     let mut rounds = Rounds::of(1);

@@ -10,9 +10,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use dalembert_codegen::workspace::{Entry, RuntimeParameter, plan_file};
-use dalembert_codegen::{Function, GeneratedFunction, Request, generate};
-use dalembert_model::read;
+use dalembert_codegen::workspace::{Entry, RuntimeParameter};
+use dalembert_codegen::{Function, GeneratedFunction, Request, RobotFile, generate};
 use dalembert_model::robot::Robot;
 
 fn root() -> &'static Path {
@@ -44,14 +43,13 @@ fn pages_have_the_counts_of_the_plans() {
     let mut stale = Vec::new();
     let mut all = BTreeMap::new();
     for (name, file) in robots {
-        let source = fs::read_to_string(&file).unwrap();
-        let reading = read::parse(&source).unwrap();
+        let read = RobotFile::read(&file).unwrap();
         let request = Request {
-            plan: plan_file::beside(&file).unwrap(),
-            ..Request::default().for_file(&reading.outputs)
+            plan: read.plan,
+            ..Request::default().for_file(&read.outputs)
         };
-        let mut functions = generate(&reading.robot, &request).unwrap().functions;
-        functions.extend(others(&reading.robot, &request));
+        let mut functions = generate(&read.robot, &request).unwrap().functions;
+        functions.extend(others(&read.robot, &request));
         all.insert(name, functions);
     }
     let planar2r = fs::read_to_string(root().join("generated/robots/planar2r.rs")).unwrap();
