@@ -3,7 +3,7 @@
 dalembert::dynamics! {
     /// An arm from a file.
     pub mod arm = "robots/planar2r.toml";
-    outputs: inverse_dynamics, gravity, manipulator_equation;
+    outputs: inverse_dynamics, gravity, manipulator_equation,;
     scalar: f64;
     formulation: auto;
     effort: quick;
