@@ -132,8 +132,8 @@ impl Generator {
         })?;
         let path = Path::new(&folder).join(file_name);
         let source = self.source(&path)?;
-        let found = fs::read_to_string(&path).unwrap_or_default();
-        if Stamp::check(&found, VERSION, &source, &self.asked).is_ok() {
+        let found = fs::read_to_string(&path).ok();
+        if Stamp::check(found.as_deref(), VERSION, &source, &self.asked).is_ok() {
             return Ok(());
         }
         let base = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -168,12 +168,8 @@ impl Generator {
         };
         for (suffix, asked) in files {
             let file = beside(path, suffix);
-            let found = fs::read_to_string(&file);
-            let checked = match &found {
-                Ok(found) => Stamp::check(found, VERSION, &source, &asked).map_err(Some),
-                Err(_) => Err(None),
-            };
-            if let Err(why) = checked {
+            let found = fs::read_to_string(&file).ok();
+            if let Err(why) = Stamp::check(found.as_deref(), VERSION, &source, &asked) {
                 return self.renew(path, &file, why);
             }
         }
@@ -201,23 +197,20 @@ impl Generator {
 
     /// Refuses a stale file.
     #[cfg(not(feature = "search"))]
-    fn renew(&self, path: &Path, file: &Path, why: Option<Stale>) -> Result<(), BuildError> {
+    fn renew(&self, path: &Path, file: &Path, why: Stale) -> Result<(), BuildError> {
         let (robot, own) = (self.robot.display().to_string(), file.display().to_string());
         let command = format!(
             "dalembert generate {robot}{} -o {}",
             self.asked.arguments(),
             path.display()
         );
-        let message = match why {
-            None => format!("there is no generated file `{own}`"),
-            Some(stale) => stale.message(&own, &robot),
-        };
+        let message = why.message(&own, &robot);
         Err(one(format!("{message}\n  = help: {command}")))
     }
 
     /// Writes the files anew.
     #[cfg(feature = "search")]
-    fn renew(&self, path: &Path, _: &Path, _: Option<Stale>) -> Result<(), BuildError> {
+    fn renew(&self, path: &Path, _: &Path, _: Stale) -> Result<(), BuildError> {
         let generated = self.generated(path)?;
         for (suffix, text) in generated.stamped {
             let file = beside(path, suffix);

@@ -30,8 +30,8 @@ pub(crate) fn expand(input: TokenStream, folders: &[PathBuf]) -> TokenStream {
 /// The name of the module of one scalar, and the options that its file must have.
 type Wanted = (Ident, Asked);
 
-/// A file beside a robot file, and why it is not taken; `None` where there is no file.
-type Refused = (PathBuf, Option<Stale>);
+/// A file beside a robot file, and why it is not taken.
+type Refused = (PathBuf, Stale);
 
 /// Returns items that make an edit of a file expand the macro again, and the modules.
 fn modules(
@@ -55,16 +55,14 @@ fn modules(
     let (mut modules, mut refused) = (TokenStream::new(), Vec::new());
     for (name, asked) in &wanted {
         let file = robot.with_file_name(format!("{name}.rs"));
-        let Ok(found) = fs::read_to_string(&file) else {
-            refused.push((file, None));
-            continue;
-        };
-        watch.extend(watched(&file));
-        match Stamp::check(&found, env!("CARGO_PKG_VERSION"), &text, asked) {
+        let found = fs::read_to_string(&file).ok();
+        watch.extend(found.as_ref().map(|_| watched(&file)));
+        match Stamp::check(found.as_deref(), env!("CARGO_PKG_VERSION"), &text, asked) {
             Ok(()) => {
+                let found = found.unwrap_or_default();
                 modules.extend(module(invocation, name, &found, TokenStream::new(), errors));
             }
-            Err(stale) => refused.push((file, Some(stale))),
+            Err(stale) => refused.push((file, stale)),
         }
     }
     if !refused.is_empty() {
@@ -220,7 +218,7 @@ fn generated(
     let shown = invocation.robot.value();
     for (file, stale) in refused {
         // Who asks for something else may have no use for the file.
-        if let Some(stale @ (Stale::Robot | Stale::Text | Stale::Version(_))) = stale {
+        if matches!(stale, Stale::Robot | Stale::Text | Stale::Version(_)) {
             let file = shown_file(&shown, file);
             eprintln!(
                 "note: {}: the module is generated while compiling; `dalembert renew {file}` makes the file new",
@@ -267,16 +265,6 @@ fn generated(
     };
     for (file, stale) in refused {
         let own = shown_file(&shown, file);
-        let Some(stale) = stale else {
-            let help = format!(
-                "{}\n  = help: or let the compiler generate it, in minutes: cargo add dalembert --features search",
-                generate()
-            );
-            let said = format!("there is no generated file `{own}`");
-            errors.say(&invocation.robot, &said, &help);
-            // One command makes all of them.
-            break;
-        };
         let renew = format!("dalembert renew {own}");
         let (at, help) = match stale {
             Stale::Option(option, _) => (invocation.place(option, ""), generate()),
@@ -285,14 +273,25 @@ fn generated(
                 (invocation.place("outputs", first), generate())
             }
             Stale::Foreign => (invocation.robot.to_token_stream(), generate() + " --force"),
+            Stale::Missing => {
+                let search = "or let the compiler generate it, in minutes: cargo add dalembert \
+                              --features search";
+                let help = format!("{}\n  = help: {search}", generate());
+                (invocation.robot.to_token_stream(), help)
+            }
             _ => (invocation.robot.to_token_stream(), renew),
         };
         errors.say(at, &stale.message(&own, &shown), &help);
-        if let Stale::Outputs(missing) = stale {
-            for output in missing.iter().skip(1) {
-                let at = invocation.place("outputs", output);
-                errors.say(at, &format!("nor `{output}`"), "");
+        match stale {
+            // One command makes all files that are missing.
+            Stale::Missing => break,
+            Stale::Outputs(missing) => {
+                for output in missing.iter().skip(1) {
+                    let at = invocation.place("outputs", output);
+                    errors.say(at, &format!("nor `{output}`"), "");
+                }
             }
+            _ => {}
         }
     }
     TokenStream::new()
