@@ -6,7 +6,6 @@ mod extremes_growth;
 mod extremes_not_finite;
 mod extremes_of_chains;
 mod extremes_of_robots;
-mod extremes_support;
 mod outputs_in_scenes;
 mod pages;
 #[path = "../../codegen/tests/support/mod.rs"]
