@@ -4,7 +4,6 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::PathBuf;
 
 use dalembert_cli::extremes::Held;
 use dalembert_cli::measure::{Bench, Code, ENTRY, VECTOR};
@@ -14,6 +13,8 @@ use dalembert_model::equations::Formulation;
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::{Inertia, Joint, JointKind, Robot};
 use serde_json::Value;
+
+use crate::robots as support;
 
 const IS_SLOW: bool = cfg!(debug_assertions);
 
@@ -135,21 +136,14 @@ struct Extreme {
 
 /// Reads the file; parameters and states are rounded to the scalar.
 fn read(scalar: ScalarType) -> Vec<Extreme> {
-    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../model/tests/data/extremes.json");
-    let json: Value = serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap();
+    let json = support::json("../model/tests/data/extremes.json");
     let extreme = |json: &Value| {
         let text = |key: &str| json[key].as_str().unwrap().to_owned();
-        let [q, qd, qdd] = ["q", "qd", "qdd"].map(|key| numbers(&json[key], scalar));
         Extreme {
             id: text("id"),
             category: text("category"),
             robot: robot(&json["robot"], scalar),
-            state: JointState {
-                q,
-                qd,
-                qdd,
-                ..JointState::default()
-            },
+            state: support::given(json).in_scalar(scalar),
         }
     };
     let cases = json["cases"].as_array().unwrap();
@@ -206,12 +200,8 @@ fn exact(value: f64) -> Rational {
 }
 
 fn numbers(json: &Value, scalar: ScalarType) -> Vec<f64> {
-    let numbers = json.as_array().unwrap().iter();
-    let numbers = numbers.map(|x| x.as_f64().unwrap());
-    match scalar {
-        ScalarType::F64 => numbers.collect(),
-        ScalarType::F32 => numbers.map(|x| f64::from(x as f32)).collect(),
-    }
+    let numbers = support::numbers(json).into_iter();
+    numbers.map(|x| scalar.nearest(x)).collect()
 }
 
 /// Draws 1000 states within the magnitudes of a state: the largest |q|, |q̇| and |q̈| of all joints
