@@ -1,9 +1,10 @@
 //! Logs in other columns, units and shapes, and logs that lack rates.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use dalembert_fleet::Dynamics;
-use dalembert_fleet::logs::{Blocks, Columns, Table};
+use dalembert_fleet::logs::{Blocks, Columns, Table, canonical_names};
 use datafusion::arrow::array::{
     ArrayRef, FixedSizeListArray, Float32Array, Float64Array, RecordBatch,
 };
@@ -13,6 +14,40 @@ use parquet::arrow::ArrowWriter;
 use crate::support::{
     Folder, Sample, fails, over, robot, robot_file, rows, simulated, succeeds, text,
 };
+
+/// Writes a log of any columns.
+fn write(path: &Path, batch: &RecordBatch) {
+    let file = std::fs::File::create(path).unwrap();
+    let mut writer = ArrowWriter::try_new(file, batch.schema(), None).unwrap();
+    writer.write(batch).unwrap();
+    writer.close().unwrap();
+}
+
+/// Rows with a null are left out, also where each of a whole block has one.
+#[test]
+fn rows_with_a_null_are_left_out() {
+    let (folder, count) = (Folder::new(), 9000);
+    let sample = Sample::new(robot("planar2r", false).as_ref(), count, 11);
+    let quantities = sample.quantities.iter();
+    let columns = quantities.flat_map(|of| of.chunks_exact(count));
+    let columns = columns.map(|column| -> ArrayRef {
+        // More than are read at once.
+        let some = column.iter().enumerate();
+        let some = some.map(|(row, x)| (row >= 8500).then_some(*x));
+        Arc::new(some.collect::<Float64Array>())
+    });
+    let time: ArrayRef = Arc::new(Float64Array::from(sample.time.clone()));
+    let columns = std::iter::once(time).chain(columns);
+    let batch = RecordBatch::try_from_iter(canonical_names(2).into_iter().zip(columns));
+    let (path, out) = (folder.file("log.parquet"), folder.file("out.parquet"));
+    write(&path, &batch.unwrap());
+    let arm = robot_file("planar2r");
+    let table = succeeds(&over("residual", &path, &arm, &["-o", text(&out)]));
+    assert!(table.contains("500 states in 1 files"), "{table}");
+    let columns = Columns::canonical(2);
+    let blocks = Blocks::open(&out, &columns).unwrap();
+    assert_eq!(blocks.map(|block| block.unwrap().len()).sum::<usize>(), 500);
+}
 
 /// Logs in degrees, of other names, as lists, with currents, in milliseconds.
 #[test]
@@ -92,10 +127,7 @@ fn lists_of_floats_in_degrees_are_read() {
     ];
     let batch = RecordBatch::try_from_iter(columns).unwrap();
     let path = folder.file("episode.parquet");
-    let file = std::fs::File::create(&path).unwrap();
-    let mut writer = ArrowWriter::try_new(file, batch.schema(), None).unwrap();
-    writer.write(&batch).unwrap();
-    writer.close().unwrap();
+    write(&path, &batch);
 
     let arm = robot_file("planar2r");
     let plain = succeeds(&over("residual", &log, &arm, &[]));
