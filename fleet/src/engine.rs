@@ -17,7 +17,7 @@ use crate::dynamics::Dynamics;
 use crate::error::Error;
 use crate::functions::{Functions, evaluate_once, register};
 use crate::logs::block::per;
-use crate::logs::{Bad, Log, Source, states};
+use crate::logs::{Log, Source, states};
 use crate::progress::Going;
 
 /// What a query may use.
@@ -120,7 +120,7 @@ impl Engine {
         logs: &[Log],
         going: &Going,
         mut done: impl FnMut(&Log),
-    ) -> Result<Vec<Result<Vec<u8>, Bad>>, Error> {
+    ) -> Result<Vec<Result<Vec<u8>, Error>>, Error> {
         let mut aggregates = self.functions.aggregates.iter();
         let aggregate = aggregates
             .find(|aggregate| aggregate.name().ends_with(suffix))
@@ -206,19 +206,10 @@ impl Engine {
 }
 
 /// Finds the first row of a log that cannot be used.
-pub fn locate(log: &Log) -> Option<Bad> {
-    let first = || -> Result<Option<(u64, String)>, Error> {
-        for block in states(&log.path, &log.columns)? {
-            if let Some(found) = block?.not_finite() {
-                return Ok(Some(found));
-            }
-        }
-        Ok(None)
-    };
-    match first() {
-        Ok(found) => found.map(|(row, what)| Bad::row(&log.name, row, what)),
-        Err(why) => Some(Bad::whole(&log.name, why)),
-    }
+pub fn locate(log: &Log) -> Option<Error> {
+    let blocks = states(&log.path, &log.columns);
+    let checked = blocks.and_then(|mut blocks| blocks.try_for_each(|block| block?.check()));
+    checked.err().map(|why| why.at(log.name.display()))
 }
 
 /// Returns the address of a file, whatever characters it has.

@@ -19,6 +19,10 @@ impl Error {
     pub fn at(self, place: impl fmt::Display) -> Error {
         Error(format!("{place}: {}", self.0))
     }
+
+    pub(crate) fn at_row(self, row: u64) -> Error {
+        self.at(format_args!("row {row}"))
+    }
 }
 
 impl fmt::Display for Error {

@@ -9,7 +9,7 @@ use futures::stream::{self, StreamExt};
 use crate::dynamics::{Dynamics, Loaded};
 use crate::engine::{Engine, Limits};
 use crate::error::Error;
-use crate::logs::{Bad, Columns, Log, Mapping, convert, expand, inspect};
+use crate::logs::{Columns, Log, Mapping, convert, expand, inspect};
 use crate::output::Scratch;
 use crate::progress::{Going, Progress};
 
@@ -152,7 +152,10 @@ impl Job {
         let scratch = Scratch::within(&work)?;
         let each = stream::iter(files.into_iter().enumerate()).map(|(place, path)| {
             let (columns, to) = (columns.clone(), scratch.file(&format!("{place}.parquet")));
-            going.blocking(move |going| Ok(usable(&path, &columns, &to, going)))
+            going.blocking(move |going| {
+                let log = usable(&path, &columns, &to, going);
+                Ok(log.map_err(|why| why.at(path.display())))
+            })
         });
         let found: Vec<Result<_, Error>> = each.buffered(threads).collect().await;
         let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
@@ -200,7 +203,7 @@ impl Job {
     ///
     /// # Errors
     /// That there are bad ones, unless they are skipped.
-    pub fn good<T>(&self, found: Vec<Result<T, Bad>>) -> Result<Vec<T>, Error> {
+    pub fn good<T>(&self, found: Vec<Result<T, Error>>) -> Result<Vec<T>, Error> {
         let (all, mut good, mut bad) = (found.len(), Vec::new(), 0);
         for one in found {
             match one {
@@ -245,7 +248,7 @@ impl Job {
     ///
     /// # Errors
     /// Those of [`Job::good`].
-    pub fn keep<T>(&mut self, found: Vec<Result<T, Bad>>) -> Result<Vec<T>, Error> {
+    pub fn keep<T>(&mut self, found: Vec<Result<T, Error>>) -> Result<Vec<T>, Error> {
         let is_good: Vec<bool> = found.iter().map(Result::is_ok).collect();
         let found = self.good(found)?;
         let mut is_good = is_good.into_iter();
@@ -273,11 +276,10 @@ impl Job {
 }
 
 /// Looks at a file, and converts it if it has to be.
-fn usable(path: &Path, columns: &Columns, to: &Path, going: &Going) -> Result<Log, Bad> {
-    let goes_on = || going.goes_on();
-    let log = inspect(path, columns, &goes_on)?;
+fn usable(path: &Path, columns: &Columns, to: &Path, going: &Going) -> Result<Log, Error> {
+    let log = inspect(path, columns, going)?;
     match log.converts() {
-        true => convert(&log, to, &goes_on),
+        true => convert(&log, to, going),
         false => Ok(log),
     }
 }

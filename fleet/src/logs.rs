@@ -17,7 +17,7 @@ mod write;
 use std::path::{Path, PathBuf};
 
 pub use block::{Block, Blocks};
-pub use check::{Bad, Clock, Log, inspect};
+pub use check::{Log, inspect};
 pub use convert::convert;
 pub use mapping::{Columns, Layout, Mapping, Source, TimeUnit, Units};
 pub use mcap::Messages;

@@ -24,11 +24,6 @@ impl Going {
         (end, Going(going))
     }
 
-    /// Returns whether it goes on.
-    pub fn goes_on(&self) -> bool {
-        !*self.0.borrow()
-    }
-
     /// Waits for work, or until it is to end.
     ///
     /// # Errors
@@ -69,9 +64,9 @@ impl Going {
     /// # Errors
     /// That it was ended.
     pub fn check(&self) -> Result<(), Error> {
-        match self.goes_on() {
-            true => Ok(()),
-            false => Err(Error::new(INTERRUPTED)),
+        match *self.0.borrow() {
+            true => Err(Error::new(INTERRUPTED)),
+            false => Ok(()),
         }
     }
 }

@@ -12,7 +12,7 @@ use crate::engine::locate;
 use crate::error::Error;
 use crate::functions::{Joint, Residuals};
 use crate::job::{Job, LogArgs};
-use crate::logs::{Bad, Table, canonical_names};
+use crate::logs::{Table, canonical_names};
 use crate::output::{self, Unfinished};
 use crate::picture::{Curves, picture};
 use crate::progress::Going;
@@ -93,8 +93,8 @@ async fn summaries(job: &mut Job) -> Result<Vec<Residuals>, Error> {
         checked.push(match found.not_finite() {
             0 => Ok(found),
             count => {
-                let why = format!("torques of {count} rows are not finite");
-                Err(locate(log).unwrap_or_else(|| Bad::whole(&log.name, why)))
+                let why = Error::new(format!("torques of {count} rows are not finite"));
+                Err(locate(log).unwrap_or_else(|| why.at(log.name.display())))
             }
         });
     }

@@ -46,8 +46,11 @@ impl Block {
         &self.quantities[quantity][joint * count..(joint + 1) * count]
     }
 
-    /// Finds the first value that is not finite: its row, and what it is.
-    pub fn not_finite(&self) -> Option<(u64, String)> {
+    /// Checks that all values are finite.
+    ///
+    /// # Errors
+    /// The row of the first one that is not, and what it is.
+    pub fn check(&self) -> Result<(), Error> {
         let first = |column: &[f64]| column.iter().position(|x| !x.is_finite());
         let mut found = Vec::new();
         if let Some(place) = first(&self.time) {
@@ -62,8 +65,10 @@ impl Block {
             }
         }
         // Of those in the same row the one that was found first.
-        let (place, what) = found.into_iter().min_by_key(|(place, _)| *place)?;
-        Some((self.rows[place], what))
+        match found.into_iter().min_by_key(|(place, _)| *place) {
+            Some((place, what)) => Err(Error::new(what).at_row(self.rows[place])),
+            None => Ok(()),
+        }
     }
 }
 

@@ -1,6 +1,5 @@
-//! What is wrong with a file: which row, and why.
+//! What is in a file, and what is wrong with it: which row, and why.
 
-use std::fmt;
 use std::path::{Path, PathBuf};
 
 use datafusion::arrow::array::{Array, AsArray};
@@ -10,46 +9,7 @@ use super::block::{ROWS, open, projection, seconds};
 use super::is_mcap;
 use super::mapping::{Columns, Layout, Source};
 use crate::error::Error;
-
-/// A file that cannot be used.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Bad {
-    /// Its path.
-    pub file: PathBuf,
-    /// Row, from 1, or message, if it is one's fault.
-    pub row: Option<u64>,
-    /// What is wrong.
-    pub reason: String,
-}
-
-impl Bad {
-    /// Returns what is wrong with a file as a whole.
-    pub fn whole(file: &Path, why: impl fmt::Display) -> Bad {
-        Bad {
-            file: file.to_owned(),
-            row: None,
-            reason: why.to_string(),
-        }
-    }
-
-    /// Returns what is wrong with a row.
-    pub fn row(file: &Path, row: u64, reason: impl fmt::Display) -> Bad {
-        Bad {
-            row: Some(row),
-            ..Bad::whole(file, reason)
-        }
-    }
-}
-
-impl fmt::Display for Bad {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: ", self.file.display())?;
-        match self.row {
-            Some(row) => write!(f, "row {row}: {}", self.reason),
-            None => f.write_str(&self.reason),
-        }
-    }
-}
+use crate::progress::Going;
 
 /// A log that was looked at.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,29 +44,28 @@ impl Log {
 
 /// Times of a log, which have to increase.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Clock {
+pub(super) struct Clock {
     last: Option<f64>,
 }
 
 impl Clock {
     /// Sees the time of the next row; says what is wrong with it.
-    pub fn see(&mut self, time: f64) -> Option<String> {
-        if !time.is_finite() {
-            return Some(format!("the time is {time}"));
-        }
-        let last = self.last.replace(time)?;
-        if time == last {
-            return Some(format!("the time {time} s is that of the row before"));
-        }
-        (time < last).then(|| format!("time goes back from {last} s to {time} s"))
+    pub(super) fn see(&mut self, row: u64, time: f64) -> Result<(), Error> {
+        let why = match self.last.replace(time) {
+            _ if !time.is_finite() => format!("the time is {time}"),
+            Some(last) if time == last => format!("the time {time} s is that of the row before"),
+            Some(last) if time < last => format!("time goes back from {last} s to {time} s"),
+            _ => return Ok(()),
+        };
+        Err(Error::new(why).at_row(row))
     }
 }
 
 /// Looks at a file: its end, its columns, and every time.
 ///
 /// # Errors
-/// What is wrong with it.
-pub fn inspect(path: &Path, columns: &Columns, goes_on: &dyn Fn() -> bool) -> Result<Log, Bad> {
+/// What is wrong with it, without its name, and that the command was ended.
+pub fn inspect(path: &Path, columns: &Columns, going: &Going) -> Result<Log, Error> {
     let mut log = Log {
         name: path.to_owned(),
         path: path.to_owned(),
@@ -116,39 +75,37 @@ pub fn inspect(path: &Path, columns: &Columns, goes_on: &dyn Fn() -> bool) -> Re
         group: 0,
     };
     if is_mcap(path) {
-        std::fs::File::open(path).map_err(|why| Bad::whole(path, why))?;
+        std::fs::File::open(path)?;
         return Ok(log);
     }
-    let whole = |why: Error| Bad::whole(path, why);
-    let builder = open(path).map_err(whole)?;
-    log.layout = columns.layout(builder.schema()).map_err(whole)?;
+    let builder = open(path)?;
+    log.layout = columns.layout(builder.schema())?;
     let metadata = builder.metadata().clone();
     let groups = metadata.row_groups().iter();
     let sizes = groups.map(|group| group.compressed_size().max(0) as u64);
     log.group = sizes.max().unwrap_or(0);
     log.rows = metadata.file_metadata().num_rows().max(0) as u64;
     if log.rows == 0 {
-        return Err(Bad::whole(path, "it has no rows"));
+        return Err(Error::new("it has no rows"));
     }
     let mask = projection(&builder, &[&columns.time]);
-    let reader = builder.with_projection(mask).with_batch_size(ROWS).build();
+    let reader = builder
+        .with_projection(mask)
+        .with_batch_size(ROWS)
+        .build()?;
     let mut clock = Clock::default();
     let mut row = 0;
-    for batch in reader.map_err(|why| Bad::whole(path, why))? {
-        let batch = batch.map_err(|why| Bad::whole(path, format!("after row {row}: {why}")))?;
-        let times = seconds(batch.column(0), columns.time_factor).map_err(whole)?;
+    for batch in reader {
+        let batch = batch.map_err(|why| Error::new(why).at(format!("after row {row}")))?;
+        let times = seconds(batch.column(0), columns.time_factor)?;
         let times = times.as_primitive::<Float64Type>();
         for (place, time) in times.values().iter().enumerate() {
             row += 1;
-            if times.is_valid(place)
-                && let Some(reason) = clock.see(*time)
-            {
-                return Err(Bad::row(path, row, reason));
+            if times.is_valid(place) {
+                clock.see(row, *time)?;
             }
         }
-        if !goes_on() {
-            break;
-        }
+        going.check()?;
     }
     Ok(log)
 }

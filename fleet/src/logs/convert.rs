@@ -3,60 +3,49 @@
 
 use std::path::Path;
 
-use super::check::{Bad, Clock, Log, inspect};
+use super::check::{Clock, Log, inspect};
 use super::mapping::Columns;
 use super::rates::Rates;
 use super::states;
 use super::write::{Table, canonical_names};
 use crate::error::Error;
+use crate::progress::Going;
 
 /// Converts a log; returns that of the file that was written.
 ///
 /// # Errors
-/// What is wrong with the log, with its row; nothing is said of a conversion that was ended.
-pub fn convert(log: &Log, to: &Path, goes_on: &dyn Fn() -> bool) -> Result<Log, Bad> {
-    let name = &log.name;
-    let whole = |why: Error| Bad::whole(name, why);
+/// What is wrong with the log, with its row, and that the command was ended.
+pub fn convert(log: &Log, to: &Path, going: &Going) -> Result<Log, Error> {
     let columns = &log.columns;
     let n = columns.joints;
-    let mut table = Table::create(to, &canonical_names(n), false).map_err(whole)?;
+    let mut table = Table::create(to, &canonical_names(n), false)?;
     let mut rates: Option<Rates> = None;
     let (mut clock, mut is_written) = (Clock::default(), false);
-    for block in states(&log.path, columns).map_err(whole)? {
-        let mut block = block.map_err(whole)?;
+    for block in states(&log.path, columns)? {
+        let mut block = block?;
         for (row, time) in block.rows.iter().zip(&block.time) {
-            if let Some(reason) = clock.see(*time) {
-                return Err(Bad::row(name, *row, reason));
-            }
+            clock.see(*row, *time)?;
         }
-        if let Some((row, what)) = block.not_finite() {
-            return Err(Bad::row(name, row, what));
-        }
+        block.check()?;
         if block.quantities[1].is_empty() || block.quantities[2].is_empty() {
             let rates = rates.get_or_insert_with(|| Rates::new(n, columns.motion_frequency));
-            block = rates.next(block).map_err(|(row, why)| Bad {
-                row,
-                ..Bad::whole(name, why)
-            })?;
+            block = rates.next(block)?;
         }
         if !block.is_empty() {
             let all = block.quantities.iter().map(Vec::as_slice);
-            table.write("", &block.time, all).map_err(whole)?;
+            table.write("", &block.time, all)?;
             is_written = true;
         }
-        if !goes_on() {
-            break;
-        }
+        going.check()?;
     }
-    table.close().map_err(whole)?;
-    if !is_written && goes_on() {
-        return Err(Bad::whole(
-            name,
+    table.close()?;
+    if !is_written {
+        return Err(Error::new(
             "it is too short to differentiate its positions: log velocities and accelerations",
         ));
     }
-    let written = inspect(to, &Columns::canonical(n), goes_on);
-    let mut written = written.map_err(|bad| Bad::whole(name, bad.reason))?;
-    written.name = name.clone();
-    Ok(written)
+    Ok(Log {
+        name: log.name.clone(),
+        ..inspect(to, &Columns::canonical(n), going)?
+    })
 }

@@ -34,8 +34,7 @@ impl Rates {
     ///
     /// # Errors
     /// The row after which times are not equal, and motion that is too fast for them.
-    pub(super) fn next(&mut self, block: Block) -> Result<Block, (Option<u64>, Error)> {
-        let whole = |why: dalembert_fit::Error| (None, Error::from(why));
+    pub(super) fn next(&mut self, block: Block) -> Result<Block, Error> {
         let from = self.time.len().saturating_sub(1);
         self.rows.extend(&block.rows);
         self.time.extend(&block.time);
@@ -49,7 +48,7 @@ impl Rates {
             let mut steps: Vec<f64> = steps.collect();
             steps.sort_by(f64::total_cmp);
             let period = steps[steps.len() / 2];
-            let filter = Differentiator::for_motion(period, self.frequency).map_err(whole)?;
+            let filter = Differentiator::for_motion(period, self.frequency)?;
             self.filter = Some((filter, period));
         }
         let Some((filter, period)) = &self.filter else {
@@ -63,7 +62,7 @@ impl Rates {
                      and accelerations cannot be differentiated over this; log them, or \
                      resample"
                 );
-                return Err((Some(self.rows[place + 1]), Error::new(why)));
+                return Err(Error::new(why).at_row(self.rows[place + 1]));
             }
         }
         let half = filter.half();
@@ -79,7 +78,7 @@ impl Rates {
         self.rows.drain(..count);
         self.time.drain(..count);
         for [position, torque] in &mut self.states {
-            let rates = differentiate(filter, position).map_err(whole)?;
+            let rates = differentiate(filter, position)?;
             for (to, from) in out.quantities.iter_mut().zip(rates) {
                 to.extend(from);
             }

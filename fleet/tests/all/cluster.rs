@@ -155,11 +155,11 @@ fn a_cluster_returns_what_one_process_returns() {
         partitions: 4,
     };
     let columns = Columns::canonical(2);
+    let (_end, going) = Going::new();
     let logs: Vec<Log> = (0..3)
-        .map(|k| inspect(&folder.file(&format!("log{k}.parquet")), &columns, &|| true).unwrap())
+        .map(|k| inspect(&folder.file(&format!("log{k}.parquet")), &columns, &going).unwrap())
         .collect();
     let runtime = tokio::runtime::Runtime::new().unwrap();
-    let (_end, going) = Going::new();
     let [here, there] = runtime.block_on(async {
         let here = Engine::embedded(&name, &own, limits).unwrap();
         let there = Engine::cluster(&cluster.address, &name, &own, limits).await;
