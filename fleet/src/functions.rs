@@ -37,7 +37,7 @@ use crate::arguments::Shape;
 use crate::dynamics::Dynamics;
 use aggregate::Aggregate;
 pub use residuals::{Joint, Residuals};
-use scalar::{Scalar, What};
+use scalar::Scalar;
 
 /// The functions of a robot, by names that begin with the robot's.
 #[derive(Clone, Debug)]
@@ -92,7 +92,10 @@ impl Hash for Function {
 impl Functions {
     /// Returns the functions of a robot.
     pub fn of(name: &str, robot: &Arc<dyn Dynamics>) -> Functions {
-        let scalar = |what| Arc::new(ScalarUDF::from(Scalar::new(name, robot, what)));
+        let scalar = |suffix: &str, quantities| {
+            let function = Function::new(format!("{name}_{suffix}"), robot, quantities);
+            Arc::new(ScalarUDF::from(Scalar { function }))
+        };
         let aggregate = |kind| Arc::new(AggregateUDF::from(Aggregate::new(name, robot, kind)));
         let mut aggregates = vec![
             aggregate(aggregate::Kind::Rms),
@@ -102,7 +105,7 @@ impl Functions {
             aggregates.push(aggregate(aggregate::Kind::Fit));
         }
         Functions {
-            scalars: vec![scalar(What::Torques), scalar(What::Residual)],
+            scalars: vec![scalar("inverse_dynamics", 3), scalar("residual", 4)],
             aggregates,
         }
     }

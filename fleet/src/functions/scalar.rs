@@ -9,31 +9,12 @@ use datafusion::scalar::ScalarValue;
 
 use super::Function;
 use crate::arguments::{list, lists};
-use crate::dynamics::{Dynamics, States};
+use crate::dynamics::States;
 
-/// What is computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum What {
-    Torques,
-    Residual,
-}
-
-/// `NAME_inverse_dynamics` or `NAME_residual`.
+/// `NAME_inverse_dynamics` of three quantities, or `NAME_residual` of four.
 #[derive(Debug, PartialEq, Eq, Hash)]
 pub(super) struct Scalar {
-    function: Function,
-    what: What,
-}
-
-impl Scalar {
-    pub(super) fn new(name: &str, robot: &Arc<dyn Dynamics>, what: What) -> Scalar {
-        let (suffix, quantities) = match what {
-            What::Torques => ("inverse_dynamics", 3),
-            What::Residual => ("residual", 4),
-        };
-        let function = Function::new(format!("{name}_{suffix}"), robot, quantities);
-        Scalar { function, what }
-    }
+    pub(super) function: Function,
 }
 
 impl ScalarUDFImpl for Scalar {
@@ -55,13 +36,13 @@ impl ScalarUDFImpl for Scalar {
         let mut results = Vec::new();
         arguments.each(|first, piece| {
             let count = piece.count;
-            match self.what {
-                What::Torques => {
+            match shape.quantities {
+                3 => {
                     let [q, qd, qdd, _] = &piece.quantities;
                     results.resize(n * count, 0.0);
                     robot.inverse_dynamics(States { count, q, qd, qdd }, &mut results)?;
                 }
-                What::Residual => robot.residuals(count, &piece.quantities, &mut results)?,
+                _ => robot.residuals(count, &piece.quantities, &mut results)?,
             }
             let rows = values[first * n..].chunks_exact_mut(n).take(count);
             for (s, row) in rows.enumerate() {
