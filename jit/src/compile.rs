@@ -9,7 +9,7 @@ use cranelift_jit::{JITBuilder, JITModule};
 use cranelift_module::{FuncId, Linkage, Module, default_libcall_names};
 use dalembert_codegen::workspace::{Argument, Code};
 
-use crate::emit::{Emitter, Lanes, bytes};
+use crate::emit::{Emitter, number, vector};
 use crate::error::CompileError;
 use crate::program;
 
@@ -89,12 +89,12 @@ fn define(
     signature: &Signature,
     states: States,
 ) -> Result<FuncId, CompileError> {
-    let (lanes, parameters) = match states {
+    let (floats, parameters) = match states {
         // Addresses of the arguments, and of the results.
-        States::One => (Lanes::One, 2),
+        States::One => (number(code.scalar), 2),
         // Addresses of all arguments' entries, the arguments' strides, addresses of all results'
         // entries, the results' strides, the number of states.
-        States::Apart | States::Adjacent => (Lanes::Vector, 5),
+        States::Apart | States::Adjacent => (vector(code.scalar), 5),
     };
     let mut library = module.make_signature();
     library.params = vec![AbiParam::new(types::I64); 3];
@@ -113,7 +113,7 @@ fn define(
     builder.append_block_params_for_function_params(block);
     builder.switch_to_block(block);
     let parameters = builder.block_params(block).to_vec();
-    let emitter = Emitter::new(builder, code.scalar, lanes, library);
+    let emitter = Emitter::new(builder, floats, library);
     match states {
         States::One => one(&emitter, code, signature, &parameters)?,
         _ => many(&emitter, code, signature, &parameters, states)?,
@@ -137,7 +137,7 @@ fn one(
     let &[arguments, results] = parameters else {
         return Err(CompileError::Program);
     };
-    let width = bytes(code.scalar) as i32;
+    let width = number(code.scalar).bytes() as i32;
     let addresses = 0..signature.arguments.len();
     let addresses = addresses.map(|index| address(emitter, arguments, index));
     let addresses: Vec<Value> = addresses.collect();
@@ -169,7 +169,7 @@ fn many(
     let &[entries, strides, results, result_strides, states] = parameters else {
         return Err(CompileError::Program);
     };
-    let lanes = Lanes::Vector.count(code.scalar);
+    let lanes = vector(code.scalar).lane_count();
     let (head, body, end) = emitter.with(|b| {
         let (head, body, end) = (b.create_block(), b.create_block(), b.create_block());
         b.append_block_param(head, types::I64);
@@ -180,7 +180,7 @@ fn many(
     let (first, next) = emitter.with(|b| {
         b.switch_to_block(head);
         let first = b.block_params(head)[0];
-        let next = b.ins().iadd_imm_s(first, lanes as i64);
+        let next = b.ins().iadd_imm_s(first, i64::from(lanes));
         let is_in = b.ins().icmp(IntCC::SignedLessThanOrEqual, next, states);
         b.ins().brif(is_in, body, &[], end, &[]);
         b.switch_to_block(body);
@@ -190,7 +190,7 @@ fn many(
     // adjacent states, that of the vector.
     let offsets = |strides: Value, place: usize| -> Vec<Value> {
         if layout == States::Adjacent {
-            let width = bytes(code.scalar) as i64;
+            let width = i64::from(number(code.scalar).bytes());
             return vec![emitter.with(|b| b.ins().imul_imm_s(first, width))];
         }
         let stride = address(emitter, strides, place);

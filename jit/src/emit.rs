@@ -10,33 +10,19 @@ use cranelift_codegen::ir::{
 use cranelift_frontend::FunctionBuilder;
 use dalembert_codegen::ScalarType;
 
-/// The bytes of a vector.
-const VECTOR: usize = 16;
-
-/// How many numbers an instruction works on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Lanes {
-    /// One state.
-    One,
-    /// The states of a vector: two in f64, four in f32.
-    Vector,
-}
-
-impl Lanes {
-    /// Returns the number of states.
-    pub(crate) fn count(self, scalar: ScalarType) -> usize {
-        match self {
-            Lanes::One => 1,
-            Lanes::Vector => VECTOR / bytes(scalar),
-        }
+/// Returns the type of a number.
+pub(crate) fn number(scalar: ScalarType) -> Type {
+    match scalar {
+        ScalarType::F64 => types::F64,
+        ScalarType::F32 => types::F32,
     }
 }
 
-/// Returns the bytes of a number.
-pub(crate) fn bytes(scalar: ScalarType) -> usize {
+/// Returns the type of a vector of numbers, one of each state.
+pub(crate) fn vector(scalar: ScalarType) -> Type {
     match scalar {
-        ScalarType::F64 => 8,
-        ScalarType::F32 => 4,
+        ScalarType::F64 => types::F64X2,
+        ScalarType::F32 => types::F32X4,
     }
 }
 
@@ -44,8 +30,8 @@ pub(crate) fn bytes(scalar: ScalarType) -> usize {
 /// values that can be copied.
 pub(crate) struct Emitter<'f> {
     builder: RefCell<FunctionBuilder<'f>>,
-    scalar: ScalarType,
-    lanes: Lanes,
+    /// The type of a number, or of a vector of them.
+    floats: Type,
     /// Computes sines outside of what the polynomials are for, or libm's: of the angles at
     /// an address, so many, of which kind.
     library: FuncRef,
@@ -69,16 +55,10 @@ fn unaligned() -> MemFlagsData {
 }
 
 impl<'f> Emitter<'f> {
-    pub(crate) fn new(
-        builder: FunctionBuilder<'f>,
-        scalar: ScalarType,
-        lanes: Lanes,
-        library: FuncRef,
-    ) -> Emitter<'f> {
+    pub(crate) fn new(builder: FunctionBuilder<'f>, floats: Type, library: FuncRef) -> Emitter<'f> {
         Emitter {
             builder: RefCell::new(builder),
-            scalar,
-            lanes,
+            floats,
             library,
         }
     }
@@ -92,53 +72,29 @@ impl<'f> Emitter<'f> {
         run(&mut self.builder.borrow_mut())
     }
 
-    fn number(&self) -> Type {
-        match self.scalar {
-            ScalarType::F64 => types::F64,
-            ScalarType::F32 => types::F32,
-        }
-    }
-
-    fn count(&self) -> usize {
-        self.lanes.count(self.scalar)
-    }
-
-    fn floats(&self) -> Type {
-        match (self.lanes, self.scalar) {
-            (Lanes::One, _) => self.number(),
-            (Lanes::Vector, ScalarType::F64) => types::F64X2,
-            (Lanes::Vector, ScalarType::F32) => types::F32X4,
-        }
-    }
-
+    /// Returns the type of integers as long as the numbers.
     pub(crate) fn integers(&self) -> Type {
-        match (self.lanes, self.scalar) {
-            (Lanes::One, ScalarType::F64) => types::I64,
-            (Lanes::One, ScalarType::F32) => types::I32,
-            (Lanes::Vector, ScalarType::F64) => types::I64X2,
-            (Lanes::Vector, ScalarType::F32) => types::I32X4,
-        }
+        self.floats.as_int()
     }
 
     /// Returns a constant in every lane.
     pub(crate) fn constant(&self, value: f64) -> Value {
-        self.with(|b| match (self.lanes, self.scalar) {
-            (Lanes::One, ScalarType::F64) => b.ins().f64const(value),
-            (Lanes::One, ScalarType::F32) => b.ins().f32const(value as f32),
-            (Lanes::Vector, ScalarType::F64) => vector(b, types::F64X2, &value.to_le_bytes()),
-            (Lanes::Vector, ScalarType::F32) => {
-                vector(b, types::F32X4, &(value as f32).to_le_bytes())
-            }
+        let ty = self.floats;
+        self.with(|b| match ty {
+            types::F64 => b.ins().f64const(value),
+            types::F32 => b.ins().f32const(value as f32),
+            types::F64X2 => repeated(b, ty, &value.to_le_bytes()),
+            _ => repeated(b, ty, &(value as f32).to_le_bytes()),
         })
     }
 
     /// Returns a power of two as integer in every lane.
     pub(crate) fn power(&self, exponent: usize) -> Value {
         let ty = self.integers();
-        self.with(|b| match (self.lanes, self.scalar) {
-            (Lanes::One, _) => b.ins().iconst(ty, (1u64 << exponent) as i64),
-            (Lanes::Vector, ScalarType::F64) => vector(b, ty, &(1u64 << exponent).to_le_bytes()),
-            (Lanes::Vector, ScalarType::F32) => vector(b, ty, &(1u32 << exponent).to_le_bytes()),
+        self.with(|b| match ty {
+            types::I64X2 => repeated(b, ty, &(1u64 << exponent).to_le_bytes()),
+            types::I32X4 => repeated(b, ty, &(1u32 << exponent).to_le_bytes()),
+            _ => b.ins().iconst(ty, (1u64 << exponent) as i64),
         })
     }
 
@@ -153,7 +109,7 @@ impl<'f> Emitter<'f> {
 
     /// Reads a number of each lane, at a base and each lane's offset of bytes, or from one offset on.
     pub(crate) fn gather(&self, base: Value, offsets: &[Value]) -> Value {
-        let (number, floats) = (self.number(), self.floats());
+        let (number, floats) = (self.floats.lane_type(), self.floats);
         self.with(|b| {
             let mut load = |ty: Type, offset: Value| {
                 let address = b.ins().iadd(base, offset);
@@ -174,8 +130,7 @@ impl<'f> Emitter<'f> {
 
     /// Reads a number beside an address; of one lane.
     pub(crate) fn read(&self, address: Value, at: i32) -> Value {
-        let number = self.number();
-        self.with(|b| b.ins().load(number, unaligned(), address, at))
+        self.with(|b| b.ins().load(self.floats, unaligned(), address, at))
     }
 
     /// Writes each lane's number at a base and that lane's offset of bytes, or from one offset on.
@@ -205,9 +160,9 @@ impl<'f> Emitter<'f> {
         angles: &[Value],
         computed: Option<(Value, &[(Value, Value)])>,
     ) -> Vec<(Value, Value)> {
-        let (floats, each) = (self.floats(), self.count() * bytes(self.scalar));
-        let library = self.library;
-        let all = angles.len() * self.count();
+        let (floats, library) = (self.floats, self.library);
+        let each = floats.bytes() as usize;
+        let all = angles.len() * floats.lane_count() as usize;
         let place = |index: usize| (index * each) as i32;
         self.with(|b| {
             let room = (3 * angles.len() * each) as u32;
@@ -222,9 +177,9 @@ impl<'f> Emitter<'f> {
                     b.append_block_param(join, floats);
                     b.append_block_param(join, floats);
                 }
-                let usual = match self.lanes {
-                    Lanes::One => usual,
-                    Lanes::Vector => b.ins().vall_true(usual),
+                let usual = match floats.is_vector() {
+                    true => b.ins().vall_true(usual),
+                    false => usual,
                 };
                 b.ins().brif(usual, join, &arguments, rare, &[]);
                 b.switch_to_block(rare);
@@ -260,8 +215,13 @@ impl<'f> Emitter<'f> {
 }
 
 /// Returns a constant vector of repeated bytes.
-fn vector(b: &mut FunctionBuilder<'_>, ty: Type, lane: &[u8]) -> Value {
-    let bytes: Vec<u8> = lane.iter().copied().cycle().take(VECTOR).collect();
+fn repeated(b: &mut FunctionBuilder<'_>, ty: Type, lane: &[u8]) -> Value {
+    let bytes: Vec<u8> = lane
+        .iter()
+        .copied()
+        .cycle()
+        .take(ty.bytes() as usize)
+        .collect();
     let handle = b.func.dfg.constants.insert(ConstantData::from(&bytes[..]));
     b.ins().vconst(ty, handle)
 }

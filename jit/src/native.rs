@@ -20,7 +20,7 @@ use dalembert_sines::text::Angle;
 
 use crate::check::{STATES, check, check_many};
 use crate::compile::{Signature, States, compile};
-use crate::emit::{Call, Lanes};
+use crate::emit::{Call, vector};
 use crate::error::{CallError, CompileError};
 use crate::rows::Place;
 
@@ -262,7 +262,7 @@ impl Native {
             .map(|(data, place)| (data.as_mut_ptr(), &*place))
             .collect();
         let (read, written) = (Shared(read), Shared(written));
-        let lanes = Lanes::Vector.count(self.program.scalar);
+        let lanes = vector(self.program.scalar).lane_count() as usize;
         let threads = threads.clamp(1, (states / LEAST_STATES).max(1));
         // Whole vectors to all but the last.
         let each = states.div_ceil(threads).next_multiple_of(lanes);
@@ -318,7 +318,7 @@ impl Native {
                 states.len() as isize,
             );
         }
-        let lanes = Lanes::Vector.count(self.program.scalar);
+        let lanes = vector(self.program.scalar).lane_count() as usize;
         let rest = states.start + states.len() / lanes * lanes..states.end;
         let mut found = vec![T::default(); self.program.dag.outputs.len()];
         for state in rest {
