@@ -1,5 +1,5 @@
 //! Against the generated Rust as rustc compiles it: a program around an arm's text reads
-//! states and writes results, bit by bit.
+//! states and writes results, bit by bit: all of them as doubles, which hold each float exactly.
 
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -19,37 +19,30 @@ const STATES: usize = 10_000;
 const FRAME: &str = "
 use std::io::{Read, Write};
 
-trait Number: Copy {
-    fn read(bytes: &mut &[u8]) -> Self;
-}
 trait Put {
     fn put(&self, bytes: &mut Vec<u8>);
 }
-macro_rules! number {
-    ($t:ty) => {
-        impl Number for $t {
-            fn read(bytes: &mut &[u8]) -> Self {
-                let (own, rest) = bytes.split_first_chunk().unwrap();
-                *bytes = rest;
-                <$t>::from_le_bytes(*own)
-            }
-        }
-        impl Put for $t {
-            fn put(&self, bytes: &mut Vec<u8>) {
-                bytes.extend(self.to_le_bytes());
-            }
-        }
-    };
+impl Put for f32 {
+    fn put(&self, bytes: &mut Vec<u8>) {
+        f64::from(*self).put(bytes);
+    }
 }
-number!(f32);
-number!(f64);
+impl Put for f64 {
+    fn put(&self, bytes: &mut Vec<u8>) {
+        bytes.extend(self.to_le_bytes());
+    }
+}
 impl<P: Put, const N: usize> Put for [P; N] {
     fn put(&self, bytes: &mut Vec<u8>) {
         self.iter().for_each(|entry| entry.put(bytes));
     }
 }
-fn read<T: Number, const N: usize>(bytes: &mut &[u8]) -> [T; N] {
-    [(); N].map(|()| T::read(bytes))
+fn read<const N: usize>(bytes: &mut &[u8]) -> [f64; N] {
+    [(); N].map(|()| {
+        let (own, rest) = bytes.split_first_chunk().unwrap();
+        *bytes = rest;
+        f64::from_le_bytes(*own)
+    })
 }
 ";
 
@@ -67,7 +60,8 @@ fn program(arm: &Arm) -> String {
         writeln!(main, "for _ in 0..{STATES} {{").unwrap();
         for (argument, length) in arguments {
             let name = argument.name();
-            writeln!(main, "let {name}: [{scalar}; {length}] = read(&mut input);").unwrap();
+            writeln!(main, "let {name} = read::<{length}>(&mut input);").unwrap();
+            writeln!(main, "let {name} = {name}.map(|entry| entry as {scalar});").unwrap();
         }
         let (name, names) = (function.name(), names.join(", "));
         writeln!(main, "let result = generated::{module}::{name}({names});").unwrap();
@@ -129,41 +123,17 @@ fn compiled(text: &str, folder: &Folder) -> PathBuf {
     program
 }
 
-/// A float as bytes.
-trait Bytes: Real {
-    fn put(self, bytes: &mut Vec<u8>);
-    fn take(bytes: &mut &[u8]) -> Self;
-}
-macro_rules! bytes {
-    ($t:ty) => {
-        impl Bytes for $t {
-            fn put(self, bytes: &mut Vec<u8>) {
-                bytes.extend(self.to_le_bytes());
-            }
-            fn take(bytes: &mut &[u8]) -> Self {
-                let (own, rest) = bytes.split_first_chunk().unwrap();
-                *bytes = rest;
-                <$t>::from_le_bytes(*own)
-            }
-        }
-    };
-}
-bytes!(f32);
-bytes!(f64);
-
 /// Appends the arguments of the states of a function, after those of others.
-fn put<T: Bytes>(function: &Function, input: &mut Vec<u8>) {
+fn put<T: Real>(function: &Function, input: &mut Vec<u8>) {
     for state in drawn::<T>(function.native(), STATES, 7) {
-        let arguments = arguments(function.native(), &state);
-        arguments
-            .iter()
-            .flatten()
-            .for_each(|&entry| entry.put(input));
+        for entry in arguments(function.native(), &state).iter().flatten() {
+            input.extend(entry.to_f64().to_le_bytes());
+        }
     }
 }
 
 /// Compares results of the program with those of the code in memory.
-fn compare<T: Bytes>(name: &str, function: &Function, output: &mut &[u8]) {
+fn compare<T: Real>(name: &str, function: &Function, output: &mut &[u8]) {
     let native = function.native();
     let mut found = vec![T::default(); native.program().dag.outputs.len()];
     for state in drawn::<T>(native, STATES, 7) {
@@ -171,10 +141,12 @@ fn compare<T: Bytes>(name: &str, function: &Function, output: &mut &[u8]) {
         let slices: Vec<&[T]> = arguments.iter().map(Vec::as_slice).collect();
         native.call(&slices, &mut found).unwrap();
         for (entry, &found) in found.iter().enumerate() {
-            let expected = T::take(output);
+            let (own, rest) = output.split_first_chunk().unwrap();
+            let expected = f64::from_le_bytes(*own);
+            *output = rest;
             let function = function.name();
             assert!(
-                is_same(found, expected),
+                is_same(found.to_f64(), expected),
                 "{name}, {function}, result {entry}: {found:?} for {expected:?} at {arguments:?}"
             );
         }
