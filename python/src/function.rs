@@ -16,8 +16,9 @@ use crate::xla;
 
 /// A function of an arm, in one scalar or both.
 ///
-/// Call it with NumPy arrays: one state, ``(n,)``, or many, ``(N, n)``, which may be
-/// broadcast against each other. Results have the same leading axes.
+/// Call it with one state, arrays of shape ``(n,)``, or with many, ``(N, n)``; leading axes
+/// are broadcast by NumPy's rules and lead the result's. Rows and columns, and any other
+/// strides that are not negative, are read without a copy.
 ///
 /// Arguments, by place or name, are those of ``arguments``: ``q``, ``qd``, ``qdd``, ``tau``
 /// (positions, velocities, accelerations, torques: rad or m, a second, N·m or N), ``v`` and
@@ -28,6 +29,12 @@ use crate::xla;
 /// that frame. It is the frame behind the last row of a table in standard DH, the last joint's
 /// own in modified DH, the last moving link's in a URDF, unless the robot file's
 /// ``payload_frame`` says otherwise; the tool's pose has no part in it.
+///
+/// ``out`` is an array, or a tuple of several, of the result's shape and dtype; ``threads``
+/// share many states among them. Arrays of float32 are computed as such where the arm was
+/// loaded with ``scalar="f32"`` or both, else in float64.
+///
+/// A function with several results returns a named tuple of arrays.
 #[pyclass(frozen, module = "dalembert")]
 pub struct Function {
     arm: Arc<dalembert_jit::Arm>,

@@ -3,28 +3,7 @@ from typing import Any, Callable
 from numpy.typing import ArrayLike
 
 class Function:
-    """A function of an arm.
-
-    Call it with one state, arrays of shape ``(n,)``, or with many, ``(N, n)``; leading axes
-    are broadcast by NumPy's rules and lead the result's. Rows and columns, and any other
-    strides that are not negative, are read without a copy.
-
-    Arguments, by place or name, are those of ``arguments``: ``q``, ``qd``, ``qdd``, ``tau``
-    (positions, velocities, accelerations, torques: rad or m, a second, N·m or N), ``v`` and
-    ``a`` of a controller, ``g`` (3,) in m/s², ``load``, which ``arm.load(payload)`` returns.
-
-    ``payload`` (10,) is mass, com x y z, inertia xx yy zz xy yz xz, in kg, m and kg·m²: the
-    centre of mass in the last link's frame, the inertia about the centre of mass in the axes of
-    that frame. It is the frame behind the last row of a table in standard DH, the last joint's
-    own in modified DH, the last moving link's in a URDF, unless the robot file's
-    ``payload_frame`` says otherwise; the tool's pose has no part in it.
-
-    ``out`` is an array, or a tuple of several, of the result's shape and dtype; ``threads``
-    share many states among them. Arrays of float32 are computed as such where the arm was
-    loaded with ``scalar="f32"`` or both, else in float64.
-
-    A function with several results returns a named tuple of arrays.
-    """
+    """A function of an arm; ``help(dalembert.Function)`` says how it is called."""
 
     def __call__(
         self, *args: ArrayLike, out: Any = None, threads: int = 1, **kwargs: ArrayLike
