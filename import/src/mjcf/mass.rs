@@ -59,25 +59,14 @@ impl<'a> Mjcf<'a, '_, '_> {
             return;
         }
         let ratio = &total.value / own;
-        let scaled = |own: &mut Number| {
-            own.value *= &ratio;
-            own.text = number(&own.value);
+        let scaled = |own: &Number| {
+            let value = &own.value * &ratio;
+            Number::new(value.clone(), number(&value), &own.span)
         };
-        for inertial in urdf
-            .links
-            .iter_mut()
-            .filter_map(|link| link.inertial.as_mut())
-        {
-            let Inertia {
-                xx,
-                yy,
-                zz,
-                xy,
-                yz,
-                xz,
-            } = &mut inertial.inertia;
-            let all = [&mut inertial.mass, xx, yy, zz, xy, yz, xz];
-            all.into_iter().for_each(scaled);
+        let links = urdf.links.iter_mut();
+        for inertial in links.filter_map(|link| link.inertial.as_mut()) {
+            inertial.mass = scaled(&inertial.mass);
+            inertial.inertia = inertial.inertia.map(scaled);
         }
     }
 
