@@ -1,12 +1,10 @@
-//! A simulated arm under computed torque: collisions are found, and its payload.
+//! A simulated arm under computed torque: collisions are found.
 
 use dalembert_fit::simulate::{Collision, Controlled, Log, Recording, control};
-use dalembert_fit::{
-    Accumulator, Differentiator, Effort, Model, Trajectory, Watch, differentiate, excite, fit,
-};
+use dalembert_fit::{Differentiator, Effort, Model, Trajectory, Watch, differentiate, excite};
 use dalembert_model::robot::Robot;
 
-use crate::support::{guess, model, noise, number, torques, true_parameters, truth};
+use crate::support::{guess, model, noise, torques, true_parameters, truth};
 
 const PERIOD: f64 = 1e-3;
 
@@ -37,15 +35,9 @@ impl Scene {
         }
     }
 
-    fn record(
-        &self,
-        arms: Vec<(f64, Robot)>,
-        collisions: &[Collision],
-        seconds: f64,
-        seed: u64,
-    ) -> Log {
+    fn record(&self, collisions: &[Collision], seconds: f64, seed: u64) -> Log {
         let controlled = Controlled {
-            arms,
+            arms: vec![(0.0, self.truth.clone())],
             controller: guess(&self.truth),
             bandwidth: 20.0,
             collisions: collisions.to_vec(),
@@ -59,46 +51,37 @@ impl Scene {
         };
         control(&controlled, &self.trajectory, &recording).unwrap()
     }
-
-    /// Calls with time, regressor and torques of each state, rates from the encoders.
-    fn each(&self, log: &Log, mut use_it: impl FnMut(f64, &[f64], &[f64])) {
-        let joints: Vec<[Vec<f64>; 3]> = (0..6)
-            .map(|i| {
-                let q: Vec<f64> = log.q.iter().map(|q| q[i]).collect();
-                differentiate(&self.filter, &q).unwrap()
-            })
-            .collect();
-        for k in 0..joints[0][0].len() {
-            let [q, qd, qdd] =
-                [0, 1, 2].map(|of| joints.iter().map(|joint| joint[of][k]).collect::<Vec<_>>());
-            let y = self.model.regressor(&q, &qd, &qdd).unwrap();
-            let at = k + self.filter.half();
-            use_it(at as f64 * PERIOD, &y, &log.tau[at]);
-        }
-    }
 }
 
-/// Returns what a watch says at each time of a log, and its level there.
+/// Returns what a watch says at each time of a log, rates from the encoders, and its level there.
 fn watched(scene: &Scene, log: &Log, bar: f64) -> Vec<(f64, Option<usize>, f64)> {
     let right = true_parameters(&scene.truth);
     let sigma: Vec<f64> = (0..6).map(noise).collect();
     let mut watch = Watch::new(&sigma, 1.0, bar).unwrap();
-    let mut said = Vec::new();
-    scene.each(log, |time, y, tau| {
-        let predicted = torques(y, &right);
-        let residuals: Vec<f64> = tau.iter().zip(&predicted).map(|(t, p)| t - p).collect();
+    let joints: Vec<[Vec<f64>; 3]> = (0..6)
+        .map(|i| {
+            let q: Vec<f64> = log.q.iter().map(|q| q[i]).collect();
+            differentiate(&scene.filter, &q).unwrap()
+        })
+        .collect();
+    let said = (0..joints[0][0].len()).map(|k| {
+        let [q, qd, qdd] =
+            [0, 1, 2].map(|of| joints.iter().map(|joint| joint[of][k]).collect::<Vec<_>>());
+        let y = scene.model.regressor(&q, &qd, &qdd).unwrap();
+        let at = k + scene.filter.half();
+        let both = log.tau[at].iter().zip(torques(&y, &right));
+        let residuals: Vec<f64> = both.map(|(t, p)| t - p).collect();
         let alarm = watch.push(&residuals).unwrap();
-        said.push((time, alarm, watch.level()));
+        (at as f64 * PERIOD, alarm, watch.level())
     });
-    said
+    said.collect()
 }
 
 /// Holds what a watch finds to the two collisions of each log of so many seconds, and returns
 /// the number of false alarms. Its bar is twice the level of a log without collisions.
 fn false_alarms(logs: u64, seconds: f64) -> usize {
     let scene = Scene::new();
-    let arms = vec![(0.0, scene.truth.clone())];
-    let quiet = scene.record(arms.clone(), &[], 16.0, 999);
+    let quiet = scene.record(&[], 16.0, 999);
     let level = watched(&scene, &quiet, 1e9)
         .iter()
         .fold(0.0f64, |max, said| max.max(said.2));
@@ -117,7 +100,7 @@ fn false_alarms(logs: u64, seconds: f64) -> usize {
     let near = |one: &Collision, time: f64| time > one.start - 0.2 && time < one.start + 0.4;
     let far = |time: &&f64| !collisions.iter().any(|one| near(one, **time));
     let others_of = |seed: u64| -> usize {
-        let log = scene.record(arms.clone(), &collisions, seconds, seed);
+        let log = scene.record(&collisions, seconds, seed);
         let said = watched(&scene, &log, 2.0 * level);
         let alarms = said.iter().filter(|said| said.1.is_some());
         let alarms: Vec<f64> = alarms.map(|said| said.0).collect();
@@ -149,39 +132,6 @@ fn collisions_are_found_and_nothing_else() {
 #[ignore = "an hour of an arm's time, some minutes of ours: a step of `.ci/run`"]
 fn an_hour_has_one_false_alarm_at_most() {
     assert!(false_alarms(60, 60.0) <= 1);
-}
-
-/// A payload that is taken up in the middle of a log is another arm: each half has its own
-/// parameters, within standard errors, and far from the other's.
-#[test]
-fn a_payload_is_found() {
-    let scene = Scene::new();
-    let mut loaded = scene.truth.clone();
-    let hand = loaded.joints.last_mut().unwrap();
-    hand.mass = &hand.mass + &number(1.5);
-    let arms = vec![(0.0, scene.truth.clone()), (10.0, loaded.clone())];
-    let log = scene.record(arms, &[], 20.0, 5);
-    let mut halves = [(); 2].map(|()| Accumulator::new(&scene.model));
-    scene.each(&log, |time, y, tau| {
-        // What the filter's window mixes belongs to neither.
-        if (time - 10.0).abs() > 1.0 {
-            let half = usize::from(time > 10.0);
-            halves[half].add_rows(&scene.model, y, tau).unwrap();
-        }
-    });
-    let right = [&scene.truth, &loaded].map(true_parameters);
-    let away = |half: usize, from: usize| -> f64 {
-        let found = fit(&scene.model, &halves[half]).unwrap();
-        let parts = found.parameters.iter().zip(&right[from]);
-        let parts = parts.zip(&found.standard_errors);
-        let squares: f64 = parts.map(|((x, r), e)| ((x - r) / e).powi(2)).sum();
-        (squares / right[from].len() as f64).sqrt()
-    };
-    for half in 0..2 {
-        let [own, other] = [away(half, half), away(half, 1 - half)];
-        println!("half {half}: {own:.2} standard errors from its own, {other:.1} from the other");
-        assert!(own < 3.0 && other > 10.0 * own, "{own} {other}");
-    }
 }
 
 #[test]
