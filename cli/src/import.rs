@@ -111,14 +111,13 @@ pub(crate) fn run(args: &ImportArgs, context: &Context) -> Outcome {
     }
     let options = args.options();
     let wrong = |errors: Diagnostics| Failure::Input(source.render(&errors.0));
-    let (mut made, mut shared) = (Vec::new(), Vec::new());
-    if args.all {
-        let found = arms(&source, &options).map_err(wrong)?;
-        made.extend(found.arms.into_iter().map(|(_, made)| made));
-        shared = found.shared;
-    } else {
-        made.push(import_text(&source, &options).map_err(wrong)?);
-    }
+    let (made, shared) = match args.all {
+        true => arms(&source, &options).map_err(wrong)?,
+        false => {
+            let made = import_text(&source, &options).map_err(wrong)?;
+            (vec![made], Vec::new())
+        }
+    };
     say(args, context, &made, &source);
     let mut done = Done::from(match made.as_slice() {
         [own] if !args.all => one(own, path, &source),

@@ -9,15 +9,6 @@ use crate::lock::OTHERS;
 use crate::problems::Problems;
 use crate::{Imported, Options, Text, import_text, model, tree};
 
-/// The arms of a robot.
-#[derive(Clone, Debug)]
-pub struct Arms {
-    /// Each with a name of its own, in the order of the file.
-    pub arms: Vec<(String, Imported)>,
-    /// The pairs of arms that move each other.
-    pub shared: Vec<Shared>,
-}
-
 /// Two arms that hang on joints which both have.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Shared {
@@ -28,11 +19,12 @@ pub struct Shared {
 }
 
 /// Makes a robot file of every arm of a model: from the base to each palm, or end of a chain
-/// of three joints or more, with all other joints held.
+/// of three joints or more, with all other joints held. Returns the arms, each with a name of its
+/// own, in the order of the file, and the pairs of them that move each other.
 ///
 /// # Errors
 /// Everything that is wrong with the model or with one of its arms.
-pub fn arms(text: &Text, options: &Options) -> Result<Arms, Diagnostics> {
+pub fn arms(text: &Text, options: &Options) -> Result<(Vec<Imported>, Vec<Shared>), Diagnostics> {
     let mut problems = Problems::of(text);
     let urdf = model(text.as_str(), options, &mut problems);
     let tips = urdf.and_then(|urdf| Some((tree::tips(&urdf, options, &mut problems)?, urdf.name)));
@@ -75,7 +67,7 @@ pub fn arms(text: &Text, options: &Options) -> Result<Arms, Diagnostics> {
         return Err(Diagnostics(errors));
     }
     let shared = shared(&arms);
-    Ok(Arms { arms, shared })
+    Ok((arms.into_iter().map(|(_, arm)| arm).collect(), shared))
 }
 
 /// Returns the pairs of arms with joints that both have.

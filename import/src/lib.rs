@@ -97,7 +97,7 @@ use dalembert_model::number::Rational;
 use dalembert_model::read::{self, Diagnostic, Diagnostics};
 use dalembert_model::robot::Robot;
 
-pub use arms::{Arms, Shared, arms};
+pub use arms::{Shared, arms};
 pub use change::{Change, Displacement, Motion};
 pub use open::{Opened, Unopened, first_bytes, is_model, open, open_text, read_robot};
 use problems::Problems;
