@@ -75,8 +75,9 @@ struct Scene {
     controller: Robot,
     trajectory: Trajectory,
     noise: Vec<f64>,
-    /// Torques of the true arm, for `--exact`.
+    /// Torques of the true arm, and a period of the trajectory, for `--exact`.
     exact: Arc<Loaded>,
+    cycle: Vec<[Vec<f64>; 3]>,
 }
 
 pub(super) async fn run(args: SimulateArgs, going: &Going) -> Result<String, Error> {
@@ -159,7 +160,13 @@ impl Scene {
                 exact = Arc::new(Loaded::of(&truth)?);
             }
         }
+        let cycle = match args.exact {
+            true => ((trajectory.period * args.rate) as usize).max(1),
+            false => 0,
+        };
+        let cycle = (0..cycle).map(|k| trajectory.at(k as f64 * (1.0 / args.rate)));
         Ok(Scene {
+            cycle: cycle.collect(),
             noise: usual.iter().map(|torque| args.noise * torque).collect(),
             args,
             truth,
@@ -224,22 +231,27 @@ impl Scene {
             false => Compression::SNAPPY,
         };
         let mut table = Table::compressed(&path, &names, false, compression)?;
-        match self.args.exact {
-            true => self.follow(&mut table, &recording, &collisions, progress, going)?,
-            false => {
-                let log = self.controlled(&recording, &collisions)?;
-                for first in (0..log.q.len()).step_by(BLOCK) {
-                    going.check()?;
-                    let last = log.q.len().min(first + BLOCK);
-                    let time = (first..last).map(|k| k as f64 * recording.period).collect();
-                    let columns = [&log.q, &log.qd, &log.qdd, &log.tau].map(|of| {
-                        let entry = |i: usize| of[first..last].iter().map(move |x| x[i]);
-                        (0..n).flat_map(entry).collect()
-                    });
-                    self.write(&mut table, time, &columns)?;
-                    progress.add((last - first) as u64);
-                }
-            }
+        let log = match self.args.exact {
+            true => None,
+            false => Some(self.controlled(&recording, &collisions)?),
+        };
+        let mut random = Random::new(recording.seed);
+        for first in (0..recording.states).step_by(BLOCK) {
+            going.check()?;
+            let last = recording.states.min(first + BLOCK);
+            let time = (first..last).map(|k| k as f64 * recording.period);
+            let time: Vec<f64> = time.collect();
+            let columns: [Vec<f64>; 4] = match &log {
+                Some(log) => [&log.q, &log.qd, &log.qdd, &log.tau].map(|of| {
+                    let entry = |i: usize| of[first..last].iter().map(move |x| x[i]);
+                    (0..n).flat_map(entry).collect()
+                }),
+                None => self.followed(&recording, &collisions, first, &time, &mut random)?,
+            };
+            let chosen = columns.iter().enumerate();
+            let chosen = chosen.filter(|(k, _)| !self.args.encoders_only || [0, 3].contains(k));
+            table.write("", &time, chosen.map(|(_, of)| &of[..]))?;
+            progress.add((last - first) as u64);
         }
         table.close()?;
         let mut said = String::new();
@@ -277,60 +289,37 @@ impl Scene {
         Ok(control(&controlled, &self.trajectory, recording)?)
     }
 
-    /// Writes states on the trajectory itself, whose motors feel all that pushes.
-    fn follow(
+    /// Computes states on the trajectory itself, from one on, whose motors feel all that pushes.
+    fn followed(
         &self,
-        table: &mut Table,
         recording: &Recording,
         collisions: &[Collision],
-        progress: &Progress,
-        going: &Going,
-    ) -> Result<(), Error> {
-        let n = self.noise.len();
-        let mut random = Random::new(recording.seed);
-        // A period of it is all that there is; only noise goes on.
-        let cycle = (self.trajectory.period * self.args.rate) as usize;
-        let cycle: Vec<[Vec<f64>; 3]> = (0..cycle.max(1))
-            .map(|k| self.trajectory.at(k as f64 * recording.period))
-            .collect();
-        for first in (0..recording.states).step_by(BLOCK) {
-            going.check()?;
-            let count = BLOCK.min(recording.states - first);
-            let mut states = [(); 3].map(|()| vec![0.0; n * count]);
-            for s in 0..count {
-                fill(&mut states, s, count, &cycle[(first + s) % cycle.len()]);
-            }
-            let [q, qd, qdd] = &states;
-            let mut tau = vec![0.0; n * count];
-            self.exact
-                .inverse_dynamics(States { count, q, qd, qdd }, &mut tau)?;
-            let time = (first..first + count).map(|k| k as f64 * recording.period);
-            let time: Vec<f64> = time.collect();
-            for (s, time) in time.iter().enumerate() {
-                for i in 0..n {
-                    let own = &mut tau[i * count + s];
-                    *own += self.noise[i] * normal(&mut random);
-                    for one in collisions {
-                        *own -= one.torque[i] * one.part(*time);
-                    }
+        first: usize,
+        time: &[f64],
+        random: &mut Random,
+    ) -> Result<[Vec<f64>; 4], Error> {
+        let (n, count) = (self.noise.len(), time.len());
+        let mut states = [(); 3].map(|()| vec![0.0; n * count]);
+        for s in 0..count {
+            // A period of it is all that there is; only noise goes on.
+            let state = &self.cycle[(first + s) % self.cycle.len()];
+            fill(&mut states, s, count, state);
+        }
+        let [q, qd, qdd] = &states;
+        let mut tau = vec![0.0; n * count];
+        self.exact
+            .inverse_dynamics(States { count, q, qd, qdd }, &mut tau)?;
+        for (s, time) in time.iter().enumerate() {
+            for i in 0..n {
+                let own = &mut tau[i * count + s];
+                *own += self.noise[i] * normal(random);
+                for one in collisions {
+                    *own -= one.torque[i] * one.part(*time);
                 }
             }
-            let [q, qd, qdd] = states;
-            self.write(table, time, &[recording.read(&q), qd, qdd, tau])?;
-            progress.add(count as u64);
         }
-        Ok(())
-    }
-
-    fn write(
-        &self,
-        table: &mut Table,
-        time: Vec<f64>,
-        columns: &[Vec<f64>; 4],
-    ) -> Result<(), Error> {
-        let chosen = columns.iter().enumerate();
-        let chosen = chosen.filter(|(k, _)| !self.args.encoders_only || [0, 3].contains(k));
-        table.write("", &time, chosen.map(|(_, of)| &of[..]))
+        let [q, qd, qdd] = states;
+        Ok([recording.read(&q), qd, qdd, tau])
     }
 }
 
