@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::support::{Golden, bounded, flat_states, largest, worst};
-use dalembert_import::{Imported, Options, Text, import_text};
+use dalembert_import::{Imported, Options, open};
 use serde_json::Value;
 
 /// With every way to write a model, and real arms as MuJoCo saves them.
@@ -14,13 +14,6 @@ const NAMES: [&str; 8] = [
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/mjcf")
-}
-
-fn text(name: &str) -> Text {
-    let path = folder().join(format!("{name}.xml"));
-    let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string());
-    let text = Text::of(&format!("{name}.xml"), read(&path).unwrap());
-    text.with_includes(&path, read).unwrap()
 }
 
 fn golden(name: &str) -> (Golden, Options) {
@@ -36,8 +29,8 @@ fn golden(name: &str) -> (Golden, Options) {
 }
 
 fn imported(name: &str, options: &Options) -> Imported {
-    let text = text(name);
-    import_text(&text, options).unwrap_or_else(|errors| panic!("{}", text.render(&errors.0)))
+    let opened = open(&folder().join(format!("{name}.xml")), options);
+    opened.unwrap().imported.unwrap()
 }
 
 /// Digits as they stand.
