@@ -216,12 +216,7 @@ impl<'f> Emitter<'f> {
 
 /// Returns a constant vector of repeated bytes.
 fn repeated(b: &mut FunctionBuilder<'_>, ty: Type, lane: &[u8]) -> Value {
-    let bytes: Vec<u8> = lane
-        .iter()
-        .copied()
-        .cycle()
-        .take(ty.bytes() as usize)
-        .collect();
+    let bytes = lane.repeat(ty.bytes() as usize / lane.len());
     let handle = b.func.dfg.constants.insert(ConstantData::from(&bytes[..]));
     b.ins().vconst(ty, handle)
 }
