@@ -191,25 +191,17 @@ class Arm:
         """Return the drawing and the table of functions, for notebooks."""
         import html
 
-        rows = "".join(
-            "<tr>" + "".join(f"<td>{html.escape(str(cell))}</td>" for cell in cells) + "</tr>"
-            for cells in (
-                (
-                    about["name"],
-                    about["scalar"],
-                    about["counts"]["mul"],
-                    about["counts"]["add"],
-                    about["counts"]["sincos"],
-                    about["proof"],
-                )
-                for about in self._native.functions
-            )
+        counts = ("mul", "add", "sincos")
+        rows: list[tuple[str, tuple[Any, ...]]] = []
+        rows.append(("th", ("function", "scalar", *counts, "proved")))
+        for about in self._native.functions:
+            own = [about["counts"][count] for count in counts]
+            rows.append(("td", (about["name"], about["scalar"], *own, about["proof"])))
+        table = "".join(
+            "<tr>" + "".join(f"<{tag}>{html.escape(str(cell))}</{tag}>" for cell in cells) + "</tr>"
+            for tag, cells in rows
         )
-        heads = "".join(f"<th>{head}</th>" for head in _HEADS)
-        return f"<div>{self.svg()}<table><tr>{heads}</tr>{rows}</table></div>"
-
-
-_HEADS = ("function", "scalar", "mul", "add", "sincos", "proved")
+        return f"<div>{self.svg()}<table>{table}</table></div>"
 
 
 def _ends_in(path: Path, endings: list[str], language: str, other: str) -> None:
