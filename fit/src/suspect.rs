@@ -7,7 +7,7 @@
 
 use crate::accumulator::Accumulator;
 use crate::error::{Error, check};
-use crate::fit::noise::noise;
+use crate::fit::noise;
 use crate::model::Model;
 use dalembert_model::robot::JointKind;
 
