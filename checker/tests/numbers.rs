@@ -96,7 +96,7 @@ fn quotients_have_slopes() {
     assert_ne!(prime, Draws::new(&["quo", "tients"]).prime());
     let mut number = || {
         let [value, first, second] = [(); 3].map(|()| draws.residue(prime));
-        value.moving(first, 1).moving(second, 2)
+        value + first * Number::step(1) + second * Number::step(2)
     };
     let [x, y] = [number(), number()];
     let again = x / y * y;

@@ -25,11 +25,11 @@ impl Number {
         }
     }
 
-    /// Returns the number with a slope of one in direction 1 or 2.
-    pub fn moving(mut self, by: Number, direction: usize) -> Number {
-        self = self.with(by, |_, own, _| own);
-        self.parts[direction] = by.entry(0, self.prime);
-        self
+    /// Returns ε for direction 1, and δ for 2.
+    pub fn step(direction: usize) -> Number {
+        let mut step = Number::from(0);
+        step.parts[direction] = 1;
+        step
     }
 
     /// Returns r, r₁, r₂ or r₃ modulo a prime.

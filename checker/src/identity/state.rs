@@ -36,23 +36,16 @@ impl State {
 
     /// Returns the state in which an entry of an argument has a slope of one in direction 1 or 2.
     pub fn moving(&self, argument: usize, joint: usize, direction: usize) -> State {
-        let mut state = self.clone();
-        let moving = |own: &mut Number, by: Number| *own = own.moving(by, direction);
-        moving(&mut state.given[argument][joint], 1.into());
-        // Where something moves already, so do the slopes of what follows from it.
-        let follow = |own: &mut Number, rate: Number| {
-            moving(own, rate.slope(0));
-            if direction == 2 {
-                *own = own.moving(rate.slope(1), 3);
-            }
-        };
+        let (mut state, step) = (self.clone(), Number::step(direction));
+        let own = self.given[argument][joint];
+        state.given[argument][joint] = own + step;
+        // f(x + ε) is f(x) + f′(x) ε, also where x moves already.
         if argument == 0 {
             let [sin, cos] = self.pairs[joint];
-            follow(&mut state.pairs[joint][0], cos);
-            follow(&mut state.pairs[joint][1], -sin);
+            state.pairs[joint] = [sin + cos * step, cos - sin * step];
         } else if argument == 1 {
-            let (rate, own) = (self.given[1][joint], self.speeds[joint]);
-            follow(&mut state.speeds[joint], -(rate * own * own * own));
+            let speed = self.speeds[joint];
+            state.speeds[joint] = speed - own * speed * speed * speed * step;
         }
         state
     }
