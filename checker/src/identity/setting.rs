@@ -6,11 +6,9 @@ use std::f64::consts::PI;
 use num_rational::BigRational as Rational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
-use super::exact::{Angle, Exact, Point, number};
-use super::number::Number;
-use super::program::{ARGUMENTS, Operand, argument};
-use super::robot::{File, OneOrEach, Row, Scene, angle_of, number_of};
-use super::state::State;
+use super::exact::{Angle, Exact, number};
+use super::program::{ARGUMENTS, Operand};
+use super::robot::{File, OneOrEach, Row, Scene, number_of};
 
 /// The most joints.
 const MOST_JOINTS: usize = 64;
@@ -164,46 +162,14 @@ impl Setting<'_> {
         turns.fold(1.0, |all, own| all + own)
     }
 
-    /// Draws velocities of which 1/√(q̇² + w²) is a residue too: q̇ = (u − w²/u)/2, and the root is
-    /// (u + w²/u)/2. Then puts what the scene fixes in the place of what was drawn.
-    pub(super) fn fix(&self, state: &mut State, point: &Point) -> Result<(), String> {
-        for joint in 0..self.joints() {
-            let width = self.width(point, joint)?;
-            if width.is_nonzero() {
-                let (u, half) = (point.residue(), point.half());
-                let rest = width * width / u;
-                state.given[1][joint] = (u - rest) * half;
-                let is_still = self.is_locked(joint) || self.still[0];
-                let root = if is_still { width } else { (u + rest) * half };
-                state.speeds[joint] = Number::from(1) / root;
-            }
-        }
-        let rates = ["qd", "qdd", "tau", "v", "a", "multiplier"];
-        let rates = rates.map(|name| argument(name).unwrap_or_default());
-        for joint in (0..self.joints()).filter(|joint| self.is_locked(*joint)) {
-            let lock = self.locks[joint];
-            match self.turns_by(joint) {
-                true => state.pairs[joint] = point.angle(&angle_of(lock)?),
-                false => state.given[0][joint] = point.number(&number_of(lock)?),
-            }
-            for place in rates {
-                state.given[place][joint] = 0.into();
-            }
-        }
-        for place in [1, 2].into_iter().filter(|place| self.still[place - 1]) {
-            state.given[place].fill(0.into());
-        }
-        Ok(())
-    }
-
-    /// Returns the speed over which Coulomb friction is smoothed; zero of a joint without.
-    fn width(&self, point: &Point, joint: usize) -> Result<Number, String> {
+    /// Returns the speed over which Coulomb friction is smoothed; none of a joint without.
+    pub(super) fn width(&self, joint: usize) -> Result<Option<Rational>, String> {
         let row = &self.file.joint[self.movers[joint]];
         let force = number_of(row.coulomb.as_ref())?;
         let width = number_of(row.coulomb_width.as_ref())?;
         match (force.is_zero(), width.is_positive()) {
-            (true, _) => Ok(0.into()),
-            (false, true) => Ok(point.number(&width)),
+            (true, _) => Ok(None),
+            (false, true) => Ok(Some(width)),
             _ => Err(format!(
                 "joint {}: `coulomb` without a `coulomb_width`",
                 joint + 1

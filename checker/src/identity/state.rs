@@ -2,7 +2,8 @@
 
 use super::exact::Point;
 use super::number::Number;
-use super::program::ARGUMENTS;
+use super::program::{ARGUMENTS, Operand};
+use super::robot::{angle_of, number_of};
 use super::setting::Setting;
 use super::table::length;
 
@@ -30,7 +31,37 @@ impl State {
             pairs: (0..sizes[0]).map(|_| point.pair()).collect(),
             speeds: vec![0.into(); sizes[0]],
         };
-        setting.fix(&mut state, point)?;
+        let is_fixed = |own: Operand<()>| setting.is_fixed(&own);
+        for joint in 0..sizes[0] {
+            // Velocities of which 1/√(q̇² + w²) is a residue too: q̇ = (u − w²/u)/2, and the root
+            // is (u + w²/u)/2.
+            if let Some(width) = setting.width(joint)? {
+                let (u, half, width) = (point.residue(), point.half(), point.number(&width));
+                let rest = width * width / u;
+                state.given[1][joint] = (u - rest) * half;
+                let root = match is_fixed(Operand::Speed(joint)) {
+                    true => width,
+                    false => (u + rest) * half,
+                };
+                state.speeds[joint] = Number::from(1) / root;
+            }
+        }
+        for (joint, lock) in setting.locks.iter().enumerate() {
+            match lock {
+                None => {}
+                Some(_) if setting.turns_by(joint) => {
+                    state.pairs[joint] = point.angle(&angle_of(*lock)?);
+                }
+                Some(_) => state.given[0][joint] = point.number(&number_of(*lock)?),
+            }
+        }
+        for (place, list) in state.given.iter_mut().enumerate().skip(1) {
+            for (joint, own) in list.iter_mut().enumerate() {
+                if is_fixed(Operand::Entry(place, joint)) {
+                    *own = 0.into();
+                }
+            }
+        }
         Ok(state)
     }
 
