@@ -39,6 +39,8 @@ still_bad r2_conf still result 1 is not that of the robot
 # Inputs that are no values.
 locked_bad r2_conf locked it reads a joint that is locked, or a rate
 pend_bad pend_bad pick it reads an angle as a number
+# A root of a joint without friction, which the identity takes to be zero.
+rubbed rubbed free another width of friction of joint 1
 # Texts that are not of the grammar.
 t1 r2l pick line 3: nothing that is generated
 t5 r2l pick `libm` expected, not `0.0`

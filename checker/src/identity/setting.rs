@@ -291,10 +291,11 @@ impl Setting<'_> {
         row.is_some_and(|row| self.file.joint[*row].turns())
     }
 
-    /// Returns w² of a joint with Coulomb friction.
+    /// Returns w² of a joint with Coulomb friction. Of others nothing may be read: the identity
+    /// takes their 1/√(q̇² + w²) to be zero.
     pub fn square_of_width(&self, joint: usize) -> Option<Exact> {
-        let row = &self.file.joint[*self.movers.get(joint)?];
-        let width = number(row.coulomb_width.as_ref()?)?;
+        let is_joint = joint < self.joints();
+        let width = is_joint.then(|| self.width(joint))?.ok()??;
         Some(Exact::from(&width * &width))
     }
 
