@@ -17,7 +17,7 @@ use super::state::State;
 #[derive(Clone, Debug)]
 pub struct Joint {
     turns: bool,
-    axis: Screw,
+    pub(super) axis: Screw,
     /// The joint that moves it, and how many times as far: itself, but for one that follows.
     pub(super) leader: (usize, Number),
     /// How often a joint that turns counts, and sine and cosine, or the length, that is added.
@@ -38,6 +38,17 @@ pub struct Joint {
     pub coulomb: Number,
     /// The inertia of the drive as the joint feels it, kg·m² or kg.
     pub armature: Number,
+}
+
+impl Joint {
+    /// Returns what the joint moves by, at a state.
+    pub(super) fn motion(&self, state: &State) -> Pose {
+        let (leader, factor) = self.leader;
+        let (turns, offset, length) = self.line;
+        let slide = state.given[0][leader] * factor + length;
+        let pair = turned(times(state.pairs[leader], turns), offset);
+        Pose::moved(self.axis, self.turns, pair, slide)
+    }
 }
 
 /// The name of the frame that is meant where none is named.
@@ -374,24 +385,6 @@ impl Arm {
         Some(if is_same { 1.0 } else { -1.0 })
     }
 
-    /// Returns the arm at the sines and cosines, or the lengths, of its joints.
-    pub(super) fn at(&self, state: &State) -> Placed {
-        let mut placed = Placed::default();
-        let mut pose = Pose::shift(Vector::default());
-        for joint in &self.joints {
-            let (leader, factor) = joint.leader;
-            let (turns, offset, length) = joint.line;
-            let slide = state.given[0][leader] * factor + length;
-            let pair = turned(times(state.pairs[leader], turns), offset);
-            placed.axes.push(pose.screw(joint.axis));
-            placed.before.push(pose);
-            pose = pose.then(&Pose::moved(joint.axis, joint.turns, pair, slide));
-            placed.poses.push(pose);
-            placed.bodies.push(joint.body.moved(&pose));
-        }
-        placed
-    }
-
     /// Returns the rates of rows, from those of joints.
     pub(super) fn spread(&self, rates: &[Number]) -> Vec<Number> {
         let leaders = self.joints.iter().map(|own| own.leader);
@@ -408,54 +401,5 @@ impl Arm {
             all[leader] = all[leader] + load * factor;
         }
         all
-    }
-}
-
-/// An arm at a state: each joint's axis, what its link has moved by, and its link's mass.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Placed {
-    pub(super) axes: Vec<Screw>,
-    pub(super) before: Vec<Pose>,
-    pub(super) poses: Vec<Pose>,
-    pub(super) bodies: Vec<Body>,
-}
-
-impl Placed {
-    /// Returns the wrench that each joint passes on, by the equations of Newton and Euler.
-    pub(super) fn wrenches(&self, qd: &[Number], qdd: &[Number], gravity: Vector) -> Vec<Screw> {
-        // A base that is accelerated upward feels what one in gravity does.
-        let mut a = Screw(Vector::default(), opposite(gravity));
-        let mut v = Screw::default();
-        let rates = self.axes.iter().zip(qd).zip(qdd);
-        let wrenches = rates.zip(&self.bodies).map(|(((axis, qd), qdd), body)| {
-            let own = axis.times(*qd);
-            a = a.plus(axis.times(*qdd)).plus(v.across(own));
-            v = v.plus(own);
-            let turned = v.across_momentum(body.momentum(v));
-            body.momentum(a).plus(turned)
-        });
-        let mut wrenches: Vec<Screw> = wrenches.collect();
-        let mut all = Screw::default();
-        for wrench in wrenches.iter_mut().rev() {
-            all = all.plus(*wrench);
-            *wrench = all;
-        }
-        wrenches
-    }
-
-    /// Returns D without armature: D_ik is the power in motion i of the momentum that motion k
-    /// gives all links from the further one on.
-    pub(super) fn inertia(&self) -> Vec<Vec<Number>> {
-        let n = self.axes.len();
-        let (mut d, mut all) = (vec![vec![Number::default(); n]; n], Body::default());
-        for k in (0..n).rev() {
-            all = all.plus(&self.bodies[k]);
-            let momentum = all.momentum(self.axes[k]);
-            for (i, axis) in self.axes[..=k].iter().enumerate() {
-                d[k][i] = axis.power(momentum);
-                d[i][k] = d[k][i];
-            }
-        }
-        d
     }
 }

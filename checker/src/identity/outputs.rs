@@ -1,11 +1,11 @@
 //! Every result by the equations of Newton and Euler in base axes. Slopes are those of the numbers,
 //! so that no derivative is written out.
 
-use super::arm::{Arm, HAND, Joint, Placed};
+use super::arm::{Arm, HAND, Joint};
 use super::matrix::{Matrix, minus, plus, product, solve, times, transposed, units};
 use super::number::Number;
 use super::program::argument;
-use super::screw::{Body, Pose, Screw, Vector, cross, dot, sum};
+use super::screw::{Body, Pose, Screw, Vector, cross, dot, opposite, sum};
 use super::setting::Setting;
 use super::state::State;
 use super::table::{Field, View};
@@ -13,25 +13,32 @@ use super::table::{Field, View};
 /// An arm at a state, and the frame that is its hand.
 struct At<'a> {
     arm: &'a Arm,
-    placed: Placed,
     state: &'a State,
     view: &'a View,
+    /// Each joint's axis.
+    axes: Vec<Screw>,
+    /// Each link's mass.
+    bodies: Vec<Body>,
+    /// What the base has moved by, and then each link.
+    poses: Vec<Pose>,
 }
 
 impl<'a> At<'a> {
     fn new(arm: &'a Arm, state: &'a State, view: &'a View) -> At<'a> {
-        let placed = arm.at(state);
+        let mut poses = vec![Pose::shift(Vector::default())];
+        for (k, joint) in arm.joints.iter().enumerate() {
+            poses.push(poses[k].then(&joint.motion(state)));
+        }
+        let axes = arm.joints.iter().zip(&poses);
+        let bodies = arm.joints.iter().zip(&poses[1..]);
         At {
             arm,
-            placed,
             state,
             view,
+            axes: axes.map(|(own, pose)| pose.screw(own.axis)).collect(),
+            bodies: bodies.map(|(own, pose)| own.body.moved(pose)).collect(),
+            poses,
         }
-    }
-
-    /// Returns another arm at the same state.
-    fn with<'b>(&'b self, arm: &'b Arm) -> At<'b> {
-        At::new(arm, self.state, self.view)
     }
 
     /// Returns the number of joints that move by themselves.
@@ -47,16 +54,33 @@ impl<'a> At<'a> {
         vec![0.into(); self.count()]
     }
 
-    /// Returns the wrench that each joint passes on.
+    /// Returns the wrench that each joint passes on, by the equations of Newton and Euler.
     fn wrenches(&self, qd: &[Number], qdd: &[Number], gravity: Vector) -> Vec<Screw> {
         let [qd, qdd] = [qd, qdd].map(|rates| self.arm.spread(rates));
-        self.placed.wrenches(&qd, &qdd, gravity)
+        // A base that is accelerated upward feels what one in gravity does.
+        let mut a = Screw(Vector::default(), opposite(gravity));
+        let mut v = Screw::default();
+        let rates = self.axes.iter().zip(qd).zip(qdd);
+        let wrenches = rates.zip(&self.bodies).map(|(((axis, qd), qdd), body)| {
+            let own = axis.times(qd);
+            a = a.plus(axis.times(qdd)).plus(v.across(own));
+            v = v.plus(own);
+            let turned = v.across_momentum(body.momentum(v));
+            body.momentum(a).plus(turned)
+        });
+        let mut wrenches: Vec<Screw> = wrenches.collect();
+        let mut all = Screw::default();
+        for wrench in wrenches.iter_mut().rev() {
+            all = all.plus(*wrench);
+            *wrench = all;
+        }
+        wrenches
     }
 
     /// Returns D q̈ + h, and c if there is gravity, without friction.
     fn loads(&self, qd: &[Number], qdd: &[Number], gravity: Vector) -> Vec<Number> {
         let wrenches = self.wrenches(qd, qdd, gravity);
-        let torques = self.placed.axes.iter().zip(wrenches);
+        let torques = self.axes.iter().zip(wrenches);
         let torques = torques.map(|(axis, wrench)| axis.power(wrench));
         let drives = self.drives(|own| own.armature, qdd);
         plus(&self.arm.gathered(torques), &drives)
@@ -85,17 +109,22 @@ impl<'a> At<'a> {
         self.loads(&self.zeros(), &self.zeros(), self.arm.gravity)
     }
 
+    /// Returns D: D_ik is the power in motion i of the momentum that motion k gives all links from
+    /// the further one on.
     fn inertia(&self) -> Matrix {
-        let mut d = self.placed.inertia();
-        for (k, own) in self.arm.joints.iter().enumerate() {
-            d[k][k] = d[k][k] + own.armature;
+        let n = self.axes.len();
+        let (mut d, mut all) = (vec![vec![Number::default(); n]; n], Body::default());
+        for k in (0..n).rev() {
+            all = all.plus(&self.bodies[k]);
+            let momentum = all.momentum(self.axes[k]);
+            for (i, axis) in self.axes[..=k].iter().enumerate() {
+                d[k][i] = axis.power(momentum);
+                d[i][k] = d[k][i];
+            }
+            d[k][k] = d[k][k] + self.arm.joints[k].armature;
         }
-        self.square(d)
-    }
-
-    /// Returns Sᵀ M S: what is of rows, over joints.
-    fn square(&self, rows: Matrix) -> Matrix {
-        let half = rows.into_iter().map(|row| self.arm.gathered(row)).collect();
+        // Sᵀ D S: what is of rows, over joints.
+        let half = d.into_iter().map(|row| self.arm.gathered(row)).collect();
         let columns = transposed(&half).into_iter();
         columns.map(|column| self.arm.gathered(column)).collect()
     }
@@ -154,7 +183,7 @@ impl<'a> At<'a> {
             name => name,
         };
         let own = self.arm.frames.iter().find(|own| own.name == name)?;
-        let pose = self.placed.poses.get(own.row)?;
+        let pose = self.poses.get(own.row + 1)?;
         Some((own.row, pose.then(&own.pose)))
     }
 
@@ -183,7 +212,7 @@ impl<'a> At<'a> {
             let own = if row <= last { *own } else { Screw::default() };
             self.seen(own, &hand)
         };
-        let columns = self.placed.axes.iter().enumerate().map(column).collect();
+        let columns = self.axes.iter().enumerate().map(column).collect();
         let rows = transposed(&columns).into_iter();
         rows.map(|row| self.arm.gathered(row)).collect()
     }
@@ -264,7 +293,7 @@ impl<'a> At<'a> {
                     false => joint.viscous = unit(own.viscous.is_nonzero()),
                 }
             }
-            torques(&self.with(&arm))
+            torques(&At::new(&arm, self.state, self.view))
         };
         (0..12 * rows).map(column).collect()
     }
@@ -287,6 +316,7 @@ impl<'a> At<'a> {
                 false => body.tensor = Default::default(),
             }
             own.body = body.moved(&centre);
+            own.armature = 0.into();
         }
         arm
     }
@@ -301,9 +331,9 @@ impl<'a> At<'a> {
             "h" => self.coriolis(qd),
             "d_rot" | "d_tran" | "h_rot" | "h_tran" => {
                 let arm = self.with_tensors_or_masses(is.ends_with("rot"));
-                let own = self.with(&arm);
+                let own = At::new(&arm, self.state, self.view);
                 match is.starts_with('d') {
-                    true => own.square(own.placed.inertia()).concat(),
+                    true => own.inertia().concat(),
                     false => own.coriolis(qd),
                 }
             }
@@ -314,7 +344,7 @@ impl<'a> At<'a> {
             }
             "kinetic" => vec![product(qd, &self.momentum()) * self.arm.half],
             "potential" => {
-                let first = self.placed.bodies.iter().map(|own| own.first);
+                let first = self.bodies.iter().map(|own| own.first);
                 vec![-dot(self.arm.gravity, first.fold(Vector::default(), sum))]
             }
             "p" => self.momentum(),
@@ -323,7 +353,7 @@ impl<'a> At<'a> {
             "c_matrix" => transposed(&self.columns_of_coriolis()).concat(),
             "pose" => self.hand().map_or_else(Vec::new, |(_, hand)| hand.rows()),
             "poses" => {
-                let links = self.placed.poses.iter().zip(&self.arm.joints);
+                let links = self.poses[1..].iter().zip(&self.arm.joints);
                 let rows = links.flat_map(|(pose, own)| pose.then(&own.shown).rows());
                 rows.collect()
             }
@@ -333,8 +363,8 @@ impl<'a> At<'a> {
                 let wrenches = self.wrenches(qd, self.given("qdd"), self.arm.gravity);
                 let about = |(k, own): (usize, Screw)| {
                     let (origin, is_moved) = self.arm.joints[k].origin;
-                    let all = [&self.placed.before, &self.placed.poses][usize::from(is_moved)];
-                    [own.1, sum(own.0, cross(own.1, all[k].apply(origin)))].concat()
+                    let origin = self.poses[k + usize::from(is_moved)].apply(origin);
+                    [own.1, sum(own.0, cross(own.1, origin))].concat()
                 };
                 wrenches.into_iter().enumerate().flat_map(about).collect()
             }
