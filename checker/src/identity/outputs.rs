@@ -109,24 +109,11 @@ impl<'a> At<'a> {
         self.loads(&self.zeros(), &self.zeros(), self.arm.gravity)
     }
 
-    /// Returns D: D_ik is the power in motion i of the momentum that motion k gives all links from
-    /// the further one on.
+    /// Returns D, whose columns are the loads of accelerations from rest.
     fn inertia(&self) -> Matrix {
-        let n = self.axes.len();
-        let (mut d, mut all) = (vec![vec![Number::default(); n]; n], Body::default());
-        for k in (0..n).rev() {
-            all = all.plus(&self.bodies[k]);
-            let momentum = all.momentum(self.axes[k]);
-            for (i, axis) in self.axes[..=k].iter().enumerate() {
-                d[k][i] = axis.power(momentum);
-                d[i][k] = d[k][i];
-            }
-            d[k][k] = d[k][k] + self.arm.joints[k].armature;
-        }
-        // Sᵀ D S: what is of rows, over joints.
-        let half = d.into_iter().map(|row| self.arm.gathered(row)).collect();
-        let columns = transposed(&half).into_iter();
-        columns.map(|column| self.arm.gathered(column)).collect()
+        let column = |unit: Vec<Number>| self.loads(&self.zeros(), &unit, Vector::default());
+        let columns = units(self.count()).into_iter().map(column).collect();
+        transposed(&columns)
     }
 
     /// Returns D⁻¹ x of each x; what is locked stands still.
