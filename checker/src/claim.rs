@@ -21,7 +21,7 @@ use crate::fault::Fault;
 use crate::identity::Base;
 #[cfg(feature = "certify")]
 use crate::identity::exact::{Exact, Sines};
-use crate::identity::program::{Operand, Program, Step, argument};
+use crate::program::{Operand, Program, Step, argument};
 
 /// The version that is read.
 pub const VERSION: u32 = 1;

@@ -2,7 +2,7 @@
 //! constant.
 
 use crate::identity::exact::Exact;
-use crate::identity::program::{Operand, Program};
+use crate::program::{Operand, Program};
 use crate::read::number;
 
 /// Compares a text with an exact program.

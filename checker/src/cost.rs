@@ -2,9 +2,9 @@
 //! hash draws.
 
 use crate::identity::number::Draws;
-use crate::identity::program::ARGUMENTS;
 use crate::identity::setting::Setting;
 use crate::identity::table::length;
+use crate::program::ARGUMENTS;
 use crate::read::{self, Function, Head, Source};
 use crate::rounding::{Ranges, Rounding, Value};
 use crate::tolerance::Bounded;

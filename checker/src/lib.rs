@@ -5,11 +5,11 @@
 //!
 //! 1. `file`, `aside`, `c99`, `together`, `read`: the text, by a small strict grammar
 //! 2. `claim`, `compare`: the text is the program that is claimed, its literals rounded once
-//! 3. `identity`: that program equals the equations of motion, modulo primes that SHA-256 draws
+//! 3. `program`, `identity`: that program equals the equations of motion, modulo primes that
+//!    SHA-256 draws
 //! 4. `rounding`, `cost`: what rounding costs, over the box or at drawn states
 //! 5. `tolerance`: under a tolerance the text is another program, and the difference is bounded over
-//!    the box, by `written`, `polynomial`, `ring`, `sines`, `levels`,
-//!    `maximum`
+//!    the box, by `written`, `polynomial`, `ring`, `sines`, `levels`, `maximum`
 //! 6. `certify`: these in order, function by function
 //!
 //! Believed are: that every operation is rounded to nearest and none is contracted,
@@ -34,6 +34,7 @@ mod cost;
 mod fault;
 #[cfg(feature = "certify")]
 pub mod file;
+#[cfg(feature = "certify")]
 pub mod identity;
 #[cfg(feature = "certify")]
 pub mod interval;
@@ -43,6 +44,7 @@ mod levels;
 mod maximum;
 #[cfg(feature = "certify")]
 pub mod polynomial;
+pub mod program;
 pub mod read;
 #[cfg(feature = "certify")]
 mod ring;
@@ -54,7 +56,6 @@ mod sines;
 mod together;
 #[cfg(feature = "certify")]
 mod tolerance;
-
 #[cfg(feature = "certify")]
 mod written;
 

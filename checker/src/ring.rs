@@ -9,9 +9,9 @@
 use crate::fault::Fault;
 use crate::identity::arm::Arm;
 use crate::identity::exact::Point;
-use crate::identity::program::Operand;
 use crate::identity::setting::Setting;
 use crate::polynomial::{Key, MAX_JOINTS, Polynomial, Variable, Work, exponent};
+use crate::program::Operand;
 use crate::rounding::Ranges;
 
 /// A range of at least so much counts as all angles.

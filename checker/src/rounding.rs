@@ -4,8 +4,8 @@
 
 use std::collections::HashMap;
 
-use crate::identity::program::Operand;
 use crate::interval::Interval;
+use crate::program::Operand;
 use crate::read::{Function, Source};
 use crate::sines::{self, Scalar};
 

@@ -1,8 +1,8 @@
 //! Bounds of one rounding, and of how far polynomials of an angle are from its sine and its cosine.
 
-use crate::identity::program::{Operand, Program};
 use crate::interval::{FARTHEST, Interval, SINE_ERROR, UNIT, sin_cos};
 use crate::polynomial::SLACK;
+use crate::program::{Operand, Program};
 
 /// Into how many cells the range of an angle is cut.
 const CELLS: usize = 1 << 14;

@@ -2,9 +2,9 @@
 
 use crate::fault::Fault;
 use crate::identity::exact::Exact;
-use crate::identity::program::{Operand, Program};
 use crate::interval::Interval;
 use crate::polynomial::{Polynomial, Variable, Work};
+use crate::program::{Operand, Program};
 use crate::ring::Ring;
 use crate::rounding::Rounding;
 

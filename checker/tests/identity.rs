@@ -3,10 +3,10 @@
 
 use dalembert_checker::identity::arm::Arm;
 use dalembert_checker::identity::exact::{Exact, Point};
-use dalembert_checker::identity::program::{Operand, Program, argument};
 use dalembert_checker::identity::state::State;
 use dalembert_checker::identity::table::{Function, functions};
 use dalembert_checker::identity::{Base, Combination, Statement, check, robot};
+use dalembert_checker::program::{Operand, Program, argument};
 
 use crate::support::{changed, file};
 

@@ -5,10 +5,10 @@ use dalembert_checker::identity::arm::Arm;
 use dalembert_checker::identity::exact::Point;
 use dalembert_checker::identity::number::Number;
 use dalembert_checker::identity::outputs::result;
-use dalembert_checker::identity::program::argument;
 use dalembert_checker::identity::robot;
 use dalembert_checker::identity::state::State;
 use dalembert_checker::identity::table::functions;
+use dalembert_checker::program::argument;
 
 use crate::support::file;
 

@@ -2,9 +2,9 @@
 
 use dalembert_checker::claim::Claim;
 use dalembert_checker::identity::exact::Exact;
-use dalembert_checker::identity::program::{Operand as Checked, Program as Straight};
 use dalembert_checker::identity::table::Function;
 use dalembert_checker::identity::{Base, Statement, check, robot};
+use dalembert_checker::program::{Operand as Checked, Program as Straight};
 
 use crate::certified::Certified;
 use crate::support::every_output;

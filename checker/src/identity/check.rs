@@ -4,10 +4,10 @@ use super::arm::Arm;
 use super::exact::{Exact, Point};
 use super::number::{Draws, Number};
 use super::outputs::{result, selected};
-use super::program::{Program, argument};
 use super::setting::Setting;
 use super::state::State;
 use super::table::Function;
+use crate::program::{Program, argument};
 
 /// The number of points.
 const POINTS: usize = 12;

@@ -14,31 +14,18 @@
 //! - [`aligned`]: rows that stand for placed joints; [`arm`]: axes and masses in base axes
 //! - [`table`]: the 35 functions; [`state`]: what they are given; [`outputs`]: every result by
 //!   the equations of Newton and Euler, with `screw` and `matrix`
-//! - [`program`]: straight-line code, its residues and its degree
 
-#[cfg(feature = "certify")]
 pub mod aligned;
-#[cfg(feature = "certify")]
 pub mod arm;
-#[cfg(feature = "certify")]
 mod check;
 pub mod exact;
-#[cfg(feature = "certify")]
 mod matrix;
 pub mod number;
-#[cfg(feature = "certify")]
 pub mod outputs;
-pub mod program;
-#[cfg(feature = "certify")]
 pub mod robot;
-#[cfg(feature = "certify")]
 mod screw;
-#[cfg(feature = "certify")]
 pub mod setting;
-#[cfg(feature = "certify")]
 pub mod state;
-#[cfg(feature = "certify")]
 pub mod table;
 
-#[cfg(feature = "certify")]
 pub use self::check::{Base, Combination, Statement, check};

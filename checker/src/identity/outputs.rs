@@ -4,11 +4,11 @@
 use super::arm::{Arm, HAND, Joint};
 use super::matrix::{Matrix, minus, plus, product, solve, times, transposed, units};
 use super::number::Number;
-use super::program::argument;
 use super::screw::{Body, Pose, Screw, Vector, cross, dot, opposite, sum};
 use super::setting::Setting;
 use super::state::State;
 use super::table::{Field, View};
+use crate::program::argument;
 
 /// An arm at a state, and the frame that is its hand.
 struct At<'a> {

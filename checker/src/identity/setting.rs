@@ -7,8 +7,8 @@ use num_rational::BigRational as Rational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::exact::{Angle, Exact, number};
-use super::program::{ARGUMENTS, Operand};
 use super::robot::{File, OneOrEach, Row, Scene, number_of};
+use crate::program::{ARGUMENTS, Operand};
 
 /// The most joints.
 const MOST_JOINTS: usize = 64;

@@ -2,10 +2,10 @@
 
 use super::exact::Point;
 use super::number::Number;
-use super::program::{ARGUMENTS, Operand};
 use super::robot::{angle_of, number_of};
 use super::setting::Setting;
 use super::table::length;
+use crate::program::{ARGUMENTS, Operand};
 
 /// A state: the arguments, and sine and cosine of every joint.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! The 35 outputs: what each reads and returns.
 
-use super::program::argument;
 use super::setting::Setting;
+use crate::program::argument;
 
 /// Every function, its arguments in order, and its results: the field in a struct, what it is where
 /// that is another word, and the lengths of its axes. `n` is the joints, `l` ten a link, `b` the

@@ -20,7 +20,7 @@ use std::fmt;
 
 use self::reader::Reader;
 use self::tokens::Token;
-use crate::identity::program::Program;
+use crate::program::Program;
 
 pub use self::c::Symbols;
 #[cfg(feature = "certify")]

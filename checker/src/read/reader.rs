@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use super::tokens::{self, Token};
 use super::{Function, Head, Sines, Source, Symbols, TextError};
-use crate::identity::program::{Operand, Program, Step};
+use crate::program::{Operand, Program, Step};
 
 /// The most operations of a function.
 const MOST_STEPS: usize = 1 << 17;

@@ -2,7 +2,7 @@
 
 use std::hash::Hash;
 
-use dalembert_checker::identity::program::{self as straight, Operand as Read};
+use dalembert_checker::program::{self as straight, Operand as Read};
 pub use dalembert_checker::read::TextError;
 use dalembert_checker::read::{self, Head, Source, Text};
 

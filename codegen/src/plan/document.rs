@@ -194,7 +194,7 @@ fn taken(own: &Claimed, empty: &mut Program) -> Result<Vec<RuntimeParameter>, Co
 /// Returns the program that was read, with the arguments and results of an empty one.
 fn program(
     empty: &Program,
-    read: &dalembert_checker::identity::program::Program<Exact>,
+    read: &dalembert_checker::program::Program<Exact>,
 ) -> Result<Program, Complaint> {
     let program = Program {
         dag: graph(read, Exact::clone, input),
@@ -221,7 +221,7 @@ fn program(
 /// Reads a variant. What was left out goes into documentation, in every language.
 fn edited(
     empty: &Program,
-    emitted: &dalembert_checker::identity::program::Program<Exact>,
+    emitted: &dalembert_checker::program::Program<Exact>,
     planned: &Planned,
 ) -> Result<Edited, Complaint> {
     let program = program(empty, emitted)?;

@@ -1,8 +1,11 @@
 //! Straight-line code, over exact constants or over literals; its residues and its degree.
 
-use super::exact::Exact;
 #[cfg(feature = "certify")]
-use super::{exact::Point, number::Number, state::State};
+use crate::identity::{
+    exact::{Exact, Point},
+    number::Number,
+    state::State,
+};
 
 /// The arguments, in the order in which heads have them, and their lengths.
 pub const ARGUMENTS: [(&str, char); 12] = [
@@ -85,9 +88,9 @@ impl<C> Program<C> {
     }
 }
 
+#[cfg(feature = "certify")]
 impl Program<Exact> {
     /// Returns its results at a point.
-    #[cfg(feature = "certify")]
     pub fn residues(&self, point: &Point, state: &State) -> Option<Vec<Number>> {
         let leaf = |own: &Operand<Exact>| match own {
             Operand::Constant(constant) => Some(point.constant(constant)),
