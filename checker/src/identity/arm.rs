@@ -70,8 +70,8 @@ pub struct Arm {
     pub joints: Vec<Joint>,
     /// The rows whose joints move by themselves.
     pub(super) movers: Vec<usize>,
-    /// Those of them that are not locked.
-    pub(super) free: Vec<usize>,
+    /// Those of their joints that are locked.
+    pub(super) locked: Vec<usize>,
     /// The acceleration of gravity, m/s².
     pub(super) gravity: Vector,
     /// The hand, then the frames that have names.
@@ -316,10 +316,10 @@ impl Arm {
                 pose: joints[row].link.then(&placed),
             });
         }
-        let free = (0..setting.joints()).filter(|&own| setting.locks[own].is_none());
+        let locked = (0..setting.joints()).filter(|&own| setting.is_locked(own));
         let mut arm = Arm {
             movers: setting.movers.clone(),
-            free: free.collect(),
+            locked: locked.collect(),
             gravity: point.list(entries(Some(gravity)))?,
             frames,
             joints,

@@ -116,18 +116,22 @@ impl<'a> At<'a> {
         transposed(&columns)
     }
 
+    /// Returns rows over joints, with zero for those that are locked.
+    fn moving(&self, mut rows: Matrix) -> Matrix {
+        for &joint in &self.arm.locked {
+            rows.iter_mut().for_each(|row| row[joint] = 0.into());
+        }
+        rows
+    }
+
     /// Returns D⁻¹ x of each x; what is locked stands still.
-    fn driven(&self, right: &[Vec<Number>]) -> Matrix {
-        let (free, d) = (&self.arm.free, self.inertia());
-        let pick = |row: &Vec<Number>| free.iter().map(|&k| row[k]).collect::<Vec<Number>>();
-        let own: Matrix = free.iter().map(|&i| pick(&d[i])).collect();
-        let right: Matrix = right.iter().map(pick).collect();
-        let spread = |own: Vec<Number>| {
-            let mut all = self.zeros();
-            free.iter().zip(own).for_each(|(&k, own)| all[k] = own);
-            all
-        };
-        solve(own, right).into_iter().map(spread).collect()
+    fn driven(&self, right: Matrix) -> Matrix {
+        let mut d = self.moving(transposed(&self.moving(self.inertia())));
+        for &joint in &self.arm.locked {
+            // Any number of the field but zero.
+            d[joint][joint] = self.arm.half;
+        }
+        solve(d, self.moving(right))
     }
 
     fn coriolis(&self, qd: &[Number]) -> Vec<Number> {
@@ -159,7 +163,7 @@ impl<'a> At<'a> {
 
     fn accelerations(&self, tau: &[Number]) -> Vec<Number> {
         let rest = minus(tau, &self.torques(&self.zeros()));
-        self.driven(&[rest]).concat()
+        self.driven(vec![rest]).concat()
     }
 
     /// Returns the row of the link that has the hand, or the frame in its place, and its pose; of a
@@ -206,11 +210,7 @@ impl<'a> At<'a> {
 
     /// Returns J of what moves.
     fn moving_jacobian(&self) -> Matrix {
-        let mut j = self.jacobian();
-        for joint in (0..self.count()).filter(|joint| !self.arm.free.contains(joint)) {
-            j.iter_mut().for_each(|row| row[joint] = 0.into());
-        }
-        j
+        self.moving(self.jacobian())
     }
 
     /// Returns the slopes of numbers by each entry of an argument, a column each.
@@ -245,7 +245,7 @@ impl<'a> At<'a> {
     /// Returns J D⁻¹ and Λ⁻¹ = J D⁻¹ Jᵀ.
     fn mobility(&self) -> [Matrix; 2] {
         let j = self.moving_jacobian();
-        let driven = self.driven(&j);
+        let driven = self.driven(j.clone());
         let mobility = driven.iter().map(|row| times(&j, row)).collect();
         [driven, mobility]
     }
@@ -357,7 +357,7 @@ impl<'a> At<'a> {
             }
             "passivity" => self.passivity(),
             "qdd" => self.accelerations(self.given("tau")),
-            "d_inv" => self.driven(&units(n)).concat(),
+            "d_inv" => self.driven(units(n)).concat(),
             "tau_wrench" => minus(&self.torques(self.given("qdd")), &self.of_wrench()),
             "qdd_wrench" => self.accelerations(&plus(&self.of_wrench(), self.given("tau"))),
             "contact_wrench" => {
@@ -379,13 +379,11 @@ impl<'a> At<'a> {
             }
             "null_space" => {
                 let j = transposed(&self.moving_jacobian());
-                let rows = self.consistent().into_iter().zip(units(n)).enumerate();
-                let row = |(k, (own, mut unit)): (usize, (Vec<Number>, Vec<Number>))| {
-                    // What is locked is in no space.
-                    unit[k] = i64::from(self.arm.free.contains(&k)).into();
-                    minus(&unit, &times(&j, &own))
-                };
-                rows.flat_map(row).collect()
+                // What is locked is in no space.
+                let units = self.moving(units(n)).into_iter();
+                let both = units.zip(self.consistent());
+                let row = |(unit, own): (Vec<Number>, Vec<Number>)| minus(&unit, &times(&j, &own));
+                both.flat_map(row).collect()
             }
             "y" | "y_base" => {
                 let mut columns = self.columns(|own| own.torques(own.given("qdd")));
@@ -417,8 +415,8 @@ pub fn result(arm: &Arm, state: &State, field: &Field) -> Option<Vec<Number>> {
         [one, other] => {
             let bend = |at: usize| {
                 // Of a motion that is solved for, what is locked has none.
-                let is_held = |joint: usize| !arm.free.contains(&joint);
-                if of == "qdd" && (is_held(at / n) || is_held(at % n)) {
+                let is_held = |joint: &usize| arm.locked.contains(joint);
+                if of == "qdd" && [at / n, at % n].iter().any(is_held) {
                     return 0.into();
                 }
                 let moved = state.moving(one, at / n, 1).moving(other, at % n, 2);
