@@ -4,7 +4,7 @@
 use dalembert_checker::identity::arm::Arm;
 use dalembert_checker::identity::exact::{Exact, Point};
 use dalembert_checker::identity::state::State;
-use dalembert_checker::identity::table::{Function, functions};
+use dalembert_checker::identity::table::Function;
 use dalembert_checker::identity::{Base, Combination, Statement, check, robot};
 use dalembert_checker::program::{Operand, Program, argument};
 
@@ -59,83 +59,66 @@ fn exact(text: &str) -> Operand<Exact> {
     Operand::Constant(Exact::read(text).unwrap())
 }
 
-/// A program that reads an argument or a step that is not there, or has too few results.
+fn words(text: &str) -> Vec<String> {
+    text.split(' ').map(str::to_owned).collect()
+}
+
+/// Returns why a program of no steps, with one of these results, is not `arguments -> results`, over
+/// base parameters that add up these columns.
+fn refused(
+    [scene, arguments, results]: [&str; 3],
+    outputs: Vec<Operand<Exact>>,
+    base: &[&[usize]],
+) -> String {
+    let source = file(ROBOT) + "\n[scene.all]\n[scene.none]\njoints = []\n";
+    let file = robot::read(&source).unwrap();
+    let one = || Exact::read("1").unwrap();
+    let combination =
+        |own: &&[usize]| -> Combination { own.iter().map(|column| (*column, one())).collect() };
+    let statement = Statement {
+        setting: &file.setting(Some(scene)).unwrap(),
+        function: &Function::named("x", &words(arguments), &words(results)).unwrap(),
+        program: &Program {
+            steps: Vec::new(),
+            outputs: outputs.into_iter().map(|own| (false, own)).collect(),
+        },
+        base: &Base {
+            combinations: base.iter().map(combination).collect(),
+            values: Vec::new(),
+        },
+        load: None,
+    };
+    check(statement, &["no program"]).unwrap_err()
+}
+
+/// A program that reads an argument or a step that is not there, or has too few results. A frame
+/// that is not there has no results, and a regressor of no rows no columns. None is a panic.
 #[test]
 fn programs_that_do_not_fit_are_refused() {
-    let file = robot::read(&file(ROBOT)).unwrap();
-    let outputs = |operand: Operand<Exact>| vec![(false, operand); 2];
-    let setting = file.setting(None).unwrap();
-    let refused = |name: &str, outputs, combinations: &[Combination]| {
-        let function = functions().into_iter().find(|own| own.name == name);
-        let steps = Vec::new();
-        let statement = Statement {
-            setting: &setting,
-            function: &function.unwrap(),
-            program: &Program { steps, outputs },
-            base: &Base {
-                combinations: combinations.to_vec(),
-                values: Vec::new(),
-            },
-            load: None,
-        };
-        check(statement, &["no program"]).unwrap_err()
-    };
-    let missing = "the program reads what is not there";
+    let gravity = ["all", "q", "gravity.c"];
     for operand in [
         Operand::Entry(99, 0),
         Operand::Entry(0, 2),
         Operand::Step(0),
         Operand::Sine(2, true),
     ] {
-        assert_eq!(refused("gravity", outputs(operand), &[]), missing);
+        let why = refused(gravity, vec![operand.clone(), operand], &[]);
+        assert_eq!(why, "the program reads what is not there");
     }
-    assert_eq!(refused("gravity", Vec::new(), &[]), "0 results, not 2");
-    let unfit = "the base parameters do not fit the results";
-    let one = || Exact::read("1").unwrap();
-    for base in [vec![vec![(500, one())]], vec![vec![(0, one())]; 2]] {
-        assert_eq!(refused("regressor", outputs(exact("1")), &base), unfit);
+    assert_eq!(refused(gravity, Vec::new(), &[]), "0 results, not 2");
+    let regressor = ["all", "q qd qdd", "regressor.y"];
+    let bases: [&[&[usize]]; 2] = [&[&[500]], &[&[0], &[0]]];
+    for base in bases {
+        let why = refused(regressor, vec![exact("1"); 2], base);
+        assert_eq!(why, "the base parameters do not fit the results");
     }
-}
-
-/// A frame that is not there has no results, and a regressor of no rows no columns: neither is a
-/// panic.
-#[test]
-fn results_that_are_none_are_refused() {
-    let source = file(ROBOT) + "\n[scene.none]\njoints = []\n";
-    let file = robot::read(&source).unwrap();
-    let base = Base {
-        combinations: vec![vec![(0, Exact::read("1").unwrap())]],
-        values: Vec::new(),
-    };
-    for (scene, arguments, results, words) in [
-        (
-            None,
-            "q qd tau wrench",
-            "forward_dynamics_with_wrench.qdd@nowhere",
-            "no such result",
-        ),
-        (
-            Some("none"),
-            "q qd qdd",
-            "regressor.y kinetic_energy.kinetic",
-            "0 results, not 1",
-        ),
-    ] {
-        let words_of = |text: &str| text.split(' ').map(str::to_owned).collect::<Vec<_>>();
-        let function = Function::named("x", &words_of(arguments), &words_of(results)).unwrap();
-        let program = Program {
-            steps: Vec::new(),
-            outputs: vec![(false, exact("0")); if scene.is_some() { 1 } else { 2 }],
-        };
-        let statement = Statement {
-            setting: &file.setting(scene).unwrap(),
-            function: &function,
-            program: &program,
-            base: &base,
-            load: None,
-        };
-        assert_eq!(check(statement, &["none"]).unwrap_err(), words, "{results}");
-    }
+    let name = "forward_dynamics_with_wrench.qdd@nowhere";
+    let nowhere = ["all", "q qd tau wrench", name];
+    let why = refused(nowhere, vec![exact("0"); 2], &[]);
+    assert_eq!(why, "no such result");
+    let none = ["none", "q qd qdd", "regressor.y kinetic_energy.kinetic"];
+    let why = refused(none, vec![exact("0")], &[&[0]]);
+    assert_eq!(why, "0 results, not 1");
 }
 
 /// A divisor whose degree is beyond a double hides no degree of a result that it does not divide.

@@ -1,5 +1,6 @@
 //! Intervals and polynomials against exact numbers.
 
+use dalembert_checker::identity::number::Draws;
 use dalembert_checker::interval::{Interval, SINE_ERROR, sin_cos};
 use dalembert_checker::polynomial::{Polynomial, Variable, Work, exponent};
 use num_rational::BigRational;
@@ -10,16 +11,10 @@ fn exact(value: f64) -> BigRational {
 
 /// Numbers of many sizes, the same on every machine.
 fn numbers(count: usize) -> Vec<f64> {
-    let mut state = 7u64;
-    let mut next = || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        state >> 11
-    };
+    let mut draws = Draws::new(&["numbers"]);
     let number = |_| {
-        let size = [1e-9, 1e-3, 1.0, 1e3, 1e9][(next() % 5) as usize];
-        (next() as f64 / (1u64 << 53) as f64 - 0.5) * size
+        let size = [1e-9, 1e-3, 1.0, 1e3, 1e9][(5.0 * draws.share()) as usize];
+        (draws.share() - 0.5) * size
     };
     (0..count).map(number).collect()
 }
