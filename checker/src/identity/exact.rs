@@ -324,9 +324,10 @@ impl Point {
         self.draws.borrow_mut().residue(self.prime)
     }
 
-    /// Returns a sine and a cosine that were not drawn before.
+    /// Returns a sine and a cosine that were not drawn before: (2t, 1 − t²)/(1 + t²).
     pub fn pair(&self) -> [Number; 2] {
-        self.draws.borrow_mut().pair(self.prime)
+        let (t, one) = (self.residue(), Number::from(1));
+        [(t + t) / (one + t * t), (one - t * t) / (one + t * t)]
     }
 
     /// Returns the residue of a fraction.

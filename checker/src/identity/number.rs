@@ -229,12 +229,6 @@ impl Draws {
     pub fn residue(&mut self, prime: u64) -> Number {
         Number::new(self.next(), prime)
     }
-
-    /// Returns the next point of the circle, sine and cosine: (2t, 1 − t²)/(1 + t²).
-    pub fn pair(&mut self, prime: u64) -> [Number; 2] {
-        let (t, one) = (self.residue(prime), Number::from(1));
-        [(t + t) / (one + t * t), (one - t * t) / (one + t * t)]
-    }
 }
 
 /// Tests an odd number for being prime, by Miller and Rabin; these bases suffice below 2⁶⁴.
