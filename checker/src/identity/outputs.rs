@@ -256,31 +256,27 @@ impl<'a> At<'a> {
         solve(self.damped(mobility), transposed(&driven))
     }
 
-    /// Returns the torques of an arm that has one parameter alone, parameter by parameter: ten of
-    /// each link, then armature and viscous friction of the rows that have some.
+    /// Returns the slopes of torques by each parameter: ten of each link, then armature and viscous
+    /// friction of the rows that have some.
     fn columns(&self, torques: impl Fn(&At) -> Vec<Number>) -> Matrix {
-        let mut bare = self.arm.clone();
-        for own in &mut bare.joints {
-            own.body = Body::default();
-            (own.viscous, own.armature, own.coulomb) = (0.into(), 0.into(), 0.into());
-        }
-        let rows = bare.joints.len();
-        let unit = |is_one: bool| Number::from(i64::from(is_one));
+        let (rows, step) = (self.arm.joints.len(), Number::step(1));
         let column = |place: usize| {
-            let mut arm = bare.clone();
+            let mut arm = self.arm.clone();
             if place < 10 * rows {
                 let joint = &mut arm.joints[place / 10];
-                let body = Body::new(std::array::from_fn(|k| unit(k == place % 10)));
-                joint.body = body.moved(&joint.link);
+                let entry = |k: usize| if k == place % 10 { step } else { 0.into() };
+                let body = Body::new(std::array::from_fn(entry));
+                joint.body = joint.body.plus(&body.moved(&joint.link));
             } else {
-                let own = &self.arm.joints[place % rows];
                 let joint = &mut arm.joints[place % rows];
-                match place < 11 * rows {
-                    true => joint.armature = unit(own.armature.is_nonzero()),
-                    false => joint.viscous = unit(own.viscous.is_nonzero()),
-                }
+                let own = match place < 11 * rows {
+                    true => &mut joint.armature,
+                    false => &mut joint.viscous,
+                };
+                *own = if own.is_nonzero() { *own + step } else { *own };
             }
-            torques(&At::new(&arm, self.state, self.view))
+            let torques = torques(&At::new(&arm, self.state, self.view)).into_iter();
+            torques.map(|own| own.slope(1)).collect()
         };
         (0..12 * rows).map(column).collect()
     }
