@@ -87,14 +87,14 @@ impl<'a> At<'a> {
     }
 
     fn with_friction(&self, loads: &[Number], rates: &[Number]) -> Vec<Number> {
-        let joints = self.arm.movers.iter().zip(&self.state.speeds).zip(rates);
-        let dry = joints.map(|((row, speed), rate)| self.arm.joints[*row].coulomb * *speed * *rate);
-        let viscous = self.drives(|own| own.viscous, rates);
-        plus(&plus(loads, &viscous), &dry.collect::<Vec<Number>>())
+        // What follows another joint has no Coulomb friction.
+        let speed = |own: &Joint| self.state.speeds[own.leader.0];
+        let drag = self.drives(|own| own.viscous + own.coulomb * speed(own), rates);
+        plus(loads, &drag)
     }
 
     /// Returns a number of each row times its rate, over joints.
-    fn drives(&self, number: fn(&Joint) -> Number, rates: &[Number]) -> Vec<Number> {
+    fn drives(&self, number: impl Fn(&Joint) -> Number, rates: &[Number]) -> Vec<Number> {
         let rows = self.arm.joints.iter().zip(self.arm.spread(rates));
         let drives = rows.map(|(own, rate)| number(own) * rate);
         self.arm.gathered(drives)
