@@ -96,6 +96,8 @@ impl From<i64> for Number {
 fn times(prime: u64, a: u64, b: u64) -> u64 {
     match prime {
         0 => a.wrapping_mul(b),
+        // So it is of most, and quotients of 128 bits are slow.
+        _ if a == 0 || b == 0 => 0,
         _ => (u128::from(a) * u128::from(b) % u128::from(prime)) as u64,
     }
 }
