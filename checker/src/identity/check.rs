@@ -67,13 +67,7 @@ pub fn check(own: Statement, texts: &[&str]) -> Result<(), String> {
 
 /// Compares at a point.
 fn at_point(own: Statement, point: &Point) -> Result<(), String> {
-    let Statement {
-        setting,
-        function,
-        program,
-        base,
-        load,
-    } = own;
+    let (setting, function, base) = (own.setting, own.function, own.base);
     let mut arm = Arm::read(setting, point)?;
     let mut state = State::draw(point, setting)?;
     let place = |name: &str| argument(name).unwrap_or_default();
@@ -82,11 +76,11 @@ fn at_point(own: Statement, point: &Point) -> Result<(), String> {
         arm.gravity.copy_from_slice(&state.given[place("g")]);
     }
     if takes("load") {
-        let computed = load.and_then(|load| load.residues(point, &state));
+        let computed = own.load.and_then(|load| load.residues(point, &state));
         state.given[place("load")] = computed.ok_or("nothing computes its `load`")?;
         arm = arm.carrying(setting, point, &state.given[place("payload")])?;
     }
-    let found = program.residues(point, &state);
+    let found = own.program.residues(point, &state);
     let mut found = found.ok_or("the program reads what is not there")?;
     let mut expected = Vec::new();
     for field in &function.fields {
