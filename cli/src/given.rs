@@ -312,7 +312,8 @@ pub(crate) fn describe(file: &str, states: &[GivenState], compared: &[Compared],
     let known = states.iter().flat_map(|state| state.known.keys().copied());
     let mut missed: BTreeSet<Quantity> = known.collect();
     missed.retain(|quantity| !compared.iter().any(|own| own.quantity == *quantity));
-    let missed: Vec<&str> = missed.into_iter().filter_map(Quantity::given).collect();
+    let missed = missed.into_iter();
+    let missed: Vec<&str> = missed.filter_map(|own| own.facts().given).collect();
     if !missed.is_empty() {
         let missed = missed.join(", ");
         done.report.line(format!(

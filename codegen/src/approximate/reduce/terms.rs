@@ -167,15 +167,15 @@ fn units(skeleton: &Skeleton<Exact>) -> Vec<(usize, FittedLink, Option<[usize; 2
             }
         };
         for (index, body) in bodies.into_iter().enumerate() {
-            let is_tied = segment.kind == JointKind::Revolute && (2..4).contains(&index);
+            let is_tied = segment.link.kind == JointKind::Revolute && (2..4).contains(&index);
             let unit = FittedLink { body, ..zero() };
             all.push((link, unit, is_tied.then_some([start, start + 1])));
         }
-        if !segment.armature.is_zero() {
+        if !segment.link.armature.is_zero() {
             let armature = Exact::one();
             all.push((link, FittedLink { armature, ..zero() }, None));
         }
-        if !segment.friction.viscous.is_zero() {
+        if !segment.link.friction.viscous.is_zero() {
             let viscous = Exact::one();
             all.push((link, FittedLink { viscous, ..zero() }, None));
         }
