@@ -11,8 +11,8 @@
 //! }
 //! ```
 
+use super::Source;
 use super::reader::{Read, Reader, joint_of};
-use super::{Source, TextError};
 
 /// The names of a function in a header.
 #[derive(Clone, Debug, Default)]
@@ -36,8 +36,6 @@ pub struct Symbols {
 impl<'r> Reader<'r> {
     /// Reads the function: its struct, itself, and those that call it.
     pub(super) fn c(&mut self, symbols: &Symbols, has_batch: bool) -> Read<()> {
-        let is_told = self.find_c(symbols)?;
-        self.c_structure(symbols)?;
         let inline = match symbols.is_cuda {
             true => "static __host__ __device__ inline",
             false => "static inline",
@@ -46,18 +44,21 @@ impl<'r> Reader<'r> {
             true => (self.head.float(), "return "),
             false => ("void", ""),
         };
-        let (own, far) = match is_told {
-            true => (&symbols.any, "const int far, "),
-            false => (&symbols.single, ""),
-        };
         let (parameters, passed) = self.parameters(symbols);
         let (list, macros) = (parameters.join(", "), &symbols.macros);
-        self.expect_all(&format!(
-            "{inline} {returned} {own}({far}{list}) {{ {macros}_UNFUSED"
-        ))?;
+        let structure = self.structure(symbols);
+        let head = |name: &str, far: &str| {
+            format!("{structure} {inline} {returned} {name}({far}{list}) {{ {macros}_UNFUSED")
+        };
+        let own = &symbols.any;
+        let mut heads = vec![head(&symbols.single, "")];
+        if !own.is_empty() {
+            heads.insert(0, head(own, "const int far, "));
+        }
+        let is_told = self.begin(&heads)? + 1 < heads.len();
         self.c_statements(symbols, is_told)?;
-        self.c_results(symbols)?;
-        self.expect("}")?;
+        let results = self.c_results(symbols);
+        self.results(&format!("{results} }}"))?;
         if is_told {
             let (single, passed) = (&symbols.single, passed.join(", "));
             self.expect_all(&format!(
@@ -71,32 +72,18 @@ impl<'r> Reader<'r> {
         Ok(())
     }
 
-    /// Goes to the first of the function's parts; returns whether it is told that an angle may be far.
-    fn find_c(&mut self, symbols: &Symbols) -> Read<bool> {
-        let before = ["void", self.head.float()];
-        let any = self.find(&before, &symbols.any)?;
-        let single = self.find(&before, &symbols.single)?;
-        let missing = || TextError::new(1, format!("there is no function `{}`", symbols.single));
-        let place = any.or(single).ok_or_else(missing)?;
-        // `typedef struct { double tau[2]; … } name;`, and what stands before the name.
-        let structure = symbols.structure.as_ref();
-        let structure = structure.map_or(0, |_| 6 + 6 * self.head.fields.len());
-        let before = if symbols.is_cuda { 4 } else { 2 };
-        self.at = place.saturating_sub(structure + before);
-        self.first = self.at;
-        Ok(any.is_some())
-    }
-
-    /// Reads the struct of the results, if there is one.
-    fn c_structure(&mut self, symbols: &Symbols) -> Read<()> {
+    /// Returns the struct of the results, if there is one.
+    fn structure(&self, symbols: &Symbols) -> String {
         let Some(name) = &symbols.structure else {
-            return Ok(());
+            return String::new();
         };
-        let (float, mut text) = (self.head.float(), String::from("typedef struct { "));
-        for (field, length) in self.head.lengths() {
-            text += &format!("{float} {field}[{length}]; ");
-        }
-        self.expect_all(&format!("{text} }} {name};"))
+        let float = self.head.float();
+        let fields = self.head.lengths();
+        let fields = fields.map(|(field, length)| format!("{float} {field}[{length}]; "));
+        format!(
+            "typedef struct {{ {} }} {name};",
+            fields.collect::<String>()
+        )
     }
 
     /// Returns whether the function returns its only number.
@@ -222,23 +209,16 @@ impl<'r> Reader<'r> {
         self.name_sine(name, joint, is_sine, source)
     }
 
-    /// Reads the results: what is returned, or written entry by entry.
-    fn c_results(&mut self, symbols: &Symbols) -> Read<()> {
-        let before = symbols.structure.as_ref().map_or("", |_| "result->");
-        let mut targets = Vec::new();
-        for (field, length) in self.head.lengths() {
-            targets.extend((0..length).map(|index| format!("{before}{field}[{index}] =")));
-        }
+    /// Returns the results, a `?` each: what is returned, or written entry by entry.
+    fn c_results(&self, symbols: &Symbols) -> String {
         if self.is_number() {
-            targets = vec!["return".to_owned()];
+            return "return ?;".to_owned();
         }
-        for target in targets {
-            self.expect_all(&target)?;
-            let result = self.signed()?;
-            self.expect(";")?;
-            self.function.program.outputs.push(result);
-        }
-        Ok(())
+        let before = symbols.structure.as_ref().map_or("", |_| "result->");
+        let entries = self.head.lengths().flat_map(|(field, length)| {
+            (0..length).map(move |index| format!("{before}{field}[{index}] = ?; "))
+        });
+        entries.collect()
     }
 
     /// Returns the function of any number of states: entry i of state s is at `i * n + s`. What is

@@ -121,22 +121,51 @@ impl<'r> Reader<'r> {
         Ok(is_next)
     }
 
-    /// Returns the place of the function of a name, behind a word of these; none if there is none.
-    ///
-    /// # Errors
-    /// There are two.
-    pub(super) fn find(&self, before: &[&str], name: &str) -> Read<Option<usize>> {
-        let words = self.tokens.windows(2).enumerate();
-        let is_own = |two: &[Token]| before.contains(&two[0].text) && two[1].text == name;
-        let mut places = words.filter(|(_, two)| is_own(two)).map(|(place, _)| place);
-        let place = places.next();
-        match places.next() {
-            None => Ok(place),
-            Some(other) => {
-                let line = self.tokens[other].line;
-                Err(TextError::new(line, format!("`{name}` stands there twice")))
+    /// Takes the words of a text, which have to be these, with a result in place of each `?`.
+    pub(super) fn results(&mut self, text: &str) -> Read<()> {
+        for token in tokens::read(text, self.symbols.is_some())? {
+            if token.text == "?" {
+                let result = self.signed()?;
+                self.function.program.outputs.push(result);
+            } else {
+                self.expect(token.text)?;
             }
         }
+        Ok(())
+    }
+
+    /// Goes behind the first of these heads of a function that is there, and returns its place among
+    /// them. In Rust arguments that nothing reads have an underscore.
+    ///
+    /// # Errors
+    /// None of them is there, or one twice.
+    pub(super) fn begin(&mut self, heads: &[String]) -> Read<usize> {
+        for (index, head) in heads.iter().enumerate() {
+            let words = tokens::read(head, self.symbols.is_some())?;
+            let is_word = |(own, word): (&Token, &Token)| {
+                own.text == word.text || self.is_unread(own.text, word.text)
+            };
+            let is_head = |own: &[Token]| own.iter().zip(&words).all(is_word);
+            let mut places = self.tokens.windows(words.len()).map(is_head);
+            if let Some(first) = places.position(|is_own| is_own) {
+                if places.any(|is_own| is_own) {
+                    return Err(TextError::new(1, format!("`{head}` stands there twice")));
+                }
+                self.first = first;
+                self.at = first + words.len();
+                return Ok(index);
+            }
+        }
+        let head = heads.last().map_or("", String::as_str);
+        Err(TextError::new(1, format!("`{head}` expected")))
+    }
+
+    /// Returns true for the name of an argument with an underscore in Rust, where nothing reads it.
+    pub(super) fn is_unread(&self, own: &str, name: &str) -> bool {
+        let mut arguments = self.head.arguments.iter();
+        self.symbols.is_none()
+            && own.strip_prefix('_') == Some(name)
+            && arguments.any(|argument| argument.name == name)
     }
 
     /// Gives a value a name; returns whether it is new.

@@ -10,7 +10,7 @@
 //! ```
 
 use super::reader::{Read, Reader, joint_of};
-use super::{Argument, Function, Source, TextError};
+use super::{Function, Source};
 
 /// Arguments that have a type of their own.
 const TYPES: [(&str, &str); 3] = [("g", "Gravity"), ("load", "Load"), ("payload", "Payload")];
@@ -18,42 +18,44 @@ const TYPES: [(&str, &str); 3] = [("g", "Gravity"), ("load", "Load"), ("payload"
 impl<'r> Reader<'r> {
     /// Reads the function, and that of any number of states.
     pub(super) fn rust(&mut self, has_columns: bool) -> Read<()> {
-        self.find_rust()?;
-        self.rust_head()?;
+        self.begin(&[self.rust_head()])?;
         self.statements(false)?;
-        self.results()?;
-        self.expect("}")?;
+        let [_, value] = self.returned();
+        self.results(&format!("{value} }}"))?;
         match has_columns {
             true => self.columns(),
             false => Ok(()),
         }
     }
 
-    /// Goes to the function of the name.
-    fn find_rust(&mut self) -> Read<()> {
-        let missing = || TextError::new(1, format!("there is no function `{}`", self.head.name));
-        let place = self.find(&["fn"], self.head.name)?.ok_or_else(missing)?;
-        self.at = place.saturating_sub(1);
-        self.first = self.at;
-        Ok(())
+    /// Returns the head, up to the brace.
+    fn rust_head(&self) -> String {
+        let (head, scalar) = (self.head, self.head.scalar());
+        let arguments = head.arguments.iter().map(|argument| {
+            let own = TYPES.iter().find(|(name, _)| *name == argument.name);
+            let array = || format!("[{scalar}; {}]", argument.length);
+            let kind = own.map_or_else(array, |(_, kind)| (*kind).to_owned());
+            format!("{}: &{kind}", argument.name)
+        });
+        let (name, arguments) = (head.name, arguments.collect::<Vec<String>>().join(", "));
+        let [returned, _] = self.returned();
+        format!("pub fn {name}({arguments}) -> {returned} {{")
     }
 
-    /// Reads the head, up to the brace.
-    fn rust_head(&mut self) -> Read<()> {
-        let (head, scalar) = (self.head, self.head.scalar());
-        self.expect_all(&format!("pub fn {} (", head.name))?;
-        self.arguments(|argument| {
-            let own = TYPES.iter().find(|(name, _)| *name == argument.name);
-            let array = || format!(": &[{scalar}; {}]", argument.length);
-            own.map_or_else(array, |(_, kind)| format!(": &{kind}"))
-        })?;
-        let returned = match (head.structure(), head.fields.as_slice()) {
-            (Some(name), _) => name,
-            (None, [("load", _)]) => "Load".to_owned(),
-            (None, [(_, shape)]) => head.kind(shape),
-            _ => return self.refuse("a struct of the results expected"),
-        };
-        self.expect_all(&format!(") -> {returned} {{"))
+    /// Returns the type of the array or the struct that a function ends with, and that itself.
+    fn returned(&self) -> [String; 2] {
+        let fields = self.head.fields.as_slice();
+        if let Some(name) = self.head.structure() {
+            let fields = fields.iter();
+            let fields = fields.map(|(field, shape)| format!("{field}: {}, ", array(shape)));
+            let value = format!("{name} {{ {} }}", fields.collect::<String>());
+            return [name, value];
+        }
+        match fields {
+            [("load", shape)] => ["Load".to_owned(), format!("Load({})", array(shape))],
+            [(_, shape)] => [self.head.kind(shape), array(shape)],
+            _ => Default::default(),
+        }
     }
 
     /// Reads all statements up to the result; those of a part of a long function, up to its names.
@@ -195,47 +197,6 @@ impl<'r> Reader<'r> {
         Ok(names)
     }
 
-    /// Reads the array or the struct that a function ends with.
-    fn results(&mut self) -> Read<()> {
-        let head = self.head;
-        if let Some(name) = head.structure() {
-            self.expect_all(&format!("{name} {{"))?;
-            for (field, shape) in &head.fields {
-                self.expect_all(&format!("{field} :"))?;
-                self.array(shape)?;
-                self.expect(",")?;
-            }
-            return self.expect("}");
-        }
-        let Some((field, shape)) = head.fields.first() else {
-            return self.refuse("a result expected");
-        };
-        let is_load = *field == "load";
-        self.expect_all(if is_load { "Load (" } else { "" })?;
-        self.array(shape)?;
-        self.expect_all(if is_load { ")" } else { "" })
-    }
-
-    /// Reads the results of an array, row by row.
-    fn array(&mut self, shape: &[usize]) -> Read<()> {
-        let Some((length, inner)) = shape.split_first() else {
-            let result = self.signed()?;
-            self.function.program.outputs.push(result);
-            return Ok(());
-        };
-        self.expect("[")?;
-        for index in 0..*length {
-            if index > 0 && inner.is_empty() {
-                self.expect(",")?;
-            }
-            self.array(inner)?;
-            if !inner.is_empty() {
-                self.expect(",")?;
-            }
-        }
-        self.expect("]")
-    }
-
     /// Reads the type and the function of any number of states: the same operations over vectors,
     /// and what follows from the head.
     fn columns(&mut self) -> Read<()> {
@@ -259,14 +220,14 @@ impl<'r> Reader<'r> {
             type Scalar = {scalar}; {fused}
             #[inline(always)] fn angles<V: dalembert_batch::Floats<{scalar}>>(["
         ))?;
-        self.arguments(|_| String::new())?;
+        self.arguments()?;
         let list: Vec<String> = taken.iter().map(|joint| format!("q[{joint}]")).collect();
         self.expect_all(&format!(
             "]: &[[V; {n}]; {count}]) -> [V; {k}] {{ [{}] }}
             #[inline(always)] fn vectors<V: dalembert_batch::Vector<{scalar}>>([",
             list.join(", ")
         ))?;
-        self.arguments(|_| String::new())?;
+        self.arguments()?;
         self.forget_names(0, &[])?;
         self.expect_all(&format!("]: &[[V; {n}]; {count}], &"))?;
         let sines = self.listed()?;
@@ -281,7 +242,7 @@ impl<'r> Reader<'r> {
             self.has_of = true;
         }
         self.statements(false)?;
-        self.array(&[entries])?;
+        self.results(&array(&[entries]))?;
         self.is_vectors = false;
         let sorted = |mut own: Function| {
             own.sines.sort_by_key(|sines| sines.joint);
@@ -304,18 +265,28 @@ impl<'r> Reader<'r> {
         ))
     }
 
-    /// Takes the names of all arguments, each with the words behind it.
-    fn arguments(&mut self, behind: impl Fn(&Argument) -> String) -> Read<()> {
+    /// Takes the names of all arguments.
+    fn arguments(&mut self) -> Read<()> {
         let head = self.head;
         for (index, argument) in head.arguments.iter().enumerate() {
             self.expect_all(if index > 0 { "," } else { "" })?;
-            // It has an underscore if nothing reads it.
             let (word, name) = (self.peek(0), argument.name);
-            let is_unread = word.strip_prefix('_') == Some(name);
-            self.expect(if is_unread { word } else { name })?;
-            self.expect_all(&behind(argument))?;
+            self.expect(if self.is_unread(word, name) {
+                word
+            } else {
+                name
+            })?;
         }
         Ok(())
+    }
+}
+
+/// Returns an array whose axes have these lengths, a `?` for each number.
+fn array(shape: &[usize]) -> String {
+    match shape {
+        [] => "?".to_owned(),
+        [length] => format!("[{}]", vec!["?"; *length].join(", ")),
+        [length, inner @ ..] => format!("[{}]", (array(inner) + ", ").repeat(*length)),
     }
 }
 
