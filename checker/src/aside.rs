@@ -1,6 +1,6 @@
-//! Constants beside the functions of a file in Rust. Each line is compared with the one that
-//! follows from the functions and from the robot, so that whoever asks for the number of joints gets
-//! what was checked.
+//! Items beside the functions of a file in Rust. Each is compared with the one that follows from
+//! the functions and from the robot, so that whoever asks for the number of joints gets what was
+//! checked, and that nothing hides.
 
 use crate::compare::is_literal;
 use crate::fault::Fault;
@@ -10,63 +10,107 @@ use crate::identity::setting::Setting;
 use crate::rounding::Ranges;
 use crate::tolerance::BOX_SLACK;
 
+/// The type of an argument that is no list of joints, and what a payload has besides.
+const TYPES: [&str; 3] = [
+    "pub struct NAME(pub [REAL; COUNT]);",
+    "impl ::core::ops::Deref for NAME {
+type Target = [REAL; COUNT];
+fn deref(&self) -> &[REAL; COUNT] {
+&self.0
+}
+}",
+    "impl Payload {
+pub const NONE: Payload = Payload([0.0; 10]);
+pub const fn new(mass: REAL, com: [REAL; 3], inertia: [REAL; 6]) -> Payload {
+let ([x, y, z], [xx, yy, zz, xy, yz, xz]) = (com, inertia);
+Payload([mass, x, y, z, xx, yy, zz, xy, yz, xz])
+}
+}",
+];
+const SCALARS: [&str; 2] = ["f64", "f32"];
+/// The arguments that a box is of.
+const STATE: [&str; 3] = ["q", "qd", "qdd"];
+
 /// The facts that items beside functions follow from.
 pub(crate) struct Known<'k> {
     /// The robot in its scene.
-    pub setting: &'k Setting<'k>,
+    setting: &'k Setting<'k>,
     /// The box of states.
-    pub ranges: &'k Ranges,
+    ranges: &'k Ranges,
     /// The values of base parameters, each with the name of its constant.
     pub values: Vec<(&'static str, Vec<Exact>)>,
-    /// The lines of the struct of each function's results.
-    pub structs: Vec<Vec<String>>,
+    /// The items whose text is known.
+    pub items: Vec<String>,
 }
 
-impl Known<'_> {
+impl<'k> Known<'k> {
+    /// Returns what follows from a robot, a load being so many numbers.
+    pub(crate) fn new(setting: &'k Setting<'k>, ranges: &'k Ranges, load: usize) -> Known<'k> {
+        let (joints, rows) = (setting.joints(), &setting.rows);
+        let count = rows.len();
+        let mut items = vec![
+            format!("pub const N: usize = {joints};"),
+            format!("pub const JOINTS: [usize; {count}] = {rows:?};"),
+        ];
+        for (name, count) in [("Gravity", 3), ("Payload", 10), ("Load", load)] {
+            for own in SCALARS {
+                items.extend(TYPES.map(|text| {
+                    let text = text.replace("NAME", name).replace("REAL", own);
+                    text.replace("COUNT", &count.to_string())
+                }));
+            }
+        }
+        Known {
+            setting,
+            ranges,
+            values: Vec::new(),
+            items,
+        }
+    }
+
     /// Checks an item of a module that has these functions.
     ///
     /// # Errors
-    /// Its first line that does not follow.
+    /// It does not follow.
     pub(crate) fn follows(&self, item: &Found, functions: &[&Found]) -> Result<(), Fault> {
         let lines = item.text.lines().map(str::trim);
         let lines: Vec<&str> = lines.filter(|line| !line.is_empty()).collect();
-        let mut structs = self.structs.iter();
-        let is_known = structs.any(|own| *own == lines);
-        if is_known || self.values.iter().any(|(name, own)| are(&lines, name, own)) {
-            return Ok(());
-        }
-        let (joints, rows) = (self.setting.joints(), &self.setting.rows);
         let (head, behind) = lines.split_first().unwrap_or((&"", &[]));
-        let other = match *head {
-            "pub struct StateBox {" => {
-                let scalars = ["f64", "f32"].into_iter();
-                let fields = scalars.flat_map(|own| {
-                    ["q", "qd", "qdd"].map(|name| format!("pub {name}: [[{own}; 2]; {joints}],"))
-                });
-                let fields: Vec<String> = fields.collect();
-                // A compiler compares these with the box.
-                let is_own = |line: &str| line == "}" || fields.iter().any(|own| own == line);
-                behind.iter().find(|line| !is_own(line))
+        let mut values = self.values.iter();
+        let is_known = self.items.contains(&lines.join("\n"))
+            || values.any(|(name, own)| are(&lines, name, own))
+            || match *head {
+                "pub const BOX: StateBox = StateBox {" => self.within(behind, functions).is_some(),
+                _ => self.is_of_box(head, behind),
+            };
+        let why = || format!("it does not follow from the functions and the robot: `{head}`");
+        is_known
+            .then_some(())
+            .ok_or_else(|| Fault::Text(item.line, why()))
+    }
+
+    /// Returns true for the type of a box of states, and for the function that asks whether one is
+    /// inside. A compiler compares their lines with the box, and sees where they are mixed up.
+    fn is_of_box(&self, head: &str, lines: &[&str]) -> bool {
+        let joints = self.setting.joints();
+        let mut known = Vec::from(["let inside = true;", "inside", "}"].map(str::to_owned));
+        for name in STATE {
+            for own in SCALARS {
+                known.push(format!("{name}: &[{own}; {joints}]"));
+                known.push(format!("pub {name}: [[{own}; 2]; {joints}],"));
             }
-            "pub const BOX: StateBox = StateBox {" => {
-                let is_box = self.within(behind, functions).is_some();
-                (!is_box).then_some(head)
-            }
-            _ => {
-                let count = rows.len();
-                let known = [
-                    format!("pub const N: usize = {joints};"),
-                    format!("pub const JOINTS: [usize; {count}] = {rows:?};"),
-                ];
-                let is_known = behind.is_empty() && known.iter().any(|own| own == head);
-                (!is_known).then_some(head)
-            }
+            known.extend((0..joints).map(|joint| {
+                let (own, ends) = (format!("{name}[{joint}]"), format!("BOX.{name}[{joint}]"));
+                format!("let inside = inside & ({ends}[0] <= {own}) & ({own} <= {ends}[1]);")
+            }));
+        }
+        let is_known = |line: &str| known.iter().any(|own| own == line);
+        let list = between(head, "pub fn in_box(", ") -> bool {");
+        let is_head = match list {
+            Some(list) => list.split(", ").all(is_known),
+            None => head == "pub struct StateBox {",
         };
-        let Some(other) = other else {
-            return Ok(());
-        };
-        let why = format!("it does not follow from the functions and the robot: `{other}`");
-        Err(Fault::Text(item.line, why))
+        is_head && lines.iter().all(|line| is_known(line))
     }
 
     /// Compares the box of states that these lines are behind their head: none unless it is within
@@ -77,12 +121,15 @@ impl Known<'_> {
         let (mut ranges, mut is_position) = (None, false);
         for line in lines {
             if let Some(name) = line.strip_suffix(": [") {
-                let place = ["q", "qd", "qdd"].iter().position(|own| *own == name)?;
+                let place = STATE.iter().position(|own| *own == name)?;
                 (ranges, is_position) = (Some(self.ranges[place].iter().enumerate()), place == 0);
             } else if let Some(pair) = between(line, "[", "],") {
                 let (joint, [own_low, own_high]) = ranges.as_mut()?.next()?;
                 let (low, high) = pair.split_once(", ")?;
-                let is_good = if low.ends_with("::NEG_INFINITY") && high.ends_with("::INFINITY") {
+                let ends = |own: &&str| {
+                    [low, high] == [format!("{own}::NEG_INFINITY"), format!("{own}::INFINITY")]
+                };
+                let is_good = if SCALARS.iter().any(ends) {
                     is_open || !is_position || self.setting.is_locked(joint)
                 } else {
                     let (low, high): (f64, f64) = (low.parse().ok()?, high.parse().ok()?);

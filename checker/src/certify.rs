@@ -112,12 +112,8 @@ pub fn certify(
         is_c,
         singles: singles.map(|item| item.module).collect(),
     };
-    // It computes no dynamics: it says where a box is.
-    let is_box = |found: &Found| match is_c {
-        true => c99::is_box(found),
-        false => found.name == "in_box",
-    };
-    let is_other = |found: &&Found| !is_beside(found) && !is_box(found);
+    // In C it is not looked at what is said of a box.
+    let is_other = |found: &&Found| !is_beside(found) && !(is_c && c99::is_box(found));
     let line = |found: &Found, name: String, result| Line {
         module: found.module.to_owned(),
         name,
@@ -147,9 +143,10 @@ pub fn certify(
     })
 }
 
-/// Returns true for an item that is no function, or one that gives constants.
+/// Returns true for an item that is no function, or one that computes no dynamics: it gives
+/// constants, or says where a box is.
 fn is_beside(found: &Found) -> bool {
-    found.name.is_empty() || found.text.contains(" pi[")
+    ["", "in_box"].contains(&found.name) || found.text.contains(" pi[")
 }
 
 /// The finding about each function of the claim, by its name, since both scalars have one program;
@@ -399,20 +396,17 @@ impl<'w> Whole<'w> {
     /// Returns what items beside functions follow from: the values of base parameters, and the
     /// structs of results in each scalar. Of a function whose claim is none, nothing follows.
     fn known(&self) -> Known<'_> {
-        let mut all = Known {
-            setting: self.setting,
-            ranges: &self.ranges,
-            values: Vec::new(),
-            structs: Vec::new(),
-        };
+        let load = self.load().ok().flatten();
+        let load = load.map_or(0, |own| own.outputs.len());
+        let mut all = Known::new(self.setting, &self.ranges, load);
         for own in &self.claim.functions {
             let base = own.base(&self.constants, self.setting.links());
             let (Ok(base), Ok(function)) = (base, function(own)) else {
                 continue;
             };
             let heads = [false, true].map(|is_single| self.head(own, &function, &base, is_single));
-            let structs = heads.iter().flatten().filter_map(structure);
-            all.structs.extend(structs);
+            all.items
+                .extend(heads.iter().flatten().filter_map(structure));
             let name = function.parameters();
             all.values.extend(name.map(|name| (name, base.values)));
         }
@@ -455,13 +449,13 @@ fn function(claimed: &Claimed) -> Result<Function, String> {
     }
 }
 
-/// Returns the lines of the struct of a function's results in Rust; none if one number or array is
-/// returned.
-fn structure(head: &Head) -> Option<Vec<String>> {
+/// Returns the struct of a function's results in Rust; none if one number or array is returned.
+fn structure(head: &Head) -> Option<String> {
     let name = head.structure()?;
     let fields = head.fields.iter();
-    let fields = fields.map(|(name, shape)| format!("pub {name}: {},", head.kind(shape)));
-    let first = format!("pub struct {name} {{");
-    let lines = [first].into_iter().chain(fields);
-    Some(lines.chain(["}".to_owned()]).collect())
+    let fields = fields.map(|(name, shape)| format!("pub {name}: {},\n", head.kind(shape)));
+    Some(format!(
+        "pub struct {name} {{\n{}}}",
+        fields.collect::<String>()
+    ))
 }

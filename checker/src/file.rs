@@ -1,11 +1,10 @@
-//! A generated file as a whole: its modules and the functions that rustc would call.
+//! A generated file as a whole: its modules and their items.
 //!
-//! Nothing is skipped. Every line is a line of documentation, an attribute of a list, or
-//! code without quotes, comments and macros, so that braces can be counted; items are of
-//! the kinds that the generator prints, and none of their names can stand for a crate that
-//! a function calls. So the function of a name and module is the one that is found here.
+//! Nothing is skipped but lines of documentation and attributes of a list. Every other line is
+//! without quotes, comments and macros, so that braces can be counted; and every item is read as
+//! a function or compared line by line with the one that it has to be. So the function of a name
+//! and module is the one that is found here.
 
-use crate::claim::whole;
 use crate::fault::Fault;
 use crate::read::{has_only, is_letter};
 
@@ -38,13 +37,8 @@ const ATTRIBUTES: [&str; 7] = [
     "#![cfg_attr(rustfmt, rustfmt_skip)]",
 ];
 const LISTS: [&str; 3] = ["#[derive(", "#[allow(", "#![allow("];
-/// Words that begin an item, and no other part of a line.
-const ITEMS: [&str; 5] = ["const", "struct", "type", "fn", "impl"];
-/// Words that could give another meaning to what is read.
-const FORBIDDEN: [&str; 12] = [
-    "mod", "use", "extern", "macro", "trait", "static", "unsafe", "union", "enum", "super",
-    "crate", "return",
-];
+/// The signs of code.
+const SIGNS: &str = " .,;:()[]{}<>&+-*/=";
 
 /// Lines of code that are still to be read, with their numbers.
 pub(crate) type Lines<'l, 't> = &'l [(usize, &'t str)];
@@ -83,10 +77,8 @@ pub(crate) fn item<'t>(
 /// The first line that the generator would not print.
 pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
     let lines = (1..).zip(source.split('\n'));
-    let lines = without_types(lines.filter(|line| !is_plain(*line)).collect());
-    let is_known =
-        |line: &str| is_code(line.trim_start_matches(' ')) || module_head(line).is_some();
-    if let Some(line) = lines.iter().find(|(_, line)| !is_known(line)) {
+    let lines: Vec<(usize, &str)> = lines.filter(|line| !is_plain(*line)).collect();
+    if let Some(line) = lines.iter().find(|line| !has_only(line.1, SIGNS)) {
         return Err(fault(*line));
     }
     let (mut lines, mut all) = (lines.as_slice(), Vec::new());
@@ -99,13 +91,12 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
             (module, lines) = (head, &lines[1..]);
             continue;
         }
-        let found = item(&mut lines, |_| true).filter(|_| is_item(words));
-        let mut found = found.ok_or_else(|| fault(first))?;
+        let mut found = item(&mut lines, |_| true).ok_or_else(|| fault(first))?;
         has_items |= module.is_none();
-        if let Some(name) = words.strip_prefix("pub fn ") {
-            let end = name.find(|c: char| !is_letter(c)).unwrap_or(0);
-            found.name = &name[..end];
-        }
+        let name = words.strip_prefix("pub fn ");
+        let name = name.filter(|name| name.starts_with(|c: char| c.is_ascii_lowercase()));
+        let name = name.and_then(|name| name.split(|c: char| !is_letter(c)).next());
+        found.name = name.unwrap_or("");
         found.module = module.unwrap_or("");
         all.push(found);
     }
@@ -114,57 +105,6 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
         None => Ok(all),
         Some(_) => Err(Fault::Text(end, "a brace is not closed".into())),
     }
-}
-
-/// The type of an argument that is no list of joints; and what a payload has besides.
-const TYPE: &str = "pub struct NAME(pub [REAL; COUNT]);
-impl ::core::ops::Deref for NAME {
-type Target = [REAL; COUNT];
-fn deref(&self) -> &[REAL; COUNT] {
-&self.0
-}
-}";
-const NEW: &str = "impl Payload {
-pub const NONE: Payload = Payload([0.0; 10]);
-pub const fn new(mass: REAL, com: [REAL; 3], inertia: [REAL; 6]) -> Payload {
-let ([x, y, z], [xx, yy, zz, xy, yz, xz]) = (com, inertia);
-Payload([mass, x, y, z, xx, yy, zz, xy, yz, xz])
-}
-}";
-
-/// Returns the lines without the types of arguments, each of which has to be as it is printed.
-fn without_types(lines: Vec<(usize, &str)>) -> Vec<(usize, &str)> {
-    let (mut left, mut rest) = (Vec::new(), lines.as_slice());
-    while let Some(&first) = rest.first() {
-        let count = argument_type(rest);
-        if count.is_none() {
-            left.push(first);
-        }
-        rest = &rest[count.unwrap_or(1)..];
-    }
-    left
-}
-
-/// Returns how many lines the type of an argument has that stands there; none if there is none, or
-/// another one than is printed.
-fn argument_type(lines: Lines) -> Option<usize> {
-    let head = lines.first()?.1.trim_start_matches(' ');
-    let text = if head == "impl Payload {" {
-        let is_single = lines.get(2)?.1.contains(": f32");
-        NEW.replace("REAL", if is_single { "f32" } else { "f64" })
-    } else {
-        let (name, kind) = between(head, "pub struct ", "]);")?.split_once("(pub [")?;
-        let (real, count) = kind.split_once("; ")?;
-        let is_known = ["Gravity", "Load", "Payload"].contains(&name)
-            && ["f32", "f64"].contains(&real)
-            && whole(count).is_some();
-        is_known.then_some(())?;
-        let text = TYPE.replace("NAME", name).replace("REAL", real);
-        text.replace("COUNT", count)
-    };
-    let mut own = lines.iter().map(|own| own.1.trim_start_matches(' '));
-    let is_printed = text.lines().all(|line| own.next() == Some(line));
-    is_printed.then(|| text.lines().count())
 }
 
 /// Returns a line that the generator would not print.
@@ -202,35 +142,4 @@ fn is_attribute(words: &str) -> bool {
 /// Returns the name of a module that begins.
 fn module_head(line: &str) -> Option<&str> {
     between(line, "pub mod ", " {").filter(|name| has_only(name, ""))
-}
-
-/// Returns whether a line begins an item of a known kind. Types begin with a capital letter: in
-/// Rust a type's name may stand where a crate's stands.
-fn is_item(words: &str) -> bool {
-    let is_type = |name: &str| name.starts_with(|c: char| c.is_ascii_uppercase());
-    let is_function = |name: &str| name.starts_with(|c: char| c.is_ascii_lowercase());
-    let mut kinds = ["pub const ", "pub struct ", "pub type "].iter();
-    let implemented = words.strip_prefix("impl ");
-    let implemented = implemented.and_then(|rest| rest.split_once(" for "));
-    kinds.any(|kind| words.strip_prefix(kind).is_some_and(is_type))
-        || words.strip_prefix("pub fn ").is_some_and(is_function)
-        || implemented.is_some_and(|(_, name)| is_type(name))
-}
-
-/// Returns whether a line has no quotes, comments, macros or attributes, at most one item, and
-/// that at its beginning.
-fn is_code(words: &str) -> bool {
-    let bare = words.strip_prefix("pub ").unwrap_or(words);
-    let first = bare.split(' ').next().unwrap_or("");
-    let behind = &bare[first.len()..];
-    // The one parameter that functions have.
-    let behind = behind.replacen("<const L: usize>", "", 1);
-    let none = |text: &str, listed: &[&str]| {
-        let mut words = text.split(|c: char| !is_letter(c));
-        !words.any(|word| listed.contains(&word))
-    };
-    has_only(words, " .,;:()[]{}<>&+-*/=")
-        && none(words, &FORBIDDEN)
-        && none(&behind, &ITEMS)
-        && none(&behind, &["pub"])
 }

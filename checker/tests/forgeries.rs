@@ -1,8 +1,9 @@
 //! Texts that hide what a compiler calls.
 
-use dalembert_checker::file::{self, Found};
+use dalembert_checker::certify::certify;
+use dalembert_checker::file;
 
-use crate::support::file as read;
+use crate::support::{self, honest};
 
 /// Returns a file around functions, as it is generated.
 fn generated(functions: &str) -> String {
@@ -15,20 +16,18 @@ fn generated(functions: &str) -> String {
 
 const EVIL: &str = "#[must_use]\npub fn inverse_dynamics(_q: &[f64; 2], _qd: &[f64; 2], _qdd: &[f64; 2]) -> [f64; 2] {\n    [9000000000.0, 9000000000.0]\n}\n";
 
-/// Returns true for a file in which a call of the function of a text is a call of that text.
-fn is_called(text: &str, source: &str) -> bool {
-    let own = text.strip_prefix("#[must_use]\n").unwrap_or(text);
-    let mut all = file::functions(source).unwrap_or_default();
-    all.retain(|found| found.name == "inverse_dynamics");
-    let is_own = |found: &Found| found.text.trim_end() == own.trim_end();
-    !all.is_empty() && all.iter().all(is_own)
+/// Returns whether a file is shown, by the claim of the honest function.
+fn is_shown(source: &str) -> bool {
+    let [_, claim, robot] = honest();
+    let report = certify(source, &claim, &robot, Some("pick"), None);
+    report.is_ok_and(|report| report.is_shown())
 }
 
 /// The file is what rustc reads, and the function that it would call is the one compared.
 #[test]
 fn certified_text_that_is_not_called() {
-    let text = read("checker/tests/data/attacks/C.rs");
-    assert!(is_called(&text, &generated(&text)));
+    let [text, ..] = honest();
+    assert!(is_shown(&generated(&text)));
     let quoted = text.replace('\n', "\\n");
     let hidden = [
         format!("{EVIL}/*\n{text}*/\n"),
@@ -55,7 +54,7 @@ fn certified_text_that_is_not_called() {
     ];
     for inside in hidden {
         let file = generated(&inside);
-        assert!(!is_called(&text, &file), "{file}");
+        assert!(!is_shown(&file), "{file}");
     }
     // At the top of the file, too.
     for file in [
@@ -65,7 +64,7 @@ fn certified_text_that_is_not_called() {
         format!("#![cfg(any())]\n{}", generated(&text)),
         generated(&text).replace("Do not edit.\n", "Do not edit.\r#[cfg(any())]\n"),
     ] {
-        assert!(!is_called(&text, &file), "{file}");
+        assert!(!is_shown(&file), "{file}");
     }
 }
 
@@ -73,7 +72,7 @@ fn certified_text_that_is_not_called() {
 #[test]
 fn generated_files_are_read() {
     let list = |path: &str| {
-        let source = read(path);
+        let source = support::file(path);
         file::functions(&source)
             .unwrap_or_else(|fault| panic!("{path}: {fault}"))
             .len()

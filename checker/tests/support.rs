@@ -8,6 +8,18 @@ pub fn file(path: &str) -> String {
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
+/// Returns a function of an arm of two joints, its claim and its robot, in whose scene `pick` it is
+/// shown: an attack without the multiples of 2⁶¹ − 1 that were planted.
+pub fn honest() -> [String; 3] {
+    let names = ["A.rs", "B.claim.json", "r2.toml"];
+    let [text, claim, robot] =
+        names.map(|name| file(&format!("checker/tests/data/attacks/{name}")));
+    let planted = ["230.5843009213694", "2305843009213693951/10000000000000000"];
+    assert!(text.contains(planted[0]) && claim.contains(planted[1]));
+    let text = text.replace(planted[0], "0.0");
+    [text, claim.replace(planted[1], "0"), robot]
+}
+
 /// Returns a text with each change of a table, and what is expected of it. A line has words of the
 /// text, those in their place, with `&` for the words and `; ` for the end of a line, and what is
 /// expected.
