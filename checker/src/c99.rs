@@ -9,7 +9,7 @@ use crate::compare::is_literal;
 use crate::fault::Fault;
 use crate::file::{Found, Lines, between, fault, item};
 use crate::identity::exact::Exact;
-use crate::read::{self, Symbols, has_only};
+use crate::read::{self, has_only};
 use crate::together;
 
 /// How a header begins.
@@ -54,9 +54,13 @@ const GCC: &str = "defined(__GNUC__) && !defined(__clang__)";
 const FUSES: &str = "defined(__GNUC__) && !defined(__clang__) && (defined(__FP_FAST_FMA) || \
      defined(__FP_FAST_FMAF))";
 
-/// The first parameter and the ending of the name of a function that is told of far angles, and of
-/// one for any number of states.
-const KINDS: [(&str, &str); 2] = [("const int far, ", "_any"), ("const size_t n, ", "_batch")];
+/// The first parameter and the ending of the name of a function that is told of far angles, of one
+/// for any number of states, and of others.
+const KINDS: [(&str, &str); 3] = [
+    ("const int far, ", "_any"),
+    ("const size_t n, ", "_batch"),
+    ("", ""),
+];
 
 /// Reads lines that have to be these; what a header does not call, it need not include, and clang
 /// need not be asked to make vectors of loops.
@@ -119,14 +123,25 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
             found.text.ends_with("\n}\n") && !found.text.replacen(LOOP, "", 1).contains('#')
         };
         let mut found = found.filter(is_plain).ok_or_else(|| fault(first))?;
-        let named: Option<Vec<_>> = heads.iter().map(|head| word(name, head)).collect();
-        let named = named.ok_or_else(|| fault(first))?;
         // Behind the one that is told whether angles are far, and before that of many states.
-        let mut symbols = heads.iter().filter_map(|head| symbol(head));
-        let single = symbols.find(|(_, kind)| kind.is_none());
-        (found.name, _) = single.ok_or_else(|| fault(first))?;
-        found.module = named.first().map_or("", |own| own.0);
-        found.header = name;
+        for (full, end) in heads.into_iter().filter_map(symbol) {
+            match end {
+                "_any" => found.symbols.any = full.to_owned(),
+                "_batch" => found.symbols.batch = full.to_owned(),
+                _ => found.name = full,
+            }
+        }
+        (found.module, _) = word(name, found.name, "").ok_or_else(|| fault(first))?;
+        let own = &mut found.symbols;
+        own.single = found.name.to_owned();
+        own.prefix = found.name[..name.len()].to_owned();
+        if found.text.contains("const float ") {
+            own.prefix += "_f32";
+        }
+        own.macros = name.to_owned();
+        let structure = found.text.strip_prefix("typedef struct {");
+        let structure = structure.and_then(|rest| rest.split_once("\n} ")?.1.split_once(';'));
+        own.structure = structure.map(|(name, _)| name.to_owned());
         all.push(found);
     }
     let end = source.lines().count();
@@ -136,9 +151,8 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
 /// Returns whether all functions of a text are named after this one, in full or shortened.
 pub(crate) fn are_of(found: &Found, function: &str) -> bool {
     let is_own = |(module, word): (&str, &str)| module == found.module && is_short(word, function);
-    let lines = found.text.lines();
-    let mut heads = lines.filter(|line| line.starts_with("static inline "));
-    heads.all(|head| word(found.header, head).is_some_and(is_own))
+    let mut names = found.text.lines().filter_map(symbol);
+    names.all(|(name, end)| word(&found.symbols.macros, name, end).is_some_and(is_own))
 }
 
 /// Returns true if a text is the one function that says where a box is: none hides beside or inside
@@ -161,7 +175,7 @@ pub(crate) fn are_values(found: &Found, name: &str, values: &[Exact]) -> bool {
         true => ("float", "F;"),
         false => ("double", ";"),
     };
-    let (header, own, count) = (found.header, found.name, values.len());
+    let (header, own, count) = (&found.symbols.macros, found.name, values.len());
     let expected = format!("static inline void {own}({kind} pi[{header}_RESTRICT {count}])");
     let lines = found.text.lines().filter(|line| !line.is_empty());
     let lines: Vec<&str> = lines.collect();
@@ -178,18 +192,16 @@ pub(crate) fn are_values(found: &Found, name: &str, values: &[Exact]) -> bool {
         })
 }
 
-/// Returns the name of the function that has this head, and its place among [`KINDS`]: none of one
-/// state.
-fn symbol(head: &str) -> Option<(&str, Option<usize>)> {
+/// Returns the name of the function that has this head, and how those of its kind end.
+fn symbol(head: &str) -> Option<(&str, &'static str)> {
     let (before, list) = head.strip_prefix("static inline ")?.split_once('(')?;
-    let kind = KINDS.iter().position(|(start, _)| list.starts_with(start));
-    Some((before.rsplit(' ').next()?, kind))
+    let (_, end) = KINDS.iter().find(|(start, _)| list.starts_with(start))?;
+    Some((before.rsplit(' ').next()?, *end))
 }
 
-/// Returns the module of the function that has this head, and its name there.
-fn word<'t>(header: &str, head: &'t str) -> Option<(&'t str, &'t str)> {
-    let (symbol, kind) = symbol(head)?;
-    let named = symbol.strip_suffix(kind.map_or("", |kind| KINDS[kind].1))?;
+/// Returns the module of a name that ends so, and the function's name there.
+fn word<'t>(header: &str, symbol: &'t str, end: &str) -> Option<(&'t str, &'t str)> {
+    let named = symbol.strip_suffix(end)?;
     let (base, word) = named.split_at_checked(header.len())?;
     let is_own = base.to_ascii_uppercase() == header && has_only(word, "");
     let word = word.strip_prefix('_').filter(|_| is_own)?;
@@ -206,26 +218,4 @@ fn is_short(word: &str, long: &str) -> bool {
     let own = own.replace("second_derivatives", "derivatives2");
     let has_all = own.chars().all(|own| letters.any(|c| c == own));
     has_all && word.len() > 1 && long.starts_with(&word[..1])
-}
-
-/// Returns the names of a function of a header, by the heads that stand in its text.
-pub(crate) fn symbols(found: &Found, is_single: bool) -> Symbols {
-    let text = &found.text;
-    let mut symbols = Symbols::default();
-    for (name, kind) in text.lines().filter_map(symbol) {
-        let place = match kind {
-            None => &mut symbols.single,
-            Some(0) => &mut symbols.any,
-            Some(_) => &mut symbols.batch,
-        };
-        *place = name.to_owned();
-    }
-    let structure = text.strip_prefix("typedef struct {");
-    let structure = structure.and_then(|rest| rest.split_once("\n} ")?.1.split_once(';'));
-    symbols.structure = structure.map(|(name, _)| name.to_owned());
-    let own = symbols.single.get(..found.header.len());
-    let end = if is_single { "_f32" } else { "" };
-    symbols.prefix = own.unwrap_or_default().to_owned() + end;
-    symbols.macros = found.header.to_owned();
-    symbols
 }

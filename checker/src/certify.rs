@@ -337,8 +337,8 @@ impl<'w> Whole<'w> {
         let text = &found.text;
         let read = match self.is_c {
             true => Text::c(text).and_then(|words| {
-                let symbols = c99::symbols(found, head.is_single);
-                words.function(head, Some(&symbols), !symbols.batch.is_empty())
+                let symbols = &found.symbols;
+                words.function(head, Some(symbols), !symbols.batch.is_empty())
             }),
             false => Text::rust(text).and_then(|words| words.function(head, None, false)),
         };

@@ -6,18 +6,18 @@
 //! and module is the one that is found here.
 
 use crate::fault::Fault;
-use crate::read::{has_only, is_letter};
+use crate::read::{Symbols, has_only, is_letter};
 
 /// The longest file.
 pub const MOST_BYTES: usize = 32 << 20;
 
 /// A function of a file.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default)]
 pub struct Found<'t> {
     /// The module that it is in; empty where the file is the module.
     pub module: &'t str,
-    /// The beginnings of the macros of a header in C.
-    pub header: &'t str,
+    /// Its names in a header.
+    pub symbols: Symbols,
     /// Its name; empty of what is no function.
     pub name: &'t str,
     /// The line of its head, from one.
