@@ -239,7 +239,20 @@ impl<'w> Whole<'w> {
         let why = |why: String| Fault::Text(found.line, why);
         compare(&read.program, &emitted, head.is_single).map_err(why)?;
         self.sines(&read, head.is_single).map_err(why)?;
-        let identity = || self.identity(claimed, &function, exact, &base);
+        let identity = || -> Result<(), Fault> {
+            if function.fields.is_empty() {
+                // What it computes is shown by those that take it.
+                return Ok(());
+            }
+            let statement = Statement {
+                setting: self.setting,
+                function: &function,
+                program: exact,
+                base: &base,
+                load: self.load()?,
+            };
+            check(statement, &[&self.seed]).map_err(refused)
+        };
         let entry = seen.entry(&claimed.function);
         let (identity, times) = entry.or_insert_with(|| (identity(), 0));
         identity.clone()?;
@@ -368,29 +381,6 @@ impl<'w> Whole<'w> {
 
     fn load(&self) -> Result<Option<&Program<Exact>>, Fault> {
         self.load.as_ref().map(Option::as_ref).map_err(Fault::clone)
-    }
-
-    /// Compares a function's program with the equations of motion.
-    fn identity(
-        &self,
-        claimed: &Claimed,
-        function: &Function,
-        program: &Program<Exact>,
-        base: &Base,
-    ) -> Result<(), Fault> {
-        if function.fields.is_empty() {
-            // What it computes is shown by those that take it.
-            return Ok(());
-        }
-        let statement = Statement {
-            setting: self.setting,
-            function,
-            program,
-            base,
-            load: self.load()?,
-        };
-        let refused = |why| Fault::Claim(format!("`{}`: {why}", claimed.function));
-        check(statement, &[&self.seed]).map_err(refused)
     }
 
     /// Returns what items beside functions follow from: the values of base parameters, and the

@@ -341,23 +341,19 @@ impl<'r> Reader<'r> {
 
     /// Takes `a.mul_add(b, c)` or `fma(a, b, c)`: a product that is not rounded, and the sum.
     fn fused(&mut self, is_called: bool) -> Read<()> {
-        let (is_negative, left) = if is_called {
+        if is_called {
             self.next();
             self.expect("(")?;
-            let left = self.signed()?;
-            self.expect(",")?;
-            left
-        } else {
-            let is_negative = self.take("(");
-            self.expect_all(if is_negative { "-" } else { "" })?;
-            let left = self.operand()?;
-            self.expect_all(if is_negative {
-                ").mul_add("
-            } else {
-                ".mul_add("
-            })?;
-            (is_negative, left)
-        };
+        }
+        let has_bracket = !is_called && self.take("(");
+        self.expect_all(if has_bracket { "-" } else { "" })?;
+        let is_negative = has_bracket || is_called && self.take("-");
+        let left = self.operand()?;
+        self.expect_all(match (is_called, has_bracket) {
+            (true, _) => ",",
+            (false, true) => ").mul_add(",
+            (false, false) => ".mul_add(",
+        })?;
         if matches!(left, Operand::Constant(_)) {
             return self.refuse("a value expected before the factor");
         }
