@@ -91,7 +91,11 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
             (module, lines) = (head, &lines[1..]);
             continue;
         }
-        let mut found = item(&mut lines, |_| true).ok_or_else(|| fault(first))?;
+        let is_item = ["pub ", "impl "]
+            .iter()
+            .any(|start| words.starts_with(start));
+        let found = item(&mut lines, |_| true).filter(|_| is_item);
+        let mut found = found.ok_or_else(|| fault(first))?;
         has_items |= module.is_none();
         let name = words.strip_prefix("pub fn ");
         let name = name.filter(|name| name.starts_with(|c: char| c.is_ascii_lowercase()));

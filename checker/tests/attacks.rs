@@ -42,9 +42,9 @@ pend_bad pend_bad pick it reads an angle as a number
 # A root of a joint without friction, which the identity takes to be zero.
 rubbed rubbed free another width of friction of joint 1
 # Texts that are not of the grammar.
-t1 r2l pick line 3: nothing that is generated
+t1 r2l pick line 3: not of the grammar: `libm` expected
 t5 r2l pick `libm` expected, not `0.0`
-t6 r2l pick line 6: nothing that is generated
+t6 r2l pick line 4: not of the grammar: `=` expected
 # T that nothing reaches, and limits between which nothing is.
 forged user s the largest that is reached
 ra ru s the range of `qd` is empty

@@ -134,38 +134,48 @@ impl<'r> Reader<'r> {
         Ok(())
     }
 
-    /// Goes behind the first of these heads of a function that is there, and returns its place among
-    /// them. In Rust arguments that nothing reads have an underscore.
-    ///
-    /// # Errors
-    /// None of them is there, or one twice.
-    pub(super) fn begin(&mut self, heads: &[String]) -> Read<usize> {
-        for (index, head) in heads.iter().enumerate() {
-            let words = tokens::read(head, self.symbols.is_some())?;
-            let is_word = |(own, word): (&Token, &Token)| {
-                own.text == word.text || self.is_unread(own.text, word.text)
-            };
-            let is_head = |own: &[Token]| own.iter().zip(&words).all(is_word);
-            let mut places = self.tokens.windows(words.len()).map(is_head);
-            if let Some(first) = places.position(|is_own| is_own) {
-                if places.any(|is_own| is_own) {
-                    return Err(TextError::new(1, format!("`{head}` stands there twice")));
-                }
-                self.first = first;
-                self.at = first + words.len();
-                return Ok(index);
-            }
+    /// Takes the words of a head, which have to be these.
+    pub(super) fn expect_head(&mut self, text: &str) -> Read<()> {
+        for token in tokens::read(text, self.symbols.is_some())? {
+            let (own, word) = (self.peek(0), token.text);
+            self.expect(if self.is_word(own, word) { own } else { word })?;
         }
-        let head = heads.last().map_or("", String::as_str);
-        Err(TextError::new(1, format!("`{head}` expected")))
+        Ok(())
     }
 
-    /// Returns true for the name of an argument with an underscore in Rust, where nothing reads it.
-    pub(super) fn is_unread(&self, own: &str, name: &str) -> bool {
+    /// Returns whether a word of a head is this one: in Rust an argument that nothing reads has an
+    /// underscore.
+    fn is_word(&self, own: &str, word: &str) -> bool {
         let mut arguments = self.head.arguments.iter();
-        self.symbols.is_none()
-            && own.strip_prefix('_') == Some(name)
-            && arguments.any(|argument| argument.name == name)
+        let is_unread = self.symbols.is_none() && own.strip_prefix('_') == Some(word);
+        own == word || is_unread && arguments.any(|argument| argument.name == word)
+    }
+
+    /// Goes behind the first of these heads that is there, and returns its place among them.
+    ///
+    /// # Errors
+    /// It is there twice; or what stands in place of the last one, where most of that is there.
+    pub(super) fn begin(&mut self, heads: &[String]) -> Read<usize> {
+        for (index, head) in (1..).zip(heads) {
+            let words = tokens::read(head, self.symbols.is_some())?;
+            let count = |place: usize| {
+                let both = self.tokens[place..].iter().zip(&words);
+                let same = both.take_while(|(own, word)| self.is_word(own.text, word.text));
+                same.count()
+            };
+            let places = (0..self.tokens.len()).rev();
+            let first = places.max_by_key(|place| count(*place)).unwrap_or(0);
+            let is_whole = |place: usize| count(place) == words.len();
+            if (first + 1..self.tokens.len()).any(is_whole) {
+                return Err(TextError::new(1, format!("`{head}` stands there twice")));
+            }
+            if is_whole(first) || index == heads.len() {
+                (self.at, self.first) = (first, first);
+                self.expect_head(head)?;
+                return Ok(index - 1);
+            }
+        }
+        self.refuse("a head expected")
     }
 
     /// Gives a value a name; returns whether it is new.

@@ -208,6 +208,8 @@ impl<'r> Reader<'r> {
         let (count, k) = (head.arguments.len(), taken.len());
         let entries = single.program.outputs.len();
         let kind = format!("{}Batch", camel(head.name));
+        let names: Vec<&str> = head.arguments.iter().map(|own| own.name).collect();
+        let names = names.join(", ");
         let sizes = format!("{count}, {n}, {entries}, {k}");
         let is_fused = single.program.steps.iter().any(|step| step.0 == '×') && k > 0;
         let fused = match is_fused {
@@ -220,14 +222,14 @@ impl<'r> Reader<'r> {
             type Scalar = {scalar}; {fused}
             #[inline(always)] fn angles<V: dalembert_batch::Floats<{scalar}>>(["
         ))?;
-        self.arguments()?;
+        self.expect_head(&names)?;
         let list: Vec<String> = taken.iter().map(|joint| format!("q[{joint}]")).collect();
         self.expect_all(&format!(
             "]: &[[V; {n}]; {count}]) -> [V; {k}] {{ [{}] }}
             #[inline(always)] fn vectors<V: dalembert_batch::Vector<{scalar}>>([",
             list.join(", ")
         ))?;
-        self.arguments()?;
+        self.expect_head(&names)?;
         self.forget_names(0, &[])?;
         self.expect_all(&format!("]: &[[V; {n}]; {count}], &"))?;
         let sines = self.listed()?;
@@ -253,31 +255,14 @@ impl<'r> Reader<'r> {
         if sorted(vectors) != sorted(single) {
             return self.refuse("other operations over vectors than of one state");
         }
-        let names: Vec<&str> = head.arguments.iter().map(|own| own.name).collect();
-        let columns = names
-            .iter()
-            .map(|own| format!("{own}: &[&[{scalar}]; {n}], "));
-        let (name, columns, names) = (head.name, columns.collect::<String>(), names.join(", "));
+        let columns = head.arguments.iter();
+        let columns = columns.map(|own| format!("{}: &[&[{scalar}]; {n}], ", own.name));
+        let (name, columns) = (head.name, columns.collect::<String>());
         self.expect_all(&format!(
             "}} }} pub fn {name}_columns({columns}results: &mut [&mut [{scalar}]; {entries}])
             -> Result<(), dalembert_batch::Unequal> {{
             dalembert_batch::columns::<{kind}, {sizes}>([{names}], results) }}"
         ))
-    }
-
-    /// Takes the names of all arguments.
-    fn arguments(&mut self) -> Read<()> {
-        let head = self.head;
-        for (index, argument) in head.arguments.iter().enumerate() {
-            self.expect_all(if index > 0 { "," } else { "" })?;
-            let (word, name) = (self.peek(0), argument.name);
-            self.expect(if self.is_unread(word, name) {
-                word
-            } else {
-                name
-            })?;
-        }
-        Ok(())
     }
 }
 
