@@ -36,6 +36,8 @@ pub(super) struct Reader<'r> {
     /// A joint, and the operations of the polynomials of its angle so far: of another angle's,
     /// nothing is known.
     polynomial: (usize, Vec<Step<f64>>),
+    /// `true` inside of these polynomials.
+    is_angle: bool,
 }
 
 impl<'r> Reader<'r> {
@@ -57,6 +59,7 @@ impl<'r> Reader<'r> {
             order: Vec::new(),
             function: Function::default(),
             polynomial: (0, Vec::new()),
+            is_angle: false,
         }
     }
 
@@ -275,11 +278,17 @@ impl<'r> Reader<'r> {
         if self.peek(0) == "["
             && let Some(argument) = arguments.find(|own| own.name == word)
         {
-            let index = self.index(argument.length)?;
-            return Ok(Operand::Entry(argument.place, index));
+            let entry = Operand::Entry(argument.place, self.index(argument.length)?);
+            return match self.is_angle {
+                false => Ok(entry),
+                true if entry == Operand::Entry(0, self.polynomial.0) => Ok(Operand::Entry(0, 0)),
+                true => self.refuse("another angle"),
+            };
         }
-        match self.names.get(word) {
+        let value = self.names.get(word);
+        match value.filter(|_| word.starts_with('x') == self.is_angle) {
             Some(operand) => Ok(operand.clone()),
+            None if self.is_angle => self.refuse("neither the angle, a value nor a literal"),
             None => self.refuse("neither a value nor a literal"),
         }
     }
@@ -290,8 +299,8 @@ impl<'r> Reader<'r> {
         Ok((is_negative, self.operand()?))
     }
 
-    /// Takes one operation on operands that a reader takes.
-    fn binary(&mut self, operand: &dyn Fn(&mut Self) -> Read<Operand<f64>>) -> Read<Step<f64>> {
+    /// Takes one operation.
+    fn binary(&mut self) -> Read<Step<f64>> {
         // Products are a macro's in CUDA.
         let is_cuda = self.symbols.is_some_and(|symbols| symbols.is_cuda);
         let product = match self.head.is_single {
@@ -299,13 +308,13 @@ impl<'r> Reader<'r> {
             false => "DALEMBERT_MUL(",
         };
         if is_cuda && self.take_all(product)? {
-            let left = operand(self)?;
+            let left = self.operand()?;
             self.expect(",")?;
-            let right = operand(self)?;
+            let right = self.operand()?;
             self.expect(")")?;
             return Ok(('*', [left, right]));
         }
-        let left = operand(self)?;
+        let left = self.operand()?;
         let operation = match self.next() {
             "+" => '+',
             "-" => '-',
@@ -313,7 +322,7 @@ impl<'r> Reader<'r> {
             "*" if !is_cuda => '*',
             _ => return self.refuse("no operation"),
         };
-        Ok((operation, [left, operand(self)?]))
+        Ok((operation, [left, self.operand()?]))
     }
 
     /// Takes an operation, fused or not, for a name that has been read: `t3`, and new.
@@ -326,7 +335,7 @@ impl<'r> Reader<'r> {
         if is_fused {
             self.fused(is_c)?;
         } else {
-            let step = self.binary(&Self::operand)?;
+            let step = self.binary()?;
             self.function.program.steps.push(step);
         }
         let count = self.function.program.steps.len();
@@ -400,7 +409,7 @@ impl<'r> Reader<'r> {
             self.expect("::")?;
         }
         self.expect_all(&format!("sqrt{} (", self.suffix()))?;
-        let square = self.binary(&Self::operand)?;
+        let square = self.binary()?;
         self.expect("+")?;
         let width = self.literal()?;
         self.expect(")")?;
@@ -477,11 +486,13 @@ impl<'r> Reader<'r> {
     }
 
     /// Takes an operation of the polynomials of a joint's angle, for a name that has been read.
-    pub(super) fn polynomial_step(&mut self, name: &str, joint: usize) -> Read<()> {
+    pub(super) fn polynomial_step(&mut self, name: &'r str, joint: usize) -> Read<()> {
         if name == self.polynomial_name(joint, 1) {
             self.begin_polynomial(joint);
         }
-        let step = self.binary(&|own| own.polynomial_operand(joint))?;
+        self.is_angle = true;
+        let step = self.binary()?;
+        self.is_angle = false;
         if step.0 == '/' {
             return self.refuse("no operation of a polynomial");
         }
@@ -491,6 +502,7 @@ impl<'r> Reader<'r> {
         if count > MOST_OF_ANGLE {
             return self.refuse("more than 256 operations of a polynomial");
         }
+        self.names.insert(name, Operand::Step(count - 1));
         match is_known && name == self.polynomial_name(joint, count) {
             true => Ok(()),
             false => self.refuse(&format!("`{name}` is not the next name")),
@@ -499,42 +511,23 @@ impl<'r> Reader<'r> {
 
     /// Begins with the polynomials of a joint's angle.
     pub(super) fn begin_polynomial(&mut self, joint: usize) {
-        self.polynomial = (joint, Vec::new());
-    }
-
-    /// Takes an operand of polynomials: the angle, an operation before, or a literal.
-    fn polynomial_operand(&mut self, joint: usize) -> Read<Operand<f64>> {
-        if self.is_literal() {
-            return self.literal().map(Operand::Constant);
-        }
-        if self.peek(0) == "q" {
-            return match self.angle()? == joint {
-                true => Ok(Operand::Entry(0, 0)),
-                false => self.refuse("another angle"),
-            };
-        }
-        let word = self.next();
-        let number = word.rsplit(['x', '_']).next();
-        let number = number.and_then(|own| own.parse::<usize>().ok());
-        let (known, steps) = &self.polynomial;
-        let is_known = |n: &usize| *known == joint && (1..=steps.len()).contains(n);
-        match number.filter(|n| is_known(n) && word == self.polynomial_name(joint, *n)) {
-            Some(number) => Ok(Operand::Step(number - 1)),
-            None => self.refuse("neither the angle, a value nor a literal"),
+        let (known, steps) = std::mem::replace(&mut self.polynomial, (joint, Vec::new()));
+        for number in 1..=steps.len() {
+            let name = self.polynomial_name(known, number);
+            self.names.remove(name.as_str());
         }
     }
 
     /// Takes a result of the polynomials, which may be negated.
     pub(super) fn polynomial_result(&mut self, joint: usize) -> Read<Source> {
-        let is_negative = !self.is_literal() && self.take("-");
         if self.polynomial.0 != joint {
             self.begin_polynomial(joint);
         }
-        let value = self.polynomial_operand(joint)?;
-        Ok(Source::Polynomial(Program {
-            steps: self.polynomial.1.clone(),
-            outputs: vec![(is_negative, value)],
-        }))
+        self.is_angle = true;
+        let outputs = vec![self.signed()?];
+        self.is_angle = false;
+        let steps = self.polynomial.1.clone();
+        Ok(Source::Polynomial(Program { steps, outputs }))
     }
 }
 
