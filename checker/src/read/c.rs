@@ -12,7 +12,7 @@
 //! ```
 
 use super::Source;
-use super::reader::{Read, Reader, joint_of};
+use super::reader::{Read, Reader, commas, joint_of};
 
 /// The names of a function in a header.
 #[derive(Clone, Debug, Default)]
@@ -33,6 +33,9 @@ pub struct Symbols {
     pub is_cuda: bool,
 }
 
+/// A parameter: its kind, its name and its length.
+type Parameter = (String, String, usize);
+
 impl<'r> Reader<'r> {
     /// Reads the function: its struct, itself, and those that call it.
     pub(super) fn c(&mut self, symbols: &Symbols, has_batch: bool) -> Read<()> {
@@ -44,8 +47,12 @@ impl<'r> Reader<'r> {
             true => (self.head.float(), "return "),
             false => ("void", ""),
         };
-        let (parameters, passed) = self.parameters(symbols);
-        let (list, macros) = (parameters.join(", "), &symbols.macros);
+        let (parameters, macros) = (self.parameters(symbols), &symbols.macros);
+        let list = commas(
+            parameters
+                .iter()
+                .map(|(kind, name, length)| format!("{kind} {name}[{macros}_RESTRICT {length}]")),
+        );
         let structure = self.structure(symbols);
         let head = |name: &str, far: &str| {
             format!("{structure} {inline} {returned} {name}({far}{list}) {{ {macros}_UNFUSED")
@@ -60,13 +67,14 @@ impl<'r> Reader<'r> {
         let results = self.c_results(symbols);
         self.results(&format!("{results} }}"))?;
         if is_told {
-            let (single, passed) = (&symbols.single, passed.join(", "));
+            let passed = commas(parameters.iter().map(|own| own.1.clone()));
+            let single = &symbols.single;
             self.expect_all(&format!(
                 "{inline} {returned} {single}({list}) {{ {back}{own}(1, {passed}); }}"
             ))?;
         }
         if has_batch {
-            let text = self.batch(symbols, is_told, &passed);
+            let text = self.batch(symbols, is_told, &parameters);
             self.expect_all(&text)?;
         }
         Ok(())
@@ -80,10 +88,8 @@ impl<'r> Reader<'r> {
         let float = self.head.float();
         let fields = self.head.lengths();
         let fields = fields.map(|(field, length)| format!("{float} {field}[{length}]; "));
-        format!(
-            "typedef struct {{ {} }} {name};",
-            fields.collect::<String>()
-        )
+        let fields = fields.collect::<String>();
+        format!("typedef struct {{ {fields} }} {name};")
     }
 
     /// Returns whether the function returns its only number.
@@ -92,24 +98,19 @@ impl<'r> Reader<'r> {
         !is_struct && self.head.fields.iter().all(|(_, shape)| shape.is_empty())
     }
 
-    /// Returns the parameters of the function of one state, and what they are called.
-    fn parameters(&self, symbols: &Symbols) -> (Vec<String>, Vec<String>) {
-        let (float, restrict) = (self.head.float(), format!("{}_RESTRICT", symbols.macros));
-        let array = |kind: &str, name: &str, length: usize| {
-            let parameter = format!("{kind} {name}[{restrict} {length}]");
-            (parameter, name.to_owned())
-        };
-        let constant = format!("const {float}");
+    /// Returns the parameters of the function of one state: their kinds, names and lengths.
+    fn parameters(&self, symbols: &Symbols) -> Vec<Parameter> {
+        let float = self.head.float();
         let given = self.head.arguments.iter();
-        let given = given.map(|own| array(&constant, own.name, own.length));
+        let given = given.map(|own| (format!("const {float}"), own.name.to_owned(), own.length));
         let results = self.head.lengths();
-        let results = results.map(|(name, length)| array(float, name, length));
-        let written: Vec<(String, String)> = match &symbols.structure {
-            Some(kind) => vec![array(kind, "result", 1)],
+        let results = results.map(|(name, length)| (float.to_owned(), name.to_owned(), length));
+        let written = match &symbols.structure {
+            Some(kind) => vec![(kind.clone(), "result".to_owned(), 1)],
             None if self.is_number() => Vec::new(),
             None => results.collect(),
         };
-        given.chain(written).unzip()
+        given.chain(written).collect()
     }
 
     /// Reads all statements up to the results.
@@ -223,7 +224,7 @@ impl<'r> Reader<'r> {
 
     /// Returns the function of any number of states: entry i of state s is at `i * n + s`. What is
     /// told that no angle is far is called once more where one may be.
-    fn batch(&self, symbols: &Symbols, is_told: bool, passed: &[String]) -> String {
+    fn batch(&self, symbols: &Symbols, is_told: bool, parameters: &[Parameter]) -> String {
         let (float, macros) = (self.head.float(), &symbols.macros);
         let place = |index: usize| match index {
             0 => "s".to_owned(),
@@ -237,34 +238,31 @@ impl<'r> Reader<'r> {
         let mut columns = "const size_t n".to_owned();
         let (mut state, mut stored, mut to) = (String::new(), String::new(), String::new());
         for own in &self.head.arguments {
-            let (name, length) = (own.name, own.length);
-            let each = (0..length).map(|index| format!("{name}[{}]", place(index)));
-            let each = each.collect::<Vec<String>>().join(", ");
-            state += &format!("const {float} {name}_s[{length}] = {{{each}}}; ");
-            columns += &format!(", const {float} *{restrict} {name}");
+            columns += &format!(", const {float} *{restrict} {}", own.name);
         }
-        if let Some(kind) = &symbols.structure {
-            state += &format!("{kind} result_s[1]; ");
+        for (kind, name, length) in parameters {
+            let entries = commas((0..*length).map(|index| format!("{name}[{}]", place(index))));
+            let given = match kind.starts_with("const ") {
+                true => format!(" = {{{entries}}}"),
+                false => String::new(),
+            };
+            state += &format!("{kind} {name}_s[{length}]{given}; ");
         }
         for (field, length) in self.head.lengths() {
             columns += &format!(", {float} *{restrict} {field}");
-            let from = match symbols.structure {
-                Some(_) => format!("result_s->{field}"),
-                None => format!("{field}_s"),
-            };
             if self.is_number() {
                 to = format!("{field}[s] = ");
                 continue;
             }
-            if symbols.structure.is_none() {
-                state += &format!("{float} {field}_s[{length}]; ");
-            }
+            let from = match symbols.structure {
+                Some(_) => format!("result_s->{field}"),
+                None => format!("{field}_s"),
+            };
             for index in 0..length {
                 stored += &format!("{field}[{}] = {from}[{index}]; ", place(index));
             }
         }
-        let passed: Vec<String> = passed.iter().map(|name| format!("{name}_s")).collect();
-        let passed = passed.join(", ");
+        let passed = commas(parameters.iter().map(|own| format!("{}_s", own.1)));
         let each = |when: &str, call: &str| format!("{state}{when}{to}{call}{passed}); {stored}");
         let (single, batch) = (format!("{}(", symbols.single), &symbols.batch);
         if symbols.is_cuda {

@@ -531,6 +531,11 @@ impl<'r> Reader<'r> {
     }
 }
 
+/// Returns items with commas between them.
+pub(super) fn commas(items: impl Iterator<Item = String>) -> String {
+    items.collect::<Vec<String>>().join(", ")
+}
+
 /// Returns the joint whose number stands behind a name's first letter: 0 for `s1` and for `x1_3`.
 pub(super) fn joint_of(name: &str) -> Option<usize> {
     let number = name.get(1..)?.split('_').next()?;

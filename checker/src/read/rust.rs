@@ -9,7 +9,7 @@
 //! }
 //! ```
 
-use super::reader::{Read, Reader, joint_of};
+use super::reader::{Read, Reader, commas, joint_of};
 use super::{Function, Source};
 
 /// Arguments that have a type of their own.
@@ -37,7 +37,7 @@ impl<'r> Reader<'r> {
             let kind = own.map_or_else(array, |(_, kind)| (*kind).to_owned());
             format!("{}: &{kind}", argument.name)
         });
-        let (name, arguments) = (head.name, arguments.collect::<Vec<String>>().join(", "));
+        let (name, arguments) = (head.name, commas(arguments));
         let [returned, _] = self.returned();
         format!("pub fn {name}({arguments}) -> {returned} {{")
     }
@@ -91,32 +91,28 @@ impl<'r> Reader<'r> {
 
     /// Reads sines and cosines of one angle: by a call, or by polynomials.
     fn sines(&mut self, names: &[(&'r str, bool)]) -> Read<()> {
+        // What has no number is of no joint.
+        let joint = joint_of(names[0].0).unwrap_or(self.head.joints);
         if self.take("{") {
-            return self.polynomials(names);
+            return self.polynomials(joint, names);
         }
-        let end = self.suffix();
-        let (called, method) = match names {
-            [(_, true)] => ("sin", "each"),
-            [(_, false)] => ("cos", "each"),
-            _ => ("sincos", "both"),
+        let called = match names {
+            [(_, true)] => "sin",
+            [(_, false)] => "cos",
+            _ => "sincos",
         };
-        let library = format!("libm::{called}{end}");
-        let (before, behind) = match self.is_vectors {
-            true => (String::new(), format!(".{method}({library})")),
-            false => (format!("{library}("), ")".to_owned()),
-        };
-        self.expect_all(&before)?;
-        let joint = self.angle()?;
-        self.expect_all(&behind)?;
+        let library = format!("libm::{called}{}", self.suffix());
+        self.expect_all(&match (self.is_vectors, names.len()) {
+            (false, _) => format!("{library}(q[{joint}])"),
+            (true, 1) => format!("q[{joint}].each({library})"),
+            (true, _) => format!("q[{joint}].both({library})"),
+        })?;
         let mut names = names.iter();
         names.try_for_each(|(name, is_sine)| self.name_sine(name, joint, *is_sine, Source::Libm))
     }
 
     /// Reads the block of an angle's polynomials.
-    fn polynomials(&mut self, names: &[(&'r str, bool)]) -> Read<()> {
-        let Some(joint) = joint_of(names[0].0) else {
-            return self.refuse("the name of a sine expected");
-        };
+    fn polynomials(&mut self, joint: usize, names: &[(&'r str, bool)]) -> Read<()> {
         self.begin_polynomial(joint);
         while self.take("let") {
             let name = self.next();
@@ -208,8 +204,7 @@ impl<'r> Reader<'r> {
         let (count, k) = (head.arguments.len(), taken.len());
         let entries = single.program.outputs.len();
         let kind = format!("{}Batch", camel(head.name));
-        let names: Vec<&str> = head.arguments.iter().map(|own| own.name).collect();
-        let names = names.join(", ");
+        let names = commas(head.arguments.iter().map(|own| own.name.to_owned()));
         let sizes = format!("{count}, {n}, {entries}, {k}");
         let is_fused = single.program.steps.iter().any(|step| step.0 == '×') && k > 0;
         let fused = match is_fused {
@@ -223,11 +218,10 @@ impl<'r> Reader<'r> {
             #[inline(always)] fn angles<V: dalembert_batch::Floats<{scalar}>>(["
         ))?;
         self.expect_head(&names)?;
-        let list: Vec<String> = taken.iter().map(|joint| format!("q[{joint}]")).collect();
+        let list = commas(taken.iter().map(|joint| format!("q[{joint}]")));
         self.expect_all(&format!(
-            "]: &[[V; {n}]; {count}]) -> [V; {k}] {{ [{}] }}
-            #[inline(always)] fn vectors<V: dalembert_batch::Vector<{scalar}>>([",
-            list.join(", ")
+            "]: &[[V; {n}]; {count}]) -> [V; {k}] {{ [{list}] }}
+            #[inline(always)] fn vectors<V: dalembert_batch::Vector<{scalar}>>(["
         ))?;
         self.expect_head(&names)?;
         self.forget_names(0, &[])?;
