@@ -219,10 +219,6 @@ impl<'w> Whole<'w> {
             return Err(Fault::Claim(why));
         };
         let refused = |why: String| Fault::Claim(format!("`{}`: {why}", claimed.function));
-        let in_file = |own: Fault| match own {
-            Fault::Text(line, why) => Fault::Text(found.line + line - 1, why),
-            other => other,
-        };
         let emitted = claimed.program(&self.constants)?;
         let other = claimed.exact(&self.constants)?;
         let exact = other.as_ref().unwrap_or(&emitted);
@@ -235,7 +231,7 @@ impl<'w> Whole<'w> {
         }
         let base = claimed.base(&self.constants, self.setting.links())?;
         let head = self.head(claimed, &function, &base, self.is_single(found))?;
-        let read = self.read(&head, found).map_err(in_file)?;
+        let read = self.read(&head, found)?;
         let why = |why: String| Fault::Text(found.line, why);
         compare(&read.program, &emitted, head.is_single).map_err(why)?;
         self.sines(&read, head.is_single).map_err(why)?;
@@ -315,10 +311,7 @@ impl<'w> Whole<'w> {
         is_single: bool,
     ) -> Result<Head<'h>, Fault> {
         let sizes = [self.setting.joints(), self.setting.links()];
-        let load = match function.fields.is_empty() {
-            true => claimed.returns.split_ascii_whitespace().count(),
-            false => self.load()?.map_or(0, |own| own.outputs.len()),
-        };
+        let load = self.load()?.map_or(0, |own| own.outputs.len());
         let arguments = function.arguments.iter().map(|&place| {
             let (name, axis) = ARGUMENTS[place];
             Argument {
@@ -355,13 +348,12 @@ impl<'w> Whole<'w> {
             }),
             false => Text::rust(text).and_then(|words| words.function(head, None, false)),
         };
-        match read {
-            Ok((read, true)) => Ok(read),
-            Ok(_) => Err(Fault::Text(1, "more than the function stands there".into())),
-            Err(TextError { line, reason }) => {
-                Err(Fault::Text(line, format!("not of the grammar: {reason}")))
-            }
-        }
+        let (line, why) = match read {
+            Ok((read, true)) => return Ok(read),
+            Ok(_) => (1, "more than the function stands there".into()),
+            Err(TextError { line, reason }) => (line, format!("not of the grammar: {reason}")),
+        };
+        Err(Fault::Text(found.line + line - 1, why))
     }
 
     /// Checks that sines are of joints that turn, and roots of the widths of friction.

@@ -11,10 +11,9 @@ use crate::read::number;
 /// The first operation or result that differs.
 pub fn compare(text: &Program<f64>, exact: &Program<Exact>, is_single: bool) -> Result<(), String> {
     let counts = |steps: usize, results: usize| format!("{steps} operations and {results} results");
-    let own = [text.steps.len(), text.outputs.len()];
-    let other = [exact.steps.len(), exact.outputs.len()];
+    let own = counts(text.steps.len(), text.outputs.len());
+    let other = counts(exact.steps.len(), exact.outputs.len());
     if own != other {
-        let (own, other) = (counts(own[0], own[1]), counts(other[0], other[1]));
         return Err(format!("{own}, not {other} as claimed"));
     }
     let same = |(own, other): (&Operand<f64>, &Operand<Exact>)| is_same(own, other, is_single);
