@@ -145,14 +145,12 @@ impl<'r> Reader<'r> {
                 }
                 self.expect(";")?;
             } else if self.peek(0) == "const" && self.peek(1) == kind {
-                self.at += 2;
-                let name = self.next();
-                self.expect_all(&format!("= {}_sincos({far},", symbols.prefix))?;
-                let joint = self.angle()?;
-                self.expect_all(") ;")?;
-                if name != format!("p{}", joint + 1) {
-                    return self.refuse("the name of an angle's pair expected");
-                }
+                let joint = joint_of(self.peek(2)).filter(|own| *own < self.head.joints);
+                let (joint, prefix) = (joint.unwrap_or(0), &symbols.prefix);
+                let number = joint + 1;
+                self.expect_all(&format!(
+                    "const {kind} p{number} = {prefix}_sincos({far}, q[{joint}]);"
+                ))?;
                 pair = Some(joint);
             } else if self.take("const") {
                 self.expect(float)?;
