@@ -113,7 +113,7 @@ pub fn certify(
         singles: singles.map(|item| item.module).collect(),
     };
     // In C it is not looked at what is said of a box.
-    let is_other = |found: &&Found| !is_beside(found) && !(is_c && c99::is_box(found));
+    let is_other = |found: &&Found| !(is_beside(found) || is_c && c99::is_box(found));
     let line = |found: &Found, name: String, result| Line {
         module: found.module.to_owned(),
         name,

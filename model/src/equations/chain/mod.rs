@@ -156,7 +156,7 @@ impl<S: Scalar> Chain<S> {
 
     /// Returns rates in the chain's unit.
     fn rates(&self, rates: &[S]) -> Vec<S> {
-        let rates = rates.iter().cloned().take(self.links.len()).enumerate();
+        let rates = rates.iter().take(self.links.len()).cloned().enumerate();
         rates.map(|(i, rate)| self.rescaled(i, rate)).collect()
     }
 }
