@@ -1,7 +1,10 @@
-//! Items beside the functions of a file in Rust. Each is compared with the one that follows from
-//! the functions and from the robot, so that whoever asks for the number of joints gets what was
-//! checked, and that nothing hides.
+//! Items beside the functions of a file. Each is compared with the one that follows from the
+//! functions and from the robot, so that whoever asks for the number of joints, or whether a state
+//! is inside the box, gets what was checked, and that nothing hides.
 
+use std::collections::{HashMap, HashSet};
+
+use crate::claim::whole;
 use crate::compare::is_literal;
 use crate::fault::Fault;
 use crate::file::{Found, between};
@@ -30,6 +33,21 @@ Payload([mass, x, y, z, xx, yy, zz, xy, yz, xz])
 const SCALARS: [&str; 2] = ["f64", "f32"];
 /// The arguments that a box is of.
 const STATE: [&str; 3] = ["q", "qd", "qdd"];
+/// How the constant begins that says where they hold.
+const BOX: &str = "pub const BOX: StateBox = StateBox {";
+
+/// The ends of the ranges of q, q̇ and q̈ that a box has, joint by joint; none where one is open, and
+/// none of an argument that it is not of.
+type Ends = [Option<Vec<Option<[f64; 2]>>>; 3];
+
+/// The states that the functions of a module hold for.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Held {
+    /// The joints whose sines are polynomials.
+    pub polynomials: HashSet<usize>,
+    /// Which of q, q̇ and q̈ are bounded, by the functions under a tolerance.
+    pub bounded: [bool; 3],
+}
 
 /// The facts that items beside functions follow from.
 pub(crate) struct Known<'k> {
@@ -37,10 +55,12 @@ pub(crate) struct Known<'k> {
     setting: &'k Setting<'k>,
     /// The box of states.
     ranges: &'k Ranges,
-    /// The values of base parameters, each with the name of its constant.
+    /// The values of base parameters of functions that are shown, each with the name of its constant.
     pub values: Vec<(&'static str, Vec<Exact>)>,
     /// The items whose text is known.
-    pub items: Vec<String>,
+    pub items: HashSet<String>,
+    /// The states that functions hold for, module by module.
+    pub held: HashMap<&'k str, Held>,
 }
 
 impl<'k> Known<'k> {
@@ -48,10 +68,10 @@ impl<'k> Known<'k> {
     pub(crate) fn new(setting: &'k Setting<'k>, ranges: &'k Ranges, load: usize) -> Known<'k> {
         let (joints, rows) = (setting.joints(), &setting.rows);
         let count = rows.len();
-        let mut items = vec![
+        let mut items = HashSet::from([
             format!("pub const N: usize = {joints};"),
             format!("pub const JOINTS: [usize; {count}] = {rows:?};"),
-        ];
+        ]);
         for (name, count) in [("Gravity", 3), ("Payload", 10), ("Load", load)] {
             for own in SCALARS {
                 items.extend(TYPES.map(|text| {
@@ -65,84 +85,163 @@ impl<'k> Known<'k> {
             ranges,
             values: Vec::new(),
             items,
+            held: HashMap::new(),
         }
     }
 
-    /// Checks an item of a module that has these functions.
+    /// Adds what follows from the box of a module in Rust, if this is one: its type, and the function
+    /// that asks whether a state is inside.
+    pub(crate) fn add_box(&mut self, item: &'k Found) {
+        let lines = trimmed(item);
+        let Some((&BOX, behind)) = lines.split_first() else {
+            return;
+        };
+        let Some(ends) = ends(behind).filter(|ends| self.has(item.module, ends)) else {
+            return;
+        };
+        self.items.insert(lines.join("\n"));
+        for scalar in SCALARS {
+            let (mut kind, mut asks) = ("pub struct StateBox {".to_owned(), String::new());
+            let mut arguments = Vec::new();
+            for (name, ends) in STATE.iter().zip(&ends) {
+                let Some(ends) = ends else { continue };
+                let count = ends.len();
+                kind += &format!("\npub {name}: [[{scalar}; 2]; {count}],");
+                arguments.push(format!("{name}: &[{scalar}; {count}]"));
+                for joint in (0..count).filter(|joint| ends[*joint].is_some()) {
+                    let (own, ends) = (format!("{name}[{joint}]"), format!("BOX.{name}[{joint}]"));
+                    asks += "\nlet inside = inside & ";
+                    asks += &format!("({ends}[0] <= {own}) & ({own} <= {ends}[1]);");
+                }
+            }
+            let arguments = arguments.join(", ");
+            self.items.insert(kind + "\n}");
+            self.items.insert(format!(
+                "pub fn in_box({arguments}) -> bool {{\nlet inside = true;{asks}\ninside\n}}"
+            ));
+        }
+    }
+
+    /// Checks an item in Rust.
     ///
     /// # Errors
     /// It does not follow.
-    pub(crate) fn follows(&self, item: &Found, functions: &[&Found]) -> Result<(), Fault> {
-        let lines = item.text.lines().map(str::trim);
-        let lines: Vec<&str> = lines.filter(|line| !line.is_empty()).collect();
-        let (head, behind) = lines.split_first().unwrap_or((&"", &[]));
+    pub(crate) fn follows(&self, item: &Found) -> Result<(), Fault> {
+        let lines = trimmed(item);
         let mut values = self.values.iter();
         let is_known = self.items.contains(&lines.join("\n"))
-            || values.any(|(name, own)| are(&lines, name, own))
-            || match *head {
-                "pub const BOX: StateBox = StateBox {" => self.within(behind, functions).is_some(),
-                _ => self.is_of_box(head, behind),
-            };
+            || values.any(|(name, own)| are(&lines, name, own));
+        let head = lines.first().unwrap_or(&"");
         let why = || format!("it does not follow from the functions and the robot: `{head}`");
         is_known
             .then_some(())
             .ok_or_else(|| Fault::Text(item.line, why()))
     }
 
-    /// Returns true for the type of a box of states, and for the function that asks whether one is
-    /// inside. A compiler compares their lines with the box, and sees where they are mixed up.
-    fn is_of_box(&self, head: &str, lines: &[&str]) -> bool {
-        let joints = self.setting.joints();
-        let mut known = Vec::from(["let inside = true;", "inside", "}"].map(str::to_owned));
-        for name in STATE {
-            for own in SCALARS {
-                known.push(format!("{name}: &[{own}; {joints}]"));
-                known.push(format!("pub {name}: [[{own}; 2]; {joints}],"));
-            }
-            known.extend((0..joints).map(|joint| {
-                let (own, ends) = (format!("{name}[{joint}]"), format!("BOX.{name}[{joint}]"));
-                format!("let inside = inside & ({ends}[0] <= {own}) & ({own} <= {ends}[1]);")
-            }));
-        }
-        let is_known = |line: &str| known.iter().any(|own| own == line);
-        let list = between(head, "pub fn in_box(", ") -> bool {");
-        let is_head = match list {
-            Some(list) => list.split(", ").all(is_known),
-            None => head == "pub struct StateBox {",
+    /// Returns true if a text in C is the function that says whether a state is inside of a box in
+    /// which the functions of its module hold.
+    pub(crate) fn is_box(&self, item: &Found) -> bool {
+        let (lines, macros) = (trimmed(item), &item.symbols.macros);
+        let head = lines.first().unwrap_or(&"");
+        let float = match head.contains("const float ") {
+            true => "float",
+            false => "double",
         };
-        is_head && lines.iter().all(|line| is_known(line))
+        let count = self.setting.joints();
+        let (mut ends, mut arguments) = (Ends::default(), Vec::new());
+        for (name, ends) in STATE.iter().zip(&mut ends) {
+            let own = format!("const {float} {name}[{macros}_RESTRICT {count}]");
+            if head.contains(&own) {
+                *ends = Some(vec![None; count]);
+                arguments.push(own);
+            }
+        }
+        let (module, arguments) = (item.module, arguments.join(", "));
+        let mut text =
+            format!("static inline int {module}_in_box({arguments})\n{{\nint inside = 1;");
+        for line in &lines {
+            let Some(range) = between(line, "if (!((", "))) {") else {
+                continue;
+            };
+            let mut read = || {
+                let (low, rest) = range.split_once(" <= ")?;
+                let (entry, high) = rest.split_once(") && (")?;
+                let high = high.strip_prefix(entry)?.strip_prefix(" <= ")?;
+                let (name, joint) = entry.strip_suffix(']')?.split_once('[')?;
+                let place = STATE.iter().position(|own| *own == name)?;
+                let end = |text: &str| number(text.strip_suffix('F').unwrap_or(text));
+                let ends = ends[place].as_mut()?.get_mut(whole(joint)?)?;
+                *ends = Some([end(low)?, end(high)?]);
+                Some(())
+            };
+            if read().is_none() {
+                return false;
+            }
+            text += &format!("\n{line}\ninside = 0;\n}}");
+        }
+        text += "\nreturn inside;\n}";
+        text == lines.join("\n") && self.has(module, &ends)
     }
 
-    /// Compares the box of states that these lines are behind their head: none unless it is within
-    /// the robot file's, and open only where sines are no polynomials, or none of the joint's is
-    /// read.
-    fn within(&self, lines: &[&str], functions: &[&Found]) -> Option<()> {
-        let is_open = !functions.iter().any(|own| own.text.contains("let x1 = "));
-        let (mut ranges, mut is_position) = (None, false);
-        for line in lines {
-            if let Some(name) = line.strip_suffix(": [") {
-                let place = STATE.iter().position(|own| *own == name)?;
-                (ranges, is_position) = (Some(self.ranges[place].iter().enumerate()), place == 0);
-            } else if let Some(pair) = between(line, "[", "],") {
-                let (joint, [own_low, own_high]) = ranges.as_mut()?.next()?;
-                let (low, high) = pair.split_once(", ")?;
-                let ends = |own: &&str| {
-                    [low, high] == [format!("{own}::NEG_INFINITY"), format!("{own}::INFINITY")]
-                };
-                let is_good = if SCALARS.iter().any(ends) {
-                    is_open || !is_position || self.setting.is_locked(joint)
-                } else {
-                    let (low, high): (f64, f64) = (low.parse().ok()?, high.parse().ok()?);
+    /// Returns true if a box is within the robot file's, and open only where the functions of its
+    /// module hold everywhere.
+    fn has(&self, module: &str, ends: &Ends) -> bool {
+        let count = self.setting.joints();
+        let none = Held::default();
+        let held = self.held.get(module).unwrap_or(&none);
+        (0..3).all(|place| {
+            let given = ends[place].as_deref();
+            let is_known = |joint: usize| match given.and_then(|own| own[joint]) {
+                None if self.setting.is_locked(joint) => true,
+                None if place == 0 => {
+                    let is_bounded = held.bounded[0] && self.setting.is_limited(joint);
+                    !is_bounded && !held.polynomials.contains(&joint)
+                }
+                None => !held.bounded[place],
+                Some([low, high]) => {
+                    let [own_low, own_high] = self.ranges[place][joint];
                     let slack = BOX_SLACK * (own_low.abs() + own_high.abs());
                     own_low - slack <= low && high <= own_high + slack
-                };
-                is_good.then_some(())?;
-            } else {
-                ["],", "};"].contains(line).then_some(())?;
-            }
-        }
-        Some(())
+                }
+            };
+            given.is_none_or(|own| own.len() == count) && (0..count).all(is_known)
+        })
     }
+}
+
+/// Returns the lines of an item without indentation.
+fn trimmed<'t>(item: &'t Found) -> Vec<&'t str> {
+    let lines = item.text.lines().map(str::trim);
+    lines.filter(|line| !line.is_empty()).collect()
+}
+
+/// Returns the ends of a box in Rust, given by these lines behind its head.
+fn ends(lines: &[&str]) -> Option<Ends> {
+    let (mut ends, mut place) = (Ends::default(), None);
+    for line in lines {
+        if let Some(name) = line.strip_suffix(": [") {
+            place = STATE.iter().position(|own| *own == name);
+            ends[place?] = Some(Vec::new());
+        } else if let Some(pair) = between(line, "[", "],") {
+            let (low, high) = pair.split_once(", ")?;
+            let is_open = SCALARS.iter().any(|own| {
+                [low, high] == [format!("{own}::NEG_INFINITY"), format!("{own}::INFINITY")]
+            });
+            let range = match is_open {
+                true => None,
+                false => Some([number(low)?, number(high)?]),
+            };
+            ends[place?].as_mut()?.push(range);
+        } else {
+            ["],", "};"].contains(line).then_some(())?;
+        }
+    }
+    Some(ends)
+}
+
+/// Reads the end of a range.
+fn number(text: &str) -> Option<f64> {
+    text.parse().ok().filter(|end: &f64| end.is_finite())
 }
 
 /// Returns whether lines are a constant of a name with these values, each the nearest float.

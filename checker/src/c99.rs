@@ -9,6 +9,7 @@ use crate::compare::is_literal;
 use crate::fault::Fault;
 use crate::file::{Found, Lines, between, fault, item};
 use crate::identity::exact::Exact;
+use crate::identity::table::functions as functions_of_table;
 use crate::read::{self, has_only};
 use crate::together;
 
@@ -123,6 +124,11 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
             found.text.ends_with("\n}\n") && !found.text.replacen(LOOP, "", 1).contains('#')
         };
         let mut found = found.filter(is_plain).ok_or_else(|| fault(first))?;
+        // What functions call by these names is what `together` knows.
+        let mut names = heads.iter().copied().filter_map(symbol);
+        if names.any(|(own, _)| own.ends_with("_sincos") || own.contains("_sines_")) {
+            return Err(fault(first));
+        }
         // Behind the one that is told whether angles are far, and before that of many states.
         for (full, end) in heads.into_iter().filter_map(symbol) {
             match end {
@@ -148,23 +154,16 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
     Err(Fault::Text(end, "the header does not end".into()))
 }
 
-/// Returns whether all functions of a text are named after this one, in full or shortened.
+/// Returns whether all functions of a text are named after this one, in full or shortened; never by
+/// the name of another one of the table.
 pub(crate) fn are_of(found: &Found, function: &str) -> bool {
-    let is_own = |(module, word): (&str, &str)| module == found.module && is_short(word, function);
+    let all = functions_of_table();
+    let is_own = |(module, word): (&str, &str)| {
+        let is_other = word != function && all.iter().any(|own| own.name == word);
+        module == found.module && !is_other && is_short(word, function)
+    };
     let mut names = found.text.lines().filter_map(symbol);
     names.all(|(name, end)| word(&found.symbols.macros, name, end).is_some_and(is_own))
-}
-
-/// Returns true if a text is the one function that says where a box is: none hides beside or inside
-/// it, since no line but one of a single brace closes any.
-pub(crate) fn is_box(found: &Found) -> bool {
-    let mut lines = found.text.lines().filter(|line| !line.is_empty());
-    let head = lines.next().unwrap_or("");
-    let before = format!("static inline int {}_in_box(", found.module);
-    let list = between(head, &before, ")");
-    list.is_some_and(|list| has_only(list, " ,[]"))
-        && lines.next() == Some("{")
-        && lines.all(|line| !line.contains('}') || line == "}")
 }
 
 /// Returns whether a text is the function of a name that writes these values into `pi`, each the

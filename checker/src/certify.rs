@@ -7,7 +7,7 @@ use crate::aside::Known;
 use crate::c99;
 use crate::claim::{Claim, Claimed, Tolerated};
 use crate::compare::compare;
-use crate::cost::{cost, ranges};
+use crate::cost::{self, STATES, cost, ranges};
 use crate::fault::Fault;
 use crate::file::{self, Found};
 use crate::identity::exact::Exact;
@@ -23,7 +23,7 @@ use crate::tolerance::Subject;
 pub use crate::cost::{RATE, Shown};
 pub use crate::tolerance::Bounded;
 
-/// The most times that a function of a claim is bounded under a tolerance.
+/// The most times that a function of a claim stands in a file, which has each in two scalars.
 const MOST_TIMES: usize = 4;
 /// The most functions, and what stands beside them, of a file.
 const MOST_ITEMS: usize = 1 << 14;
@@ -112,27 +112,40 @@ pub fn certify(
         is_c,
         singles: singles.map(|item| item.module).collect(),
     };
-    // In C it is not looked at what is said of a box.
-    let is_other = |found: &&Found| !(is_beside(found) || is_c && c99::is_box(found));
     let line = |found: &Found, name: String, result| Line {
         module: found.module.to_owned(),
         name,
         line: found.line,
         result,
     };
-    let (mut lines, mut seen) = (Vec::new(), Seen::new());
-    for found in items.iter().filter(is_other) {
-        let result = whole.shown(found, &mut seen);
+    let load = whole.load().ok().flatten();
+    let load = load.map_or(0, |own| own.outputs.len());
+    let mut seen = Seen {
+        identities: HashMap::new(),
+        known: Known::new(&setting, &whole.ranges, load),
+    };
+    let mut heads = HashSet::new();
+    let mut is_twice = |item: &Found| -> Result<(), Fault> {
+        let head = item.text.lines().next().unwrap_or("");
+        let twice = || Fault::Text(item.line, "an item that stands there twice".into());
+        let name = if item.name.is_empty() {
+            head
+        } else {
+            item.name
+        };
+        let is_first = heads.insert((item.module.to_owned(), name.to_owned()));
+        is_first.then_some(()).ok_or_else(twice)
+    };
+    let mut lines = Vec::new();
+    for found in items.iter().filter(|item| !is_beside(item)) {
+        let result = is_twice(found).and_then(|()| whole.shown(found, &mut seen));
         lines.push(line(found, whole.name(found), result));
     }
-    let known = whole.known();
-    let mut heads = HashSet::new();
+    items.iter().for_each(|item| seen.known.add_box(item));
     for item in items.iter().filter(|item| is_beside(item)) {
-        let head = item.text.lines().next().unwrap_or("");
-        let is_first = heads.insert((item.module, head));
-        let twice = || Fault::Text(item.line, "an item that stands there twice".into());
-        let follows = is_first.then(|| whole.follows(item, &items, &known));
-        if let Err(why) = follows.unwrap_or_else(|| Err(twice())) {
+        let follows = is_twice(item).and_then(|()| whole.follows(item, &seen.known));
+        if let Err(why) = follows {
+            let head = item.text.lines().next().unwrap_or("");
             let name = head.split([':', '{', '(']).next().unwrap_or("").trim();
             lines.push(line(item, name.to_owned(), Err(why)));
         }
@@ -146,12 +159,19 @@ pub fn certify(
 /// Returns true for an item that is no function, or one that computes no dynamics: it gives
 /// constants, or says where a box is.
 fn is_beside(found: &Found) -> bool {
-    ["", "in_box"].contains(&found.name) || found.text.contains(" pi[")
+    let name = found.name.strip_prefix(found.module);
+    let is_box = found.name == "in_box" || name == Some("_in_box");
+    is_box || found.name.is_empty() || found.text.contains(" pi[")
 }
 
-/// The finding about each function of the claim, by its name, since both scalars have one program;
-/// and the times that it was bounded under a tolerance.
-type Seen<'w> = HashMap<&'w str, (Result<(), Fault>, usize)>;
+/// The findings so far.
+struct Seen<'w> {
+    /// Of each function of the claim, by its name, since both scalars have one program; and the
+    /// times that it stands there.
+    identities: HashMap<&'w str, (Option<Result<(), Fault>>, usize)>,
+    /// What follows from the functions that are shown.
+    known: Known<'w>,
+}
 
 /// A file that is checked.
 struct Whole<'w> {
@@ -211,7 +231,7 @@ impl<'w> Whole<'w> {
     }
 
     /// Shows a function.
-    fn shown(&self, found: &Found, seen: &mut Seen<'w>) -> Result<Shown, Fault> {
+    fn shown(&self, found: &'w Found, seen: &mut Seen<'w>) -> Result<Shown, Fault> {
         let Some(claimed) = self.claimed(found) else {
             let scene = self.scene.map(|scene| format!(" in scene `{scene}`"));
             let (name, scene) = (found.name, scene.unwrap_or_default());
@@ -219,6 +239,12 @@ impl<'w> Whole<'w> {
             return Err(Fault::Claim(why));
         };
         let refused = |why: String| Fault::Claim(format!("`{}`: {why}", claimed.function));
+        // A file may not ask for the same work again and again.
+        let entry = seen.identities.entry(&claimed.function).or_default();
+        entry.1 += 1;
+        if entry.1 > MOST_TIMES {
+            return Err(Fault::Work);
+        }
         let emitted = claimed.program(&self.constants)?;
         let other = claimed.exact(&self.constants)?;
         let exact = other.as_ref().unwrap_or(&emitted);
@@ -229,9 +255,18 @@ impl<'w> Whole<'w> {
             let why = "it reads a joint that is locked, or a rate that stands still";
             return Err(refused(why.into()));
         }
+        let divides = |own: &Program<Exact>| own.steps.iter().any(|step| step.0 == '/');
+        if !function.divides() && [&emitted, exact].into_iter().any(divides) {
+            return Err(refused(
+                "it divides, and no result of it asks for that".into(),
+            ));
+        }
         let base = claimed.base(&self.constants, self.setting.links())?;
         let head = self.head(claimed, &function, &base, self.is_single(found))?;
         let read = self.read(&head, found)?;
+        if !read.sines.is_empty() && function.arguments.first() != Some(&0) {
+            return Err(refused("sines of angles that are no argument".into()));
+        }
         let why = |why: String| Fault::Text(found.line, why);
         compare(&read.program, &emitted, head.is_single).map_err(why)?;
         self.sines(&read, head.is_single).map_err(why)?;
@@ -249,17 +284,10 @@ impl<'w> Whole<'w> {
             };
             check(statement, &[&self.seed]).map_err(refused)
         };
-        let entry = seen.entry(&claimed.function);
-        let (identity, times) = entry.or_insert_with(|| (identity(), 0));
-        identity.clone()?;
+        entry.0.get_or_insert_with(identity).clone()?;
         let results = match self.tolerated(claimed).map_err(refused)? {
             None => Vec::new(),
             Some((own, tolerance)) => {
-                // A file has each in two scalars; it may not ask for the work again and again.
-                *times += 1;
-                if *times > MOST_TIMES {
-                    return Err(Fault::Work);
-                }
                 let subject = Subject {
                     setting: self.setting,
                     function: &function,
@@ -280,6 +308,29 @@ impl<'w> Whole<'w> {
             return Err(refused(why));
         }
         let cost = cost(&read, &head, &self.ranges, &[&self.seed, head.name]);
+        // What divides may come near to where it has no bound; nothing else does. What is no number
+        // counts as too large.
+        let is_large = match function.divides() {
+            true => !cost.rounding.is_finite(),
+            false => {
+                let most = cost::most(&read, head.is_single);
+                ![0, STATES].contains(&cost.states) || !(cost.rounding < most)
+            }
+        };
+        if is_large {
+            let why = format!("rounding costs {:.3e} of the largest value", cost.rounding);
+            return Err(refused(why));
+        }
+        let held = seen.known.held.entry(found.module).or_default();
+        held.polynomials.extend(cost::polynomials(&read));
+        if !results.is_empty() {
+            (0..3).for_each(|place| held.bounded[place] |= function.arguments.contains(&place));
+        }
+        seen.known.items.extend(structure(&head));
+        let name = function.parameters();
+        seen.known
+            .values
+            .extend(name.map(|name| (name, base.values)));
         Ok(Shown { results, ..cost })
     }
 
@@ -375,40 +426,21 @@ impl<'w> Whole<'w> {
         self.load.as_ref().map(Option::as_ref).map_err(Fault::clone)
     }
 
-    /// Returns what items beside functions follow from: the values of base parameters, and the
-    /// structs of results in each scalar. Of a function whose claim is none, nothing follows.
-    fn known(&self) -> Known<'_> {
-        let load = self.load().ok().flatten();
-        let load = load.map_or(0, |own| own.outputs.len());
-        let mut all = Known::new(self.setting, &self.ranges, load);
-        for own in &self.claim.functions {
-            let base = own.base(&self.constants, self.setting.links());
-            let (Ok(base), Ok(function)) = (base, function(own)) else {
-                continue;
-            };
-            let heads = [false, true].map(|is_single| self.head(own, &function, &base, is_single));
-            all.items
-                .extend(heads.iter().flatten().filter_map(structure));
-            let name = function.parameters();
-            all.values.extend(name.map(|name| (name, base.values)));
-        }
-        all
-    }
-
     /// Checks what stands beside functions.
-    fn follows(&self, item: &Found, items: &[Found], known: &Known) -> Result<(), Fault> {
-        if self.is_c {
-            let mut values = known.values.iter();
-            let are =
-                values.any(|(name, own)| c99::are_values(item, &name.to_ascii_lowercase(), own));
-            let why = "its numbers are not the base parameters that are claimed";
-            return are
-                .then_some(())
-                .ok_or_else(|| Fault::Text(item.line, why.into()));
+    fn follows(&self, item: &Found, known: &Known) -> Result<(), Fault> {
+        if !self.is_c {
+            return known.follows(item);
         }
-        let own = |other: &&Found| other.module == item.module && !other.name.is_empty();
-        let functions: Vec<&Found> = items.iter().filter(own).collect();
-        known.follows(item, &functions)
+        let mut values = known.values.iter();
+        let are = values.any(|(name, own)| c99::are_values(item, &name.to_ascii_lowercase(), own));
+        let why = match item.text.contains(" pi[") {
+            true => "its numbers are not the base parameters that are claimed",
+            false => "it does not say where the functions hold",
+        };
+        let is_known = are || known.is_box(item);
+        is_known
+            .then_some(())
+            .ok_or_else(|| Fault::Text(item.line, why.into()))
     }
 }
 

@@ -178,6 +178,10 @@ impl Claim {
             if !keys.insert((&own.function, &own.scene, &own.planned)) {
                 return refuse(format!("`{}` stands there twice", own.function));
             }
+            // It is printed where nothing else may stand.
+            if own.planned.is_none() && !is_name(&own.function) {
+                return refuse(format!("`{:.40}` is no name of a function", own.function));
+            }
         }
         Ok(claim)
     }
@@ -195,6 +199,13 @@ impl Claim {
     /// The first that is none.
     #[cfg(feature = "certify")]
     pub fn constants(&self) -> Result<Vec<Exact>, Fault> {
+        let terms = self
+            .constants
+            .iter()
+            .map(|text| 1 + text.matches('+').count());
+        if terms.sum::<usize>() > MOST {
+            return Err(Fault::Claim(format!("constants of more than {MOST} terms")));
+        }
         let read = self.constants.iter().map(|text| {
             let why = || Fault::Claim(format!("`{text:.40}` is no constant"));
             Exact::read(text).ok_or_else(why)
@@ -210,6 +221,14 @@ impl Claim {
         }
         Ok(all)
     }
+}
+
+/// Returns true for a name of a function: small letters, digits and underscores.
+fn is_name(name: &str) -> bool {
+    let is_plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+    name.len() < 1 << 7
+        && name.starts_with(|c: char| c.is_ascii_lowercase())
+        && name.chars().all(is_plain)
 }
 
 /// Returns the constant of a word: `#3`.

@@ -7,6 +7,7 @@ use crate::identity::table::length;
 use crate::program::ARGUMENTS;
 use crate::read::{self, Function, Head, Source};
 use crate::rounding::{Ranges, Rounding, Value};
+use crate::sines::Scalar;
 use crate::tolerance::Bounded;
 
 /// The largest rates where the robot file has no limit, per second and per second squared.
@@ -15,9 +16,9 @@ pub const RATE: f64 = 10.0;
 const WRENCH: f64 = 100.0;
 const GRAVITY: f64 = 9.81;
 const DAMPING: [f64; 2] = [1e-3, 1e-1];
-/// The number of states at which bounds are asked for where there is none over the box; and at
-/// which values are looked at where there is.
-const STATES: usize = 1000;
+/// The number of states at which bounds are asked for where none over the box says anything; and at
+/// which values are looked at where one does.
+pub(crate) const STATES: usize = 1000;
 const LOOKED_AT: usize = 100;
 /// An entry below this share of its result's largest counts as zero.
 const ZERO: f64 = 1e-12;
@@ -30,7 +31,8 @@ pub struct Shown {
     pub rounding: f64,
     /// The same in halves of an ulp of that value.
     pub units: f64,
-    /// At how many states that holds; zero for the whole box.
+    /// At how many of the states that were drawn that holds, others being near to where it divides by
+    /// zero; zero for the whole box.
     pub states: usize,
     /// `true` if it has polynomials for sines, whose error counts as rounding.
     pub has_polynomials: bool,
@@ -48,34 +50,66 @@ pub(crate) fn cost(read: &Function, head: &Head, ranges: &Ranges, texts: &[&str]
     let rounding = Rounding::new(read, head.is_single, &ranges);
     let mut draws = Draws::new(texts);
     let over_box = rounding.bounds(&ranges, None);
-    let is_bounded = over_box.iter().all(|own| own.error.is_finite());
-    let states = if is_bounded { LOOKED_AT } else { STATES };
-    let (mut sizes, mut errors) = (vec![0.0; over_box.len()], vec![0.0; over_box.len()]);
-    for _ in 0..states {
-        let state = drawn(&ranges, &mut draws, head.is_single);
-        for (k, own) in rounding.bounds(&state, None).iter().enumerate() {
-            sizes[k] = worse(sizes[k], own.exact.magnitude());
-            errors[k] = worse(errors[k], own.error);
+    let count = over_box.len();
+    // Returns the cost over the box, or at so many states, and at how many it is bounded: near to
+    // where something divides by zero, it is not.
+    let mut look = |states: usize, over_box: Option<&[Value]>| {
+        let (mut sizes, mut errors, mut bounded) = (vec![0.0; count], vec![0.0; count], 0);
+        for _ in 0..states {
+            let state = drawn(&ranges, &mut draws, head.is_single);
+            let found = rounding.bounds(&state, None);
+            if over_box.is_none() && !found.iter().all(|own| own.error.is_finite()) {
+                continue;
+            }
+            bounded += 1;
+            for (k, own) in found.iter().enumerate() {
+                sizes[k] = worse(sizes[k], own.exact.magnitude());
+                errors[k] = worse(errors[k], own.error);
+            }
         }
-    }
-    if is_bounded {
-        errors = over_box.iter().map(|own: &Value| own.error).collect();
-    }
-    let sizes = measures(&sizes, head.fields.iter().map(|own| own.1.as_slice()));
-    let relative = |(error, size): (&f64, &f64)| match *error == 0.0 {
-        true => 0.0,
-        false => error / size,
+        if let Some(over_box) = over_box {
+            errors = over_box.iter().map(|own| own.error).collect();
+        }
+        let sizes = measures(&sizes, head.fields.iter().map(|own| own.1.as_slice()));
+        let relative = |(error, size): (&f64, &f64)| match *error == 0.0 {
+            true => 0.0,
+            false => error / size,
+        };
+        let cost = errors.iter().zip(&sizes).map(relative).fold(0.0, worse);
+        (if bounded == 0 { f64::NAN } else { cost }, bounded)
     };
-    let unit = rounding.scalar.unit;
-    let rounding = errors.iter().zip(&sizes).map(relative).fold(0.0, worse);
-    let is_polynomial = |own: &read::Sines| matches!(own.source, Source::Polynomial(_));
+    let is_finite = over_box.iter().all(|own| own.error.is_finite());
+    let (cost, _) = match is_finite {
+        true => look(LOOKED_AT, Some(&over_box)),
+        false => (f64::NAN, 0),
+    };
+    // A bound that says nothing of the box gives way to bounds at states.
+    let (cost, states) = match cost < most(read, head.is_single) {
+        true => (cost, 0),
+        false => look(STATES, None),
+    };
     Shown {
-        rounding,
-        units: rounding / unit,
-        states: if is_bounded { 0 } else { states },
-        has_polynomials: read.sines.iter().any(is_polynomial),
+        rounding: cost,
+        units: cost / rounding.scalar.unit,
+        states,
+        has_polynomials: polynomials(read).next().is_some(),
         results: Vec::new(),
     }
+}
+
+/// Returns the cost that is too large for what does not divide: some seven digits, and all where
+/// polynomials are for sines.
+pub(crate) fn most(read: &Function, is_single: bool) -> f64 {
+    match polynomials(read).next() {
+        Some(_) => 1.0,
+        None => Scalar::new(is_single).unit * f64::from(1 << 24),
+    }
+}
+
+/// Returns the joints whose sine or cosine is a polynomial.
+pub(crate) fn polynomials(read: &Function) -> impl Iterator<Item = usize> {
+    let is_polynomial = |own: &&read::Sines| matches!(own.source, Source::Polynomial(_));
+    read.sines.iter().filter(is_polynomial).map(|own| own.joint)
 }
 
 /// Returns the larger one; what is no number counts as larger.

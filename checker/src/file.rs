@@ -1,13 +1,19 @@
 //! A generated file as a whole: its modules and their items.
 //!
-//! Nothing is skipped but lines of documentation and attributes of a list. Every other line is
-//! without quotes and comments, so that braces can be counted; and every item is read as a
-//! function or compared line by line with the one that it has to be. So the function of a name and
-//! module is the one that is found here.
+//! Nothing is skipped but the stamp, lines of documentation and attributes of a list. Every other
+//! line is without quotes and comments, so that braces can be counted; and every item is read as a
+//! function or compared line by line with the one that it has to be. No module stands there twice,
+//! and no item twice in one. So the function of a name and module is the one that is found here.
+
+use std::collections::HashSet;
 
 use crate::fault::Fault;
 use crate::read::{self, Symbols, has_only, is_letter};
 
+/// The longest name of a module.
+const MOST_LETTERS: usize = 1 << 7;
+/// How many lines ahead of a function's head are looked past: directives and attributes.
+const MOST_AHEAD: usize = 8;
 /// The longest file.
 pub const MOST_BYTES: usize = 32 << 20;
 
@@ -22,12 +28,14 @@ pub struct Found<'t> {
     pub name: &'t str,
     /// The line of its head, from one.
     pub line: usize,
-    /// Its text, from `pub fn` to its last brace.
+    /// Its text, from `pub fn`, in C from its struct, to its last brace.
     pub text: String,
 }
 
 /// Attributes, and how those begin that list names.
-const ATTRIBUTES: [&str; 7] = [
+const ATTRIBUTES: [&str; 9] = [
+    "#[derive(Clone, Copy, Debug)]",
+    "#[derive(Clone, Copy, Debug, PartialEq)]",
     "#[repr(transparent)]",
     "#[must_use]",
     "#[inline]",
@@ -36,7 +44,7 @@ const ATTRIBUTES: [&str; 7] = [
     "#[rustfmt::skip]",
     "#![cfg_attr(rustfmt, rustfmt_skip)]",
 ];
-const LISTS: [&str; 3] = ["#[derive(", "#[allow(", "#![allow("];
+const LISTS: [&str; 2] = ["#[allow(", "#![allow("];
 
 /// Lines of code that are still to be read, with their numbers.
 pub(crate) type Lines<'l, 't> = &'l [(usize, &'t str)];
@@ -63,7 +71,7 @@ pub(crate) fn item<'t>(
             if is_last(head) {
                 return Some(found);
             }
-            let mut behind = lines.iter().map(|own| own.1);
+            let mut behind = lines.iter().map(|own| own.1).take(MOST_AHEAD);
             head = behind.find(|line| !line.starts_with(['#', '_']))?;
         }
     }
@@ -78,16 +86,20 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
     let mut lines = lines.map_err(|own| Fault::Text(own.line, own.reason))?;
     lines.retain(|own| !is_attribute(own.1));
     let (mut lines, mut all) = (lines.as_slice(), Vec::new());
-    let (mut module, mut has_items) = (None, false);
+    let (mut module, mut has_items, mut modules) = (None, false, HashSet::new());
     while let Some(&first) = lines.first() {
         let words = first.1;
         // At the top stand modules, or the items of a file that is one.
         let head = module_head(words).filter(|_| module.is_none() && !has_items);
         if head.is_some() || module.is_some() && words == "}" {
             (module, lines) = (head, &lines[1..]);
+            if !head.is_none_or(|head| modules.insert(head)) {
+                return Err(fault(first));
+            }
             continue;
         }
         let is_item = words.starts_with("pub ") || words.starts_with("impl ");
+        let is_item = is_item && (module.is_some() || modules.is_empty());
         let found = item(&mut lines, |_| true).filter(|_| is_item);
         let mut found = found.ok_or_else(|| fault(first))?;
         has_items |= module.is_none();
@@ -122,5 +134,6 @@ fn is_attribute(words: &str) -> bool {
 
 /// Returns the name of a module that begins.
 fn module_head(line: &str) -> Option<&str> {
-    between(line, "pub mod ", " {").filter(|name| has_only(name, ""))
+    let name = between(line, "pub mod ", " {");
+    name.filter(|name| has_only(name, "") && name.len() <= MOST_LETTERS)
 }

@@ -108,8 +108,8 @@ impl Program<Exact> {
         self.run(leaf, apply, |own: Number| -own)
     }
 
-    /// Returns at least the degrees of numerator and denominator of its results, in inputs and
-    /// sines; infinite beyond a double's range.
+    /// Returns at least the degrees of numerator and denominator of its results, in inputs, sines
+    /// and constants; infinite beyond a double's range.
     ///
     /// A value is a polynomial in these and in 1/d of each divisor d, which is one in those before
     /// it: a list of degrees. Multiplied by each divisor as often as it occurs, the last first, it
@@ -121,10 +121,7 @@ impl Program<Exact> {
             let both = (0..a.len().max(b.len())).map(|k| pick(at(&a, k), at(&b, k)));
             both.collect::<Vec<f64>>()
         };
-        let leaf = |own: &Operand<Exact>| match own {
-            Operand::Constant(_) => Some(vec![0.0]),
-            _ => Some(vec![1.0]),
-        };
+        let leaf = |_: &Operand<Exact>| Some(vec![1.0]);
         let apply = |operation: char, a: Vec<f64>, b: Vec<f64>| match operation {
             '+' | '-' => zip(a, b, f64::max),
             '*' | '×' => zip(a, b, |a, b| a + b),

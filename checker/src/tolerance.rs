@@ -129,7 +129,14 @@ impl Subject<'_> {
         let mut found = Vec::new();
         for (k, (_, joints)) in fields.into_iter().enumerate() {
             let (scale, rounding) = (own.scales[k], rounding[k].error);
-            let (claimed, tolerated) = match scale == 0.0 && most[k] == 0.0 {
+            let is_nothing = scale == 0.0 && most[k] == 0.0;
+            // Of a result that is not always zero there is a state where it is not.
+            let is_zero = exact[k].terms.is_empty() && exact[k].rest == 0.0;
+            unless(
+                !is_nothing || is_zero,
+                "T of zero of a result that is not always zero",
+            )?;
+            let (claimed, tolerated) = match is_nothing {
                 true => (ZERO * largest, ZERO * largest),
                 false => (
                     below(errors[k] * scale),

@@ -112,6 +112,11 @@ fn programs_that_do_not_fit_are_refused() {
         let why = refused(regressor, vec![exact("1"); 2], base);
         assert_eq!(why, "the base parameters do not fit the results");
     }
+    let bases: [&[&[usize]]; 2] = [&[&[0], &[0]], &[&[0], &[]]];
+    for base in bases {
+        let why = refused(regressor, vec![exact("1"); 4], base);
+        assert_eq!(why, "the base parameters do not stand for themselves");
+    }
     let name = "forward_dynamics_with_wrench.qdd@nowhere";
     let nowhere = ["all", "q qd tau wrench", name];
     let why = refused(nowhere, vec![exact("0"); 2], &[]);

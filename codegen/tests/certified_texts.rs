@@ -171,13 +171,20 @@ fn a_box_hides_nothing() {
     let (before, behind) = own.text.split_at(own.text.rfind("#if ").unwrap());
     let evil =
         "static inline double p_evil_any(const int far, const double x)\n{\n    return x;\n}\n";
-    let inside = "static inline int p_in_box(const double q[P_RESTRICT 2])\n{\n    return 1;\n}\n";
+    let inside = "static inline int p_in_box(const double q[P_RESTRICT 2])\n{\n    int inside = 1;\n\
+         \x20   return inside;\n}\n";
     let refusal = |item: &str| own.with(&format!("{before}{item}{behind}")).refusal();
     assert_eq!(refusal(inside), None);
     for hidden in [
         format!("{evil}{inside}"),
         inside.replace("{\n", "{\n    return 1;\n} double p_evil(double x) {\n"),
         inside.replace(")\n", "); double p_evil(double x)\n"),
+        inside.replace("return inside", "return 1"),
+        inside.replace(
+            "    return",
+            "    if (!((0.0 <= q<:0]) && (q<:0] <= 1.0))) {\n    return",
+        ),
+        inside.replace("_in_box", "_sines_2"),
     ] {
         assert!(refusal(&hidden).is_some(), "{hidden}");
     }
@@ -195,6 +202,9 @@ jacobian_eye_local | q    | jacobian.jacobian@eye:local |
 jacobian_eye       | q    | jacobian.jacobian@hand      | `jacobian_eye` has other results
 jacobian_eye       | q    | jacobian.jacobian@eye:local | `jacobian_eye` has other results
 task               | q    | jacobian.jacobian@hand      |
+task               | q    | jacobian.jacobian@hand:x    |
+task               | q    | jacobian.jacobian@:x        | there is no result `jacobian.jacobian@:x`
+task               | q    | inverse_dynamics_with_wrench.tau@hand:x | there is no result `inverse_dynamics_with_wrench.tau@hand:x`
 coriolis           | q qd | coriolis.h                  |
 coriolis           | qd q | coriolis.h                  | its arguments are in another order
 coriolis           | q q  | coriolis.h                  | its arguments are in another order
@@ -218,6 +228,8 @@ NONE := nothing is claimed of `gravity`
 /functions | [] | NONE
 /functions/0/function | "inertia" | NONE
 /functions/0/scene | "other" | NONE
+/functions/0/function | "x{}pub mod libm{}pub struct Y" | is no name of a function
+/functions/0/results | ["gravity.c", "gravity.c"] | is there twice
 /functions/0/results | ["inertia.d"] | `gravity` has other results
 /functions/0/results | ["gravity.c@eye"] | `gravity` has other results
 /functions/0/results | ["gravity.g"] | there is no result `gravity.g`
@@ -253,6 +265,8 @@ fn claims_that_are_not_written_by_a_generator() {
     refused("/constants", json!([long]), "is no constant");
     let angles: Vec<String> = (1..=2000).map(|k| format!("1*sin(1/{k})")).collect();
     refused("/constants", json!(angles), "more than 1024 angles");
+    let terms = json!(vec!["1+".repeat(16_000) + "1"; 9]);
+    refused("/constants", terms, "more than 131072 terms");
     let quotients = "s1/c1 ".repeat(5000);
     refused("/functions/0/steps", json!(quotients), "more quotients");
     let gravity = &honest["functions"][0];
@@ -297,6 +311,91 @@ fn constants_that_are_aimed_at_primes() {
     }
 }
 
+/// Programs that are right in real numbers at almost all states, sines of what is no argument, and
+/// values that are claimed of a function that is not there: each was shown once.
+#[test]
+fn programs_that_go_wrong_somewhere() {
+    let own = planar2r("gravity, regressor; scalar: f64", 2);
+    let why = |texts: &[[&str; 2]], claims: &[[&str; 2]]| {
+        let changed = |text: &str, all: &[[&str; 2]]| {
+            all.iter().fold(text.to_owned(), |text, [from, to]| {
+                assert!(text.contains(from), "{from}");
+                text.replacen(from, to, 1)
+            })
+        };
+        let mut other = own.with(&changed(&own.text, texts));
+        other.claim = changed(&own.claim, claims);
+        other.refusal().expect("shown")
+    };
+    let result = "    [-t6, -t4]";
+    let quotient = "    let t7 = s1 / s1;\n    let t8 = t6 * t7;\n    [-t8, -t4]";
+    let claims = [["t4-t5", "t4-t5 s1/s1 t6*t7"], ["-t6 -t4", "-t8 -t4"]];
+    assert!(why(&[[result, quotient]], &claims).contains("it divides"));
+    let far = "    let t7 = t6 * 1e200;\n    let t8 = t7 * 1e200;\n    let t9 = t8 * 1e-200;
+    let t10 = t9 * 1e-200;\n    [-t10, -t4]";
+    let claims = [
+        ["],\"functions", ",\"1e200\",\"1e-200\"],\"functions"],
+        ["t4-t5", "t4-t5 t6*#9 t7*#9 t8*#10 t9*#10"],
+        ["-t6 -t4", "-t10 -t4"],
+    ];
+    assert!(why(&[[result, far]], &claims).contains("rounding costs"));
+    let sines = ["libm::sincos(q[0])", "{ (0.0, 1.0) }"];
+    assert!(why(&[sines], &[]).contains("rounding costs"));
+    let head = ["fn gravity(q:", "fn held(_qd:"];
+    let claims = [["\"gravity\"", "\"held\""], ["[\"q\"]", "[\"qd\"]"]];
+    assert!(why(&[head], &claims).contains("sines of angles that are no argument"));
+    let mut claim: Value = serde_json::from_str(&own.claim).unwrap();
+    let mut other = claim["functions"][1].clone();
+    other["function"] = json!("other");
+    other["values"] = json!("#2 #6 #3 #7 #8 #3");
+    claim["functions"].as_array_mut().unwrap().push(other);
+    let value = "1.3333333333333333,";
+    assert!(own.text.contains(value));
+    let mut other = own.with(&own.text.replacen(value, "9.81,", 1));
+    other.claim = claim.to_string();
+    let why = other.refusal().unwrap();
+    assert!(why.contains("it does not follow"), "{why}");
+}
+
+/// A box says where the functions hold, in Rust and in C, and no module has two meanings.
+#[test]
+fn boxes_and_modules() {
+    let asked = "gravity; scalar: f64; sincos: polynomial";
+    let own = planar2r(asked, 1);
+    own.refuses(
+        "
+[-3.141592653589793, 3.141592653589793], → [f64::NEG_INFINITY, f64::INFINITY],
+[-3.141592653589793, 3.141592653589793], → [-3.141592653589793, 4.0],
+····let inside = inside & (BOX.q[0][0] <= q[0]) & (q[0] <= BOX.q[0][1]);↵ → ∅
+····inside↵} → ····let inside = true;↵····inside↵}
+",
+    );
+    let c = planar2r(&format!("{asked}; name: p; language: c"), 1);
+    c.refuses(
+        "
+inside = 0 → inside = 1 … return inside → return 1
+q[0] <= 3.141592653589793 → q[0] <= 4.0 … q[0] <= 3 → q[1] <= 3
+",
+    );
+    let is_code = |line: &&str| !line.starts_with("//") && !line.starts_with("#![");
+    let body: Vec<&str> = own.text.lines().filter(is_code).collect();
+    let [module, body] = [
+        format!("pub mod a {{\n{}\n}}\n", body.join("\n")),
+        body.join("\n"),
+    ];
+    assert_eq!(own.with(&module).refusal(), None);
+    assert!(own.with(&format!("{module}{module}")).refusal().is_some());
+    assert!(own.with(&format!("{module}{body}")).refusal().is_some());
+    // What functions call for sines is not another function.
+    let asked = "gravity; scalar: f64; sincos: together; name: p; language: c";
+    let own = planar2r(asked, 1);
+    let [text, claim] = [&own.text, &own.claim].map(|own| own.replace("p_gravity", "p_sines_3"));
+    let mut other = own.with(&text);
+    other.claim = claim;
+    let why = other.refusal().unwrap();
+    assert!(why.contains("nothing that is generated"), "{why}");
+}
+
 /// Files that another checker took for right: sines of constants and of what is far, an item that
 /// hides, another number of joints.
 #[test]
@@ -314,7 +413,7 @@ fn files_of_attacks() {
         (
             &rust,
             "trait1.rs",
-            "follow from the functions and the robot",
+            "nothing that is generated: `#[derive(Clone, Copy, Debug, Default",
         ),
         (&rust, "n1.rs", ""),
         (&c, "hide.h", ""),

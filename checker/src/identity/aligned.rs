@@ -10,7 +10,7 @@ use num_traits::Signed;
 use super::arm::{Reading, entries};
 use super::exact::{Angle, fixed};
 use super::robot::{File, number_of};
-use super::screw::{Scalar, cross};
+use super::screw::{Scalar, cross, scaled};
 
 /// Bits behind the point.
 const BITS: u32 = 256;
@@ -93,13 +93,18 @@ fn parts(file: &File) -> Result<Parts, String> {
             &row.coulomb_width,
             &row.armature,
         ];
-        let drive = Digits.list(drive.map(Option::as_ref))?;
-        all.push((name("drive"), drive.to_vec()));
-        let own = Digits.body(Some(&row.mass), row.com.as_ref(), row.inertia.as_ref())?;
-        let body = own.0.moved(&frame.then(&own.1));
-        all.push((name("mass"), vec![body.mass]));
-        all.push((name("first moments"), body.first.to_vec()));
-        all.push((name("inertia"), body.tensor.concat()));
+        for own in Digits.list(drive.map(Option::as_ref))? {
+            all.push((name("drive"), vec![own]));
+        }
+        let (body, centre) =
+            Digits.body(Some(&row.mass), row.com.as_ref(), row.inertia.as_ref())?;
+        let mut at = frame.then(&centre);
+        let first = scaled(body.mass.clone(), at.origin);
+        at.origin = [0i64; 3].map(Fixed::from);
+        all.push((name("mass"), vec![body.mass.clone()]));
+        all.push((name("first moments"), first.to_vec()));
+        // About the centre of mass: about the base's origin, an arm far away would hide it.
+        all.push((name("inertia"), body.moved(&at).tensor.concat()));
         let shown = frame.then(&Digits.placement(row.frame.as_ref())?);
         all.push((name("frame"), shown.rows()));
         links.push(frame.clone());

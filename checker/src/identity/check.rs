@@ -1,5 +1,7 @@
 //! Compares an exact program with the equations of motion.
 
+use std::collections::BTreeMap;
+
 use super::arm::Arm;
 use super::exact::{Exact, Point};
 use super::number::{Draws, Number};
@@ -87,12 +89,19 @@ fn at_point(own: Statement, point: &Point) -> Result<(), String> {
         let values = result(&arm, &state, field).ok_or("no such result")?;
         let values = selected(field, setting, values);
         if field.axes.contains('b') {
+            let has_width = |joint: usize| !matches!(setting.width(joint), Ok(None));
+            if (0..setting.joints()).any(has_width) {
+                return Err("Coulomb friction is no column of a regressor".into());
+            }
             let rows = setting.rows.len().max(1);
             let own = expected.len()..expected.len() + rows * base.combinations.len();
             let sizes = [rows, values.len() / rows];
             let columns = found.get(own.clone());
             let spread = columns.and_then(|own| spread(own, &base.combinations, point, sizes));
             let spread = spread.ok_or("the base parameters do not fit the results")?;
+            if !are_independent(&base.combinations, point) {
+                return Err("the base parameters do not stand for themselves".into());
+            }
             found.splice(own, spread);
         }
         expected.extend(values);
@@ -121,6 +130,35 @@ fn at_point(own: Statement, point: &Point) -> Result<(), String> {
         Some(place) => Err(format!("result {} is not that of the robot", place + 1)),
         None => Ok(()),
     }
+}
+
+/// Returns true if no combination is the sum of multiples of others.
+fn are_independent(base: &[Combination], point: &Point) -> bool {
+    let mut known: Vec<BTreeMap<usize, Number>> = Vec::new();
+    base.iter().all(|combination| {
+        let mut own = BTreeMap::new();
+        let add = |column: usize, value: Number, own: &mut BTreeMap<usize, Number>| {
+            let sum = own.entry(column).or_insert_with(|| 0.into());
+            *sum = *sum + value;
+            own.retain(|_, value| value.value(point.prime) != Some(0));
+        };
+        for (column, factor) in combination {
+            add(*column, point.constant(factor), &mut own);
+        }
+        for other in &known {
+            let Some((pivot, by)) = other.first_key_value() else {
+                continue;
+            };
+            if let Some(value) = own.get(pivot) {
+                let factor = -(*value / *by);
+                for (column, value) in other {
+                    add(*column, *value * factor, &mut own);
+                }
+            }
+        }
+        known.push(own.clone());
+        !own.is_empty()
+    })
 }
 
 /// Returns the columns of all parameters, from those of base parameters, over n rows; none if there

@@ -4,9 +4,10 @@
 //! A difference is N/M with polynomials N and M in the inputs. N does not vanish at a random point
 //! of a field of more than 2⁶¹ residues but with probability at most its degree over 2⁶¹, unless
 //! the prime divides all its coefficients, and few primes divide a number. Each point has a prime
-//! of its own: of the 2⁵⁵ primes of 62 bits at most 2⁴⁰ divide all coefficients of 2⁴⁵ bits. So a
-//! wrong program passes one point with a probability of at most 2⁻¹⁵ even at these limits, and all
-//! twelve with at most 2⁻¹⁸⁰.
+//! of its own. Constants count in the degree, which is below 2³⁰: so coefficients have at most 2⁴⁸
+//! bits, and of the 2⁵⁵ primes of 62 bits at most 2⁴³ divide all of them. A wrong program passes
+//! one point with a probability of at most 2⁻¹² even at these limits, and all twelve with at most
+//! 2⁻¹⁴⁴.
 //!
 //! - `check`: the comparison, [`check`]
 //! - [`number`]: residues with slopes, and draws from a hash; [`exact`]: constants and angles

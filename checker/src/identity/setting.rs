@@ -227,6 +227,12 @@ impl Setting<'_> {
         }
     }
 
+    /// Returns true for a joint whose position has limits.
+    pub fn is_limited(&self, joint: usize) -> bool {
+        let own = &self.file.joint[self.movers[joint]].limits.position;
+        self.scene.r#box.position.is_some() || own.is_some()
+    }
+
     /// Returns how far the results of each joint may be off, and relative to which scale; none where
     /// no tolerance is given.
     ///

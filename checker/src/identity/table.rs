@@ -124,6 +124,11 @@ impl Field {
             }
         }
         own.rows.is_sorted_by(|a, b| a < b).then_some(())?;
+        // Of what acts at a frame all six components are given.
+        let acts = ["tau_wrench", "qdd_wrench"].contains(&self.is);
+        (own.rows.is_empty() || !acts).then_some(())?;
+        let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        (!own.frame.is_empty() && own.frame.chars().all(is_name)).then_some(())?;
         self.name = format!("{}_{}", self.name, view.replace(':', "_"));
         self.view = own;
         Some(self)
@@ -191,6 +196,11 @@ impl Function {
             let field = own.fields.iter().find(|own| own.name == field)?.clone();
             view.map_or(Some(field.clone()), |view| field.at(view))
         };
+        let mut seen = results.iter().collect::<Vec<_>>();
+        seen.sort();
+        if let Some(twice) = seen.windows(2).find(|two| two[0] == two[1]) {
+            return Err(format!("the result `{}` is there twice", twice[0]));
+        }
         let found =
             |result: &String| of(result).ok_or_else(|| format!("there is no result `{result}`"));
         let fields: Vec<Field> = results.iter().map(found).collect::<Result<_, _>>()?;
@@ -216,6 +226,15 @@ impl Function {
                 fields,
             }),
         }
+    }
+
+    /// Returns true if a result of it is by the inverse of a matrix: of others, no state is without.
+    pub(crate) fn divides(&self) -> bool {
+        const INVERSES: &str = "qdd d_inv dqdd_dq dqdd_dqd qdd_wrench contact_wrench mobility \
+            operational_inertia consistent_inverse operational_bias null_space d2qdd_dq_dq \
+            d2qdd_dq_dqd d2qdd_dqd_dqd d2qdd_dtau_dq";
+        let mut fields = self.fields.iter();
+        fields.any(|own| INVERSES.split_whitespace().any(|word| word == own.is))
     }
 
     /// Returns the name of the constant that has the values of its base parameters, if it is over
