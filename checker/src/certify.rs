@@ -164,11 +164,13 @@ fn is_beside(found: &Found) -> bool {
     is_box || found.name.is_empty() || found.text.contains(" pi[")
 }
 
+/// Whether a program is the robot's, once that is asked; and the times that its function was there.
+type Identity = (Option<Result<(), Fault>>, usize);
+
 /// The findings so far.
 struct Seen<'w> {
-    /// Of each function of the claim, by its name, since both scalars have one program; and the
-    /// times that it stands there.
-    identities: HashMap<&'w str, (Option<Result<(), Fault>>, usize)>,
+    /// Of each function of the claim, by its name, since both scalars have one program.
+    identities: HashMap<&'w str, Identity>,
     /// What follows from the functions that are shown.
     known: Known<'w>,
 }
