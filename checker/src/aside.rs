@@ -57,7 +57,7 @@ pub(crate) struct Known<'k> {
     ranges: &'k Ranges,
     /// The values of base parameters of functions that are shown, each with the name of its constant.
     pub values: Vec<(&'static str, Vec<Exact>)>,
-    /// The items whose text is known.
+    /// The items whose text is known, those of one module behind its name.
     pub items: HashSet<String>,
     /// The states that functions hold for, module by module.
     pub held: HashMap<&'k str, Held>,
@@ -99,7 +99,7 @@ impl<'k> Known<'k> {
         let Some(ends) = ends(behind).filter(|ends| self.has(item.module, ends)) else {
             return;
         };
-        self.items.insert(lines.join("\n"));
+        self.add(item.module, lines.join("\n"));
         for scalar in SCALARS {
             let (mut kind, mut asks) = ("pub struct StateBox {".to_owned(), String::new());
             let mut arguments = Vec::new();
@@ -115,11 +115,18 @@ impl<'k> Known<'k> {
                 }
             }
             let arguments = arguments.join(", ");
-            self.items.insert(kind + "\n}");
-            self.items.insert(format!(
-                "pub fn in_box({arguments}) -> bool {{\nlet inside = true;{asks}\ninside\n}}"
-            ));
+            self.add(item.module, kind + "\n}");
+            let head = format!("pub fn in_box({arguments}) -> bool {{");
+            self.add(
+                item.module,
+                format!("{head}\nlet inside = true;{asks}\ninside\n}}"),
+            );
         }
+    }
+
+    /// Adds an item of a module.
+    fn add(&mut self, module: &str, item: String) {
+        self.items.insert(format!("mod {module}\n{item}"));
     }
 
     /// Checks an item in Rust.
@@ -129,7 +136,9 @@ impl<'k> Known<'k> {
     pub(crate) fn follows(&self, item: &Found) -> Result<(), Fault> {
         let lines = trimmed(item);
         let mut values = self.values.iter();
-        let is_known = self.items.contains(&lines.join("\n"))
+        let text = lines.join("\n");
+        let is_known = self.items.contains(&text)
+            || self.items.contains(&format!("mod {}\n{text}", item.module))
             || values.any(|(name, own)| are(&lines, name, own));
         let head = lines.first().unwrap_or(&"");
         let why = || format!("it does not follow from the functions and the robot: `{head}`");

@@ -266,6 +266,7 @@ impl<'w> Whole<'w> {
         let base = claimed.base(&self.constants, self.setting.links())?;
         let head = self.head(claimed, &function, &base, self.is_single(found))?;
         let read = self.read(&head, found)?;
+        seen.known.items.extend(structure(&head));
         if !read.sines.is_empty() && function.arguments.first() != Some(&0) {
             return Err(refused("sines of angles that are no argument".into()));
         }
@@ -312,14 +313,9 @@ impl<'w> Whole<'w> {
         let cost = cost(&read, &head, &self.ranges, &[&self.seed, head.name]);
         // What divides may come near to where it has no bound; nothing else does. What is no number
         // counts as too large.
-        let is_large = match function.divides() {
-            true => !cost.rounding.is_finite(),
-            false => {
-                let most = cost::most(&read, head.is_single);
-                ![0, STATES].contains(&cost.states) || !(cost.rounding < most)
-            }
-        };
-        if is_large {
+        let is_everywhere = [0, STATES].contains(&cost.states);
+        let is_small = is_everywhere && cost.rounding < cost::most(&read, head.is_single);
+        if !function.divides() && !is_small {
             let why = format!("rounding costs {:.3e} of the largest value", cost.rounding);
             return Err(refused(why));
         }
@@ -328,7 +324,6 @@ impl<'w> Whole<'w> {
         if !results.is_empty() {
             (0..3).for_each(|place| held.bounded[place] |= function.arguments.contains(&place));
         }
-        seen.known.items.extend(structure(&head));
         let name = function.parameters();
         seen.known
             .values

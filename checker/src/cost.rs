@@ -27,7 +27,7 @@ const ZERO: f64 = 1e-12;
 #[derive(Clone, Debug)]
 pub struct Shown {
     /// The largest cost of rounding, relative to the largest value seen of the entry, of a matrix
-    /// of its row or its column.
+    /// of its row or its column; NaN where none is bounded.
     pub rounding: f64,
     /// The same in halves of an ulp of that value.
     pub units: f64,
@@ -76,7 +76,10 @@ pub(crate) fn cost(read: &Function, head: &Head, ranges: &Ranges, texts: &[&str]
             false => error / size,
         };
         let cost = errors.iter().zip(&sizes).map(relative).fold(0.0, worse);
-        (if bounded == 0 { f64::NAN } else { cost }, bounded)
+        match bounded {
+            0 => (f64::NAN, states),
+            _ => (cost, bounded),
+        }
     };
     let is_finite = over_box.iter().all(|own| own.error.is_finite());
     let (cost, _) = match is_finite {

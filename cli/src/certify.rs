@@ -167,7 +167,10 @@ fn words(line: &Line) -> String {
                 0 => "over the box".to_owned(),
                 count => format!("at {count} states"),
             };
-            format!("shown; {of} {rounding:>9.2e} {units:>9.0} u {over}")
+            match rounding.is_finite() {
+                true => format!("shown; {of} {rounding:>9.2e} {units:>9.0} u {over}"),
+                false => format!("shown; no bound of {of} {over}"),
+            }
         }
     }
 }

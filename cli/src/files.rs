@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf, is_separator};
 use dalembert_import::first_bytes;
 use tempfile::{Builder, NamedTempFile};
 
-use crate::output::{Context, Failure};
+use crate::context::Context;
+use crate::failure::Failure;
 use crate::terminal::print;
 
 /// The path that stands for standard output.

@@ -1,15 +1,16 @@
 //! What all subcommands share: each takes a [`Context`] and returns [`Done`] or a [`Failure`], and
 //! [`Context::finish`] prints and writes it.
 
-use std::cell::Cell;
 use std::path::PathBuf;
 
-use dalembert_codegen::GenerateError;
-use dalembert_codegen::workspace::{Disproof, plan_file};
+use dalembert_codegen::workspace::plan_file;
 
 use crate::files::{self, Target};
 use crate::report::Report;
 use crate::terminal::{note, print};
+
+pub use crate::context::Context;
+pub use crate::failure::Failure;
 
 /// The result of a subcommand.
 pub type Outcome = Result<Done, Failure>;
@@ -40,70 +41,7 @@ impl From<Report> for Done {
     }
 }
 
-/// The failure of a run, with its text for standard error.
-#[derive(Debug)]
-pub enum Failure {
-    /// A check failed: exit code 1.
-    Check(String),
-    /// The input cannot be used: exit code 2.
-    Input(String),
-}
-
-impl From<GenerateError> for Failure {
-    fn from(error: GenerateError) -> Self {
-        let text = format!("error: {error}");
-        match error {
-            // Failed proofs, runs and text checks are failed checks; all other errors come
-            // from the robot or the request.
-            GenerateError::Disproved(_, Disproof::Unfit | Disproof::Large) => Failure::Input(text),
-            GenerateError::Disproved(..) | GenerateError::Defect(..) => Failure::Check(text),
-            _ => Failure::Input(text),
-        }
-    }
-}
-
-/// The options that all subcommands share, and whether there was a warning.
-pub struct Context {
-    pub json: bool,
-    pub force: bool,
-    denies_warnings: bool,
-    warned: Cell<bool>,
-}
-
 impl Context {
-    pub fn new(json: bool, force: bool, denies_warnings: bool) -> Context {
-        Context {
-            json,
-            force,
-            denies_warnings,
-            warned: Cell::new(false),
-        }
-    }
-
-    /// Prints notes and warnings, and records whether there was a warning.
-    pub fn say(&self, text: &str) {
-        self.heard(text.lines().any(|line| line.starts_with("warning")));
-        note(text);
-    }
-
-    /// Records whether there was a warning, without printing it.
-    pub fn heard(&self, is_warning: bool) {
-        self.warned.set(self.warned.get() || is_warning);
-    }
-
-    /// Fails if there was a warning and warnings are denied.
-    ///
-    /// # Errors
-    /// A failed check.
-    pub fn undenied(&self) -> Result<(), Failure> {
-        match self.warned.get() && self.denies_warnings {
-            true => Err(Failure::Check(
-                "error: --deny-warnings is set, and there were warnings".into(),
-            )),
-            false => Ok(()),
-        }
-    }
-
     /// Writes the files of a run and prints its report; after denied warnings, only a JSON report.
     ///
     /// # Errors

@@ -1,8 +1,9 @@
 //! The paper's Table 3 beside the operation counts of the textbook formulas.
 
 use dalembert_model::equations::{Arm, Formulation, JointPosition, SinCosPair};
+use dalembert_model::number::Exact;
 use dalembert_model::robot::{JointKind, Robot};
-use dalembert_model::scalar::count::{Count, Counter};
+use dalembert_model::scalar::count::Counter;
 
 /// Returns operation counts of three formulations for the torques of a robot: multiplications and
 /// additions by the paper's polynomials for its number of joints, then those of the formula with
@@ -41,7 +42,7 @@ fn paper(formulation: Formulation, n: u64) -> [u64; 2] {
 /// Counts multiplications and additions with a robot's numbers: zeros and ones cost nothing.
 fn as_written(formulation: Formulation, robot: &Robot) -> [u64; 2] {
     let counter = Counter::new();
-    let arm = Arm::from_robot(robot, &mut Count::constant);
+    let arm = Arm::from_robot(robot, &mut Exact::counted);
     let links = arm.links.iter();
     let position: Vec<_> = links
         .map(|link| match link.kind {

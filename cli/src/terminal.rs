@@ -8,7 +8,7 @@ use std::time::Duration;
 use anstream::{AutoStream, ColorChoice};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::output::Failure;
+use crate::failure::Failure;
 
 /// The time before the bar appears.
 const QUIET: Duration = Duration::from_secs(2);

@@ -9,7 +9,7 @@
 //! one point with a probability of at most 2⁻¹² even at these limits, and all twelve with at most
 //! 2⁻¹⁴⁴.
 //!
-//! - `check`: the comparison, [`check`]
+//! - `check`: the comparison, [`check`]; `residues`: the values of a program, and its degree
 //! - [`number`]: residues with slopes, and draws from a hash; [`exact`]: constants and angles
 //! - [`robot`]: the robot file as text; [`setting`]: what a scene fixes and asks for
 //! - [`aligned`]: rows that stand for placed joints; [`arm`]: axes and masses in base axes
@@ -23,6 +23,7 @@ pub mod exact;
 mod matrix;
 pub mod number;
 pub mod outputs;
+mod residues;
 pub mod robot;
 mod screw;
 pub mod setting;

@@ -18,8 +18,8 @@ use num_traits::{One, Signed, Zero};
 
 use super::small::{compare, product, sum};
 use super::{Angle, Rational};
-use crate::scalar::Scalar;
-use crate::scalar::SinCosPair;
+use crate::scalar::count::Count;
+use crate::scalar::{Scalar, SinCosPair};
 
 /// An exact constant.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -136,6 +136,16 @@ pub struct Extent {
 }
 
 impl Exact {
+    /// Returns what is known of it beforehand where operations are counted.
+    pub fn counted<'a>(&self) -> Count<'a> {
+        match () {
+            () if self.is_zero() => Count::Zero,
+            () if self.is_one() => Count::One,
+            () if self.neg().is_one() => Count::MinusOne,
+            () => Count::Number,
+        }
+    }
+
     /// Returns how large it is.
     pub fn extent(&self) -> Extent {
         let bits = |value: &Rational| value.numer().bits() + value.denom().bits();

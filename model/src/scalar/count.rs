@@ -3,7 +3,6 @@
 use core::cell::Cell;
 
 use super::Scalar;
-use crate::number::Exact;
 
 /// Where the operations of one evaluation are counted.
 #[derive(Debug, Default)]
@@ -47,18 +46,6 @@ pub enum Count<'a> {
 }
 
 use Count::{MinusOne, Number, One, Value, Zero};
-
-impl Count<'_> {
-    /// Returns what is known beforehand of a constant.
-    pub fn constant(exact: &Exact) -> Self {
-        match () {
-            () if exact.is_zero() => Zero,
-            () if exact.is_one() => One,
-            () if exact.neg().is_one() => MinusOne,
-            () => Number,
-        }
-    }
-}
 
 impl Scalar for Count<'_> {
     fn zero() -> Self {

@@ -79,7 +79,7 @@ fn cost(frames: &Skeleton<Exact>, regrouping: &Regrouping<Exact>) -> u64 {
     }
     chain.columns = kept(JointKind::Revolute).len();
     let counter = Counter::new();
-    let chain = chain.map(Count::constant);
+    let chain = chain.map(Exact::counted);
     let value = || counter.value();
     let position = chain.links.iter().map(|link| match link.kind {
         JointKind::Revolute => JointPosition::Revolute(SinCosPair {
