@@ -10,6 +10,7 @@ use crate::fault::Fault;
 use crate::file::{Found, between};
 use crate::identity::exact::Exact;
 use crate::identity::setting::Setting;
+use crate::read::number;
 use crate::rounding::Ranges;
 use crate::tolerance::BOX_SLACK;
 
@@ -31,9 +32,9 @@ Payload([mass, x, y, z, xx, yy, zz, xy, yz, xz])
 }",
 ];
 const SCALARS: [&str; 2] = ["f64", "f32"];
-/// The arguments that a box is of.
+/// The arguments that a box bounds.
 const STATE: [&str; 3] = ["q", "qd", "qdd"];
-/// How the constant begins that says where they hold.
+/// How the constant begins that says where functions hold.
 const BOX: &str = "pub const BOX: StateBox = StateBox {";
 
 /// The ends of the ranges of q, q̇ and q̈ that a box has, joint by joint; none where one is open, and
@@ -91,12 +92,12 @@ impl<'k> Known<'k> {
 
     /// Adds what follows from the box of a module in Rust, if this is one: its type, and the function
     /// that asks whether a state is inside.
-    pub(crate) fn add_box(&mut self, item: &'k Found) {
+    pub(crate) fn add_box(&mut self, item: &'k Found, is_single: bool) {
         let lines = trimmed(item);
         let Some((&BOX, behind)) = lines.split_first() else {
             return;
         };
-        let Some(ends) = ends(behind).filter(|ends| self.has(item.module, ends)) else {
+        let Some(ends) = ends(behind, is_single).filter(|ends| self.has(item.module, ends)) else {
             return;
         };
         self.add(item.module, lines.join("\n"));
@@ -152,9 +153,10 @@ impl<'k> Known<'k> {
     pub(crate) fn is_box(&self, item: &Found) -> bool {
         let (lines, macros) = (trimmed(item), &item.symbols.macros);
         let head = lines.first().unwrap_or(&"");
-        let float = match head.contains("const float ") {
-            true => "float",
-            false => "double",
+        let is_single = head.contains("const float ");
+        let (float, suffix) = match is_single {
+            true => ("float", "F"),
+            false => ("double", ""),
         };
         let count = self.setting.joints();
         let (mut ends, mut arguments) = (Ends::default(), Vec::new());
@@ -178,7 +180,7 @@ impl<'k> Known<'k> {
                 let high = high.strip_prefix(entry)?.strip_prefix(" <= ")?;
                 let (name, joint) = entry.strip_suffix(']')?.split_once('[')?;
                 let place = STATE.iter().position(|own| *own == name)?;
-                let end = |text: &str| number(text.strip_suffix('F').unwrap_or(text));
+                let end = |text: &str| number(text.strip_suffix(suffix)?, is_single);
                 let ends = ends[place].as_mut()?.get_mut(whole(joint)?)?;
                 *ends = Some([end(low)?, end(high)?]);
                 Some(())
@@ -225,7 +227,7 @@ fn trimmed<'t>(item: &'t Found) -> Vec<&'t str> {
 }
 
 /// Returns the ends of a box in Rust, given by these lines behind its head.
-fn ends(lines: &[&str]) -> Option<Ends> {
+fn ends(lines: &[&str], is_single: bool) -> Option<Ends> {
     let (mut ends, mut place) = (Ends::default(), None);
     for line in lines {
         if let Some(name) = line.strip_suffix(": [") {
@@ -238,7 +240,7 @@ fn ends(lines: &[&str]) -> Option<Ends> {
             });
             let range = match is_open {
                 true => None,
-                false => Some([number(low)?, number(high)?]),
+                false => Some([number(low, is_single)?, number(high, is_single)?]),
             };
             ends[place?].as_mut()?.push(range);
         } else {
@@ -246,11 +248,6 @@ fn ends(lines: &[&str]) -> Option<Ends> {
         }
     }
     Some(ends)
-}
-
-/// Reads the end of a range.
-fn number(text: &str) -> Option<f64> {
-    text.parse().ok().filter(|end: &f64| end.is_finite())
 }
 
 /// Returns whether lines are a constant of a name with these values, each the nearest float.

@@ -23,7 +23,7 @@ use crate::tolerance::Subject;
 pub use crate::cost::{RATE, Shown};
 pub use crate::tolerance::Bounded;
 
-/// The most times that a function of a claim stands in a file, which has each in two scalars.
+/// The most times that a function of a claim stands in a file: once for each scalar is usual.
 const MOST_TIMES: usize = 4;
 /// The most functions, and what stands beside them, of a file.
 const MOST_ITEMS: usize = 1 << 14;
@@ -141,7 +141,9 @@ pub fn certify(
         let result = is_twice(found).and_then(|()| whole.shown(found, &mut seen));
         lines.push(line(found, whole.name(found), result));
     }
-    items.iter().for_each(|item| seen.known.add_box(item));
+    for item in &items {
+        seen.known.add_box(item, whole.is_single(item));
+    }
     for item in items.iter().filter(|item| is_beside(item)) {
         let follows = is_twice(item).and_then(|()| whole.follows(item, &seen.known));
         if let Err(why) = follows {
@@ -250,6 +252,9 @@ impl<'w> Whole<'w> {
         let emitted = claimed.program(&self.constants)?;
         let other = claimed.exact(&self.constants)?;
         let exact = other.as_ref().unwrap_or(&emitted);
+        if exact.outputs.len() != emitted.outputs.len() {
+            return Err(refused("two programs of other results".into()));
+        }
         let function = function(claimed).map_err(refused)?;
         let mut programs = [&emitted, exact].into_iter();
         let is_fixed = |own: &Operand<Exact>| self.setting.is_fixed(own);
@@ -324,10 +329,13 @@ impl<'w> Whole<'w> {
         if !results.is_empty() {
             (0..3).for_each(|place| held.bounded[place] |= function.arguments.contains(&place));
         }
-        let name = function.parameters();
-        seen.known
-            .values
-            .extend(name.map(|name| (name, base.values)));
+        if let Some(name) = function.parameters().filter(|_| !base.values.is_empty()) {
+            let mut others = seen.known.values.iter();
+            if others.any(|(own, values)| *own == name && *values != base.values) {
+                return Err(refused(format!("its {name} are not another function's")));
+            }
+            seen.known.values.push((name, base.values));
+        }
         Ok(Shown { results, ..cost })
     }
 
@@ -450,6 +458,9 @@ fn function(claimed: &Claimed) -> Result<Function, String> {
     let is_load = claimed.function == LOAD && claimed.results == [LOAD];
     if claimed.results.is_empty() {
         return Err("it has no results".into());
+    }
+    if claimed.function == LOAD && !is_load {
+        return Err("it has other results".into());
     }
     let results = if is_load { &[][..] } else { &claimed.results };
     let function = Function::named(&claimed.function, &claimed.arguments, results)?;

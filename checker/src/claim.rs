@@ -33,6 +33,8 @@ const MOST: usize = 1 << 17;
 const MOST_FUNCTIONS: usize = 1 << 12;
 #[cfg(feature = "certify")]
 const MOST_ANGLES: usize = 1 << 10;
+/// The most results of a function: of 64 joints all h_ikm are 2¹⁸.
+const MOST_RESULTS: usize = 1 << 19;
 /// The most operations times quotients: what divides has a degree in each divisor.
 const MOST_DEGREES: usize = 1 << 24;
 
@@ -173,10 +175,14 @@ impl Claim {
         if claim.functions.len() > MOST_FUNCTIONS {
             return refuse(format!("more than {MOST_FUNCTIONS} functions"));
         }
-        let mut keys = HashSet::new();
+        let (mut keys, mut symbols) = (HashSet::new(), HashSet::new());
         for own in &claim.functions {
             if !keys.insert((&own.function, &own.scene, &own.planned)) {
                 return refuse(format!("`{}` stands there twice", own.function));
+            }
+            let mut own_symbols = own.symbols.iter();
+            if let Some(twice) = own_symbols.find(|name| !symbols.insert((*name, &own.scene))) {
+                return refuse(format!("`{twice:.40}` stands there twice"));
             }
             // It is printed where nothing else may stand.
             if own.planned.is_none() && !is_name(&own.function) {
@@ -283,6 +289,9 @@ impl Claimed {
             Ok((bare.len() < word.len(), operand))
         });
         let outputs = outputs.collect::<Result<Vec<_>, Fault>>()?;
+        if outputs.len() > MOST_RESULTS {
+            return Err(self.refused("more results than are looked at"));
+        }
         Ok(Program { steps, outputs })
     }
 
@@ -317,6 +326,10 @@ impl Claimed {
     /// The first word that is no parameter, or no value.
     #[cfg(feature = "certify")]
     pub fn base(&self, constants: &[Exact], links: usize) -> Result<Base, Fault> {
+        let is_long = |text: &String| text.split_ascii_whitespace().nth(12 * links).is_some();
+        if self.base.len() > 12 * links || self.base.iter().any(is_long) {
+            return Err(self.refused("more base parameters than parameters"));
+        }
         let term = |word: &str| {
             let (factor, name) = match word.split_once('*') {
                 Some((factor, name)) => (constant(constants, factor)?.clone(), name),

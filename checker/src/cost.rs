@@ -32,7 +32,7 @@ pub struct Shown {
     /// The same in halves of an ulp of that value.
     pub units: f64,
     /// At how many of the states that were drawn that holds, others being near to where it divides by
-    /// zero; zero for the whole box.
+    /// zero; all that were drawn where none is bounded; zero for the whole box.
     pub states: usize,
     /// `true` if it has polynomials for sines, whose error counts as rounding.
     pub has_polynomials: bool,

@@ -3,7 +3,7 @@
 //! Nothing is skipped but the stamp, lines of documentation and attributes of a list. Every other
 //! line is without quotes and comments, so that braces can be counted; and every item is read as a
 //! function or compared line by line with the one that it has to be. No module stands there twice,
-//! and no item twice in one. So the function of a name and module is the one that is found here.
+//! and, as `certify` sees, no item twice in one. So the function of a name and module is the one that is found here.
 
 use std::collections::HashSet;
 
@@ -17,7 +17,7 @@ const MOST_AHEAD: usize = 8;
 /// The longest file.
 pub const MOST_BYTES: usize = 32 << 20;
 
-/// A function of a file.
+/// An item of a file: a function, or what stands beside functions.
 #[derive(Clone, Debug, Default)]
 pub struct Found<'t> {
     /// The module that it is in; empty where the file is the module.

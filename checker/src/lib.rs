@@ -7,10 +7,10 @@
 //! 2. `claim`, `compare`: the text is the program that is claimed, its literals rounded once
 //! 3. `program`, `identity`: that program equals the equations of motion, modulo primes that
 //!    SHA-256 draws
-//! 4. `rounding`, `cost`: what rounding costs, over the box or at drawn states
+//! 4. `rounding`, `cost`, `interval`: what rounding costs, over the box or at drawn states
 //! 5. `tolerance`: under a tolerance the text is another program, and the difference is bounded over
 //!    the box, by `written`, `polynomial`, `ring`, `sines`, `levels`, `maximum`
-//! 6. `certify`: these in order, function by function
+//! 6. `certify`, `fault`: these in order, function by function
 //!
 //! Believed are: that every operation is rounded to nearest and none is contracted,
 //! that the library's sines are within one ulp, this crate, the compiler, and the parsers

@@ -347,6 +347,7 @@ fn programs_that_go_wrong_somewhere() {
     let mut claim: Value = serde_json::from_str(&own.claim).unwrap();
     let mut other = claim["functions"][1].clone();
     other["function"] = json!("other");
+    other["symbols"] = json!([]);
     other["values"] = json!("#2 #6 #3 #7 #8 #3");
     claim["functions"].as_array_mut().unwrap().push(other);
     let value = "1.3333333333333333,";

@@ -1,7 +1,7 @@
 //! Straight-line code, and what it is made of.
 //!
 //! - this file: [`Program`]: sines and cosines first, then arithmetic
-//! - [`speed`]: what it reads of speeds for Coulomb friction
+//! - [`Speed`]: what it reads of speeds for Coulomb friction
 //! - [`scalar_type`]: the floats that code is printed in; constants rounded once
 //! - [`code`]: the same over literals: each constant rounded once, sines by a
 //!   library or by the polynomials of a [`kernel`]; `difference`: where two differ

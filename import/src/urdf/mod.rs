@@ -170,7 +170,6 @@ fn other_format(root: Node) -> Option<&'static str> {
     }
 }
 
-/// Reads elements, reporting what is wrong with them.
 impl Problems<'_> {
     /// Returns true if there are at most so many; else says that there are more.
     pub(crate) fn are_few(
