@@ -9,7 +9,7 @@ use crate::compare::is_literal;
 use crate::fault::Fault;
 use crate::file::{Found, Lines, between, fault, item};
 use crate::identity::exact::Exact;
-use crate::identity::table::functions as functions_of_table;
+use crate::identity::table;
 use crate::read::{self, has_only};
 use crate::together;
 
@@ -154,12 +154,12 @@ pub fn functions(source: &str) -> Result<Vec<Found<'_>>, Fault> {
     Err(Fault::Text(end, "the header does not end".into()))
 }
 
-/// Returns whether all functions of a text are named after this one, in full or shortened; never by
+/// Returns true if all functions of a text are named after this one, in full or shortened; never by
 /// the name of another one of the table.
 pub(crate) fn are_of(found: &Found, function: &str) -> bool {
-    let all = functions_of_table();
     let is_own = |(module, word): (&str, &str)| {
-        let is_other = word != function && all.iter().any(|own| own.name == word);
+        let mut all = table::functions().iter();
+        let is_other = word != function && all.any(|own| own.name == word);
         module == found.module && !is_other && is_short(word, function)
     };
     let mut names = found.text.lines().filter_map(symbol);

@@ -16,7 +16,7 @@ fn generated(functions: &str) -> String {
 
 const EVIL: &str = "#[must_use]\npub fn inverse_dynamics(_q: &[f64; 2], _qd: &[f64; 2], _qdd: &[f64; 2]) -> [f64; 2] {\n    [9000000000.0, 9000000000.0]\n}\n";
 
-/// Returns whether a file is shown, by the claim of the honest function.
+/// Returns true if a file is shown, by the claim of the honest function.
 fn is_shown(source: &str) -> bool {
     let [_, claim, robot] = honest();
     let report = certify(source, &claim, &robot, Some("pick"), None);

@@ -22,7 +22,7 @@ const ROBOTS: [&str; 5] = [
 
 /// Returns the first result of a function.
 fn value(arm: &Arm, state: &State, name: &str) -> Vec<Number> {
-    let function = functions().into_iter().find(|own| own.name == name);
+    let function = functions().iter().find(|own| own.name == name);
     result(arm, state, &function.unwrap().fields[0]).unwrap()
 }
 

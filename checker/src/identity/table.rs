@@ -1,5 +1,7 @@
 //! The 35 outputs: what each reads and returns.
 
+use std::sync::LazyLock;
+
 use super::setting::Setting;
 use crate::program::argument;
 
@@ -153,8 +155,15 @@ impl Field {
     }
 }
 
+/// The functions of the table, which is read once.
+static FUNCTIONS: LazyLock<Vec<Function>> = LazyLock::new(read);
+
 /// Returns all functions.
-pub fn functions() -> Vec<Function> {
+pub fn functions() -> &'static [Function] {
+    &FUNCTIONS
+}
+
+fn read() -> Vec<Function> {
     let mut all: Vec<Function> = Vec::new();
     for word in TABLE.split_whitespace() {
         if let Some(name) = word.strip_suffix(':') {
