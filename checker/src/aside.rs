@@ -34,7 +34,7 @@ Payload([mass, x, y, z, xx, yy, zz, xy, yz, xz])
 const SCALARS: [&str; 2] = ["f64", "f32"];
 /// The arguments that a box bounds.
 const STATE: [&str; 3] = ["q", "qd", "qdd"];
-/// How the constant begins that says where functions hold.
+/// The beginning of the constant that says where functions hold.
 const BOX: &str = "pub const BOX: StateBox = StateBox {";
 
 /// The ends of the ranges of q, q̇ and q̈ that a box has, joint by joint; none where one is open, and
@@ -65,7 +65,7 @@ pub(crate) struct Known<'k> {
 }
 
 impl<'k> Known<'k> {
-    /// Returns what follows from a robot, a load being so many numbers.
+    /// Returns the facts that follow from a robot, a load being so many numbers.
     pub(crate) fn new(setting: &'k Setting<'k>, ranges: &'k Ranges, load: usize) -> Known<'k> {
         let (joints, rows) = (setting.joints(), &setting.rows);
         let count = rows.len();

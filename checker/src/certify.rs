@@ -166,14 +166,14 @@ fn is_beside(found: &Found) -> bool {
     is_box || found.name.is_empty() || found.text.contains(" pi[")
 }
 
-/// Whether a program is the robot's, once that is asked; and the times that its function was there.
+/// The finding that a program is the robot's, once it is asked for; how often its function came.
 type Identity = (Option<Result<(), Fault>>, usize);
 
 /// The findings so far.
 struct Seen<'w> {
-    /// Of each function of the claim, by its name, since both scalars have one program.
+    /// The finding about each function of the claim, since both scalars have one program.
     identities: HashMap<&'w str, Identity>,
-    /// What follows from the functions that are shown.
+    /// The facts that follow from the functions that are shown.
     known: Known<'w>,
 }
 

@@ -12,7 +12,7 @@ use crate::read::{self, Symbols, has_only, is_letter};
 
 /// The longest name of a module.
 const MOST_LETTERS: usize = 1 << 7;
-/// How many lines ahead of a function's head are looked past: directives and attributes.
+/// The most lines before a function's head that are looked past: directives and attributes.
 const MOST_AHEAD: usize = 8;
 /// The longest file.
 pub const MOST_BYTES: usize = 32 << 20;

@@ -1,4 +1,4 @@
-//! What all subcommands share: each takes a [`Context`] and returns [`Done`] or a [`Failure`], and
+//! The frame of all subcommands: each takes a [`Context`] and returns [`Done`] or a [`Failure`], and
 //! [`Context::finish`] prints and writes it.
 
 use std::path::PathBuf;

@@ -50,7 +50,7 @@ impl Neg for Fixed {
 
 impl Scalar for Fixed {}
 
-/// What reads so many digits.
+/// A reader of so many digits.
 struct Digits;
 
 impl Reading for Digits {

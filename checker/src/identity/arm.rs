@@ -97,7 +97,7 @@ fn times([sin, cos]: [Number; 2], count: i64) -> [Number; 2] {
 /// A body about its centre of mass, and where that is.
 pub(super) type Carried<N> = (Body<N>, Pose<N>);
 
-/// What reads the numbers of a robot file.
+/// A reader of the numbers of a robot file.
 pub(super) trait Reading {
     /// The numbers that it gives.
     type Number: Scalar;

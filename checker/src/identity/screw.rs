@@ -9,7 +9,7 @@ use std::ops::{Add, Mul, Neg};
 
 use super::number::Number;
 
-/// What vectors, poses and bodies are made of.
+/// A number of which vectors, poses and bodies are made.
 pub(super) trait Scalar:
     Clone + From<i64> + Add<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {

@@ -146,7 +146,7 @@ impl<'r> Reader<'r> {
         Ok(())
     }
 
-    /// Returns whether a word of a head is this one: in Rust an argument that nothing reads has an
+    /// Returns true if a word of a head is this one: in Rust an argument that nothing reads has an
     /// underscore.
     fn is_word(&self, own: &str, word: &str) -> bool {
         let mut arguments = self.head.arguments.iter();

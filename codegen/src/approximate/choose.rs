@@ -136,7 +136,7 @@ impl<'a> ErrorBudget<'a> {
         Ok(())
     }
 
-    /// Returns what is claimed of a variant, before anything of it is bounded.
+    /// Returns the claim of a variant, before anything of it is bounded.
     fn draft(&self, emitted: &Program) -> Certificate {
         Certificate {
             scene: self.setup.scene().map(SceneKey::new),

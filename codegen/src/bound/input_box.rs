@@ -172,7 +172,7 @@ impl InputBox {
     }
 }
 
-/// Returns whether a joint may stand anywhere, however many turns: it has no limits.
+/// Returns true if a joint may stand anywhere, however many turns: it has no limits.
 /// Everything reads its sine and cosine, so that what holds over one turn
 /// holds wherever those two are good.
 pub(crate) fn turns_freely(robot: &Robot, joint: usize) -> bool {

@@ -1,4 +1,4 @@
-//! How a variant is checked, and the bounds of its claim found.
+//! The check of a variant, and the bounds of its claim.
 
 use super::{Certificate, shape, work};
 use crate::bound::definite::least_eigenvalue;
@@ -63,7 +63,7 @@ impl Certificate {
         pairs.map(|(&x, &scale)| relative(x, scale)).collect()
     }
 
-    /// Returns what sines and rounding cost, relative to the scales.
+    /// Returns the cost of sines and of rounding, relative to the scales.
     pub(crate) fn rounding(
         &self,
         scalar: ScalarType,
@@ -92,7 +92,7 @@ impl Certificate {
     }
 }
 
-/// Returns whether two programs are the same function: what differs is rounding.
+/// Returns true if two programs are the same function: what differs is rounding.
 pub(crate) fn is_same(exact: &Program, emitted: &Program) -> bool {
     exact == emitted || prove_same(exact, emitted).is_ok()
 }

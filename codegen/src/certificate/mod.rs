@@ -77,7 +77,7 @@ impl Certificate {
             .map(|sine| sine.range)
     }
 
-    /// Returns what is claimed of an emitted program over a box relative to scales, before anything
+    /// Returns the claim of an emitted program over a box relative to scales, before anything
     /// of it is bounded or printed: of a whole robot, with a library's sines.
     pub(crate) fn draft(
         exact: &Program,

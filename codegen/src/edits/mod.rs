@@ -14,7 +14,7 @@ pub(crate) use difference::deviation;
 pub use difference::difference;
 pub use omissions::{Omission, omissions};
 
-/// What an edit replaces.
+/// The place of an edit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum EditSite {
     /// Every use of an input.
@@ -30,9 +30,9 @@ pub enum EditSite {
 /// A value in place of another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edit {
-    /// What is replaced.
+    /// The place that is replaced.
     pub place: EditSite,
-    /// Whether the replacement is negated.
+    /// `true` if the replacement is negated.
     pub negative: bool,
     /// The replacement: computed before the place, or a constant.
     pub value: Operand,
@@ -57,7 +57,7 @@ impl Edit {
         }
     }
 
-    /// Returns whether it puts another constant in the place of an operand: it saves
+    /// Returns true if it puts another constant in the place of an operand: it saves
     /// nothing, but makes up for what other edits leave out.
     pub fn corrects(&self) -> bool {
         matches!(self.place, EditSite::Left(_) | EditSite::Right(_))
@@ -75,7 +75,7 @@ impl Stage {
     }
 }
 
-/// Returns whether anything was edited.
+/// Returns true if anything was edited.
 pub(crate) fn has_edits(stages: &[Stage]) -> bool {
     stages.iter().any(|stage| !stage.edits.is_empty())
 }

@@ -20,7 +20,7 @@ const FUSES: &str = "defined(__GNUC__) && !defined(__clang__) && \
 /// vectors without masks where it first computes (`tree-pre`) what follows of an angle that is far.
 const GCC: &str = "defined(__GNUC__) && !defined(__clang__)";
 
-/// What headers in CUDA define, once the one of the robot's names is there.
+/// The text that headers in CUDA define, once the one of the robot's names is there.
 const PRODUCTS: &str = "
 /* Each operation is rounded, on the device too: no product becomes one with a sum. */
 #if defined(__CUDA_ARCH__)
@@ -32,7 +32,7 @@ const PRODUCTS: &str = "
 #endif
 ";
 
-/// What they define no more at their end.
+/// The text that takes this back at their end.
 const NO_PRODUCTS: &str = "
 #undef DALEMBERT_MUL
 #undef DALEMBERT_MULF

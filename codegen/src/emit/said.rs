@@ -9,7 +9,7 @@ use crate::program::{Counts, Program, ScalarType};
 use crate::setup::Setup;
 use crate::sincos::AngleKernel;
 
-/// Returns what a function's documentation says about its sines.
+/// Returns the words of a function's documentation about its sines.
 pub(super) fn sines(sines: &[AngleKernel], scalar: ScalarType) -> Vec<String> {
     if sines.is_empty() {
         return Vec::new();

@@ -30,7 +30,7 @@ use dalembert_model::robot::{JointKind, Robot};
 use proof::Errors;
 
 words! {
-    /// How emitted code gets sines and cosines.
+    /// The way in which emitted code gets sines and cosines.
     #[derive(Clone, Copy, Debug, Default, PartialEq)]
     #[non_exhaustive]
     pub enum SinCos: "source of sines" {

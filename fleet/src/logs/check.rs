@@ -64,7 +64,7 @@ impl Clock {
 /// Looks at a file: its end, its columns, and every time.
 ///
 /// # Errors
-/// What is wrong with it, without its name, and that the command was ended.
+/// The fault in it, without its name; or that the command was ended.
 pub fn inspect(path: &Path, columns: &Columns, going: &Going) -> Result<Log, Error> {
     let mut log = Log {
         name: path.to_owned(),

@@ -14,7 +14,7 @@ use crate::progress::Going;
 /// Converts a log; returns that of the file that was written.
 ///
 /// # Errors
-/// What is wrong with the log, with its row, and that the command was ended.
+/// The fault in the log, with its row; or that the command was ended.
 pub fn convert(log: &Log, to: &Path, going: &Going) -> Result<Log, Error> {
     let columns = &log.columns;
     let n = columns.joints;

@@ -136,7 +136,7 @@ pub struct Extent {
 }
 
 impl Exact {
-    /// Returns what is known of it beforehand where operations are counted.
+    /// Returns the kind of number that it is known to be where operations are counted.
     pub fn counted<'a>(&self) -> Count<'a> {
         match () {
             () if self.is_zero() => Count::Zero,

@@ -120,7 +120,7 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// Returns whether it moves nothing.
+    /// Returns true if it moves nothing.
     pub fn is_identity(&self) -> bool {
         self.xyz.iter().all(Zero::is_zero) && self.rpy.iter().all(Angle::is_zero)
     }
@@ -352,7 +352,7 @@ impl Position {
         matches!(self, Position::Angle(_)) == (kind == JointKind::Revolute)
     }
 
-    /// Returns whether it is below another one of its kind.
+    /// Returns true if it is below another one of its kind.
     pub(crate) fn is_below(&self, other: &Self) -> bool {
         match (self, other) {
             (Position::Angle(a), Position::Angle(b)) => a.cmp_value(b).is_lt(),

@@ -340,7 +340,7 @@ pub(crate) fn is_snake(name: &str) -> bool {
     name.starts_with(|c: char| c.is_ascii_lowercase()) && is_plain(name)
 }
 
-/// Returns whether a frame may have this name: small letters, digits and single `_`
+/// Returns true if a frame may have this name: small letters, digits and single `_`
 /// between them, and no ending that is one of functions' own.
 pub fn is_frame_name(name: &str) -> bool {
     let is_own = ENDINGS.iter().any(|ending| name.ends_with(ending));

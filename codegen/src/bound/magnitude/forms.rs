@@ -37,7 +37,7 @@ const MAX_PRODUCTS: usize = 400_000;
 /// At most two rates, 1 … 2n and sorted; 0 is none.
 type Monomial = [u8; 2];
 
-/// What is added to a coefficient, the first number.
+/// A term that is added to a coefficient, the first number.
 #[derive(Clone, Copy, Debug)]
 enum Work {
     Constant(u32, Interval),
@@ -55,7 +55,7 @@ pub(super) struct Forms {
     /// Ranges that products put into coefficients, by what they are made of.
     factors: Vec<Vec<u8>>,
     coefficients: u32,
-    /// Of each output, but for its sign: monomials and coefficients.
+    /// The monomials and coefficients of each output, but for its sign.
     outputs: Vec<Vec<(Monomial, u32)>>,
     /// Position joints that matter.
     pub positions: BTreeSet<usize>,

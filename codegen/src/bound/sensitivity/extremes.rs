@@ -99,7 +99,7 @@ fn gradient(program: &Program) -> (Dag, Vec<Vec<(Id, Edge)>>) {
     (builder.finish(outputs), rows)
 }
 
-/// Returns whether a node may be off by more than its literal: operations, sines and cosines.
+/// Returns true if a node may be off by more than its literal: operations, sines and cosines.
 fn errs(node: &Node) -> bool {
     match node {
         Node::Apply(..) | Node::Input(Input::Sin(_) | Input::Cos(_)) => true,

@@ -77,7 +77,7 @@ pub(crate) fn columns(program: &Program, code: &Code) -> String {
     text
 }
 
-/// Returns whether products are fused in the sines that are given, as they are in what reads them.
+/// Returns true if products are fused in the sines that are given, as they are in what reads them.
 fn fuses_sines(code: &Code) -> bool {
     code.counts().fma > 0 && trig::taken(code).next().is_some()
 }

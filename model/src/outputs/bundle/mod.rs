@@ -183,7 +183,7 @@ impl Function {
     }
 }
 
-/// Returns whether a bundle may have this name.
+/// Returns true if a bundle may have this name.
 pub(super) fn check_name(name: &str) -> Result<(), BundleError> {
     let bars = name.ends_with('_') || name.contains("__");
     if !is_snake(name) || bars || name.len() > MAX_BYTES {
