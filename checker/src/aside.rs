@@ -10,6 +10,7 @@ use crate::fault::Fault;
 use crate::file::{Found, between};
 use crate::identity::exact::Exact;
 use crate::identity::setting::Setting;
+use crate::program::ARGUMENTS;
 use crate::read::number;
 use crate::rounding::Ranges;
 use crate::tolerance::BOX_SLACK;
@@ -33,7 +34,7 @@ Payload([mass, x, y, z, xx, yy, zz, xy, yz, xz])
 ];
 const SCALARS: [&str; 2] = ["f64", "f32"];
 /// The arguments that a box bounds.
-const STATE: [&str; 3] = ["q", "qd", "qdd"];
+const STATE: [&str; 3] = [ARGUMENTS[0].0, ARGUMENTS[1].0, ARGUMENTS[2].0];
 /// The beginning of the constant that says where functions hold.
 const BOX: &str = "pub const BOX: StateBox = StateBox {";
 
@@ -198,8 +199,10 @@ impl<'k> Known<'k> {
     /// module hold everywhere.
     fn has(&self, module: &str, ends: &Ends) -> bool {
         let count = self.setting.joints();
-        let none = Held::default();
-        let held = self.held.get(module).unwrap_or(&none);
+        // A box of no functions is another module's.
+        let Some(held) = self.held.get(module) else {
+            return false;
+        };
         (0..3).all(|place| {
             let given = ends[place].as_deref();
             let is_known = |joint: usize| match given.and_then(|own| own[joint]) {
@@ -250,7 +253,7 @@ fn ends(lines: &[&str], is_single: bool) -> Option<Ends> {
     Some(ends)
 }
 
-/// Returns whether lines are a constant of a name with these values, each the nearest float.
+/// Returns true if lines are a constant of a name with these values, each the nearest float.
 fn are(lines: &[&str], name: &str, values: &[Exact]) -> bool {
     let [head, lines @ .., "];"] = lines else {
         return false;

@@ -15,6 +15,7 @@ use crate::identity::number::Draws;
 use crate::identity::setting::Setting;
 use crate::identity::table::{Field, Function, functions, length};
 use crate::identity::{Base, Statement, aligned, check, robot};
+use crate::near::is_near;
 use crate::program::{ARGUMENTS, Operand, Program, argument};
 use crate::read::{self, Argument, Head, Text, TextError};
 use crate::rounding::Ranges;
@@ -80,8 +81,8 @@ pub fn certify(
     if let Some(rows) = document.aligned.as_ref().filter(|_| file.is_placed()) {
         let of_rows = |why: String| Fault::Claim(format!("`aligned`: {why}"));
         let rows = robot::read(rows).map_err(of_rows)?;
-        aligned::check(&file, &rows).map_err(of_rows)?;
-        file = rows.in_scenes_of(file);
+        aligned::check(&file, &rows, scene).map_err(of_rows)?;
+        file = rows.in_scenes_of(file, scene);
     }
     let setting = file.setting(scene).map_err(of_robot)?;
     let is_c = source.starts_with(c99::HEAD);
@@ -137,8 +138,25 @@ pub fn certify(
         is_first.then_some(()).ok_or_else(twice)
     };
     let mut lines = Vec::new();
+    let modules = |is_such: fn(&Claimed) -> bool| -> HashSet<&str> {
+        let own = items
+            .iter()
+            .filter(|item| whole.claimed(item).is_some_and(is_such));
+        own.map(|item| item.module).collect()
+    };
+    let takers = modules(|own| own.arguments.iter().any(|name| name == LOAD));
+    let loads = modules(|own| own.function == LOAD);
+    let has_load =
+        |found: &Found| match takers.contains(found.module) == loads.contains(found.module) {
+            true => Ok(()),
+            false => Err(Fault::Claim(
+                "a load without functions that take it, or without the function `load`".into(),
+            )),
+        };
     for found in items.iter().filter(|item| !is_beside(item)) {
-        let result = is_twice(found).and_then(|()| whole.shown(found, &mut seen));
+        seen.known.held.entry(found.module).or_default();
+        let result = is_twice(found).and_then(|()| has_load(found));
+        let result = result.and_then(|()| whole.shown(found, &mut seen));
         lines.push(line(found, whole.name(found), result));
     }
     for item in &items {
@@ -249,13 +267,13 @@ impl<'w> Whole<'w> {
         if entry.1 > MOST_TIMES {
             return Err(Fault::Work);
         }
+        let function = function(claimed).map_err(refused)?;
         let emitted = claimed.program(&self.constants)?;
         let other = claimed.exact(&self.constants)?;
         let exact = other.as_ref().unwrap_or(&emitted);
         if exact.outputs.len() != emitted.outputs.len() {
             return Err(refused("two programs of other results".into()));
         }
-        let function = function(claimed).map_err(refused)?;
         let mut programs = [&emitted, exact].into_iter();
         let is_fixed = |own: &Operand<Exact>| self.setting.is_fixed(own);
         if programs.any(|own| own.reads(is_fixed)) {
@@ -272,9 +290,6 @@ impl<'w> Whole<'w> {
         let head = self.head(claimed, &function, &base, self.is_single(found))?;
         let read = self.read(&head, found)?;
         seen.known.items.extend(structure(&head));
-        if !read.sines.is_empty() && function.arguments.first() != Some(&0) {
-            return Err(refused("sines of angles that are no argument".into()));
-        }
         let why = |why: String| Fault::Text(found.line, why);
         compare(&read.program, &emitted, head.is_single).map_err(why)?;
         self.sines(&read, head.is_single).map_err(why)?;
@@ -315,7 +330,21 @@ impl<'w> Whole<'w> {
             let why = format!("result {place} is within {bound:.3e} of T, not {tolerated:.3e}");
             return Err(refused(why));
         }
-        let cost = cost(&read, &head, &self.ranges, &[&self.seed, head.name]);
+        let mut ranges = self.ranges.clone();
+        let load = self
+            .load()?
+            .and_then(|own| cost::load(own, &ranges, head.is_single));
+        let load = load.unwrap_or_default();
+        if let Some(place) = argument(LOAD) {
+            let own = load.iter().map(|own| [own.exact.low, own.exact.high]);
+            ranges[place] = own.collect();
+        }
+        let seeds = [self.seed.as_str(), head.name];
+        if function.divides() && !is_near(&read, exact, &head, &ranges, self.setting, &seeds) {
+            let why = "at random states its numbers are far from those of the claimed program";
+            return Err(refused(why.into()));
+        }
+        let cost = cost(&read, &head, &ranges, &load, &seeds);
         // What divides may come near to where it has no bound; nothing else does. What is no number
         // counts as too large.
         let is_everywhere = [0, STATES].contains(&cost.states);
@@ -336,7 +365,14 @@ impl<'w> Whole<'w> {
             }
             seen.known.values.push((name, base.values));
         }
-        Ok(Shown { results, ..cost })
+        // A bound as large as the values says nothing.
+        let says = |own: f64| if cost.rounding < 1.0 { own } else { f64::NAN };
+        Ok(Shown {
+            rounding: says(cost.rounding),
+            units: says(cost.units),
+            results,
+            ..cost
+        })
     }
 
     /// Returns the claim under a tolerance, and the tolerance of each joint; none of a function that

@@ -35,8 +35,9 @@ const MOST_FUNCTIONS: usize = 1 << 12;
 const MOST_ANGLES: usize = 1 << 10;
 /// The most results of a function: of 64 joints all h_ikm are 2¹⁸.
 const MOST_RESULTS: usize = 1 << 19;
-/// The most operations times quotients: what divides has a degree in each divisor.
-const MOST_DEGREES: usize = 1 << 24;
+/// The most quotients times operations, and times results and quotients: what divides has a degree
+/// in each divisor.
+const MOST_DEGREES: usize = 1 << 26;
 
 /// The functions of a robot, each with what is claimed of it.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
@@ -279,9 +280,6 @@ impl Claimed {
             }
         }
         let quotients = steps.iter().filter(|step| step.0 == '/').count();
-        if steps.len() * quotients > MOST_DEGREES {
-            return Err(self.refused("more quotients than are looked at"));
-        }
         let outputs = returns.map(|word| {
             let bare = word.strip_prefix('-').unwrap_or(word);
             let operand = self.operand(bare, steps.len(), constants);
@@ -291,6 +289,10 @@ impl Claimed {
         let outputs = outputs.collect::<Result<Vec<_>, Fault>>()?;
         if outputs.len() > MOST_RESULTS {
             return Err(self.refused("more results than are looked at"));
+        }
+        let degrees = quotients * (4 * steps.len() + quotients * outputs.len());
+        if degrees > MOST_DEGREES {
+            return Err(self.refused("more quotients than are looked at"));
         }
         Ok(Program { steps, outputs })
     }
@@ -305,17 +307,17 @@ impl Claimed {
         if let Some(constant) = constant(constants, word) {
             return Some(Operand::Constant(constant.clone()));
         }
+        let takes = |name: &str| self.arguments.iter().any(|own| own == name);
         if let Some((name, index)) = word.strip_suffix(']').and_then(|own| own.split_once('[')) {
-            let is_own = self.arguments.iter().any(|own| own == name);
-            let place = argument(name).filter(|_| is_own)?;
+            let place = argument(name).filter(|_| takes(name))?;
             return Some(Operand::Entry(place, whole(index)?));
         }
         let (letter, number) = word.split_at_checked(1)?;
         let place = whole(number)?.checked_sub(1)?;
         match letter {
             "t" if place < count => Some(Operand::Step(place)),
-            "s" | "c" => Some(Operand::Sine(place, letter == "s")),
-            "r" => Some(Operand::Speed(place)),
+            "s" | "c" if takes("q") => Some(Operand::Sine(place, letter == "s")),
+            "r" if takes("qd") => Some(Operand::Speed(place)),
             _ => None,
         }
     }

@@ -1,10 +1,11 @@
 //! The cost of rounding in a function: over the box where that can be bounded, else at states that a
 //! hash draws.
 
+use crate::identity::exact::Exact;
 use crate::identity::number::Draws;
 use crate::identity::setting::Setting;
 use crate::identity::table::length;
-use crate::program::ARGUMENTS;
+use crate::program::{ARGUMENTS, Operand, Program, Step};
 use crate::read::{self, Function, Head, Source};
 use crate::rounding::{Ranges, Rounding, Value};
 use crate::sines::Scalar;
@@ -40,30 +41,56 @@ pub struct Shown {
     pub results: Vec<Bounded>,
 }
 
-/// Bounds what rounding costs a function of this head, over ranges; states are drawn from these
-/// texts.
-pub(crate) fn cost(read: &Function, head: &Head, ranges: &Ranges, texts: &[&str]) -> Shown {
-    let mut ranges = ranges.clone();
-    for own in &head.arguments {
-        ranges[own.place].resize(own.length, [-1.0, 1.0]);
-    }
-    let rounding = Rounding::new(read, head.is_single, &ranges);
+/// Returns the values that a program computes for a load in a scalar, over the ranges of a payload.
+pub(crate) fn load(own: &Program<Exact>, ranges: &Ranges, is_single: bool) -> Option<Vec<Value>> {
+    let operand = |own: &Operand<Exact>| {
+        Some(match own {
+            Operand::Constant(constant) => Operand::Constant(constant.double()?[0]),
+            Operand::Step(step) => Operand::Step(*step),
+            Operand::Entry(place, index) => Operand::Entry(*place, *index),
+            Operand::Sine(..) | Operand::Speed(_) => return None,
+        })
+    };
+    let step = |(operation, [a, b]): &Step<Exact>| Some((*operation, [operand(a)?, operand(b)?]));
+    let output = |(negative, own): &(bool, Operand<Exact>)| Some((*negative, operand(own)?));
+    let program = Program {
+        steps: own.steps.iter().map(step).collect::<Option<_>>()?,
+        outputs: own.outputs.iter().map(output).collect::<Option<_>>()?,
+    };
+    let read = Function {
+        program,
+        ..Function::default()
+    };
+    Some(Rounding::new(&read, is_single, ranges).bounds(ranges, None))
+}
+
+/// Bounds what rounding costs a function of this head, over ranges, with the values of its load;
+/// states are drawn from these texts.
+pub(crate) fn cost(
+    read: &Function,
+    head: &Head,
+    ranges: &Ranges,
+    load: &[Value],
+    texts: &[&str],
+) -> Shown {
+    let mut rounding = Rounding::new(read, head.is_single, ranges);
+    rounding.load = load.to_vec();
     let mut draws = Draws::new(texts);
-    let over_box = rounding.bounds(&ranges, None);
+    let over_box = rounding.bounds(ranges, None);
     let count = over_box.len();
     // Returns the cost over the box, or at so many states, and at how many it is bounded: near to
     // where something divides by zero, it is not.
     let mut look = |states: usize, over_box: Option<&[Value]>| {
         let (mut sizes, mut errors, mut bounded) = (vec![0.0; count], vec![0.0; count], 0);
         for _ in 0..states {
-            let state = drawn(&ranges, &mut draws, head.is_single);
+            let state = drawn(ranges, &mut draws, head.is_single);
             let found = rounding.bounds(&state, None);
             if over_box.is_none() && !found.iter().all(|own| own.error.is_finite()) {
                 continue;
             }
             bounded += 1;
             for (k, own) in found.iter().enumerate() {
-                sizes[k] = worse(sizes[k], own.exact.magnitude());
+                sizes[k] = worse(sizes[k], own.exact.least());
                 errors[k] = worse(errors[k], own.error);
             }
         }
@@ -142,7 +169,7 @@ pub(crate) fn ranges(setting: &Setting) -> Result<Ranges, String> {
 }
 
 /// Draws a state of the box, in numbers of the scalar.
-fn drawn(ranges: &Ranges, draws: &mut Draws, is_single: bool) -> Ranges {
+pub(crate) fn drawn(ranges: &Ranges, draws: &mut Draws, is_single: bool) -> Ranges {
     let lists = ranges.iter().map(|list| {
         let points = list.iter().map(|[low, high]| {
             let own = low + (high - low) * draws.share();

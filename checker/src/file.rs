@@ -122,7 +122,7 @@ pub(crate) fn fault((number, line): (usize, &str)) -> Fault {
     Fault::Text(number, format!("nothing that is generated: `{line}`"))
 }
 
-/// Returns what is in a text between its beginning and its end.
+/// Returns the part of a text between its beginning and its end.
 pub(crate) fn between<'t>(text: &'t str, before: &str, behind: &str) -> Option<&'t str> {
     text.strip_prefix(before)?.strip_suffix(behind)
 }

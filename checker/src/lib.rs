@@ -43,6 +43,8 @@ mod levels;
 #[cfg(feature = "certify")]
 mod maximum;
 #[cfg(feature = "certify")]
+mod near;
+#[cfg(feature = "certify")]
 pub mod polynomial;
 pub mod program;
 pub mod read;

@@ -24,8 +24,9 @@ use crate::levels::{Level, Search};
 use crate::polynomial::Polynomial;
 use crate::ring::Ring;
 
-/// The most multiplications for the B that is wanted, and for each larger one.
-const MOST_STEPS: u64 = 2_500_000_000;
+/// The most multiplications for all results of a function, and for each B larger than the one that
+/// is wanted.
+pub const MOST_STEPS: u64 = 1_500_000_000;
 const MOST_STEPS_MORE: u64 = 400_000_000;
 /// Cells narrower than this are not cut: what they would show is shown by a larger B.
 const NARROWEST: f64 = 1e-3;
@@ -47,9 +48,9 @@ enum Unshown {
 }
 
 /// Returns a bound of the magnitude of a polynomial over the box, at most `wanted` if that can be
-/// shown, else a little above the largest F.
-pub fn bound(polynomial: &Polynomial, ring: &Ring, wanted: f64) -> f64 {
-    let mut search = Search::new(polynomial, ring, MOST_STEPS);
+/// shown, else a little above the largest F; takes the multiplications from those that are left.
+pub fn bound(polynomial: &Polynomial, ring: &Ring, wanted: f64, left: &mut u64) -> f64 {
+    let mut search = Search::new(polynomial, ring, *left);
     let first = search.values.first().map(Vec::as_slice).unwrap_or_default();
     let norm: f64 = first.iter().map(|value| value.abs()).sum();
     // What doubles cost: a sum of at most so many products, sines that are 1e-15 off, and
@@ -67,7 +68,10 @@ pub fn bound(polynomial: &Polynomial, ring: &Ring, wanted: f64) -> f64 {
     }
     for growth in GROWTH {
         for _ in 0..20 {
-            match search.shows(0, least) {
+            let before = search.steps;
+            let found = search.shows(0, least);
+            *left -= before - search.steps;
+            match found {
                 Ok(()) if shown == wanted => return wanted,
                 Ok(()) => return plain.min((least + rest) * (1.0 + 1e-12)),
                 Err(Unshown::Larger(found)) => least = (found * 1.0005).max(least * 1.0005),
@@ -79,7 +83,7 @@ pub fn bound(polynomial: &Polynomial, ring: &Ring, wanted: f64) -> f64 {
             break;
         }
         least *= growth;
-        (shown, search.steps) = (f64::INFINITY, MOST_STEPS_MORE);
+        (shown, search.steps) = (f64::INFINITY, MOST_STEPS_MORE.min(*left));
     }
     plain
 }

@@ -5,7 +5,7 @@
 use std::collections::HashMap;
 
 use crate::interval::Interval;
-use crate::program::Operand;
+use crate::program::{Operand, argument};
 use crate::read::{Function, Source};
 use crate::sines::{self, Scalar};
 
@@ -34,6 +34,8 @@ pub struct Rounding<'f> {
     pub(crate) scalar: Scalar,
     /// The largest errors of the polynomials for a joint's sine and cosine over the box.
     polynomials: HashMap<(usize, bool), f64>,
+    /// The load that the function is given, with the errors of what computes it.
+    pub(crate) load: Vec<Value>,
 }
 
 impl<'f> Rounding<'f> {
@@ -56,6 +58,7 @@ impl<'f> Rounding<'f> {
             function,
             scalar,
             polynomials,
+            load: Vec::new(),
         }
     }
 
@@ -121,7 +124,14 @@ impl<'f> Rounding<'f> {
                 let exact = Interval::around(*literal, error);
                 Some(Value { exact, error })
             }
-            Operand::Entry(place, index) => entry(given.ranges, *place, *index).map(Value::exact),
+            Operand::Entry(place, index) => {
+                let load = self
+                    .load
+                    .get(*index)
+                    .filter(|_| argument("load") == Some(*place));
+                let error = load.map_or(0.0, |own| own.error);
+                entry(given.ranges, *place, *index).map(|exact| Value { exact, error })
+            }
             Operand::Sine(joint, is_sine) => {
                 let own = given.sines.get(*joint);
                 own.map(|own| own[usize::from(!is_sine)])
@@ -201,7 +211,7 @@ fn entry(ranges: &Ranges, place: usize, index: usize) -> Option<Interval> {
     Some(Interval::new(low, high))
 }
 
-/// Returns what a product is off by its factors.
+/// Returns the error of a product by those of its factors.
 fn inherited(a: Value, b: Value) -> f64 {
     // Nothing times what is not known is nothing: so it is in products of zero.
     let part = |error: f64, size: f64| if error == 0.0 { 0.0 } else { error * size };

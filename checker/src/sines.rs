@@ -14,7 +14,7 @@ pub struct Scalar {
     pub unit: f64,
     /// The cost beside that where results underflow.
     pub least: f64,
-    /// Where results overflow.
+    /// Where results are too near to overflow: states a little outside of the box would.
     pub most: f64,
 }
 
@@ -22,8 +22,8 @@ impl Scalar {
     /// Returns f32, or else f64.
     pub fn new(is_single: bool) -> Scalar {
         let (unit, least, most) = match is_single {
-            true => (f64::from(f32::EPSILON) / 2.0, 1e-45, f64::from(f32::MAX)),
-            false => (UNIT, f64::from_bits(1), f64::MAX),
+            true => (f64::from(f32::EPSILON) / 2.0, 1e-45, 1e30),
+            false => (UNIT, f64::from_bits(1), 1e280),
         };
         Scalar { unit, least, most }
     }

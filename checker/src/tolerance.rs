@@ -13,7 +13,7 @@ use crate::identity::table::{Field, Function};
 use crate::interval::FARTHEST;
 use crate::maximum;
 use crate::polynomial::{SLACK, Work};
-use crate::program::{ARGUMENTS, Program};
+use crate::program::{ARGUMENTS, Operand, Program};
 use crate::read;
 use crate::ring::Ring;
 use crate::rounding::{Ranges, Rounding};
@@ -126,9 +126,13 @@ impl Subject<'_> {
         sizes.iter_mut().for_each(|size| *size *= SLACK);
         let rounding = rounding.bounds(ranges, Some(&sizes));
         let largest = own.scales.iter().copied().fold(0.0, f64::max);
-        let mut found = Vec::new();
+        let (mut found, mut left) = (Vec::new(), maximum::MOST_STEPS);
         for (k, (_, joints)) in fields.into_iter().enumerate() {
-            let (scale, rounding) = (own.scales[k], rounding[k].error);
+            let scale = own.scales[k];
+            let rounding = match self.is_literal(k) {
+                true => 0.0,
+                false => rounding[k].error,
+            };
             let is_nothing = scale == 0.0 && most[k] == 0.0;
             // Of a result that is not always zero there is a state where it is not.
             let is_zero = exact[k].terms.is_empty() && exact[k].rest == 0.0;
@@ -148,7 +152,7 @@ impl Subject<'_> {
             found.push(Bounded {
                 joints,
                 scale,
-                real: maximum::bound(&difference, &ring, wanted),
+                real: maximum::bound(&difference, &ring, wanted, &mut left),
                 rounding,
                 claimed,
                 tolerated,
@@ -156,6 +160,17 @@ impl Subject<'_> {
         }
         self.tried(&found, ranges)?;
         Ok(found)
+    }
+
+    /// Returns true for a result that is a number of the scalar.
+    fn is_literal(&self, result: usize) -> bool {
+        let text = self.read.program.outputs.get(result);
+        match (text, self.emitted.outputs.get(result)) {
+            (Some((_, Operand::Constant(own))), Some((_, Operand::Constant(exact)))) => {
+                exact.double() == Some([*own, 0.0])
+            }
+            _ => false,
+        }
     }
 
     /// Refuses an E that is not shown where a state of the box refutes it.

@@ -5,7 +5,7 @@ use dalembert_checker::identity::arm::Arm;
 use dalembert_checker::identity::exact::{Exact, Point};
 use dalembert_checker::identity::state::State;
 use dalembert_checker::identity::table::Function;
-use dalembert_checker::identity::{Base, Combination, Statement, check, robot};
+use dalembert_checker::identity::{Base, Combination, Statement, aligned, check, robot};
 use dalembert_checker::program::{Operand, Program, argument};
 
 use crate::support::{changed, file};
@@ -146,4 +146,20 @@ fn no_degree_hides_behind_another() {
     assert_eq!(degree(&outputs), 2f64.powi(40));
     outputs.push((false, Operand::Step(1101)));
     assert_eq!(degree(&outputs), f64::INFINITY);
+}
+
+/// Rows that stand for placed joints have frames on the links that the robot file has them on: at
+/// q = 0 another link may be in the same place.
+#[test]
+fn rows_have_frames_on_their_links() {
+    let source = file("model/tests/data/puma560_placed.toml");
+    let (before, _) = source.split_once("[[joint]]").unwrap();
+    let joint = "[[joint]]\nplacement = {}\naxis = [0, 0, 1]\nkind = \"revolute\"\nmass = 1\n";
+    let on = |link: usize| {
+        let frame = format!("[[frame]]\nname = \"eye\"\nlink = {link}\nxyz = [1, 0, 0]\n");
+        robot::read(&format!("{before}{joint}{joint}{frame}")).unwrap()
+    };
+    assert_eq!(aligned::check(&on(1), &on(1), None), Ok(()));
+    let why = aligned::check(&on(1), &on(2), None).unwrap_err();
+    assert!(why.contains("frames on other links"), "{why}");
 }

@@ -25,8 +25,8 @@ pub struct CertifyArgs {
     /// The scene that the file was generated for [default: the one it names]
     #[arg(long, value_name = "NAME")]
     scene: Option<String>,
-    /// Accept errors up to this, relative to T, instead of the scene's tolerance; for the variants that
-    /// `tradeoff` writes
+    /// Accept errors up to this times T instead of the scene's tolerance. T is the actuator's limit or the
+    /// largest value of the result, as the claim says. For the files that `tradeoff` writes
     #[arg(long, value_name = "E", value_parser = positive_parser())]
     tolerance: Option<f64>,
 }
@@ -89,9 +89,9 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
     let results = |line: &Line| line.result.as_ref().map_or(0, |own| own.results.len());
     report.line(match found.lines.iter().any(|line| results(line) > 0) {
         false => {
-            "Shown: the text is the claimed program, each literal rounded once, and in real numbers that program\n\
-             gives the robot's results. Rounding errors are relative to the largest value of an entry, in a matrix\n\
-             of its row or column; u is half an ulp of that value."
+            "Of a function that is shown, the text is the claimed program, each literal rounded once, and in real\n\
+             numbers that program gives the robot's results. Rounding errors are relative to the largest value of an\n\
+             entry at random states of the box, in a matrix of its row or column; u is 2^-53 in f64, 2^-24 in f32."
         }
         true => {
             "Shown: the text is the claimed program, each literal rounded once, and at every state of the box each\n\

@@ -296,6 +296,30 @@ name = \"joint2\" | name = \"joint3\" | other joints
     }
 }
 
+/// The payload of a scene is rounded where its frame is tilted: the claim has it in the last row's
+/// frame, to sixteen digits the scene's.
+#[test]
+fn payloads_in_tilted_frames() {
+    let frame = "payload_frame = { xyz = [0.1, 0, 0.2], rpy = [0, 0.3, \"-pi/4\"] }";
+    let robot = source("planar2r", "").replacen("[[joint]]", &format!("{frame}\n[[joint]]"), 1);
+    let robot = robot + "\n[scene.s]\npayload = { mass = 1.5, com = [0.01, 0.02, 0.1] }\n";
+    let asked = "outputs: inverse_dynamics; scene: s; scalar: f64";
+    let own = &Certified::of(&robot, Some("s"), asked)[0];
+    own.is_shown(1, "tilted");
+    for [from, to, words] in rows(
+        "
+payload = { mass = 1.5 | payload = { mass = 1.4 | mass of the payload
+[scene.s] | [scene.t] | result 1 is not that of the robot
+",
+    ) {
+        assert!(own.claim.contains(&from), "{from}: {}", own.claim);
+        let mut other = own.clone();
+        other.claim = own.claim.replacen(&from, &to, 1);
+        let why = other.refusal().unwrap();
+        assert!(why.contains(&words), "{why}");
+    }
+}
+
 /// Words of a line of a function, and others in their place: what is computed is then another, or
 /// a compiler sees the same as before.
 const CHANGES: &str = "

@@ -9,8 +9,8 @@ use num_traits::Signed;
 
 use super::arm::{Reading, entries};
 use super::exact::{Angle, fixed};
-use super::robot::{File, number_of};
-use super::screw::{Scalar, cross, scaled};
+use super::robot::{File, Payload, number_of};
+use super::screw::{Body, Pose, Scalar, cross, scaled};
 
 /// Bits behind the point.
 const BITS: u32 = 256;
@@ -71,8 +71,23 @@ impl Reading for Digits {
 /// The parts that are compared, each by its name.
 type Parts = Vec<(String, Vec<Fixed>)>;
 
-/// Returns axes, masses and frames of a robot file.
-fn parts(file: &File) -> Result<Parts, String> {
+/// Returns mass, first moments and tensor of a body in a frame.
+fn weighed(name: &str, (body, centre): (Body<Fixed>, Pose<Fixed>), frame: &Pose<Fixed>) -> Parts {
+    let mut at = frame.then(&centre);
+    let first = scaled(body.mass.clone(), at.origin);
+    at.origin = [0i64; 3].map(Fixed::from);
+    let named = |what: &str| format!("{what} of {name}");
+    vec![
+        (named("mass"), vec![body.mass.clone()]),
+        (named("first moments"), first.to_vec()),
+        // About the centre of mass: about the base's origin, an arm far away would hide it.
+        (named("inertia"), body.moved(&at).tensor.concat()),
+    ]
+}
+
+/// Returns axes, masses and frames of a robot file, and a payload, whose frame is that of the file
+/// unless it is in the last link's.
+fn parts(file: &File, payload: Option<&Payload>, has_frame: bool) -> Result<Parts, String> {
     let gravity = Digits.list(entries(Some(&file.gravity)))?;
     let mut all = vec![("gravity".to_owned(), gravity.to_vec())];
     let mut frame = Digits.placement(file.base.as_ref())?;
@@ -96,23 +111,21 @@ fn parts(file: &File) -> Result<Parts, String> {
         for own in Digits.list(drive.map(Option::as_ref))? {
             all.push((name("drive"), vec![own]));
         }
-        let (body, centre) =
-            Digits.body(Some(&row.mass), row.com.as_ref(), row.inertia.as_ref())?;
-        let mut at = frame.then(&centre);
-        let first = scaled(body.mass.clone(), at.origin);
-        at.origin = [0i64; 3].map(Fixed::from);
-        all.push((name("mass"), vec![body.mass.clone()]));
-        all.push((name("first moments"), first.to_vec()));
-        // About the centre of mass: about the base's origin, an arm far away would hide it.
-        all.push((name("inertia"), body.moved(&at).tensor.concat()));
+        let body = Digits.body(Some(&row.mass), row.com.as_ref(), row.inertia.as_ref())?;
+        all.extend(weighed(&format!("joint {}", index + 1), body, &frame));
         let shown = frame.then(&Digits.placement(row.frame.as_ref())?);
         all.push((name("frame"), shown.rows()));
         links.push(frame.clone());
     }
     let hand = frame.then(&Digits.placement(file.tool.as_ref())?);
     all.push(("tool".to_owned(), hand.rows()));
-    let payload = frame.then(&Digits.placement(file.payload_frame.as_ref())?);
-    all.push(("payload_frame".to_owned(), payload.rows()));
+    let held = frame.then(&Digits.placement(file.payload_frame.as_ref())?);
+    all.push(("payload_frame".to_owned(), held.rows()));
+    if let Some(own) = payload {
+        let body = Digits.body(Some(&own.mass), Some(&own.com), own.inertia.as_ref())?;
+        let frame = if has_frame { &held } else { &frame };
+        all.extend(weighed("the payload", body, frame));
+    }
     for own in &file.frame {
         let link = &links[file.row(&own.link)?];
         let at = link.then(&Digits.placement(Some(&own.placement()))?);
@@ -121,11 +134,17 @@ fn parts(file: &File) -> Result<Parts, String> {
     Ok(all)
 }
 
-/// Checks that rows are those of the joints of a robot file.
+/// Returns the payload in a scene.
+fn payload<'f>(file: &'f File, scene: Option<&str>) -> Option<&'f Payload> {
+    file.scene.get(scene?)?.payload.as_ref()
+}
+
+/// Checks that rows are those of the joints of a robot file, and that a payload in a scene, if they
+/// have one, is the file's in the last link's frame.
 ///
 /// # Errors
 /// The first axis, mass or frame that is another.
-pub fn check(file: &File, aligned: &File) -> Result<(), String> {
+pub fn check(file: &File, aligned: &File, scene: Option<&str>) -> Result<(), String> {
     let kinds = |file: &File| -> Vec<(bool, Option<String>)> {
         let rows = file.joint.iter();
         rows.map(|row| (row.turns(), row.name.clone())).collect()
@@ -150,7 +169,19 @@ pub fn check(file: &File, aligned: &File) -> Result<(), String> {
     if kinds(file) != kinds(aligned) || follows(file)? != follows(aligned)? {
         return Err("the rows are of other joints than the robot file's".into());
     }
-    let (own, other) = (parts(file)?, parts(aligned)?);
+    let links = |file: &File| -> Result<Vec<usize>, String> {
+        let frames = file.frame.iter();
+        frames.map(|own| file.row(&own.link)).collect()
+    };
+    if links(file)? != links(aligned)? {
+        return Err("the rows have frames on other links than the robot file".into());
+    }
+    let moved = payload(aligned, scene);
+    let given = payload(file, scene).filter(|_| moved.is_some());
+    if moved.is_some() != given.is_some() {
+        return Err("the rows have a payload, and the scene has none".into());
+    }
+    let (own, other) = (parts(file, given, true)?, parts(aligned, moved, false)?);
     for ((name, own), (same, other)) in own.iter().zip(&other) {
         let sizes = own.iter().chain(other).map(|own| own.0.abs());
         let most = sizes.max().unwrap_or_default();
@@ -160,8 +191,5 @@ pub fn check(file: &File, aligned: &File) -> Result<(), String> {
             return Err(format!("{name}: the rows have another than the robot file"));
         }
     }
-    match own.len() == other.len() {
-        true => Ok(()),
-        false => Err("the rows have other frames than the robot file".into()),
-    }
+    Ok(())
 }

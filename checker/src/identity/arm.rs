@@ -41,7 +41,7 @@ pub struct Joint {
 }
 
 impl Joint {
-    /// Returns what the joint moves by, at a state.
+    /// Returns the motion of the joint at a state.
     pub(super) fn motion(&self, state: &State) -> Pose {
         let (leader, factor) = self.leader;
         let (turns, offset, length) = self.line;
@@ -325,9 +325,13 @@ impl Arm {
             joints,
             half: point.half(),
         };
-        if let Some(own) = &scene.payload {
+        let carried = match &file.moved {
+            Some(own) => Some((own, None)),
+            None => (scene.payload.as_ref()).map(|own| (own, file.payload_frame.as_ref())),
+        };
+        if let Some((own, frame)) = carried {
             let carried = point.body(Some(&own.mass), Some(&own.com), own.inertia.as_ref())?;
-            arm.carry(carried, &point.placement(file.payload_frame.as_ref())?);
+            arm.carry(carried, &point.placement(frame)?);
         }
         Ok(arm)
     }

@@ -52,7 +52,7 @@ fn decimal(text: &str) -> Option<Rational> {
 }
 
 /// Returns a fraction in units of 2 to the power of −`bits`, rounded towards zero.
-pub(super) fn fixed(value: &Rational, bits: u32) -> BigInt {
+pub(crate) fn fixed(value: &Rational, bits: u32) -> BigInt {
     (value.numer() << bits) / value.denom()
 }
 

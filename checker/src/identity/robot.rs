@@ -29,6 +29,9 @@ pub struct File {
     /// The scene of who names none.
     #[serde(skip)]
     pub(super) bare: Scene,
+    /// The payload of the scene in the last row's own frame, if rows stand for placed joints.
+    #[serde(skip)]
+    pub(super) moved: Option<Payload>,
     name: IgnoredAny,
     allow: Option<IgnoredAny>,
     outputs: Option<IgnoredAny>,
@@ -160,13 +163,17 @@ pub(super) struct Limits {
 }
 
 impl File {
-    /// Returns true if its joints are placed, and have no rows.
+    /// Returns true if numbers of it may be rounded: its joints are placed, and have no rows, or
+    /// payloads are in a frame of their own.
     pub fn is_placed(&self) -> bool {
-        self.joint.iter().any(|row| row.placement.is_some())
+        self.payload_frame.is_some() || self.joint.iter().any(|row| row.placement.is_some())
     }
 
-    /// Returns this robot with the scenes and the limits of another file.
-    pub fn in_scenes_of(mut self, other: File) -> File {
+    /// Returns this robot with the scenes and the limits of another file, and with its own payload in
+    /// a scene.
+    pub fn in_scenes_of(mut self, other: File, scene: Option<&str>) -> File {
+        let own = scene.and_then(|name| self.scene.remove(name));
+        self.moved = own.and_then(|own| own.payload);
         self.scene = other.scene;
         for (own, other) in self.joint.iter_mut().zip(other.joint) {
             own.limits = other.limits;

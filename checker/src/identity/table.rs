@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use super::setting::Setting;
-use crate::program::argument;
+use crate::program::{ARGUMENTS, argument};
 
 /// Every function, its arguments in order, and its results: the field in a struct, what it is where
 /// that is another word, and the lengths of its axes. `n` is the joints, `l` ten a link, `b` the
@@ -47,6 +47,10 @@ const TABLE: &str = "
     forward_dynamics_second_derivatives: q qd tau multiplier ->
         d2qdd_dq_dq[nn] d2qdd_dq_dqd[nn] d2qdd_dqd_dqd[nn] d2qdd_dtau_dq[nn]
 ";
+
+/// The results that are of the components of a frame's motion.
+const MOVES: &str = "jacobian jacobian_rate contact_wrench mobility operational_inertia \
+    consistent_inverse operational_bias null_space";
 
 /// A result of a function.
 #[derive(Clone, Debug, PartialEq)]
@@ -126,9 +130,12 @@ impl Field {
             }
         }
         own.rows.is_sorted_by(|a, b| a < b).then_some(())?;
-        // Of what acts at a frame all six components are given.
+        // A pose has no axes of motion, and of what acts at a frame all six components are given.
+        let has_rows = MOVES.split_whitespace().any(|own| own == self.is);
         let acts = ["tau_wrench", "qdd_wrench"].contains(&self.is);
-        (own.rows.is_empty() || !acts).then_some(())?;
+        let is_pose = self.is == "pose" && own.axes.is_empty();
+        let is_whole = own.rows.is_empty() && (acts || is_pose);
+        (has_rows || is_whole).then_some(())?;
         let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
         (!own.frame.is_empty() && own.frame.chars().all(is_name)).then_some(())?;
         self.name = format!("{}_{}", self.name, view.replace(':', "_"));
@@ -195,13 +202,19 @@ impl Function {
         if !arguments.is_sorted_by(|one, next| one < next) {
             return Err("its arguments are in another order".into());
         }
-        let of = |result: &String| {
+        // A load is of a payload; other arguments are those of the table, or in place of numbers.
+        let mut taken = match results {
+            [] => vec![argument("payload")],
+            _ => vec![argument("g"), argument("load")],
+        };
+        let mut of = |result: &String| {
             let (function, rest) = result.split_once('.')?;
             let (field, view) = match rest.split_once('@') {
                 Some((field, view)) => (field, Some(view)),
                 None => (rest, None),
             };
             let own = all.iter().find(|own| own.name == function)?;
+            taken.extend(own.arguments.iter().copied().map(Some));
             let field = own.fields.iter().find(|own| own.name == field)?.clone();
             view.map_or(Some(field.clone()), |view| field.at(view))
         };
@@ -213,6 +226,11 @@ impl Function {
         let found =
             |result: &String| of(result).ok_or_else(|| format!("there is no result `{result}`"));
         let fields: Vec<Field> = results.iter().map(found).collect::<Result<_, _>>()?;
+        let mut others = arguments.iter().filter(|own| !taken.contains(&Some(**own)));
+        if let Some(other) = others.next() {
+            let name = ARGUMENTS[*other].0;
+            return Err(format!("no result of it takes `{name}`"));
+        }
         let is_same = |own: &Function| {
             let words = |fields: &[Field]| fields.iter().map(|field| field.is).collect::<Vec<_>>();
             let has_frame = fields.iter().any(|field| !field.view.frame.is_empty());

@@ -92,7 +92,7 @@ impl<'r> Reader<'r> {
         format!("typedef struct {{ {fields} }} {name};")
     }
 
-    /// Returns whether the function returns its only number.
+    /// Returns true if the function returns its only number.
     fn is_number(&self) -> bool {
         let is_struct = self.symbols.is_some_and(|own| own.structure.is_some());
         !is_struct && self.head.fields.iter().all(|(_, shape)| shape.is_empty())

@@ -63,7 +63,7 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Returns whether all words were read.
+    /// Returns true if all words were read.
     pub(super) fn has_all(&self) -> bool {
         self.first == 0 && self.at == self.tokens.len()
     }
@@ -202,7 +202,7 @@ impl<'r> Reader<'r> {
         Ok(())
     }
 
-    /// Returns what functions of libraries end with.
+    /// Returns the ending of functions of libraries.
     pub(super) fn suffix(&self) -> &'static str {
         if self.head.is_single { "f" } else { "" }
     }
@@ -240,7 +240,7 @@ impl<'r> Reader<'r> {
         Ok(entries)
     }
 
-    /// Returns whether a literal follows.
+    /// Returns true if a literal follows.
     fn is_literal(&self) -> bool {
         let digit = usize::from(self.peek(0) == "-");
         let is_digit = self.peek(digit).starts_with(|c: char| c.is_ascii_digit());
@@ -351,7 +351,7 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Returns whether a statement calls the method of fused products.
+    /// Returns true if a statement calls the method of fused products.
     fn calls_mul_add(&self) -> bool {
         let rest = self.tokens.get(self.at..).unwrap_or_default();
         let mut words = rest.iter().map(|token| token.text);

@@ -8,6 +8,7 @@ mod texts;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use dalembert_codegen::workspace::claim;
 use dalembert_codegen::{Asked, Language, RobotFile, ask};
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::{Robot, suggested_name};
@@ -46,11 +47,12 @@ pub(crate) fn run(args: &NewArgs, context: &Context) -> Outcome {
     let file = file.map_err(|error| Failure::Input(error.to_string()))?;
     let robot = &file.robot;
     let manifest = texts::manifest(&name, &dependency());
-    let code = code(&file)?;
+    let [code, claim] = code(&file)?;
     let main = texts::source(&robot.name, &states(robot)?);
     let texts = [
         ("Cargo.toml".to_owned(), manifest),
         (format!("robots/{}.rs", robot.name), code),
+        (format!("robots/{}.claim.json", robot.name), claim),
         (format!("robots/{}.toml", robot.name), robot_file),
         ("src/main.rs".to_owned(), main),
     ];
@@ -74,8 +76,8 @@ pub(crate) fn run(args: &NewArgs, context: &Context) -> Outcome {
     Ok(done)
 }
 
-/// Generates the code that is checked in beside the robot file.
-fn code(file: &RobotFile) -> Result<String, Failure> {
+/// Generates the code that is checked in beside the robot file, and what is claimed of it.
+fn code(file: &RobotFile) -> Result<[String; 2], Failure> {
     let asked = texts::ASKED.parse::<Asked>();
     let asked = asked.map_err(|error| Failure::Input(error.to_string()))?;
     let name = &file.robot.name;
@@ -88,7 +90,9 @@ fn code(file: &RobotFile) -> Result<String, Failure> {
     let files = made
         .generated
         .files(&made.request, &format!("{name}.toml"), &file.source);
-    Ok(files.concat())
+    let claim = claim(&file.robot, &file.source, &made.request, &made.generated);
+    let claim = claim.map_err(|why| Failure::Input(format!("error: {why}")))?;
+    Ok([files.concat(), claim.write()])
 }
 
 /// Computes torques at three states, by the recursion for any arm.

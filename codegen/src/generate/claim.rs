@@ -1,7 +1,8 @@
 //! The document about generated functions, with which the checker compares their text.
 
 use dalembert_checker::claim::{Claim, Claimed, Tolerated};
-use dalembert_model::robot::{Robot, write};
+use dalembert_model::robot::{Placement, Robot, write};
+use dalembert_model::scene::{self, Scene};
 
 use super::{Generated, language};
 use crate::certificate::Certificate;
@@ -39,7 +40,7 @@ pub fn claim(
         }
     });
     let functions = functions.collect();
-    Ok(document(robot, source, functions, constants))
+    Ok(document(robot, source, setup, functions, constants))
 }
 
 /// Returns the claim about one text that a tolerance admitted.
@@ -49,12 +50,33 @@ pub fn claim_of(robot: &Robot, source: &str, setup: &Setup, own: &Certificate) -
         tolerated: tolerated(std::slice::from_ref(own), &mut constants),
         ..of_setup(&own.emitted, setup, &mut constants)
     };
-    document(robot, source, vec![function], constants)
+    document(robot, source, setup, vec![function], constants)
 }
 
-fn document(robot: &Robot, source: &str, functions: Vec<Claimed>, constants: Written) -> Claim {
+/// Returns the document of functions, with the numbers that were rounded: rows of placed joints, and
+/// the payload of a scene in the last row's frame where its own is tilted.
+fn document(
+    robot: &Robot,
+    source: &str,
+    setup: &Setup,
+    functions: Vec<Claimed>,
+    constants: Written,
+) -> Claim {
+    let is_tilted = |own: &Placement| own.rpy.iter().any(|own| own.quarter_turns().is_none());
+    let scene = setup
+        .scene()
+        .filter(|_| robot.payload_frame.as_ref().is_some_and(is_tilted));
+    let payload = scene.and_then(|scene| {
+        Some(Scene {
+            name: scene.name.clone(),
+            payload: Some(scene.carried(robot)?),
+            ..Scene::default()
+        })
+    });
+    let is_rounded = source.contains("placement") || payload.is_some();
+    let payload = payload.map_or_else(String::new, |own| format!("\n{}", scene::write(&own)));
     Claim {
-        aligned: source.contains("placement").then(|| write(robot)),
+        aligned: is_rounded.then(|| write(robot) + &payload),
         ..constants.document(functions)
     }
 }

@@ -19,12 +19,8 @@ impl Scene {
         if let Some(gravity) = &self.gravity {
             robot.gravity = gravity.clone();
         }
-        let frame = robot.payload_frame.clone();
-        if let (Some(payload), Some(last)) = (&self.payload, robot.last_row_mut()) {
-            let payload = match &frame {
-                None => payload.clone(),
-                Some(frame) => frame::moved(payload, &frame::pose(frame), &frame.size()),
-            };
+        let payload = self.carried(&robot);
+        if let (Some(payload), Some(last)) = (payload, robot.last_row_mut()) {
             carry(last, &payload);
         }
         for (i, joint) in robot.joints.iter_mut().enumerate() {
@@ -34,6 +30,16 @@ impl Scene {
             bound(&mut limits.acceleration, &bounds.acceleration, i);
         }
         robot
+    }
+
+    /// Returns the payload in the frame of the robot's last row: to some twenty digits, where the
+    /// robot's frame of payloads is tilted.
+    pub fn carried(&self, robot: &Robot) -> Option<Payload> {
+        let payload = self.payload.as_ref()?;
+        Some(match &robot.payload_frame {
+            None => payload.clone(),
+            Some(frame) => frame::moved(payload, &frame::pose(frame), &frame.size()),
+        })
     }
 }
 
