@@ -2,8 +2,8 @@
 
 use dalembert_checker::Fault;
 use dalembert_checker::certify::{Bounded, Report, Shown, certify};
-use dalembert_codegen::Plan;
-use dalembert_codegen::workspace::{Certificate, Setup, claim, claim_of};
+use dalembert_codegen::workspace::{Certificate, Setup, claim, claim_of, keep};
+use dalembert_codegen::{Generated, Plan};
 
 use crate::support::{
     self, Case, changes, dose, every_line_counts, every_output, in_scene, path, rows, source,
@@ -33,8 +33,16 @@ impl Certified {
     }
 
     fn from(case: &Case, robot: &str, scene: Option<&str>) -> Vec<Certified> {
-        let generated = case.generated();
-        let claim = claim(case.robot(), robot, &case.request, &generated).unwrap();
+        Certified::of_generated(case, &case.generated(), robot, scene)
+    }
+
+    fn of_generated(
+        case: &Case,
+        generated: &Generated,
+        robot: &str,
+        scene: Option<&str>,
+    ) -> Vec<Certified> {
+        let claim = claim(case.robot(), robot, &case.request, generated).unwrap();
         let files = generated.files(&case.request, "robot.toml", robot);
         let files = files.into_iter().map(|text| Certified {
             text,
@@ -153,13 +161,20 @@ const ROBOTS: &str = "planar2r base_and_tool scara_placed planar3r scara stanfor
 fn every_function_is_shown_in_both_scalars_and_languages() {
     let robots: Vec<&str> = ROBOTS.split(' ').collect();
     for name in dose(&robots, 3) {
+        let (robot, mut plan) = (source(name, ""), None);
         for (language, count) in [("rust", 35), ("c", 70)] {
-            let asked = format!("{}; scalar: f64, f32; language: {language}", every_output());
-            let files = Certified::all(name, "", &asked);
+            let outputs = every_output();
+            let asked = format!("outputs: {outputs}; scalar: f64, f32; language: {language}");
+            let mut case = Case::read(&robot, &asked);
+            case.request.plan = plan.take();
+            let generated = case.generated();
+            let files = Certified::of_generated(&case, &generated, &robot, None);
             for own in &files {
                 own.is_shown(count, &format!("{name} {language}"));
             }
             assert_eq!(files.len() * count, 70);
+            // What was found is not searched for again.
+            plan = Some(keep(case.robot(), &case.request, &generated, None).plan);
         }
     }
 }

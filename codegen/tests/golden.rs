@@ -89,11 +89,11 @@ fn compare(name: &str, states: &[Value], options: &str, every: usize, from: usiz
     compared
 }
 
-/// Values at frames, a sixth of a robot's by code where tests are not optimised, other ones of each
-/// robot.
+/// Values at frames, half of a robot's by code, a sixth where tests are not optimised; other ones of
+/// each robot.
 #[test]
 fn outputs_at_frames() {
-    let every = if cfg!(debug_assertions) { 6 } else { 1 };
+    let every = if cfg!(debug_assertions) { 6 } else { 2 };
     for (number, name) in ROBOTS.into_iter().enumerate() {
         let states = states(&format!("tests/data/frames/{name}.json"), 5);
         let [all, coded] = compare(&format!("frames/{name}"), &states, "", every, number);
