@@ -331,13 +331,12 @@ impl<'w> Whole<'w> {
             return Err(refused(why));
         }
         let mut ranges = self.ranges.clone();
-        let load = self
-            .load()?
-            .and_then(|own| cost::load(own, &ranges, head.is_single));
-        let load = load.unwrap_or_default();
-        if let Some(place) = argument(LOAD) {
-            let own = load.iter().map(|own| [own.exact.low, own.exact.high]);
-            ranges[place] = own.collect();
+        let mut load = Vec::new();
+        let mut arguments = head.arguments.iter();
+        if let (Some(own), Some(program)) = (arguments.find(|own| own.name == LOAD), self.load()?) {
+            load = cost::load(program, &ranges, head.is_single).unwrap_or_default();
+            let values = load.iter().map(|own| [own.exact.low, own.exact.high]);
+            ranges[own.place] = values.collect();
         }
         let seeds = [self.seed.as_str(), head.name];
         if function.divides() && !is_near(&read, exact, &head, &ranges, self.setting, &seeds) {

@@ -28,7 +28,7 @@ const ZERO: f64 = 1e-12;
 #[derive(Clone, Debug)]
 pub struct Shown {
     /// The largest cost of rounding, relative to the largest value seen of the entry, of a matrix
-    /// of its row or its column; NaN where none is bounded.
+    /// of its row or its column; NaN where no bound is below that value.
     pub rounding: f64,
     /// The same in halves of an ulp of that value.
     pub units: f64,

@@ -73,13 +73,9 @@ impl At {
         })
     }
 
-    fn entry(&self, place: usize, index: usize) -> Option<f64> {
-        Some(self.given.get(place)?.get(index)?[0])
-    }
-
     fn leaf<C>(&self, own: &Operand<C>) -> Long {
         match own {
-            Operand::Entry(place, index) => long(self.entry(*place, *index)?),
+            Operand::Entry(place, index) => long(self.given.get(*place)?.get(*index)?[0]),
             Operand::Sine(joint, is_sine) => {
                 let [sin, cos] = self.sines.get(*joint)?;
                 Some(if *is_sine { sin } else { cos }.clone())
