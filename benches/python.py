@@ -107,8 +107,9 @@ def rust_batch(arm, folder: Path):
     generate = "generate arm.toml -o batch.rs --batch --sincos together --scalar f64"
     command = [sys.executable, "-m", "dalembert", *generate.split(), "--outputs=inverse_dynamics"]
     subprocess.run(command, cwd=folder, check=True, capture_output=True)
+    crates = ROOT / "crates"
     paths = "".join(
-        f'dalembert-{name} = {{ path = "{ROOT / name}", default-features = false }}\n'
+        f'dalembert-{name} = {{ path = "{crates / name}", default-features = false }}\n'
         for name in ("batch", "sines")
     )
     (folder / "Cargo.toml").write_text(
@@ -175,7 +176,7 @@ def show(times: dict[str, float]) -> None:
 
 def main() -> None:
     options = argparse.ArgumentParser()
-    options.add_argument("--urdf", type=Path, default=ROOT / "import/tests/data/panda.urdf")
+    options.add_argument("--urdf", type=Path, default=ROOT / "crates/import/tests/data/panda.urdf")
     options.add_argument("--tip", default="panda_link8")
     options.add_argument("--rounds", type=int, default=21)
     given = options.parse_args()

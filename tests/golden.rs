@@ -80,7 +80,7 @@ fn numbers(json: &Value) -> Vec<f64> {
 
 fn states(name: &str) -> Vec<Value> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let file = root.join(format!("model/tests/data/golden/{name}.json"));
+    let file = root.join(format!("crates/model/tests/data/golden/{name}.json"));
     let json: Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
     json["states"].as_array().unwrap().clone()
 }

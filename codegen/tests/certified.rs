@@ -237,7 +237,8 @@ const TOLERATED: [(&str, usize, usize); 8] = [
 
 #[test]
 fn variants_that_a_tolerance_admits_are_shown() {
-    let scara = std::fs::read_to_string(path("../checker/tests/data/attacks/scara.toml")).unwrap();
+    let scara =
+        std::fs::read_to_string(path("../crates/checker/tests/data/attacks/scara.toml")).unwrap();
     for &(scene, count, held) in dose(&TOLERATED, 3) {
         for language in ["rust", "c"] {
             let asked = format!("scene: {scene}; scalar: f64, f32; language: {language}");
@@ -268,7 +269,7 @@ fn variants_of_plans_are_shown() {
 /// file, those in their place, and a function that is the same.
 #[test]
 fn robots_that_are_others() {
-    let robot = std::fs::read_to_string(path("../checker/tests/data/hand.toml")).unwrap();
+    let robot = std::fs::read_to_string(path("../crates/checker/tests/data/hand.toml")).unwrap();
     let asked = format!("outputs: {}; scalar: f64", every_output());
     let own = &Certified::of(&robot, None, &asked)[0];
     own.is_shown(35, "hand");

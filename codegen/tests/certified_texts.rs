@@ -10,7 +10,10 @@ use crate::support::{changes, path, rows};
 
 /// Returns a file of the attacks on the checker.
 fn attack(name: &str) -> String {
-    fs::read_to_string(path(&format!("../checker/tests/data/attacks/{name}"))).unwrap()
+    fs::read_to_string(path(&format!(
+        "../crates/checker/tests/data/attacks/{name}"
+    )))
+    .unwrap()
 }
 
 /// Returns a file of what is asked of the arm in the plane, of which so many functions are shown.

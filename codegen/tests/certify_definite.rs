@@ -143,7 +143,7 @@ fn a_link_without_inertia_is_named() {
 /// made exacter until D is shown to be positive definite, and it is claimed.
 #[test]
 fn sines_that_are_off_leave_d_positive() {
-    let source = include_str!("../../cli/tests/data/attacks/indefinite.toml");
+    let source = include_str!("../../crates/cli/tests/data/attacks/indefinite.toml");
     let generated = Case::read(source, "scene: d").generated();
     let admitted = generated.functions[0].admitted.as_ref().unwrap();
     let certificates = admitted.certificates.iter();
@@ -164,7 +164,7 @@ fn sines_that_are_off_leave_d_positive() {
 /// which is said before any search, and torques are certified all the same.
 #[test]
 fn an_inertia_that_no_body_has_is_named() {
-    let source = include_str!("../../cli/tests/data/negative_energy.toml");
+    let source = include_str!("../../crates/cli/tests/data/negative_energy.toml");
     let refused = parse(source).unwrap_err().to_string();
     assert!(refused.contains("a principal moment is negative"));
     // No file may have it, but a robot that a program made.

@@ -107,7 +107,7 @@ fn outputs_at_frames() {
 fn whole_robots() {
     for (folder, count, options, values) in [
         ("tests/data/second_derivatives", 5, "", 8),
-        ("../model/tests/data/golden", 60, "fma: on", 4),
+        ("../crates/model/tests/data/golden", 60, "fma: on", 4),
     ] {
         for (number, name) in ROBOTS.into_iter().enumerate() {
             let states = states(&format!("{folder}/{name}.json"), count);
@@ -126,7 +126,7 @@ fn whole_robots() {
 /// optimised. `values` has all of its outputs.
 #[test]
 fn followers() {
-    let states = states("../import/tests/data/wafer.golden.json", 5);
+    let states = states("../crates/import/tests/data/wafer.golden.json", 5);
     let every = if cfg!(debug_assertions) { 2 } else { 1 };
     let [all, coded] = compare("wafer", &states, "", every, 0);
     assert!(all == 23 && coded >= 23 / every, "{coded} of {all}");

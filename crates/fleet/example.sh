@@ -2,12 +2,12 @@
 # From logs of an arm that its file does not know to its robot file and code, with residuals
 # before and after. Flags are for cargo: --release, or --features cluster.
 set -eu
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 # What is taken for what in the URDF is of no interest here.
-fleet() { cargo run --quiet --manifest-path fleet/Cargo.toml "${flags[@]}" -- "$@" 2>"$work/notes" || { cat "$work/notes"; return 1; }; }
+fleet() { cargo run --quiet --manifest-path crates/fleet/Cargo.toml "${flags[@]}" -- "$@" 2>"$work/notes" || { cat "$work/notes"; return 1; }; }
 flags=("$@")
 arm=(--robot gallery/urdf/iiwa14.urdf --tip iiwa_link_ee)
 

@@ -10,9 +10,9 @@ use std::path::{Path, PathBuf};
 pub(crate) const SOURCES: [&str; 7] = [
     "Cargo.lock",
     "src",
-    "../codegen/src",
+    "../../codegen/src",
     "../import/src",
-    "../macros/stamp/src",
+    "../../macros/stamp/src",
     "../model/src",
     "../sines/src",
 ];

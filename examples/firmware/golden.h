@@ -1,5 +1,5 @@
 /* States and torques of the PUMA 560, computed by an independent program: the first of
- * model/tests/data/golden/puma560.json. */
+ * crates/model/tests/data/golden/puma560.json. */
 #ifndef GOLDEN_H
 #define GOLDEN_H
 

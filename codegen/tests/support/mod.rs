@@ -20,13 +20,21 @@ use serde_json::Value;
 /// The error that is granted to every quantity, in units of u.
 pub const BOUND: f64 = 100.0;
 
-/// Where robot files are.
+/// The folders of robot files in the workspace.
 const FOLDERS: [&str; 4] = [
-    "../generated/robots",
-    "tests/data",
-    "../model/tests/data",
-    "../gallery/robots",
+    "generated/robots",
+    "codegen/tests/data",
+    "crates/model/tests/data",
+    "gallery/robots",
 ];
+
+/// Returns the root of the workspace: `cli` has these tests' support, too, from another folder.
+fn root() -> &'static Path {
+    let crate_folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut folders = crate_folder.ancestors();
+    let root = folders.find(|folder| folder.join(FOLDERS[0]).is_dir());
+    root.expect("a checkout has robots")
+}
 
 /// Returns the path of a file of the workspace from the folder of the crate.
 pub fn path(file: &str) -> PathBuf {
@@ -39,10 +47,8 @@ pub fn source(name: &str, more: &str) -> String {
     if let Some(name) = name.strip_prefix("frames/") {
         return with_frames(name) + more;
     }
-    let mut files = FOLDERS
-        .map(|folder| path(&format!("{folder}/{name}.toml")))
-        .into_iter();
-    let file = files.find(|file| file.exists());
+    let files = FOLDERS.map(|folder| root().join(format!("{folder}/{name}.toml")));
+    let file = files.into_iter().find(|file| file.exists());
     let file = file.unwrap_or_else(|| panic!("there is no {name}.toml"));
     std::fs::read_to_string(file).unwrap() + more
 }

@@ -12,7 +12,7 @@ fn folder(test: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("builder/{test}"));
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).unwrap();
-    let robot = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/robots/planar2r.toml");
+    let robot = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../generated/robots/planar2r.toml");
     fs::copy(robot, folder.join("arm.toml")).unwrap();
     folder
 }

@@ -6,7 +6,7 @@ use dalembert_checker::certify::{Bounded, certify};
 use crate::support::{file, honest};
 
 fn data(name: &str) -> String {
-    file(&format!("checker/tests/data/attacks/{name}"))
+    file(&format!("crates/checker/tests/data/attacks/{name}"))
 }
 
 /// Returns the bounds of the results of a variant, or why it is not shown.

@@ -49,7 +49,7 @@ fn joints_that_the_equations_lack_are_refused() {
     let tilted = modified.replacen("a = 1", "a = 1\nbeta = 0.1", 1);
     let why = read(&tilted).unwrap_err();
     assert!(why.contains("`beta` is of standard rows alone"), "{why}");
-    let placed = file("model/tests/data/puma560_placed.toml");
+    let placed = file("crates/model/tests/data/puma560_placed.toml");
     let why = read(&placed.replacen("axis = [0, 0, 1]", "axis = [0, 0, 2]", 1)).unwrap_err();
     assert!(why.contains("joint 1: `axis` is no unit vector"), "{why}");
     assert_eq!(read(&placed), Ok(()));
@@ -152,7 +152,7 @@ fn no_degree_hides_behind_another() {
 /// q = 0 another link may be in the same place.
 #[test]
 fn rows_have_frames_on_their_links() {
-    let source = file("model/tests/data/puma560_placed.toml");
+    let source = file("crates/model/tests/data/puma560_placed.toml");
     let (before, _) = source.split_once("[[joint]]").unwrap();
     let joint = "[[joint]]\nplacement = {}\naxis = [0, 0, 1]\nkind = \"revolute\"\nmass = 1\n";
     let on = |link: usize| {

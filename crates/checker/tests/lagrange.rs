@@ -15,8 +15,8 @@ use crate::support::file;
 const ROBOTS: [&str; 5] = [
     "generated/robots/puma560.toml",
     "generated/robots/panda.toml",
-    "checker/tests/data/hand.toml",
-    "checker/tests/data/tilted.toml",
+    "crates/checker/tests/data/hand.toml",
+    "crates/checker/tests/data/tilted.toml",
     "codegen/tests/data/general6r.toml",
 ];
 

@@ -22,7 +22,7 @@ fn trusted_lines_are_named_and_counted() {
             }
         }
     }
-    let readme = file("checker/README.md");
+    let readme = file("crates/checker/README.md");
     let named: BTreeMap<String, usize> = readme
         .lines()
         .filter_map(|line| {
@@ -42,7 +42,7 @@ fn trusted_lines_are_named_and_counted() {
 /// What is checked must not check itself: no crate of this project, nor any but these.
 #[test]
 fn dependencies_are_named() {
-    let manifest = file("checker/Cargo.toml");
+    let manifest = file("crates/checker/Cargo.toml");
     let own = manifest.split("[dependencies]\n").nth(1).unwrap();
     let own = own.split("\n[").next().unwrap().lines();
     let names = own.filter_map(|line| line.split(['.', ' ']).next());

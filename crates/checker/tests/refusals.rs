@@ -27,9 +27,9 @@ convention | name | duplicate key
 
 #[test]
 fn robot_files_that_are_none() {
-    let source = file("checker/tests/data/attacks/r2_conf.toml");
+    let source = file("crates/checker/tests/data/attacks/r2_conf.toml");
     let claim = r#"{ "claim": 1, "constants": [], "functions": [] }"#;
-    let text = file("checker/tests/data/attacks/C.rs");
+    let text = file("crates/checker/tests/data/attacks/C.rs");
     for (robot, words) in changed(&source, ROBOTS) {
         let fault = certify(&text, claim, &robot, Some("pick"), None);
         let why = fault.unwrap_err().to_string();

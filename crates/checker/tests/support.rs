@@ -4,7 +4,7 @@ use std::fs;
 
 /// Returns a file of the repository.
 pub fn file(path: &str) -> String {
-    let path = format!("{}/../{path}", env!("CARGO_MANIFEST_DIR"));
+    let path = format!("{}/../../{path}", env!("CARGO_MANIFEST_DIR"));
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
@@ -13,7 +13,7 @@ pub fn file(path: &str) -> String {
 pub fn honest() -> [String; 3] {
     let names = ["A.rs", "B.claim.json", "r2.toml"];
     let [text, claim, robot] =
-        names.map(|name| file(&format!("checker/tests/data/attacks/{name}")));
+        names.map(|name| file(&format!("crates/checker/tests/data/attacks/{name}")));
     let planted = ["230.5843009213694", "2305843009213693951/10000000000000000"];
     assert!(text.contains(planted[0]) && claim.contains(planted[1]));
     let text = text.replace(planted[0], "0.0");

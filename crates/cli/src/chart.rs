@@ -164,7 +164,7 @@ mod tests {
     /// difference is mended and reported.
     #[test]
     fn the_checked_in_chart_is_that_of_its_table() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../generated/tradeoff");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../generated/tradeoff");
         let csv = fs::read_to_string(folder.join("puma560.csv")).unwrap();
         let title = "puma560: inverse_dynamics";
         let chart = svg(title, "the actuators' limits", &dots(&csv)).unwrap();

@@ -8,7 +8,7 @@ mod extremes_of_chains;
 mod extremes_of_robots;
 mod outputs_in_scenes;
 mod pages;
-#[path = "../../codegen/tests/support/mod.rs"]
+#[path = "../../../codegen/tests/support/mod.rs"]
 mod robots;
 mod show;
 mod steps;

@@ -19,7 +19,7 @@ use crate::robots::robot;
 type Block = (String, std::ops::Range<usize>);
 
 fn root() -> PathBuf {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     fs::canonicalize(root).unwrap()
 }
 
@@ -167,11 +167,11 @@ fn the_guide_shows_what_commands_print() {
     let inside = folder_with(
         "guide",
         &[
-            "import/tests/data/ur5.urdf",
+            "crates/import/tests/data/ur5.urdf",
             "generated/robots/puma560.toml",
             "generated/robots/puma560.plan",
-            "import/tests/data/mjcf/xarm7.xml",
-            "import/tests/data/so101.urdf",
+            "crates/import/tests/data/mjcf/xarm7.xml",
+            "crates/import/tests/data/so101.urdf",
         ],
     );
     run_pages(&guide(), &inside);
@@ -190,7 +190,7 @@ macro_rules! pages {
                 "generated/robots/planar3r.toml",
                 "generated/robots/puma560.toml",
             ]);
-            let page = concat!("cli/tests/pages/", stringify!($name), ".md");
+            let page = concat!("crates/cli/tests/pages/", stringify!($name), ".md");
             run_pages(&[root().join(page)], &inside);
         }
     )* };

@@ -58,7 +58,7 @@ pub type File = (String, String);
 
 /// Returns the folder of the gallery in this checkout.
 pub fn folder() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../gallery"))
 }
 
 /// Makes every arm of `arms.toml`, in its order.
@@ -71,7 +71,7 @@ pub fn entries() -> Result<Vec<Entry>, Box<dyn Error>> {
     struct Table {
         arm: Vec<Arm>,
     }
-    let table: Table = toml::from_str(include_str!("../arms.toml"))?;
+    let table: Table = toml::from_str(include_str!("../../../gallery/arms.toml"))?;
     let made = table.arm.into_iter().map(Arm::make);
     Ok(made.collect::<Result<_, _>>()?)
 }
@@ -152,7 +152,7 @@ impl Entry {
 /// # Errors
 /// Nothing can be generated for one of them.
 pub fn page(entries: &[Entry]) -> Result<String, String> {
-    let mut page = include_str!("../head.md").to_owned();
+    let mut page = include_str!("../../../gallery/head.md").to_owned();
     for entry in entries {
         page += &entry.row()?;
     }

@@ -22,7 +22,7 @@ fn options() -> Options {
 fn the_runtime_gives_what_pinocchio_gives() {
     let imported = imported(ARM, &options());
     let folder = env!("CARGO_MANIFEST_DIR");
-    let kept = std::fs::read_to_string(format!("{folder}/../codegen/tests/data/{ARM}.toml"));
+    let kept = std::fs::read_to_string(format!("{folder}/../../codegen/tests/data/{ARM}.toml"));
     assert_eq!(kept.unwrap(), imported.text);
     let names: Vec<_> = imported
         .robot

@@ -106,7 +106,7 @@ fn mutated(seeds: &[String], most: usize, random: &mut Points) -> Vec<u8> {
 
 #[test]
 fn mutated_robots() {
-    let folder = format!("{}/../generated/robots", env!("CARGO_MANIFEST_DIR"));
+    let folder = format!("{}/../../generated/robots", env!("CARGO_MANIFEST_DIR"));
     let files = std::fs::read_dir(folder).expect("robot files");
     let read = |path| std::fs::read_to_string(path).expect("a file");
     let mut seeds: Vec<String> = files.map(|entry| read(entry.unwrap().path())).collect();

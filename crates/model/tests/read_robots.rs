@@ -122,9 +122,13 @@ fn doubles_and_fractions_round_trip() {
 /// None of the robots that are checked in is odd in a way that its file does not know.
 #[test]
 fn known_robots_are_not_far_off() {
-    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
     let mut seen = 0;
-    for folder in ["generated/robots", "gallery/robots", "model/tests/data"] {
+    for folder in [
+        "generated/robots",
+        "gallery/robots",
+        "crates/model/tests/data",
+    ] {
         let entries = std::fs::read_dir(format!("{root}/{folder}")).unwrap();
         for path in entries.map(|entry| entry.unwrap().path()) {
             if path.extension().is_none_or(|extension| extension != "toml") {

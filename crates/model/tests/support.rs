@@ -20,7 +20,7 @@ pub fn data(name: &str) -> String {
 
 /// Returns the file of a robot that code is checked in for.
 pub fn generated(name: &str) -> String {
-    data(&format!("../../../generated/robots/{name}.toml"))
+    data(&format!("../../../../generated/robots/{name}.toml"))
 }
 
 /// Reads a robot file that is right.

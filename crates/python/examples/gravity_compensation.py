@@ -10,7 +10,7 @@ import numpy as np
 
 import dalembert
 
-URDF = Path(__file__).resolve().parents[2] / "import" / "tests" / "data" / "so101.urdf"
+URDF = Path(__file__).resolve().parents[3] / "crates" / "import" / "tests" / "data" / "so101.urdf"
 
 
 def main(picture: str | None) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 
 import dalembert
 
-ROBOT = Path(__file__).resolve().parents[2] / "generated" / "robots" / "planar3r.toml"
+ROBOT = Path(__file__).resolve().parents[3] / "generated" / "robots" / "planar3r.toml"
 NOISE = 0.05
 
 

@@ -11,7 +11,7 @@ from scipy.optimize import minimize
 
 import dalembert
 
-ROBOT = Path(__file__).resolve().parents[2] / "generated" / "robots" / "planar3r.toml"
+ROBOT = Path(__file__).resolve().parents[3] / "generated" / "robots" / "planar3r.toml"
 KNOTS, TIME = 40, 1.0
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 ROBOTS = ("puma560", "stanford", "ur10", "panda", "planar2r", "planar3r")
 
 _folder = tempfile.TemporaryDirectory(prefix="dalembert-")
@@ -21,11 +21,11 @@ def robot(name: str) -> Path:
 
 
 def urdf(name: str) -> Path:
-    return ROOT / "import" / "tests" / "data" / f"{name}.urdf"
+    return ROOT / "crates" / "import" / "tests" / "data" / f"{name}.urdf"
 
 
 def data(kind: str, name: str) -> dict:
-    return json.loads((ROOT / "model" / "tests" / "data" / kind / f"{name}.json").read_text())
+    return json.loads((ROOT / "crates" / "model" / "tests" / "data" / kind / f"{name}.json").read_text())
 
 
 @pytest.fixture(scope="session")

@@ -139,7 +139,7 @@ fn crate_name(folder: &Path) -> Result<String, Failure> {
 /// Returns the source of the dependency on dalembert: the checkout that this program was built
 /// from, if it still exists, otherwise the registry.
 fn dependency() -> String {
-    let checkout = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+    let checkout = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
     let manifest = fs::read_to_string(Path::new(checkout).join("Cargo.toml")).unwrap_or_default();
     let is_dalembert = manifest.lines().any(|line| line == "name = \"dalembert\"");
     match fs::canonicalize(checkout).ok().filter(|_| is_dalembert) {

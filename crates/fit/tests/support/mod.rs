@@ -11,7 +11,7 @@ pub const ARMS: [&str; 3] = ["puma560", "ur10", "panda"];
 
 /// Returns an arm of the generated ones.
 pub fn file(name: &str) -> Robot {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../generated/robots");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../generated/robots");
     let text = std::fs::read_to_string(format!("{folder}/{name}.toml")).unwrap();
     parse(&text).unwrap().robot
 }

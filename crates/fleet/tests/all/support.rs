@@ -13,7 +13,7 @@ use dalembert_fleet::{Dynamics, Loaded, States};
 
 /// Returns a file of `generated/robots`.
 pub fn robot_file(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../generated/robots/{name}.toml"))
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../generated/robots/{name}.toml"))
 }
 
 /// Returns a robot of `generated/`, with what a fit needs if asked for.

@@ -1,7 +1,7 @@
 """Writes values of the arm wafer.urdf, of which three joints mimic others, by Pinocchio.
 
     pip install pin numpy
-    python import/tests/data/wafer.py
+    python crates/import/tests/data/wafer.py
 
 Torques, M, gravity loads and Jacobians are those of its own mimic joints, and are held
 against the chain rule on the arm with all joints free: q = S c + o, M_c = Sᵀ M S and so on. What

@@ -35,7 +35,7 @@ fn torques(scalar: ScalarType) -> Native {
     };
     let robot = concat!(
         env!("CARGO_MANIFEST_DIR"),
-        "/../generated/robots/planar3r.toml"
+        "/../../generated/robots/planar3r.toml"
     );
     let arm = Arm::load(robot, &load).unwrap();
     let native = arm.functions()[0].native();

@@ -75,7 +75,7 @@ fn other_sines_and_fused_products() {
 #[test]
 fn friction_takes_roots() {
     let load = asking("outputs: inverse_dynamics; scalar: f64, f32");
-    let arm = Arm::load(path("model/tests/data/coulomb.toml"), &load).unwrap();
+    let arm = Arm::load(path("crates/model/tests/data/coulomb.toml"), &load).unwrap();
     assert!(arm.functions()[0].counts().sqrt > 0);
     compare_all("coulomb", &arm, STATES / 10);
 }

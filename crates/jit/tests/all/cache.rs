@@ -166,7 +166,7 @@ fn a_folder_that_cannot_be_written_is_no_error() {
 #[test]
 fn a_urdf_is_loaded() {
     let folder = Folder::new("urdf");
-    let urdf = path("import/tests/data/panda.urdf");
+    let urdf = path("crates/import/tests/data/panda.urdf");
     let mut load = folder.load();
     load.urdf.tip = Some("panda_link8".to_owned());
     load.urdf.lock = ["panda_finger_joint1", "panda_finger_joint2"]
