@@ -1,7 +1,7 @@
 //! What a plan keeps is proved and printed as it was; a program of another request is not taken for
 //! it.
 
-use dalembert_codegen::workspace::{keep, plan_file};
+use dalembert_codegen::workspace::{Entry, keep, plan_file};
 use dalembert_codegen::{Generated, Plan};
 
 use crate::support::{self, Case, rows};
@@ -137,6 +137,29 @@ fn bundles_are_what_is_in_them() {
 fn beside(name: &str) -> Plan {
     let file = support::path(&format!("../generated/robots/{name}.toml"));
     plan_file::beside(&file).unwrap().unwrap()
+}
+
+/// A bundle's plan is found by its parts, whatever its name and their order, and is not kept twice;
+/// of two plans the first is taken.
+#[test]
+fn bundles_are_found_by_their_parts() {
+    let plan = beside("puma560");
+    let is_tool = |own: &&Entry| own.program.function.name() == "tool";
+    let mut wrong = plan.entries.iter().find(is_tool).unwrap().clone();
+    wrong.program.dag.outputs.reverse();
+    let mut both = plan.clone();
+    both.entries.push(wrong);
+    for parts in ["forward_kinematics+jacobian", "jacobian+forward_kinematics"] {
+        let asked = format!("outputs: x={parts}; scalar: f64");
+        let case = Case::new("puma560", "", &asked);
+        let generated = case.by(&plan);
+        let (function, counts) = (&generated.functions[0], generated.functions[0].counts());
+        assert!(function.planned, "{parts}");
+        assert_eq!((counts.mul, counts.add, counts.sincos), (51, 23, 6));
+        let again = keep(case.robot(), &case.request, &generated, Some(plan.clone()));
+        assert_eq!(again.plan, plan);
+        assert_eq!(planned(&case, &both), [true]);
+    }
 }
 
 /// A scene's program is not the whole robot's, nor that of the scene as it is now. A box changes no

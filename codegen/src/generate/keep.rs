@@ -34,13 +34,9 @@ pub fn keep(robot: &Robot, request: &Request, generated: &Generated, plan: Optio
     // A load is its definition: nobody searches for that.
     for function in functions.filter(|generated| generated.function != Function::Load) {
         let admitted = function.admitted.as_ref();
-        let scalars = match admitted {
-            None => request.scalars.clone(),
-            Some(admitted) => admitted.certificates.iter().map(|c| c.scalar).collect(),
-        };
         // The proved program: what a tolerance was applied to.
         let found = function.found.as_ref().unwrap_or(&function.program);
-        for scalar in scalars {
+        for &scalar in &generated.scalars {
             let entry = Entry {
                 start: request.start,
                 scalar,
@@ -62,9 +58,10 @@ pub fn keep(robot: &Robot, request: &Request, generated: &Generated, plan: Optio
                     && other.parameters == entry.parameters
                     && price(&emitted(other).counts()) <= price(&emitted(&entry).counts())
             };
-            if generated.ended && other.is_some_and(as_good) {
+            if generated.ended && other.as_ref().is_some_and(as_good) {
                 own.push((name, scalar));
-            } else {
+            } else if other.as_ref() != Some(&entry) {
+                // A bundle may be there by another name.
                 plan.insert(entry);
             }
         }

@@ -336,11 +336,12 @@ fn proved(job: &Job<'_>, function: Function) -> Result<GeneratedFunction, Genera
         return Err(GenerateError::Singular(function, why));
     }
     let entry = replay(job, job.request.plan.as_ref(), function)?;
+    let planned = entry.is_some();
     let (source, passes, program, refused) = match entry {
         Some(entry) => {
             // Widths are the robot's: a plan has none.
-            let program = entry.program.clone().with_speeds(setup.speeds());
-            (entry.source, entry.passes.clone(), program, None)
+            let program = entry.program.with_speeds(setup.speeds());
+            (entry.source, entry.passes, program, None)
         }
         None => found(job, function)?,
     };
@@ -367,7 +368,7 @@ fn proved(job: &Job<'_>, function: Function) -> Result<GeneratedFunction, Genera
         function,
         source,
         parameters: ParametersKey::find(setup.task(function)),
-        planned: entry.is_some(),
+        planned,
         sines: Vec::new(),
         program,
         found,

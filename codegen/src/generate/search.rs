@@ -18,11 +18,11 @@ use crate::verify::exact::prove;
 use crate::watch::{FunctionWatch, Part};
 
 /// Returns a plan's program, the first requested scalar's that it has.
-pub fn replay<'a>(
-    job: &Job<'a>,
-    plan: Option<&'a Plan>,
+pub fn replay(
+    job: &Job<'_>,
+    plan: Option<&Plan>,
     function: Function,
-) -> Result<Option<&'a Entry>, GenerateError> {
+) -> Result<Option<Entry>, GenerateError> {
     let Job { setup, request, .. } = *job;
     // A load is its definition: nothing was searched for.
     let Some(plan) = plan.filter(|_| function != Function::Load) else {
@@ -36,7 +36,7 @@ pub fn replay<'a>(
             plan.find(function, request.start, scalar, scene, parameters.as_ref())
         };
         // Of other numbers of the load it is the program of another function.
-        let same = |entry: &&Entry| entry.parameters == parameters;
+        let same = |entry: &Entry| entry.parameters == parameters;
         scalars.find_map(found).filter(same)
     };
     let found = find(scene);
@@ -44,13 +44,13 @@ pub fn replay<'a>(
     if found.is_none() && setup.has_whole_model() {
         return Ok(find(None));
     }
-    match (found, scene) {
-        // A program of the scene as it was is a program of another scene.
-        (Some(entry), Some(scene)) if entry.scene != Some(SceneKey::new(scene)) => {
-            Err(GenerateError::stale_scene(&scene.name))
-        }
-        _ => Ok(found),
+    // A program of the scene as it was is a program of another scene.
+    if let (Some(entry), Some(scene)) = (&found, scene)
+        && entry.scene != Some(SceneKey::new(scene))
+    {
+        return Err(GenerateError::stale_scene(&scene.name));
     }
+    Ok(found)
 }
 
 /// A program with where it comes from, its counts on the way, and what would be cheaper.
@@ -62,12 +62,12 @@ pub(super) fn found(job: &Job<'_>, function: Function) -> Result<Origin, Generat
     let search = Search::new(job, function);
     let mut found = search.cheapest()?;
     if let Some((entry, program)) = search.renewed() {
-        let again = search.on_from(entry, &program, &found);
+        let again = search.on_from(&entry, &program, &found);
         found = again
             .filter(|again| again.cost() < found.cost())
             .unwrap_or(found);
         if search::cost(&program.dag) <= found.cost() {
-            return Ok((entry.source, entry.passes.clone(), program, None));
+            return Ok((entry.source, entry.passes, program, None));
         }
     }
     let (seed, searched) = (found.seed(), &found.searched);
@@ -152,7 +152,7 @@ impl<'a> Search<'a> {
 
     /// Returns the program that is renewed; none if there is none that is proved to be the
     /// function's and is accurate enough.
-    fn renewed(&self) -> Option<(&'a Entry, Program)> {
+    fn renewed(&self) -> Option<(Entry, Program)> {
         let Job { setup, request, .. } = self.job;
         let plan = request.renewed.as_ref();
         let plan = plan.filter(|plan| plan.input == input_hash(setup.robot()))?;

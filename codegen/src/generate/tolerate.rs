@@ -141,11 +141,10 @@ fn usable(
     let scene_key = Some(SceneKey::new(scene));
     let find = |&scalar: &ScalarType| {
         let entry = plan.find(function, request.start, scalar, Some(scene), None)?;
-        (entry.scene == scene_key && entry.program == *budget.exact)
-            .then_some(entry.edited.as_ref())
-            .flatten()
+        let is_own = entry.scene == scene_key && entry.program == *budget.exact;
+        entry.edited.filter(|_| is_own)
     };
-    let variants: Option<Vec<&Edited>> = scalars.iter().map(find).collect();
+    let variants: Option<Vec<Edited>> = scalars.iter().map(find).collect();
     let Some([first, rest @ ..]) = variants.as_deref() else {
         return Ok(None);
     };

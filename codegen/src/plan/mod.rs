@@ -29,7 +29,7 @@ pub struct Plan {
     /// The robot's [`input_hash`](dalembert_model::robot::Robot::input_hash)
     /// in hexadecimal.
     pub input: String,
-    /// One entry a scene, function, formulation and scalar, and what is an argument.
+    /// One entry a scene, list of results, formulation and scalar, and what is an argument.
     pub entries: Vec<Entry>,
 }
 
@@ -63,7 +63,8 @@ pub struct Edited {
     pub left_out: Vec<Omission>,
 }
 
-/// What tells the entries of a plan apart.
+/// The key of an entry, in the order of entries. Functions with the same results count as one, see
+/// [`is_same`].
 type Key<'e> = (
     Option<&'e str>,
     Function,
@@ -77,7 +78,26 @@ fn taken(parameters: Option<&ParametersKey>) -> &[RuntimeParameter] {
     parameters.map_or(&[], |parameters| &parameters.taken)
 }
 
+/// Tells whether two keys ask for the same program: whatever a bundle's name, and the order of its
+/// parts.
+fn is_same(a: Key<'_>, b: Key<'_>) -> bool {
+    let [own, other] = [a.1, b.1].map(Function::quantities);
+    let has_same_results =
+        own.len() == other.len() && own.iter().all(|quantity| other.contains(quantity));
+    has_same_results && (a.0, a.2, a.3, a.4) == (b.0, b.2, b.3, b.4)
+}
+
 impl Entry {
+    /// Returns the entry as that of a function with the same results.
+    fn as_function(&self, function: Function) -> Option<Entry> {
+        let mut entry = self.clone();
+        entry.program = entry.program.as_function(function)?;
+        if let Some(edited) = &mut entry.edited {
+            edited.program = edited.program.as_function(function)?;
+        }
+        Some(entry)
+    }
+
     fn key(&self) -> Key<'_> {
         let scene = self.scene.as_ref().map(|scene| scene.name.as_str());
         (
@@ -91,9 +111,9 @@ impl Entry {
 }
 
 impl Plan {
-    /// Returns the entry for a function, formulation and scalar that takes the same
-    /// parameters, in a scene of this name. Whether the scene and the load's numbers
-    /// are still the same, their hashes say.
+    /// Returns the first entry for a formulation and scalar that takes the same parameters, in a
+    /// scene of this name, and has the results of a function; its program is that function's.
+    /// Whether the scene and the load's numbers are still the same, their hashes say.
     pub fn find(
         &self,
         function: Function,
@@ -101,15 +121,19 @@ impl Plan {
         scalar: ScalarType,
         scene: Option<&Scene>,
         parameters: Option<&ParametersKey>,
-    ) -> Option<&Entry> {
+    ) -> Option<Entry> {
         let scene = scene.map(|scene| scene.name.as_str());
         let key = (scene, function, start.name(), scalar, taken(parameters));
-        self.entries.iter().find(|entry| entry.key() == key)
+        let mut entries = self.entries.iter();
+        entries
+            .find(|entry| is_same(entry.key(), key))?
+            .as_function(function)
     }
 
-    /// Puts an entry in its place, instead of the one with the same key.
+    /// Puts an entry in its place, instead of those for the same results.
     pub fn insert(&mut self, entry: Entry) {
-        self.entries.retain(|other| other.key() != entry.key());
+        self.entries
+            .retain(|other| !is_same(other.key(), entry.key()));
         self.entries.push(entry);
         self.entries.sort_by(|a, b| a.key().cmp(&b.key()));
     }

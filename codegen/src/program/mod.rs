@@ -99,6 +99,27 @@ impl Program {
         program.with_speeds(self.speeds.clone())
     }
 
+    /// Returns the program as that of a function with the same results, by another name or in
+    /// another order; `None` if a result is missing.
+    pub(crate) fn as_function(&self, function: Function) -> Option<Program> {
+        let sizes = self.sizes();
+        let mut rest = self.dag.outputs.as_slice();
+        let mut results = Vec::new();
+        for quantity in self.function.quantities() {
+            let (own, others) = rest.split_at_checked(quantity.len(sizes))?;
+            results.push((quantity, own));
+            rest = others;
+        }
+        let mut program = self.clone();
+        program.function = function;
+        program.dag.outputs.clear();
+        for wanted in function.quantities() {
+            let (_, own) = results.iter().find(|(quantity, _)| *quantity == wanted)?;
+            program.dag.outputs.extend_from_slice(own);
+        }
+        Some(program)
+    }
+
     /// Returns the program with its products fused.
     #[must_use]
     pub fn fused(&self) -> Program {

@@ -198,7 +198,7 @@ impl Steps<'_> {
         let mut last = self.job.setup.task(self.function).program(graph);
         self.program("search", last.clone());
         if let Some(entry) = replay(self.job, self.job.request.plan.as_ref(), self.function)? {
-            last = entry.program.clone();
+            last = entry.program;
             self.program("plan", last.clone());
         }
         Ok(last)
