@@ -1,6 +1,6 @@
 //! What cannot be had is refused by name, with what to do.
 
-use dalembert_codegen::{Function, Language, Request, generate};
+use dalembert_codegen::{Function, Language, Request, ScalarType, generate};
 use dalembert_model::scene::Scene;
 
 use crate::support::{self, Case, rows};
@@ -114,6 +114,24 @@ fn an_arm_that_moves_no_inertia_by_its_joint() {
     ] {
         let _ = Case::in_scene("planar2r", WEIGHTLESS, asked).generated();
     }
+}
+
+/// A constant that f32 cannot hold takes f32 out of a header, with a note, unless it was asked for.
+#[test]
+fn a_header_may_be_without_f32() {
+    let source = support::source("planar2r", "").replace("mass = 1\n", "mass = 1e200\n");
+    let case = Case::read(&source, "outputs: gravity; language: c");
+    let generated = case.generated();
+    assert_eq!(generated.scalars, [ScalarType::F64]);
+    let note = generated.without_single.as_ref().unwrap();
+    assert!(note.contains("which f32 cannot hold"), "{note}");
+    assert!(generated.warnings.contains(note) && generated.text().contains(note));
+    // The stamp asks for no scalar either, and so for the same file again.
+    let file = &generated.files(&case.request, "arm.toml", &source)[0];
+    assert!(file.contains("asked = outputs: gravity\n"), "{file}");
+    let both = "outputs: gravity; scalar: f64, f32; language: c";
+    let said = Case::read(&source, both).refusal();
+    assert!(said.contains("which f32 cannot hold"), "{said}");
 }
 
 /// What a scalar cannot hold inside the robot's limits is said.

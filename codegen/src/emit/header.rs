@@ -71,11 +71,13 @@ pub(crate) fn misnamed(
     names.find(|name| name.len() > LONGEST || !seen.insert(name.clone()))
 }
 
-/// Prints the whole file: in each scalar, the functions' programs.
+/// Prints the whole file: in each scalar, the functions' programs. A note says which scalar is not
+/// there.
 pub(crate) fn write(
     job: &Job<'_>,
     functions: &[GeneratedFunction],
     codes: &[(ScalarType, Vec<Code>)],
+    note: Option<&str>,
 ) -> String {
     let (robot, setup, request) = (job.robot, job.setup, job.request);
     let name = request.module_name(robot);
@@ -143,7 +145,11 @@ pub(crate) fn write(
     for (scalar, codes) in codes {
         let scalar = *scalar;
         let names = Names::new(&name, request.language, scalar);
-        comment(&mut text, &header(robot, setup, functions, scalar));
+        let mut lines = header(robot, setup, functions, scalar);
+        if let Some(note) = note {
+            lines.extend([String::new(), format!("Note: {note}.")]);
+        }
+        comment(&mut text, &lines);
         let is_batch = request.batch;
         let joints = functions.iter().map(|own| own.program.joints);
         c_sines::write(&mut text, joints.zip(codes), &names, is_batch);

@@ -54,7 +54,7 @@ use crate::verify::singular::without_inertia;
 use crate::words::{Complaint, complaint};
 pub use again::generate_anew;
 pub use error::GenerateError;
-use range::{check_constants, vanishing, warn_of_overflow};
+use range::{check_constants, leave_out_single, vanishing, warn_of_overflow};
 use search::{found, replay};
 
 use tolerate::tolerate;
@@ -72,6 +72,8 @@ pub struct Generated {
     pub emitted: Vec<Emitted>,
     /// What a user should know, such as constants that round to subnormals.
     pub warnings: Vec<String>,
+    /// Why there is no f32, where nobody chose a scalar and both are the default.
+    pub without_single: Option<String>,
     /// Whether the observer wanted an end before a thorough search was through:
     /// no function is dearer than the quick search's, but more might be found.
     pub ended: bool,
@@ -90,15 +92,20 @@ impl Generated {
                 Language::Rust => vec![self.scalars[index]],
                 Language::C | Language::Cuda => self.scalars.clone(),
             };
-            let asked = Request {
+            let named = Request {
                 scalars,
                 ..request.clone()
             };
+            let mut asked = named.asked();
+            if self.without_single.is_some() {
+                // Nobody asked for f64 alone. It is an option.
+                let _ = asked.set("scalar", "");
+            }
             let stamp = Stamp {
                 version: env!("CARGO_PKG_VERSION").to_owned(),
                 robot: robot.to_owned(),
                 robot_hash: dalembert_stamp::hash(source),
-                asked: asked.asked(),
+                asked,
             };
             stamp.write(comment, text)
         };
@@ -147,18 +154,22 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
         }
     }
     parameters::check(job)?;
-    let (mut functions, scalars) = functions(job)?;
+    let (mut functions, mut scalars) = functions(job)?;
     let ended = request.effort == Effort::Thorough && request.watch.is_over();
     if ended {
         again::no_dearer_than_quick(job, &mut functions, &scalars);
     }
     let mut warnings = Vec::from_iter(language::renamed(robot, asked, request));
+    let without_single = leave_out_single(request, &functions, &mut scalars);
+    warnings.extend(without_single.clone());
     for generated in &mut functions {
         if generated.sines.is_empty() {
             generated.sines = sines(job, generated, &scalars)?;
         }
         for &scalar in &scalars {
-            check_constants(&generated.program, scalar, &mut warnings)?;
+            let subnormal = check_constants(&generated.program, scalar);
+            let fail = |why| GenerateError::Constant(generated.function, why);
+            warnings.extend(subnormal.map_err(fail)?);
             let robot = setup.robot();
             warn_of_overflow(robot, &generated.program, scalar, &mut warnings);
         }
@@ -177,7 +188,10 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
             each.map(|(scalar, codes)| module::write(job, &functions, codes, *scalar))
                 .collect()
         }
-        Language::C | Language::Cuda => vec![header::write(job, &functions, &codes)],
+        Language::C | Language::Cuda => {
+            let note = without_single.as_deref();
+            vec![header::write(job, &functions, &codes, note)]
+        }
     };
     let mut emitted = Vec::new();
     for (index, (_, codes)) in codes.iter().enumerate() {
@@ -203,6 +217,7 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
         texts,
         emitted,
         warnings,
+        without_single,
         ended,
     })
 }

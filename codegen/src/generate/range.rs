@@ -6,7 +6,7 @@ use dalembert_model::robot::Robot;
 use dalembert_model::scalar::Scalar;
 use dalembert_model::scalar::field::{Field, ProofField};
 
-use super::GenerateError;
+use super::{GeneratedFunction, Request};
 use crate::bound::input_box::InputBox;
 use crate::bound::sensitivity::overflows;
 use crate::dag::{Node, Points};
@@ -29,13 +29,33 @@ pub(super) fn vanishing(setup: &Setup) -> Option<Exact> {
     lost
 }
 
-/// Checks the constants: one that becomes infinite or zero is an error, a subnormal one a
-/// warning: its relative rounding error is no longer bounded by u.
+/// Leaves f32 out where nobody chose a scalar and it cannot hold a constant, and returns why.
+pub(super) fn leave_out_single(
+    request: &Request,
+    functions: &[GeneratedFunction],
+    scalars: &mut Vec<ScalarType>,
+) -> Option<String> {
+    if !request.is_scalar_open || scalars.len() < 2 {
+        return None;
+    }
+    let mut functions = functions.iter();
+    let why = functions.find_map(|own| check_constants(&own.program, ScalarType::F32).err())?;
+    scalars.retain(|scalar| *scalar == ScalarType::F64);
+    Some(format!(
+        "{}: only f64 is generated; choose other units for both",
+        why.message
+    ))
+}
+
+/// Returns warnings about subnormal constants: their relative rounding errors are not bounded by u.
+///
+/// # Errors
+/// A constant becomes infinite or zero.
 pub(super) fn check_constants(
     program: &Program,
     scalar: ScalarType,
-    warnings: &mut Vec<String>,
-) -> Result<(), GenerateError> {
+) -> Result<Vec<String>, Complaint> {
+    let mut warnings = Vec::new();
     for node in &program.dag.nodes {
         let Node::Constant(constant) = node else {
             continue;
@@ -53,8 +73,7 @@ pub(super) fn check_constants(
                 f64::nearest(constant)
             );
             let help = scalar.of("choose other units", "choose other units or a wider scalar");
-            let why = Complaint::new(message, help);
-            return Err(GenerateError::Constant(program.function, why));
+            return Err(Complaint::new(message, help));
         }
         if rounded != 0.0 && rounded.abs() < scalar.least_normal() {
             warnings.push(format!(
@@ -63,7 +82,7 @@ pub(super) fn check_constants(
             ));
         }
     }
-    Ok(())
+    Ok(warnings)
 }
 
 /// Intermediates that may overflow inside the robot's limits, where it has

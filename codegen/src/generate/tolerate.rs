@@ -56,7 +56,7 @@ pub fn admitted(
         return Ok(None);
     };
     let mut choices = vec![request.scalars.clone()];
-    if request.cheapest_scalar && request.scalars.len() > 1 {
+    if request.is_scalar_open && request.scalars.len() > 1 {
         // The narrow one first: it is the cheaper, in time if not in counts.
         choices = vec![vec![ScalarType::F32], vec![ScalarType::F64]];
     }

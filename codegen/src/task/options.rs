@@ -376,8 +376,9 @@ mod tests {
             let mut requests = Vec::new();
             for word in &words {
                 let request = read(&format!("{}: {word}", row.name)).unwrap();
-                // What is asked for asks for it again.
-                let again = Request::parse(&request.asked(), &[], &[], &[]).unwrap();
+                // What is asked for asks for it again, but that scalars are named.
+                let mut again = Request::parse(&request.asked(), &[], &[], &[]).unwrap();
+                again.is_scalar_open = request.is_scalar_open;
                 assert_eq!(format!("{again:?}"), format!("{request:?}"), "{word}");
                 requests.push(format!("{request:?}"));
             }

@@ -74,9 +74,9 @@ pub struct Request {
     /// The robot's use; everything if `None`. Its outputs and
     /// scalar are defaults that the ways in apply ([`Request::choose`]).
     pub scene: Option<Scene>,
-    /// Nobody chose a scalar: of the scalars, a tolerance takes the cheapest
-    /// that it admits.
-    pub cheapest_scalar: bool,
+    /// `true` if nobody chose a scalar. Then a tolerance takes the cheapest of the scalars that it
+    /// admits, and f32 is left out where it cannot hold a constant.
+    pub is_scalar_open: bool,
     /// Units of work that the search for what a tolerance allows may take; it
     /// is refused where that is not enough. They are counted, never timed: the
     /// same everywhere. No limit if `None`.
@@ -104,7 +104,7 @@ impl Default for Request {
             module: None,
             parameters: Vec::new(),
             scene: None,
-            cheapest_scalar: false,
+            is_scalar_open: false,
             work: None,
         }
     }
@@ -163,17 +163,18 @@ impl Request {
         scalars: Option<Vec<ScalarType>>,
         scene: Option<&Scene>,
     ) -> Request {
+        let of_scene = scene.and_then(|scene| scene.scalar);
+        self.is_scalar_open = scalars.is_none() && of_scene.is_none();
         if let Some(scene) = scene {
             if !scene.outputs.is_empty() {
                 self.functions = scene.outputs.clone();
             }
-            match scene.scalar {
+            match of_scene {
                 Some(Float::F64) => self.scalars = vec![ScalarType::F64],
                 Some(Float::F32) => self.scalars = vec![ScalarType::F32],
                 None => {}
             }
-            self.cheapest_scalar = scalars.is_none() && scene.scalar.is_none();
-            if self.cheapest_scalar && scene.tolerance.is_some() {
+            if self.is_scalar_open && scene.tolerance.is_some() {
                 self.scalars = ScalarType::ALL.to_vec();
             }
             self.scene = Some(scene.clone());

@@ -143,7 +143,7 @@ fn code(
 ) -> Result<Vec<Target>, Failure> {
     let first = files.output(args.output.as_deref())?;
     let is_pair = request.language == Language::Rust && request.scalars.len() > 1;
-    if !is_pair || request.cheapest_scalar {
+    if !is_pair || request.is_scalar_open {
         return Ok(vec![first]);
     }
     let Some(path) = args.output.as_deref().filter(|_| first.file().is_some()) else {

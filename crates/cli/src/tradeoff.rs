@@ -138,7 +138,7 @@ fn exact_request(
     }
     request.functions.truncate(1);
     request.scalars = vec![ScalarType::F64];
-    request.cheapest_scalar = false;
+    request.is_scalar_open = false;
     let scene = request.scene.take();
     request.scene = scene.as_ref().map(Scene::without_tolerance);
     if let (Some(plan), Some(scene), Some(bare)) = (&mut request.plan, &scene, &request.scene) {

@@ -173,6 +173,7 @@ fn generated(
             scalars: scalars.to_vec(),
             plan: None,
             scene: None,
+            is_scalar_open: false,
             ..request.clone()
         };
         match generate(robot, &request) {
