@@ -11,6 +11,7 @@
 //! - `states`: joint states inside a robot's limits
 //! - `function`: the functions that can be generated
 //! - `words`: values that users name by a word
+//! - `figures`: numbers in texts, rounded to the side that stays true
 //! - `dag`: straight-line code as a graph, and the formulas with exact constants and fingerprints
 //! - `program`: programs and their code in a scalar, as it runs and is written
 //! - `interval`: intervals, rounded outward
@@ -53,6 +54,7 @@ mod dag;
 mod edits;
 mod emit;
 mod falsify;
+mod figures;
 mod function;
 mod generate;
 mod interval;

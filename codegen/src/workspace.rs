@@ -18,8 +18,8 @@ pub use crate::bound::{
 pub use crate::certificate::Certificate;
 pub use crate::dag::{Dag, Edge, Fingerprint, Folding, Id, Leaves, Node, Points};
 pub use crate::edits::{Edit, EditSite, Omission, Stage, difference, omissions};
-pub use crate::emit::figures::bound_of;
 pub use crate::falsify::{Falsification, falsify};
+pub use crate::figures::bound_of;
 pub use crate::function::{Argument, Columns, Quantity, RuntimeParameter, Sizes};
 pub use crate::generate::{
     MAX_OUTPUTS, ToleranceError,

@@ -4,8 +4,8 @@
 use dalembert_model::outputs::RuntimeParameter;
 use dalembert_model::robot::Robot;
 
-use super::figures::{decimal, placed};
 use super::say;
+use crate::figures::{decimal, placed};
 use crate::function::{Argument, Function};
 use crate::language::function::{GRAVITY, LOAD, PAYLOAD};
 use crate::language::list;

@@ -6,15 +6,13 @@
 //! - `state_box`: where functions hold that do not hold everywhere
 //! - `generated`: a function with what was found and proved of it
 //! - `variant`: what a tolerance left of a function; `scale`: what its errors
-//!   are relative to; `said`: of polynomials for sines, Coulomb friction and fused products;
-//!   [`figures`]: numbers rounded to the side that stays true
+//!   are relative to; `said`: of polynomials for sines, Coulomb friction and fused products
 //! - `parameters`: what the columns of a regressor are; `arguments`: what a payload and
 //!   its load are, and gravity where it is an argument
 
 pub(crate) mod arguments;
 mod c_sines;
 mod escape;
-pub(crate) mod figures;
 mod generated;
 pub(crate) mod header;
 pub(crate) mod module;

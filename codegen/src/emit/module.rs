@@ -4,12 +4,12 @@
 use dalembert_model::robot::{Convention, Follower, JointKind, Position, Robot};
 
 use super::escape::escaped;
-use super::figures::{decimal, placed};
 use super::say;
 use super::scene::describe;
 use super::state_box::StateBox;
 use super::{arguments, parameters, said, variant};
 use crate::emit::GeneratedFunction;
+use crate::figures::{decimal, placed};
 use crate::language::{columns, comment, function, result};
 use crate::program::{Code, Counts, ScalarType};
 use crate::setup::Setup;

@@ -4,8 +4,8 @@
 use dalembert_model::number::Exact;
 use num_traits::{One, Signed};
 
-use super::figures::decimal;
 use super::say;
+use crate::figures::decimal;
 use crate::function::{Columns, Function};
 use crate::language::c99::{Names, float};
 use crate::program::{Literal, ScalarType};

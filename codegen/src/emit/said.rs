@@ -1,9 +1,9 @@
 //! What a function's documentation says of its sines, of Coulomb friction and of fused products:
 //! nothing where there are none.
 
-use super::figures::{bound_of, decimal};
 use super::generated::GeneratedFunction;
 use super::say;
+use crate::figures::{bound_of, decimal};
 use crate::function::Argument;
 use crate::program::{Counts, Program, ScalarType};
 use crate::setup::Setup;

@@ -3,8 +3,8 @@
 use dalembert_model::robot::{Position, Robot};
 use dalembert_model::scene::Scene;
 
-use super::figures::decimal;
 use super::say;
+use crate::figures::decimal;
 use crate::language::list;
 
 /// Returns a line each.

@@ -2,11 +2,11 @@
 
 use std::cmp::Reverse;
 
-use super::figures::{at_least, bound as up, inside};
 use super::scale;
 use crate::approximate::admitted::Admitted;
 use crate::certificate::Certificate;
 use crate::edits::Omission;
+use crate::figures::{at_least, bound as up, inside};
 use crate::function::Argument;
 use crate::interval::Interval;
 use crate::setup::Setup;

@@ -1,4 +1,4 @@
-//! Numbers in documentation: short, and rounded to the side on which what they
+//! Numbers in documentation and messages: short, and rounded to the side on which what they
 //! say stays true.
 
 /// Where a figure may be, seen from the number: in units of its last digit.
@@ -22,6 +22,11 @@ fn rounded(x: f64, digits: usize, side: i64) -> f64 {
     moved.ok().and_then(Result::ok).unwrap_or(x)
 }
 
+/// Returns the least number of so many digits that is not below another one.
+pub(crate) fn above(x: f64, digits: usize) -> f64 {
+    rounded(x, digits, ABOVE)
+}
+
 /// Returns a number as people write it.
 fn plain(x: f64) -> String {
     if x == 0.0 || (1e-3..1e5).contains(&x.abs()) {
@@ -33,16 +38,16 @@ fn plain(x: f64) -> String {
 
 /// Writes five digits, not below: an error relative to it stays a bound.
 pub(crate) fn at_least(x: f64) -> String {
-    plain(rounded(x, 5, ABOVE))
+    plain(above(x, 5))
 }
 
 /// Returns a decimal as the robot file would have it; a fraction if it is none.
-pub(super) fn decimal(value: &dalembert_model::number::Rational) -> String {
+pub(crate) fn decimal(value: &dalembert_model::number::Rational) -> String {
     dalembert_model::number::parse::write_decimal(value).unwrap_or_else(|| value.to_string())
 }
 
 /// Returns where a frame is in another.
-pub(super) fn placed(placement: &dalembert_model::robot::Placement) -> String {
+pub(crate) fn placed(placement: &dalembert_model::robot::Placement) -> String {
     let xyz = placement.xyz.each_ref().map(decimal).join(", ");
     let rpy = placement.rpy.each_ref().map(ToString::to_string).join(", ");
     format!("xyz ({xyz}) m, rpy ({rpy})")
@@ -58,14 +63,13 @@ pub fn bound_of(x: f64, digits: usize) -> String {
     if x == 0.0 || !x.is_finite() {
         return format!("{x}");
     }
-    let above = rounded(x, digits, ABOVE);
-    format!("{above:.*e}", digits.saturating_sub(1))
+    format!("{:.*e}", digits.saturating_sub(1), above(x, digits))
 }
 
 /// Returns a range of seven digits inside a range, or all its digits if it is that
 /// narrow.
 pub(crate) fn inside(low: f64, high: f64) -> String {
-    let ends = (rounded(low, 7, ABOVE), rounded(high, 7, BELOW));
+    let ends = (above(low, 7), rounded(high, 7, BELOW));
     let (low, high) = if ends.0 < ends.1 { ends } else { (low, high) };
     format!("{} to {}", plain(low), plain(high))
 }
