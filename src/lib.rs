@@ -155,8 +155,9 @@ pub mod matrices;
 ///   they are wrong. For a joint without limits, whole turns are taken off first:
 ///   they hold to ±1e6 rad, in f32 to ±1e3.
 /// - `sincos_error: 1e-9;` is the largest error of each sine and cosine, for
-///   `sincos: polynomial;` alone. The default is `1e-6`; in a scene with a
-///   tolerance that decides, and no error is given.
+///   `sincos: polynomial;` alone. The default is `1e-6`, or the least error of two digits
+///   that the scalar can have; in a scene with a tolerance that decides, and no error is
+///   given.
 /// - `batch: on;` adds `NAME_columns` to each function, for any number of states
 ///   ([below](#many-states)).
 /// - `parameters: payload;`, `gravity` or both make arguments of what are constants

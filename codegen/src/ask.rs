@@ -68,6 +68,9 @@ impl Problem {
                 let first = request.parameters.first();
                 ("parameters", first.map_or("", |own| own.name()).to_owned())
             }
+            (GenerateError::SinCos(..), _) if request.sincos_error.is_some() => {
+                ("sincos_error", String::new())
+            }
             (_, Some(function)) if request.functions.contains(&function) => {
                 ("outputs", function.text())
             }

@@ -15,7 +15,7 @@ planar2r | | reaction_wrenches; parameters: payload | `reaction_wrenches` depend
 planar2r | | inverse_dynamics; parameters: payload; formulation: lagrange_euler | the formulation `lagrange_euler` has no regrouped parameters
 planar2r | | inverse_dynamics; parameters: payload; batch: on | batches in Rust take arguments with an entry a joint, and payload is none
 planar2r | gravity = [0, -2, 0] | gravity; parameters: gravity | the scene `test` says what gravity is
-planar2r | | inverse_dynamics; sincos: polynomial; sincos_error: 1e-10 | f32 … q1 … at best
+planar2r | | inverse_dynamics; sincos: polynomial; sincos_error: 1e-10 | f32 polynomials reach … for q1 in [-π, π], not 1e-10: use `sincos_error: … `scalar: f64` or `sincos: libm`
 planar2r | ROUGH | inverse_dynamics; parameters: payload | no box bounds its argument `load`
 planar2r | ROUGH | inverse_dynamics; parameters: gravity | no box bounds its argument `g`
 planar2r | ROUGH | forward_dynamics | `forward_dynamics` … give the tolerance to `inverse_dynamics`

@@ -120,6 +120,30 @@ fn tolerances_over_narrow_ranges_are_met() {
     }
 }
 
+/// Where two turns are too much for f32 and 1e-6, the default is the least error that it has, and f64
+/// keeps 1e-6. Who asks for 1e-6 is told that number, which gives the same code.
+#[test]
+fn the_default_can_be_had() {
+    let case = |options: &str| {
+        let asked = format!("gravity; sincos: polynomial{options}");
+        Case::in_scene("ur5", "", &asked)
+    };
+    let generated = case("").generated();
+    let worst = |scalar| {
+        let sines = generated.functions[0].sines(scalar).iter();
+        sines.map(|own| own.errors.worst()).fold(0.0, f64::max)
+    };
+    let (double, single) = (worst(ScalarType::F64), worst(ScalarType::F32));
+    assert!(double <= 1e-6 && single > 1e-6 && single < 2e-6);
+    let said = case("; sincos_error: 1e-6").refusal();
+    assert!(said.contains(" in [-2π, 2π], not 1e-6: use "), "{said}");
+    assert!(said.contains("`scalar: f64` or `sincos: libm`, or limit q"));
+    let (_, error) = said.split_once("`sincos_error: ").unwrap();
+    let (error, _) = error.split_once('`').unwrap();
+    let again = case(&format!("; scalar: f32; sincos_error: {error}")).generated();
+    assert_eq!(again.texts[0], generated.texts[1]);
+}
+
 /// A joint without limits of position may have turned often.
 #[test]
 fn whole_turns_are_taken_off_where_limits_are_missing() {

@@ -16,7 +16,7 @@ use crate::program::{Pair, Program, ScalarType};
 use crate::sincos::choose::{Candidates, Choice};
 use crate::sincos::proof::Errors;
 use crate::sincos::{self, AngleKernel, Sines};
-use crate::words::Complaint;
+use crate::words::{Complaint, complaint};
 
 /// An error that is small beside any sine, and large beside libm's.
 const UNIT: f64 = 1e-4;
@@ -35,7 +35,11 @@ pub fn within(
     sensitivity: &Sensitivity,
 ) -> Result<Sines, Complaint> {
     let error = uniform(program, scalar, allowances, sensitivity);
-    let mut sines = sincos::polynomials(program, scalar, positions, error)?;
+    let near = |error| {
+        let sines = sincos::polynomials(program, scalar, positions, error);
+        sines.map_err(|miss| complaint(miss.to_string()))
+    };
+    let mut sines = near(error)?;
     let admitted = |sines: &[AngleKernel]| {
         let costs = sensitivity.rounding(scalar, sines);
         let mut pairs = costs.iter().zip(allowances);
@@ -43,7 +47,7 @@ pub fn within(
     };
     // A larger error costs more than in proportion: with half of it they fit.
     if !admitted(&sines) {
-        sines = sincos::polynomials(program, scalar, positions, error / 2.0)?;
+        sines = near(error / 2.0)?;
     }
     let groups = groups(program, scalar, positions, error);
     loop {

@@ -7,7 +7,7 @@
 //! - `contradiction`: what was proved, tried
 //! - [`parameters`]: which parameters can be arguments
 //! - [`language`]: what a language lacks
-//! - `range`: what a scalar cannot hold
+//! - `range`: what a scalar cannot hold; `sines`: polynomials in place of sines
 //! - [`error`]: why nothing was generated
 
 mod again;
@@ -20,6 +20,7 @@ pub(crate) mod parameters;
 mod range;
 #[doc(hidden)]
 pub(crate) mod search;
+mod sines;
 #[doc(hidden)]
 pub(crate) mod tolerate;
 
@@ -31,8 +32,6 @@ use dalembert_stamp::{Comment, Stamp};
 
 pub use crate::approximate::error::ToleranceError;
 use crate::approximate::error::{FOLLOWS, FRICTION, unbounded};
-use crate::bound::definite::is_definite;
-use crate::bound::input_box::InputBox;
 use crate::emit::GeneratedFunction;
 use crate::emit::header;
 use crate::emit::module;
@@ -41,11 +40,10 @@ use crate::language::Language;
 use crate::language::c99::Names;
 use crate::language::read::{Signature, TextError};
 use crate::parallel;
-use crate::program::{Code, Program, ScalarType, has_inertia};
+use crate::program::{Code, ScalarType};
 use crate::search::Effort;
 use crate::seeds::depends_on_coulomb;
-use crate::setup::{ParametersKey, Setup, input_hash};
-use crate::sincos::{self, SinCos, Sines};
+use crate::setup::{ParametersKey, input_hash};
 use crate::task::{Job, Prefer, Request};
 use crate::verify::exact::prove;
 use crate::verify::measure::Emitted;
@@ -162,10 +160,8 @@ pub fn generate(robot: &Robot, request: &Request) -> Result<Generated, GenerateE
     let mut warnings = Vec::from_iter(language::renamed(robot, asked, request));
     let without_single = leave_out_single(request, &functions, &mut scalars);
     warnings.extend(without_single.clone());
-    for generated in &mut functions {
-        if generated.sines.is_empty() {
-            generated.sines = sines(job, generated, &scalars)?;
-        }
+    sines::give(job, &mut functions, &scalars)?;
+    for generated in &functions {
         for &scalar in &scalars {
             let subnormal = check_constants(&generated.program, scalar);
             let fail = |why| GenerateError::Constant(generated.function, why);
@@ -392,48 +388,6 @@ fn proved(job: &Job<'_>, function: Function) -> Result<GeneratedFunction, Genera
         refused,
         admitted: None,
     })
-}
-
-/// Returns the polynomials of a program's sines in each scalar.
-fn sines(
-    job: &Job<'_>,
-    generated: &GeneratedFunction,
-    scalars: &[ScalarType],
-) -> Result<Vec<(ScalarType, Sines)>, GenerateError> {
-    // What has a tolerance has what that admits, or no sines.
-    if job.request.sincos != SinCos::Polynomial || generated.admitted.is_some() {
-        return Ok(Vec::new());
-    }
-    let error = job.request.sincos_error.unwrap_or(SinCos::ERROR);
-    let setup = job.setup;
-    let fail = |why| GenerateError::SinCos(generated.function, why);
-    let all = scalars.iter().map(|&scalar| {
-        let positions = sincos::positions(setup.robot(), scalar);
-        let sines = sincos::polynomials(&generated.program, scalar, &positions, error);
-        let sines = sines.map_err(fail)?;
-        if spoil_inertia(setup, &generated.program, scalar, &sines) {
-            let message = format!(
-                "with sines that err by up to {error:e}, D cannot be shown to be positive definite \
-                 any more"
-            );
-            let help = "give a smaller error for them";
-            return Err(fail(Complaint::new(message, help)));
-        }
-        Ok((scalar, sines))
-    });
-    all.collect()
-}
-
-/// Returns whether D, if it is an output, can be shown to be positive definite at all positions
-/// with exact sines, and with these no more.
-fn spoil_inertia(setup: &Setup, program: &Program, scalar: ScalarType, sines: &Sines) -> bool {
-    // Of a joint that slides without an end, no box has all positions.
-    let Ok(limits) = InputBox::within(setup, Function::Inertia) else {
-        return false;
-    };
-    has_inertia(program)
-        && !is_definite(program, scalar, sines, &limits)
-        && is_definite(program, scalar, &[], &limits)
 }
 
 fn read_back(

@@ -20,7 +20,7 @@ use crate::search::Effort;
 use crate::seeds::Start;
 use crate::setup::SceneKey;
 use crate::sincos::SinCos;
-use crate::words::{Complaint, complaint};
+use crate::words::Complaint;
 
 /// Replaces the programs, if the scene has a tolerance. Returns the scalars to
 /// emit.
@@ -227,7 +227,12 @@ fn chosen(
             });
             admitted.certificates = found.map_err(|why| {
                 let message = format!("no polynomials for its sines within the tolerance: {why}");
-                GenerateError::SinCos(function, complaint(message))
+                let wider = match scalars.contains(&ScalarType::F32) {
+                    true => ", `scalar: f64`",
+                    false => "",
+                };
+                let help = format!("use a larger tolerance{wider} or `sincos: libm`");
+                GenerateError::SinCos(function, Complaint::new(message, help))
             })?;
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! - this file: [`SinCos`], the choice; [`Sines`], the code of each angle
 //! - [`proof`]: how far a kernel is from sine and cosine
-//! - [`choose`]: the cheapest kernel of [`forms`] that is near enough
+//! - [`choose`]: the cheapest kernel of [`forms`] that is near enough; [`reach`]: where none is
 //! - [`series`]: Taylor's series and near-minimax fits
 //! - [`reduction`]: whole turns taken off where the range is wider than one
 //! - [`routine`]: the operations of the sines that emitted code calls by default
@@ -15,6 +15,7 @@ pub(crate) mod choose;
 pub(crate) mod forms;
 pub(crate) mod poly;
 pub(crate) mod proof;
+pub(crate) mod reach;
 pub(crate) mod reduction;
 pub(crate) mod routine;
 pub(crate) mod series;
@@ -24,10 +25,11 @@ mod tests;
 use crate::interval::Interval;
 use crate::program::kernel::Kernel;
 use crate::program::{Code, Library, Pair, Program, ScalarType};
-use crate::words::{Complaint, complaint, words};
+use crate::words::words;
 use choose::Candidates;
 use dalembert_model::robot::{JointKind, Robot};
 use proof::Errors;
+use reach::OutOfReach;
 
 words! {
     /// The way in which emitted code gets sines and cosines.
@@ -50,7 +52,7 @@ words! {
 }
 
 impl SinCos {
-    /// The error of polynomials for which none is given.
+    /// The error of polynomials for which none is given, where it can be had.
     pub const ERROR: f64 = 1e-6;
 
     /// Returns the library of what is called, where `auto` is this one.
@@ -116,14 +118,13 @@ pub(crate) fn polynomials(
     scalar: ScalarType,
     positions: &[Interval],
     error: f64,
-) -> Result<Sines, Complaint> {
+) -> Result<Sines, OutOfReach> {
     let mut sines: Sines = Vec::new();
     for trig in &program.trig() {
         let range = range_of(trig.joint, positions);
         // Joints with the same limits share the search.
-        let known = sines.iter().find(|known| {
-            known.range == range && known.kernel.need == trig.need && known.errors.worst() <= error
-        });
+        let is_same = |own: &&AngleKernel| own.range == range && own.kernel.need == trig.need;
+        let known = sines.iter().find(is_same);
         let kernel = match known {
             Some(known) => AngleKernel {
                 joint: trig.joint,
@@ -141,41 +142,28 @@ fn one(
     scalar: ScalarType,
     range: Interval,
     error: f64,
-) -> Result<AngleKernel, Complaint> {
-    if error.is_nan() || error <= 0.0 {
-        return Err(complaint(format!(
-            "the error of a sine must be above zero, not {error:e}: write 1e-9, or take libm"
-        )));
-    }
+) -> Result<AngleKernel, OutOfReach> {
     let best = Candidates::new(trig.need, scalar, range).cheapest(error);
-    let angle = format!(
-        "q{} in [{:?}, {:?}]",
-        trig.joint + 1,
-        range.low(),
-        range.high()
-    );
-    let wanted = format!("{error:.2e}").replace(".00e", "e");
-    let why = match best {
-        Some(choice) if choice.errors.worst() <= error => {
-            return Ok(AngleKernel {
-                joint: trig.joint,
-                range,
-                form: choice.form.to_string(),
-                kernel: choice.kernel,
-                errors: choice.errors,
-            });
-        }
-        Some(choice) if !choice.errors.worst().is_infinite() => format!(
-            "no polynomial in {scalar} is proved to give the sines of {angle} to {wanted}, at best to \
-             {:.2e}: ask for that, for a wider scalar, or for libm",
-            choice.errors.worst()
-        ),
-        _ => format!(
-            "no polynomial in {scalar} is known for {angle}: narrow the joints' limits of position, \
-             or take libm"
-        ),
-    };
-    Err(complaint(why))
+    let least = best
+        .as_ref()
+        .map_or(f64::INFINITY, |own| own.errors.worst());
+    match best {
+        Some(choice) if least <= error => Ok(AngleKernel {
+            joint: trig.joint,
+            range,
+            form: choice.form.to_string(),
+            kernel: choice.kernel,
+            errors: choice.errors,
+        }),
+        _ => Err(OutOfReach {
+            scalar,
+            joint: trig.joint,
+            need: trig.need,
+            range,
+            wanted: error,
+            least,
+        }),
+    }
 }
 
 impl Program {

@@ -201,8 +201,8 @@ pub static OPTIONS: [OptionRow; 13] = [
     OptionRow {
         name: "sincos_error",
         purpose: Purpose::Code,
-        doc: "The largest error of each sine and cosine by polynomials [default: 1e-6, \
-              or what a scene's tolerance admits]",
+        doc: "The largest error of each sine and cosine by polynomials [default: 1e-6, or the \
+              least that the scalar has; what a scene's tolerance admits]",
         words: Vec::new,
         is_list: false,
         set: sincos_error,

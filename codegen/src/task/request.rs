@@ -49,8 +49,9 @@ pub struct Request {
     pub fma: bool,
     /// The source of sines and cosines.
     pub sincos: SinCos,
-    /// The largest |computed − true| of each sine and cosine by polynomials; [`SinCos::ERROR`] if
-    /// nothing is said. A scene's tolerance says it by itself.
+    /// The largest |computed − true| of each sine and cosine by polynomials. If nothing is said it
+    /// is [`SinCos::ERROR`], or the least error of two digits that each scalar can have. A scene's
+    /// tolerance says it by itself.
     pub sincos_error: Option<f64>,
     /// Whose sines are called where `sincos` leaves the choice open.
     pub auto: Library,

@@ -3,6 +3,8 @@
 use dalembert_codegen::GenerateError;
 use dalembert_codegen::workspace::Disproof;
 
+use crate::args::as_flags;
+
 /// The failure of a run, with its text for standard error.
 #[derive(Debug)]
 pub enum Failure {
@@ -14,7 +16,7 @@ pub enum Failure {
 
 impl From<GenerateError> for Failure {
     fn from(error: GenerateError) -> Self {
-        let text = format!("error: {error}");
+        let text = as_flags(&format!("error: {error}"));
         match error {
             // Failed proofs, runs and text checks are failed checks; all other errors come
             // from the robot or the request.

@@ -12,6 +12,7 @@ use dalembert_model::read::Reading;
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::Scene;
 
+use crate::args::as_flags;
 use crate::output::{Context, Failure};
 use crate::progress;
 
@@ -138,7 +139,10 @@ fn problems_of(problems: &[Problem]) -> String {
             "" => String::new(),
             help => format!("\n  = help: {help}"),
         };
-        format!("error: --{flag}: {}{help}", problem.complaint.message)
+        as_flags(&format!(
+            "error: --{flag}: {}{help}",
+            problem.complaint.message
+        ))
     };
     problems.iter().map(one).collect::<Vec<_>>().join("\n\n")
 }

@@ -6,7 +6,7 @@ pub mod values;
 
 use std::path::PathBuf;
 
-pub use options::Options;
+pub use options::{Options, as_flags};
 
 /// The help heading of the options for the code.
 pub const CODE: &str = "Code options";

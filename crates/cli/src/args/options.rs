@@ -87,6 +87,14 @@ impl TypedValueParser for Words {
     }
 }
 
+/// Writes the options that a message names as flags: `sincos: libm` as `--sincos libm`.
+pub fn as_flags(message: &str) -> String {
+    OPTIONS.iter().fold(message.to_owned(), |text, row| {
+        let flag = format!("`--{} ", row.name.replace('_', "-"));
+        text.replace(&format!("`{}: ", row.name), &flag)
+    })
+}
+
 fn arg(row: &'static OptionRow) -> Arg {
     let words = (row.words)();
     let value = match (row.is_list, words.is_empty()) {

@@ -1,0 +1,113 @@
+//! Polynomials in place of sines, where they are asked for and no tolerance says how exact they are.
+
+use super::{GenerateError, GeneratedFunction, Job};
+use crate::bound::definite::is_definite;
+use crate::bound::input_box::InputBox;
+use crate::figures::bound_of;
+use crate::function::Function;
+use crate::program::{Program, ScalarType, has_inertia};
+use crate::setup::Setup;
+use crate::sincos::reach::OutOfReach;
+use crate::sincos::{self, AngleKernel, SinCos, Sines};
+use crate::words::Complaint;
+
+/// Gives functions polynomials for their sines. In each scalar all err by no more than
+/// [`SinCos::ERROR`], or else than the least error of two digits that can be had. An error that was
+/// asked for is kept to.
+pub(super) fn give(
+    job: &Job<'_>,
+    functions: &mut [GeneratedFunction],
+    scalars: &[ScalarType],
+) -> Result<(), GenerateError> {
+    let request = job.request;
+    if request.sincos != SinCos::Polynomial || job.tolerance().is_some() {
+        return Ok(());
+    }
+    let wanted = request.sincos_error.unwrap_or(SinCos::ERROR);
+    let (mut chosen, mut missed) = (Vec::new(), Vec::new());
+    for &scalar in scalars {
+        let mut error = wanted;
+        let sines = loop {
+            match polynomials(job.setup, functions, scalar, error) {
+                Ok(sines) => break sines,
+                Err((function, mut miss)) => {
+                    miss.wanted = wanted;
+                    error = miss.reachable().ok_or_else(|| refused(function, &miss))?;
+                    missed.push((function, miss));
+                }
+            }
+        };
+        chosen.push((scalar, sines));
+    }
+    // With the error of the worst of them all can be had.
+    let worst = missed
+        .iter()
+        .max_by(|(_, a), (_, b)| a.least.total_cmp(&b.least));
+    if let (Some(_), Some((function, miss))) = (request.sincos_error, worst) {
+        return Err(refused(*function, miss));
+    }
+    for (scalar, lists) in chosen {
+        for (generated, sines) in functions.iter_mut().zip(lists) {
+            check_inertia(job.setup, generated, scalar, &sines)?;
+            generated.sines.push((scalar, sines));
+        }
+    }
+    Ok(())
+}
+
+/// Returns the polynomials of each function; or the first function and angle that has none.
+fn polynomials(
+    setup: &Setup,
+    functions: &[GeneratedFunction],
+    scalar: ScalarType,
+    error: f64,
+) -> Result<Vec<Sines>, (Function, OutOfReach)> {
+    let positions = sincos::positions(setup.robot(), scalar);
+    let sines = functions.iter().map(|own| {
+        sincos::polynomials(&own.program, scalar, &positions, error)
+            .map_err(|miss| (own.function, miss))
+    });
+    sines.collect()
+}
+
+fn refused(function: Function, miss: &OutOfReach) -> GenerateError {
+    GenerateError::SinCos(function, Complaint::new(miss.to_string(), miss.help()))
+}
+
+/// Refuses sines with which D cannot be shown to be positive definite any more.
+fn check_inertia(
+    setup: &Setup,
+    generated: &GeneratedFunction,
+    scalar: ScalarType,
+    sines: &[AngleKernel],
+) -> Result<(), GenerateError> {
+    if !spoil_inertia(setup, &generated.program, scalar, sines) {
+        return Ok(());
+    }
+    let errors = sines.iter().map(|own| own.errors.worst());
+    let worst = bound_of(errors.fold(0.0, f64::max), 2);
+    let message = format!(
+        "with {scalar} sines that err by up to {worst}, D cannot be shown to be positive definite \
+         any more"
+    );
+    let help = "use a smaller `sincos_error`, or `sincos: libm`";
+    let why = Complaint::new(message, help);
+    Err(GenerateError::SinCos(generated.function, why))
+}
+
+/// Returns whether D, if it is an output, can be shown to be positive definite at all positions
+/// with exact sines, and with these no more.
+fn spoil_inertia(
+    setup: &Setup,
+    program: &Program,
+    scalar: ScalarType,
+    sines: &[AngleKernel],
+) -> bool {
+    // Of a joint that slides without an end, no box has all positions.
+    let Ok(limits) = InputBox::within(setup, Function::Inertia) else {
+        return false;
+    };
+    has_inertia(program)
+        && !is_definite(program, scalar, sines, &limits)
+        && is_definite(program, scalar, &[], &limits)
+}
