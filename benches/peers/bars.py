@@ -1,53 +1,72 @@
-"""Bars of times beside ours, for light pages and dark ones."""
+"""Draws the table of RESULTS.md as bars, in the style of the other charts: results.svg.
 
+python3 benches/peers/bars.py
+"""
+
+import re
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+# A library's class of colour, and how strongly it is filled.
 COLOURS = {
-    "dalembert": "#2f7fd6",
-    "each rounded": "#7fb0e6",
-    "CasADi, gcc": "#d9822b",
-    "CasADi, clang": "#b5651d",
-    "dynibo": "#8a63b8",
-    "phyz": "#5b9a68",
+    "dalembert": ("k0", 1),
+    "each rounded": ("k0", 0.6),
+    "CasADi, gcc": ("k1", 1),
+    "CasADi, clang": ("k1", 0.6),
+    "dynibo": ("k3", 1),
+    "phyz": ("k2", 1),
 }
-WIDTH, LABEL, ROW, LEFT = 860, 150, 17, 12
+WIDTH, LEFT, BARS, ROW = 720, 16, 96, 15
 
 
-def bars(rows, libraries):
-    """A group a function and robot; lengths are times beside the longest of its function."""
-    parts, y = [], 14
-    title = None
-    for row in rows:
-        if row["function"] != title:
-            title = row["function"]
-            y += 12
-            parts.append(f'<text x="{LEFT}" y="{y + 4}" class="t">{title}</text>')
-            y += 16
-        longest = max(
-            time for r in rows if r["function"] == title for time in r["ns"].values()
-        )
-        here = [x for x in libraries if x in row["ns"]]
-        middle = y + ROW * len(here) / 2
-        parts.append(f'<text x="{LEFT}" y="{middle:.0f}" class="r">{row["robot"]}</text>')
-        for library in here:
-            time = row["ns"][library]
-            length = max(2, (WIDTH - LABEL - 210) * time / longest)
+def table(text):
+    """Return the rows of the table: function, robot, and the cell of each library that has one."""
+    cells = [line.strip("| ").split(" | ") for line in text.splitlines() if line.startswith("| ")]
+    head = cells[0][2:]
+    for function, robot, *times in cells[1:]:
+        here = {library: cell for library, cell in zip(head, times) if cell != "–"}
+        yield function.strip("`"), robot, here
+
+
+def drawn(text, style):
+    """A group of bars for a function and robot; lengths are beside the longest of the function."""
+    rows = list(table(text))
+    parts, y, title = [], 8, None
+    for function, robot, cells in rows:
+        if function != title:
+            title = function
+            longest = max(time(cell) for f, _, c in rows if f == title for cell in c.values())
+            y += 26
+            parts.append(f'<text class="i t" x="{LEFT}" y="{y - 8}">{title}, ns a call</text>')
+        parts.append(f'<text class="i" x="{LEFT}" y="{y + ROW - 4}">{robot}</text>')
+        for library, cell in cells.items():
+            colour, opacity = COLOURS[library]
+            length = max(2, (WIDTH - BARS - 196) * time(cell) / longest)
+            ratio = re.sub(r" \((.*)\)", r", \1 × ours", cell)
             parts.append(
-                f'<rect x="{LABEL}" y="{y}" width="{length:.1f}" height="{ROW - 4}"'
-                f' fill="{COLOURS.get(library, "#888")}"/>'
-            )
-            is_ours = library in ("dalembert", "each rounded")
-            note = "" if is_ours else f", {row['ratio'][library]:.1f} × ours"
-            parts.append(
-                f'<text x="{LABEL + length + 6:.1f}" y="{y + ROW - 7}">{library} {time:.0f} ns{note}</text>'
+                f'<rect class="{colour} f" opacity="{opacity}" x="{BARS}" y="{y}"'
+                f' width="{length:.1f}" height="{ROW - 3}"/>'
+                f'<text class="i" x="{BARS + length + 6:.1f}" y="{y + ROW - 4}">{library} {ratio}</text>'
             )
             y += ROW
-        y += 8
-    style = (
-        "text{font:12px sans-serif;fill:#1f2328}.t{font-weight:bold}.r{font-size:13px}"
-        "@media(prefers-color-scheme:dark){text{fill:#e6edf3}}"
-    )
+        y += 6
+    size = f'width="{WIDTH}" height="{y + 8}"'
     return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {y + 8}" width="{WIDTH}">'
-        f"<title>Nanoseconds a call, beside other libraries</title><style>{style}</style>"
-        + "\n".join(parts)
-        + "</svg>\n"
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {y + 8}" role="img">\n'
+        f"<title>Nanoseconds a call, beside other libraries</title>\n{style}\n"
+        f'<rect class="p" {size}/>\n' + "\n".join(parts) + "\n</svg>\n"
     )
+
+
+def time(cell):
+    return float(cell.split()[0])
+
+
+def main():
+    chart = (HERE / "../../generated/tradeoff/puma560.svg").read_text()
+    style = re.search("<style>.*</style>", chart)[0]
+    (HERE / "results.svg").write_text(drawn((HERE / "RESULTS.md").read_text(), style))
+
+
+if __name__ == "__main__":
+    main()

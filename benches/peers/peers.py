@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bars import bars
+import bars
 from model import Arm
 from symbolic import Chain, counts
 
@@ -189,6 +189,8 @@ def write(rows, about):
         "operation of a product and its sum (`fma: on`), as `-ffp-contract=fast` does of the C;",
         "*each rounded* is ours without.",
         "",
+        "![The table as bars](results.svg)",
+        "",
         "| function | robot | " + " | ".join(libraries) + " |",
         "|---" * (len(libraries) + 2) + "|",
     ]
@@ -203,7 +205,7 @@ def write(rows, about):
                 cells.append(f"{row['ns'][library]:.0f} ({row['ratio'][library]:.1f})")
         text.append(f"| `{row['function']}` | {row['robot']} | " + " | ".join(cells) + " |")
     (HERE / "RESULTS.md").write_text("\n".join(text) + "\n")
-    (HERE / "results.svg").write_text(bars(rows, libraries))
+    bars.main()
 
 
 def main():

@@ -3,6 +3,7 @@
 # folder, relative to the actuators' limits, which two of the robot files do not have.
 #
 #   generated/tradeoff/make.sh               all of them anew: minutes each
+#   cargo test -p dalembert-cli --lib chart  the charts alone, from the tables
 #   generated/tradeoff/make.sh --check       a run of each at 5e-2 alone against its table: where
 #                                            it leaves 5 % more operations, that is an error
 #   generated/tradeoff/make.sh --neighbours  ten tolerances within 2 % of 1e-2 and of 5e-2, of the

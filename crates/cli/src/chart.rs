@@ -1,21 +1,22 @@
-//! The front of a trade-off as SVG: operations over certified error.
+//! The front of a trade-off as SVG: cost over certified error.
 //!
-//! Each kind of variant (scalar and source of sines) has a colour and a mark, open for f64 and full for
-//! f32. A line joins its best variants; dominated ones are grey. A whisker leads from the certified to
-//! the observed error.
+//! Each kind of variant (scalar and source of sines) has a colour, a line through its variants and its
+//! name at the end of the line. Marks are open for f64, full for f32, and faint where another variant
+//! is neither dearer nor worse. A whisker leads from the certified to the observed error. Decades
+//! without a variant are left out.
 
-use std::error::Error;
-use std::ops::Range;
+use dalembert_codegen::ScalarType;
 
-use plotters::prelude::*;
+use crate::drawing::paper::Paper;
+use crate::ladder::called;
 
 /// One variant, as the chart shows it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dot {
     /// The index of its kind: scalar, and twice the source of sines.
     pub kind: usize,
-    /// Operations, those of polynomials included.
-    pub operations: f64,
+    /// Operations, those of its sines included.
+    pub cost: f64,
     /// The bound of the error.
     pub certified: f64,
     /// The largest error that was seen.
@@ -24,114 +25,203 @@ pub struct Dot {
     pub dominated: bool,
 }
 
-/// The kinds, as the legend names them, with colours that are told apart in print.
-const KINDS: [(&str, RGBColor); 4] = [
-    ("f64, called sines", RGBColor(0x1b, 0x6c, 0xa8)),
-    ("f32, called sines", RGBColor(0xc2, 0x57, 0x1a)),
-    ("f64, polynomials", RGBColor(0x2b, 0x8a, 0x4b)),
-    ("f32, polynomials", RGBColor(0x9b, 0x3f, 0xa0)),
+/// The names of the kinds.
+const KINDS: [&str; 4] = [
+    "f64, called sines",
+    "f32, called sines",
+    "f64, polynomials",
+    "f32, polynomials",
 ];
-const GREY: RGBColor = RGBColor(0x99, 0x99, 0x99);
+
+/// Rules of the classes, for white and black paper: k0 to k3 colours of series; t titles; e and m texts
+/// that end or are centred at their place; g grid and leaders; w axes and whiskers; o lines, s dashed;
+/// f and h full and open marks; d faint ones. Drawings by hand and by `bars.py` have the same.
+const STYLE: [&str; 2] = [
+    "\
+.t{font-weight:bold}.e{text-anchor:end}.m{text-anchor:middle}\
+.g,.w,.o{fill:none;stroke:currentColor}.g{stroke-opacity:.2}.o{stroke-width:2}.s{stroke-dasharray:7 4}\
+.f{fill:currentColor}.h{fill:#fff;stroke:currentColor;stroke-width:2}.d{opacity:.35}\
+.k0{color:#1b6ca8}.k1{color:#c2571a}.k2{color:#2b8a4b}.k3{color:#9b3fa0}",
+    ".h{fill:#111}.k0{color:#62b0ea}.k1{color:#f0935a}.k2{color:#6cc98c}.k3{color:#d68ada}",
+];
+
+/// The paper, and the sides of the plot on it, in pixels.
+const SIZE: [f64; 2] = [720.0, 400.0];
+const LEFT: f64 = 48.0;
+const RIGHT: f64 = 586.0;
+const TOP: f64 = 60.0;
+const BOTTOM: f64 = 344.0;
 
 /// Draws the chart; errors are relative to `relative_to`.
-///
-/// # Errors
-/// Those of plotters; writing to a string has none of its own.
-pub fn svg(title: &str, relative_to: &str, dots: &[Dot]) -> Result<String, Box<dyn Error>> {
-    let mut text = String::new();
-    let root = SVGBackend::with_string(&mut text, (720, 440)).into_drawing_area();
-    root.fill(&WHITE)?;
-    let observed = dots.iter().filter_map(|dot| dot.observed);
-    let has_whiskers = observed.clone().next().is_some();
-    let across = range(dots.iter().map(|dot| dot.certified).chain(observed));
-    let least = across.start;
-    let most = dots.iter().map(|dot| dot.operations).fold(1.0, f64::max);
-    let mut chart = ChartBuilder::on(&root)
-        .caption(title, ("sans-serif", 16))
-        .margin(14)
-        .x_label_area_size(44)
-        .y_label_area_size(56)
-        .build_cartesian_2d(across.log_scale(), 0.0..1.1 * most)?;
-    let whiskers = match has_whiskers {
-        true => "; whiskers: observed",
-        false => "",
+pub fn svg(title: &str, relative_to: &str, dots: &[Dot]) -> String {
+    let mut paper = Paper::new(SIZE, title, "tradeoff", STYLE);
+    let observed: Vec<f64> = dots.iter().filter_map(|dot| dot.observed).collect();
+    let certified = dots.iter().map(|dot| dot.certified);
+    let across = Across::around(certified.chain(observed.iter().copied()));
+    let up = Up::around(dots.iter().map(|dot| dot.cost));
+    paper.text("i t", [LEFT, 20.0], title);
+    let [double, single] = ScalarType::ALL.map(called);
+    let cost = format!(
+        "operations; a called sine and its cosine count as {double}, in f32 as {single}, as libm computes them"
+    );
+    paper.text("i", [LEFT, 38.0], &cost);
+    up.draw(&mut paper);
+    across.draw(&mut paper);
+    let whiskers = match observed.is_empty() {
+        true => "",
+        false => "; whiskers: observed",
     };
-    let across = format!("certified error, relative to {relative_to}{whiskers}");
-    chart
-        .configure_mesh()
-        .x_desc(across)
-        .y_desc("operations, polynomials included")
-        .x_label_formatter(&|x| format!("1e{:.0}", x.log10()))
-        .y_label_formatter(&|y| format!("{y:.0}"))
-        .light_line_style(TRANSPARENT)
-        .label_style(("sans-serif", 12))
-        .draw()?;
-    let (grey, best): (Vec<Dot>, Vec<Dot>) = dots.iter().partition(|dot| dot.dominated);
-    for dot in &grey {
-        chart.draw_series(marks(dot, GREY, least))?;
-    }
-    for (kind, (name, colour)) in KINDS.into_iter().enumerate() {
-        let own = best.iter().filter(|dot| dot.kind == kind);
-        let mut front: Vec<Dot> = own.copied().collect();
-        front.sort_by(|a, b| a.certified.total_cmp(&b.certified));
-        if front.is_empty() {
+    let error = format!("certified error, relative to {relative_to}{whiskers}");
+    paper.text("i m", [0.5 * (LEFT + RIGHT), BOTTOM + 40.0], &error);
+    let mut ends: Vec<([f64; 2], usize)> = Vec::new();
+    for kind in 0..KINDS.len() {
+        let mut variants: Vec<&Dot> = dots.iter().filter(|dot| dot.kind == kind).collect();
+        variants.sort_by(|a, b| a.certified.total_cmp(&b.certified));
+        let place = |dot: &&Dot| [across.place(dot.certified), up.place(dot.cost)];
+        let places: Vec<[f64; 2]> = variants.iter().map(place).collect();
+        let Some(end) = places.last() else {
             continue;
+        };
+        ends.push((*end, kind));
+        paper.element(&format!("<g class=\"k{kind}\">"));
+        paper.polyline(["o", "o s"][kind % 2], places.iter().copied());
+        for (dot, at) in variants.iter().zip(&places) {
+            let faint = if dot.dominated { " d" } else { "" };
+            if let Some(error) = dot.observed.filter(|error| *error > 0.0) {
+                paper.line(&format!("w{faint}"), *at, [across.place(error), at[1]]);
+            }
+            paper.circle(&format!("{}{faint}", ["h", "f"][kind % 2]), *at, 4.0);
         }
-        let line = front.iter().map(|dot| (dot.certified, dot.operations));
-        let dash = if kind % 2 == 0 { 10_000 } else { 7 };
-        chart
-            .draw_series(DashedLineSeries::new(line, dash, 3, colour.stroke_width(2)))?
-            .label(name)
-            .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(2)));
-        for dot in &front {
-            chart.draw_series(marks(dot, colour, least))?;
+        paper.element("</g>");
+    }
+    // Names beside the ends of the lines, none on another.
+    ends.sort_by(|(a, _), (b, _)| a[1].total_cmp(&b[1]));
+    let mut y = 0.0;
+    for ([from, height], kind) in ends {
+        y = f64::max(y + 15.0, height);
+        paper.element(&format!("<g class=\"k{kind}\">"));
+        paper.line("g", [from + 7.0, height], [RIGHT + 6.0, y]);
+        paper.text("i", [RIGHT + 10.0, y + 4.0], KINDS[kind]);
+        paper.element("</g>");
+    }
+    paper.end()
+}
+
+/// The axis of errors: logarithmic, in parts, without the decades in which nothing is.
+struct Across {
+    /// The least and the largest exponent of ten of each part, ascending.
+    parts: Vec<[f64; 2]>,
+    /// Pixels per decade.
+    scale: f64,
+}
+
+impl Across {
+    /// Decades beside a value.
+    const MARGIN: f64 = 0.25;
+    /// The most decades without a value inside a part.
+    const GAP: f64 = 1.0;
+    /// The room between two parts, in pixels.
+    const BREAK: f64 = 22.0;
+
+    /// Returns the axis of positive values. Each part has a power of ten.
+    fn around(values: impl Iterator<Item = f64>) -> Across {
+        let positive = values.filter(|x| *x > 0.0 && x.is_finite());
+        let mut exponents: Vec<f64> = positive.map(libm::log10).collect();
+        exponents.sort_by(f64::total_cmp);
+        let mut parts: Vec<[f64; 2]> = Vec::new();
+        for exponent in exponents {
+            let decade = libm::round(exponent);
+            let low = decade.min(exponent - Across::MARGIN);
+            let high = decade.max(exponent + Across::MARGIN);
+            match parts.last_mut() {
+                Some([_, end]) if low - *end <= Across::GAP => *end = f64::max(*end, high),
+                _ => parts.push([low, high]),
+            }
+        }
+        if parts.is_empty() {
+            parts.push([-1.0, 0.0]);
+        }
+        let decades: f64 = parts.iter().map(|[low, high]| high - low).sum();
+        let breaks = Across::BREAK * (parts.len() - 1) as f64;
+        let scale = (RIGHT - LEFT - breaks) / decades;
+        Across { parts, scale }
+    }
+
+    /// Returns the place of a value.
+    fn place(&self, value: f64) -> f64 {
+        self.place_of_exponent(libm::log10(value))
+    }
+
+    fn place_of_exponent(&self, exponent: f64) -> f64 {
+        let mut from = LEFT;
+        for [low, high] in &self.parts {
+            if exponent <= *high {
+                return from + self.scale * (exponent - low).max(0.0);
+            }
+            from += self.scale * (high - low) + Across::BREAK;
+        }
+        RIGHT
+    }
+
+    fn draw(&self, paper: &mut Paper) {
+        for (index, [low, high]) in self.parts.iter().enumerate() {
+            let [from, to] = [*low, *high].map(|exponent| self.place_of_exponent(exponent));
+            paper.line("w", [from, BOTTOM], [to, BOTTOM]);
+            for decade in libm::ceil(*low) as i32..=libm::floor(*high) as i32 {
+                let x = self.place_of_exponent(f64::from(decade));
+                paper.line("w", [x, BOTTOM], [x, BOTTOM + 5.0]);
+                paper.text("i m", [x, BOTTOM + 19.0], &format!("1e{decade}"));
+            }
+            if index > 0 {
+                // Two strokes in the break before the part.
+                for aside in [-3.0, 3.0] {
+                    let x = from - 0.5 * Across::BREAK + aside;
+                    paper.line("w", [x - 3.0, BOTTOM + 5.0], [x + 3.0, BOTTOM - 5.0]);
+                }
+            }
         }
     }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::LowerLeft)
-        .background_style(WHITE.mix(0.8))
-        .border_style(GREY)
-        .label_font(("sans-serif", 12))
-        .draw()?;
-    root.present()?;
-    // The text is written when the drawing ends.
-    drop((chart, root));
-    let start = text.find("<svg");
-    let head = start.and_then(|at| Some(at + text[at..].find('>')? + 1));
-    // By this mark the command knows its charts.
-    text.insert_str(head.unwrap_or(0), "\n<desc>by dalembert tradeoff</desc>\n");
-    Ok(text)
 }
 
-type Mark<'a> = DynElement<'static, SVGBackend<'a>, (f64, f64)>;
-
-/// Returns a mark and its whisker.
-fn marks<'a>(dot: &Dot, colour: RGBColor, least: f64) -> Vec<Mark<'a>> {
-    let at = (dot.certified, dot.operations);
-    let (size, style) = match dot.kind % 2 {
-        0 => (5, colour.stroke_width(2)),
-        _ => (3, colour.filled()),
-    };
-    let mark = match dot.kind / 2 {
-        0 => Circle::new(at, size, style).into_dyn(),
-        _ => TriangleMarker::new(at, size + 1, style).into_dyn(),
-    };
-    let end = dot.observed.unwrap_or(dot.certified).max(least);
-    let whisker = PathElement::new([at, (end, dot.operations)], colour.stroke_width(1));
-    vec![whisker.into_dyn(), mark]
+/// The axis of costs: linear, between two multiples of its step.
+struct Up {
+    low: f64,
+    high: f64,
+    step: f64,
 }
 
-/// Returns a range around positive values, wider on each side by a twentieth of the logarithm.
-fn range(values: impl Iterator<Item = f64>) -> Range<f64> {
-    let logs = values
-        .filter(|x| *x > 0.0 && x.is_finite())
-        .map(libm::log10);
-    let nothing = (f64::INFINITY, f64::NEG_INFINITY);
-    let (low, high) = logs.fold(nothing, |(low, high), x| (low.min(x), high.max(x)));
-    let (low, high) = if low <= high { (low, high) } else { (0.0, 1.0) };
-    let margin = 0.05 * (high - low).max(8.0);
-    libm::pow(10.0, low - margin)..libm::pow(10.0, high + margin)
+impl Up {
+    /// The most steps between the least and the largest value.
+    const STEPS: f64 = 6.0;
+
+    fn around(values: impl Iterator<Item = f64> + Clone) -> Up {
+        let least = values.clone().fold(f64::INFINITY, f64::min);
+        let most = values.fold(least, f64::max);
+        let mut step = 1.0;
+        // 1, 2, 5, 10, 20 …
+        for factor in [2.0, 2.5, 2.0].into_iter().cycle() {
+            if most - least <= Up::STEPS * step || !most.is_finite() {
+                break;
+            }
+            step *= factor;
+        }
+        let low = step * libm::floor(least / step);
+        let high = (step * libm::ceil(most / step)).max(low + step);
+        Up { low, high, step }
+    }
+
+    fn place(&self, cost: f64) -> f64 {
+        BOTTOM - (BOTTOM - TOP) * (cost - self.low) / (self.high - self.low)
+    }
+
+    fn draw(&self, paper: &mut Paper) {
+        let steps = ((self.high - self.low) / self.step) as u32;
+        for tick in (0..=steps).map(|k| self.low + self.step * f64::from(k)) {
+            let y = self.place(tick);
+            paper.line("g", [LEFT, y], [RIGHT, y]);
+            paper.text("i e", [LEFT - 8.0, y + 4.0], &tick.to_string());
+        }
+    }
 }
 
 #[cfg(test)]
@@ -139,7 +229,10 @@ mod tests {
     use std::fs;
     use std::path::Path;
 
+    use dalembert_codegen::ScalarType;
+
     use super::{Dot, svg};
+    use crate::ladder::called;
 
     fn dots(csv: &str) -> Vec<Dot> {
         let mut rows = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
@@ -147,11 +240,18 @@ mod tests {
         rows.map(|row| {
             let cell = |name: &str| row[head.iter().position(|cell| *cell == name).unwrap()];
             let number = |name: &str| cell(name).parse::<f64>().unwrap();
-            let operations = ["mul", "add", "trig_mul", "trig_add"].map(number);
+            let scalar = match cell("scalar") {
+                "f32" => ScalarType::F32,
+                _ => ScalarType::F64,
+            };
+            let is_called = cell("sincos_by") == "libm";
+            let sines = match is_called {
+                true => number("sincos") * called(scalar) as f64,
+                false => number("trig_mul") + number("trig_add"),
+            };
             Dot {
-                kind: usize::from(cell("scalar") == "f32")
-                    + 2 * usize::from(cell("sincos_by") == "polynomials"),
-                operations: operations.iter().sum(),
+                kind: usize::from(scalar == ScalarType::F32) + 2 * usize::from(!is_called),
+                cost: number("mul") + number("add") + sines,
                 certified: number("certified"),
                 observed: cell("observed").parse().ok(),
                 dominated: cell("front") != "yes",
@@ -160,18 +260,29 @@ mod tests {
         .collect()
     }
 
-    /// The chart that is shown is the chart of the table beside it. A
-    /// difference is mended and reported.
+    /// The charts that are shown are those of the tables beside them. What differs is drawn anew
+    /// before the test fails.
     #[test]
-    fn the_checked_in_chart_is_that_of_its_table() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../generated/tradeoff");
-        let csv = fs::read_to_string(folder.join("puma560.csv")).unwrap();
-        let title = "puma560: inverse_dynamics";
-        let chart = svg(title, "the actuators' limits", &dots(&csv)).unwrap();
-        let file = folder.join("puma560.svg");
-        if fs::read_to_string(&file).unwrap() != chart {
-            fs::write(&file, chart).unwrap();
-            panic!("{file:?} was not the chart of its table; it is now");
+    fn the_checked_in_charts_are_those_of_their_tables() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let folder = root.join("generated/tradeoff");
+        let mut differing = Vec::new();
+        for robot in ["puma560", "ur10", "panda"] {
+            let csv = fs::read_to_string(folder.join(format!("{robot}.csv"))).unwrap();
+            let title = format!("{robot}: inverse_dynamics");
+            let chart = svg(&title, "the actuators' limits", &dots(&csv));
+            let mut files = vec![folder.join(format!("{robot}.svg"))];
+            if robot == "puma560" {
+                files.push(root.join("docs/src/tradeoff.svg"));
+            }
+            for file in files {
+                if fs::read_to_string(&file).is_ok_and(|text| text == chart) {
+                    continue;
+                }
+                fs::write(&file, &chart).unwrap();
+                differing.push(file);
+            }
         }
+        assert!(differing.is_empty(), "drawn anew: {differing:?}");
     }
 }

@@ -96,7 +96,7 @@ pub(crate) fn run(args: &TradeoffArgs, context: &Context) -> Outcome {
         let title = format!("{}{scene}: {}", source.robot.name, exact.function);
         done.files = vec![
             (csv, table.csv()),
-            (svg, drawn(&title, relative_to, &points)?),
+            (svg, drawn(&title, relative_to, &points)),
         ];
         for point in &points {
             let own = &point.certificate;
@@ -243,19 +243,18 @@ fn table(points: &[Point]) -> Table {
     table
 }
 
-/// Draws the operations over the certified errors.
-fn drawn(title: &str, relative_to: Scale, points: &[Point]) -> Result<String, Failure> {
+/// Draws the costs over the certified errors.
+fn drawn(title: &str, relative_to: Scale, points: &[Point]) -> String {
     let scale = match relative_to {
         Scale::Actuator => "the actuators' limits",
         Scale::Range => "the largest torques",
     };
     let dots = points.iter().map(|own| Dot {
         kind: own.kind(),
-        operations: own.operations() as f64,
+        cost: own.cost() as f64,
         certified: own.certified,
         observed: own.observed,
         dominated: own.dominated,
     });
     chart::svg(title, scale, &dots.collect::<Vec<Dot>>())
-        .map_err(|error| Failure::Input(format!("error: the chart cannot be drawn: {error}")))
 }

@@ -5,10 +5,11 @@
 //! Impossible inertias are named below the table. The same robot and position give the same bytes:
 //! sines are libm's, and numbers have one decimal.
 //!
-//! - this file: the arm and its bodies; `page`: lines, shapes and texts, in two projections;
-//!   `table`: the DH rows, masses and centres of mass
+//! - this file: the arm and its bodies; `paper`: lines, shapes and texts; `page`: those of an arm, in
+//!   two projections; `table`: the DH rows, masses and centres of mass
 
 mod page;
+pub(crate) mod paper;
 mod table;
 
 use dalembert_model::equations::matrix::{Columns, Vector};
@@ -17,7 +18,8 @@ use dalembert_model::reference::{Reference, WrongLength};
 use dalembert_model::robot::{Convention, Joint, JointKind, Robot};
 use nalgebra::DVector;
 
-use page::{Page, View};
+use page::View;
+use paper::Paper;
 
 /// A link with mass.
 struct Body {
@@ -51,7 +53,7 @@ pub fn svg(robot: &Robot, q: &[f64]) -> Result<String, WrongLength> {
         bodies: bodies(robot, &frames),
         frames,
     };
-    let mut page = Page::new(&robot.name, &table::lines(robot, q));
+    let mut page = Paper::of_arm(&robot.name, &table::lines(robot, q));
     for view in View::both(&scene.points(), &scene.outlines()) {
         scene.draw(&view, &mut page);
     }
@@ -129,7 +131,7 @@ impl Scene<'_> {
         (frame.origin, frame.axes[2])
     }
 
-    fn draw(&self, view: &View, page: &mut Page) {
+    fn draw(&self, view: &View, page: &mut Paper) {
         for body in &self.bodies {
             let centre = view.place(&body.centre);
             if let Some((half, turned)) = body.ellipse(view.coordinates) {
@@ -142,7 +144,7 @@ impl Scene<'_> {
         // The links, from frame to frame and on to the hand.
         let origins = [&self.first].into_iter().chain(&self.frames);
         let origins = origins.chain([&self.hand]);
-        page.chain(origins.map(|frame| view.place(&frame.origin)));
+        page.polyline("l", origins.map(|frame| view.place(&frame.origin)));
         let mut labels: Vec<([f64; 2], String)> = Vec::new();
         // A joint that follows another has the number of the joint that moves it.
         for (row, joint) in self.robot.rows().into_iter().enumerate() {

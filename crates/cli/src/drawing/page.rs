@@ -1,6 +1,8 @@
-//! Lines, shapes and texts as SVG, and the two projections onto the paper.
+//! The page of an arm: its table, its shapes, and the two projections onto the paper.
 
 use dalembert_model::equations::matrix::{Columns, Vector};
+
+use super::paper::Paper;
 
 /// The side of a view, and the room above both, in pixels.
 const SIDE: f64 = 440.0;
@@ -10,20 +12,19 @@ const ROW: f64 = 17.0;
 /// The width of a character of the table, pixels: that of the widest common monospaced font.
 const CHARACTER: f64 = 7.5;
 
-/// Colours for white and black paper. Classes: x, y and z axes of frames; t and s axes of revolute
-/// and prismatic joints; m masses; e bodies; l links; b bars. Texts have an outline in the colour of
-/// the paper, so that they are legible on lines.
-const STYLE: &str = "\
-svg{font:12px sans-serif;color:#222}\
-.p{fill:#fff}.i{fill:currentColor;stroke:#fff;stroke-width:3;paint-order:stroke}.c{font:12px monospace}\
+/// Rules of the classes, for white and black paper: x, y and z axes of frames; t and s axes of
+/// revolute and prismatic joints; m masses; e bodies; l links; b bars.
+const STYLE: [&str; 2] = [
+    "\
 .x,.y,.z,.t,.s,.l,.b{fill:none;stroke-width:1.5}\
 .x{stroke:#c03030}.y{stroke:#2b8a4b}.z{stroke:#1b6ca8}\
 .t,.s{stroke:#9b3fa0;stroke-width:1}.s{stroke-dasharray:5 3}\
 .l{stroke:currentColor;stroke-width:4;stroke-opacity:.25;stroke-linejoin:round}\
-.b{stroke:currentColor}.m{fill:#c2571a}.e{fill:#c2571a;fill-opacity:.14;stroke:#c2571a}\
-@media screen and (prefers-color-scheme:dark){svg{color:#ddd}.p{fill:#111}.i{stroke:#111}\
+.b{stroke:currentColor}.m{fill:#c2571a}.e{fill:#c2571a;fill-opacity:.14;stroke:#c2571a}",
+    "\
 .x{stroke:#ff8080}.y{stroke:#6cc98c}.z{stroke:#62b0ea}.t,.s{stroke:#d68ada}\
-.m{fill:#f0935a}.e{fill:#f0935a;stroke:#f0935a}}";
+.m{fill:#f0935a}.e{fill:#f0935a;stroke:#f0935a}",
+];
 
 /// The meaning of the marks.
 const LEGEND: [&str; 2] = [
@@ -31,23 +32,15 @@ const LEGEND: [&str; 2] = [
     "dots: centres of mass; ellipses: bodies of uniform density with the links' inertias",
 ];
 
-/// An SVG drawing that is being written.
-pub(super) struct Page(String);
-
-impl Page {
-    /// Starts a drawing: its title, room for two views, and a table below them.
-    pub(super) fn new(title: &str, table: &[String]) -> Page {
+impl Paper {
+    /// Starts the drawing of an arm: its title, room for two views, and a table below them.
+    pub(super) fn of_arm(title: &str, table: &[String]) -> Paper {
         let rows = table.len() as f64;
         let widest = table.iter().map(|line| line.chars().count()).max();
         let table_width = 32.0 + CHARACTER * widest.unwrap_or(0) as f64;
         let width = table_width.max(2.0 * SIDE);
         let height = HEAD + SIDE + ROW * (rows + 1.5);
-        let name = escaped(title);
-        let mut page = Page(format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
-             role=\"img\">\n<title>{name}</title>\n<!-- by dalembert show -->\n<style>{STYLE}</style>\n\
-             <rect class=\"p\" width=\"{width}\" height=\"{height}\"/>\n"
-        ));
+        let mut page = Paper::new([width, height], title, "show", STYLE);
         page.text("i", [16.0, 20.0], title);
         for (line, text) in LEGEND.iter().enumerate() {
             page.text("i", [16.0, 36.0 + 15.0 * line as f64], text);
@@ -58,17 +51,6 @@ impl Page {
             page.text("i c", [16.0, y], &line.replace("  ", "\u{a0}\u{a0}"));
         }
         page
-    }
-
-    fn element(&mut self, element: &str) {
-        self.0 += element;
-        self.0.push('\n');
-    }
-
-    fn line(&mut self, class: &str, [x, y]: [f64; 2], [to_x, to_y]: [f64; 2]) {
-        self.element(&format!(
-            "<path class=\"{class}\" d=\"M{x:.1} {y:.1}L{to_x:.1} {to_y:.1}\"/>"
-        ));
     }
 
     /// Draws an arrow; a ring if it is seen end on.
@@ -85,19 +67,6 @@ impl Page {
         }
     }
 
-    /// Draws the links, from origin to origin.
-    pub(super) fn chain(&mut self, points: impl Iterator<Item = [f64; 2]>) {
-        let points = points.map(|[x, y]| format!("{x:.1},{y:.1}"));
-        let points = points.collect::<Vec<_>>().join(" ");
-        self.element(&format!("<polyline class=\"l\" points=\"{points}\"/>"));
-    }
-
-    pub(super) fn circle(&mut self, class: &str, [x, y]: [f64; 2], radius: f64) {
-        self.element(&format!(
-            "<circle class=\"{class}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius:.1}\"/>"
-        ));
-    }
-
     /// Draws a body's outline, turned counterclockwise by `turned` degrees.
     pub(super) fn ellipse(&mut self, [x, y]: [f64; 2], [a, b]: [f64; 2], turned: f64) {
         // SVG turns clockwise.
@@ -112,25 +81,6 @@ impl Page {
     pub(super) fn label(&mut self, [x, y]: [f64; 2], text: &str) {
         self.text("i", [x + 5.0, y - 4.0], text);
     }
-
-    fn text(&mut self, class: &str, [x, y]: [f64; 2], text: &str) {
-        let text = escaped(text);
-        self.element(&format!(
-            "<text class=\"{class}\" x=\"{x:.1}\" y=\"{y:.1}\">{text}</text>"
-        ));
-    }
-
-    /// Returns the text of the file.
-    pub(super) fn end(self) -> String {
-        self.0 + "</svg>\n"
-    }
-}
-
-/// Escapes text for XML, and replaces control characters.
-fn escaped(text: &str) -> String {
-    let plain = |c: char| if c.is_control() { '\u{fffd}' } else { c };
-    let plain: String = text.chars().map(plain).collect();
-    plain.replace('&', "&amp;").replace('<', "&lt;")
 }
 
 /// A projection onto the paper: along y, seen from the front, or along z, from above.
@@ -199,7 +149,7 @@ impl View {
     }
 
     /// Draws the view's name and a scale bar.
-    pub(super) fn head(&self, page: &mut Page) {
+    pub(super) fn head(&self, page: &mut Paper) {
         let [x, y] = [self.at[0] - 0.5 * SIDE + 16.0, HEAD + 10.0];
         page.text("i", [x, y], self.name);
         // The largest of 1, 2 and 5 times a power of ten that is not above a third of the arm.
@@ -213,7 +163,7 @@ impl View {
     }
 
     /// Draws the direction of gravity: an arrow, or ⊙ towards the viewer and ⊗ away.
-    pub(super) fn gravity(&self, gravity: &Vector<f64>, page: &mut Page) {
+    pub(super) fn gravity(&self, gravity: &Vector<f64>, page: &mut Paper) {
         let size = libm::sqrt(gravity.iter().map(|g| g * g).sum());
         let from = [self.at[0] + 0.5 * SIDE - 40.0, HEAD + 60.0];
         if size == 0.0 {
@@ -234,7 +184,7 @@ impl View {
     }
 
     /// Draws the axes of a frame, x, y and z in their colours.
-    pub(super) fn triad(&self, frame: &Columns<f64>, size: f64, page: &mut Page) {
+    pub(super) fn triad(&self, frame: &Columns<f64>, size: f64, page: &mut Paper) {
         let from = self.place(&frame.origin);
         let length = size * self.reach;
         for (class, axis) in ["x", "y", "z"].into_iter().zip(&frame.axes) {
