@@ -1,20 +1,39 @@
-//! The law of the house: each stage uses those before it, never those after.
+//! The law of the house: each stage of the generator uses those before it, never those after.
 //!
-//! The order of the stages is the list at the top of `codegen/src/lib.rs`, which `rustc` knows
-//! nothing of: within a crate it lets every module use every other.
+//! The order of the stages is that of the table in `CONTRIBUTING.md`, which `rustc` knows nothing of:
+//! within a crate it lets every module use every other.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-const SOURCE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/codegen/src");
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+const STAGES: &str = "codegen/src/";
 
-/// Returns the stages in the order of the list in `codegen/src/lib.rs`.
+/// Returns the rows of the table: folders, and types that leave them.
+fn table() -> Vec<[Vec<String>; 2]> {
+    let text = fs::read_to_string(format!("{ROOT}/CONTRIBUTING.md")).unwrap();
+    let (_, table) = text.split_once("| folder | phase |").unwrap();
+    let rows = table.lines().skip(2).take_while(|line| !line.is_empty());
+    let names = |cell: &str| -> Vec<String> {
+        let quoted = cell.split('`').skip(1).step_by(2);
+        quoted.map(str::to_owned).collect()
+    };
+    let row = |line: &str| {
+        let cells: Vec<&str> = line.split('|').collect();
+        [names(cells[1]), names(cells[3])]
+    };
+    rows.map(row).collect()
+}
+
+/// Returns the stages in the order of the table.
 fn stages() -> Vec<String> {
-    let text = fs::read_to_string(format!("{SOURCE}/lib.rs")).unwrap();
-    let lines = text.lines().filter_map(|line| line.strip_prefix("//! - "));
-    let name = |line: &str| line.split('`').nth(1).unwrap().to_owned();
-    lines.map(name).collect()
+    let folders = table().into_iter().map(|[folders, _]| folders);
+    let stages = folders.filter(|folders| folders[0].starts_with(STAGES));
+    stages
+        .flatten()
+        .map(|name| name.trim_start_matches(STAGES).to_owned())
+        .collect()
 }
 
 /// Adds the text of a file, or of all files in a folder, without comments.
@@ -36,14 +55,20 @@ fn read(path: &Path, text: &mut String) {
     }
 }
 
-/// Returns the modules that a stage's files name behind `crate::`.
-fn used(stage: &str) -> BTreeSet<String> {
+/// Returns the code of a module: of its file and of all files in its folder.
+fn code(module: &str) -> String {
     let mut text = String::new();
-    for path in [".rs", ""].map(|ending| format!("{SOURCE}/{stage}{ending}")) {
+    for path in [".rs", ""].map(|ending| format!("{ROOT}/{module}{ending}")) {
         if fs::exists(&path).unwrap() {
             read(path.as_ref(), &mut text);
         }
     }
+    text
+}
+
+/// Returns the modules that a stage's files name behind `crate::`.
+fn used(stage: &str) -> BTreeSet<String> {
+    let text = code(&format!("{STAGES}{stage}"));
     // A list would hide what it names.
     assert!(!text.contains("crate::{"), "{stage}: one `use` a module");
     let word = |rest: &str| -> String {
@@ -57,13 +82,13 @@ fn used(stage: &str) -> BTreeSet<String> {
 #[test]
 fn no_stage_uses_a_later_one() {
     let stages = stages();
-    let lib = fs::read_to_string(format!("{SOURCE}/lib.rs")).unwrap();
+    let lib = fs::read_to_string(format!("{ROOT}/{STAGES}lib.rs")).unwrap();
     let modules = lib.lines().filter_map(|line| {
         let line = line.strip_prefix("pub ").unwrap_or(line);
         Some(line.strip_prefix("mod ")?.strip_suffix(';')?.to_owned())
     });
     let listed = BTreeSet::from_iter(stages.clone());
-    let what = "the list in codegen/src/lib.rs has every module";
+    let what = "the table in CONTRIBUTING.md has every module";
     assert_eq!(listed, modules.collect(), "{what}");
     let place = |name: &str| stages.iter().position(|stage| stage == name);
     let mut uses = 0;
@@ -74,4 +99,23 @@ fn no_stage_uses_a_later_one() {
         }
     }
     assert!(uses > 100, "{uses}");
+}
+
+#[test]
+fn the_table_names_folders_and_types_that_exist() {
+    for [folders, types] in table() {
+        let is_stage = folders[0].starts_with(STAGES);
+        let beside = if is_stage { STAGES } else { "" };
+        let mut text = String::new();
+        for folder in &folders {
+            let module = code(&format!("{beside}{}", folder.trim_start_matches(STAGES)));
+            assert!(!module.is_empty(), "CONTRIBUTING.md names `{folder}`");
+            text += &module;
+        }
+        for name in types {
+            let declared = ["struct", "enum", "trait"].map(|kind| format!("{kind} {name}"));
+            let is_there = declared.iter().any(|words| text.contains(words));
+            assert!(is_there, "CONTRIBUTING.md: `{name}` is not in {folders:?}");
+        }
+    }
 }

@@ -217,7 +217,10 @@ fn pictures_have_one_style() {
     let generated = read(&root().join("generated/robots/planar2r.rs"));
     let (_, proof) = generated.split_once("at random points modulo ").unwrap();
     let modulus = proof.split(',').next().unwrap();
-    assert!(read(&folder.join("pipeline.svg")).contains(modulus), "{modulus}");
+    assert!(
+        read(&folder.join("pipeline.svg")).contains(modulus),
+        "{modulus}"
+    );
     let chart = read(&folder.join("tradeoff.svg"));
     let style = |text: &str| text.find("<style>").unwrap()..text.find("</style>").unwrap();
     for picture in ["docs/src/pipeline.svg", "benches/peers/results.svg"] {
