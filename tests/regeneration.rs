@@ -1,4 +1,4 @@
-//! The code and the counts of the README and the guide are those of the plans beside the robots.
+//! The counts of the README and the guide are those of the plans beside the robots.
 //! Every program of these plans is proved, whether or not a checked-in file has it. Checked-in files
 //! are compared by `dalembert renew --check`.
 //!
@@ -52,10 +52,9 @@ fn pages_have_the_counts_of_the_plans() {
         functions.extend(others(&read.robot, &request));
         all.insert(name, functions);
     }
-    let planar2r = fs::read_to_string(root().join("generated/robots/planar2r.rs")).unwrap();
     for page in ["README.md", "docs/src/how-it-works.md"] {
         let page = root().join(page);
-        let text = updated(&fs::read_to_string(&page).unwrap(), &planar2r, &all);
+        let text = updated(&fs::read_to_string(&page).unwrap(), &all);
         if !keep(&page, &text) {
             stale.push(page);
         }
@@ -104,12 +103,11 @@ fn others(robot: &Robot, request: &Request) -> Vec<GeneratedFunction> {
     own
 }
 
-/// Updates the code and the rows of counts of a page.
-fn updated(page: &str, planar2r: &str, all: &Table) -> String {
+/// Updates the rows of counts of a page.
+fn updated(page: &str, all: &Table) -> String {
     let mut text = String::new();
     let mut columns: Vec<&str> = Vec::new();
-    let mut lines = page.lines();
-    while let Some(line) = lines.next() {
+    for line in page.lines() {
         let cells: Vec<&str> = line.split('|').map(str::trim).collect();
         if cells.get(2).is_some_and(|cell| all.contains_key(*cell)) {
             columns = cells[2..cells.len() - 1].to_vec();
@@ -119,19 +117,10 @@ fn updated(page: &str, planar2r: &str, all: &Table) -> String {
             Some(cell) => cell.split('`').filter_map(Function::from_name).collect(),
             None => Vec::new(),
         };
-        match line {
-            _ if !columns.is_empty() && !named.is_empty() => {
-                text += &counts(cells[1], &named, &columns, all);
-            }
-            "<!-- planar2r::gravity -->" => {
-                let code = body(planar2r, Function::Gravity);
-                text += &format!("{line}\n```rust\n{code}```\n");
-                // Both fences and what is between them.
-                lines.next();
-                lines.by_ref().find(|line| *line == "```");
-            }
-            _ => text += &format!("{line}\n"),
-        }
+        text += &match columns.is_empty() || named.is_empty() {
+            true => format!("{line}\n"),
+            false => counts(cells[1], &named, &columns, all),
+        };
     }
     text
 }
@@ -151,11 +140,4 @@ fn counts(first: &str, named: &[Function], robots: &[&str], all: &Table) -> Stri
         };
     }
     row + "\n"
-}
-
-/// Returns a function of the first module, without its documentation.
-fn body(text: &str, function: Function) -> String {
-    let start = text.find(&format!("pub fn {function}(")).unwrap();
-    let end = start + text[start..].find("\n}\n").unwrap() + 3;
-    text[start..end].to_owned()
 }

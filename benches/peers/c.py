@@ -115,10 +115,11 @@ def run(work, dalembert):
 
 def write(rows):
     gcc = subprocess.run(["gcc", "--version"], capture_output=True, text=True).stdout
+    today = subprocess.run(["date", "-u", "+%F"], capture_output=True, text=True).stdout.strip()
     text = [
         "# C beside the peers' C",
         "",
-        f"Made by `benches/peers.sh` with {gcc.splitlines()[0]}, {' '.join(FLAGS)}, {machine()}. In brackets how many",
+        f"Made by `benches/peers.sh` with {gcc.splitlines()[0]}, {' '.join(FLAGS)}, {machine()}, {today}. In brackets how many",
         "times *dalembert, fma* that is, the median over programs that took turns; gcc fuses products",
         "of the others as it likes, of *dalembert* none. Code is the function's own with its constants, stack its",
         "frame's and that of the function that gives its sines, and seconds are gcc's for it, at the least of three.",

@@ -1,5 +1,5 @@
-//! Runs the commands on the pages of `docs/` and `tests/pages`, page by page in a folder, and
-//! compares their output with what the page shows.
+//! Runs the commands of the README and on the pages of `docs/` and `tests/pages`, page by page in a
+//! folder, and compares their output with what the page shows.
 //!
 //! A `console` block has commands after `$`, their output on a terminal, and `? N` for an exit code
 //! other than 0; `console result` has standard output only. A line `...` stands for any lines. A
@@ -12,6 +12,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use dalembert_cli::drawing;
+use dalembert_cli::table3::comparisons;
+use dalembert_codegen::Function;
 
 use crate::robots::robot;
 
@@ -180,6 +182,18 @@ fn the_guide_shows_what_commands_print() {
     assert_eq!(read(&inside.join("arm.toml")), read(&compiled));
 }
 
+/// In a folder with the files of a clone that its commands read.
+#[test]
+fn the_readme_shows_what_commands_print() {
+    let inside = folder_with("readme", &[]);
+    let files = ["planar2r.toml", "planar2r.plan"].map(|name| format!("generated/robots/{name}"));
+    folder_with(
+        "readme/generated/robots",
+        &files.each_ref().map(String::as_str),
+    );
+    run_pages(&[root().join("README.md")], &inside);
+}
+
 macro_rules! pages {
     ($($name:ident),* $(,)?) => { $(
         #[test]
@@ -235,15 +249,81 @@ fn pictures_have_one_style() {
     }
 }
 
+/// Returns the pages of the guide, and the READMEs of the root and of the crates.
+fn guide_and_readmes() -> Vec<PathBuf> {
+    let crates = fs::read_dir(root().join("crates")).unwrap();
+    let readmes = crates.map(|folder| folder.unwrap().path().join("README.md"));
+    let mut pages = guide();
+    pages.extend(readmes.filter(|page| page.exists()));
+    pages.push(root().join("README.md"));
+    pages
+}
+
+/// Figures in the prose are those of the code, of the guide's table and of the benchmarks' tables.
+#[test]
+fn figures_in_the_prose_are_right() {
+    let page = |name: &str| read(&root().join(name));
+    let functions = format!("{} functions", Function::ALL.len());
+    let rust = format!("Rust {} or later", env!("CARGO_PKG_RUST_VERSION"));
+    for (name, figure) in [
+        ("README.md", &functions),
+        ("docs/src/outputs.md", &functions),
+        ("docs/src/proofs.md", &functions),
+        ("crates/checker/README.md", &functions),
+        ("README.md", &rust),
+        ("docs/src/introduction.md", &rust),
+    ] {
+        assert!(page(name).contains(figure), "{name}: {figure}");
+    }
+    // Of these marks, one explains the others.
+    let marks = page("docs/src/outputs.md").matches('●').count();
+    assert_eq!(marks - 1, Function::by_default().len());
+    let guide = page("docs/src/how-it-works.md");
+    let readme = page("README.md");
+    for row in readme.lines().filter(|line| line.starts_with('|')) {
+        assert!(guide.lines().any(|line| line == row), "README.md: {row}");
+    }
+    let names = [
+        "planar2r", "planar3r", "puma560", "stanford", "ur10", "panda",
+    ];
+    for (row, label) in ["Lagrange–Euler", "Newton–Euler", "D'Alembert"]
+        .iter()
+        .enumerate()
+    {
+        let cells = names.map(|name| {
+            let [mul, add, ..] = comparisons(&robot(name))[row].1;
+            format!("{mul}/{add}")
+        });
+        let line = format!("| Table 3, {label} | {} |", cells.join(" | "));
+        assert!(guide.contains(&line), "{line}");
+    }
+    let results = page("benches/peers/RESULTS_C.md");
+    let measured = results
+        .split('|')
+        .filter_map(|cell| cell.split_whitespace().next());
+    let times: Vec<&str> = measured.collect();
+    for path in guide_and_readmes() {
+        let text = read(&path);
+        let words: Vec<&str> = text.split_whitespace().collect();
+        for pair in words.windows(2) {
+            let is_time = pair[1].trim_end_matches([',', '.', ':']) == "ns";
+            if is_time && pair[0].parse::<f64>().is_ok() {
+                assert!(times.contains(&pair[0]), "{path:?}: {} ns", pair[0]);
+            }
+        }
+    }
+}
+
 /// Every link in the guide and the other pages has a target, and every source file that
 /// CONTRIBUTING names exists.
 #[test]
 fn links_lead_somewhere() {
-    let mut pages = guide();
-    assert!(pages.len() > 10, "{pages:?}");
+    let mut pages = guide_and_readmes();
+    assert!(pages.len() > 15, "{pages:?}");
     let others = [
-        "README.md",
         "CONTRIBUTING.md",
+        "benches/RESULTS.md",
+        "benches/peers/RESULTS.md",
         "gallery/README.md",
         "docs/src/SUMMARY.md",
     ];
