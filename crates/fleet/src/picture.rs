@@ -59,7 +59,7 @@ pub fn picture(logs: &[&Curves]) -> String {
     let height = strips as f64 * HEIGHT + logs.len() as f64 * (TOP + 20.0);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
-         font-family=\"sans-serif\" font-size=\"11\">\n\
+         font-family=\"sans-serif\" font-size=\"12\" fill=\"#222\">\n\
          <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
     );
     let mut y = 0.0;
@@ -102,7 +102,7 @@ fn strip(svg: &mut String, y: f64, joint: usize, ranges: &[[f64; 2]]) {
     let _ = writeln!(
         svg,
         "<path d=\"M{LEFT} {middle}H{end}\" stroke=\"#ccc\"/>\n\
-         <polygon points=\"{}\" fill=\"#1f77b4\"/>",
+         <polygon points=\"{}\" fill=\"#1b6ca8\"/>",
         points.trim_end()
     );
     let (name, size) = (format!("joint {}", joint + 1), format!("±{largest:.3}"));
