@@ -113,6 +113,11 @@ impl Bench {
         }
     }
 
+    /// Returns the robot, with the arguments that its functions take.
+    pub fn setup(&self) -> &Setup {
+        self.reference.setup()
+    }
+
     /// Returns the true values of a function at a state.
     pub fn truth(&self, function: Function, state: &JointState) -> Vec<TrueValue> {
         self.reference.run(function, state)

@@ -30,8 +30,8 @@ pub struct VerifyArgs {
     /// with q, qd, qdd and any of tau, D, h, c
     #[arg(long, value_name = "FILE.json", conflicts_with = "scene")]
     given: Option<PathBuf>,
-    /// Measure the torques also where robots are not: huge angles and speeds, other masses and
-    /// lengths; and what divides where D is nearest to singular
+    /// Measure `inverse_dynamics` also where robots are not: huge angles and speeds, other masses and
+    /// lengths; and functions that invert D where it is nearest to singular; both if they are asked for
     #[arg(long, conflicts_with = "scene")]
     extremes: bool,
     /// States of each row
@@ -77,13 +77,26 @@ pub(crate) fn run(args: &VerifyArgs, context: &Context) -> Outcome {
     let is_exact = |own: &&Emitted| !claimed.contains(&(own.function, own.scalar));
     let exact = generated.emitted.iter().filter(is_exact);
     let mut rows = extremes::inside(&bench, exact, &states);
+    let mut unmeasured = Vec::new();
     if args.extremes {
         terminal::step("the torques at the extremes");
-        rows.extend(extremes::torques(robot, &request, args.states)?);
-        terminal::step("what divides, nearest to singular");
-        rows.extend(extremes::divided(robot, &request, args.states)?);
+        let torques = extremes::torques(robot, &request, args.states)?;
+        terminal::step("functions that invert D, nearest to singular");
+        let divided = extremes::divided(robot, &request, args.states)?;
+        if torques.is_empty() {
+            unmeasured
+                .push("extremes: nothing is measured, since `inverse_dynamics` is not asked for");
+        }
+        if divided.is_empty() {
+            unmeasured.push("nearest to singular: nothing is measured, since no function that inverts D is asked for");
+        }
+        rows.extend(torques.into_iter().chain(divided));
     }
     rounding(args.states, &rows, &mut done);
+    for line in &unmeasured {
+        done.report.line(line);
+    }
+    done.report.value("unmeasured", unmeasured);
     sines(&generated, &states, &mut done);
     done.report.value("warnings", generated.warnings.clone());
     done.report.value("passed", done.failed.is_empty());

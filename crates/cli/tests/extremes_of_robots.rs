@@ -1,8 +1,8 @@
 //! The table of extremes on whole robots, and functions that divide near a singular D.
 
-use dalembert_cli::extremes::{Row, Verdict, divided, inside, nearest_to_singular};
+use dalembert_cli::extremes::{Row, Verdict, divided, inside, nearest_to_singular, torques};
 use dalembert_cli::measure::{Bench, Code, VECTOR};
-use dalembert_codegen::workspace::{Literal, Node, Setup, seeded};
+use dalembert_codegen::workspace::{Literal, Node, RuntimeParameter, Setup, seeded};
 use dalembert_codegen::{Function, Request, generate};
 use dalembert_model::number::Rational;
 use dalembert_model::read;
@@ -60,12 +60,43 @@ fn no_number_fails_inside_the_limits() {
 fn the_search_finds_where_two_rods_are_nearest_to_singular() {
     let robot = support::robot("planar2r");
     let bench = Bench::new(Setup::whole(&robot));
-    let (condition, q) = nearest_to_singular(&robot, &bench);
+    let (condition, q) = nearest_to_singular(&bench);
     let r = (5.0 / 6.0) / (8.0f64 / 9.0).sqrt();
     let expected = (1.0 + r) / (1.0 - r);
     assert!((condition / expected - 1.0).abs() < 1e-9, "{condition}");
     assert!(q[1].abs() < 1e-4, "{q:?}");
-    all_good(&divided(&robot, &Request::default(), STATES).unwrap());
+    all_good(&divided(&robot, &Request::new(&Function::ALL), STATES).unwrap());
+}
+
+/// The extreme states have a value for every argument, and only what is asked for is measured.
+#[test]
+fn every_argument_has_a_value_at_the_extremes() {
+    use Function::{ForwardDynamics, Gravity, InverseDynamics};
+    let robot = support::robot("planar2r");
+    let [payload, gravity] = [RuntimeParameter::Payload, RuntimeParameter::Gravity];
+    for parameters in [vec![gravity], vec![payload], vec![payload, gravity]] {
+        for functions in [vec![Gravity], vec![ForwardDynamics, InverseDynamics]] {
+            let request = Request {
+                parameters: parameters.clone(),
+                ..Request::new(&functions)
+            };
+            for (function, rows) in [
+                (InverseDynamics, torques(&robot, &request, 3).unwrap()),
+                (ForwardDynamics, divided(&robot, &request, 3).unwrap()),
+            ] {
+                let what = format!("{parameters:?} {functions:?} {function}");
+                assert_eq!(!rows.is_empty(), functions.contains(&function), "{what}");
+                for row in &rows {
+                    assert!(row.verdict != Verdict::Failed, "{what}: {row:?}");
+                    let worst = row.worst.as_ref();
+                    assert!(
+                        worst.is_ok_and(|worst| worst.function == function),
+                        "{what}"
+                    );
+                }
+            }
+        }
+    }
 }
 
 /// Returns an arm of two links with these point masses at their ends.
@@ -87,7 +118,12 @@ fn points(masses: [&str; 2]) -> Robot {
 /// of it, adds little. As many digits are lost as the condition number says, and no more.
 #[test]
 fn what_is_lost_next_to_singular_is_the_condition() {
-    let rows = divided(&points(["1e-4", "1"]), &Request::default(), STATES).unwrap();
+    let rows = divided(
+        &points(["1e-4", "1"]),
+        &Request::new(&Function::ALL),
+        STATES,
+    )
+    .unwrap();
     all_good(&rows);
     let worst = rows.iter().flat_map(|row| &row.worst);
     let lost = worst.map(|worst| worst.vector * worst.condition);

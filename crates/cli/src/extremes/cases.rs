@@ -3,12 +3,11 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use dalembert_codegen::workspace::{JointState, Random, seeded};
+use dalembert_codegen::Function;
+use dalembert_codegen::workspace::{JointState, Random, Runtime, Setup};
 use dalembert_model::number::{Angle, Rational};
-use dalembert_model::reference::Reference;
 use dalembert_model::robot::{Convention, Inertia, Joint, JointKind, Robot};
 use dalembert_model::scene::{Payload, Scene};
-use nalgebra::DVector;
 use num_traits::{Zero, pow};
 
 use super::Held;
@@ -79,7 +78,7 @@ pub const CASES: [Case; 31] = [
     ("wrist singular", Both, Change::None, WristSingular),
     ("stretched", Both, Change::None, Stretched),
     ("tiny", Entries, Change::None, Times([1e-8; 3])),
-    ("tiny rates, no gravity", Entries, Change::Weightless, Times([1.0, 1e-8, 1e-8])),
+    ("tiny, no gravity", Entries, Change::Weightless, Times([1.0, 1e-8, 1e-8])),
     ("static near balance", Entries, Change::None, Balanced),
     ("mass ratio 1e-9", Vector, Change::Masses(-9), Inside),
     ("mass ratio 1e-3", Vector, Change::Masses(-3), Inside),
@@ -87,17 +86,17 @@ pub const CASES: [Case; 31] = [
     ("mass ratio 1e9", Vector, Change::Masses(9), Inside),
     ("lengths 1e-6", Vector, Change::Lengths(-6), Inside),
     ("lengths 1e6", Vector, Change::Lengths(6), Inside),
-    ("lengths mixed, long hand", Vector, Change::Mixed(1), Inside),
-    ("lengths mixed, long base", Vector, Change::Mixed(-1), Inside),
+    ("lengths, long hand", Vector, Change::Mixed(1), Inside),
+    ("lengths, long base", Vector, Change::Mixed(-1), Inside),
     ("massless last link", Both, Change::Massless(1), Inside),
     ("massless wrist", Both, Change::Massless(3), Inside),
-    ("point mass at the tip", Entries, Change::PointMass, Inside),
+    ("point mass at tip", Entries, Change::PointMass, Inside),
     ("payload 1 kg", Both, Change::Payload(0), Inside),
     ("payload 1e3 kg", Both, Change::Payload(3), Inside),
     ("payload 1e6 kg", Both, Change::Payload(6), Inside),
     ("base offset 1e6 m", Both, Change::FarBase, Inside),
-    ("a million turns of offset", Both, Change::Turns, Inside),
-    ("right angles as 1.5708", Both, Change::Typed, Inside),
+    ("offset 1e6 turns", Both, Change::Turns, Inside),
+    ("right angles 1.5708", Both, Change::Typed, Inside),
     ("chain of 20 joints", Vector, Change::Repeated(20), Inside),
 ];
 
@@ -202,16 +201,17 @@ fn scale_length(joint: &mut Joint, factor: &Rational) {
 }
 
 impl Motion {
-    /// Draws states, the same on every machine.
-    pub fn draw(self, robot: &Robot, count: usize, seed: u64) -> Vec<JointState> {
+    /// Draws states with values for all arguments, the same on every machine.
+    pub fn draw(self, setup: &Setup, count: usize, seed: u64) -> Vec<JointState> {
+        let robot = setup.robot();
         let turning = |i: &usize| robot.joints[*i].kind == JointKind::Revolute;
         let turning: Vec<usize> = (0..robot.joints.len()).filter(turning).collect();
         let straight = |joint: usize| -robot.joints[joint].theta.to_f64();
         let mut random = Random::new(seed);
-        let mut states = seeded(robot, count, seed);
+        let mut states = setup.states(count, seed);
         for (index, state) in states.iter_mut().enumerate() {
             match self {
-                Motion::Inside => {}
+                Motion::Inside | Motion::Balanced => {}
                 Motion::Angles(size) => {
                     for &i in &turning {
                         state.q[i] = size * (2.0 * random.unit() - 1.0);
@@ -234,11 +234,14 @@ impl Motion {
                         state.q[i] = straight(i) + quarters as f64 * FRAC_PI_2;
                     }
                 }
-                Motion::Balanced => {
-                    state.qd.fill(0.0);
-                    state.qdd.fill(0.0);
-                    balance(robot, &turning, &mut state.q);
-                }
+            }
+        }
+        if let Motion::Balanced = self {
+            let runtime = Runtime::in_scene(setup.clone());
+            for state in &mut states {
+                state.qd.fill(0.0);
+                state.qdd.fill(0.0);
+                balance(&runtime, &turning, state);
             }
         }
         states
@@ -254,14 +257,12 @@ impl Motion {
 }
 
 /// Brings each joint, from the hand to the base, to the zero of its own load by bisection.
-fn balance(robot: &Robot, turning: &[usize], q: &mut [f64]) {
-    let runtime = Reference::<f64>::from_robot(robot);
+fn balance(runtime: &Runtime, turning: &[usize], state: &mut JointState) {
     for &joint in turning.iter().rev().chain(turning.iter().rev()) {
-        let start = q[joint];
+        let start = state.q[joint];
         let mut load = |at: f64| {
-            q[joint] = at;
-            let load = runtime.gravity(&DVector::from_column_slice(q));
-            load.map_or(0.0, |c| c[joint])
+            state.q[joint] = at;
+            runtime.run(Function::Gravity, state)[joint]
         };
         let mut low = start;
         let first = load(low);
@@ -276,6 +277,6 @@ fn balance(robot: &Robot, turning: &[usize], q: &mut [f64]) {
                 }
             }
         }
-        q[joint] = low;
+        state.q[joint] = low;
     }
 }

@@ -8,13 +8,13 @@ pub mod cases;
 use std::fmt;
 
 use dalembert_codegen::workspace::{
-    Argument, Emitted, JointState, Quantity, Random, SEED, Setup, each, positions, seeded,
+    Argument, Emitted, JointState, Quantity, Random, SEED, each, positions,
 };
 use dalembert_codegen::{Function, GenerateError, Generated, Request, ScalarType, generate};
 use dalembert_model::robot::Robot;
 
 use crate::measure::{Bench, Code, ENTRY, VECTOR, Worst};
-use cases::{CASES, Case, Change};
+use cases::{CASES, Case, Change, Motion};
 
 /// The bounds that a row is held to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,8 +36,6 @@ pub enum Verdict {
     Failed,
     /// A constant or a result is beyond the scalar's range, and says so.
     OutOfRange,
-    /// D has no inverse in any state: nothing that divides is generated.
-    Singular,
 }
 
 impl fmt::Display for Verdict {
@@ -46,7 +44,6 @@ impl fmt::Display for Verdict {
             Verdict::Good => "ok",
             Verdict::Failed => "FAILED",
             Verdict::OutOfRange => "out of range",
-            Verdict::Singular => "nothing divides",
         })
     }
 }
@@ -77,7 +74,6 @@ impl Row {
                     false => Verdict::Failed,
                 }
             }
-            Err(GenerateError::Singular { .. }) => Verdict::Singular,
             Err(_) => Verdict::OutOfRange,
         };
         Row {
@@ -116,7 +112,7 @@ fn measured<'e>(
 /// Functions as they were generated, all together or each scalar by itself.
 type Made = Vec<Result<Generated, GenerateError>>;
 
-/// Measures what was generated in a case.
+/// Measures what was generated in a case; of a load, which comes with what reads it, nothing.
 fn rows(
     bench: &Bench,
     made: &Made,
@@ -126,34 +122,59 @@ fn rows(
     let mut rows = Vec::new();
     for made in made {
         match made {
-            Ok(made) => rows.extend(measured(bench, made.emitted.iter(), case, states)),
+            Ok(made) => {
+                let emitted = made.emitted.iter();
+                let asked = emitted.filter(|emitted| emitted.function != Function::Load);
+                rows.extend(measured(bench, asked, case, states));
+            }
             Err(reason) => rows.push(Row::new(case.0, case.1, Err(reason.clone()))),
         }
     }
     rows
 }
 
+/// Returns the request for some of its functions anywhere: its box would bound the states.
+fn anywhere(request: &Request, functions: Vec<Function>) -> Request {
+    Request {
+        functions,
+        plan: None,
+        scene: None,
+        ..request.clone()
+    }
+}
+
 /// States that the sizes of torques are taken from.
 const SCALES: usize = 1000;
 
-/// Measures the torques in every case that the robot has, at so many states each.
+/// Measures the torques in every case that the robot has, at so many states each; nothing if the
+/// request does not ask for `inverse_dynamics`.
 ///
 /// # Errors
 /// Those of generating the code that is run.
 pub fn torques(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Row>, GenerateError> {
-    let own = generated(robot, request, &[Function::InverseDynamics])?;
+    if !request.functions.contains(&Function::InverseDynamics) {
+        return Ok(Vec::new());
+    }
+    let request = &anywhere(request, vec![Function::InverseDynamics]);
+    let own = (request.setup(robot)?, generated(robot, request)?);
     let case = |(case, held, change, motion): &Case| {
         let Some(changed) = change.apply(robot) else {
             return Ok(Vec::new());
         };
         let other = match change {
             Change::None => None,
-            _ => Some(generated(&changed, request, &[Function::InverseDynamics])?),
+            _ => Some((request.setup(&changed)?, generated(&changed, request)?)),
         };
-        let drawn = motion.draw(&changed, states, SEED);
-        let scales = motion.scales().draw(&changed, SCALES, SEED);
-        let bench = Bench::new(Setup::whole(&changed));
-        let made = other.as_ref().unwrap_or(&own);
+        let (setup, made) = other.as_ref().unwrap_or(&own);
+        let draw = |motion: Motion, count| {
+            let mut states = motion.draw(setup, count, SEED);
+            if let Change::Weightless = change {
+                states.iter_mut().for_each(|state| state.g.fill(0.0));
+            }
+            states
+        };
+        let (drawn, scales) = (draw(*motion, states), draw(motion.scales(), SCALES));
+        let bench = Bench::new(setup.clone());
         Ok(rows(&bench, made, (case, *held), [&drawn, &scales]))
     };
     let all: Result<Vec<Vec<Row>>, GenerateError> = each(&CASES, case).into_iter().collect();
@@ -162,17 +183,10 @@ pub fn torques(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Ro
 
 /// Generates functions in every scalar that is asked for; by itself in each where one of them cannot
 /// hold a constant.
-fn generated(
-    robot: &Robot,
-    request: &Request,
-    functions: &[Function],
-) -> Result<Made, GenerateError> {
+fn generated(robot: &Robot, request: &Request) -> Result<Made, GenerateError> {
     let of = |scalars: &[ScalarType]| {
         let request = Request {
-            functions: functions.to_vec(),
             scalars: scalars.to_vec(),
-            plan: None,
-            scene: None,
             is_scalar_open: false,
             ..request.clone()
         };
@@ -190,8 +204,8 @@ fn generated(
     }
 }
 
-/// Measures what inverts D and nothing else at states all over the limits, and at as many where D
-/// is nearest to singular.
+/// Measures the functions of a request that invert D and nothing else, at states all over the limits,
+/// and at as many where D is nearest to singular.
 ///
 /// # Errors
 /// Those of generating the code that is run.
@@ -199,17 +213,16 @@ pub fn divided(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Ro
     const CASE: (&str, Held) = ("nearest to singular", Held::Vector);
     // What is damped inverts other matrices, which are near singular at other states.
     let is_damped = |own: &Function| own.arguments().contains(&Argument::Damping);
-    let mut dividing = Function::ALL.to_vec();
+    let mut dividing = request.functions.clone();
     dividing.retain(|own| own.inverts_inertia() && !is_damped(own));
-    let generated = match generated(robot, request, &dividing) {
-        Err(reason @ GenerateError::Singular { .. }) => {
-            return Ok(vec![Row::new(CASE.0, CASE.1, Err(reason))]);
-        }
-        generated => generated?,
-    };
-    let bench = Bench::new(Setup::whole(robot));
-    let (_, q) = nearest_to_singular(robot, &bench);
-    let mut drawn = seeded(robot, 2 * states, SEED);
+    if dividing.is_empty() {
+        return Ok(Vec::new());
+    }
+    let request = &anywhere(request, dividing);
+    let generated = generated(robot, request)?;
+    let bench = Bench::new(request.setup(robot)?);
+    let (_, q) = nearest_to_singular(&bench);
+    let mut drawn = bench.setup().states(2 * states, SEED);
     for state in drawn.iter_mut().skip(states) {
         state.q.clone_from(&q);
     }
@@ -218,15 +231,15 @@ pub fn divided(robot: &Robot, request: &Request, states: usize) -> Result<Vec<Ro
 
 /// Returns the largest condition of D that a search over the limits finds, and where: the best of
 /// random positions, improved joint by joint with steps that halve.
-pub fn nearest_to_singular(robot: &Robot, bench: &Bench) -> (f64, Vec<f64>) {
+pub fn nearest_to_singular(bench: &Bench) -> (f64, Vec<f64>) {
     let function = Function::ForwardDynamics;
-    let mut state = seeded(robot, 1, SEED).remove(0);
+    let mut state = bench.setup().states(1, SEED).remove(0);
     let mut condition = |q: &[f64]| {
         state.q = q.to_vec();
         let granted = bench.runtime().granted(function, &state);
         granted.factor(Quantity::Acceleration)
     };
-    let bounds = positions(robot);
+    let bounds = positions(bench.setup().robot());
     let mut random = Random::new(SEED);
     let mut draw = || -> Vec<f64> {
         let within = |[low, high]: &[f64; 2]| low + (high - low) * random.unit();
