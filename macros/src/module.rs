@@ -220,8 +220,13 @@ fn generated(
         // Who asks for something else may have no use for the file.
         if matches!(stale, Stale::Robot | Stale::Text | Stale::Version(_)) {
             let file = shown_file(&shown, file);
+            let force = if let Stale::Text = stale {
+                " --force"
+            } else {
+                ""
+            };
             eprintln!(
-                "note: {}: the module is generated while compiling; `dalembert renew {file}` makes the file new",
+                "note: {}: the module is generated while compiling; `dalembert renew {file}{force}` makes the file new",
                 stale.message(&file, &shown)
             );
         }
@@ -279,6 +284,7 @@ fn generated(
                 let help = format!("{}\n  = help: {search}", generate());
                 (invocation.robot.to_token_stream(), help)
             }
+            Stale::Text => (invocation.robot.to_token_stream(), renew + " --force"),
             _ => (invocation.robot.to_token_stream(), renew),
         };
         errors.say(at, &stale.message(&own, &shown), &help);

@@ -110,7 +110,8 @@ type Case<'a> = (&'a str, &'a str, &'a str, &'a str, &'a [&'a str]);
 const CASES: [Case<'static>; 9] = [
     (ROBOT, "9.81", "1.62", "2:24",
      &["`robots/planar2r.toml` was edited since `robots/planar2r.rs` was generated", RENEW]),
-    (FILE, " * ", " + ", "2:24", &["`robots/planar2r.rs` was edited by hand", RENEW]),
+    (FILE, " * ", " + ", "2:24",
+     &["`robots/planar2r.rs` was edited by hand", "help: dalembert renew robots/planar2r.rs --force"]),
     (FILE, "dalembert 0.1.0", "dalembert 0.0.9", "2:24",
      &["dalembert 0.0.9 generated `robots/planar2r.rs`"]),
     (FILE, "// Generated", "// Written", "2:24",

@@ -6,6 +6,7 @@ use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf, is_separator};
 
 use dalembert_import::first_bytes;
+use dalembert_stamp::is_as_written;
 use tempfile::{Builder, NamedTempFile};
 
 use crate::context::Context;
@@ -18,8 +19,8 @@ const STANDARD: &str = "-";
 /// Paths of this process's open files: output is appended to them, whatever they are.
 const OPEN: [&str; 4] = ["/dev/stdout", "/dev/stderr", "/dev/fd", "/proc/self/fd"];
 
-/// The number of bytes in which a file says that dalembert wrote it.
-const HEAD: u64 = 4096;
+/// The longest file that dalembert may have written, bytes.
+const MAX_BYTES: u64 = 1 << 28;
 
 /// The destination of an output.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -91,7 +92,7 @@ impl<'c> Files<'c> {
     /// Adds an output and checks that it can be written; `-` is standard output.
     ///
     /// # Errors
-    /// It cannot be written, is an input or another output, or dalembert did not write it.
+    /// It cannot be written, is an input or another output, or is not as dalembert wrote it.
     pub fn add(&mut self, path: &Path) -> Result<Target, Failure> {
         let target = target(path).map_err(|why| refused(path, why))?;
         match &target.place {
@@ -106,9 +107,7 @@ impl<'c> Files<'c> {
                     let why = "it is another output of this run\n  = help: give another name";
                     return Err(refused(path, why));
                 }
-                if !self.context.force && !is_ours(file) {
-                    let why = "the file exists, and dalembert did not write it\n  = help: give another \
-                               name, or --force to overwrite it";
+                if let Some(why) = foreign(file).filter(|_| !self.context.force) {
                     return Err(refused(path, why));
                 }
                 unfinished(folder(file)).map_err(|error| refused(path, error))?;
@@ -272,12 +271,23 @@ fn enter(path: &Path) -> io::Result<()> {
     OpenOptions::new().append(true).open(path).map(drop)
 }
 
-/// Returns whether a file is new, empty, or says near its beginning that dalembert wrote it.
-fn is_ours(file: &Path) -> bool {
+/// Returns why a file may not be replaced: `None` if it is new, empty, or as dalembert wrote it.
+fn foreign(file: &Path) -> Option<&'static str> {
     // If the file cannot be read, the write reports why.
-    let head = first_bytes(file, HEAD).unwrap_or_default();
-    let text = String::from_utf8_lossy(&head);
-    let is_table = text.starts_with("tolerance,scalar,");
+    let bytes = first_bytes(file, MAX_BYTES).unwrap_or_default();
+    let text = String::from_utf8_lossy(&bytes);
+    // These formats have no comments, and nobody writes them by hand.
+    let is_table = text.starts_with("tolerance,scalar,sincos_by,");
     let is_document = text.starts_with("{\"claim\":");
-    text.is_empty() || is_table || text.contains("dalembert") || is_document
+    match is_as_written(&text) {
+        _ if text.is_empty() || is_table || is_document => None,
+        Some(true) => None,
+        Some(false) => {
+            Some("it was edited since dalembert wrote it\n  = help: --force overwrites the edits")
+        }
+        None => Some(
+            "the file exists, and dalembert did not write it\n  = help: give another name, or --force to \
+             overwrite it",
+        ),
+    }
 }

@@ -9,6 +9,7 @@ use dalembert_import::{
 };
 use dalembert_model::number::Rational;
 use dalembert_model::read::{Diagnostics, RobotWarning, Severity};
+use dalembert_stamp::{Comment, sealed};
 use serde_json::{Value, json};
 
 use crate::args::values::{acceleration_parser, lock_parser, name_parser};
@@ -132,7 +133,8 @@ pub(crate) fn run(args: &ImportArgs, context: &Context) -> Outcome {
                 files.add_in(into, &format!("{}.toml", made.robot.name))?
             }
         };
-        done.files.push((target, made.text));
+        let text = sealed(Comment::Toml, "dalembert import", &made.text);
+        done.files.push((target, text));
     }
     Ok(done)
 }

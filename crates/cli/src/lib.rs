@@ -66,7 +66,7 @@ struct Args {
     /// Print the report as JSON
     #[arg(long, global = true)]
     json: bool,
-    /// Overwrite files that this command did not write
+    /// Overwrite files that dalembert did not write, or that were edited since
     #[arg(long, global = true)]
     force: bool,
     /// Treat warnings as errors: nothing is written, and the exit code is 1
@@ -85,7 +85,7 @@ enum Command {
     Outputs,
     /// Generate code for a robot and prove it before it is written
     Generate(generate::GenerateArgs),
-    /// Regenerate files after an edit of the robot file or of their text
+    /// Regenerate files after an edit of the robot file; with --force also those whose text was edited
     Renew(renew::RenewArgs),
     /// Count the operations of the generated functions
     Count(count::CountArgs),

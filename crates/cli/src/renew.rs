@@ -11,6 +11,7 @@ use dalembert_stamp::Stamp;
 
 use crate::certify::claim_of;
 use crate::files::Files;
+use crate::new::{EXPECTED, expected};
 use crate::output::{Context, Done, Failure, Outcome};
 use crate::report::{Cell, Report, Table, cells};
 use crate::source::{Source, text};
@@ -36,7 +37,7 @@ struct Found {
     language: Language,
 }
 
-/// The new text of a file: the code, or the claim beside it.
+/// The new text of a file: the code, or what stands beside it.
 struct New {
     path: PathBuf,
     text: String,
@@ -83,6 +84,7 @@ pub(crate) fn run(args: &RenewArgs, context: &Context) -> Outcome {
     if !args.check {
         let mut files = Files::new(context, &[]);
         for new in texts {
+            stays(&new.path)?;
             done.files.push((files.add(&new.path)?, new.text));
         }
         return Ok(done);
@@ -175,19 +177,38 @@ fn renewed(context: &Context, file: &Found) -> Result<Vec<New>, Failure> {
         differs: difference(&file.text, &code),
         text: code,
     }];
-    let beside = claim_of(&file.path);
     let claim = claim(&source.robot, &source.robot_file, &request, &generated);
     let claim = claim.map_err(|why| Failure::Input(format!("error: {why}")))?;
-    if let Ok(old) = fs::read_to_string(&beside) {
-        let text = claim.write();
-        let differs = difference(&old, &text);
-        new.push(New {
-            path: beside,
-            text,
-            differs,
-        });
+    for (path, text) in [
+        (claim_of(&file.path), Ok(claim.write())),
+        (file.path.with_extension(EXPECTED), expected(&source.robot)),
+    ] {
+        if let Ok(old) = fs::read_to_string(&path) {
+            let text = text?;
+            let differs = difference(&old, &text);
+            new.push(New {
+                path,
+                text,
+                differs,
+            });
+        }
     }
     Ok(new)
+}
+
+/// Refuses a file that a link puts out of this folder and out of the folder of its name.
+fn stays(path: &Path) -> Result<(), Failure> {
+    let file = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let is_in =
+        |folder: &Path| fs::canonicalize(folder).is_ok_and(|folder| file.starts_with(folder));
+    match is_in(Path::new(".")) || path.parent().is_some_and(is_in) {
+        true => Ok(()),
+        false => Err(Failure::Input(format!(
+            "error: `{}` is a link that leads out of the folder\n  = help: dalembert renew {}",
+            path.display(),
+            file.display()
+        ))),
+    }
 }
 
 /// Returns the first line, counted from 1, in which two texts differ; CRLF in `old` counts as LF.

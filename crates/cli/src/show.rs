@@ -7,6 +7,7 @@ use dalembert_model::number::parse::parse_decimal;
 use dalembert_model::number::{Angle, Rounded};
 use dalembert_model::reference::{Reference, WrongLength};
 use dalembert_model::robot::{JointKind, Position, Robot};
+use dalembert_stamp::{Comment, sealed};
 use nalgebra::DVector;
 use serde_json::Value;
 
@@ -52,6 +53,7 @@ pub(crate) fn run(args: &ShowArgs, context: &Context) -> Outcome {
     }
     let wrong = |error| Failure::Input(format!("error: --at: {error}"));
     let svg = drawing::svg(robot, &at).map_err(wrong)?;
+    let svg = sealed(Comment::Xml, "dalembert show", &svg);
     Ok(Done {
         files: target.map(|target| (target, svg)).into_iter().collect(),
         ..Done::from(poses(robot, &at).map_err(wrong)?)

@@ -3,6 +3,7 @@
 //! - [`Asked`]: the options that somebody asked for, as one text
 //! - [`Stamp`]: the first lines of a file: version, robot file, what was asked, the text's hash
 //! - [`Stamp::check`]: why a file may not be used
+//! - [`sealed`], [`is_as_written`]: the hash of a text in its first line, which tells edited files
 //!
 //! Macro, build script and command share it. It knows nothing of robots: who takes a file that is
 //! there compiles no generator.
@@ -13,4 +14,4 @@ mod asked;
 mod stamp;
 
 pub use asked::{Asked, NotAsked, OPTIONS, items, suffix};
-pub use stamp::{Comment, Stale, Stamp, hash, relative};
+pub use stamp::{Comment, Stale, Stamp, hash, is_as_written, relative, sealed};

@@ -8,7 +8,7 @@
 //! ```
 
 use std::fmt::Write as _;
-use std::path::{Component, Path};
+use std::path::{Component, Path, PathBuf};
 
 use crate::Asked;
 
@@ -19,6 +19,10 @@ pub enum Comment {
     Line,
     /// One comment of C over all lines: `/*` and `*/`.
     Block,
+    /// A line of TOML: `#`.
+    Toml,
+    /// A comment of XML: `<!--` and `-->`.
+    Xml,
 }
 
 impl Comment {
@@ -27,6 +31,8 @@ impl Comment {
         match self {
             Comment::Line => ["// ", "// ", ""],
             Comment::Block => ["/* ", " * ", " */"],
+            Comment::Toml => ["# ", "# ", ""],
+            Comment::Xml => ["<!-- ", " ", " -->"],
         }
     }
 }
@@ -57,13 +63,42 @@ pub fn hash(text: &str) -> String {
     digits
 }
 
+/// What a seal has before the hash.
+const SEAL: &str = ", text = ";
+
+/// Writes a line before a text that names its writer and has the hash of the text: of files without a
+/// [`Stamp`], it tells those that nobody edited.
+pub fn sealed(comment: Comment, writer: &str, text: &str) -> String {
+    let ([first, _, end], own) = (comment.marks(), hash(text));
+    format!("{first}{writer}{SEAL}{own}{end}\n{text}")
+}
+
+/// Returns `true` for a file that is as it was written, by its stamp or its seal, and `false` for one
+/// that was edited since; `None` for a file that has neither.
+pub fn is_as_written(file: &str) -> Option<bool> {
+    if let Some((_, is_whole)) = Stamp::read(file) {
+        return Some(is_whole);
+    }
+    let (first, text) = file.split_once('\n')?;
+    let (_, own) = first.rsplit_once(SEAL)?;
+    let own = own.split_whitespace().next()?;
+    Some(own == hash(text))
+}
+
+/// Returns the whole path, with links followed as far as there are files.
+fn whole(path: &Path) -> PathBuf {
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let mut known = path.ancestors().filter_map(|folder| {
+        let rest = path.strip_prefix(folder).ok()?;
+        let whole = folder.canonicalize().ok()?.join(rest);
+        Some(whole.components().collect::<PathBuf>())
+    });
+    known.next().unwrap_or_else(|| path.clone())
+}
+
 /// Returns the path of a robot file from the folder of a file, with `/` between folders; the whole
 /// path where none leads there.
 pub fn relative(robot: &Path, file: &Path) -> String {
-    let whole = |path: &Path| {
-        let found = path.canonicalize().or_else(|_| std::path::absolute(path));
-        found.unwrap_or_else(|_| path.to_owned())
-    };
     let folder = match file.parent() {
         Some(folder) if folder != Path::new("") => whole(folder),
         _ => whole(Path::new(".")),
@@ -248,6 +283,20 @@ mod tests {
                 assert_eq!(Stamp::read(&lines.join("\n")), None, "{line}");
             }
         }
+    }
+
+    #[test]
+    fn an_edit_breaks_the_seal() {
+        for comment in [Comment::Line, Comment::Block, Comment::Toml, Comment::Xml] {
+            let sealed = sealed(comment, "test", ROBOT);
+            assert_eq!(is_as_written(&sealed), Some(true), "{sealed}");
+            assert_eq!(is_as_written(&sealed.replace('\n', "\r\n")), Some(true));
+            assert_eq!(is_as_written(&sealed.replace("arm", "leg")), Some(false));
+        }
+        let stamped = stamp("scalar: f64").write(Comment::Line, ROBOT);
+        assert_eq!(is_as_written(&stamped), Some(true));
+        assert_eq!(is_as_written(&(stamped + "\n")), Some(false));
+        assert_eq!(is_as_written(ROBOT), None);
     }
 
     #[test]

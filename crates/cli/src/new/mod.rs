@@ -6,12 +6,13 @@
 mod texts;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use dalembert_codegen::workspace::claim;
 use dalembert_codegen::{Asked, Language, RobotFile, ask};
 use dalembert_model::reference::Reference;
 use dalembert_model::robot::{Robot, suggested_name};
+use dalembert_stamp::{Comment, relative, sealed};
 use nalgebra::DVector;
 
 use crate::files::Files;
@@ -46,14 +47,17 @@ pub(crate) fn run(args: &NewArgs, context: &Context) -> Outcome {
     let file = RobotFile::parse(&robot_file, "the robot file");
     let file = file.map_err(|error| Failure::Input(error.to_string()))?;
     let robot = &file.robot;
-    let manifest = texts::manifest(&name, &dependency());
+    let manifest = texts::manifest(&name, &dependency(folder));
     let [code, claim] = code(&file)?;
-    let main = texts::source(&robot.name, &states(robot)?);
+    let main = texts::source(&robot.name, robot.joints.len());
+    let expected = expected(robot)?;
+    let beside = |ending: &str| format!("robots/{}.{ending}", robot.name);
     let texts = [
         ("Cargo.toml".to_owned(), manifest),
-        (format!("robots/{}.rs", robot.name), code),
-        (format!("robots/{}.claim.json", robot.name), claim),
-        (format!("robots/{}.toml", robot.name), robot_file),
+        (beside("rs"), code),
+        (beside("claim.json"), claim),
+        (beside(EXPECTED), expected),
+        (beside("toml"), robot_file),
         ("src/main.rs".to_owned(), main),
     ];
     let mut files = Files::new(context, &[]);
@@ -95,8 +99,14 @@ fn code(file: &RobotFile) -> Result<[String; 2], Failure> {
     Ok([files.concat(), claim.write()])
 }
 
-/// Computes torques at three states, by the recursion for any arm.
-fn states(robot: &Robot) -> Result<Vec<texts::State>, Failure> {
+/// The ending of the file of torques that the test of a new crate expects.
+pub(crate) const EXPECTED: &str = "expected";
+
+/// Returns the text of that file: torques at three states, by the recursion for any arm.
+///
+/// # Errors
+/// The recursion refuses the robot.
+pub(crate) fn expected(robot: &Robot) -> Result<String, Failure> {
     let n = robot.joints.len();
     let runtime = Reference::<f64>::from_robot(robot);
     let state = |step: usize| {
@@ -112,7 +122,9 @@ fn states(robot: &Robot) -> Result<Vec<texts::State>, Failure> {
         let tau = tau.map_err(|error| Failure::Input(format!("error: {error}")))?;
         Ok([q, qd, qdd, tau].map(|vector| vector.as_slice().to_vec()))
     };
-    (1..=3).map(state).collect()
+    let states: Result<Vec<texts::State>, Failure> = (1..=texts::STATES).map(state).collect();
+    let text = texts::expected(&states?);
+    Ok(sealed(Comment::Line, "dalembert renew", &text))
 }
 
 /// Returns the crate's name, which is the folder's; hyphens are allowed.
@@ -138,13 +150,42 @@ fn crate_name(folder: &Path) -> Result<String, Failure> {
 
 /// Returns the source of the dependency on dalembert: the checkout that this program was built
 /// from, if it still exists, otherwise the registry.
-fn dependency() -> String {
+fn dependency(folder: &Path) -> String {
     let checkout = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
     let manifest = fs::read_to_string(Path::new(checkout).join("Cargo.toml")).unwrap_or_default();
     let is_dalembert = manifest.lines().any(|line| line == "name = \"dalembert\"");
     match fs::canonicalize(checkout).ok().filter(|_| is_dalembert) {
         // For a path that is text, Rust's debug format is a TOML string.
-        Some(whole) => format!("path = {:?}", whole.display().to_string()),
+        Some(whole) => format!("path = {:?}", path_from(folder, &whole)),
         None => format!("version = {:?}", env!("CARGO_PKG_VERSION")),
+    }
+}
+
+/// Returns the path of the checkout from the new crate if both are below the same folder of the root,
+/// so that they can be moved together; otherwise the whole path.
+fn path_from(folder: &Path, checkout: &Path) -> String {
+    let path = relative(checkout, &folder.join("Cargo.toml"));
+    let down = checkout
+        .components()
+        .filter(|part| matches!(part, Component::Normal(_)));
+    // As many names as the checkout has: nothing but the root is shared.
+    let names = path.split('/').filter(|part| *part != "..");
+    match names.count() < down.count() {
+        true => path,
+        false => checkout.display().to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_dependency_is_relative_where_folders_are_shared() {
+        let here = fs::canonicalize(env!("CARGO_MANIFEST_DIR")).unwrap();
+        assert_eq!(path_from(&here.join("new/arm"), &here), "../..");
+        assert_eq!(path_from(&here.join("arm"), &here.join("src")), "../src");
+        let far = Path::new("/nowhere/dalembert");
+        assert_eq!(path_from(&here.join("arm"), far), far.display().to_string());
     }
 }

@@ -47,18 +47,27 @@ pub(super) fn manifest(name: &str, dependency: &str) -> String {
     )
 }
 
-/// Returns src/main.rs: the macro, torques, and a test against the torques of a recursion.
-pub(super) fn source(robot: &str, states: &[State]) -> String {
-    let joints = states.first().map_or(0, |[q, ..]| q.len());
+/// The number of states at which the test compares torques.
+pub(super) const STATES: usize = 3;
+
+/// Returns the states with their torques as an expression of Rust, which `include!` takes.
+pub(super) fn expected(states: &[State]) -> String {
     let rows = states.iter().map(|vectors| {
         let lines = vectors
             .each_ref()
-            .map(|own| format!("            {own:?},\n"));
-        format!("        (\n{}        ),\n", lines.concat())
+            .map(|vector| format!("        {vector:?},\n"));
+        format!("    [\n{}    ],\n", lines.concat())
     });
+    let rows: String = rows.collect();
+    format!(
+        "// q, its rates and accelerations, and the torques there by a recursion that serves any arm.\n[\n{rows}]\n"
+    )
+}
+
+/// Returns src/main.rs: the macro, torques, and a test against the torques of a recursion.
+pub(super) fn source(robot: &str, joints: usize) -> String {
     SOURCE
-        .replace("STATES\n", &rows.collect::<String>())
-        .replace("COUNT", &states.len().to_string())
+        .replace("STATES", &STATES.to_string())
         .replace("ROBOT", robot)
         .replace("JOINTS", &joints.to_string())
 }
@@ -86,22 +95,21 @@ fn main() {
 mod tests {
     use super::ROBOT;
 
-    type Vector = [f64; JOINTS];
-
     /// q, its rates and accelerations, and the torques there by a recursion that serves any arm:
-    /// `dalembert new` computed them. They change when the robot is edited.
-    #[rustfmt::skip]
-    const EXPECTED: [(Vector, Vector, Vector, Vector); COUNT] = [
-STATES
-    ];
+    /// `dalembert renew` computes them again.
+    const EXPECTED: [[[f64; JOINTS]; 4]; STATES] = include!(\"../robots/ROBOT.expected\");
 
     #[test]
     fn the_code_agrees_with_the_recursion() {
-        for (q, qd, qdd, expected) in EXPECTED {
-            let found = ROBOT::inverse_dynamics(&q, &qd, &qdd);
+        for [q, qd, qdd, expected] in EXPECTED {
+            let torques = ROBOT::inverse_dynamics(&q, &qd, &qdd);
             let largest = expected.iter().fold(1.0f64, |most, x| most.max(x.abs()));
-            for (found, expected) in found.iter().zip(expected) {
-                assert!((found - expected).abs() < 1e-12 * largest, \"{found} {expected}\");
+            for (joint, (torque, expected)) in (1..).zip(torques.iter().zip(expected)) {
+                assert!(
+                    (torque - expected).abs() < 1e-12 * largest,
+                    \"inverse_dynamics, joint {joint}: {torque} by the code, {expected} by the recursion. \\
+                     If the robot was edited, run `dalembert renew`: it renews both\"
+                );
             }
         }
     }
