@@ -230,6 +230,7 @@ mod tests {
     use std::path::Path;
 
     use dalembert_codegen::ScalarType;
+    use dalembert_stamp::{Comment, sealed};
 
     use super::{Dot, svg};
     use crate::ladder::called;
@@ -271,6 +272,7 @@ mod tests {
             let csv = fs::read_to_string(folder.join(format!("{robot}.csv"))).unwrap();
             let title = format!("{robot}: inverse_dynamics");
             let chart = svg(&title, "the actuators' limits", &dots(&csv));
+            let chart = sealed(Comment::Xml, "dalembert tradeoff", &chart);
             let mut files = vec![folder.join(format!("{robot}.svg"))];
             if robot == "puma560" {
                 files.push(root.join("docs/src/tradeoff.svg"));

@@ -176,6 +176,12 @@ pub(crate) fn run(args: &ExplainArgs, context: &Context) -> Outcome {
             row
         });
         report.table("table3", "", Table::new(heads).with(rows));
+        report.line(
+            "  Table 3: the paper's formulas for this number of joints, in which no parameter is 0 or 1.\n  \
+             As written: the same formulas with this robot's numbers, where factors 0, 1 and -1 cost nothing.\n  \
+             The step `Lagrange–Euler, run`: the formula as a program runs it, where factors -1 count and\n  \
+             numbers that cancel are gone."
+        );
     }
     if let Some(couplings) = couplings(robot).filter(|_| request.scene.is_none()) {
         coefficients(&mut report, &couplings, args.coefficients);
@@ -194,7 +200,7 @@ fn steps_of(own: &Explanation) -> Table {
         }
         // Of several scalars each is.
         if is_emitted || index + 1 == own.rows.len() {
-            title += ": what is generated";
+            title += ": generated";
         }
         let mut cells = cells![title, Cell::json(row.step)];
         cells.extend(counts(&row.counts));

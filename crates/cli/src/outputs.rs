@@ -7,12 +7,12 @@ use dalembert_model::robot::{Joint, Robot};
 use serde_json::json;
 
 use crate::output::Outcome;
-use crate::report::{Cell, Report, Table, cells};
+use crate::report::{Cell, Report, Table, WIDTH, broken, cells};
 
 /// Runs the subcommand.
 pub(crate) fn run() -> Outcome {
-    let heads = "function|takes|returns|unit|meaning|.results";
-    let mut functions = Table::keyed(heads);
+    let mut report = Report::default();
+    let mut functions = Table::keyed("function|takes|returns|unit|meaning|results");
     for function in Function::ALL {
         let arguments = function.arguments().into_iter().map(Argument::name);
         let arguments: Vec<&str> = arguments.collect();
@@ -24,15 +24,27 @@ pub(crate) fn run() -> Outcome {
         let returned = results.iter();
         let returned = returned.map(|[symbol, shape, _]| format!("{symbol} [{shape}]"));
         let units: Vec<&str> = results.iter().map(|own| own[2].as_str()).collect();
+        let (name, taken) = (function.name(), arguments.join(", "));
+        report.line(format!("{name}({taken})"));
+        let described = results
+            .iter()
+            .map(|[symbol, shape, unit]| format!("{symbol} [{shape}] in {unit}"));
+        let described = described.collect::<Vec<_>>().join("; ");
+        for text in [&*described, function.summary()] {
+            for line in broken(text, WIDTH - 4) {
+                report.line(format!("    {line}"));
+            }
+        }
         functions.row(cells![
-            function.name(),
-            Cell::of(arguments.join(", "), arguments),
+            name,
+            Cell::of(taken, arguments),
             returned.collect::<Vec<_>>().join(", "),
             units.join("; "),
             function.summary(),
             Cell::json(json.collect::<Vec<_>>()),
         ]);
     }
+    report.value("functions", functions.json());
     let mut arguments = Table::keyed("argument|symbol|meaning");
     for own in Argument::ALL {
         let mut functions = Function::ALL.into_iter();
@@ -40,8 +52,6 @@ pub(crate) fn run() -> Outcome {
             arguments.row(cells![own.name(), own.symbol(), own.meaning()]);
         }
     }
-    let mut report = Report::default();
-    report.table("functions", "", functions);
     report.line(
         "\nn joints, p base parameters. Units are for revolute joints; for a prismatic joint read N for N·m and m\n\
          for rad. `NAME@FRAME` is an output at a frame, `NAME=A+B` a function with the results of A and B.",
@@ -86,4 +96,21 @@ fn result(quantity: Quantity) -> [String; 3] {
         false => units.join(", "),
     };
     [quantity.symbol().to_owned(), shape, unit]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::width;
+
+    #[test]
+    fn the_list_fits_a_terminal() {
+        let text = run().unwrap().report.to_string();
+        assert!(
+            text.contains("gravity(q)\n    c [n] in N·m\n    Gravity load"),
+            "{text}"
+        );
+        let wide: Vec<&str> = text.lines().filter(|line| width(line) > WIDTH).collect();
+        assert!(wide.is_empty(), "{wide:#?}");
+    }
 }

@@ -102,7 +102,14 @@ impl Serialize for Report {
     }
 }
 
-/// A table. Texts stand to the left, numbers to the right.
+/// The columns that a table may take.
+pub const WIDTH: usize = 100;
+
+/// The columns that the last text of a row has at least, where it is broken.
+const LEAST: usize = 24;
+
+/// A table. Texts stand to the left, numbers to the right; the last text of a row is broken where it
+/// would be too long.
 pub struct Table {
     columns: Vec<Column>,
     rows: Vec<Vec<Cell>>,
@@ -253,6 +260,7 @@ impl Table {
                 format!("{:.6e}", number.as_f64().unwrap_or_default())
             }
             Value::Null => String::new(),
+            Value::String(text) => text.clone(),
             _ => cell.0.clone(),
         };
         let keys = self.columns.iter();
@@ -276,6 +284,16 @@ impl Display for Table {
             let texts = || iter::once(title).chain(cells().map(|cell| cell.0.as_str()));
             let wide = texts().map(width).max().unwrap_or(0);
             let is_left = place == 0 || !cells().any(|cell| cell.1.is_number());
+            let before = width(&lines[0]) + 2;
+            let room = WIDTH.saturating_sub(before).max(LEAST);
+            let is_last = self.columns[place + 1..].iter().all(|own| own.is_hidden);
+            if is_last && is_left && wide > room {
+                let next = format!("\n{}", " ".repeat(before));
+                for (line, text) in lines.iter_mut().zip(texts()) {
+                    *line += &format!("  {}", broken(text, room).join(&next));
+                }
+                break;
+            }
             for (line, text) in lines.iter_mut().zip(texts()) {
                 let pad = " ".repeat(wide - width(text));
                 *line += &match is_left {
@@ -294,8 +312,21 @@ impl Display for Table {
     }
 }
 
+/// Breaks a text at spaces into lines of at most so many columns; a longer word has a line.
+pub fn broken(text: &str, most: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split(' ') {
+        match lines.last_mut() {
+            Some(line) if line.is_empty() => *line += word,
+            Some(line) if width(line) + 1 + width(word) <= most => *line += &format!(" {word}"),
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
 /// Returns the places that a text takes: dots above letters take none.
-fn width(text: &str) -> usize {
+pub fn width(text: &str) -> usize {
     let dots = '\u{300}'..='\u{36f}';
     text.chars().filter(|c| !dots.contains(c)).count()
 }
@@ -327,4 +358,18 @@ pub fn in_scene(scene: Option<&str>) -> String {
 pub fn counted(number: usize, noun: &str) -> String {
     let plural = if number == 1 { "" } else { "s" };
     format!("{number} {noun}{plural}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_fit_a_terminal() {
+        let words = vec!["words"; 60].join(" ");
+        let table = Table::new("name=|text=|.hidden").with([cells!["τ̈", &*words, 1usize]]);
+        let text = table.to_string();
+        assert!(text.lines().all(|line| width(line) <= WIDTH), "{text}");
+        assert_eq!(text.split_whitespace().count(), 61);
+    }
 }

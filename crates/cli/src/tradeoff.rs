@@ -213,7 +213,7 @@ fn relative_to(args: &TradeoffArgs, scene: Option<&Scene>) -> Scale {
 /// Returns the variants, a row each.
 fn table(points: &[Point]) -> Table {
     let mut table = Table::new(
-        "tolerance|scalar|sincos by|mul|add|sincos|trig_mul|trig_add|left out|certified|observed|rounding|rounding observed|front",
+        "tolerance|scalar|sincos by=sines|mul|add|sincos|trig_mul|trig_add|left out=cuts|certified|observed|rounding|rounding observed|front",
     );
     for own in points {
         let counts = own.counts();
@@ -223,8 +223,8 @@ fn table(points: &[Point]) -> Table {
             None => Cell::of("–", Value::Null),
         };
         let sines = match own.certificate.sines.is_empty() {
-            true => "libm",
-            false => "polynomials",
+            true => Cell::from("libm"),
+            false => Cell::of("poly", "polynomials"),
         };
         table.row(cells![
             Cell::of(format!("{:e}", own.tolerance), own.tolerance),

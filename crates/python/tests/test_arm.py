@@ -113,8 +113,10 @@ def test_what_an_arm_knows(planar):
     assert "<svg" in html and "inverse_dynamics" in html
     with pytest.raises(AttributeError, match="loaded without 'coriolis'"):
         planar.coriolis
-    with pytest.raises(AttributeError, match="no 'colour'"):
+    with pytest.raises(AttributeError, match="no 'colour'$"):
         planar.colour
+    with pytest.raises(AttributeError, match="did you mean `inverse_dynamics`?"):
+        planar.inverse_dynamic
 
 
 def test_urdf_and_locks(tmp_path):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 import warnings
 from collections import namedtuple
@@ -66,12 +67,15 @@ class Arm:
 
     def __getattr__(self, name: str) -> _dalembert.Function:
         # Functions are attributes of their own: these are what there is not.
-        if name in dict(_dalembert.outputs()):
+        known = dict(_dalembert.outputs())
+        if name in known:
             functions = ", ".join(self.__dict__.get("_functions", {}))
             raise AttributeError(
                 f"this arm was loaded without {name!r}: add it to outputs=, which were {functions}"
             )
-        raise AttributeError(f"an arm has no {name!r}")
+        near = difflib.get_close_matches(name, [*known, *dir(type(self))], 1)
+        meant = f": did you mean `{near[0]}`?" if near else ""
+        raise AttributeError(f"an arm has no {name!r}{meant}")
 
     def __reduce__(self) -> Any:
         """Pickle and copy by source, programs and options: they are proved and compiled again."""
