@@ -280,7 +280,7 @@ fn claims_that_are_not_written_by_a_generator() {
     refused("/functions/0/steps", json!(quotients), "more quotients");
     let gravity = &honest["functions"][0];
     let twice = json!([gravity, gravity]);
-    refused("/functions", twice, "stands there twice");
+    refused("/functions", twice, "is defined twice");
     // Another name, and results that nothing is said of.
     let mut other = own.with(&own.text.replace("pub fn gravity(", "pub fn pull("));
     let mut claim = honest.clone();

@@ -55,15 +55,24 @@ pub(super) fn unbounded_by(program: &Program) -> Option<Complaint> {
 
 /// Complains of an argument that no box bounds.
 pub(crate) fn reads(argument: Argument) -> Complaint {
-    no_bound(&format!("no box bounds its argument `{}`", argument.name()))
+    let why = format!(
+        "a tolerance needs ranges, and a box has none for `{}`",
+        argument.name()
+    );
+    match argument {
+        Argument::Gravity | Argument::Load => complaint(format!(
+            "{why}: leave it out of the parameters, or give its value in the scene"
+        )),
+        _ => no_bound(&why),
+    }
 }
 
 const DIVIDES: &str = "it divides by what depends on the state";
 
 fn no_bound(why: &str) -> Complaint {
     complaint(format!(
-        "{why}, so its errors have no certified bound; what has one is what it is made of: give \
-         the tolerance to `inverse_dynamics`, or to `manipulator_equation` for D, h and c"
+        "{why}, so its errors have no certified bound: give the tolerance to `inverse_dynamics`, or \
+         to `manipulator_equation` for D, h and c"
     ))
 }
 

@@ -26,10 +26,9 @@ pub(super) fn check(
     let Some(name) = header::misnamed(&name, functions, request.batch, &request.scalars) else {
         return Ok(());
     };
-    let language = request.language.name();
-    let message = format!("`{language}`: `{name}` is no name that every compiler takes");
-    let help = "letters, digits and `_`, at most 31 of them, each name once; give the \
-                option `name` a short one";
+    let message = format!("`{name}` is not a valid C identifier for every compiler, or not unique");
+    let help = "at most 31 letters, digits and `_`, each name once: set the option `name` to a \
+                short one";
     Err(GenerateError::refused(None, message, help))
 }
 

@@ -228,11 +228,11 @@ fn check(robot: &Robot, request: &Request) -> Result<(), GenerateError> {
         let mut others = functions[..index].iter();
         if let Some(&other) = others.find(|other| function.is_namesake(**other)) {
             let message = format!(
-                "`{}` and `{}` would have one name or one struct in a module",
+                "`{}` and `{}` would get the same name in the generated module",
                 other.text(),
                 function.text()
             );
-            let help = "call one of them otherwise";
+            let help = "give one of them another name: NAME = OUTPUT + OUTPUT";
             return Err(GenerateError::refused(function, message, help));
         }
     }

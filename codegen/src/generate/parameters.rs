@@ -74,8 +74,12 @@ pub(super) fn check(job: &Job<'_>) -> Result<(), GenerateError> {
         return Err(refused(Some(function), message, &help));
     }
     if setup.load().is_none_or(|load| load.rows.is_empty()) {
-        let message = "no joint that moves feels a payload".to_owned();
-        return Err(refused(None, message, "leave it out of the parameters"));
+        let message = "the payload has no effect on any moving joint".to_owned();
+        return Err(refused(
+            None,
+            message,
+            "leave `payload` out of the parameters",
+        ));
     }
     Ok(())
 }

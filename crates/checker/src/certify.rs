@@ -128,12 +128,9 @@ pub fn certify(
     let mut heads = HashSet::new();
     let mut is_twice = |item: &Found| -> Result<(), Fault> {
         let head = item.text.lines().next().unwrap_or("");
-        let twice = || Fault::Text(item.line, "an item that stands there twice".into());
-        let name = if item.name.is_empty() {
-            head
-        } else {
-            item.name
-        };
+        let name = Some(item.name).filter(|name| !name.is_empty());
+        let name = name.unwrap_or(head);
+        let twice = || Fault::Text(item.line, format!("`{name}` is defined twice"));
         let is_first = heads.insert((item.module.to_owned(), name.to_owned()));
         is_first.then_some(()).ok_or_else(twice)
     };
@@ -326,8 +323,9 @@ impl<'w> Whole<'w> {
         };
         let mut all = results.iter().zip(1..);
         if let Some((own, place)) = all.find(|(own, _)| !own.is_shown()) {
-            let [bound, tolerated] = [own.bound(), own.tolerated].map(|size| size / own.unit());
-            let why = format!("result {place} is within {bound:.3e} of T, not {tolerated:.3e}");
+            let [bound, most] = [own.bound(), own.tolerated].map(|size| size / own.unit());
+            let of = ["rounding", "approximation"][usize::from(own.real > own.rounding)];
+            let why = format!("result {place} has a bound of {bound:.1e} T, over {most:.1e}: {of}");
             return Err(refused(why));
         }
         let mut ranges = self.ranges.clone();

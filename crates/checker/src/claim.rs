@@ -179,11 +179,11 @@ impl Claim {
         let (mut keys, mut symbols) = (HashSet::new(), HashSet::new());
         for own in &claim.functions {
             if !keys.insert((&own.function, &own.scene, &own.planned)) {
-                return refuse(format!("`{}` stands there twice", own.function));
+                return refuse(format!("`{}` is defined twice", own.function));
             }
             let mut own_symbols = own.symbols.iter();
             if let Some(twice) = own_symbols.find(|name| !symbols.insert((*name, &own.scene))) {
-                return refuse(format!("`{twice:.40}` stands there twice"));
+                return refuse(format!("`{twice:.40}` is defined twice"));
             }
             // It is printed where nothing else may stand.
             if own.planned.is_none() && !is_name(&own.function) {

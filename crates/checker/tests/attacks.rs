@@ -70,7 +70,7 @@ fn a_tolerance_that_is_not_the_scenes() {
     assert_eq!(held, 3, "{results:?}");
     let why = found(name, scene, None).unwrap_err();
     assert!(
-        why.contains("result 1 is within 7.920e-2 of T, not 1.000e-3"),
+        why.contains("result 1 has a bound of 7.9e-2 T, over 1.0e-3: approximation"),
         "{why}"
     );
 }

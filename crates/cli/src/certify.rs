@@ -10,10 +10,14 @@ use dalembert_stamp::Stamp;
 
 use crate::args::values::{certified_parser, positive_parser};
 use crate::output::{Context, Done, Failure, Outcome};
-use crate::report::{Cell, Report, Table, cells};
+use crate::report::{Cell, Report, Table, WIDTH, broken, cells};
 use crate::source::{Source, text};
 
 /// Arguments of `certify`.
+///
+/// A function is shown if its text is the claimed program, each literal rounded once, and that program gives
+/// the robot's results in real numbers. Rounding errors are relative to the largest value of an entry at
+/// random states of the box, in a matrix of its row or column; u is 2^-53 in f64, 2^-24 in f32.
 #[derive(Debug, clap::Args)]
 pub struct CertifyArgs {
     /// A generated file (.rs, .h), whose claim stands beside it: NAME.claim.json
@@ -89,13 +93,11 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
     let results = |line: &Line| line.result.as_ref().map_or(0, |own| own.results.len());
     report.line(match found.lines.iter().any(|line| results(line) > 0) {
         false => {
-            "Of a function that is shown, the text is the claimed program, each literal rounded once, and in real\n\
-             numbers that program gives the robot's results. Rounding errors are relative to the largest value of an\n\
-             entry at random states of the box, in a matrix of its row or column; u is 2^-53 in f64, 2^-24 in f32."
+            "shown: apart from rounding, the code gives the robot's results.\n\
+             rounding: the largest error, as a part of the largest value of that result, and in u (--help)."
         }
         true => {
-            "Shown: the text is the claimed program, each literal rounded once, and at every state of the box each\n\
-             result is within its bound of the robot's. Errors are relative to T."
+            "shown: at every state of the box each result is within its bound of the robot's, relative to T."
         }
     });
     if let Some(scene) = scene {
@@ -114,7 +116,8 @@ fn checked(args: &CertifyArgs, source: &str, robot: &Source) -> Outcome {
             module = &line.module;
             report.line(module);
         }
-        report.line(format!("  {:<35} {}", line.name, words(line)));
+        let words = broken(&words(line), WIDTH - 38).join(&format!("\n{}", " ".repeat(38)));
+        report.line(format!("  {:<35} {words}", line.name));
         let own = line.result.as_ref().ok();
         if let Some(own) = own.filter(|own| !own.results.is_empty()) {
             let results = Table::new(RESULTS).with(own.results.iter().map(row));

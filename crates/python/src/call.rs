@@ -52,7 +52,9 @@ impl Call<'_> {
         let product = |states: usize, &axis: &usize| states.checked_mul(axis);
         let states = batch.iter().try_fold(1, product).ok_or_else(|| {
             let (name, batch) = (self.name(), shown(&batch));
-            PyMemoryError::new_err(format!("{name}: nobody can count the states of {batch}"))
+            PyMemoryError::new_err(format!(
+                "{name}: the batch shape {batch} has more states than fit in memory"
+            ))
         })?;
         let read = arrays.iter().map(|array| argument(array, &batch, states));
         let (read, _copies): (Vec<Layout<T>>, Vec<Copy<'py, T>>) =

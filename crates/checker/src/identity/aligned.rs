@@ -5,7 +5,7 @@
 use std::ops::{Add, Mul, Neg};
 
 use num_bigint::BigInt;
-use num_traits::Signed;
+use num_traits::{Signed, ToPrimitive};
 
 use super::arm::{Reading, entries};
 use super::exact::{Angle, fixed};
@@ -182,13 +182,15 @@ pub fn check(file: &File, aligned: &File, scene: Option<&str>) -> Result<(), Str
         return Err("the rows have a payload, and the scene has none".into());
     }
     let (own, other) = (parts(file, given, true)?, parts(aligned, moved, false)?);
+    let double = |own: &Fixed| (&own.0 >> (BITS - 64)).to_f64().unwrap_or(0.0) / 2f64.powi(64);
     for ((name, own), (same, other)) in own.iter().zip(&other) {
         let sizes = own.iter().chain(other).map(|own| own.0.abs());
         let most = sizes.max().unwrap_or_default();
         let slack = most / BigInt::from(10).pow(DIGITS) + 1;
         let mut pairs = own.iter().zip(other);
         if name != same || pairs.any(|(own, other)| (&own.0 - &other.0).abs() > slack) {
-            return Err(format!("{name}: the rows have another than the robot file"));
+            let [own, other] = [own, other].map(|list| list.iter().map(double).collect::<Vec<_>>());
+            return Err(format!("{name}: {own:?} in the file, {other:?} claimed"));
         }
     }
     Ok(())

@@ -170,7 +170,7 @@ impl<'r> Reader<'r> {
             let first = places.max_by_key(|place| count(*place)).unwrap_or(0);
             let is_whole = |place: usize| count(place) == words.len();
             if (first + 1..self.tokens.len()).any(is_whole) {
-                return Err(TextError::new(1, format!("`{head}` stands there twice")));
+                return Err(TextError::new(1, format!("`{head}` is defined twice")));
             }
             if is_whole(first) || index == heads.len() {
                 (self.at, self.first) = (first, first);
@@ -473,7 +473,7 @@ impl<'r> Reader<'r> {
         let value = Operand::Sine(joint, is_sine);
         match is_good && self.name(name, value) {
             true => Ok(()),
-            false => self.refuse("the sine of an angle stands there twice"),
+            false => self.refuse("the sine of an angle is defined twice"),
         }
     }
 

@@ -150,7 +150,9 @@ impl Context {
                 let foreign = foreign::in_text(text);
                 let help = match foreign.as_deref() {
                     _ if parse_decimal(text.trim()).is_ok() => "write it without quotes",
-                    _ if Angle::parse(text).is_ok() => "this value is no angle",
+                    _ if Angle::parse(text).is_ok() => {
+                        "not an angle: write a number without a unit"
+                    }
                     meant => meant.unwrap_or(help),
                 };
                 return self.wanted(value, "a number", help);
