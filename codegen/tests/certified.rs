@@ -299,7 +299,7 @@ fn rows_that_are_not_those_of_the_robot_file() {
     own.is_shown(1, "placed");
     for [from, to, words] in rows(
         r#"
-mass = 0.0984       | mass = 0.0985       | mass of joint 1
+mass = 0.0984       | mass = 0.0985       | mass of joint 1: [0.0984
 velocity = 4.8      | viscous = 1         | aligned
 name = \"joint2\" | name = \"joint3\" | other joints
 "#,
@@ -324,7 +324,7 @@ fn payloads_in_tilted_frames() {
     own.is_shown(1, "tilted");
     for [from, to, words] in rows(
         "
-payload = { mass = 1.5 | payload = { mass = 1.4 | mass of the payload
+payload = { mass = 1.5 | payload = { mass = 1.4 | mass of the payload: [1.5] in the file, [1.4] claimed
 [scene.s] | [scene.t] | result 1 is not that of the robot
 ",
     ) {
