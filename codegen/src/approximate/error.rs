@@ -59,12 +59,14 @@ pub(crate) fn reads(argument: Argument) -> Complaint {
         "a tolerance needs ranges, and a box has none for `{}`",
         argument.name()
     );
-    match argument {
-        Argument::Gravity | Argument::Load => complaint(format!(
-            "{why}: leave it out of the parameters, or give its value in the scene"
-        )),
-        _ => no_bound(&why),
-    }
+    let parameter = match argument {
+        Argument::Gravity => "gravity",
+        Argument::Load => "payload",
+        _ => return no_bound(&why),
+    };
+    complaint(format!(
+        "{why}: leave `{parameter}` out of the parameters, or give its value in the scene"
+    ))
 }
 
 const DIVIDES: &str = "it divides by what depends on the state";
