@@ -134,6 +134,26 @@ fn a_header_may_be_without_f32() {
     assert!(said.contains("which f32 cannot hold"), "{said}");
 }
 
+/// Dynamics of an arm that weighs nothing are refused; kinematics and regressors need no mass.
+#[test]
+fn an_arm_without_mass_has_kinematics_alone() {
+    let source = support::source("planar2r", "").replace("mass = 1\n", "mass = 0\n");
+    let source = source.replace("0.08333333333333333", "0");
+    for function in [
+        "inverse_dynamics",
+        "momentum",
+        "reaction_wrenches",
+        "a=jacobian+gravity",
+    ] {
+        let said = Case::read(&source, &format!("outputs: {function}")).refusal();
+        assert!(said.starts_with("no link has mass, "), "{said}");
+    }
+    let asked = "outputs: forward_kinematics, jacobian, full_regressor";
+    assert_eq!(Case::read(&source, asked).generated().functions.len(), 3);
+    let rotor = source.replacen("mass = 0\n", "mass = 0\narmature = 0.1\n", 1);
+    let _ = Case::read(&rotor, "outputs: inertia").generated();
+}
+
 /// What a scalar cannot hold inside the robot's limits is said.
 #[test]
 fn overflow_is_flagged_for_the_scalar_that_it_threatens() {

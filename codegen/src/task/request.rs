@@ -1,6 +1,6 @@
 //! What somebody wants generated.
 
-use dalembert_model::outputs::RuntimeParameter;
+use dalembert_model::outputs::{PayloadDependence, RuntimeParameter};
 use dalembert_model::robot::Robot;
 use dalembert_model::scene::{Float, Scene};
 
@@ -138,10 +138,24 @@ impl Request {
     /// Returns the robot in the scene, where functions take the parameters.
     ///
     /// # Errors
-    /// The scene is none of this robot.
+    /// The scene is none of this robot, or a function needs mass and no link has any.
     pub fn setup(&self, robot: &Robot) -> Result<Setup, Complaint> {
         let setup = Setup::in_scene(robot, self.scene.as_ref())?;
-        Ok(load::chosen(setup.taking(&self.parameters)))
+        let setup = setup.taking(&self.parameters);
+        if !setup.robot().has_mass() && !setup.has(RuntimeParameter::Payload) {
+            // A function that no payload changes is kinematics, or over any parameters.
+            let weighs = |own: &&Function| own.payload_dependence() != PayloadDependence::None;
+            if let Some(function) = self.functions.iter().find(weighs) {
+                let message = format!(
+                    "no link has mass, inertia or an armature, so `{function}` would be that of an arm that \
+                     weighs nothing"
+                );
+                let help = "give each link its `mass`, `com` and `inertia`, in a URDF an <inertial>; outputs such \
+                            as `jacobian` need none";
+                return Err(Complaint::new(message, help));
+            }
+        }
+        Ok(load::chosen(setup))
     }
 
     /// Returns the module's name.

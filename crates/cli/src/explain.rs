@@ -53,7 +53,7 @@ pub struct Explanation {
 /// # Errors
 /// Those of [`generate`](dalembert_codegen::generate).
 pub fn explain(robot: &Robot, request: &Request) -> Result<Vec<Explanation>, GenerateError> {
-    let setup = Setup::in_scene(robot, request.scene.as_ref())?;
+    let setup = request.setup(robot)?;
     let job = Job {
         robot,
         setup: &setup,

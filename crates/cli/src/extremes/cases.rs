@@ -115,7 +115,6 @@ impl Change {
         let mut made = robot.clone();
         let has_right_angle = robot.joints.iter().any(|joint| right(joint).is_some());
         match self {
-            Change::Massless(links) if links > 1 && n <= links => return None,
             Change::Repeated(most) if n >= most => return None,
             Change::Typed if !has_right_angle => return None,
             Change::Weightless => made.gravity = Default::default(),
@@ -173,7 +172,7 @@ impl Change {
                 _ => {}
             }
         }
-        Some(made)
+        made.has_mass().then_some(made)
     }
 }
 

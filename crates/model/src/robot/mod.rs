@@ -165,6 +165,15 @@ impl Robot {
     /// The longest name of a robot or a joint, in characters.
     pub const MAX_NAME: usize = 64;
 
+    /// Returns true if a link has mass or inertia, or a joint an armature.
+    pub fn has_mass(&self) -> bool {
+        self.rows().into_iter().any(|joint| {
+            let inertia = joint.inertia.entries();
+            let mut numbers = [&joint.mass, &joint.armature].into_iter().chain(inertia);
+            numbers.any(|number| !number.is_zero())
+        })
+    }
+
     /// Returns the name of a joint in messages, from its zero-based index:
     /// `joint 2`, or `joint 2 (elbow)` where it has a name.
     pub fn joint_label(&self, index: usize) -> String {
