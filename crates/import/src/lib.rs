@@ -117,7 +117,7 @@ pub struct Options {
     /// The link that stands still; without one, the root.
     pub base: Option<String>,
     /// The link whose frame is the hand; without one, the palm that the fingers hang on
-    /// or the end of the longest chain, if there is one.
+    /// or the end of the longest chain, if there is one; the first of several that one joint moves.
     pub tip: Option<String>,
     /// Joints that stay where they are, each with its position, within the joint's
     /// limits: a number of the URDF's units, `pi/2` or `90deg`. The name `*` stands for

@@ -25,22 +25,33 @@ struct Ends {
 }
 
 impl Tree<'_, '_, '_> {
-    /// Returns the link that the arm ends at; `None` after saying that there are several.
+    /// Returns the link that the arm ends at: of several that one joint moves, the first. `None`
+    /// after saying that different joints move them.
     pub(crate) fn tip(&mut self, base: usize) -> Option<usize> {
         let heights = self.heights_or_circle(base)?;
         let Ends { tips, holds } = self.ends(base, &heights, false);
         let most = heights.get(&base).copied().unwrap_or_default();
         let name = |link: &usize| self.urdf.links[*link].name.as_str();
-        if let [link] = tips[..] {
-            let message = format!("the chain ends at link `{}`", name(&link));
-            let span = &self.urdf.links[link].span;
-            self.problems
-                .note(span, message, "--tip LINK chooses another end");
-            return Some(link);
+        let moved: BTreeSet<usize> = tips.iter().map(|tip| self.moved_with(*tip, base)).collect();
+        if let ([link, rest @ ..], 1) = (tips.as_slice(), moved.len()) {
+            let mut message = format!("the chain ends at link `{}`", name(link));
+            let mut help = "--tip LINK chooses another end".to_owned();
+            let others: Vec<&str> = rest.iter().take(MAX_NAMES).map(name).collect();
+            if let [first, ..] = others.as_slice() {
+                let move_with = if others.len() == 1 { "moves" } else { "move" };
+                message += &format!("; `{}` {move_with} with it", others.join("`, `"));
+                help = format!(
+                    "--tip {first} ends the chain there: torques are the same; poses, Jacobians and \
+                     wrenches of the hand are not"
+                );
+            }
+            let span = &self.urdf.links[*link].span;
+            self.problems.note(span, message, &help);
+            return Some(*link);
         }
         let message = match holds {
             true => format!("{} links may be where the arm ends", tips.len()),
-            false => format!("{} chains have {most} joints", tips.len()),
+            false => format!("{} chains have {most} joints", moved.len()),
         };
         let names: Vec<&str> = tips.iter().take(MAX_NAMES).map(name).collect();
         let mut help = format!("choose the end by --tip: {}", names.join(", "));
@@ -63,12 +74,7 @@ impl Tree<'_, '_, '_> {
         let Ends { tips, .. } = self.ends(base, &heights, true);
         let mut last = BTreeSet::new();
         let tips = tips.into_iter().filter(|tip| {
-            let mut link = *tip;
-            while let Some(joint) = self.above.get(&link).filter(|_| link != base)
-                && self.step(*joint).is_some()
-            {
-                link = self.ends[*joint][0];
-            }
+            let link = self.moved_with(*tip, base);
             link != base && last.insert(link)
         });
         let mut tips: Vec<usize> = tips.collect();
@@ -80,6 +86,16 @@ impl Tree<'_, '_, '_> {
             return None;
         }
         Some(tips)
+    }
+
+    /// Returns the child of the last joint that moves before a link; the base if none moves.
+    fn moved_with(&self, mut link: usize, base: usize) -> usize {
+        while let Some(joint) = self.above.get(&link).filter(|_| link != base)
+            && self.step(*joint).is_some()
+        {
+            link = self.ends[*joint][0];
+        }
+        link
     }
 
     fn heights_or_circle(&mut self, base: usize) -> Option<BTreeMap<usize, usize>> {

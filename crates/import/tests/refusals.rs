@@ -341,22 +341,18 @@ fn a_base_that_is_not_the_root_is_said() {
     has(&imported.text, &[placement]);
 }
 
-/// Chains that end in several places, and a chain that has one end.
+/// Chains that end at a palm, or where nothing hangs.
 #[test]
-fn the_end_is_asked_for_where_there_are_several() {
+fn the_end_is_the_palm_or_where_nothing_hangs() {
     let panda = source("panda");
-    let ends =
-        "choose the end by --tip: panda_hand, panda_hand_tcp; --lock-others 0 holds the fingers";
-    let text = refused(&panda, &Options::default());
-    has(&text, &["2 links may be where the arm ends", ends]);
     // Mimic joints beside the chain say whom they follow.
-    let tcp = Options {
-        tip: Some("panda_hand_tcp".into()),
-        ..Options::default()
-    };
     let finger = "joint `panda_finger_joint2` is prismatic, mimics `panda_finger_joint1`";
-    let text = refused(&panda, &tcp);
-    has(&text, &[finger, "--lock panda_finger_joint1=0"]);
+    let text = refused(&panda, &Options::default());
+    let all = "--lock-others 0 holds all that hangs on the chain";
+    has(&text, &[finger, "--lock panda_finger_joint1=0", all]);
+    let held = taken(&panda, &others("0"));
+    let ends = "the chain ends at link `panda_hand`; `panda_hand_tcp` moves with it";
+    assert!(notes(&held).iter().any(|note| note.1 == ends));
     // One finger is no chain's end either, and where nothing hangs there is one end.
     let thumb = Options {
         without: vec!["thumb".into()],
@@ -375,8 +371,8 @@ fn the_end_is_asked_for_where_there_are_several() {
     }
 }
 
-/// Two chains of as many joints: of arms on a torso that moves, one is held; of two frames at
-/// one end, nothing is.
+/// Two chains of as many joints: of arms on a torso that moves, one is held; of two frames that
+/// one joint moves, the first is taken, or the one that is called as a hand.
 #[test]
 fn one_of_several_chains_holds_the_others() {
     let robot = |joints: &[[&str; 3]]| {
@@ -408,8 +404,15 @@ fn one_of_several_chains_holds_the_others() {
         ["fixed", "arm", "front"],
         ["fixed", "arm", "back"],
     ]);
-    let text = refused(&frames, &Options::default());
-    has(&text, &["choose the end by --tip: front, back\n"]);
+    let front = taken(&frames, &Options::default());
+    let said = "the chain ends at link `front`; `back` moves with it";
+    assert_eq!(notes(&front)[0].1, said);
+    let help = front.notes[0].help.as_deref().unwrap_or_default();
+    has(help, &["--tip back", "torques are the same"]);
+    let tool = frames.replace("back", "tool");
+    let tool = taken(&tool, &Options::default());
+    assert!(tool.text.starts_with("# From link base to link tool "));
+    assert_eq!(front.robot.joints, tool.robot.joints);
 }
 
 /// The reduction is that beside the rotor's own name, in whatever order they stand, and every
