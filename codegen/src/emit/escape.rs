@@ -1,4 +1,4 @@
-//! Names that users chose, inside documentation.
+//! Names and sentences that users chose, inside documentation.
 
 /// Returns the name as text that no reader of documentation takes for markup: a bar
 /// would end a table's cell, a backtick begin code, `<` an HTML tag.
@@ -19,9 +19,35 @@ pub(super) fn escaped(name: &str) -> String {
     text
 }
 
+/// Returns a sentence with the names in its backticks as code, and no other markup.
+pub(super) fn sentence(text: &str) -> String {
+    let is_paired = text.matches('`').count() % 2 == 0;
+    let (mut is_code, mut marked) = (false, String::new());
+    for c in text.chars() {
+        is_code ^= is_paired && c == '`';
+        let is_markup = !is_code && "\\*_[]<>&|~#`".contains(c);
+        if is_markup && !(is_paired && c == '`') {
+            marked.push('\\');
+        }
+        marked.push(c);
+    }
+    marked
+}
+
 #[cfg(test)]
 mod tests {
-    use super::escaped;
+    use super::{escaped, sentence};
+
+    #[test]
+    fn sentences_have_names_and_no_markup() {
+        for (text, shown) in [
+            ("`a_b` is [held](x) at 0.1", "`a_b` is \\[held\\](x) at 0.1"),
+            ("`<b>` & <b>", "`<b>` \\& \\<b\\>"),
+            ("a ` b", "a \\` b"),
+        ] {
+            assert_eq!(sentence(text), shown);
+        }
+    }
 
     #[test]
     fn usual_names_stay_and_markup_does_not() {

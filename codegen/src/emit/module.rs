@@ -3,7 +3,7 @@
 
 use dalembert_model::robot::{Convention, Follower, JointKind, Position, Robot};
 
-use super::escape::escaped;
+use super::escape::{escaped, sentence};
 use super::say;
 use super::scene::describe;
 use super::state_box::StateBox;
@@ -113,6 +113,11 @@ pub(super) fn header(
         lines.push(format!(
             "The last frame of poses and Jacobians is the tool, in the last link's at {at}."
         ));
+    }
+    if !robot.notes.is_empty() {
+        say(&mut lines, ["", "Notes of the robot file:", ""]);
+        let notes = robot.notes.iter();
+        lines.extend(notes.map(|note| format!("- {}", sentence(note))));
     }
     let head = "| joint | kind | α | a | d | θ | mass |";
     say(&mut lines, ["", head, "|---|---|---|---|---|---|---|"]);

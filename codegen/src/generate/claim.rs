@@ -77,6 +77,7 @@ fn document(
     let payload = payload.map_or_else(String::new, |own| format!("\n{}", scene::write(&own)));
     Claim {
         aligned: is_rounded.then(|| write(robot) + &payload),
+        notes: robot.notes.clone(),
         ..constants.document(functions)
     }
 }

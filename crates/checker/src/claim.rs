@@ -54,6 +54,9 @@ pub struct Claim {
     /// The robot by rows, as generators take it, if its joints are placed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub aligned: Option<String>,
+    /// The notes of the robot file, for readers: nothing is concluded from them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
     /// The constants of all programs: `#0` is the first.
     pub constants: Vec<String>,
     /// The functions.
@@ -206,11 +209,8 @@ impl Claim {
     /// The first that is none.
     #[cfg(feature = "certify")]
     pub fn constants(&self) -> Result<Vec<Exact>, Fault> {
-        let terms = self
-            .constants
-            .iter()
-            .map(|text| 1 + text.matches('+').count());
-        if terms.sum::<usize>() > MOST {
+        let terms = |text: &String| 1 + text.matches('+').count();
+        if self.constants.iter().map(terms).sum::<usize>() > MOST {
             return Err(Fault::Claim(format!("constants of more than {MOST} terms")));
         }
         let read = self.constants.iter().map(|text| {

@@ -1,6 +1,6 @@
 //! What hangs beside the chain: held, tied to it, or left out.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use dalembert_model::number::{Angle, Rational};
 use dalembert_model::robot::Position;
@@ -25,7 +25,7 @@ impl Tree<'_, '_, '_> {
         if own.kind == Kind::Ball {
             let message = format!("joint `{}` is held where the model has it", own.name);
             let help = "a ball turns about any axis: --without LINK leaves its link away";
-            self.problems.note(&own.span, message, help);
+            self.problems.difference(&own.span, message, help);
             return Some(Step { joint, at: None });
         }
         let at = match self.follows(joint) {
@@ -55,7 +55,6 @@ impl Tree<'_, '_, '_> {
         };
         let free = free.filter(|joint| !self.locks.contains_key(joint));
         let held: Vec<(usize, Position)> = free.filter_map(follows).collect();
-        self.following = held.iter().map(|(joint, _)| *joint).collect();
         self.locks.extend(held);
     }
 
@@ -164,25 +163,33 @@ impl Tree<'_, '_, '_> {
         is_free
     }
 
-    /// Lists the joints beside the chain that are held, and those of these that follow a
-    /// locked one, once.
+    /// Lists the joints of a chain that are held, and the links that are left away.
     pub(crate) fn say_held(&mut self, joints: &BTreeSet<usize>) {
-        let following = self.following.iter().filter(|joint| joints.contains(joint));
-        let following = following.map(|joint| (*joint, self.locks[joint].clone()));
-        self.held.extend(following.collect::<Vec<_>>());
-        self.held.sort_by_key(|(joint, _)| *joint);
-        let Some((first, _)) = self.held.first() else {
-            return;
-        };
-        let held = self.held.iter().map(|(joint, at)| {
-            let (name, at) = (&self.urdf.joints[*joint].name, position(at));
-            format!("`{name}` at {}", at.replace('"', ""))
-        });
-        let held = held.collect::<Vec<_>>().join(", ");
-        let message = format!("what hangs on the chain is held: {held}");
-        let help = "--lock JOINT=VALUE holds one elsewhere, --without LINK leaves it away";
-        self.problems
-            .note(&self.urdf.joints[*first].span, message, help);
+        let locked = self
+            .locks
+            .iter()
+            .filter(|(joint, _)| joints.contains(joint));
+        let mut held: BTreeMap<usize, &Position> = locked.map(|(joint, at)| (*joint, at)).collect();
+        held.extend(self.held.iter().map(|(joint, at)| (*joint, at)));
+        if let Some(first) = held.keys().next() {
+            let name = |(joint, at): (&usize, &&Position)| {
+                let name = &self.urdf.joints[*joint].name;
+                format!("`{name}` at {}", position(at).replace('"', ""))
+            };
+            let names: Vec<String> = held.iter().map(name).collect();
+            let message = format!("joints are held: {}", names.join(", "));
+            let help = "--lock JOINT=VALUE holds one elsewhere, --without LINK leaves it away";
+            let span = &self.urdf.joints[*first].span;
+            self.problems.difference(span, message, help);
+        }
+        if let Some(first) = self.without.first() {
+            let name = |link: &usize| format!("`{}`", self.urdf.links[*link].name);
+            let names: Vec<String> = self.without.iter().map(name).collect();
+            let names = names.join(", ");
+            let message = format!("links are left away, with all that hangs on them: {names}");
+            let span = &self.urdf.links[*first].span;
+            self.problems.difference(span, message, "");
+        }
     }
 
     fn moves_beside(&mut self, joint: usize) {

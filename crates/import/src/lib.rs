@@ -149,7 +149,8 @@ pub struct Imported {
     pub text: String,
     /// The robot that it is read as.
     pub robot: Robot,
-    /// Warnings and notes, each at its place in the URDF.
+    /// Warnings and notes, each at its place in the URDF. Those that [`Robot::notes`] repeats are
+    /// first: what the arm has otherwise than the model, so that results differ.
     pub notes: Vec<Diagnostic>,
     /// Every number that was taken for another, in the order of the file.
     pub snaps: Vec<Snap>,

@@ -113,7 +113,5 @@ pub(crate) fn right(angle: Angle) -> Angle {
     let Angle::Radians(value) = angle else {
         return angle;
     };
-    match Snapped::of_radians(value) {
-        Snapped::Kept(angle) | Snapped::Taken(angle) | Snapped::Near { angle, .. } => angle,
-    }
+    Snapped::of_radians(value).angle()
 }

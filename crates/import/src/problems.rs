@@ -18,6 +18,9 @@ pub(crate) struct Problems<'s> {
     /// The source with the files that it is made of.
     text: Option<&'s Text>,
     found: Vec<Diagnostic>,
+    /// Notes of what the robot file has otherwise than the model, so that results differ; in the
+    /// order of the file.
+    pub(crate) differences: Vec<Diagnostic>,
     /// The number of problems beyond those that are listed.
     more: usize,
 }
@@ -61,13 +64,33 @@ impl<'s> Problems<'s> {
         self.push(Severity::Note, span, message, help);
     }
 
+    /// Notes what the robot file has otherwise than the model, so that results differ.
+    pub(crate) fn difference(&mut self, span: &Range<usize>, message: String, help: &str) {
+        if self.differences.len() < MAX {
+            let note = self.at(Severity::Note, span, message, help);
+            self.differences.push(note);
+            self.differences.sort_by_key(|own| own.span.start);
+        }
+    }
+
     fn push(&mut self, severity: Severity, span: &Range<usize>, message: String, help: &str) {
         if self.found.len() == MAX {
             self.more += usize::from(severity == Severity::Error);
             return;
         }
+        let own = self.at(severity, span, message, help);
+        self.found.push(own);
+    }
+
+    fn at(
+        &self,
+        severity: Severity,
+        span: &Range<usize>,
+        message: String,
+        help: &str,
+    ) -> Diagnostic {
         let (line, column) = place(self.source, span.start);
-        self.found.push(Diagnostic {
+        Diagnostic {
             severity,
             warning: None,
             message,
@@ -75,7 +98,7 @@ impl<'s> Problems<'s> {
             line,
             column,
             help: (!help.is_empty()).then(|| help.to_owned()),
-        });
+        }
     }
 
     /// Returns whether there is an error among them.
@@ -98,7 +121,8 @@ impl<'s> Problems<'s> {
         }
     }
 
-    /// Returns the notes and warnings in the order of the file, or the errors alone.
+    /// Returns the differences, then the other notes and the warnings, both in the order of the
+    /// file; or the errors alone.
     pub(crate) fn finish(mut self) -> Result<Vec<Diagnostic>, Diagnostics> {
         if let (1.., Some(last)) = (self.more, self.found.last_mut()) {
             last.severity = Severity::Error;
@@ -110,7 +134,7 @@ impl<'s> Problems<'s> {
             .into_iter()
             .partition(|found| found.severity == Severity::Error);
         match errors.is_empty() {
-            true => Ok(notes),
+            true => Ok([self.differences, notes].concat()),
             false => Err(Diagnostics(errors)),
         }
     }

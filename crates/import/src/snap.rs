@@ -22,9 +22,23 @@ pub struct Snap {
     pub from: String,
     /// The number that it was taken for, as a robot file has it.
     pub to: String,
+    /// True if torques may change: not by a limit, nor if both are the same double.
+    pub changes: bool,
 }
 
 impl Snap {
+    /// Returns a line that counts those that change no torque; `None` if there are none.
+    pub fn counted(snaps: &[Snap]) -> Option<String> {
+        let mut same = snaps.iter().filter(|snap| !snap.changes);
+        let Snap { from, to, .. } = same.next()?;
+        let numbers = match 1 + same.count() {
+            1 => "1 number is written exactly and changes".to_owned(),
+            count => format!("{count} numbers are written exactly and change"),
+        };
+        let why = "(limits, and numbers with the same double)";
+        Some(format!("{numbers} no torque {why}, such as {from} as {to}"))
+    }
+
     /// Returns the line of the URDF, from one.
     pub fn line(&self, source: &str) -> usize {
         crate::text::place(source, self.span.start).0
@@ -107,12 +121,13 @@ impl Snaps {
         meant(angle, text).filter(|meant| !self.is_near || off(meant) <= power(NOTHING))
     }
 
-    fn take<T>(&mut self, value: &mut Value<T>, meant: T, to: String, of: &str) {
+    fn take<T>(&mut self, value: &mut Value<T>, meant: T, to: String, of: &str, changes: bool) {
         self.taken.push(Snap {
             span: value.span.clone(),
             of: of.to_owned(),
             from: value.text.clone(),
             to,
+            changes,
         });
         value.value = meant;
     }
@@ -129,6 +144,7 @@ impl Snaps {
                 of: rpy.to_owned(),
                 from: from.join(" "),
                 to,
+                changes: true,
             });
             for (angle, meant) in origin.rpy.iter_mut().zip(meant.rpy) {
                 angle.value = meant;
@@ -144,15 +160,15 @@ impl Snaps {
         for angle in &mut origin.rpy {
             if let Some(meant) = self.meant(&angle.value, &angle.text) {
                 off = off.max((angle.value.radians() - meant.radians()).abs());
-                let to = meant.to_string();
-                self.take(angle, meant, to, rpy);
+                let (to, changes) = (meant.to_string(), meant.to_f64() != angle.value.to_f64());
+                self.take(angle, meant, to, rpy, changes);
             }
         }
         // The axes are known no better than that.
         for angle in &mut origin.rpy {
             let radians = angle.value.radians().abs();
             if !radians.is_zero() && radians <= off {
-                self.take(angle, Angle::default(), "0".to_owned(), rpy);
+                self.take(angle, Angle::default(), "0".to_owned(), rpy, true);
             }
         }
     }
@@ -160,7 +176,7 @@ impl Snaps {
     /// Makes a length nothing, where it is less than this.
     fn length(&mut self, length: &mut Number, least: &Rational, of: &str) {
         if !length.value.is_zero() && length.value.abs() < *least {
-            self.take(length, Rational::zero(), "0".to_owned(), of);
+            self.take(length, Rational::zero(), "0".to_owned(), of, true);
         }
     }
 
@@ -169,7 +185,7 @@ impl Snaps {
         let off = (&component.value - &whole).abs();
         if !off.is_zero() && off < power(NOTHING) && whole.abs() <= Rational::one() {
             let to = whole.to_string();
-            self.take(component, whole, to, of);
+            self.take(component, whole, to, of, true);
         }
     }
 
@@ -179,7 +195,7 @@ impl Snaps {
         };
         if let Some(meant) = self.meant(angle, &limit.text) {
             let to = meant.to_string();
-            self.take(limit, Position::Angle(meant), to, of);
+            self.take(limit, Position::Angle(meant), to, of, false);
         }
     }
 }

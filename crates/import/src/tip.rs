@@ -34,19 +34,21 @@ impl Tree<'_, '_, '_> {
         let name = |link: &usize| self.urdf.links[*link].name.as_str();
         let moved: BTreeSet<usize> = tips.iter().map(|tip| self.moved_with(*tip, base)).collect();
         if let ([link, rest @ ..], 1) = (tips.as_slice(), moved.len()) {
-            let mut message = format!("the chain ends at link `{}`", name(link));
-            let mut help = "--tip LINK chooses another end".to_owned();
+            let message = format!("the chain ends at link `{}`", name(link));
             let others: Vec<&str> = rest.iter().take(MAX_NAMES).map(name).collect();
-            if let [first, ..] = others.as_slice() {
-                let move_with = if others.len() == 1 { "moves" } else { "move" };
-                message += &format!("; `{}` {move_with} with it", others.join("`, `"));
-                help = format!(
-                    "--tip {first} ends the chain there: torques are the same; poses, Jacobians and \
-                     wrenches of the hand are not"
-                );
-            }
             let span = &self.urdf.links[*link].span;
-            self.problems.note(span, message, &help);
+            let [first, more @ ..] = others.as_slice() else {
+                let help = "--tip LINK chooses another end";
+                self.problems.note(span, message, help);
+                return Some(*link);
+            };
+            let move_with = if more.is_empty() { "moves" } else { "move" };
+            let message = format!("{message}; `{}` {move_with} with it", others.join("`, `"));
+            let help = format!(
+                "--tip {first} ends the chain there: torques are the same; poses, Jacobians and \
+                 wrenches of the hand are not"
+            );
+            self.problems.difference(span, message, &help);
             return Some(*link);
         }
         let message = match holds {

@@ -20,8 +20,6 @@ pub(crate) struct Chain {
     pub(crate) moving: Vec<Moving>,
     /// From the last link that moves to the tip.
     pub(crate) tool: Vec<Step>,
-    /// The joints beside it that were held, with their positions.
-    pub(crate) held: Vec<(usize, Position)>,
 }
 
 /// A joint that moves, and what moves with it.
@@ -80,8 +78,6 @@ pub(crate) struct Tree<'u, 'p, 's> {
     /// Where joints beside the chain are held.
     pub(crate) others: Option<String>,
     pub(crate) held: Vec<(usize, Position)>,
-    /// The joints that are held since one that leads them is locked.
-    pub(crate) following: Vec<usize>,
     pub(crate) without: BTreeSet<usize>,
 }
 
@@ -149,17 +145,15 @@ pub(crate) fn chain(urdf: &Urdf, options: &Options, problems: &mut Problems) -> 
                 "gravity is taken in its axes as it is in the world's: change `gravity` in the robot file if it is tilted"
             }
         };
-        tree.problems.note(&link.span, message, help);
+        tree.problems.difference(&link.span, message, help);
     }
-    let mut chain = Chain {
+    let chain = Chain {
         base,
         tip,
         moving,
         tool: before,
-        held: Vec::new(),
     };
     tree.say_held(&chain.joints());
-    chain.held = std::mem::take(&mut tree.held);
     good.then_some(chain)
 }
 
@@ -177,7 +171,6 @@ impl<'u, 'p, 's> Tree<'u, 'p, 's> {
             locks: BTreeMap::new(),
             others: None,
             held: Vec::new(),
-            following: Vec::new(),
             without: BTreeSet::new(),
         };
         let mut good = true;

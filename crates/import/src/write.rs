@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use dalembert_model::number::Angle;
 use dalembert_model::robot::values::{
-    lines, list, number, numbers, placement, position, quoted, table, unless_zero,
+    lines, list, number, numbers, one_line, placement, position, quoted, table, texts, unless_zero,
 };
 use dalembert_model::robot::{
     HAND, Placement, Position, Robot, is_frame_name, suggested_name, write_frame,
@@ -12,7 +12,7 @@ use dalembert_model::robot::{
 use num_traits::{Signed, Zero};
 
 use crate::Options;
-use crate::lock::{OTHERS, right};
+use crate::lock::right;
 use crate::merge::{Arm, Link};
 use crate::problems::Problems;
 use crate::snap::Snap;
@@ -43,28 +43,14 @@ pub(crate) fn file(
         format!("From link {base} to link {tip} of {file}, by `dalembert import`."),
         format!("Base axes are those of {base}; gravity is {gravity}."),
     ];
-    let locked = options.lock.iter().filter(|(joint, _)| joint != OTHERS);
-    let locked = locked.filter_map(|(joint, value)| {
-        let joint = &urdf.joints[urdf.joint(joint)?].name;
-        Some(format!("--lock {joint}={value}"))
-    });
-    let without = options.without.iter();
-    let without = without.map(|link| format!("--without {link}"));
-    let chosen: Vec<String> = locked.chain(without).collect();
-    if !chosen.is_empty() {
-        head.push(format!("What hangs on it: {}.", chosen.join(" ")));
-    }
-    for (held, at) in &chain.held {
-        let name = &urdf.joints[*held].name;
-        head.push(format!("Held: {name} = {}", position(at)));
-    }
-    if !snaps.is_empty() {
+    if snaps.iter().any(|snap| snap.changes) {
         head.push("Numbers that were taken for others, with their lines there:".to_owned());
     }
-    for snap in snaps {
+    for snap in snaps.iter().filter(|snap| snap.changes) {
         let line = problems.line(snap.span.start);
         head.push(format!("  {line}: {snap}"));
     }
+    head.extend(Snap::counted(snaps).map(|counted| counted + "."));
     let mut text: String = head.iter().map(|what| comment(what)).collect();
     text.push('\n');
     let name = options.name.as_ref().unwrap_or(&urdf.name);
@@ -76,10 +62,19 @@ pub(crate) fn file(
     let tool = (!arm.tool.is_identity()).then(|| placement(&as_read(&arm.tool)));
     let allow = stays.then(|| "[\"near_right_angle\"]".to_owned());
     let name = ("name", Some(quoted(&name)));
-    let rest = [("gravity", Some(gravity)), ("tool", tool), ("allow", allow)];
-    lines(&mut text, [name].into_iter().chain(rest));
     let joints = chain.moving.iter();
     let joints: Vec<&Joint> = joints.map(|moving| &urdf.joints[moving.joint]).collect();
+    say_left_out(&joints, problems);
+    let differences = problems.differences.iter();
+    let differences: Vec<String> = differences.map(|own| one_line(&own.message)).collect();
+    let notes = ("notes", texts(&differences));
+    let rest = [
+        ("gravity", Some(gravity)),
+        ("tool", tool),
+        ("allow", allow),
+        notes,
+    ];
+    lines(&mut text, [name].into_iter().chain(rest));
     for (index, (own, link)) in joints.iter().zip(&arm.links).enumerate() {
         text.push_str("\n[[joint]]\n");
         let name = name_of(own, index, problems);
@@ -87,7 +82,6 @@ pub(crate) fn file(
         joint(&mut text, own, link, options);
         lines(&mut text, [("mimic", mimic(own, &joints))]);
     }
-    say_left_out(&joints, problems);
     frames(&mut text, urdf, arm);
     text
 }
@@ -225,7 +219,7 @@ fn say_left_out(joints: &[&Joint], problems: &mut Problems) {
     if let Some((_, first)) = springs.first() {
         let message = format!("the springs at {} are left out", names(&springs));
         let help = "the torques are those without them: add stiffness times displacement to what is commanded";
-        problems.note(&first.span, message, help);
+        problems.difference(&first.span, message, help);
     }
     let velocity = having(joints, |joint| joint.velocity.as_ref().filter(is_no_limit));
     let torque = having(joints, |joint| joint.effort.as_ref().filter(is_no_limit));
@@ -261,7 +255,7 @@ fn say_rotors(joints: &[&Joint], problems: &mut Problems) {
     let all: Vec<String> = driven.map(armature).collect();
     let message = format!("rotors are the joints' armatures: {}", all.join(", "));
     let help = "each is the inertia times the square of the reduction";
-    problems.note(&first.span, message, help);
+    problems.difference(&first.span, message, help);
 }
 
 fn say_friction(joints: &[&Joint], problems: &mut Problems) {
@@ -293,7 +287,7 @@ fn say_friction(joints: &[&Joint], problems: &mut Problems) {
          the speed in {unit} over which its sign is smoothed",
         number(&first.value)
     );
-    problems.note(&first.span, message, &help);
+    problems.difference(&first.span, message, &help);
 }
 
 /// Joints by their names, with the numbers that they have.
@@ -305,7 +299,5 @@ fn names(joints: &[(&Joint, &Number)]) -> String {
 
 /// Returns a comment of one line: names may be anything.
 fn comment(what: &str) -> String {
-    let shown = |c: char| if c.is_control() { '\u{fffd}' } else { c };
-    let plain: String = what.chars().map(shown).collect();
-    format!("# {plain}\n")
+    format!("# {}\n", one_line(what))
 }

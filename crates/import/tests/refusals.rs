@@ -2,7 +2,7 @@
 //! and what is said of what is taken.
 
 use crate::support::{has, refused, source};
-use dalembert_import::{Imported, Options, import};
+use dalembert_import::{Imported, Options, Snap, import};
 use dalembert_model::read::{self, Diagnostic, Severity};
 
 /// Two links that turn, a gripper beside the tip, and all that a URDF may have.
@@ -104,10 +104,11 @@ fn the_file_says_what_the_urdf_says() {
     let friction = "the Coulomb friction of joint `turn`, 0.25, is left out";
     let rotor = "rotors are the joints' armatures: `turn` 2e-5 kg·m² × 100² = 0.2";
     let torque = "the limit of torque of joint `reach` is 0";
-    assert_eq!(
-        notes(&imported),
-        [(12, friction), (20, torque), (37, rotor)]
-    );
+    // Those that change results come first, and the robot has them.
+    let away = "links are left away, with all that hangs on them: `thumb`";
+    let changes = [(12, friction), (31, away), (37, rotor)];
+    assert_eq!(notes(&imported), [&changes[..], &[(20, torque)]].concat());
+    assert_eq!(imported.robot.notes, changes.map(|(_, message)| message));
     let help = imported.notes[0].help.as_deref().unwrap_or_default();
     let way = "`coulomb = 0.25` and `coulomb_width = 0.01`, the speed in rad/s";
     has(help, &[way]);
@@ -124,7 +125,9 @@ fn one_note_for_one_fact() {
     let frictions = "the Coulomb friction of the joints `turn` (0.25), `reach` (3) is left out";
     let rate = "the limit of velocity of joint `reach` is 0";
     let rotor = "rotors are the joints' armatures: `turn` 2e-5 kg·m² × 100² = 0.2";
-    let expected = [(11, torques), (12, frictions), (20, rate), (37, rotor)];
+    let away = "links are left away, with all that hangs on them: `thumb`";
+    let changes = [(12, frictions), (31, away), (37, rotor)];
+    let expected = [&changes[..], &[(11, torques), (20, rate)]].concat();
     assert_eq!(notes(&taken(&slow, &at_the_hand())), expected);
     let weightless = ARM.replace("<inertial>", "<!--");
     let weightless = weightless.replace("</inertial>", "-->");
@@ -173,8 +176,8 @@ fn what_hangs_on_the_chain_is_held() {
     let own = taken(&source, &at("finger", "0.01"));
     let held = taken(&source, &at("*", "0"));
     assert_eq!(held.robot, own.robot);
-    has(&held.text, &["\n# Held: finger = 0.01\n"]);
-    let said = "what hangs on the chain is held: `finger` at 0.01";
+    let said = "joints are held: `finger` at 0.01";
+    has(&held.text, &[&format!("    \"{said}\",\n")]);
     assert!(notes(&held).iter().any(|note| note.1 == said));
 }
 
@@ -209,6 +212,22 @@ fn chains_begin_behind_floating_joints() {
     let floats = ARM.replacen("type=\"fixed\"", "type=\"floating\"", 1);
     let text = taken(&floats, &at_the_hand()).text;
     assert!(text.starts_with("# From link foot to link hand"), "{text}");
+}
+
+/// Numbers that change no torque are counted in one line.
+#[test]
+fn numbers_of_the_same_double_are_counted() {
+    let source = ARM
+        .replace("1.5708", "1.5707963267948966")
+        .replace("upper=\"2\"", "upper=\"3.1416\"");
+    let imported = taken(&source, &at_the_hand());
+    assert!(imported.snaps.iter().all(|snap| !snap.changes));
+    let counted = "2 numbers are written exactly and change no torque (limits, and numbers with the same \
+                   double), such as 1.5707963267948966 as pi/2";
+    assert_eq!(Snap::counted(&imported.snaps).as_deref(), Some(counted));
+    has(&imported.text, &[&format!("# {counted}.\n")]);
+    let far = taken(ARM, &at_the_hand()).snaps;
+    assert!(far[0].changes && Snap::counted(&far).is_none());
 }
 
 /// At a limit, and next to one by digits that were meant to be it.

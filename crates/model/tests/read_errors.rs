@@ -54,6 +54,8 @@ const ROWS: &[Row] = &[
     ("gravity = [0, 0, -9.81]", "gravity = [0, 0, \"-9.81\"]", "expected a number, found the string", "without quotes"),
     ("[[joint]]", "[joint]", "expected [[joint]] tables, found a table", "two brackets"),
     ("[[joint]]", "[[joints]]", "the robot has no `joint`", ""),
+    ("name = \"arm\"", "name = \"arm\"\nnotes = \"soft\"", "expected an array of strings", "notes = ["),
+    ("name = \"arm\"", "name = \"arm\"\nnotes = [\"a\\nb\"]", "a note has a character that controls text", "in one line"),
     // Keys of a joint.
     ("kind = \"revolute\"", "", "joint 1 has no `kind`", "prismatic"),
     ("mass = 2", "", "joint 1 has no `mass`", "mass = 0"),

@@ -74,6 +74,13 @@ fn hash() {
     let text = generated("puma560");
     let same = reading(&replaced(&text, "mass = 17.4", "mass   = 1.740e1 # kg")).robot;
     assert_eq!(puma.short_hash(), same.short_hash());
+    let mut noted = puma.clone();
+    noted.notes = vec![
+        "the springs of `a` \\ \"b\" are left out".into(),
+        String::new(),
+    ];
+    assert_eq!(puma.input_hash(), noted.input_hash());
+    assert_eq!(reading(&written(&noted)).robot.notes, noted.notes);
     assert_eq!(puma.short_hash().len(), 16);
 
     type Change = fn(&mut Robot);

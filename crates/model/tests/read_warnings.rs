@@ -15,7 +15,6 @@ velocity = 2 | velocity = 0 | 17 | the limit of velocity is 0: the joint never m
 acceleration = 3 | acceleration = 0.0 | 17 | the limit of acceleration is 0: the joint never moves
 mass = 2 | mass = 0 | 14 | the mass is zero
 alpha = "pi/2" | alpha = 3.1416 | 7 | from pi
-position = [-1, 1] | position = [-1, 1.5708] | 17 | from pi/2
 alpha = "pi/2" | alpha = 4.71238898038469 | 7 | 4.71238898038469 is read as 3*pi/2
 "#;
 
@@ -95,6 +94,7 @@ fn sizes_that_are_none_of_our_business() {
 a = 0.5 | a = 10
 mass = 2 | mass = 999
 [-1, 1] | [-31, 31]
+[-1, 1] | [-1.57, 3.1416]
 [1, 1, 1, 0, 0, 0] | [12, 12, 12, 0, 0, 0]
 viscous = 0.1 | coulomb = 1\ncoulomb_width = 0.2
 viscous = 0.1 | coulomb_width = 3

@@ -35,6 +35,7 @@ pub struct File {
     name: IgnoredAny,
     allow: Option<IgnoredAny>,
     outputs: Option<IgnoredAny>,
+    notes: Option<IgnoredAny>,
 }
 
 /// The positions that a scene fixes, the payload that it carries and the results that it asks for.
@@ -172,8 +173,7 @@ impl File {
     /// Returns this robot with the scenes and the limits of another file, and with its own payload in
     /// a scene.
     pub fn in_scenes_of(mut self, other: File, scene: Option<&str>) -> File {
-        let own = scene.and_then(|name| self.scene.remove(name));
-        self.moved = own.and_then(|own| own.payload);
+        self.moved = scene.and_then(|name| self.scene.remove(name)?.payload);
         self.scene = other.scene;
         for (own, other) in self.joint.iter_mut().zip(other.joint) {
             own.limits = other.limits;

@@ -152,9 +152,9 @@ impl<'a> Mjcf<'a, '_, '_> {
         self.problems.error(&span, message, help);
     }
 
-    fn note(&mut self, node: Node, message: String, help: &str) {
+    fn difference(&mut self, node: Node, message: String, help: &str) {
         let span = start_tag(node);
-        self.problems.note(&span, message, help);
+        self.problems.difference(&span, message, help);
     }
 }
 

@@ -157,7 +157,7 @@ impl<'a> Mjcf<'a, '_, '_> {
             let medium = self.problems.number(node, key);
             if medium.is_some_and(|medium| !medium.value.is_zero()) {
                 let message = format!("the {key} of the medium is left out");
-                self.note(node, message, "the arm moves as in a vacuum");
+                self.difference(node, message, "the arm moves as in a vacuum");
             }
         }
     }

@@ -64,7 +64,7 @@ impl<'a> Mjcf<'a, '_, '_> {
             let left_out = self.number(node, class, key);
             if left_out.is_some_and(|value| !value.value.is_zero()) {
                 let message = format!("the {key} of the tendon over joint `{name}` is left out");
-                self.note(node, message, "the torques are those without it");
+                self.difference(node, message, "the torques are those without it");
             }
         }
         let Some((Some(mut range), by)) = range.zip(coefficient) else {

@@ -97,7 +97,7 @@ impl<'a> Mjcf<'a, '_, '_> {
         if let Some(first) = held.next() {
             let message = format!("`gravcomp` of {} bodies is left out", 1 + held.count());
             let help = "the joints carry their weight: the load that holds it up is `gravity`";
-            self.note(first, message, help);
+            self.difference(first, message, help);
         }
     }
 

@@ -107,7 +107,7 @@ impl Urdf {
             names.join(", ")
         );
         let help = "the torques are those of the chain without it";
-        problems.note(first, message, help);
+        problems.difference(first, message, help);
     }
 }
 

@@ -214,6 +214,13 @@ pub enum Snapped {
 }
 
 impl Snapped {
+    /// Returns the angle that it is read as.
+    pub fn angle(self) -> Angle {
+        match self {
+            Snapped::Kept(angle) | Snapped::Taken(angle) | Snapped::Near { angle, .. } => angle,
+        }
+    }
+
     /// Reads a number of radians.
     pub fn of_radians(radians: Rational) -> Self {
         // Beyond 1e15 doubles are further apart than the warning's distance.

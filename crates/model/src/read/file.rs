@@ -1,6 +1,7 @@
 //! The file as a whole: the robot's own keys, and the lists of joints and frames.
 
 use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use toml_span::Value;
@@ -64,6 +65,7 @@ fn robot<'v>(cx: &mut Context, keys: &mut Table<'v>) -> (Robot, Vec<Finding>) {
     let [base, tool, payload_frame] =
         ["base", "tool", "payload_frame"].map(|key| placement(cx, keys, key));
     keys.optional(cx, "allow", allow);
+    let notes = keys.optional(cx, "notes", notes);
     keys.get("outputs");
     let read = keys.required(cx, "joint", JOINT, joints);
     let read = read.unwrap_or_default();
@@ -91,6 +93,7 @@ fn robot<'v>(cx: &mut Context, keys: &mut Table<'v>) -> (Robot, Vec<Finding>) {
         joints: read.iter().map(|read| read.joint.clone()).collect(),
         followers: Vec::new(),
         frames: Vec::new(),
+        notes: notes.unwrap_or_default(),
     };
     let frames = keys.optional(cx, "frame", |cx, list| frames(cx, &robot.joints, list));
     robot.frames = frames.unwrap_or_default();
@@ -120,6 +123,15 @@ fn allow(cx: &mut Context, value: &Value) -> Option<()> {
         cx.refuse(item, message, &help)
     })?;
     Some(())
+}
+
+fn notes(cx: &mut Context, value: &Value) -> Option<Vec<String>> {
+    let items = cx.list(
+        value,
+        "an array of strings",
+        "notes = [\"without springs\"]",
+    )?;
+    cx.each(items, |cx, _, item| cx.string(item))
 }
 
 fn joints<'v>(cx: &mut Context, list: &'v Value<'v>) -> Option<Vec<joint::Read<'v>>> {

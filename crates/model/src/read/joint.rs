@@ -159,8 +159,7 @@ fn limits(cx: &mut Context, keys: &mut Table, kind: Option<JointKind>) -> Limits
         let position = keys.get("position").filter(|_| kind.is_some());
         let position = position.and_then(|_| {
             keys.optional(cx, "position", |cx, value| {
-                let help = "position = [lowest, highest], or leave it out";
-                cx.array(value, help, |cx, end| cx.position(end, kind))
+                cx.range(value, kind, "position = [lowest, highest], or leave it out")
             })
         });
         Some(Limits {

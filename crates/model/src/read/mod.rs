@@ -15,6 +15,7 @@
 //! payload_frame = { xyz = [0, 0, 0.05] }              # of payloads in the last frame
 //! allow = ["impossible_inertia"]                      # warnings that are known, by name
 //! outputs = ["inverse_dynamics", "gravity"]            # generated where a request names none
+//! notes = ["without springs"]                         # lines for the head of generated files
 //!
 //! [[joint]]                       # a joint without a row of the DH table:
 //! placement = { xyz = [0.3, 0, 0.1], rpy = [0, "pi/2", 0] }

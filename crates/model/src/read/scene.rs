@@ -167,8 +167,7 @@ fn bounds(cx: &mut Context, robot: &Robot, keys: &mut Table) -> Option<MotionBox
     keys.table(cx, "box", HELP, |cx, keys| {
         Some(MotionBox {
             position: each(cx, keys, "position", |cx, joint, value| {
-                let kind = kind(robot, joint);
-                cx.array(value, "[lowest, highest]", |cx, end| cx.position(end, kind))
+                cx.range(value, kind(robot, joint), "[lowest, highest]")
             }),
             velocity: each(cx, keys, "velocity", |cx, joint, value| {
                 cx.rate(value, kind(robot, joint), "rad/s")

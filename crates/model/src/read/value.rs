@@ -17,7 +17,7 @@ use super::{RobotWarning, foreign, suggest};
 use crate::number::parse::{parse_decimal, parse_fraction};
 use crate::number::{Angle, Rational, Snapped};
 use crate::outputs::Function;
-use crate::robot::{Inertia, JointKind, Placement, Position};
+use crate::robot::{Inertia, JointKind, Placement, Position, values};
 
 /// The diagnostics of a reading.
 pub(super) struct Context {
@@ -167,8 +167,25 @@ impl Context {
         }
     }
 
-    /// Reads an angle: radians as a number, or one of the text forms.
+    /// Reads an angle, and warns of one that is near a right angle.
     pub(super) fn angle(&mut self, value: &Value) -> Option<Angle> {
+        let snapped = self.snapped(value)?;
+        if let Snapped::Near {
+            multiple, distance, ..
+        } = &snapped
+        {
+            let text = self.literal(value);
+            let message = format!("{text} is {distance:.1e} from {multiple}; it stays as written");
+            let help = format!("write {} if you mean it", values::angle(multiple));
+            let warning = RobotWarning::NearRightAngle;
+            self.sink
+                .found(Some(warning), bytes_of(value.span), message, &help);
+        }
+        Some(snapped.angle())
+    }
+
+    /// Reads an angle: radians as a number, or one of the text forms.
+    fn snapped(&mut self, value: &Value) -> Option<Snapped> {
         let snapped = match value.as_ref() {
             ValueInner::Integer(_) | ValueInner::Float(_) => {
                 Snapped::of_radians(self.number(value)?)
@@ -191,33 +208,12 @@ impl Context {
                 return self.wanted(value, "an angle", &help);
             }
         };
-        let text = self.literal(value);
-        let written = |multiple: &Angle| match multiple.is_zero() {
-            true => "0".to_string(),
-            false => format!("\"{multiple}\""),
-        };
-        Some(match snapped {
-            Snapped::Kept(angle) => angle,
-            Snapped::Taken(angle) => {
-                let message = format!("{text} is read as {angle}");
-                let help = format!("write {} to say so", written(&angle));
-                self.sink.note(bytes_of(value.span), message, &help);
-                angle
-            }
-            Snapped::Near {
-                angle,
-                multiple,
-                distance,
-            } => {
-                let message =
-                    format!("{text} is {distance:.1e} from {multiple}; it stays as written");
-                let help = format!("write {} if you mean it", written(&multiple));
-                let warning = RobotWarning::NearRightAngle;
-                self.sink
-                    .found(Some(warning), bytes_of(value.span), message, &help);
-                angle
-            }
-        })
+        if let Snapped::Taken(angle) = &snapped {
+            let message = format!("{} is read as {angle}", self.literal(value));
+            let help = format!("write {} to say so", values::angle(angle));
+            self.sink.note(bytes_of(value.span), message, &help);
+        }
+        Some(snapped)
     }
 
     /// Reads a position of a joint: an angle, or of one that slides a length.
@@ -226,6 +222,20 @@ impl Context {
             Some(JointKind::Prismatic) => self.length(value).map(Position::Length),
             _ => self.angle(value).map(Position::Angle),
         }
+    }
+
+    /// Reads both ends of a range of positions. Near a right angle they are no slips: no equation
+    /// has them.
+    pub(super) fn range(
+        &mut self,
+        value: &Value,
+        kind: Option<JointKind>,
+        help: &str,
+    ) -> Option<[Position; 2]> {
+        self.array(value, help, |cx, end| match kind {
+            Some(JointKind::Prismatic) => cx.length(end).map(Position::Length),
+            _ => Some(Position::Angle(cx.snapped(end)?.angle())),
+        })
     }
 
     /// Reads the placement that a table says, among other keys.

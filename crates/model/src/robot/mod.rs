@@ -105,6 +105,10 @@ pub struct Robot {
     pub followers: Vec<Follower>,
     /// Frames that are fixed to links, by their names; at most [`Robot::MAX_FRAMES`].
     pub frames: Vec<Frame>,
+    /// Lines for the head of generated files, such as the differences from the model that it was
+    /// imported from. They are no parameters, and have no part in its
+    /// [hash](Robot::input_hash).
+    pub notes: Vec<String>,
 }
 
 /// A pose of a frame in another: its origin at `xyz`, its axes turned by `rpy`.

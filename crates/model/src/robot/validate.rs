@@ -15,6 +15,7 @@ use super::body::Defect;
 use super::findings::{Finding, Findings, of_joint};
 use super::{
     Convention, Joint, JointKind, Limit, Placement, Position, Robot, RobotWarning, reach, units,
+    values,
 };
 use crate::number::parse::in_range;
 use crate::number::{Angle, Rational, Rounded};
@@ -95,6 +96,14 @@ impl Robot {
             }
         }
         findings.frames(self);
+        if self
+            .notes
+            .iter()
+            .any(|note| values::one_line(note) != *note)
+        {
+            let message = "a note has a character that controls text or turns its direction";
+            findings.error("notes", message, "write each note in one line");
+        }
         findings.0
     }
 }

@@ -5,6 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt::Write;
 
+use super::units::turns_text;
 use super::{Placement, Position};
 use crate::number::parse::write_decimal;
 use crate::number::{Angle, Rational};
@@ -74,6 +75,24 @@ pub fn table<'k>(keys: impl IntoIterator<Item = (&'k str, Option<String>)>) -> O
     lines(&mut text, keys);
     let keys: Vec<&str> = text.lines().collect();
     (!keys.is_empty()).then(|| format!("{{ {} }}", keys.join(", ")))
+}
+
+/// Returns an array of texts, a line each; `None` if there are none.
+pub fn texts(texts: &[String]) -> Option<String> {
+    let lines: String = texts
+        .iter()
+        .map(|text| format!("    {},\n", quoted(text)))
+        .collect();
+    (!texts.is_empty()).then(|| format!("[\n{lines}]"))
+}
+
+/// Returns a text as one line: a character that controls text or turns its direction becomes `�`.
+pub fn one_line(text: &str) -> String {
+    let shown = |c: char| match c.is_control() || turns_text(c) {
+        true => '\u{fffd}',
+        false => c,
+    };
+    text.chars().map(shown).collect()
 }
 
 /// Returns the first 16 hexadecimal digits of the SHA-256 of a text.

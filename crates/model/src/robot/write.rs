@@ -6,10 +6,11 @@
 
 use alloc::format;
 use alloc::string::String;
+use alloc::vec::Vec;
 
 use super::values::{
     angle, lines, list, number, numbers, placement, position, quoted, range, short_hash, table,
-    unless_zero, word,
+    texts, unless_zero, word,
 };
 use super::{Convention, Joint, JointKind, Placement, Robot};
 
@@ -30,6 +31,7 @@ pub fn write(robot: &Robot) -> String {
     let placements = robot.placements();
     let placements = placements.map(|(key, value)| (key, value.map(placement)));
     lines(&mut text, head.into_iter().chain(placements));
+    lines(&mut text, [("notes", texts(&robot.notes))]);
     for (row, joint) in robot.rows().into_iter().enumerate() {
         text.push_str("\n[[joint]]\n");
         write_joint(&mut text, joint);
@@ -54,15 +56,22 @@ pub fn write(robot: &Robot) -> String {
 }
 
 impl Robot {
-    /// SHA-256 of the [written](write()) robot: equal exactly if every
+    /// SHA-256 of the [written](write()) robot without its notes: equal exactly if every
     /// parameter is, names and limits included.
     pub fn input_hash(&self) -> [u8; 32] {
-        hmac_sha256::Hash::hash(write(self).as_bytes())
+        hmac_sha256::Hash::hash(self.without_notes().as_bytes())
     }
 
     /// Returns the first 16 hexadecimal digits of [`Robot::input_hash`], for headers.
     pub fn short_hash(&self) -> String {
-        short_hash(&write(self))
+        short_hash(&self.without_notes())
+    }
+
+    fn without_notes(&self) -> String {
+        write(&Robot {
+            notes: Vec::new(),
+            ..self.clone()
+        })
     }
 }
 
